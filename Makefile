@@ -1,0 +1,31 @@
+# `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
+# (tools/setup) and build.
+#   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
+#   PRESET=dev    another preset of CMakePresets.json
+PRESET ?= release
+JOBS ?= $(shell nproc)
+BUILD := build/$(PRESET)
+
+.PHONY: run test build setup asan tsan format clean
+
+run: build
+	$(BUILD)/bin/gsv run $(ARGS)
+
+test: build
+	tools/run_tests $(BUILD)
+
+build: setup
+	cmake --preset $(PRESET)
+	cmake --build $(BUILD) --parallel $(JOBS)
+
+setup:
+	tools/setup
+
+asan tsan:
+	$(MAKE) test PRESET=$@
+
+format:
+	tools/format
+
+clean:
+	rm -rf build

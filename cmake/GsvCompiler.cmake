@@ -1,0 +1,33 @@
+# Compiler settings that hold for every target.
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+add_compile_options(
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  # Members that a designated initialiser leaves out keep their defaults; that is what they are for.
+  -Wno-missing-field-initializers
+  # Fused multiply-adds appear only where the source asks for them: the promise of equal
+  # bits on every machine hangs on it.
+  -ffp-contract=off)
+
+# Checks stay on in release builds (GSV_CHECK), so -DNDEBUG only affects libraries.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+set(GSV_SANITIZE "" CACHE STRING "Value of -fsanitize= for every target; empty for none")
+if(GSV_SANITIZE)
+  add_compile_options(-fsanitize=${GSV_SANITIZE} -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${GSV_SANITIZE})
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+find_program(LLD_PROGRAM ld.lld)
+if(LLD_PROGRAM)
+  add_link_options(-fuse-ld=lld)
+endif()

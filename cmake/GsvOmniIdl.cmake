@@ -1,0 +1,27 @@
+# The ORB (omniORB), the COS stubs that Debian ships, and stubs for our own IDL.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4 omniDynamic4 omniCOS4 omniCOSDynamic4)
+find_program(OMNIIDL omniidl REQUIRED)
+
+# gsv_idl_library(TARGET file.idl …): compiles IDL in the current folder to C++ stubs and
+# skeletons, included as "idl/NAME.hh".
+function(gsv_idl_library TARGET)
+  set(OUT ${CMAKE_BINARY_DIR}/generated/idl)
+  file(MAKE_DIRECTORY ${OUT})
+  set(IDL_PATHS ${ARGN})
+  list(TRANSFORM IDL_PATHS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  foreach(FILE ${ARGN})
+    get_filename_component(STEM ${FILE} NAME_WE)
+    add_custom_command(
+      OUTPUT ${OUT}/${STEM}.hh ${OUT}/${STEM}SK.cc
+      COMMAND ${OMNIIDL} -bcxx -Wbuse_quotes -Wbh=.hh -Wbs=SK.cc
+              -I${CMAKE_CURRENT_SOURCE_DIR} -C${OUT} ${CMAKE_CURRENT_SOURCE_DIR}/${FILE}
+      DEPENDS ${IDL_PATHS}
+      COMMENT "omniidl ${FILE}" VERBATIM)
+    list(APPEND SOURCES ${OUT}/${STEM}SK.cc)
+  endforeach()
+  add_library(${TARGET} STATIC ${SOURCES})
+  target_include_directories(${TARGET} SYSTEM PUBLIC ${CMAKE_BINARY_DIR}/generated ${OUT})
+  target_compile_options(${TARGET} PRIVATE -w)
+  target_link_libraries(${TARGET} PUBLIC PkgConfig::OMNIORB)
+endfunction()

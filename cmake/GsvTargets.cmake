@@ -1,0 +1,56 @@
+# gsv_library(NAME SOURCES … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …])
+#
+# Adds the static library gsv_NAME with the alias gsv::NAME. Path, include and target agree:
+# the folder gsv/NAME is included as "gsv/NAME/…" from the repository root. Each header is
+# compiled alone by the target all_verify_interface_header_sets.
+function(gsv_library NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(gsv_${NAME} STATIC ${ARG_SOURCES})
+    set(SCOPE PUBLIC)
+    target_link_libraries(gsv_${NAME} PRIVATE ${ARG_PRIVATE_DEPENDS})
+  else()
+    add_library(gsv_${NAME} INTERFACE)
+    set(SCOPE INTERFACE)
+  endif()
+  add_library(gsv::${NAME} ALIAS gsv_${NAME})
+  target_sources(gsv_${NAME} ${SCOPE}
+    FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${ARG_HEADERS})
+  target_link_libraries(gsv_${NAME} ${SCOPE} ${ARG_DEPENDS})
+  set_target_properties(gsv_${NAME} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+endfunction()
+
+# gsv_test(NAME SOURCES … [DEPENDS …] [LABEL …] [TIMEOUT seconds])
+#
+# Adds the GoogleTest program NAME; each of its tests becomes one ctest test. GSV_REAL_DIR (other
+# people's worlds and robots, may be absent), GSV_SOURCE_DIR and GSV_BUILD_DIR reach every test as
+# environment.
+function(gsv_test NAME)
+  cmake_parse_arguments(ARG "" "TIMEOUT;LABEL" "SOURCES;DEPENDS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 60)
+  endif()
+  add_executable(${NAME} ${ARG_SOURCES})
+  target_link_libraries(${NAME} PRIVATE ${ARG_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
+  set_target_properties(${NAME} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  if(ARG_LABEL)
+    set(LABELS LABELS ${ARG_LABEL})
+  endif()
+  gtest_discover_tests(${NAME}
+    DISCOVERY_MODE PRE_TEST
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT} ${LABELS})
+endfunction()
+
+set(GSV_REAL_DIR "$ENV{GSV_REAL_DIR}" CACHE PATH "Worlds and robots that other people made")
+if(NOT GSV_REAL_DIR)
+  get_filename_component(GSV_REAL_DIR ${CMAKE_SOURCE_DIR}/../shared/real ABSOLUTE)
+endif()
+
+# Every test finds its way by these variables of its environment. CTest reads the file as it starts.
+file(WRITE ${CMAKE_BINARY_DIR}/gsv_test_environment.cmake
+  "set(ENV{GSV_SOURCE_DIR} [==[${CMAKE_SOURCE_DIR}]==])\n"
+  "set(ENV{GSV_BUILD_DIR} [==[${CMAKE_BINARY_DIR}]==])\n"
+  "set(ENV{GSV_REAL_DIR} [==[${GSV_REAL_DIR}]==])\n")
+set_property(DIRECTORY ${CMAKE_SOURCE_DIR}
+  APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_BINARY_DIR}/gsv_test_environment.cmake)
