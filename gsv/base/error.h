@@ -1,0 +1,61 @@
+// What can be foreseen to go wrong, as a value: a code, a sentence, and where.
+//
+// A message says what was expected, what was found and what to do, and `where` names the file
+// (and line), element path or address it concerns. An error is either returned or logged, never
+// both.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+namespace gsv::base {
+
+// Each code is one reaction of the caller; the command line maps them to its exit codes.
+enum class ErrorCode {
+  kInvalidArgument,  // a request that can never succeed as it stands (exit code 2)
+  kBadModel,         // a world, robot, mesh or texture that cannot be used (3)
+  kBehaviour,        // a behaviour that threw, crashed or hung (4)
+  kNotFound,         // a name, file or offer that is not there (5 unless it is a model: 3)
+  kUnavailable,      // a peer, port, display or disk that does not answer (5)
+  kTimeout,          // something took longer than its limit (5)
+  kNotRunning,       // a call that is not allowed in this state (5)
+  kEnded,            // the simulation or sensor that was addressed is gone (5)
+  kCorrupt,          // bytes that do not decode (5)
+};
+
+struct Error {
+  ErrorCode code = ErrorCode::kInvalidArgument;
+  std::string message;
+  std::string where;
+
+  // "where: message", or the message alone.
+  std::string Sentence() const { return where.empty() ? message : where + ": " + message; }
+};
+
+template <typename T>
+using Result = tl::expected<T, Error>;
+
+using Status = Result<void>;
+
+inline tl::unexpected<Error> Fail(ErrorCode code, std::string message, std::string where = {}) {
+  return tl::unexpected<Error>(Error{code, std::move(message), std::move(where)});
+}
+
+inline tl::unexpected<Error> Fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+
+// One thing found while reading a file. Readers collect all of them before they return.
+struct Problem {
+  enum class Severity { kWarning, kError };
+  Severity severity = Severity::kWarning;
+  std::string message;
+  std::string where;
+
+  std::string Sentence() const { return where.empty() ? message : where + ": " + message; }
+};
+
+using Problems = std::vector<Problem>;
+
+}  // namespace gsv::base

@@ -1,0 +1,40 @@
+// A running hash over bit patterns, equal on every x86-64 machine (XXH3, 64 bits).
+//
+// Only plain scalars go in, one by one, so that padding and pointers cannot.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct XXH3_state_s;
+
+namespace gsv::base {
+
+class Hash {
+ public:
+  Hash();
+  ~Hash();
+  Hash(Hash&&) noexcept;
+  Hash& operator=(Hash&&) noexcept;
+
+  void Add(std::uint64_t value);
+  void Add(std::int64_t value) { Add(static_cast<std::uint64_t>(value)); }
+  void Add(double value) { Add(std::bit_cast<std::uint64_t>(value)); }
+  // The length goes in as well, so that "ab", "c" and "a", "bc" differ.
+  void Add(std::string_view bytes);
+
+  std::uint64_t Digest() const;
+  // Sixteen lower-case hexadecimal digits.
+  std::string Hex() const;
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_s* state) const;
+  };
+  std::unique_ptr<XXH3_state_s, Free> state_;
+};
+
+}  // namespace gsv::base

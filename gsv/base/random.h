@@ -1,0 +1,38 @@
+// Counter-based random numbers: the value is a pure function of a key and a counter, so that
+// nobody's draw depends on who drew before.
+//
+// Source       Philox4x32-10: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as
+//              1, 2, 3", SC 2011. Checked against that paper's published known answers.
+// Determinism  integer arithmetic only, except Gaussian(), which uses libm's log, sin and cos.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace gsv::base {
+
+// Four independent uniform 32-bit words for one (key, counter).
+std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 2> key,
+                                        std::array<std::uint32_t, 4> counter);
+
+// A 64-bit name for a string, equal on every machine (FNV-1a).
+std::uint64_t StableId(std::string_view name);
+
+// The noise of one sensor at one step. Draws are numbered, and equal for equal arguments.
+class Noise {
+ public:
+  // `stream` names the robot and sensor, see StableId(); `step` is the sampling step.
+  Noise(std::uint64_t seed, std::uint64_t stream, std::uint64_t step);
+
+  // Uniform in [0, 1), 53 bits.
+  double Uniform();
+  // Normal with mean 0 and standard deviation 1 (Box–Muller).
+  double Gaussian();
+
+ private:
+  std::array<std::uint32_t, 2> key_;
+  std::array<std::uint32_t, 4> counter_;
+};
+
+}  // namespace gsv::base

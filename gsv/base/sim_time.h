@@ -1,0 +1,20 @@
+// Simulated time: integer nanoseconds since the start of the simulation.
+//
+// Never the wall clock; code that measures wall time uses std::chrono::steady_clock and says so.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace gsv::base {
+
+using SimTime = std::chrono::nanoseconds;
+
+inline double ToSeconds(SimTime time) { return static_cast<double>(time.count()) * 1e-9; }
+
+// Rounds to the nearest nanosecond. `seconds` must be finite and below 9e9 in magnitude.
+inline SimTime FromSeconds(double seconds) {
+  return SimTime(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
+}
+
+}  // namespace gsv::base

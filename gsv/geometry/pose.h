@@ -1,0 +1,62 @@
+// Rotations and rigid transforms.
+//
+// Frames  REP-103: x forward, y left, z up. A pose named a_from_b takes points in b to points in
+//         a, so that a_from_c = a_from_b * b_from_c.
+// Units   metres, radians.
+#pragma once
+
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::geometry {
+
+// A unit quaternion.
+struct Quaternion {
+  double w = 1, x = 0, y = 0, z = 0;
+  friend bool operator==(const Quaternion&, const Quaternion&) = default;
+};
+
+Quaternion operator*(const Quaternion& a, const Quaternion& b);
+Vector3 operator*(const Quaternion& rotation, const Vector3& vector);
+inline Quaternion Inverse(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
+// Of a quaternion of length zero: the identity.
+Quaternion Normalized(const Quaternion& q);
+
+// Fixed-axis roll, pitch, yaw as in URDF and SDFormat: R = Rz(yaw) Ry(pitch) Rx(roll).
+struct RollPitchYaw {
+  double roll = 0, pitch = 0, yaw = 0;
+};
+Quaternion FromRollPitchYaw(const RollPitchYaw& angles);
+// Pitch lies in [-pi/2, pi/2]; at its ends roll is 0.
+RollPitchYaw ToRollPitchYaw(const Quaternion& q);
+// `axis` has unit length.
+Quaternion FromAxisAngle(const Vector3& axis, double angle);
+double Yaw(const Quaternion& q);
+
+struct Pose {
+  Vector3 position;
+  Quaternion orientation;
+  friend bool operator==(const Pose&, const Pose&) = default;
+};
+
+inline Pose operator*(const Pose& a_from_b, const Pose& b_from_c) {
+  return {a_from_b.position + a_from_b.orientation * b_from_c.position,
+          a_from_b.orientation * b_from_c.orientation};
+}
+inline Vector3 operator*(const Pose& a_from_b, const Vector3& point_in_b) {
+  return a_from_b.position + a_from_b.orientation * point_in_b;
+}
+inline Pose Inverse(const Pose& a_from_b) {
+  const Quaternion b_from_a = Inverse(a_from_b.orientation);
+  return {-(b_from_a * a_from_b.position), b_from_a};
+}
+
+// On level ground: at (x, y, z), turned by `yaw` about z.
+Pose PlanarPose(double x, double y, double z, double yaw);
+
+// The same angle in (-pi, pi].
+double WrapAngle(double angle);
+
+bool IsFinite(const Vector3& v);
+bool IsFinite(const Pose& pose);
+
+}  // namespace gsv::geometry

@@ -1,0 +1,39 @@
+// Triangles with what is needed to draw and to hit them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::geometry {
+
+// A run of triangles that share one material slot.
+struct MeshPart {
+  std::string name;  // the submesh's name in its file; may be empty
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+  std::uint32_t material = 0;  // index into the visual's materials
+};
+
+// Invariants  every index is below positions.size(); normals and texture_coordinates are empty or
+//             as long as positions; parts cover all triangles once, in order; all values finite.
+// Winding     counter-clockwise seen from outside.
+struct TriangleMesh {
+  std::vector<Vector3> positions;            // metres
+  std::vector<Vector3> normals;              // unit length
+  std::vector<Vector2> texture_coordinates;  // (0, 0) is the picture's lower left corner
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<MeshPart> parts;
+};
+
+struct Bounds {
+  Vector3 min, max;
+};
+
+// Of a mesh without vertices: the origin.
+Bounds BoundsOf(const TriangleMesh& mesh);
+
+}  // namespace gsv::geometry

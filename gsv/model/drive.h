@@ -1,0 +1,41 @@
+// How a robot's base moves: its kind, its wheels and its limits.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "gsv/base/sim_time.h"
+
+namespace gsv::model {
+
+enum class DriveKind {
+  kDifferential,  // two wheels, or two rows of them (skid steer)
+  kSynchro,       // all wheels turn and steer together; moves along its heading
+  kAckermann,     // steered front wheels: cannot turn on the spot
+  kMecanum,       // moves sideways as well
+  kVelocity,      // no wheels: takes the commanded velocity
+};
+
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+
+// Units  m, rad, s. Joints are indices into Model::joints.
+struct Drive {
+  DriveKind kind = DriveKind::kDifferential;
+  std::vector<int> left_wheels;
+  std::vector<int> right_wheels;
+  std::vector<int> steered;       // kAckermann: steering joints
+  double wheel_separation = 0.3;  // between left and right contact points
+  double wheel_radius = 0.1;
+  double wheel_base = 0;        // kAckermann, kMecanum: front to rear axle
+  double steering_limit = 0.5;  // kAckermann
+  Range linear_velocity, angular_velocity;
+  Range linear_acceleration, angular_acceleration;
+  // After this long without a command the base brakes; zero: never.
+  base::SimTime command_timeout{0};
+};
+
+}  // namespace gsv::model

@@ -1,0 +1,20 @@
+// A picture in memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gsv::model {
+
+// Rows from top to bottom, pixels from left to right, `channels` (3: RGB, 4: RGBA) bytes each,
+// sRGB-encoded; pixels.size() == width * height * channels.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 3;
+  std::vector<std::uint8_t> pixels;
+  std::string source;  // the file it came from, for messages
+};
+
+}  // namespace gsv::model

@@ -1,0 +1,33 @@
+// What a surface looks like.
+#pragma once
+
+#include <memory>
+
+#include "gsv/geometry/vector3.h"
+#include "gsv/model/image.h"
+
+namespace gsv::model {
+
+// Components in [0, 1], as written in model files (sRGB).
+struct Colour {
+  double r = 1, g = 1, b = 1, a = 1;
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+// The metallic-roughness model of glTF 2.0. Maps are shared between materials and may be null;
+// a map multiplies the matching factor.
+struct Material {
+  Colour base_colour{0.7, 0.7, 0.7, 1};  // a < 1 is see-through
+  Colour emissive{0, 0, 0, 1};
+  double metalness = 0;
+  double roughness = 0.8;
+  std::shared_ptr<const Image> base_colour_map;
+  std::shared_ptr<const Image> normal_map;
+  std::shared_ptr<const Image> metallic_roughness_map;  // G: roughness, B: metalness
+  std::shared_ptr<const Image> emissive_map;
+  // The map is cut out where its alpha is below one half, instead of blended.
+  bool alpha_cut_out = false;
+  bool double_sided = false;
+};
+
+}  // namespace gsv::model

@@ -1,0 +1,47 @@
+#include "gsv/model/model.h"
+
+#include <algorithm>
+
+namespace gsv::model {
+namespace {
+
+using geometry::Bounds;
+using geometry::Pose;
+using geometry::Vector3;
+
+// Calls `visit` with each corner, in the model's frame, of the boxes around the collisions.
+template <typename Visit>
+void ForEachCorner(const Model& model, Visit visit) {
+  for (const Link& link : model.links) {
+    for (const Collision& collision : link.collisions) {
+      if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+      const Bounds bounds = geometry::BoundsOf(collision.shape);
+      const Pose model_from_collision = link.model_from_link * collision.link_from_collision;
+      for (int corner = 0; corner < 8; ++corner) {
+        visit(model_from_collision * Vector3{corner & 1 ? bounds.max.x : bounds.min.x,
+                                             corner & 2 ? bounds.max.y : bounds.min.y,
+                                             corner & 4 ? bounds.max.z : bounds.min.z});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double FootprintRadius(const Model& model) {
+  double radius = 0;
+  ForEachCorner(model, [&](const Vector3& p) { radius = std::max(radius, std::hypot(p.x, p.y)); });
+  return radius;
+}
+
+double LowestPoint(const Model& model) {
+  double lowest = 0;
+  bool any = false;
+  ForEachCorner(model, [&](const Vector3& p) {
+    lowest = any ? std::min(lowest, p.z) : p.z;
+    any = true;
+  });
+  return lowest;
+}
+
+}  // namespace gsv::model

@@ -1,0 +1,51 @@
+#include "gsv/model/model.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace gsv::model {
+namespace {
+
+Model With(const geometry::Shape& shape, const geometry::Pose& model_from_link) {
+  Model model;
+  Link link;
+  link.model_from_link = model_from_link;
+  Collision collision;
+  collision.shape = shape;
+  link.collisions.push_back(collision);
+  model.links.push_back(link);
+  return model;
+}
+
+TEST(FootprintRadius, ReachesTheFarthestCorner) {
+  // A box of 2 x 4 whose middle lies at (1, 0): the corner (2, 2) is farthest.
+  const Model model = With(geometry::Box{{2, 4, 1}}, {{1, 0, 0}, {}});
+  EXPECT_NEAR(FootprintRadius(model), std::hypot(2.0, 2.0), 1e-12);
+}
+
+TEST(FootprintRadius, PlanesCountForNothing) {
+  EXPECT_EQ(FootprintRadius(With(geometry::Plane{}, {})), 0);
+  EXPECT_EQ(LowestPoint(With(geometry::Plane{}, {})), 0);
+  EXPECT_EQ(FootprintRadius(Model{}), 0);
+}
+
+TEST(LowestPoint, IsThatOfTheTurnedBox) {
+  // A cube of side 1 on its edge: half its diagonal below its middle.
+  const auto turned = geometry::FromAxisAngle({1, 0, 0}, std::numbers::pi / 4);
+  EXPECT_NEAR(LowestPoint(With(geometry::Box{{1, 1, 1}}, {{0, 0, 3}, turned})),
+              3 - std::numbers::sqrt2 / 2, 1e-12);
+}
+
+TEST(Parameters, AnswerWithTheirKindOrTheDefault) {
+  const Parameters parameters = {{"max", 3.5}, {"on", true}, {"unit", std::string("m")}};
+  EXPECT_EQ(NumberOr(parameters, "max", 1), 3.5);
+  EXPECT_EQ(NumberOr(parameters, "on", 1), 1);
+  EXPECT_EQ(NumberOr(parameters, "absent", 1), 1);
+  EXPECT_TRUE(FlagOr(parameters, "on", false));
+  EXPECT_EQ(TextOr(parameters, "unit", ""), "m");
+  EXPECT_EQ(TextOr(parameters, "max", "none"), "none");
+}
+
+}  // namespace
+}  // namespace gsv::model

@@ -1,0 +1,51 @@
+// A world as its file describes it: what stands where, the light, the physics.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/model/model.h"
+
+namespace gsv::model {
+
+struct Light {
+  enum class Kind { kDirectional, kPoint, kSpot };
+  std::string name;
+  Kind kind = Kind::kDirectional;
+  geometry::Pose world_from_light;
+  geometry::Vector3 direction{0, 0, -1};  // in the light's frame, unit length
+  Colour diffuse{1, 1, 1, 1};
+  double intensity = 1;
+  double range = 10;  // m: point and spot lights end here
+  double constant_attenuation = 1, linear_attenuation = 0, quadratic_attenuation = 0;
+  double inner_angle = 0, outer_angle = 0;  // rad: spot
+  bool cast_shadows = true;
+};
+
+struct SceneLook {
+  Colour ambient{0.4, 0.4, 0.4, 1};
+  Colour background{0.7, 0.75, 0.8, 1};
+  bool shadows = true;
+  bool sky = false;
+};
+
+struct PlacedModel {
+  std::string name;  // unique in its world
+  std::shared_ptr<const Model> model;
+  geometry::Pose world_from_model;
+  bool is_static = false;
+};
+
+struct WorldDescription {
+  std::string name;
+  std::string source;
+  base::SimTime max_step_size{std::chrono::milliseconds(1)};
+  double real_time_factor = 1;
+  geometry::Vector3 gravity{0, 0, -9.8};
+  SceneLook scene;
+  std::vector<Light> lights;
+  std::vector<PlacedModel> models;
+};
+
+}  // namespace gsv::model

@@ -1,0 +1,37 @@
+#include "gsv/world/layout.h"
+
+#include <algorithm>
+
+#include "gsv/base/check.h"
+
+namespace gsv::world {
+
+int Layout::Find(std::string_view name) const {
+  const auto it =
+      std::lower_bound(bodies.begin(), bodies.end(), name,
+                       [](const Body& body, std::string_view n) { return body.name < n; });
+  return it != bodies.end() && it->name == name ? static_cast<int>(it - bodies.begin()) : -1;
+}
+
+std::shared_ptr<const Layout> MakeLayout(
+    std::uint32_t version, std::vector<Body> bodies,
+    std::shared_ptr<const model::WorldDescription> description) {
+  GSV_CHECK(description != nullptr);
+  std::sort(bodies.begin(), bodies.end(),
+            [](const Body& a, const Body& b) { return a.name < b.name; });
+  auto layout = std::make_shared<Layout>();
+  layout->version = version;
+  layout->description = std::move(description);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    GSV_CHECK(bodies[i].model != nullptr && !bodies[i].model->links.empty());
+    GSV_CHECK(i == 0 || bodies[i - 1].name != bodies[i].name);
+    bodies[i].first_joint = layout->joint_count;
+    bodies[i].first_link = layout->link_count;
+    layout->joint_count += static_cast<int>(bodies[i].model->joints.size());
+    layout->link_count += static_cast<int>(bodies[i].model->links.size());
+  }
+  layout->bodies = std::move(bodies);
+  return layout;
+}
+
+}  // namespace gsv::world

@@ -1,0 +1,101 @@
+#include "gsv/world/snapshot.h"
+
+#include "gsv/base/check.h"
+
+namespace gsv::world {
+namespace {
+
+using geometry::Pose;
+
+bool Moves(model::JointKind kind) {
+  return kind == model::JointKind::kRevolute || kind == model::JointKind::kContinuous ||
+         kind == model::JointKind::kPrismatic;
+}
+
+// The joint that each link hangs from, or -1.
+std::vector<int> ParentJoints(const model::Model& model) {
+  std::vector<int> parent_joint(model.links.size(), -1);
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    parent_joint[model.joints[j].child] = static_cast<int>(j);
+  }
+  return parent_joint;
+}
+
+// How a joint at `position` displaces what hangs from it, in the model's frame.
+Pose Displacement(const model::Joint& joint, double position) {
+  if (!Moves(joint.kind) || position == 0.0) return {};
+  Pose motion;
+  if (joint.kind == model::JointKind::kPrismatic) {
+    motion.position = joint.axis * position;
+  } else {
+    motion.orientation = geometry::FromAxisAngle(joint.axis, position);
+  }
+  return joint.model_from_joint * motion * Inverse(joint.model_from_joint);
+}
+
+Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions,
+                      const std::vector<int>& parent_joint, int link) {
+  Pose displacement;
+  // From the link up to the root; a forest has at most links.size() levels.
+  for (std::size_t level = 0; link >= 0 && parent_joint[link] >= 0; ++level) {
+    GSV_CHECK(level < model.links.size());
+    const model::Joint& joint = model.joints[parent_joint[link]];
+    displacement = Displacement(joint, joint_positions[parent_joint[link]]) * displacement;
+    link = joint.parent;
+  }
+  return displacement;
+}
+
+std::span<const double> JointPositions(const Snapshot& snapshot, int body) {
+  const Body& b = snapshot.layout->bodies[body];
+  return std::span(snapshot.state.joint_positions).subspan(b.first_joint, b.model->joints.size());
+}
+
+}  // namespace
+
+std::vector<Pose> LinkPoses(const model::Model& model, std::span<const double> joint_positions) {
+  GSV_CHECK(joint_positions.size() == model.joints.size());
+  const std::vector<int> parent_joint = ParentJoints(model);
+  std::vector<Pose> model_from_link;
+  model_from_link.reserve(model.links.size());
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    model_from_link.push_back(
+        LinkDisplacement(model, joint_positions, parent_joint, static_cast<int>(i)) *
+        model.links[i].model_from_link);
+  }
+  return model_from_link;
+}
+
+std::vector<Pose> LinkPoses(const Snapshot& snapshot, int body) {
+  std::vector<Pose> poses =
+      LinkPoses(*snapshot.layout->bodies[body].model, JointPositions(snapshot, body));
+  for (Pose& pose : poses) pose = snapshot.state.bodies[body].world_from_model * pose;
+  return poses;
+}
+
+Pose LinkPose(const Snapshot& snapshot, int body, int link) {
+  const model::Model& model = *snapshot.layout->bodies[body].model;
+  return snapshot.state.bodies[body].world_from_model *
+         LinkDisplacement(model, JointPositions(snapshot, body), ParentJoints(model), link) *
+         model.links[link].model_from_link;
+}
+
+std::vector<int> MovingLinks(const model::Model& model) {
+  const std::vector<int> parent_joint = ParentJoints(model);
+  std::vector<int> moving;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    int link = static_cast<int>(i);
+    for (std::size_t level = 0; link >= 0 && parent_joint[link] >= 0; ++level) {
+      GSV_CHECK(level < model.links.size());
+      const model::Joint& joint = model.joints[parent_joint[link]];
+      if (Moves(joint.kind)) {
+        moving.push_back(static_cast<int>(i));
+        break;
+      }
+      link = joint.parent;
+    }
+  }
+  return moving;
+}
+
+}  // namespace gsv::world

@@ -1,0 +1,45 @@
+// The world at one instant: immutable, shared, read by any number of threads.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gsv/world/state.h"
+
+namespace gsv::world {
+
+// Two bodies touch. The normal points from the first to the second; a static body or the ground
+// is second where a robot touches it.
+struct Contact {
+  int first = 0;
+  int second = 0;
+  geometry::Vector3 point;   // world
+  geometry::Vector3 normal;  // world, unit length
+  double depth = 0;          // m
+  bool began = false;        // was not there one step earlier
+};
+
+struct Snapshot {
+  std::shared_ptr<const Layout> layout;  // never null
+  State state;
+  std::vector<Contact> contacts;  // of the step that led here, by (first, second)
+};
+
+// Poses of a model's links at the given joint positions (one for each joint), model_from_link. A
+// revolute joint turns its child about its axis, a prismatic one slides it along; other kinds are
+// taken as fixed.
+std::vector<geometry::Pose> LinkPoses(const model::Model& model,
+                                      std::span<const double> joint_positions);
+
+// world_from_link for every link of one body.
+std::vector<geometry::Pose> LinkPoses(const Snapshot& snapshot, int body);
+
+// world_from_link for one link of one body.
+geometry::Pose LinkPose(const Snapshot& snapshot, int body, int link);
+
+// Indices of the links of a body that move against the model's frame: those below a joint that is
+// not fixed.
+std::vector<int> MovingLinks(const model::Model& model);
+
+}  // namespace gsv::world

@@ -1,0 +1,78 @@
+#include "gsv/world/snapshot.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace gsv::world {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+
+constexpr double kPi = std::numbers::pi;
+
+// A mast that turns about z at (1, 0, 0) and carries, through a slider along its x axis, a hand at
+// (2, 0, 0).
+model::Model Arm() {
+  model::Model arm;
+  arm.links.resize(3);
+  arm.links[1].model_from_link.position = {1, 0, 0};
+  arm.links[2].model_from_link.position = {2, 0, 0};
+  model::Joint turn;
+  turn.kind = model::JointKind::kRevolute;
+  turn.parent = 0, turn.child = 1;
+  turn.model_from_joint.position = {1, 0, 0};
+  model::Joint slide;
+  slide.kind = model::JointKind::kPrismatic;
+  slide.parent = 1, slide.child = 2;
+  slide.model_from_joint.position = {2, 0, 0};
+  slide.axis = {1, 0, 0};
+  arm.joints = {turn, slide};
+  return arm;
+}
+
+void ExpectNear(const Vector3& a, const Vector3& b) {
+  EXPECT_NEAR(a.x, b.x, 1e-12);
+  EXPECT_NEAR(a.y, b.y, 1e-12);
+  EXPECT_NEAR(a.z, b.z, 1e-12);
+}
+
+TEST(LinkPoses, AreAsDescribedAtZero) {
+  const auto poses = LinkPoses(Arm(), std::vector<double>{0, 0});
+  ExpectNear(poses[1].position, {1, 0, 0});
+  ExpectNear(poses[2].position, {2, 0, 0});
+}
+
+TEST(LinkPoses, AChildFollowsItsParentsJoint) {
+  // Turned by 90° the hand hangs at (1, 1, 0); slid out by 0.5 along the turned axis, at (1, 1.5,
+  // 0).
+  const auto poses = LinkPoses(Arm(), std::vector<double>{kPi / 2, 0.5});
+  ExpectNear(poses[1].position, {1, 0, 0});
+  ExpectNear(poses[2].position, {1, 1.5, 0});
+  ExpectNear(poses[2].orientation * Vector3{1, 0, 0}, {0, 1, 0});
+}
+
+TEST(LinkPose, AgreesWithLinkPosesInTheWorld) {
+  auto description = std::make_shared<model::WorldDescription>();
+  Body body;
+  body.name = "arm";
+  body.model = std::make_shared<model::Model>(Arm());
+  body.initial_pose = geometry::PlanarPose(10, 0, 0, kPi);
+  Snapshot snapshot;
+  snapshot.layout = MakeLayout(1, {body}, description);
+  snapshot.state = InitialState(*snapshot.layout);
+  snapshot.state.joint_positions = {kPi / 2, 0.5};
+  ExpectNear(LinkPose(snapshot, 0, 2).position, {9, -1.5, 0});
+  EXPECT_EQ(LinkPose(snapshot, 0, 2), LinkPoses(snapshot, 0)[2]);
+}
+
+TEST(MovingLinks, AreThoseBelowAJointThatMoves) {
+  model::Model arm = Arm();
+  EXPECT_EQ(MovingLinks(arm), (std::vector<int>{1, 2}));
+  arm.joints[0].kind = model::JointKind::kFixed;
+  EXPECT_EQ(MovingLinks(arm), (std::vector<int>{2}));
+}
+
+}  // namespace
+}  // namespace gsv::world

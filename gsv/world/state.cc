@@ -1,0 +1,55 @@
+#include "gsv/world/state.h"
+
+#include "gsv/base/check.h"
+
+namespace gsv::world {
+namespace {
+
+void Add(const geometry::Vector3& v, base::Hash& hash) {
+  hash.Add(v.x), hash.Add(v.y), hash.Add(v.z);
+}
+
+void Add(const DriveCommand& command, base::Hash& hash) {
+  hash.Add(command.linear), hash.Add(command.lateral), hash.Add(command.angular);
+}
+
+void Add(const BodyState& body, base::Hash& hash) {
+  const geometry::Quaternion& q = body.world_from_model.orientation;
+  Add(body.world_from_model.position, hash);
+  hash.Add(q.w), hash.Add(q.x), hash.Add(q.y), hash.Add(q.z);
+  Add(body.linear_velocity, hash);
+  Add(body.angular_velocity, hash);
+  Add(body.drive.command, hash);
+  hash.Add(static_cast<std::int64_t>(body.drive.command_time.count()));
+  Add(body.drive.actual, hash);
+  hash.Add(body.distance);
+  hash.Add(body.collisions);
+  hash.Add(std::uint64_t{body.in_contact});
+}
+
+}  // namespace
+
+State InitialState(const Layout& layout) {
+  State state;
+  state.bodies.resize(layout.bodies.size());
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    state.bodies[i].world_from_model = layout.bodies[i].initial_pose;
+  }
+  state.joint_positions.assign(layout.joint_count, 0.0);
+  state.joint_velocities.assign(layout.joint_count, 0.0);
+  return state;
+}
+
+void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
+  GSV_CHECK(layout.bodies.size() == state.bodies.size());
+  hash.Add(state.step);
+  hash.Add(static_cast<std::int64_t>(state.time.count()));
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    hash.Add(std::string_view(layout.bodies[i].name));
+    Add(state.bodies[i], hash);
+  }
+  for (const double q : state.joint_positions) hash.Add(q);
+  for (const double qd : state.joint_velocities) hash.Add(qd);
+}
+
+}  // namespace gsv::world

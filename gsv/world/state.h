@@ -1,0 +1,60 @@
+// All that the next step depends on, as plain data.
+//
+// Frames  poses are world_from_model; velocities are those of the model's origin, in world axes.
+// Units   metres, radians, seconds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gsv/base/hash.h"
+#include "gsv/base/sim_time.h"
+#include "gsv/geometry/pose.h"
+#include "gsv/world/layout.h"
+
+namespace gsv::world {
+
+// What a base is told to do, in its own frame. It acts from the step it is given at until the next
+// one is given (or Drive::command_timeout passes).
+struct DriveCommand {
+  double linear = 0;   // m/s, forward
+  double lateral = 0;  // m/s, to the left; only some drives can
+  double angular = 0;  // rad/s, counter-clockwise
+  friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
+};
+
+inline bool IsFinite(const DriveCommand& command) {
+  return geometry::IsFinite(geometry::Vector3{command.linear, command.lateral, command.angular});
+}
+
+struct DriveState {
+  DriveCommand command;
+  base::SimTime command_time{0};  // when the command was given
+  DriveCommand actual;            // what the base does now, within its acceleration limits
+};
+
+struct BodyState {
+  geometry::Pose world_from_model;
+  geometry::Vector3 linear_velocity;
+  geometry::Vector3 angular_velocity;
+  DriveState drive;
+  double distance = 0;           // m that the model's origin has travelled
+  std::uint64_t collisions = 0;  // contacts that began (not: steps in contact)
+  bool in_contact = false;       // touched something, other than the ground, in the last step
+};
+
+struct State {
+  std::int64_t step = 0;
+  base::SimTime time{0};
+  std::vector<BodyState> bodies;        // as Layout::bodies
+  std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
+  std::vector<double> joint_velocities;
+};
+
+// Everything where it starts and at rest.
+State InitialState(const Layout& layout);
+
+// Adds every field of `state`, and the bodies' names, in canonical order.
+void AddToHash(const Layout& layout, const State& state, base::Hash& hash);
+
+}  // namespace gsv::world
