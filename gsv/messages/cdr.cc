@@ -1,0 +1,91 @@
+#include "gsv/messages/cdr.h"
+
+#include <limits>
+
+#include "gsv/base/check.h"
+
+namespace gsv::messages {
+namespace {
+
+constexpr std::array<std::byte, 4> kEncapsulation{std::byte{0}, std::byte{1}, std::byte{0},
+                                                  std::byte{0}};
+
+// Fast DDS rounds a message up to a multiple of four bytes.
+constexpr std::size_t kMostTrailingBytes = 3;
+
+}  // namespace
+
+CdrWriter::CdrWriter(Bytes& out) : out_(out) {
+  out_.insert(out_.end(), kEncapsulation.begin(), kEncapsulation.end());
+  origin_ = out_.size();
+}
+
+void CdrWriter::WriteCount(std::size_t count) {
+  GSV_CHECK(count <= std::numeric_limits<std::uint32_t>::max());
+  Write(static_cast<std::uint32_t>(count));
+}
+
+void CdrWriter::Write(std::string_view text) {
+  WriteCount(text.size() + 1);
+  WriteBlock(text.data(), text.size(), 1);
+  out_.push_back(std::byte{0});
+}
+
+CdrReader::CdrReader(std::span<const std::byte> bytes) {
+  if (bytes.size() < kEncapsulation.size()) {
+    Fail("expected a CDR encapsulation header of four bytes");
+    return;
+  }
+  bytes_ = bytes.subspan(kEncapsulation.size());
+  // The last two bytes are options, which say nothing about how to read the rest.
+  if (bytes[0] != kEncapsulation[0] || bytes[1] != kEncapsulation[1]) {
+    Fail("expected little-endian CDR (encapsulation 00 01)");
+  }
+}
+
+void CdrReader::Fail(const char* what) {
+  if (failure_ == nullptr) failure_ = what;
+}
+
+void CdrReader::ReadBlock(void* data, std::size_t size, std::size_t alignment) {
+  if (failure_ != nullptr || size == 0) return;
+  const std::size_t padding = (0 - position_) & (alignment - 1);
+  if (padding > remaining() || size > remaining() - padding) {
+    Fail("the message ends in the middle of a field");
+    return;
+  }
+  std::memcpy(data, bytes_.data() + position_ + padding, size);
+  position_ += padding + size;
+}
+
+std::size_t CdrReader::ReadCount(std::size_t element_size) {
+  std::uint32_t count = 0;
+  Read(count);
+  if (count > remaining() / element_size) {
+    Fail("a sequence claims more elements than the message has room for");
+  }
+  return failure_ == nullptr ? count : 0;
+}
+
+void CdrReader::Read(std::string& text) {
+  text.clear();
+  const std::size_t size = ReadCount(1);
+  // Some writers send an empty string without its NUL.
+  if (size == 0) return;
+  text.assign(reinterpret_cast<const char*>(bytes_.data() + position_), size - 1);
+  if (bytes_[position_ + size - 1] != std::byte{0}) Fail("a string does not end in NUL");
+  position_ += size;
+}
+
+base::Status CdrReader::Finish() const {
+  const char* failure = failure_;
+  if (failure == nullptr && remaining() > kMostTrailingBytes) {
+    failure = "the message is longer than its type allows";
+  }
+  if (failure == nullptr) return {};
+  return base::Fail(base::ErrorCode::kCorrupt,
+                    std::string(failure) + ", at byte " + std::to_string(position_) + " of " +
+                        std::to_string(bytes_.size()) + " after the header");
+}
+
+}  // namespace gsv::messages

@@ -1,0 +1,120 @@
+// Messages to bytes and back: ROS 2's serialisation.
+//
+// Format   XCDR version 1, little endian (OMG DDS-XTypes 1.3, section 7.4.3): a four-byte
+//          encapsulation header 00 01 00 00, then the fields; each primitive is aligned to its
+//          size, counted from the end of that header. A string is its length with the final NUL
+//          (uint32), its bytes and the NUL; a sequence is its count (uint32) and its elements.
+// Errors   writing cannot fail; reading takes any bytes, and what they claim never makes it
+//          allocate more than a small multiple of what is there.
+//
+// The generated functions (gsv/messages/sensor_msgs.h and so on) are used as
+//   Encode(range, bytes);                                   // appends a whole message
+//   Result<sensor_msgs::Range> range = Decode<sensor_msgs::Range>(bytes);
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/messages/schema.h"
+
+namespace gsv::messages {
+
+static_assert(std::endian::native == std::endian::little, "CDR is copied from memory as it is");
+
+using Bytes = std::vector<std::byte>;
+
+// Appends one message to a buffer.
+class CdrWriter {
+ public:
+  // `out` must outlive the writer. What it holds stays; the encapsulation header is appended.
+  explicit CdrWriter(Bytes& out);
+
+  template <typename Number>
+  requires std::is_arithmetic_v<Number>
+  void Write(Number value) { WriteBlock(&value, sizeof value, sizeof value); }
+  void Write(std::string_view text);
+  void WriteCount(std::size_t count);
+
+  // `size` bytes of numbers of one kind, as they lie in memory. Nothing, not even padding, is
+  // written if there are none.
+  void WriteBlock(const void* data, std::size_t size, std::size_t alignment) {
+    if (size == 0) return;
+    const std::size_t padding = (origin_ - out_.size()) & (alignment - 1);
+    const std::size_t at = out_.size() + padding;
+    out_.resize(at + size);
+    std::memcpy(out_.data() + at, data, size);
+  }
+
+ private:
+  Bytes& out_;
+  std::size_t origin_;  // where alignment is counted from
+};
+
+// Takes one message apart. The first thing that does not fit makes it fail; from then on every
+// read gives zero, an empty string or an empty sequence.
+class CdrReader {
+ public:
+  // `bytes` must outlive the reader.
+  explicit CdrReader(std::span<const std::byte> bytes);
+
+  template <typename Number>
+  requires std::is_arithmetic_v<Number>
+  void Read(Number& value) {
+    if constexpr (std::is_same_v<Number, bool>) {
+      std::uint8_t byte = 0;
+      ReadBlock(&byte, 1, 1);
+      value = byte != 0;
+    } else {
+      value = 0;
+      ReadBlock(&value, sizeof value, sizeof value);
+    }
+  }
+  void Read(std::string& text);
+  // The count of a sequence whose elements take at least `element_size` bytes each; 0 if so many
+  // cannot be there.
+  std::size_t ReadCount(std::size_t element_size);
+  void ReadBlock(void* data, std::size_t size, std::size_t alignment);
+
+  // Whether all went well and the message is at its end, up to the padding that some writers
+  // append.
+  base::Status Finish() const;
+
+ private:
+  void Fail(const char* what);
+  std::size_t remaining() const { return bytes_.size() - position_; }
+
+  std::span<const std::byte> bytes_;  // after the encapsulation header
+  std::size_t position_ = 0;
+  const char* failure_ = nullptr;
+};
+
+// Appends `message` to `out`, with its encapsulation header.
+template <typename Message>
+void Encode(const Message& message, Bytes& out) {
+  CdrWriter writer(out);
+  Encode(message, writer);
+}
+
+// The message that `bytes` hold, or kCorrupt with the type and the place.
+template <typename Message>
+[[nodiscard]] base::Result<Message> Decode(std::span<const std::byte> bytes) {
+  CdrReader reader(bytes);
+  base::Result<Message> message(Message{});
+  Decode(reader, *message);
+  if (base::Status status = reader.Finish(); !status) {
+    status.error().where = SchemaOf<Message>().name;
+    return base::Fail(std::move(status.error()));
+  }
+  return message;
+}
+
+}  // namespace gsv::messages

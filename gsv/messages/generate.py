@@ -1,0 +1,307 @@
+#!/usr/bin/env python3
+"""Makes C++ from ROS 2 message definitions: one header and one source per package.
+
+  generate.py MSG_ROOT OUT PACKAGE/NAME...     the message types, and OUT/all.h
+  generate.py --samples MSG_ROOT OUT PACKAGE/NAME...   OUT/samples.h, for tests
+
+MSG_ROOT holds PACKAGE/NAME.msg. Every type that is used must be listed. What a definition may hold:
+fields of primitive and message types, fixed and unbounded arrays of them, constants, and defaults
+of numbers. Anything else is refused with its file and line.
+"""
+import pathlib
+import re
+import sys
+from dataclasses import dataclass, field
+
+# ROS type -> (C++ type, size in bytes)
+PRIMITIVES = {
+    "bool": ("bool", 1), "byte": ("std::uint8_t", 1), "char": ("std::uint8_t", 1),
+    "float32": ("float", 4), "float64": ("double", 8),
+    **{f"{u}int{8 * n}": (f"std::{u}int{8 * n}_t", n) for u in ("", "u") for n in (1, 2, 4, 8)},
+}
+FIELD = re.compile(r"^([\w/]+)(\[(\d*)\])?\s+([a-z][a-z0-9_]*)(?:\s+(-?[\d.]+))?$")
+CONSTANT = re.compile(r"^(\w+)\s+([A-Z][A-Z0-9_]*)\s*=\s*(-?[\d.]+)$")
+SEPARATOR = "=" * 80
+
+
+@dataclass
+class Field:
+    type: str  # a primitive, "string", or "package/Name"
+    name: str
+    array: str  # "" for one value, "[]" for a sequence, "[9]" for a fixed array
+    default: str
+
+    @property
+    def length(self):
+        return int(self.array[1:-1]) if self.array not in ("", "[]") else 1
+
+
+@dataclass
+class Message:
+    package: str
+    name: str
+    text: str
+    fields: list = field(default_factory=list)
+    constants: list = field(default_factory=list)  # (type, name, value)
+
+    @property
+    def key(self):
+        return f"{self.package}/{self.name}"
+
+
+def parse(root, key):
+    package, name = key.split("/")
+    path = root / package / f"{name}.msg"
+    message = Message(package, name, path.read_text())
+    for number, line in enumerate(message.text.splitlines(), 1):
+        line = line.split("#")[0].strip()
+        if not line:
+            continue
+        if found := CONSTANT.match(line):
+            message.constants.append(found.groups())
+        elif found := FIELD.match(line):
+            type_, array, _, field_name, default = found.groups()
+            if type_ not in PRIMITIVES and type_ != "string" and "/" not in type_:
+                type_ = f"{package}/{type_}"
+            message.fields.append(Field(type_, field_name, array or "", default or ""))
+        else:
+            sys.exit(f"{path}:{number}: expected a field or a constant, found '{line}'")
+        if message.fields and message.fields[-1].type == "bool" and message.fields[-1].array:
+            sys.exit(f"{path}:{number}: arrays of bool are not supported; use uint8")
+    if not message.fields:
+        sys.exit(f"{path}: a message needs at least one field")
+    return message
+
+
+class MessageSet:
+    def __init__(self, root, keys):
+        self.messages = {key: parse(root, key) for key in keys}
+        for message in self.messages.values():
+            self.dependencies(message)  # checks that all are there, and that none is cyclic
+
+    def dependencies(self, message, above=()):
+        """The keys of all types used, directly or not, each once, in order of first use."""
+        found = []
+        for f in message.fields:
+            if "/" not in f.type:
+                continue
+            if f.type not in self.messages:
+                sys.exit(f"{message.key}: field '{f.name}' has the unlisted type {f.type}")
+            if f.type in above or f.type == message.key:
+                sys.exit(f"{message.key}: field '{f.name}' contains its own type")
+            inner = self.dependencies(self.messages[f.type], above + (message.key,))
+            found += [key for key in (f.type, *inner) if key not in found]
+        return found
+
+    def in_order(self, package):
+        """A package's messages, those that are used before those that use them."""
+        ordered = []
+        for message in self.messages.values():
+            for key in (*reversed(self.dependencies(message)), message.key):
+                if self.messages[key].package == package and self.messages[key] not in ordered:
+                    ordered.append(self.messages[key])
+        return ordered
+
+    def packages(self):
+        return sorted({message.package for message in self.messages.values()})
+
+    def schema_text(self, message):
+        parts = [message.text]
+        parts += [f"MSG: {key}\n{self.messages[key].text}" for key in self.dependencies(message)]
+        return f"\n{SEPARATOR}\n".join(part.rstrip("\n") for part in parts) + "\n"
+
+    def least_size(self, type_):
+        """A lower bound of the bytes that one value takes, paddings left out."""
+        if type_ in PRIMITIVES:
+            return PRIMITIVES[type_][1]
+        if type_ == "string":
+            return 4
+        return sum(4 if f.array == "[]" else f.length * self.least_size(f.type)
+                   for f in self.messages[type_].fields)
+
+    def scalar_of(self, type_):
+        """The number type that a value consists of, if it consists of one type only: such values
+        lie in memory as they lie in CDR."""
+        if type_ in PRIMITIVES:
+            return None if type_ == "bool" else PRIMITIVES[type_][0]
+        if type_ == "string" or any(f.array == "[]" for f in self.messages[type_].fields):
+            return None
+        scalars = {self.scalar_of(f.type) for f in self.messages[type_].fields}
+        return scalars.pop() if len(scalars) == 1 else None
+
+
+def cpp_type(type_):
+    if type_ == "string":
+        return "std::string"
+    return PRIMITIVES[type_][0] if type_ in PRIMITIVES else type_.replace("/", "::")
+
+
+def field_declaration(f):
+    if f.array == "[]":
+        return f"  std::vector<{cpp_type(f.type)}> {f.name};"
+    if f.array:
+        return f"  std::array<{cpp_type(f.type)}, {f.length}> {f.name}{{}};"
+    if f.type not in PRIMITIVES:
+        return f"  {cpp_type(f.type)} {f.name};"
+    value = f.default or ("false" if f.type == "bool" else "0")
+    return f"  {cpp_type(f.type)} {f.name} = {value};"
+
+
+def constant_declaration(constant):
+    type_, name, value = constant
+    camel = "k" + "".join(word.capitalize() for word in name.split("_"))
+    return f"  static constexpr {cpp_type(type_)} {camel} = {value};"
+
+
+def struct_declaration(message):
+    lines = [f"struct {message.name} {{"]
+    lines += [constant_declaration(constant) for constant in message.constants]
+    lines += [field_declaration(f) for f in message.fields]
+    lines += [f"\n  friend bool operator==(const {message.name}&, const {message.name}&) = default;",
+              "};",
+              f"void Encode(const {message.name}& message, CdrWriter& writer);",
+              f"void Decode(CdrReader& reader, {message.name}& message);", ""]
+    return lines
+
+
+def header(messages, package):
+    ordered = messages.in_order(package)
+    used = {messages.messages[key].package for m in ordered for key in messages.dependencies(m)}
+    lines = [f"// Generated from the definitions in gsv/messages/msg/{package}.",
+             "#pragma once", "", "#include <array>", "#include <cstdint>", "#include <string>",
+             "#include <vector>", "", '#include "gsv/messages/cdr.h"']
+    lines += [f'#include "gsv/messages/{other}.h"' for other in sorted(used - {package})]
+    lines += ["", f"namespace gsv::messages::{package} {{", ""]
+    for message in ordered:
+        lines += struct_declaration(message)
+    lines += [f"}}  // namespace gsv::messages::{package}", "", "namespace gsv::messages {", ""]
+    for m in ordered:
+        lines += ["template <>", f"const Schema& SchemaOf<{package}::{m.name}>();"]
+    return lines + ["", "}  // namespace gsv::messages"]
+
+
+def encode_statements(messages, f):
+    value = f"message.{f.name}"
+    lines = [f"  writer.WriteCount({value}.size());"] if f.array == "[]" else []
+    scalar = messages.scalar_of(f.type)
+    if f.array and scalar:
+        return lines + [f"  writer.WriteBlock({value}.data(), {value}.size() * "
+                        f"sizeof({cpp_type(f.type)}), sizeof({scalar}));"]
+    one = ("writer.Write({})" if f.type in PRIMITIVES or f.type == "string" else
+           "Encode({}, writer)")
+    if f.array:
+        return lines + [f"  for (const auto& element : {value}) {one.format('element')};"]
+    return [f"  {one.format(value)};"]
+
+
+def decode_statements(messages, f):
+    value = f"message.{f.name}"
+    least = messages.least_size(f.type)
+    lines = [f"  {value}.resize(reader.ReadCount({least}));"] if f.array == "[]" else []
+    scalar = messages.scalar_of(f.type)
+    if f.array and scalar:
+        return lines + [f"  reader.ReadBlock({value}.data(), {value}.size() * "
+                        f"sizeof({cpp_type(f.type)}), sizeof({scalar}));"]
+    one = "reader.Read({})" if f.type in PRIMITIVES or f.type == "string" else "Decode(reader, {})"
+    if f.array:
+        return lines + [f"  for (auto& element : {value}) {one.format('element')};"]
+    return [f"  {one.format(value)};"]
+
+
+def memory_check(messages, message):
+    """Asserts what WriteBlock relies on, for a type that is copied as one block."""
+    if messages.scalar_of(message.key) is None:
+        return []
+    return [f"static_assert(sizeof({message.name}) == {messages.least_size(message.key)} && "
+            f"std::is_trivially_copyable_v<{message.name}>);", ""]
+
+
+def source(messages, package):
+    ordered = messages.in_order(package)
+    lines = [f'#include "gsv/messages/{package}.h"', "", f"namespace gsv::messages::{package} {{",
+             ""]
+    for message in ordered:
+        lines += memory_check(messages, message)
+        lines += [f"void Encode(const {message.name}& message, CdrWriter& writer) {{"]
+        lines += [line for f in message.fields for line in encode_statements(messages, f)]
+        lines += ["}", "", f"void Decode(CdrReader& reader, {message.name}& message) {{"]
+        lines += [line for f in message.fields for line in decode_statements(messages, f)]
+        lines += ["}", ""]
+    lines += [f"}}  // namespace gsv::messages::{package}", "", "namespace gsv::messages {", ""]
+    for m in ordered:
+        lines += ["template <>", f"const Schema& SchemaOf<{package}::{m.name}>() {{",
+                  f'  static constexpr Schema kSchema{{"{package}/msg/{m.name}", "ros2msg",',
+                  f'      R"msg({messages.schema_text(m)})msg"}};',
+                  "  return kSchema;", "}", ""]
+    return lines + ["}  // namespace gsv::messages"]
+
+
+def all_header(messages):
+    return (["// Generated: every message type. Include a single package's header where one will do.",
+             "#pragma once", "", "#include <array>", ""] +
+            [f'#include "gsv/messages/{package}.h"' for package in messages.packages()] +
+            ["", "namespace gsv::messages {", "", "// The schemas of all types, by name.",
+             f"const std::array<Schema, {len(messages.messages)}>& AllSchemas();", "",
+             "}  // namespace gsv::messages"])
+
+
+def all_source(messages):
+    return (['#include "gsv/messages/all.h"', "", "namespace gsv::messages {", "",
+             f"const std::array<Schema, {len(messages.messages)}>& AllSchemas() {{",
+             f"  static const std::array<Schema, {len(messages.messages)}> kSchemas{{"] +
+            [f"      SchemaOf<{key.replace('/', '::')}>()," for key in sorted(messages.messages)] +
+            ["  };", "  return kSchemas;", "}", "", "}  // namespace gsv::messages"])
+
+
+def samples(messages):
+    """A Fill() for each type that gives every field a value by a rule (see the test's Filler)."""
+    lines = ["// Generated for tests.", "#pragma once", "", '#include "gsv/messages/all.h"', "",
+             "namespace gsv::messages {", ""]
+    ordered = []
+    for message in messages.messages.values():
+        for key in (*reversed(messages.dependencies(message)), message.key):
+            if key not in ordered:
+                ordered.append(key)
+    for key in ordered:
+        lines += ["template <typename Filler>",
+                  f"void Fill({key.replace('/', '::')}& message, Filler& filler) {{"]
+        for f in messages.messages[key].fields:
+            value = f"message.{f.name}"
+            one = "Fill({}, filler)" if "/" in f.type else "filler.Value({})"
+            if f.array == "[]":
+                lines += [f"  {value}.resize(filler.Count());"]
+            lines += [f"  for (auto& element : {value}) {one.format('element')};" if f.array else
+                      f"  {one.format(value)};"]
+        lines += ["}", ""]
+    lines += ["// Calls visit(SchemaOf<T>(), T{}) for every type T.",
+              "template <typename Visitor>", "void ForEachType(Visitor&& visit) {"]
+    for key in sorted(messages.messages):
+        type_ = key.replace("/", "::")
+        lines += [f"  visit(SchemaOf<{type_}>(), {type_}{{}});"]
+    return lines + ["}", "", "}  // namespace gsv::messages"]
+
+
+def write(path, lines):
+    """Leaves an unchanged file alone, so that nothing is compiled again for it."""
+    text = "\n".join(lines) + "\n"
+    if not path.exists() or path.read_text() != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+def main(arguments):
+    for_tests = arguments[:1] == ["--samples"]
+    root, out, *keys = arguments[1 if for_tests else 0:]
+    messages, out = MessageSet(pathlib.Path(root), keys), pathlib.Path(out)
+    if for_tests:
+        write(out / "samples.h", samples(messages))
+        return
+    for package in messages.packages():
+        write(out / f"{package}.h", header(messages, package))
+        write(out / f"{package}.cc", source(messages, package))
+    write(out / "all.h", all_header(messages))
+    write(out / "all.cc", all_source(messages))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
