@@ -1,0 +1,39 @@
+// The binary part of a GLB file and the JSON that says what lies where in it.
+//
+// Format  glTF 2.0 specification, sections 3.6 (buffers, accessors) and 4 (GLB).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace gsv::formats {
+
+using Json = nlohmann::ordered_json;
+
+class GlbBuffer {
+ public:
+  // Each returns the index that other parts of the file refer to.
+  int AddBytes(std::span<const std::uint8_t> bytes);  // a buffer view
+  int AddPositions(std::span<const float> xyz);       // an accessor with its bounds
+  int AddVectors(std::span<const float> values, int components);
+  int AddIndices(std::span<const std::uint32_t> indices, std::size_t vertex_count);
+
+  std::size_t size() const { return bytes_.size(); }
+
+  // Completes `document` with what was added and puts both into one file.
+  std::vector<std::uint8_t> Finish(Json document) const;
+
+ private:
+  template <typename T>
+  int AddView(std::span<const T> values, int target);
+  int AddAccessor(int view, int component_type, std::size_t count, const char* type);
+
+  std::vector<std::uint8_t> bytes_;
+  Json views_ = Json::array();
+  Json accessors_ = Json::array();
+};
+
+}  // namespace gsv::formats

@@ -1,0 +1,180 @@
+// The worlds and robots other people made load, with warnings only for what is truly absent.
+#include <chrono>
+#include <iostream>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "gsv/formats/resource_finder.h"
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/formats/test_folder.h"
+
+namespace gsv::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class RealFilesTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (RealFolder().empty()) GTEST_SKIP() << "GSV_REAL_DIR names no folder of real worlds";
+  }
+};
+
+bool IsKnownToBeAbsent(const base::Problem& problem) {
+  if (problem.severity != base::Problem::Severity::kWarning) return false;
+  for (const char* absent :
+       {"bases/burger_base.stl", "bases/waffle_base.stl", "bases/waffle_pi_base.stl",
+        "sensors/astra.dae", "models/Construction Cone", "models/Mecanum lift",
+        "inertial auto=\"true\""}) {
+    if (problem.message.find(absent) != std::string::npos) return true;
+  }
+  return false;
+}
+
+void ExpectOnlyAbsentThings(const base::Problems& problems, const fs::path& file) {
+  for (const auto& problem : problems) {
+    EXPECT_TRUE(IsKnownToBeAbsent(problem)) << file << ": " << problem.Sentence();
+  }
+}
+
+TEST_F(RealFilesTest, EveryWorldLoads) {
+  int worlds = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(RealFolder())) {
+    const std::string extension = entry.path().extension();
+    const bool is_world =
+        extension == ".world" || entry.path().parent_path().filename() == "gz_sim_worlds";
+    if (!is_world || (extension != ".world" && extension != ".sdf")) continue;
+    base::Problems problems;
+    const auto world = ModelLibrary().ReadWorld(entry.path(), problems);
+    ASSERT_TRUE(world.has_value()) << world.error().Sentence();
+    EXPECT_FALSE(world->models.empty());
+    EXPECT_FALSE(world->lights.empty());
+    ExpectOnlyAbsentThings(problems, entry.path());
+    ++worlds;
+  }
+  std::cout << worlds << " worlds\n";
+  EXPECT_GE(worlds, 14);
+}
+
+TEST_F(RealFilesTest, EveryModelLoads) {
+  int models = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(RealFolder())) {
+    const bool is_urdf =
+        entry.path().extension() == ".urdf" && entry.path().filename() != "common_properties.urdf";
+    const bool is_folder = entry.path().filename() == "model.config";
+    if (!is_urdf && !is_folder) continue;
+    const fs::path place = is_urdf ? entry.path() : entry.path().parent_path();
+    // Holds meshes for others; and a light.
+    if (place.filename() == "turtlebot3_common" || place.filename() == "sun") continue;
+    base::Problems problems;
+    const auto model = ModelLibrary().ReadModel(place.string(), problems);
+    ASSERT_TRUE(model.has_value()) << model.error().Sentence();
+    EXPECT_FALSE((*model)->links.empty());
+    ExpectOnlyAbsentThings(problems, place);
+    ++models;
+  }
+  std::cout << models << " models\n";
+  EXPECT_GE(models, 20);
+}
+
+TEST_F(RealFilesTest, TurtleBot3HouseAndBurgerLackOneMesh) {
+  ModelLibrary library;
+  base::Problems problems;
+  const fs::path turtlebot3 = RealFolder() / "turtlebot3";
+  const auto start = std::chrono::steady_clock::now();
+  const auto world = library.ReadWorld(turtlebot3 / "worlds/turtlebot3_house.world", problems);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  std::cout << "turtlebot3_house.world: " << seconds.count() << " s\n";
+  ASSERT_TRUE(world.has_value());
+  EXPECT_THAT(problems, IsEmpty());
+  EXPECT_FALSE(world->scene.shadows);
+  EXPECT_EQ(world->max_step_size, std::chrono::milliseconds(1));
+  ASSERT_THAT(world->models, SizeIs(2));
+  EXPECT_TRUE(world->models[1].is_static);
+  int textured = 0;
+  std::set<const void*> pictures;
+  for (const auto& link : world->models[1].model->links) {
+    for (const auto& visual : link.visuals) {
+      for (const auto& material : visual.materials) {
+        if (material.base_colour_map == nullptr) continue;
+        ++textured;
+        pictures.insert(material.base_colour_map.get());
+      }
+    }
+  }
+  EXPECT_GT(textured, 90);          // bricks and wood all over
+  EXPECT_LT(pictures.size(), 12u);  // each read once
+
+  const auto burger =
+      library.ReadModel("turtlebot3_burger", problems, turtlebot3 / "worlds/x.world");
+  ASSERT_TRUE(burger.has_value());
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_EQ(problems[0].severity, base::Problem::Severity::kWarning);
+  EXPECT_THAT(problems[0].message, HasSubstr("turtlebot3_common/meshes/bases/burger_base.stl"));
+  EXPECT_EQ((*burger)->links[0].name, "base_footprint");
+  ASSERT_TRUE((*burger)->drive.has_value());
+  EXPECT_EQ((*burger)->drive->wheel_separation, 0.160);
+  EXPECT_EQ((*burger)->drive->wheel_radius, 0.033);
+  EXPECT_EQ((*burger)->drive->linear_acceleration.max, 1);
+  ASSERT_THAT((*burger)->sensors, SizeIs(2));
+  EXPECT_EQ(model::NumberOr((*burger)->sensors[1].parameters, "scan.horizontal.samples", 0), 360);
+  // The base's visual is absent: its collision box is drawn.
+  EXPECT_TRUE(std::holds_alternative<geometry::Box>((*burger)->links[1].visuals.at(0).shape));
+}
+
+TEST_F(RealFilesTest, TurtleBot3WorldStandsUpright) {
+  // Its meshes say Y_UP and lie along z: 0.25 * 200 inches high, beginning 0.3 m below the ground.
+  base::Problems problems;
+  const auto world =
+      ModelLibrary().ReadWorld(RealFolder() / "turtlebot3/worlds/turtlebot3_world.world", problems);
+  ASSERT_TRUE(world.has_value());
+  int walls = 0;
+  for (const auto& link : world->models.back().model->links) {
+    for (const auto& visual : link.visuals) {
+      const auto* mesh = std::get_if<geometry::Mesh>(&visual.shape);
+      if (mesh == nullptr || visual.name != "body") continue;
+      const auto bounds = geometry::BoundsOf(visual.shape);
+      EXPECT_NEAR(bounds.min.z, 0, 1e-6);
+      EXPECT_NEAR(bounds.max.z, 0.25 * 200 * 0.0254, 1e-6);
+      ++walls;
+    }
+  }
+  EXPECT_EQ(walls, 1);
+}
+
+TEST_F(RealFilesTest, PioneerIsMeasured) {
+  base::Problems problems;
+  const auto pioneer =
+      ModelLibrary().ReadModel((RealFolder() / "gazebo_models/pioneer2dx").string(), problems);
+  ASSERT_TRUE(pioneer.has_value());
+  ASSERT_TRUE((*pioneer)->drive.has_value());
+  EXPECT_NEAR((*pioneer)->drive->wheel_separation, 0.34, 1e-9);  // wheels at y = ±0.17
+  EXPECT_NEAR((*pioneer)->drive->wheel_radius, 0.11, 1e-9);
+  // The axis is given in the model's frame: both wheels turn about y.
+  for (const auto& joint : (*pioneer)->joints) {
+    EXPECT_NEAR((joint.model_from_joint.orientation * joint.axis).y, 1, 1e-9);
+  }
+}
+
+TEST_F(RealFilesTest, CafeAndWillowGarageAreEnvironments) {
+  for (const char* name : {"cafe", "willowgarage"}) {
+    base::Problems problems;
+    const auto start = std::chrono::steady_clock::now();
+    const auto world = ModelLibrary().ReadWorld(RealFolder() / "gazebo_models" / name, problems);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    std::cout << name << ": " << seconds.count() << " s\n";
+    ASSERT_TRUE(world.has_value()) << world.error().Sentence();
+    EXPECT_THAT(problems, IsEmpty());
+    ASSERT_THAT(world->models, SizeIs(2));
+    EXPECT_EQ(world->models[0].name, "ground_plane");
+    const auto& visual = world->models[1].model->links.at(0).visuals.at(0);
+    EXPECT_GT(std::get<geometry::Mesh>(visual.shape).triangles->triangles.size(), 1000u);
+  }
+}
+
+}  // namespace
+}  // namespace gsv::formats

@@ -1,0 +1,60 @@
+// Finds the files that worlds and robots name.
+//
+// A name is `model://NAME/REST`, `package://NAME/REST`, `file://PATH`, a bare path, or an address
+// on the web. A relative path is looked for beside the file that names it. `model://NAME/REST` is
+// looked for, in this order:
+//   1. beside the naming file, in each of its parent folders (five up), and in the `models` folder
+//      of each of these;
+//   2. on the search path the caller gave;
+//   3. on GZ_SIM_RESOURCE_PATH, SDF_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH;
+//   4. among the models that ship with this program.
+// Backslashes count as slashes; where no name fits exactly, one that differs only in case does.
+//
+// Safety   a name that climbs out of the folder it is looked for in (`..`) is refused; a relative
+//          path may climb as far as the parent of the naming file's folder, where sibling models
+//          lie. Absolute paths are refused unless `allow_absolute_paths`.
+// Errors   kNotFound with a sentence that repeats the name.
+// Threads  const members may run concurrently.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::formats {
+
+class ResourceFinder {
+ public:
+  explicit ResourceFinder(std::vector<std::filesystem::path> search_path = {},
+                          bool allow_absolute_paths = true);
+
+  // `naming_file` is the file in which the name stands; empty: the current folder.
+  base::Result<std::filesystem::path> Find(std::string_view name,
+                                           const std::filesystem::path& naming_file = {}) const;
+
+ private:
+  std::vector<std::filesystem::path> FoldersFor(const std::filesystem::path& naming_file) const;
+  base::Result<std::filesystem::path> FindInModels(const std::string& path,
+                                                   const std::filesystem::path& naming_file) const;
+  base::Result<std::filesystem::path> FindByPath(const std::string& path,
+                                                 const std::filesystem::path& naming_file) const;
+
+  std::vector<std::filesystem::path> search_path_;  // the caller's, the environment's, our own
+  bool allow_absolute_paths_;
+};
+
+// A relative path in the folder of `naming_file`, or up to two folders above it.
+base::Result<std::filesystem::path> FindBeside(const std::string& name,
+                                               const std::filesystem::path& naming_file);
+
+// http:// or https://.
+bool IsWebAddress(std::string_view name);
+
+// The file of `folder` to read: of those its model.config lists, the newest that SDFormat 1.9
+// includes; without a model.config, model.sdf.
+base::Result<std::filesystem::path> ModelFileIn(const std::filesystem::path& folder);
+
+}  // namespace gsv::formats

@@ -1,0 +1,128 @@
+#include "gsv/formats/sdf_reader.h"
+
+#include <algorithm>
+#include <mutex>
+#include <system_error>
+#include <variant>
+
+#include "gsv/formats/builtin_models.h"
+#include "gsv/formats/model_store.h"
+#include "gsv/formats/world_reader.h"
+
+namespace gsv::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using base::ErrorCode;
+using model::Model;
+using model::WorldDescription;
+
+bool HasPlaneToCollideWith(const Model& model) {
+  return std::any_of(model.links.begin(), model.links.end(), [](const model::Link& link) {
+    return std::any_of(link.collisions.begin(), link.collisions.end(), [](const auto& collision) {
+      return std::holds_alternative<geometry::Plane>(collision.shape);
+    });
+  });
+}
+
+base::Result<fs::path> FileAt(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return ModelFileIn(path);
+  if (fs::exists(path, ignored)) return path;
+  return Fail(ErrorCode::kBadModel, "there is no such file", path.string());
+}
+
+}  // namespace
+
+class ModelLibrary::Reader {
+ public:
+  explicit Reader(const ReadOptions& options) : store_(options) {}
+
+  base::Result<WorldDescription> ReadWorldAt(const fs::path& path, base::Problems& problems) {
+    const std::lock_guard lock(mutex_);
+    auto file = FileAt(path);
+    if (!file) return Fail(file.error());
+    auto xml = ReadXml(*file, store_.limits(), problems);
+    if (!xml) return Fail(xml.error());
+    if (xml->root->FirstChildElement("world") != nullptr) {
+      return formats::ReadWorld(*xml, store_, problems);
+    }
+    return ReadEnvironment(*file, problems);
+  }
+
+  base::Result<std::shared_ptr<const Model>> ReadModelNamed(const std::string& name,
+                                                            const fs::path& named_in,
+                                                            base::Problems& problems) {
+    const std::lock_guard lock(mutex_);
+    auto file = FileOf(name, named_in);
+    if (!file) return Fail(file.error());
+    return ReadStored(*file, problems);
+  }
+
+ private:
+  base::Result<fs::path> FileOf(const std::string& name, const fs::path& named_in) const {
+    std::error_code ignored;
+    if (name.empty()) return Fail(ErrorCode::kBadModel, "the name of a model is empty");
+    if (fs::exists(name, ignored)) return FileAt(name);
+    const bool has_scheme = name.find("://") != std::string::npos;
+    auto found = store_.finder().Find(has_scheme ? name : "model://" + name, named_in);
+    if (!found) {
+      return Fail(ErrorCode::kBadModel, "there is no model \"" + name +
+                                            "\": neither such a file nor one of that name "
+                                            "beside the world or on the model path");
+    }
+    return FileAt(*found);
+  }
+
+  base::Result<std::shared_ptr<const Model>> ReadStored(const fs::path& file,
+                                                        base::Problems& problems) {
+    auto stored = store_.Read(file);
+    if (!stored) return Fail(stored.error());
+    problems.insert(problems.end(), (*stored)->problems.begin(), (*stored)->problems.end());
+    if ((*stored)->framed.model == nullptr) {
+      return Fail(ErrorCode::kBadModel, "the file holds a light, where a model is wanted",
+                  file.string());
+    }
+    return (*stored)->framed.model;
+  }
+
+  base::Result<WorldDescription> ReadEnvironment(const fs::path& file, base::Problems& problems) {
+    auto model = ReadStored(file, problems);
+    if (!model) return Fail(model.error());
+    XmlFile surroundings;
+    surroundings.path = file;
+    surroundings.version = "1.9";
+    surroundings.document = std::make_unique<tinyxml2::XMLDocument>();
+    const std::string_view text = EnvironmentWorld(!HasPlaneToCollideWith(**model));
+    surroundings.document->Parse(text.data(), text.size());
+    surroundings.root = surroundings.document->RootElement();
+    auto world = formats::ReadWorld(surroundings, store_, problems);
+    if (!world) return world;
+    world->name = (*model)->name;
+    std::string name = (*model)->name;
+    for (const model::PlacedModel& other : world->models) {
+      if (other.name == name) name += "_1";
+    }
+    world->models.push_back({name, *model, (*model)->default_pose, (*model)->is_static});
+    return world;
+  }
+
+  std::mutex mutex_;
+  ModelStore store_;
+};
+
+ModelLibrary::ModelLibrary(ReadOptions options) : reader_(std::make_unique<Reader>(options)) {}
+ModelLibrary::~ModelLibrary() = default;
+
+base::Result<WorldDescription> ModelLibrary::ReadWorld(const fs::path& path,
+                                                       base::Problems& problems) {
+  return reader_->ReadWorldAt(path, problems);
+}
+
+base::Result<std::shared_ptr<const Model>> ModelLibrary::ReadModel(const std::string& name_or_path,
+                                                                   base::Problems& problems,
+                                                                   const fs::path& named_in) {
+  return reader_->ReadModelNamed(name_or_path, named_in, problems);
+}
+
+}  // namespace gsv::formats

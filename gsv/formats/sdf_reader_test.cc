@@ -1,0 +1,396 @@
+#include "gsv/formats/sdf_reader.h"
+
+#include <chrono>
+#include <numbers>
+
+#include <gmock/gmock.h>
+
+#include "gsv/formats/test_folder.h"
+
+namespace gsv::formats {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr char kBox[] =
+    "<collision name='c'><geometry><box><size>1 2 3</size></box></geometry></collision>";
+
+std::string Sdf(const std::string& content, const std::string& version = "1.9") {
+  return "<?xml version='1.0'?>\n<sdf version='" + version + "'>\n" + content + "\n</sdf>\n";
+}
+
+void ExpectNear(const Vector3& actual, const Vector3& expected) {
+  EXPECT_NEAR(actual.x, expected.x, 1e-9);
+  EXPECT_NEAR(actual.y, expected.y, 1e-9);
+  EXPECT_NEAR(actual.z, expected.z, 1e-9);
+}
+
+class SdfReaderTest : public testing::Test {
+ protected:
+  model::WorldDescription World(const std::string& content, const std::string& version = "1.9") {
+    auto world = ModelLibrary().ReadWorld(folder_.Write("w.sdf", Sdf(content, version)), problems_);
+    EXPECT_TRUE(world.has_value()) << (world ? "" : world.error().Sentence());
+    return world.value_or(model::WorldDescription{});
+  }
+  std::shared_ptr<const model::Model> Model(const std::string& content) {
+    auto model = ModelLibrary().ReadModel(folder_.Write("m.sdf", Sdf(content)).string(), problems_);
+    EXPECT_TRUE(model.has_value()) << (model ? "" : model.error().Sentence());
+    return model.value_or(std::make_shared<const model::Model>());
+  }
+  std::vector<std::string> Sentences() const {
+    std::vector<std::string> sentences;
+    for (const auto& problem : problems_) sentences.push_back(problem.Sentence());
+    return sentences;
+  }
+
+  TestFolder folder_;
+  base::Problems problems_;
+};
+
+TEST_F(SdfReaderTest, ReadsPhysicsSceneAndLights) {
+  const auto world = World(R"(<world name='yard'>
+    <physics type='ode'><max_step_size>0.004</max_step_size><real_time_factor>2</real_time_factor></physics>
+    <gravity>0 0 -1.6</gravity>
+    <scene><ambient>0.1 0.2 0.3 1</ambient><background>0.4 0.5 0.6 1</background><shadows>false</shadows></scene>
+    <light name='lamp' type='spot'><pose>1 2 3 0 0 0</pose><diffuse>1 0 0 1</diffuse>
+      <direction>0 0 -2</direction><attenuation><range>7</range><linear>0.5</linear></attenuation>
+      <spot><inner_angle>0.2</inner_angle><outer_angle>0.4</outer_angle><falloff>1</falloff></spot></light>
+    </world>)");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  EXPECT_EQ(world.name, "yard");
+  EXPECT_EQ(world.max_step_size, std::chrono::milliseconds(4));
+  EXPECT_EQ(world.real_time_factor, 2);
+  EXPECT_EQ(world.gravity, (Vector3{0, 0, -1.6}));
+  EXPECT_NEAR(world.scene.background.g, 0.5, 1e-6);
+  EXPECT_FALSE(world.scene.shadows);
+  ASSERT_THAT(world.lights, SizeIs(1));
+  EXPECT_EQ(world.lights[0].kind, model::Light::Kind::kSpot);
+  EXPECT_EQ(world.lights[0].direction, (Vector3{0, 0, -1}));
+  EXPECT_EQ(world.lights[0].world_from_light.position, (Vector3{1, 2, 3}));
+  EXPECT_EQ(world.lights[0].range, 7);
+  EXPECT_EQ(world.lights[0].outer_angle, 0.4);
+}
+
+TEST_F(SdfReaderTest, GroundPlaneAndSunNeedNoFile) {
+  const auto world = World(R"(<world name='w'>
+    <include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane</uri></include>
+    <include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Sun</uri></include>
+    <include><uri>model://ground_plane</uri><name>second</name><pose>0 0 -1 0 0 0</pose></include>
+    </world>)");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_THAT(world.models, SizeIs(2));
+  EXPECT_EQ(world.models[0].name, "ground_plane");
+  EXPECT_TRUE(world.models[0].is_static);
+  EXPECT_EQ(world.models[1].name, "second");
+  EXPECT_EQ(world.models[1].world_from_model.position, (Vector3{0, 0, -1}));
+  EXPECT_EQ(world.models[0].model, world.models[1].model);
+  EXPECT_TRUE(std::holds_alternative<geometry::Plane>(
+      world.models[0].model->links.at(0).collisions.at(0).shape));
+  ASSERT_THAT(world.lights, SizeIs(1));
+  EXPECT_EQ(world.lights[0].kind, model::Light::Kind::kDirectional);
+}
+
+TEST_F(SdfReaderTest, NamesOtherModelsOfTheWebAndGoesOn) {
+  const auto world = World(
+      "<world "
+      "name='w'>\n<include><uri>https://fuel.gazebosim.org/1.0/x/models/Cone</uri></include>\n"
+      "<include><uri>model://nowhere</uri></include></world>");
+  ASSERT_THAT(problems_, SizeIs(2));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("w.sdf:4: the include of https://fuel"));
+  EXPECT_EQ(problems_[0].severity, base::Problem::Severity::kWarning);
+  EXPECT_THAT(problems_[1].message, HasSubstr("model://nowhere"));
+  EXPECT_THAT(world.models, IsEmpty());
+}
+
+TEST_F(SdfReaderTest, PlacesIncludesByPoseNameStaticAndFrame) {
+  folder_.Write(
+      "chair/model.sdf",
+      Sdf("<model name='chair'><pose>9 9 9 0 0 0</pose><link name='seat'>" + std::string(kBox) +
+          "</link><frame name='foot'><pose>0 0 -0.5 0 0 0</pose></frame></model>"));
+  const auto world = World(R"(<world name='w'>
+    <include><uri>model://chair</uri></include>
+    <include><uri>model://chair</uri><name>a</name><pose>1 2 0 0 0 0</pose><static>true</static></include>
+    <include><uri>model://chair</uri><name>b</name><pose>0 0 0 0 0 0</pose><placement_frame>foot</placement_frame></include>
+    <include><uri>model://chair</uri><name>c</name><pose relative_to='a'>1 0 0 0 0 0</pose></include>
+    <include><uri>chair</uri><name>d</name><pose relative_to='b::foot'>0 0 0 0 0 0</pose></include>
+    </world>)");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_THAT(world.models, SizeIs(5));
+  EXPECT_EQ(world.models[0].name, "chair");
+  ExpectNear(world.models[0].world_from_model.position, {9, 9, 9});
+  ExpectNear(world.models[1].world_from_model.position, {1, 2, 0});
+  EXPECT_TRUE(world.models[1].is_static);
+  EXPECT_FALSE(world.models[0].is_static);
+  ExpectNear(world.models[2].world_from_model.position, {0, 0, 0.5});
+  ExpectNear(world.models[3].world_from_model.position, {2, 2, 0});
+  ExpectNear(world.models[4].world_from_model.position, {0, 0, 0});
+  for (const auto& placed : world.models) EXPECT_EQ(placed.model, world.models[0].model);
+}
+
+TEST_F(SdfReaderTest, InlineModelsAreReadOnceAndPlacedByFramesOfTheWorld) {
+  std::string content =
+      "<world name='w'><frame name='f'><pose>0 0 5 0 0 1.5707963267948966</pose></frame>";
+  for (const char* name : {"a", "b"}) {
+    content += "<model name='" + std::string(name) +
+               "'><pose relative_to='f'>1 0 0 0 0 0</pose><link name='l'>" + kBox +
+               "</link></model>";
+  }
+  const auto world = World(content + "</world>");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_THAT(world.models, SizeIs(2));
+  EXPECT_EQ(world.models[0].model, world.models[1].model);
+  ExpectNear(world.models[1].world_from_model.position, {0, 1, 5});
+}
+
+TEST_F(SdfReaderTest, RenamesTheSecondOfTwoModelsOfOneName) {
+  const std::string model = "<model name='a'><link name='l'/></model>";
+  const auto world = World("<world name='w'>" + model + model + "</world>");
+  ASSERT_THAT(world.models, SizeIs(2));
+  EXPECT_EQ(world.models[1].name, "a_1");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].message, HasSubstr("a_1"));
+}
+
+TEST_F(SdfReaderTest, ReadsAThousandIncludesOfOneModelInASecond) {
+  folder_.Write("chair/model.sdf",
+                Sdf("<model name='chair'><link name='l'>" + std::string(kBox) + "</link></model>"));
+  std::string content = "<world name='w'>";
+  for (int i = 0; i < 1000; ++i) {
+    content += "<include><uri>model://chair</uri><name>c" + std::to_string(i) + "</name><pose>" +
+               std::to_string(i) + " 0 0 0 0 0</pose></include>\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto world = World(content + "</world>");
+  // Ten times what it takes: enough to tell it from reading every copy (some 25 s).
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  ASSERT_THAT(world.models, SizeIs(1000));
+  EXPECT_EQ(world.models[999].world_from_model.position.x, 999);
+}
+
+TEST_F(SdfReaderTest, FlattensNestedModels) {
+  folder_.Write("arm/model.sdf",
+                Sdf("<model name='arm'><link name='upper'><pose>1 0 0 0 0 0</pose></link>"
+                    "<link name='lower'><pose relative_to='upper'>1 0 0 0 0 0</pose></link>"
+                    "<joint name='elbow' type='revolute'><parent>upper</parent><child>lower</child>"
+                    "<axis><xyz expressed_in='__model__'>0 1 0</xyz></axis></joint></model>"));
+  const auto model = Model(R"(<model name='robot'><link name='base'/>
+    <include><uri>model://arm</uri><name>left</name><pose>0 1 0 0 0 1.5707963267948966</pose></include>
+    <joint name='mount' type='fixed'><parent>base</parent><child>left::upper</child></joint></model>)");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_THAT(model->links, SizeIs(3));
+  EXPECT_EQ(model->links[1].name, "left::upper");
+  ExpectNear(model->links[1].model_from_link.position, {0, 2, 0});
+  ExpectNear(model->links[2].model_from_link.position, {0, 3, 0});
+  ASSERT_THAT(model->joints, SizeIs(2));
+  const model::Joint& elbow = model->joints[1];
+  EXPECT_EQ(elbow.name, "left::elbow");
+  EXPECT_EQ(elbow.kind, model::JointKind::kContinuous);
+  ExpectNear(elbow.axis, {0, 1, 0});  // in the joint's frame, turned like the arm
+  ExpectNear(elbow.model_from_joint.orientation * elbow.axis, {-1, 0, 0});
+  EXPECT_EQ(model->joints[0].parent, 0);
+  EXPECT_EQ(model->joints[0].child, 1);
+}
+
+TEST_F(SdfReaderTest, MergesIncludedModels) {
+  folder_.Write(
+      "arm/model.sdf",
+      Sdf("<model name='arm'><link name='upper'><pose>1 0 0 0 0 0</pose></link></model>"));
+  const auto model = Model(
+      "<model name='robot'><link name='base'/><include merge='true'>"
+      "<uri>model://arm</uri><pose>0 0 2 0 0 0</pose></include></model>");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_THAT(model->links, SizeIs(2));
+  EXPECT_EQ(model->links[1].name, "upper");
+  ExpectNear(model->links[1].model_from_link.position, {1, 0, 2});
+}
+
+TEST_F(SdfReaderTest, ReadsInertiaSurfaceAndJointLimits) {
+  const auto model = Model(R"(<model name='m'><link name='a'>
+    <inertial><mass>2</mass><pose>0 0 0.1 0 0 0</pose><inertia><ixx>1</ixx><iyy>2</iyy><izz>2.5</izz><ixy>0.1</ixy></inertia></inertial>
+    <collision name='c'><geometry><sphere><radius>0.2</radius></sphere></geometry><surface>
+      <friction><ode><mu>0.4</mu><mu2>0.3</mu2></ode></friction><bounce><restitution_coefficient>0.6</restitution_coefficient></bounce></surface></collision>
+    </link><link name='b'/><joint name='j' type='prismatic'><parent>a</parent><child>b</child>
+    <axis><xyz>0 0 2</xyz><limit><lower>-1</lower><upper>0.5</upper><effort>7</effort><velocity>3</velocity></limit>
+    <dynamics><damping>0.2</damping><friction>0.1</friction></dynamics></axis></joint></model>)");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  const model::Inertial& inertial = model->links[0].inertial;
+  EXPECT_EQ(inertial.mass, 2);
+  EXPECT_EQ(inertial.link_from_com.position.z, 0.1);
+  EXPECT_EQ(inertial.izz, 2.5);
+  EXPECT_EQ(inertial.ixy, 0.1);
+  const model::Surface& surface = model->links[0].collisions.at(0).surface;
+  EXPECT_EQ(surface.friction, 0.4);
+  EXPECT_EQ(surface.friction2, 0.3);
+  EXPECT_EQ(surface.restitution, 0.6);
+  const model::Joint& joint = model->joints.at(0);
+  EXPECT_EQ(joint.axis, (Vector3{0, 0, 1}));
+  EXPECT_EQ(joint.position_limits.min, -1);
+  EXPECT_EQ(joint.position_limits.max, 0.5);
+  EXPECT_EQ(joint.effort_limit, 7);
+  EXPECT_EQ(joint.velocity_limit, 3);
+  EXPECT_EQ(joint.damping, 0.2);
+  EXPECT_EQ(joint.friction, 0.1);
+}
+
+TEST_F(SdfReaderTest, ReadsEveryShape) {
+  const auto model = Model(R"(<model name='m'><link name='l'>
+    <collision name='1'><geometry><box><size>1 2 3</size></box></geometry></collision>
+    <collision name='2'><geometry><sphere><radius>0.5</radius></sphere></geometry></collision>
+    <collision name='3'><geometry><cylinder><radius>0.5</radius><length>2</length></cylinder></geometry></collision>
+    <collision name='4'><geometry><capsule><radius>0.5</radius><length>2</length></capsule></geometry></collision>
+    <collision name='5'><geometry><ellipsoid><radii>1 2 3</radii></ellipsoid></geometry></collision>
+    <collision name='6'><geometry><cone><radius>0.25</radius><length>0.75</length></cone></geometry></collision>
+    <collision name='7'><geometry><plane><normal>0 2 0</normal><size>3 4</size></plane></geometry></collision>
+    <collision name='8'><geometry><polyline><point>0 0</point><point>1 0</point><point>0 1</point><height>2</height></polyline></geometry></collision>
+    <collision name='9'><geometry><empty/></geometry></collision>
+    </link></model>)");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  const auto& collisions = model->links.at(0).collisions;
+  ASSERT_THAT(collisions, SizeIs(8));
+  EXPECT_EQ(std::get<geometry::Box>(collisions[0].shape).size, (Vector3{1, 2, 3}));
+  EXPECT_EQ(std::get<geometry::Capsule>(collisions[3].shape).length, 2);
+  EXPECT_EQ(std::get<geometry::Ellipsoid>(collisions[4].shape).radii, (Vector3{1, 2, 3}));
+  EXPECT_EQ(std::get<geometry::Cone>(collisions[5].shape).length, 0.75);
+  EXPECT_EQ(std::get<geometry::Plane>(collisions[6].shape).normal, (Vector3{0, 1, 0}));
+  EXPECT_THAT(std::get<geometry::Mesh>(collisions[7].shape).triangles->triangles, SizeIs(8));
+}
+
+constexpr char kObj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST_F(SdfReaderTest, ReadsMeshesByEveryKindOfNameAndSharesThem) {
+  folder_.Write("thing/meshes/a.obj", kObj);
+  std::string visuals;
+  int i = 0;
+  for (const std::string& uri :
+       {std::string("meshes/a.obj"), std::string("model://thing/meshes/a.obj"),
+        std::string("file://meshes/a.obj"), std::string("meshes\\A.OBJ"),
+        "file://" + (folder_.path() / "thing/meshes/a.obj").string()}) {
+    visuals += "<visual name='v" + std::to_string(i++) + "'><geometry><mesh><uri>" + uri +
+               "</uri><scale>2 2 2</scale></mesh></geometry></visual>";
+  }
+  folder_.Write("thing/model.sdf",
+                Sdf("<model name='thing'><link name='l'>" + visuals + "</link></model>"));
+  const auto model = ModelLibrary().ReadModel((folder_.path() / "thing").string(), problems_);
+  ASSERT_TRUE(model.has_value());
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_THAT((*model)->links[0].visuals, SizeIs(5));
+  const auto& first = std::get<geometry::Mesh>((*model)->links[0].visuals[0].shape);
+  EXPECT_EQ(first.scale, (Vector3{2, 2, 2}));
+  for (const auto& visual : (*model)->links[0].visuals) {
+    EXPECT_EQ(std::get<geometry::Mesh>(visual.shape).triangles, first.triangles);
+  }
+}
+
+TEST_F(SdfReaderTest, DrawsCollisionShapesWhereAMeshIsAbsent) {
+  const std::string mesh = "<geometry><mesh><uri>nowhere.stl</uri></mesh></geometry>";
+  const auto model = Model("<model name='m'><link name='l'><visual name='v'>" + mesh +
+                           "</visual><visual name='v2'>" + mesh + "</visual>" + kBox +
+                           "<collision name='lost'>" + mesh + "</collision></link></model>");
+  ASSERT_THAT(model->links.at(0).visuals, SizeIs(1));
+  EXPECT_TRUE(std::holds_alternative<geometry::Box>(model->links[0].visuals[0].shape));
+  EXPECT_THAT(model->links[0].collisions, SizeIs(1));
+  ASSERT_THAT(problems_, SizeIs(3));
+  for (const auto& problem : problems_) {
+    EXPECT_EQ(problem.severity, base::Problem::Severity::kWarning);
+    EXPECT_THAT(problem.Sentence(), HasSubstr("nowhere.stl"));
+    EXPECT_THAT(problem.Sentence(), HasSubstr("m.sdf:3: /sdf/model"));
+  }
+}
+
+TEST_F(SdfReaderTest, ReadsMaterials) {
+  folder_.Write("materials/scripts/own.material",
+                "material Own/Look { technique { pass { diffuse 0 0 1 1 } } }");
+  const auto visual = [](const std::string& name, const std::string& material) {
+    return "<visual name='" + name + "'><transparency>" + (name == "glass" ? "0.75" : "0") +
+           "</transparency><geometry><box><size>1 1 1</size></box></geometry>" + material +
+           "</visual>";
+  };
+  const auto model = Model(
+      "<model name='m'><link name='l'>" + visual("plain", "") +
+      visual("glass",
+             "<material><diffuse>1 0 0 1</diffuse><emissive>0 0.5 0 1</emissive></material>") +
+      visual("gazebo",
+             "<material><script><uri>file://media/materials/scripts/gazebo.material</uri>"
+             "<name>Gazebo/Green</name></script></material>") +
+      visual("own",
+             "<material><script><uri>materials/scripts</uri><name>Own/Look</name></script></"
+             "material>") +
+      visual("metal",
+             "<material><pbr><metal><metalness>0.9</metalness><roughness>0.2</roughness></metal></"
+             "pbr></material>") +
+      "</link></model>");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  const auto& visuals = model->links.at(0).visuals;
+  ASSERT_THAT(visuals, SizeIs(5));
+  EXPECT_EQ(visuals[0].materials.at(0).base_colour, model::Material{}.base_colour);
+  EXPECT_EQ(visuals[1].materials[0].base_colour, (model::Colour{1, 0, 0, 0.25}));
+  EXPECT_EQ(visuals[1].materials[0].emissive.g, 0.5);
+  EXPECT_EQ(visuals[2].materials[0].base_colour, (model::Colour{0, 1, 0, 1}));
+  EXPECT_EQ(visuals[3].materials[0].base_colour, (model::Colour{0, 0, 1, 1}));
+  EXPECT_EQ(visuals[4].materials[0].metalness, 0.9);
+  EXPECT_EQ(visuals[4].materials[0].roughness, 0.2);
+}
+
+TEST_F(SdfReaderTest, AModelIsAnEnvironmentWithSunAndGround) {
+  folder_.Write("hall/model.sdf",
+                Sdf("<model name='hall'><static>true</static><pose>1 2 0 0 0 0</pose>"
+                    "<link name='l'>" +
+                    std::string(kBox) + "</link></model>"));
+  const auto world = ModelLibrary().ReadWorld(folder_.path() / "hall", problems_);
+  ASSERT_TRUE(world.has_value());
+  EXPECT_THAT(Sentences(), IsEmpty());
+  EXPECT_EQ(world->name, "hall");
+  ASSERT_THAT(world->models, SizeIs(2));
+  EXPECT_EQ(world->models[0].name, "ground_plane");
+  EXPECT_EQ(world->models[1].world_from_model.position, (Vector3{1, 2, 0}));
+  EXPECT_THAT(world->lights, SizeIs(1));
+}
+
+TEST_F(SdfReaderTest, FindsRobotsByNameAndReadsThemOnce) {
+  folder_.Write("lib/rover/model.sdf", Sdf("<model name='rover'><link name='l'/></model>"));
+  ReadOptions options;
+  options.model_path = {folder_.path() / "lib"};
+  ModelLibrary library(options);
+  const auto by_name = library.ReadModel("rover", problems_);
+  const auto by_folder = library.ReadModel((folder_.path() / "lib/rover").string(), problems_);
+  ASSERT_TRUE(by_name.has_value());
+  EXPECT_EQ(by_name.value(), by_folder.value());
+  const auto beside = ModelLibrary().ReadModel("rover", problems_, folder_.path() / "lib/w.world");
+  EXPECT_TRUE(beside.has_value());
+  const auto absent = library.ReadModel("no_such_robot", problems_);
+  ASSERT_FALSE(absent.has_value());
+  EXPECT_EQ(absent.error().code, base::ErrorCode::kBadModel);
+  EXPECT_THAT(absent.error().Sentence(), HasSubstr("no_such_robot"));
+}
+
+TEST_F(SdfReaderTest, ReadsUrdfWithItsFixedJointsLumped) {
+  folder_.Write("robot.urdf", R"(<?xml version='1.0'?>
+<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'><xacro:arg name='ns' default=''/><xacro:property name='p' value='$(arg ns)'/>
+<link name='${p}base'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>
+<collision><geometry><box size='1 1 1'/></geometry></collision></link>
+<link name='wheel'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>
+<link name='cap'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>
+<joint name='axle' type='continuous'><parent link='base'/><child link='wheel'/><origin xyz='0 0.5 0'/><axis xyz='0 1 0'/></joint>
+<joint name='glue' type='fixed'><parent link='base'/><child link='cap'/></joint></robot>)");
+  const auto model = ModelLibrary().ReadModel((folder_.path() / "robot.urdf").string(), problems_);
+  ASSERT_TRUE(model.has_value()) << model.error().Sentence();
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_THAT((*model)->links, SizeIs(2));
+  EXPECT_EQ((*model)->links[0].name, "base");
+  EXPECT_EQ((*model)->links[0].inertial.mass, 2);
+  EXPECT_EQ((*model)->joints.at(0).kind, model::JointKind::kContinuous);
+  ExpectNear((*model)->joints[0].model_from_joint.position, {0, 0.5, 0});
+
+  folder_.Write("macro.urdf", "<robot name='r' xmlns:xacro='x'>\n<xacro:macro name='m'/></robot>");
+  const auto macro = ModelLibrary().ReadModel((folder_.path() / "macro.urdf").string(), problems_);
+  ASSERT_FALSE(macro.has_value());
+  EXPECT_THAT(macro.error().Sentence(), HasSubstr("macro.urdf:2: <xacro:macro> needs xacro"));
+}
+
+}  // namespace
+}  // namespace gsv::formats

@@ -1,0 +1,225 @@
+// Drives and sensors as robots' files describe them.
+#include <gmock/gmock.h>
+
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/formats/test_folder.h"
+
+namespace gsv::formats {
+namespace {
+
+using model::DriveKind;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// A base with four wheels of radius 0.15 at x = ±0.4, y = ±0.3, each turning about y.
+std::string Robot(const std::string& more, const std::string& base_more = "") {
+  std::string sdf = "<sdf version='1.9'><model name='r'><link name='base'>" + base_more + "</link>";
+  for (const auto& [name, x, y] :
+       {std::tuple{"fl", 0.4, 0.3}, {"fr", 0.4, -0.3}, {"rl", -0.4, 0.3}, {"rr", -0.4, -0.3}}) {
+    const std::string wheel = name;
+    sdf += "<link name='" + wheel + "'><pose>" + std::to_string(x) + " " + std::to_string(y) +
+           " 0 -1.5707963 0 0</pose><collision name='c'><geometry><cylinder><radius>0.15</radius>"
+           "<length>0.05</length></cylinder></geometry></collision></link><joint name='" +
+           wheel + "_joint' type='revolute'><parent>base</parent><child>" + wheel +
+           "</child><axis><xyz>0 0 1</xyz></axis></joint>";
+  }
+  return sdf + more + "</model></sdf>";
+}
+
+std::string Plugin(const std::string& file, const std::string& name, const std::string& content) {
+  return "<plugin filename='" + file + "' name='" + name + "'>" + content + "</plugin>";
+}
+
+class SdfRobotTest : public testing::Test {
+ protected:
+  std::shared_ptr<const model::Model> Read(const std::string& sdf) {
+    auto model = ModelLibrary().ReadModel(folder_.Write("r.sdf", sdf).string(), problems_);
+    EXPECT_TRUE(model.has_value()) << (model ? "" : model.error().Sentence());
+    return model.value_or(std::make_shared<const model::Model>());
+  }
+  std::optional<model::Drive> DriveOf(const std::string& plugin) {
+    return Read(Robot(plugin))->drive;
+  }
+
+  TestFolder folder_;
+  base::Problems problems_;
+};
+
+TEST_F(SdfRobotTest, ReadsGazebosDiffDriveWithItsLimits) {
+  for (const char* name : {"gz::sim::systems::DiffDrive", "ignition::gazebo::systems::DiffDrive"}) {
+    const auto drive =
+        DriveOf(Plugin("gz-sim-diff-drive-system", name,
+                       "<left_joint>fl_joint</left_joint><right_joint>fr_joint</right_joint>"
+                       "<wheel_separation>0.62</wheel_separation><wheel_radius>0.16</wheel_radius>"
+                       "<max_linear_velocity>1.5</max_linear_velocity><min_linear_velocity>-0.5</"
+                       "min_linear_velocity>"
+                       "<max_angular_velocity>2</max_angular_velocity><max_linear_acceleration>3</"
+                       "max_linear_acceleration>"
+                       "<command_timeout>0.25</command_timeout>"));
+    ASSERT_TRUE(drive.has_value()) << name;
+    EXPECT_EQ(drive->kind, DriveKind::kDifferential);
+    EXPECT_THAT(drive->left_wheels, ElementsAre(0));
+    EXPECT_THAT(drive->right_wheels, ElementsAre(1));
+    EXPECT_EQ(drive->wheel_separation, 0.62);
+    EXPECT_EQ(drive->wheel_radius, 0.16);
+    EXPECT_EQ(drive->linear_velocity.max, 1.5);
+    EXPECT_EQ(drive->linear_velocity.min, -0.5);
+    EXPECT_EQ(drive->angular_velocity.min, -2);
+    EXPECT_EQ(drive->linear_acceleration.min, -3);
+    EXPECT_EQ(drive->command_timeout, std::chrono::milliseconds(250));
+  }
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+TEST_F(SdfRobotTest, MeasuresWhatTheFileLeavesOut) {
+  const auto drive = DriveOf(Plugin(
+      "libDiffDrivePlugin.so", "diff_drive",
+      "<left_joint>fl_joint</left_joint><right_joint>fr_joint</right_joint><torque>5</torque>"));
+  ASSERT_TRUE(drive.has_value());
+  EXPECT_NEAR(drive->wheel_separation, 0.6, 1e-12);
+  EXPECT_NEAR(drive->wheel_radius, 0.15, 1e-12);
+}
+
+TEST_F(SdfRobotTest, ReadsTheDialectsOfDiffDrive) {
+  const auto ros1 =
+      DriveOf(Plugin("libgazebo_ros_diff_drive.so", "x",
+                     "<leftJoint>fl_joint</leftJoint><rightJoint>fr_joint</rightJoint>"
+                     "<wheelSeparation>0.7</wheelSeparation><wheelDiameter>0.4</wheelDiameter>"));
+  ASSERT_TRUE(ros1.has_value());
+  EXPECT_EQ(ros1->wheel_separation, 0.7);
+  EXPECT_EQ(ros1->wheel_radius, 0.2);
+
+  const auto ros2 = DriveOf(
+      Plugin("libgazebo_ros_diff_drive.so", "x",
+             "<left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>"
+             "<right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>"
+             "<wheel_separation>0.7</wheel_separation><wheel_diameter>0.4</wheel_diameter>"));
+  ASSERT_TRUE(ros2.has_value());
+  EXPECT_THAT(ros2->left_wheels, ElementsAre(0, 2));
+  EXPECT_EQ(ros2->wheel_radius, 0.2);
+
+  const auto skid =
+      DriveOf(Plugin("libSkidSteerDrivePlugin.so", "SkidSteerDrivePlugin",
+                     "<right_front>fr_joint</right_front><right_rear>rr_joint</right_rear>"
+                     "<left_front>fl_joint</left_front><left_rear>rl_joint</left_rear>"));
+  ASSERT_TRUE(skid.has_value());
+  EXPECT_EQ(skid->kind, DriveKind::kDifferential);
+  EXPECT_THAT(skid->right_wheels, ElementsAre(1, 3));
+  EXPECT_NEAR(skid->wheel_separation, 0.6, 1e-12);
+}
+
+TEST_F(SdfRobotTest, ReadsTheOtherDrives) {
+  const auto mecanum = DriveOf(Plugin(
+      "gz-sim-mecanum-drive-system", "gz::sim::systems::MecanumDrive",
+      "<front_left_joint>fl_joint</front_left_joint><front_right_joint>fr_joint</front_right_joint>"
+      "<back_left_joint>rl_joint</back_left_joint><back_right_joint>rr_joint</back_right_joint>"
+      "<min_acceleration>-5</min_acceleration><max_acceleration>4</max_acceleration>"));
+  ASSERT_TRUE(mecanum.has_value());
+  EXPECT_EQ(mecanum->kind, DriveKind::kMecanum);
+  EXPECT_THAT(mecanum->left_wheels, ElementsAre(0, 2));
+  EXPECT_NEAR(mecanum->wheel_base, 0.8, 1e-12);
+  EXPECT_EQ(mecanum->linear_acceleration.min, -5);
+  EXPECT_EQ(mecanum->linear_acceleration.max, 4);
+
+  const auto ackermann =
+      DriveOf(Plugin("gz-sim-ackermann-steering-system", "gz::sim::systems::AckermannSteering",
+                     "<left_joint>rl_joint</left_joint><right_joint>rr_joint</right_joint>"
+                     "<left_steering_joint>fl_joint</"
+                     "left_steering_joint><right_steering_joint>fr_joint</right_steering_joint>"
+                     "<wheel_base>0.8</wheel_base><steering_limit>0.6</steering_limit>"));
+  ASSERT_TRUE(ackermann.has_value());
+  EXPECT_EQ(ackermann->kind, DriveKind::kAckermann);
+  EXPECT_THAT(ackermann->steered, ElementsAre(0, 1));
+  EXPECT_EQ(ackermann->steering_limit, 0.6);
+
+  EXPECT_EQ(
+      DriveOf(Plugin("gz-sim-velocity-control-system", "gz::sim::systems::VelocityControl", ""))
+          ->kind,
+      DriveKind::kVelocity);
+  const auto synchro = DriveOf(
+      Plugin("gsv-synchro-drive", "gsv::SynchroDrive",
+             "<wheel_radius>0.1</wheel_radius><max_linear_velocity>0.9</max_linear_velocity>"));
+  ASSERT_TRUE(synchro.has_value());
+  EXPECT_EQ(synchro->kind, DriveKind::kSynchro);
+  EXPECT_EQ(synchro->wheel_radius, 0.1);
+  EXPECT_FALSE(DriveOf(Plugin("gz-sim-joint-state-publisher-system", "JointStatePublisher", ""))
+                   .has_value());
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+TEST_F(SdfRobotTest, ComplainsOfDrivesThatCannotWork) {
+  EXPECT_FALSE(
+      DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive",
+                     "<left_joint>nowhere</left_joint><right_joint>fr_joint</right_joint>"))
+          .has_value());
+  EXPECT_FALSE(DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive", "")).has_value());
+  EXPECT_TRUE(DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive",
+                             "<left_joint>fl_joint</left_joint><right_joint>fr_joint</"
+                             "right_joint><wheel_radius>-1</wheel_radius>"
+                             "<max_linear_velocity>1</max_linear_velocity><min_linear_velocity>2</"
+                             "min_linear_velocity>"))
+                  .has_value());
+  ASSERT_THAT(problems_, SizeIs(4));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("nowhere"));
+  EXPECT_THAT(problems_[1].Sentence(), HasSubstr("names no joint"));
+  EXPECT_THAT(problems_[2].Sentence(), HasSubstr("<wheel_radius> must be above zero"));
+  EXPECT_THAT(problems_[3].Sentence(), HasSubstr("linear_velocity"));
+  for (const auto& problem : problems_)
+    EXPECT_EQ(problem.severity, base::Problem::Severity::kError);
+}
+
+TEST_F(SdfRobotTest, ReadsSensorsOfKnownAndUnknownTypes) {
+  const auto model = Read(Robot("<frame name='mast'><pose>0 0 1 0 0 0</pose></frame>", R"(
+    <pose>0 0 0.1 0 0 0</pose>
+    <sensor name='scan' type='gpu_lidar'><pose>0.1 0 0.2 0 0 0</pose><update_rate>5</update_rate><visualize>true</visualize>
+      <lidar><scan><horizontal><samples>360</samples><min_angle>-1</min_angle><max_angle>1</max_angle></horizontal></scan>
+      <range><min>0.1</min><max>3.5</max></range><noise><type>gaussian</type><stddev>0.01</stddev></noise></lidar></sensor>
+    <sensor name='eye' type='camera'><pose relative_to='mast'>0 0 0.5 0 0 0</pose>
+      <camera><horizontal_fov>1.2</horizontal_fov><image><width>320</width><height>240</height></image>
+      <clip><near>0.05</near><far>20</far></clip></camera></sensor>
+    <sensor name='echo' type='sonar'><sonar><min>0.2</min><max>4</max><radius>0.3</radius></sonar></sensor>
+    <sensor name='where' type='positioning'><noise><stddev>0.02</stddev></noise><frame_id>map</frame_id></sensor>)"));
+  EXPECT_THAT(problems_, IsEmpty()) << problems_.front().Sentence();
+  ASSERT_THAT(model->sensors, SizeIs(4));
+  const auto& scan = model->sensors[0];
+  EXPECT_EQ(scan.type, "gpu_lidar");
+  EXPECT_EQ(scan.update_rate, 5);
+  EXPECT_TRUE(scan.visualize);
+  EXPECT_EQ(scan.link, 0);
+  EXPECT_EQ(scan.link_from_sensor.position, (geometry::Vector3{0.1, 0, 0.2}));
+  EXPECT_EQ(model::NumberOr(scan.parameters, "scan.horizontal.samples", 0), 360);
+  EXPECT_EQ(model::NumberOr(scan.parameters, "range.max", 0), 3.5);
+  EXPECT_EQ(model::NumberOr(scan.parameters, "noise.stddev", 0), 0.01);
+  EXPECT_EQ(model::TextOr(scan.parameters, "noise.type", ""), "gaussian");
+
+  const auto& eye = model->sensors[1];
+  EXPECT_EQ(model::NumberOr(eye.parameters, "horizontal_fov", 0), 1.2);
+  EXPECT_EQ(model::NumberOr(eye.parameters, "image.width", 0), 320);
+  EXPECT_EQ(model::NumberOr(eye.parameters, "clip.near", 0), 0.05);
+  EXPECT_NEAR(eye.link_from_sensor.position.z, 1.4,
+              1e-12);  // 1 + 0.5 in the model, 0.1 up the link
+
+  const auto& echo = model->sensors[2];
+  EXPECT_EQ(echo.type, "sonar");
+  EXPECT_EQ(model::NumberOr(echo.parameters, "min", 0), 0.2);
+  EXPECT_EQ(model::NumberOr(echo.parameters, "radius", 0), 0.3);
+
+  const auto& where = model->sensors[3];
+  EXPECT_EQ(where.type, "positioning");
+  EXPECT_EQ(model::NumberOr(where.parameters, "noise.stddev", 0), 0.02);
+  EXPECT_EQ(model::TextOr(where.parameters, "frame_id", ""), "map");
+}
+
+TEST_F(SdfRobotTest, GivesSensorsOfOneNameDifferentNames) {
+  const auto model = Read(
+      "<sdf version='1.9'><model name='r'><link name='a'><sensor name='s' type='imu'/></link>"
+      "<link name='b'><sensor name='s' type='imu'/></link></model></sdf>");
+  ASSERT_THAT(model->sensors, SizeIs(2));
+  EXPECT_EQ(model->sensors[0].name, "s");
+  EXPECT_EQ(model->sensors[1].name, "b::s");
+}
+
+}  // namespace
+}  // namespace gsv::formats
