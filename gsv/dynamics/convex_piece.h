@@ -1,0 +1,70 @@
+// Convex pieces of the plane, with round corners: what footprints and slices of obstacles are made
+// of, and how far apart two of them are.
+//
+// Units  metres. Both pieces of a pair are given in one frame.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::dynamics {
+
+using geometry::Vector2;
+
+// All points within `radius` of the convex hull of the vertices: with one vertex a disc, with two a
+// segment or stadium, with more a polygon.
+struct ConvexPiece {
+  static constexpr int kMaxVertices = 16;
+
+  double radius = 0;
+  int vertex_count = 0;                        // at least 1
+  std::array<Vector2, kMaxVertices> vertices;  // counter-clockwise, strictly convex
+
+  std::span<const Vector2> points() const { return {vertices.data(), std::size_t(vertex_count)}; }
+};
+
+ConvexPiece Disc(Vector2 centre, double radius);
+
+// The hull of any number (at least one) of points. A hull of more than kMaxVertices corners becomes
+// the smallest polygon around it whose edges have kMaxVertices evenly spread directions.
+ConvexPiece Hull(std::vector<Vector2> points);
+
+// The polygon around a shape whose edges face `angle`, `angle` + 1/kMaxVertices of a turn, and so
+// on. `support` gives how far the shape reaches in a direction of unit length. Exact for polygons
+// whose edges have such directions.
+ConvexPiece PolygonAround(const std::function<double(Vector2)>& support, double angle);
+
+// Turned by the angle whose cosine and sine are given, then shifted.
+void Place(const ConvexPiece& piece, double x, double y, double cosine, double sine,
+           ConvexPiece& placed);
+
+// How two pieces lie to each other.
+struct Separation {
+  double distance = 0;  // below 0: how deep they overlap, along the normal
+  Vector2 normal;       // unit length, from the first to the second
+  Vector2 point;        // where they are closest, halfway between them
+};
+
+Separation Separate(const ConvexPiece& a, const ConvexPiece& b);
+
+// From a point to the nearest point of the piece; 0 inside its polygon.
+double DistanceTo(const ConvexPiece& piece, Vector2 point);
+
+// Whether every point of `inner` lies in `outer` (within `tolerance`). May miss it when `outer` has
+// both corners and a radius; never claims it wrongly.
+bool Contains(const ConvexPiece& outer, const ConvexPiece& inner, double tolerance);
+
+// The smallest circle about the mean of the vertices that holds the piece.
+ConvexPiece BoundingDisc(const ConvexPiece& piece);
+
+inline double Dot(Vector2 a, Vector2 b) { return a.x * b.x + a.y * b.y; }
+inline double Cross(Vector2 a, Vector2 b) { return a.x * b.y - a.y * b.x; }
+inline Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.y + b.y}; }
+inline Vector2 operator-(Vector2 a, Vector2 b) { return {a.x - b.x, a.y - b.y}; }
+inline Vector2 operator*(double s, Vector2 a) { return {s * a.x, s * a.y}; }
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,84 @@
+// How a wheeled base follows commands: limits, the twist that results, how its wheels turn.
+//
+// Frames   the model's; the commanded velocity is that of the drive's reference point: halfway
+//          between the wheels along x, on the rear axle for Ackermann steering, the model's origin
+//          for a base without wheels.
+// Source   for the wheels' equations: Siegwart, Nourbakhsh, Scaramuzza, "Introduction to Autonomous
+//          Mobile Robots", 2nd edition, chapter 3.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/dynamics/planar_motion.h"
+#include "gsv/model/model.h"
+#include "gsv/world/state.h"
+
+namespace gsv::dynamics {
+
+// No base is faster than this, whatever its limits say.
+inline constexpr double kMaxLinearSpeed = 100;   // m/s
+inline constexpr double kMaxAngularSpeed = 100;  // rad/s
+
+// What a base covered in a step: of its reference point in its own frame, and of its heading.
+struct Travel {
+  double forward = 0, left = 0, angle = 0;
+};
+
+class DriveKinematics {
+ public:
+  // Refuses limits and dimensions that make no sense, and joints that are not there.
+  static base::Result<DriveKinematics> Create(const model::Model& model);
+
+  // A person's or a bodiless base: takes whatever velocity it is given.
+  static DriveKinematics Free();
+
+  // Motion in the next step, from the motion now and the command (ignored once it is older than the
+  // drive's timeout; what is not finite counts as zero).
+  world::DriveCommand Next(const world::DriveState& state, base::SimTime now,
+                           double step_seconds) const;
+
+  // The twist of the model's origin when the reference point moves so.
+  Twist OriginTwist(const world::DriveCommand& motion) const {
+    return {motion.linear, motion.lateral - motion.angular * reference_x_, motion.angular};
+  }
+
+  bool can_turn_on_the_spot() const { return drive_.kind != model::DriveKind::kAckermann; }
+  // May slide along what it runs into.
+  bool can_move_sideways() const {
+    return drive_.kind == model::DriveKind::kMecanum || drive_.kind == model::DriveKind::kVelocity;
+  }
+  double reference_x() const { return reference_x_; }
+
+  // Turns the wheels, and steers, as the base has travelled and moves now. The spans are those of
+  // the model's joints.
+  void TurnJoints(const Travel& travel, const world::DriveCommand& motion, double step_seconds,
+                  std::span<double> positions, std::span<double> velocities) const;
+
+ private:
+  // Turns by forward * travel.forward + left * travel.left + angle * travel.angle; one in front of
+  // an Ackermann base's rear axle rolls along its own steered path instead.
+  struct Wheel {
+    int joint = 0;
+    double forward = 0, left = 0, angle = 0;  // rad/m, rad/m, rad/rad
+    double ahead = 0;                         // m in front of the rear axle
+  };
+  struct Steered {
+    int joint = 0;
+    double sign = 1;     // of the joint's axis along z
+    double lateral = 0;  // m to the left
+  };
+
+  void AddWheels(const model::Model& model, const std::vector<int>& joints, double side);
+  double RollOf(const Wheel& wheel, const Travel& travel) const;
+  double SteeringAngle(const Steered& steered, double curvature) const;
+
+  model::Drive drive_;
+  double reference_x_ = 0;
+  std::vector<Wheel> wheels_;
+  std::vector<Steered> steered_;
+};
+
+}  // namespace gsv::dynamics

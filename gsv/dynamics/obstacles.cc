@@ -1,0 +1,65 @@
+#include "gsv/dynamics/obstacles.h"
+
+#include <algorithm>
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+
+// A half-space is a square of this size behind its edge.
+constexpr double kEndless = 20000;
+
+void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights,
+                std::vector<ConvexPiece>& pieces) {
+  const Vector3 normal = pose.orientation * plane.normal;
+  const double level = std::sqrt(normal.x * normal.x + normal.y * normal.y);
+  if (std::abs(normal.z) > level) return;
+  const Vector2 out{normal.x / level, normal.y / level};
+  const Vector2 along{-out.y, out.x};
+  // The edge is at the height where the half-space reaches out the furthest.
+  const double height = normal.z > 0 ? heights.low : heights.high;
+  const double shift = -normal.z * (height - pose.position.z) / level;
+  const Vector2 edge = Vector2{pose.position.x, pose.position.y} + shift * out;
+  const Vector2 side = (kEndless / 2) * along, back = kEndless * out;
+  pieces.push_back(Hull({edge - side, edge + side, edge + side - back, edge - side - back}));
+}
+
+void SliceBody(const world::Body& body, const Pose& world_from_model, Interval heights,
+               std::vector<ConvexPiece>& pieces) {
+  for (const model::Link& link : body.model->links) {
+    for (const model::Collision& collision : link.collisions) {
+      const Pose pose = world_from_model * link.model_from_link * collision.link_from_collision;
+      if (const auto* plane = std::get_if<geometry::Plane>(&collision.shape)) {
+        SlicePlane(*plane, pose, heights, pieces);
+      } else {
+        Slice(collision.shape, pose, heights, pieces);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool IsDriven(const world::Body& body) {
+  return !body.is_static && (body.model->drive.has_value() || body.is_avatar);
+}
+
+std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
+                                       Interval heights) {
+  std::vector<Obstacle> obstacles;
+  std::vector<ConvexPiece> pieces;
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    if (IsDriven(layout.bodies[i])) continue;
+    pieces.clear();
+    SliceBody(layout.bodies[i], state.bodies[i].world_from_model, heights, pieces);
+    for (const ConvexPiece& piece : pieces) {
+      const ConvexPiece disc = BoundingDisc(piece);
+      obstacles.push_back({piece, disc.vertices[0], disc.radius, static_cast<int>(i)});
+    }
+  }
+  return obstacles;
+}
+
+}  // namespace gsv::dynamics

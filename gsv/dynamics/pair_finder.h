@@ -1,0 +1,45 @@
+// Which of many discs may touch: a uniform grid, built anew for each question.
+//
+// Determinism  the pairs and their order depend on the discs alone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::dynamics {
+
+class PairFinder {
+ public:
+  struct Pair {
+    std::uint32_t first, second;  // first < second
+    friend auto operator<=>(const Pair&, const Pair&) = default;
+  };
+
+  // All pairs of discs that overlap, once each, in ascending order. The spans are of one length;
+  // the result is valid until the next call. Allocates only while the number of discs or pairs
+  // grows.
+  const std::vector<Pair>& Find(std::span<const geometry::Vector2> centres,
+                                std::span<const double> radii);
+
+ private:
+  struct Entry {
+    double x, y, radius;
+    std::uint32_t index;
+  };
+
+  void Sort(std::span<const geometry::Vector2> centres, std::span<const double> radii);
+  void PairWithin(std::uint32_t begin, std::uint32_t end);
+  void PairAcross(std::uint32_t begin, std::uint32_t end, std::uint32_t other_begin,
+                  std::uint32_t other_end);
+  void AddIfNear(const Entry& a, const Entry& b);
+
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::uint32_t> cell_of_, cell_start_;
+  std::vector<Entry> entries_;  // by cell
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,30 @@
+// What the encoders of sensor readings share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/std_msgs.h"
+#include "gsv/messages/time.h"
+#include "gsv/sensing/reading.h"
+
+namespace gsv::sensing {
+
+inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::string& frame_id) {
+  messages::std_msgs::Header header;
+  header.stamp = messages::ToMessage(reading.time);
+  header.frame_id = frame_id;
+  return header;
+}
+
+// The message in CDR.
+template <typename Message>
+std::vector<std::uint8_t> Encoded(const Message& message) {
+  messages::Bytes bytes;
+  messages::Encode(message, bytes);
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  return {begin, begin + bytes.size()};
+}
+
+}  // namespace gsv::sensing

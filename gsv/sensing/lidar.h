@@ -1,0 +1,24 @@
+// A laser scanner: ranges over a fan, or several fans above each other, of beams.
+//
+// Frame       sensor frame: a beam at azimuth a (about z, counter-clockwise from x) and elevation e
+//             (upwards) points to (cos e cos a, cos e sin a, sin e). The robot's own body is not
+//             hit.
+// Reading     values: metres, by elevation from the lowest, within it by azimuth from the smallest.
+//             As in REP-117 a hit nearer than range.min reads -infinity, none within range.max
+//             +infinity.
+// Parameters  SDFormat's, flattened. scan.horizontal.samples (360), .resolution (1: beams for each
+//             sample), .min_angle (-pi), .max_angle (pi - one beam's width); scan.vertical.* the
+//             same (1 sample at 0). With one beam the angle is min_angle. range.min (0.08),
+//             range.max (10). noise.mean, noise.stddev (0): Gaussian, metres, on what lies within
+//             the limits and kept there; none if noise.type is "none". Of range.resolution nothing
+//             is made, as in Gazebo.
+// Message     sensor_msgs/LaserScan: of several fans the one nearest to the horizontal.
+#pragma once
+
+#include "gsv/sensing/registry.h"
+
+namespace gsv::sensing {
+
+SensorType LidarType();
+
+}  // namespace gsv::sensing

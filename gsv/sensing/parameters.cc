@@ -1,0 +1,39 @@
+#include "gsv/sensing/parameters.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gsv::sensing {
+
+void ParameterReader::Refuse(const std::string& why) {
+  if (!status_) return;
+  status_ = base::Fail(base::ErrorCode::kInvalidArgument, why,
+                       fmt::format("{} {}", description_.type, description_.name));
+}
+
+double ParameterReader::Number(const std::string& name, double otherwise, double low, double high) {
+  const auto it = description_.parameters.find(name);
+  if (it == description_.parameters.end()) return otherwise;
+  const double* value = std::get_if<double>(&it->second);
+  if (value == nullptr) {
+    Refuse(fmt::format("{} must be a number", name));
+    return otherwise;
+  }
+  if (!(*value >= low && *value <= high)) {
+    Refuse(fmt::format("{} is {}; it must lie between {} and {}", name, *value, low, high));
+    return otherwise;
+  }
+  return *value;
+}
+
+int ParameterReader::Count(const std::string& name, int otherwise, int low, int high) {
+  const double value = Number(name, otherwise, low, high);
+  if (value != std::floor(value)) {
+    Refuse(fmt::format("{} is {}; it must be a whole number", name, value));
+    return otherwise;
+  }
+  return static_cast<int>(value);
+}
+
+}  // namespace gsv::sensing

@@ -1,0 +1,38 @@
+// Sensor parameters, checked as they are read.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/model/sensor_description.h"
+
+namespace gsv::sensing {
+
+// Reads one sensor's parameters; remembers the first that cannot be, so that a reader asks once, at
+// the end:
+//   ParameterReader reader(description);
+//   settings.max = reader.Number("max", 5, 0, 1000);
+//   if (auto status = reader.status(); !status) return base::Fail(status.error());
+class ParameterReader {
+ public:
+  explicit ParameterReader(const model::SensorDescription& description)
+      : description_(description) {}
+
+  // The number of that name, `otherwise` if there is none. It must lie in [low, high].
+  double Number(const std::string& name, double otherwise, double low, double high);
+
+  // The same for a whole number.
+  int Count(const std::string& name, int otherwise, int low, int high);
+
+  // Says that the parameters do not fit together.
+  void Refuse(const std::string& why);
+
+  const base::Status& status() const { return status_; }
+
+ private:
+  const model::SensorDescription& description_;
+  base::Status status_;
+};
+
+}  // namespace gsv::sensing

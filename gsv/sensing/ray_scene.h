@@ -1,0 +1,60 @@
+// The solids of a world at one instant, to cast rays against.
+//
+// Exactness    Embree only finds which primitive a ray meets; the distance is computed again in
+//              double precision from the triangle or the analytic shape, so that it is the same on
+//              every machine and for every thread count.
+// Threads      const members may run concurrently.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "gsv/world/snapshot.h"
+
+namespace gsv::sensing {
+
+struct Ray {
+  geometry::Vector3 origin;     // world
+  geometry::Vector3 direction;  // world, unit length
+  double max_distance = 0;      // m
+};
+
+struct Hit {
+  double distance = 0;       // m along the ray, in [0, max_distance]
+  geometry::Vector3 normal;  // world, unit length, against the ray
+  int body = -1;             // index in the layout
+};
+
+class RayScene {
+ public:
+  virtual ~RayScene() = default;
+
+  // The nearest collision surface, entered or left, that is not of the body `ignored_body` (-1: of
+  // any). A ray that starts inside a solid hits the far side.
+  virtual std::optional<Hit> Cast(const Ray& ray, int ignored_body) const = 0;
+
+  // The same for many rays; hits[i] is rays[i]'s.
+  virtual void Cast(std::span<const Ray> rays, int ignored_body,
+                    std::span<std::optional<Hit>> hits) const = 0;
+};
+
+// Ray scenes for snapshots, built when asked for. The static part is built once a layout, and a
+// scene that nobody holds any more is moved on to the next snapshot.
+class RaySceneCache {
+ public:
+  RaySceneCache();
+  ~RaySceneCache();
+  RaySceneCache(const RaySceneCache&) = delete;
+  RaySceneCache& operator=(const RaySceneCache&) = delete;
+
+  // Any thread; callers with the same snapshot get the same scene.
+  std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gsv::sensing

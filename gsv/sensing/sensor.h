@@ -1,0 +1,70 @@
+// One sensor on one robot.
+//
+// Threads      const members may run concurrently.
+// Determinism  Sample() is a function of the sampling's snapshot, robot and seed alone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "gsv/base/error.h"
+#include "gsv/base/random.h"
+#include "gsv/sensing/ray_scene.h"
+#include "gsv/sensing/reading.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::sensing {
+
+// All that a reading may depend on.
+class Sampling {
+ public:
+  // `body` is the robot's index in the snapshot's layout. `rays` outlives the sampling.
+  Sampling(std::shared_ptr<const world::Snapshot> snapshot, int body, std::uint64_t seed,
+           RaySceneCache& rays)
+      : snapshot_(std::move(snapshot)), body_(body), seed_(seed), rays_(rays) {}
+
+  const std::shared_ptr<const world::Snapshot>& snapshot() const { return snapshot_; }
+  int body() const { return body_; }
+  const world::Body& robot() const { return snapshot_->layout->bodies[body_]; }
+
+  // The solids of the world at this instant; built on first use, shared by all who sample it.
+  std::shared_ptr<const RayScene> Rays() const { return rays_.At(snapshot_); }
+
+  geometry::Pose WorldFromSensor(const model::SensorDescription& description) const {
+    return world::LinkPose(*snapshot_, body_, description.link) * description.link_from_sensor;
+  }
+
+  // The noise of this sensor at this instant, keyed by (seed, robot, sensor, step).
+  base::Noise NoiseOf(const model::SensorDescription& description) const {
+    return {seed_, base::StableId(robot().name + "/" + description.name),
+            static_cast<std::uint64_t>(snapshot_->state.step)};
+  }
+
+  // A reading without values, stamped with this instant.
+  Reading Stamped() const { return {snapshot_->state.step, snapshot_->state.time, {}, nullptr}; }
+
+ private:
+  std::shared_ptr<const world::Snapshot> snapshot_;
+  int body_;
+  std::uint64_t seed_;
+  RaySceneCache& rays_;
+};
+
+class Sensor {
+ public:
+  explicit Sensor(model::SensorDescription description) : description_(std::move(description)) {}
+  virtual ~Sensor() = default;
+  Sensor(const Sensor&) = delete;
+  Sensor& operator=(const Sensor&) = delete;
+
+  const model::SensorDescription& description() const { return description_; }
+
+  // May take long (a picture) and must not be called from the stepping thread. Fails only where the
+  // means are missing: a camera without a renderer.
+  virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
+
+ private:
+  model::SensorDescription description_;
+};
+
+}  // namespace gsv::sensing

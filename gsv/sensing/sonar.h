@@ -1,0 +1,20 @@
+// A sonar: the distance to the nearest echo straight ahead.
+//
+// Frame       sensor frame: the beam runs along x. The robot's own body gives no echo.
+// Rule        that of the original system: one ray to the maximum range; no echo, or one nearer
+// than
+//             the minimum range (the transducer still rings), reads as the maximum.
+// Reading     values = {range}, metres.
+// Parameters  min (0), max (5): range, metres. field_of_view (0.26): the cone's width in radians,
+// for
+//             the message only; `radius`, the cone's radius at max as SDFormat has it, gives it
+//             too.
+#pragma once
+
+#include "gsv/sensing/registry.h"
+
+namespace gsv::sensing {
+
+SensorType SonarType();
+
+}  // namespace gsv::sensing
