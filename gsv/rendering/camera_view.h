@@ -1,0 +1,60 @@
+// A pinhole camera: what it sees and where a point falls in its picture.
+//
+// Frames  camera frame C as a sensor frame: x along the view, y left, z up. Pixels: u to the right
+//         and v down from the picture's upper left corner; pixel (i, j) covers [i, i + 1) by
+//         [j, j + 1).
+// Model   u = width/2 - f y/x, v = height/2 - f z/x with f = width / (2 tan(horizontal_fov / 2)).
+#pragma once
+
+#include <array>
+
+#include "gsv/base/error.h"
+#include "gsv/geometry/pose.h"
+
+namespace gsv::rendering {
+
+// Units  pixels, radians, metres.
+struct CameraParameters {
+  int width = 320;
+  int height = 240;
+  double horizontal_fov = 1.047;
+  double near = 0.1;
+  double far = 100;
+};
+
+inline constexpr int kMaxPictureSide = 4096;
+
+// kInvalidArgument with a sentence that names the parameter.
+base::Status Check(const CameraParameters& camera);
+
+double FocalLength(const CameraParameters& camera);  // in pixels
+
+struct CameraView {
+  geometry::Pose world_from_camera;
+  CameraParameters parameters;
+};
+
+// The six planes of what a camera sees, in a frame with the world's axes and its origin at the
+// camera; the normals point inward.
+struct Frustum {
+  struct Plane {
+    geometry::Vector3 normal;
+    double offset = 0;
+  };
+  std::array<Plane, 6> planes;
+
+  bool MeetsSphere(const geometry::Vector3& centre, double radius) const {
+    for (const Plane& plane : planes) {
+      if (geometry::Dot(plane.normal, centre) + plane.offset < -radius) return false;
+    }
+    return true;
+  }
+};
+
+Frustum FrustumOf(const CameraView& view);
+
+// Column-major, for OpenGL with depth from 1 (near) to 0 (far) and rows from top to bottom, from
+// the frame of FrustumOf() to clip space.
+std::array<float, 16> ClipFromRelative(const CameraView& view);
+
+}  // namespace gsv::rendering

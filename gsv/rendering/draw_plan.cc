@@ -1,0 +1,164 @@
+#include "gsv/rendering/draw_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "gsv/base/check.h"
+#include "gsv/model/srgb.h"
+
+namespace gsv::rendering {
+namespace {
+
+using geometry::Scaled;
+using geometry::Vector3;
+
+SurfaceFactors FactorsOf(const model::Material& material) {
+  const model::Colour &b = material.base_colour, &e = material.emissive;
+  const auto linear = [](double value) { return static_cast<float>(model::LinearFromSrgb(value)); };
+  return {{linear(b.r), linear(b.g), linear(b.b), static_cast<float>(std::clamp(b.a, 0.0, 1.0))},
+          {linear(e.r), linear(e.g), linear(e.b),
+           static_cast<float>(std::clamp(material.metalness, 0.0, 1.0))},
+          static_cast<float>(std::clamp(material.roughness, 0.05, 1.0))};
+}
+
+// A level rectangle as large as a landscape without a picture on it stands for the ground, which
+// has no end.
+geometry::Shape AsDrawn(const model::Visual& visual) {
+  constexpr double kLandscape = 20, kHorizon = 2000;
+  const auto* plane = std::get_if<geometry::Plane>(&visual.shape);
+  if (plane == nullptr || std::min(plane->size.x, plane->size.y) < kLandscape ||
+      visual.materials.front().base_colour_map != nullptr) {
+    return visual.shape;
+  }
+  return geometry::Plane{plane->normal, {std::max(plane->size.x, kHorizon),
+                                         std::max(plane->size.y, kHorizon)}};
+}
+
+class Builder {
+ public:
+  Builder(GpuMeshes& meshes, GpuTextures& textures) : meshes_(meshes), textures_(textures) {}
+
+  void Add(const model::Visual& visual, int body, int link) {
+    const ShapeOnGpu shape = meshes_.Find(AsDrawn(visual));
+    const bool plane = std::holds_alternative<geometry::Plane>(visual.shape);
+    for (const MeshChunk& chunk : shape.mesh->chunks) {
+      const model::Material& material =
+          visual.materials[std::min<std::size_t>(chunk.material, visual.materials.size() - 1)];
+      DrawGroup group = GroupOf(material);
+      group.mesh = shape.mesh;
+      group.first_index = 3 * chunk.first_triangle;
+      group.index_count = 3 * chunk.triangle_count;
+      group.mirrored = shape.scale.x * shape.scale.y * shape.scale.z < 0;
+      group.ground = plane;
+      DrawItem item;
+      item.body = body;
+      item.link = link;
+      item.link_from_visual = visual.link_from_visual;
+      item.scale = shape.scale;
+      item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
+      item.radius = 0.5 * Norm(Scaled(chunk.bounds.max - chunk.bounds.min, shape.scale));
+      item.factors = FactorsOf(material);
+      item.casts_shadow =
+          visual.cast_shadows && !plane && group.blending != Blending::kSeeThrough;
+      item.group = Index(std::move(group));
+      items.push_back(item);
+    }
+  }
+
+  std::vector<DrawGroup> groups;
+  std::vector<DrawItem> items;
+
+ private:
+  DrawGroup GroupOf(const model::Material& material) {
+    DrawGroup group;
+    group.base_colour = textures_.Find(material.base_colour_map);
+    group.normal = textures_.Find(material.normal_map);
+    group.metallic_roughness = textures_.Find(material.metallic_roughness_map);
+    group.emissive = textures_.Find(material.emissive_map);
+    group.double_sided = material.double_sided;
+    const bool map_see_through = group.base_colour != nullptr && group.base_colour->see_through;
+    if (material.base_colour.a < 1 || (map_see_through && !material.alpha_cut_out)) {
+      group.blending = Blending::kSeeThrough;
+    } else if (map_see_through) {
+      group.blending = Blending::kCutOut;
+    }
+    return group;
+  }
+
+  int Index(DrawGroup group) {
+    const Key key{group.mesh.get(), group.first_index, group.base_colour.get(), group.normal.get(),
+                  group.metallic_roughness.get(), group.emissive.get(), group.blending,
+                  group.mirrored, group.double_sided};
+    const auto [it, is_new] = index_of_.try_emplace(key, static_cast<int>(groups.size()));
+    if (is_new) groups.push_back(std::move(group));
+    return it->second;
+  }
+
+  using Key = std::tuple<const GpuMesh*, std::uint32_t, const GpuTexture*, const GpuTexture*,
+                         const GpuTexture*, const GpuTexture*, Blending, bool, bool>;
+  GpuMeshes& meshes_;
+  GpuTextures& textures_;
+  std::map<Key, int> index_of_;
+};
+
+}  // namespace
+
+DrawPlan::DrawPlan(const world::Layout& layout, GpuMeshes& meshes, GpuTextures& textures) {
+  Builder builder(meshes, textures);
+  bodies_.resize(layout.bodies.size());
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const world::Body& body = layout.bodies[b];
+    bodies_[b].first_item = builder.items.size();
+    for (std::size_t l = 0; l < body.model->links.size(); ++l) {
+      for (const model::Visual& visual : body.model->links[l].visuals) {
+        builder.Add(visual, static_cast<int>(b), static_cast<int>(l));
+      }
+    }
+    bodies_[b].item_count = builder.items.size() - bodies_[b].first_item;
+  }
+  groups_ = std::move(builder.groups);
+  items_ = std::move(builder.items);
+  placed_.resize(items_.size());
+}
+
+void DrawPlan::Pose(const world::Snapshot& snapshot) {
+  GSV_CHECK(snapshot.layout->bodies.size() == bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    BodyPose& last = bodies_[b];
+    if (last.item_count == 0) continue;
+    const world::Body& body = snapshot.layout->bodies[b];
+    const auto first_joint = snapshot.state.joint_positions.begin() + body.first_joint;
+    const auto last_joint = first_joint + static_cast<std::ptrdiff_t>(body.model->joints.size());
+    const geometry::Pose& world_from_model = snapshot.state.bodies[b].world_from_model;
+    if (last.posed && last.world_from_model == world_from_model &&
+        std::equal(first_joint, last_joint, last.joints.begin(), last.joints.end())) {
+      continue;
+    }
+    if (last.posed && !last.moved) {
+      last.moved = true;
+      ++moved_count_;
+    }
+    last.posed = true;
+    last.world_from_model = world_from_model;
+    last.joints.assign(first_joint, last_joint);
+    const std::vector<geometry::Pose> world_from_link =
+        world::LinkPoses(snapshot, static_cast<int>(b));
+    for (std::size_t i = last.first_item; i < last.first_item + last.item_count; ++i) {
+      Place(i, world_from_link[items_[i].link]);
+    }
+  }
+}
+
+void DrawPlan::Place(std::size_t index, const geometry::Pose& world_from_link) {
+  const DrawItem& item = items_[index];
+  const geometry::Pose world_from_visual = world_from_link * item.link_from_visual;
+  const geometry::Quaternion& q = world_from_visual.orientation;
+  placed_[index] = {{q * Vector3{item.scale.x, 0, 0}, q * Vector3{0, item.scale.y, 0},
+                     q * Vector3{0, 0, item.scale.z}},
+                    world_from_visual.position,
+                    world_from_visual * item.centre_in_visual};
+}
+
+}  // namespace gsv::rendering

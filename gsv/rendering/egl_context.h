@@ -1,0 +1,43 @@
+// An OpenGL 4.5 core context without a window, a display server or a screen: EGL on a graphics
+// device, or on Mesa's surfaceless platform, whose software renderer needs no device at all.
+//
+// Errors   kUnavailable with what is missing and which package brings it.
+// Threads  created, used and destroyed on one thread, where it stays current.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gsv/base/error.h"
+
+namespace gsv::rendering {
+
+struct EglOptions {
+  // Whether a graphics card may be used; without, pictures come from Mesa's software renderer and
+  // are the same on every machine with the same Mesa.
+  bool hardware = true;
+  // The libraries that are opened; tests name ones that do not exist.
+  std::string egl_library = "libEGL.so.1";
+  std::string gl_library = "libOpenGL.so.0";
+};
+
+class EglContext {
+ public:
+  static base::Result<std::unique_ptr<EglContext>> Create(const EglOptions& options);
+  ~EglContext();
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+
+  // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6"
+  const std::string& renderer_name() const { return renderer_name_; }
+
+ private:
+  EglContext(void* display, void* context, std::string renderer_name)
+      : display_(display), context_(context), renderer_name_(std::move(renderer_name)) {}
+
+  void* display_;
+  void* context_;
+  std::string renderer_name_;
+};
+
+}  // namespace gsv::rendering

@@ -1,0 +1,56 @@
+// Names of OpenGL objects that are freed with their owner, and programs made from source.
+//
+// Threads  only on the thread whose context is current; that holds for destruction as well.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace gsv::rendering {
+
+void FreeBuffer(unsigned name);
+void FreeTexture(unsigned name);
+void FreeVertexArray(unsigned name);
+void FreeFramebuffer(unsigned name);
+void FreeRenderbuffer(unsigned name);
+void FreeProgram(unsigned name);
+
+template <void (*Free)(unsigned)>
+class GlObject {
+ public:
+  GlObject() = default;
+  explicit GlObject(unsigned name) : name_(name) {}
+  GlObject(GlObject&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  GlObject& operator=(GlObject&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~GlObject() {
+    if (name_ != 0) Free(name_);
+  }
+  unsigned name() const { return name_; }
+
+ private:
+  unsigned name_ = 0;
+};
+
+using GlBuffer = GlObject<FreeBuffer>;
+using GlTexture = GlObject<FreeTexture>;
+using GlVertexArray = GlObject<FreeVertexArray>;
+using GlFramebuffer = GlObject<FreeFramebuffer>;
+using GlRenderbuffer = GlObject<FreeRenderbuffer>;
+using GlProgram = GlObject<FreeProgram>;
+
+GlBuffer CreateBuffer();
+GlTexture CreateTexture2D();
+GlVertexArray CreateVertexArray();
+GlFramebuffer CreateFramebuffer();
+GlRenderbuffer CreateRenderbuffer();
+
+// `defines` ("#define A\n…") is put behind the #version line. Our own source: that it does not
+// compile is a bug.
+GlProgram CreateProgram(std::string_view defines, std::string_view vertex_source,
+                        std::string_view fragment_source);
+
+}  // namespace gsv::rendering

@@ -1,0 +1,15 @@
+// Pictures as JPEG (ITU-T T.81, baseline).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/model/image.h"
+
+namespace gsv::rendering {
+
+// `quality` from 1 to 100; alpha is dropped. kInvalidArgument for a picture without pixels.
+base::Result<std::vector<std::uint8_t>> EncodeJpeg(const model::Image& image, int quality);
+
+}  // namespace gsv::rendering

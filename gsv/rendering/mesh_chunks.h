@@ -1,0 +1,27 @@
+// Cuts a mesh into pieces of neighbouring triangles of one material, so that of a building only what
+// a camera sees is drawn, however its authors grouped it.
+#pragma once
+
+#include <vector>
+
+#include "gsv/geometry/triangle_mesh.h"
+
+namespace gsv::rendering {
+
+// A run of `order` in MeshChunks that shares one material, and the box around it.
+struct MeshChunk {
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+  std::uint32_t material = 0;
+  geometry::Bounds bounds;
+};
+
+// Every triangle of the mesh occurs once in `order`, in one chunk.
+struct MeshChunks {
+  std::vector<std::uint32_t> order;  // triangle indices
+  std::vector<MeshChunk> chunks;
+};
+
+MeshChunks CutIntoChunks(const geometry::TriangleMesh& mesh, std::uint32_t most_triangles = 512);
+
+}  // namespace gsv::rendering

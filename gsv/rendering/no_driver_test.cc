@@ -1,0 +1,21 @@
+// A program of its own: EGL looks for its drivers once a process.
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::rendering {
+namespace {
+
+TEST(RendererWithoutADriver, SaysWhatToInstall) {
+  // GLVND's own way to name the drivers: here, none.
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/driver.json", 1);
+  const auto started = Renderer::Start();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, base::ErrorCode::kUnavailable);
+  EXPECT_NE(started.error().message.find("install libegl1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gsv::rendering

@@ -1,0 +1,288 @@
+// What pictures show, against what geometry says they must.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "gsv/rendering/test_scene.h"
+
+namespace gsv::rendering {
+namespace {
+
+using geometry::Box;
+using geometry::PlanarPose;
+using geometry::Pose;
+using geometry::Vector3;
+
+constexpr double kPi = std::numbers::pi;
+
+class Picture : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    auto started = Renderer::Start();
+    ASSERT_TRUE(started) << started.error().Sentence();
+    renderer_ = *started;
+  }
+  static void TearDownTestSuite() { renderer_.reset(); }
+
+  std::shared_ptr<const model::Image> Take(const CameraView& view) {
+    auto picture = renderer_->Draw(scene_.Snapshot(), view, std::chrono::seconds(30));
+    EXPECT_TRUE(picture) << picture.error().Sentence();
+    return picture ? *picture : std::make_shared<const model::Image>();
+  }
+
+  static std::shared_ptr<Renderer> renderer_;
+  TestScene scene_;
+};
+
+std::shared_ptr<Renderer> Picture::renderer_;
+
+TEST_F(Picture, HasTheSizeThatWasAskedFor) {
+  for (const auto& [width, height] : {std::pair{320, 240}, {1, 1}, {17, 333}}) {
+    const auto picture = Take({{}, {width, height, 1, 0.1, 100}});
+    EXPECT_EQ(picture->width, width);
+    EXPECT_EQ(picture->height, height);
+    EXPECT_EQ(picture->channels, 3);
+    EXPECT_EQ(picture->pixels.size(), static_cast<std::size_t>(3) * width * height);
+  }
+}
+
+TEST_F(Picture, OfNothingIsTheBackground) {
+  scene_.description().scene.background = {0.25, 0.5, 0.75, 1};
+  const auto picture = Take({{}, {64, 48, 1, 0.1, 100}});
+  // At the horizon, up to the haze that lightens it.
+  const std::uint8_t* p = &picture->pixels[(24 * 64 + 32) * 3];
+  EXPECT_NEAR(p[0], 0.25 * 255, 45);
+  EXPECT_NEAR(p[1], 0.5 * 255, 30);
+  EXPECT_NEAR(p[2], 0.75 * 255, 15);
+}
+
+TEST_F(Picture, APointFallsWhereThePinholeCameraSays) {
+  const CameraView view{{{0.3, -0.2, 0.5}, geometry::FromRollPitchYaw({0.05, 0.1, 0.7})},
+                        {320, 240, 1.047, 0.05, 100}};
+  const double f = 160 / std::tan(1.047 / 2);
+  for (const Vector3& p : {Vector3{3, 0, 0}, Vector3{4, 1.2, 0.8}, Vector3{6, -2.5, -1.5},
+                           Vector3{2, 0.5, -0.6}}) {
+    // A radius of three pixels: its picture's centre is off by less than 0.01 pixels.
+    scene_.Add("ball", geometry::Sphere{3 * p.x / f}, {view.world_from_camera * p, {}},
+               Glowing(1, 0, 0));
+    const Blob ball = FindBlob(*Take(view), 0, 10);
+    EXPECT_GT(ball.pixels, 15);
+    EXPECT_NEAR(ball.u, 160 - f * p.y / p.x, 0.3);
+    EXPECT_NEAR(ball.v, 120 - f * p.z / p.x, 0.3);
+    scene_.Remove("ball");
+  }
+}
+
+TEST_F(Picture, LeftIsLeftAndUpIsUp) {
+  scene_.Add("left", Box{{0.4, 0.4, 0.4}}, {{3, 1, 0}, {}}, Glowing(1, 0, 0));
+  scene_.Add("up", Box{{0.4, 0.4, 0.4}}, {{3, 0, 0.8}, {}}, Glowing(0, 1, 0));
+  scene_.Add("behind", Box{{0.4, 0.4, 0.4}}, {{-3, 0, 0}, {}}, Glowing(0, 0, 1));
+  const auto picture = Take({{}, {320, 240, 1.047, 0.1, 100}});
+  const Blob left = FindBlob(*picture, 0), up = FindBlob(*picture, 1);
+  ASSERT_GT(left.pixels, 100);
+  ASSERT_GT(up.pixels, 100);
+  EXPECT_LT(left.u, 100);
+  EXPECT_NEAR(left.v, 120, 5);
+  EXPECT_LT(up.v, 80);
+  EXPECT_NEAR(up.u, 160, 5);
+  EXPECT_EQ(FindBlob(*picture, 2).pixels, 0);
+}
+
+TEST_F(Picture, WhatIsInFrontHidesWhatIsBehind) {
+  scene_.Add("near", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
+  scene_.Add("far", Box{{0.1, 1, 1}}, {{3, 0, 0}, {}}, Glowing(0, 1, 0));
+  const CameraView ahead{{}, {160, 120, 1, 0.1, 100}};
+  auto picture = Take(ahead);
+  EXPECT_GT(FindBlob(*picture, 0).pixels, 1000);
+  EXPECT_EQ(FindBlob(*picture, 1).pixels, 0);
+  picture = Take({PlanarPose(5, 0, 0, kPi), ahead.parameters});
+  EXPECT_EQ(FindBlob(*picture, 0).pixels, 0);
+  EXPECT_GT(FindBlob(*picture, 1).pixels, 1000);
+}
+
+TEST_F(Picture, NothingIsDrawnOutsideTheClippingDistances) {
+  scene_.Add("box", Box{{0.2, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
+  EXPECT_EQ(FindBlob(*Take({{}, {160, 120, 1, 2.5, 100}}), 0).pixels, 0);
+  EXPECT_EQ(FindBlob(*Take({{}, {160, 120, 1, 0.1, 1.5}}), 0).pixels, 0);
+  EXPECT_GT(FindBlob(*Take({{}, {160, 120, 1, 0.1, 100}}), 0).pixels, 1000);
+}
+
+// Red upper left, green upper right, blue lower left, black lower right.
+std::shared_ptr<const model::Image> Quarters(int channels) {
+  auto image = std::make_shared<model::Image>();
+  image->width = image->height = 64;
+  image->channels = channels;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const bool right = x >= 32, low = y >= 32;
+      for (const bool on : {!right && !low, right && !low, !right && low}) {
+        image->pixels.push_back(on ? 255 : 0);
+      }
+      if (channels == 4) image->pixels.push_back(right && low ? 0 : 255);
+    }
+  }
+  return image;
+}
+
+TEST_F(Picture, ATextureStandsUpright) {
+  model::Material material = Matt(1, 1, 1);
+  material.base_colour_map = Quarters(3);
+  scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
+  const auto picture = Take({{}, {160, 120, 1, 0.1, 100}});
+  const Blob red = FindBlob(*picture, 0), green = FindBlob(*picture, 1),
+             blue = FindBlob(*picture, 2);
+  ASSERT_GT(red.pixels, 500);
+  EXPECT_LT(red.u, 80);
+  EXPECT_LT(red.v, 60);
+  EXPECT_GT(green.u, 80);
+  EXPECT_LT(green.v, 60);
+  EXPECT_LT(blue.u, 80);
+  EXPECT_GT(blue.v, 60);
+}
+
+TEST_F(Picture, ACutOutTextureShowsWhatIsBehindItsHoles) {
+  model::Material material = Matt(1, 1, 1);
+  material.base_colour_map = Quarters(4);
+  material.alpha_cut_out = true;
+  scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
+  scene_.Add("lamp", Box{{0.1, 4, 4}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
+  // The hole is the lower right quarter: the front's is seen through, and the back's behind the
+  // front's other quarters is not.
+  const auto picture = Take({{}, {160, 120, 0.5, 0.1, 100}});
+  const std::uint8_t* hole = &picture->pixels[(75 * 160 + 95) * 3];
+  EXPECT_GT(hole[2], 150);
+  EXPECT_LT(hole[0], 60);
+}
+
+TEST_F(Picture, SeeThroughThingsAreMixedWithWhatIsBehindThem) {
+  scene_.Add("pane", Box{{0.02, 1, 1}}, {{2, 0, 0}, {}}, Matt(1, 0, 0, 0.5));
+  scene_.Add("wall", Box{{0.1, 8, 8}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
+  const auto picture = Take({{}, {160, 120, 1, 0.1, 100}});
+  const std::uint8_t* pane = &picture->pixels[(60 * 160 + 80) * 3];
+  const std::uint8_t* wall = &picture->pixels[(5 * 160 + 5) * 3];
+  EXPECT_GT(pane[0], wall[0] + 30);
+  EXPECT_GT(pane[2], 60);
+  EXPECT_LT(pane[2], wall[2] - 30);
+}
+
+TEST_F(Picture, OfAMirroredMeshShowsItsOutside) {
+  const auto cube =
+      std::make_shared<const geometry::TriangleMesh>(geometry::Tessellate(Box{{1, 1, 1}}));
+  const CameraView view{{}, {160, 120, 1, 0.1, 100}};
+  scene_.Add("cube", geometry::Mesh{cube, {1, 1, 1}}, {{3, 0, 0}, {}}, Matt(1, 0, 0));
+  const auto plain = Take(view);
+  scene_.Remove("cube");
+  scene_.Add("cube", geometry::Mesh{cube, {1, -1, 1}}, {{3, 0, 0}, {}}, Matt(1, 0, 0));
+  EXPECT_EQ(Take(view)->pixels, plain->pixels);
+  EXPECT_GT(FindBlob(*plain, 0).pixels, 1000);
+}
+
+// A white floor seen from straight above at 10 m, so that a pixel is at x = (v - 50)/10·…: with 90°
+// over 100 pixels, 0.2 m a pixel; up in the picture is world x.
+CameraView FromAbove() {
+  return {{{0, 0, 10}, geometry::FromAxisAngle({0, 1, 0}, kPi / 2)}, {100, 100, kPi / 2, 0.1, 100}};
+}
+
+TEST_F(Picture, AThingCastsItsShadowAwayFromTheSun) {
+  model::Light sun;
+  sun.direction = geometry::Normalized(Vector3{-1, 0, -1});  // from +x, 45° high
+  scene_.description().lights = {sun};
+  scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
+  scene_.Add("slab", Box{{2, 2, 0.1}}, {{3, 0, 3}, {}}, Matt(0.7, 0.7, 0.7));
+  const auto picture = Take(FromAbove());
+  // The slab at height 3 shades x from -1 to 1, which is the middle of the picture.
+  const int shade = Brightness(*picture, 50, 50);
+  const int light = Brightness(*picture, 50, 85);
+  EXPECT_LT(shade, light - 40);
+  EXPECT_GT(shade, 40);  // but not black
+  scene_.description().scene.shadows = false;
+  EXPECT_NEAR(Brightness(*Take(FromAbove()), 50, 50), light, 4);
+}
+
+TEST_F(Picture, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
+  model::Light sun;
+  scene_.description().lights = {sun};  // straight down
+  scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
+  scene_.Add("robot", Box{{2, 2, 0.1}}, {{0, 4, 0.5}, {}}, Matt(0.7, 0.7, 0.7));
+  const auto first = std::make_shared<world::Snapshot>(*scene_.Snapshot());
+  const auto second = std::make_shared<world::Snapshot>(*first);
+  second->state.bodies[first->layout->Find("robot")].world_from_model.position.y = -4;
+  // Seen from the side and from low, so that the shadow is not hidden.
+  const CameraView view{{{-9, 0, 4}, geometry::FromRollPitchYaw({0, 0.4, 0})}, {160, 120, 1.3, 0.1, 50}};
+  const auto before = renderer_->Draw(first, view, std::chrono::seconds(30));
+  const auto after = renderer_->Draw(second, view, std::chrono::seconds(30));
+  ASSERT_TRUE(before && after);
+  // The scene is symmetric in y up to the light's shading, so one is the other's mirror image.
+  int different = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      different += std::abs(Brightness(**before, x, y) - Brightness(**after, 159 - x, y)) > 12;
+    }
+  }
+  EXPECT_LT(different, 160 * 120 / 200);
+}
+
+TEST_F(Picture, AWorldWithoutLightsHasASunAndIsNotDark) {
+  scene_.description().scene.ambient = {0, 0, 0, 1};
+  scene_.Add("floor", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
+  const auto picture = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
+  EXPECT_GT(Brightness(*picture, 80, 110), 120);
+}
+
+TEST_F(Picture, ALampLightsWhatIsWithinItsRange) {
+  model::Light lamp;
+  lamp.kind = model::Light::Kind::kPoint;
+  lamp.world_from_light.position = {0, 0, 1};
+  lamp.range = 3;
+  lamp.diffuse = {1, 0, 0, 1};
+  scene_.description().lights = {lamp};
+  scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
+  const auto picture = Take(FromAbove());
+  const Blob lit = FindBlob(*picture, 0, 20);
+  EXPECT_NEAR(lit.u, 50, 1);
+  EXPECT_NEAR(lit.v, 50, 1);
+  // No farther than its range, 3 m or 15 pixels: a disc of at most pi 15².
+  EXPECT_GT(lit.pixels, 50);
+  EXPECT_LT(lit.pixels, 710);
+}
+
+TEST_F(Picture, ASpotLightsItsConeOnly) {
+  model::Light spot;
+  spot.kind = model::Light::Kind::kSpot;
+  spot.world_from_light.position = {0, 0, 4};
+  spot.range = 20;
+  spot.diffuse = {1, 0, 0, 1};
+  spot.inner_angle = 0.5, spot.outer_angle = 1.0;
+  scene_.description().lights = {spot};
+  scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
+  const Blob lit = FindBlob(*Take(FromAbove()), 0, 10);
+  // Radius 4 tan(0.5) = 2.2 m or 11 pixels at the outer edge, 4 tan(0.25) = 5 at the inner one.
+  EXPECT_GT(lit.pixels, 3.14 * 5 * 5);
+  EXPECT_LT(lit.pixels, 3.14 * 12 * 12);
+}
+
+TEST_F(Picture, TheGroundReachesTheHorizon) {
+  scene_.Add("ground", geometry::Plane{{0, 0, 1}, {20, 20}}, {}, Glowing(1, 0, 0), true);
+  const auto picture = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
+  // It ends 100 m away, where 1 m below the eye is f / 100 = 1.46 pixels below the middle.
+  EXPECT_NEAR(FindBlob(*picture, 0).pixels / 160.0, 60 - 1.46, 0.6);
+}
+
+TEST_F(Picture, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
+  scene_.Add("floor", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
+  scene_.Add("ball", geometry::Sphere{0.5}, {{3, 0, 0.5}, {}}, Matt(0.2, 0.5, 0.9));
+  const auto snapshot = scene_.Snapshot();
+  const CameraView view{{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}};
+  const CameraView other{PlanarPose(5, 5, 1, -2), {64, 64, 2, 0.1, 30}};
+  const auto alone = renderer_->Draw(snapshot, view, std::chrono::seconds(30));
+  const auto batch = renderer_->Draw(snapshot, {other, view, other, view}, std::chrono::seconds(30));
+  ASSERT_TRUE(alone && batch);
+  EXPECT_EQ((*batch)[1]->pixels, (*alone)->pixels);
+  EXPECT_EQ((*batch)[3]->pixels, (*alone)->pixels);
+  EXPECT_EQ((*batch)[0]->pixels, (*batch)[2]->pixels);
+  EXPECT_NE((*batch)[0]->pixels, (*batch)[1]->pixels);
+}
+
+}  // namespace
+}  // namespace gsv::rendering

@@ -1,0 +1,216 @@
+#include "gsv/rendering/renderer.h"
+
+#include <condition_variable>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <thread>
+
+#include "gsv/base/check.h"
+#include "gsv/rendering/batch_painter.h"
+
+namespace gsv::rendering {
+namespace {
+
+using base::ErrorCode;
+using base::Fail;
+using base::Result;
+using Pictures = std::vector<std::shared_ptr<const model::Image>>;
+
+// Pictures drawn before other snapshots get their turn.
+constexpr std::size_t kMostInBatch = 64;
+// How long what nobody uses may stay on the card while no picture is asked for.
+constexpr std::chrono::seconds kIdleSweep{5};
+
+struct Request {
+  std::shared_ptr<const world::Snapshot> snapshot;
+  std::vector<CameraView> views;
+  std::promise<Result<Pictures>> pictures;
+  bool abandoned = false;  // nobody waits any more
+};
+
+}  // namespace
+
+class Renderer::RenderThread {
+ public:
+  explicit RenderThread(RendererOptions options) : options_(std::move(options)) {}
+
+  ~RenderThread() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    work_.notify_all();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  // The renderer's name.
+  Result<std::string> Start() {
+    std::promise<Result<std::string>> started;
+    std::future<Result<std::string>> name = started.get_future();
+    thread_ = std::thread([this, promise = std::move(started)]() mutable { Run(promise); });
+    return name.get();
+  }
+
+  Result<Pictures> Draw(std::shared_ptr<const world::Snapshot> snapshot,
+                        std::vector<CameraView> views, std::chrono::milliseconds timeout) {
+    auto request = std::make_shared<Request>();
+    request->snapshot = std::move(snapshot);
+    request->views = std::move(views);
+    std::future<Result<Pictures>> pictures = request->pictures.get_future();
+    {
+      const std::lock_guard lock(mutex_);
+      if (queue_.size() >= options_.queue_capacity) {
+        return Fail(ErrorCode::kUnavailable,
+                    std::to_string(queue_.size()) +
+                        " requests for pictures wait already; ask less often or for smaller ones");
+      }
+      queue_.push_back(request);
+    }
+    work_.notify_one();
+    if (pictures.wait_for(timeout) == std::future_status::ready) return pictures.get();
+    const std::lock_guard lock(mutex_);
+    request->abandoned = true;
+    return Fail(ErrorCode::kTimeout,
+                "no picture within " + std::to_string(timeout.count()) +
+                    " ms; the renderer is overloaded: ask less often or for smaller pictures");
+  }
+
+  GpuCopies Count() {
+    std::future<GpuCopies> count;
+    {
+      const std::lock_guard lock(mutex_);
+      count = counts_.emplace_back().get_future();
+    }
+    work_.notify_one();
+    return count.get();
+  }
+
+ private:
+  using Batch = std::vector<std::shared_ptr<Request>>;
+
+  void Run(std::promise<Result<std::string>>& started) {
+    Result<std::unique_ptr<EglContext>> context = EglContext::Create(options_.egl);
+    if (!context) {
+      started.set_value(Fail(context.error()));
+      return;
+    }
+    {
+      BatchPainter painter;
+      started.set_value((*context)->renderer_name());
+      Serve(painter);
+    }
+    EndAll();
+  }
+
+  void Serve(BatchPainter& painter) {
+    std::unique_lock lock(mutex_);
+    while (!stopping_) {
+      Batch batch = TakeBatch();
+      std::vector<std::promise<GpuCopies>> counts = std::exchange(counts_, {});
+      if (batch.empty() && counts.empty()) {
+        const bool woken = work_.wait_for(lock, kIdleSweep, [&] {
+          return stopping_ || !queue_.empty() || !counts_.empty();
+        });
+        if (!woken) painter.Sweep();
+        continue;
+      }
+      lock.unlock();
+      if (!batch.empty()) Serve(painter, std::move(batch));
+      painter.Sweep();
+      for (auto& count : counts) count.set_value(painter.Count());
+      lock.lock();
+    }
+  }
+
+  // Those that wait for the same snapshot as the one that has waited longest.
+  Batch TakeBatch() {
+    std::erase_if(queue_, [](const auto& request) { return request->abandoned; });
+    Batch batch;
+    if (queue_.empty()) return batch;
+    const auto snapshot = queue_.front()->snapshot;
+    std::size_t views = 0;
+    std::erase_if(queue_, [&](std::shared_ptr<Request>& request) {
+      if (request->snapshot != snapshot) return false;
+      if (!batch.empty() && views + request->views.size() > kMostInBatch) return false;
+      views += request->views.size();
+      batch.push_back(std::move(request));
+      return true;
+    });
+    return batch;
+  }
+
+  static void Serve(BatchPainter& painter, Batch batch) {
+    std::vector<CameraView> views;
+    for (const auto& request : batch) {
+      views.insert(views.end(), request->views.begin(), request->views.end());
+    }
+    Result<Pictures> drawn = painter.Draw(*batch.front()->snapshot, views);
+    std::size_t first = 0;
+    for (const auto& request : batch) {
+      // What a request keeps alive goes before its caller continues: he may count what is left.
+      request->snapshot.reset();
+      const std::size_t count = request->views.size();
+      if (drawn) {
+        request->pictures.set_value(
+            Pictures(drawn->begin() + static_cast<std::ptrdiff_t>(first),
+                     drawn->begin() + static_cast<std::ptrdiff_t>(first + count)));
+      } else {
+        request->pictures.set_value(Fail(drawn.error()));
+      }
+      first += count;
+    }
+  }
+
+  void EndAll() {
+    const std::lock_guard lock(mutex_);
+    for (const auto& request : queue_) {
+      request->pictures.set_value(Fail(ErrorCode::kEnded, "the renderer has been shut down"));
+    }
+    queue_.clear();
+    for (auto& count : counts_) count.set_value({});
+    counts_.clear();
+  }
+
+  const RendererOptions options_;
+  std::mutex mutex_;
+  std::condition_variable work_;
+  std::deque<std::shared_ptr<Request>> queue_;
+  std::vector<std::promise<GpuCopies>> counts_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+Renderer::Renderer() = default;
+Renderer::~Renderer() = default;
+
+Result<std::shared_ptr<Renderer>> Renderer::Start(RendererOptions options) {
+  auto renderer = std::shared_ptr<Renderer>(new Renderer);
+  renderer->thread_ = std::make_unique<RenderThread>(std::move(options));
+  Result<std::string> name = renderer->thread_->Start();
+  if (!name) return Fail(name.error());
+  renderer->renderer_name_ = std::move(*name);
+  return renderer;
+}
+
+Result<std::shared_ptr<const model::Image>> Renderer::Draw(
+    std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
+    std::chrono::milliseconds timeout) {
+  Result<Pictures> pictures = Draw(std::move(snapshot), std::vector{view}, timeout);
+  if (!pictures) return Fail(pictures.error());
+  return std::move(pictures->front());
+}
+
+Result<Pictures> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
+                                const std::vector<CameraView>& views,
+                                std::chrono::milliseconds timeout) {
+  GSV_CHECK(snapshot != nullptr);
+  for (const CameraView& view : views) {
+    if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
+  }
+  return thread_->Draw(std::move(snapshot), views, timeout);
+}
+
+GpuCopies Renderer::CountGpuCopies() { return thread_->Count(); }
+
+}  // namespace gsv::rendering

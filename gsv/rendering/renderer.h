@@ -1,0 +1,73 @@
+// Takes pictures of snapshots with OpenGL, on a thread of its own.
+//
+// All requests that wait for the same snapshot are drawn as one batch, with one shadow map. The
+// card's copies of meshes and textures are shared between snapshots and simulations, and freed
+// after the model they came from is gone.
+//
+// Determinism  a picture is a function of snapshot, camera and renderer_name(): equal inputs give
+//              equal bytes on one renderer, whatever else is drawn in the same batch.
+// Errors       Start(): kUnavailable with what is missing. Draw(): kInvalidArgument for a camera
+//              that cannot be, kTimeout, kUnavailable when too many wait or the card fails,
+//              kEnded while the renderer shuts down.
+// Threads      any; Draw() blocks its caller.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/model/image.h"
+#include "gsv/rendering/camera_view.h"
+#include "gsv/rendering/egl_context.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::rendering {
+
+struct RendererOptions {
+  EglOptions egl;
+  // Requests that may wait at one moment; more are refused.
+  std::size_t queue_capacity = 4096;
+};
+
+// What the card holds.
+struct GpuCopies {
+  std::size_t meshes = 0;
+  std::size_t textures = 0;
+  std::size_t layouts = 0;
+};
+
+class Renderer {
+ public:
+  [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
+  // Ends what waits with kEnded.
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // An RGB picture of `snapshot`.
+  [[nodiscard]] base::Result<std::shared_ptr<const model::Image>> Draw(
+      std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
+      std::chrono::milliseconds timeout = std::chrono::seconds(10));
+
+  // The same for several cameras; pictures[i] is views[i]'s. They are drawn in one batch.
+  [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
+      std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
+      std::chrono::milliseconds timeout = std::chrono::seconds(10));
+
+  // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6"
+  const std::string& renderer_name() const { return renderer_name_; }
+
+  // After what nobody uses any more has been freed. Waits for the batch in progress.
+  GpuCopies CountGpuCopies();
+
+ private:
+  class RenderThread;
+  Renderer();
+
+  std::unique_ptr<RenderThread> thread_;
+  std::string renderer_name_;
+};
+
+}  // namespace gsv::rendering

@@ -1,0 +1,35 @@
+// The shaders' source.
+//
+// Surfaces  Cook–Torrance with the GGX distribution (Walter et al. 2007), Hammon's approximation of
+//           the height-correlated Smith term (2017), Schlick's Fresnel term; ambient reflections by
+//           Karis' fit of the environment BRDF (2014).
+// Tones     the compression of the Khronos PBR Neutral tone mapper (2024): colours up to 0.8 stay as
+//           they are, highlights are compressed and lose colour.
+#pragma once
+
+#include <string>
+
+namespace gsv::rendering {
+
+// Compile with a selection of these defined: BASE_COLOUR_MAP, NORMAL_MAP, METALLIC_ROUGHNESS_MAP,
+// EMISSIVE_MAP, CUT_OUT, SHADOWS, LAMPS.
+extern const std::string kSurfaceVertexShader;
+extern const std::string kSurfaceFragmentShader;
+
+// With CUT_OUT, reads the base colour map.
+extern const std::string kShadowVertexShader;
+extern const std::string kShadowFragmentShader;
+
+extern const std::string kSkyVertexShader;
+extern const std::string kSkyFragmentShader;
+
+// Bindings in all of them.
+inline constexpr unsigned kFrameBlockBinding = 0;
+inline constexpr unsigned kBaseColourUnit = 0, kNormalUnit = 1, kMetallicRoughnessUnit = 2,
+                          kEmissiveUnit = 3, kShadowUnit = 4;
+
+// Vertex attributes: those of GpuMesh's vertices, then those of an InstanceData.
+inline constexpr unsigned kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2,
+                          kFirstInstanceAttribute = 3;
+
+}  // namespace gsv::rendering

@@ -1,0 +1,99 @@
+// Small worlds for the renderer's tests.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::rendering {
+
+class TestScene {
+ public:
+  TestScene() { description_.scene.background = {0.5, 0.5, 0.5, 1}; }
+
+  model::WorldDescription& description() { return description_; }
+
+  void Add(const std::string& name, geometry::Shape shape, const geometry::Pose& pose,
+           model::Material material, bool is_static = false) {
+    auto model = std::make_shared<model::Model>();
+    model->links.resize(1);
+    model->links[0].visuals.resize(1);
+    model->links[0].visuals[0].shape = std::move(shape);
+    model->links[0].visuals[0].materials = {std::move(material)};
+    world::Body body;
+    body.name = name;
+    body.model = std::move(model);
+    body.initial_pose = pose;
+    body.is_static = is_static;
+    bodies_.push_back(std::move(body));
+  }
+
+  void Remove(const std::string& name) {
+    std::erase_if(bodies_, [&](const world::Body& body) { return body.name == name; });
+  }
+
+  std::shared_ptr<const world::Snapshot> Snapshot() {
+    auto snapshot = std::make_shared<world::Snapshot>();
+    snapshot->layout = world::MakeLayout(
+        ++version_, bodies_, std::make_shared<const model::WorldDescription>(description_));
+    snapshot->state = world::InitialState(*snapshot->layout);
+    return snapshot;
+  }
+
+ private:
+  model::WorldDescription description_;
+  std::vector<world::Body> bodies_;
+  std::uint32_t version_ = 0;
+};
+
+// Shines by itself, whatever the light.
+inline model::Material Glowing(double r, double g, double b) {
+  model::Material material;
+  material.base_colour = {0, 0, 0, 1};
+  material.emissive = {r, g, b, 1};
+  return material;
+}
+
+inline model::Material Matt(double r, double g, double b, double a = 1) {
+  model::Material material;
+  material.base_colour = {r, g, b, a};
+  material.roughness = 1;
+  return material;
+}
+
+// The centre of the pixels that are clearly of one colour, and how many there are.
+struct Blob {
+  double u = 0, v = 0;
+  int pixels = 0;
+};
+
+// `channel` 0, 1 or 2: pixels in which it is more than `margin` above both others. Anti-aliased
+// edges count by how strong they are.
+inline Blob FindBlob(const model::Image& picture, int channel, int margin = 40) {
+  Blob blob;
+  double weight = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint8_t* p = &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
+      const int above = p[channel] - std::max(p[(channel + 1) % 3], p[(channel + 2) % 3]);
+      if (above <= margin) continue;
+      ++blob.pixels;
+      weight += above;
+      blob.u += above * (x + 0.5);
+      blob.v += above * (y + 0.5);
+    }
+  }
+  if (weight > 0) blob.u /= weight, blob.v /= weight;
+  return blob;
+}
+
+inline int Brightness(const model::Image& picture, int x, int y) {
+  const std::uint8_t* p = &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
+  return (p[0] + p[1] + p[2]) / 3;
+}
+
+}  // namespace gsv::rendering
