@@ -1,0 +1,45 @@
+#include "gsv/scenario/scenario.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace gsv::scenario {
+namespace {
+
+TEST(ParseRobot, AModelAloneHasNoPlace) {
+  const auto robot = ParseRobot("turtlebot3_burger");
+  ASSERT_TRUE(robot);
+  EXPECT_EQ(robot->model, "turtlebot3_burger");
+  EXPECT_FALSE(robot->start);
+}
+
+TEST(ParseRobot, TakesMetresAndRadiansOrDegrees) {
+  const auto radians = ParseRobot("models/burger@-2,-0.5,1.5");
+  ASSERT_TRUE(radians && radians->start);
+  EXPECT_EQ(radians->model, "models/burger");
+  EXPECT_EQ(radians->start->position, (geometry::Vector3{-2, -0.5, 0}));
+  EXPECT_NEAR(geometry::Yaw(radians->start->orientation), 1.5, 1e-12);
+  const auto degrees = ParseRobot("b@1,1,90deg");
+  ASSERT_TRUE(degrees && degrees->start);
+  EXPECT_NEAR(geometry::Yaw(degrees->start->orientation), std::numbers::pi / 2, 1e-12);
+}
+
+TEST(ParseRobot, AnAtSignInAFolderDoesNotEndTheModel) {
+  const auto robot = ParseRobot("/home/me@lab/burger@1,2");
+  ASSERT_TRUE(robot && robot->start);
+  EXPECT_EQ(robot->model, "/home/me@lab/burger");
+}
+
+TEST(ParseRobot, RefusesWhatIsNoPlaceWithTheExpectedForm) {
+  for (const char* text :
+       {"b@", "b@1", "b@1,2,3,4", "b@1,x", "b@1,nan", "b@1,2,3degrees", "@1,2", ""}) {
+    const auto robot = ParseRobot(text);
+    ASSERT_FALSE(robot) << text;
+    EXPECT_EQ(robot.error().code, base::ErrorCode::kInvalidArgument);
+    EXPECT_NE(robot.error().message.find("MODEL[@x,y[,yaw]]"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace gsv::scenario

@@ -1,0 +1,46 @@
+// Calls behaviours on threads of its own, so that nobody who must not wait does. Calls with one key
+// run one after the other, in the order they were posted.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace gsv::simulation {
+
+class BehaviourCaller {
+ public:
+  explicit BehaviourCaller(int threads);
+  // Waits for the calls that are posted.
+  ~BehaviourCaller();
+  BehaviourCaller(const BehaviourCaller&) = delete;
+  BehaviourCaller& operator=(const BehaviourCaller&) = delete;
+
+  void Post(std::string key, std::function<void()> call);
+  // Until every call that was posted has returned.
+  void WaitUntilIdle();
+
+ private:
+  struct Task {
+    std::string key;
+    std::function<void()> call;
+  };
+
+  void Work();
+  // The first task whose key is not in progress; end() if there is none. Under the lock.
+  std::deque<Task>::iterator FindRunnable();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Task> tasks_;
+  std::set<std::string> in_progress_;
+  bool closing_ = false;
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,39 @@
+#include "gsv/simulation/pacer.h"
+
+#include <gtest/gtest.h>
+
+namespace gsv::simulation {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(Pacer, StepsAreDueAtMultiplesOfTheScaledStep) {
+  Pacer pacer(milliseconds(10), 2.0);
+  const WallTime start = WallNow();
+  pacer.Restart(start);
+  EXPECT_EQ(pacer.due(), start);
+  EXPECT_FALSE(pacer.StepStarts(start));
+  EXPECT_EQ(pacer.due(), start + milliseconds(5));
+}
+
+TEST(Pacer, AStepThatStartsUpToOneStepLateKeepsTheSchedule) {
+  Pacer pacer(milliseconds(10), 1.0);
+  const WallTime start = WallNow();
+  pacer.Restart(start);
+  EXPECT_FALSE(pacer.StepStarts(start + milliseconds(10)));
+  EXPECT_EQ(pacer.due(), start + milliseconds(10));
+  EXPECT_EQ(pacer.late_steps(), 0u);
+}
+
+TEST(Pacer, ALaterStepIsCountedAndShiftsTheScheduleWithoutABurst) {
+  Pacer pacer(milliseconds(10), 1.0);
+  const WallTime start = WallNow();
+  pacer.Restart(start);
+  EXPECT_TRUE(pacer.StepStarts(start + milliseconds(73)));
+  EXPECT_EQ(pacer.due(), start + milliseconds(83));
+  EXPECT_FALSE(pacer.StepStarts(start + milliseconds(83)));
+  EXPECT_EQ(pacer.late_steps(), 1u);
+}
+
+}  // namespace
+}  // namespace gsv::simulation

@@ -1,0 +1,290 @@
+// Who stands in a simulated world: robots come, go and are given behaviours.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "gsv/sensing/ground.h"
+#include "gsv/simulation/stepping_simulation.h"
+
+namespace gsv::simulation {
+namespace {
+
+// m: two bodies that are placed closer than touching by more than this are in each other.
+constexpr double kPlacingTolerance = 1e-3;
+
+std::string PlaceText(const geometry::Pose& pose) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.3g, %.3g)", pose.position.x, pose.position.y);
+  return text;
+}
+
+base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
+  const std::string where = robot.name.empty() ? robot.model->name : robot.name;
+  if (!geometry::IsFinite(robot.world_from_robot)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the robot's pose is not finite", where);
+  }
+  if (!robot.model->drive) {
+    return base::Fail(
+        base::ErrorCode::kBadModel,
+        "the model \"" + robot.model->name +
+            "\" has no drive that gsv knows, so it cannot be a robot; add a plugin such as "
+            "gz::sim::systems::DiffDrive to it",
+        where);
+  }
+  if (mode == Mode::kLockstep && robot.behaviour != nullptr && !robot.behaviour->time_managed() &&
+      !robot.allow_unmanaged) {
+    return base::Fail(
+        base::ErrorCode::kBehaviour,
+        "the behaviour \"" + robot.behaviour->name() +
+            "\" tells the time by the wall clock, so lockstep would not wait for it; run in "
+            "real time",
+        where);
+  }
+  return {};
+}
+
+}  // namespace
+
+base::Status SteppingSimulation::NameRobots(std::vector<RobotSpecification>& robots) const {
+  std::map<std::string, int> taken;
+  for (const world::Body& body : layout_->bodies) taken[body.name] = 1;
+  for (const RobotSpecification& robot : robots) {
+    if (robot.name.empty()) continue;
+    if (robot.name.size() > 128 || robot.name.find('/') != std::string::npos) {
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        "a robot's name has 1 to 128 characters and no \"/\"", robot.name);
+    }
+    if (++taken[robot.name] > 1) {
+      return base::Fail(base::ErrorCode::kInvalidArgument, "a body of that name is there already",
+                        robot.name);
+    }
+  }
+  for (RobotSpecification& robot : robots) {
+    if (!robot.name.empty()) continue;
+    robot.name = robot.model->name;
+    for (int number = 2; taken.contains(robot.name); ++number) {
+      robot.name = robot.model->name + "_" + std::to_string(number);
+    }
+    taken[robot.name] = 1;
+  }
+  return {};
+}
+
+geometry::Pose SteppingSimulation::StandingPose(const RobotSpecification& robot) const {
+  geometry::Pose pose = robot.world_from_robot;
+  const auto is_no_robot = [this](int body) { return !layout_->bodies[body].is_robot; };
+  const auto solids = shared_->rays.At(shared_->history.latest());
+  const double floor = sensing::FloorHeight(*solids, pose.position.x, pose.position.y, is_no_robot);
+  pose.position.z = floor - model::LowestPoint(*robot.model);
+  return pose;
+}
+
+base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& robots) {
+  const std::lock_guard world_lock(world_mutex_);
+  if (auto ok = NameRobots(robots); !ok) return ok;
+  std::vector<world::Body> bodies = layout_->bodies;
+  std::vector<std::string> added;
+  for (const RobotSpecification& robot : robots) {
+    world::Body body;
+    body.name = robot.name;
+    body.model = robot.model;
+    body.initial_pose = robot.on_ground ? StandingPose(robot) : robot.world_from_robot;
+    body.is_robot = true;
+    body.is_avatar = robot.is_avatar;
+    bodies.push_back(std::move(body));
+    added.push_back(robot.name);
+  }
+  if (auto ok = ChangeLayout(std::move(bodies), added); !ok) return ok;
+  const std::lock_guard lock(shared_->mutex);
+  for (const RobotSpecification& robot : robots) {
+    auto agent =
+        std::make_shared<RobotAgent>(robot.name, robot.model, robot.is_avatar, sensors_, shared_);
+    agent->SetBehaviour(robot.behaviour);
+    agents_.emplace(robot.name, std::move(agent));
+  }
+  IndexAgents();
+  return {};
+}
+
+base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
+                                              const std::vector<std::string>& added) {
+  const std::uint32_t version = layout_->version + 1;
+  auto layout = world::MakeLayout(version, std::move(bodies), layout_->description);
+  auto status = engine_->SetLayout(layout);
+  world::State state = CarryOver(*layout);
+  if (status && !added.empty()) status = MakeRoom(*layout, added, state);
+  if (!status) {
+    if (const auto back = engine_->SetLayout(layout_); !back) return back;
+    return status;
+  }
+  // A robot starts where there was room for it, also after a reset.
+  std::vector<world::Body> settled = layout->bodies;
+  for (const std::string& name : added) {
+    const int body = layout->Find(name);
+    settled[body].initial_pose = state.bodies[body].world_from_model;
+  }
+  layout_ = world::MakeLayout(version, std::move(settled), layout->description);
+  state_ = std::move(state);
+  if (auto ok = engine_->SetLayout(layout_); !ok) return ok;
+  shared_->history.Restart(std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}}));
+  return {};
+}
+
+world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {
+  world::State state = world::InitialState(layout);
+  state.step = state_.step;
+  state.time = state_.time;
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    const world::Body& body = layout.bodies[i];
+    const int old = layout_->Find(body.name);
+    if (old < 0) continue;
+    state.bodies[i] = state_.bodies[old];
+    const world::Body& old_body = layout_->bodies[old];
+    std::copy_n(state_.joint_positions.begin() + old_body.first_joint, body.model->joints.size(),
+                state.joint_positions.begin() + body.first_joint);
+    std::copy_n(state_.joint_velocities.begin() + old_body.first_joint, body.model->joints.size(),
+                state.joint_velocities.begin() + body.first_joint);
+  }
+  return state;
+}
+
+int SteppingSimulation::Intruded(const world::Layout& layout, const world::State& state, int body) {
+  int found = -1;
+  for (const world::Contact& overlap : engine_->Overlaps(state, kPlacingTolerance)) {
+    if (overlap.first != body && overlap.second != body) continue;
+    found = overlap.first == body ? overlap.second : overlap.first;
+    if (layout.bodies[found].is_robot) return found;  // that is the harder case: say it first
+  }
+  return found;
+}
+
+base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
+                                          const std::vector<std::string>& added,
+                                          world::State& state) {
+  for (const std::string& name : added) {
+    const int body = layout.Find(name);
+    const geometry::Pose wanted = layout.bodies[body].initial_pose;
+    const int intruded = Intruded(layout, state, body);
+    if (intruded < 0) continue;
+    // What stands more outside of a wall than in it is put before it.
+    if (!layout.bodies[intruded].is_robot && StepAside(layout, body, state)) {
+      AddEvent("robot_moved", name,
+               "starts at " + PlaceText(state.bodies[body].world_from_model) + ", since at " +
+                   PlaceText(wanted) + " it would stand in \"" + layout.bodies[intruded].name +
+                   "\"");
+      continue;
+    }
+    return base::Fail(base::ErrorCode::kBadModel,
+                      "there is no room at " + PlaceText(wanted) + ": it would stand in \"" +
+                          layout.bodies[intruded].name + "\"; choose another place",
+                      name);
+  }
+  return {};
+}
+
+bool SteppingSimulation::StepAside(const world::Layout& layout, int body, world::State& state) {
+  constexpr double kStride = 0.01;  // m
+  constexpr int kDirections = 16;
+  const geometry::Pose wanted = layout.bodies[body].initial_pose;
+  const double farthest = model::FootprintRadius(*layout.bodies[body].model);
+  for (double distance = kStride; distance <= farthest; distance += kStride) {
+    for (int i = 0; i < kDirections; ++i) {
+      const double direction = 2 * std::numbers::pi * i / kDirections;
+      geometry::Pose& pose = state.bodies[body].world_from_model;
+      pose = wanted;
+      pose.position.x += distance * std::cos(direction);
+      pose.position.y += distance * std::sin(direction);
+      if (Intruded(layout, state, body) < 0) return true;
+    }
+  }
+  return false;
+}
+
+void SteppingSimulation::IndexAgents() {
+  body_of_.clear();
+  for (const auto& [name, agent] : agents_) body_of_[name] = layout_->Find(name);
+}
+
+base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
+    std::vector<RobotSpecification> robots) {
+  const std::lock_guard control(control_mutex_);
+  for (const RobotSpecification& robot : robots) {
+    if (auto ok = CheckRobot(robot, specification_.mode); !ok) return base::Fail(ok.error());
+  }
+  if (auto ok = PlaceRobots(robots); !ok) return base::Fail(ok.error());
+  std::vector<std::string> names;
+  for (const RobotSpecification& robot : robots) names.push_back(robot.name);
+  std::vector<AgentPtr> with_behaviour;
+  for (const RobotSpecification& robot : robots) {
+    AddEvent(robot.is_avatar ? "avatar_added" : "robot_added", robot.name);
+    if (robot.behaviour == nullptr) continue;
+    const AgentPtr agent = FindAgent(robot.name);
+    if (auto ok = robot.behaviour->Init(agent); !ok) {
+      RemoveFromWorld(names);
+      return base::Fail(ok.error());
+    }
+    with_behaviour.push_back(agent);
+  }
+  const std::lock_guard lock(shared_->mutex);
+  if (shared_->phase == Phase::kStarting || shared_->phase == Phase::kRunning)
+    StartAgents(with_behaviour);
+  return names;
+}
+
+void SteppingSimulation::RemoveFromWorld(const std::vector<std::string>& names) {
+  const std::lock_guard world_lock(world_mutex_);
+  std::vector<world::Body> bodies = layout_->bodies;
+  std::erase_if(bodies, [&](const world::Body& body) {
+    return std::find(names.begin(), names.end(), body.name) != names.end();
+  });
+  const std::lock_guard lock(shared_->mutex);
+  for (const std::string& name : names) {
+    const auto it = agents_.find(name);
+    it->second->MarkGone();
+    if (const auto& behaviour = it->second->behaviour(); behaviour != nullptr) {
+      caller_.Post(name, [behaviour] {
+        (void)behaviour->Stop();
+        behaviour->Destroy();
+      });
+    }
+    agents_.erase(it);
+  }
+  (void)ChangeLayout(std::move(bodies), {});  // fewer bodies always fit
+  IndexAgents();
+  shared_->changed.notify_all();
+}
+
+base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
+  const std::lock_guard control(control_mutex_);
+  if (FindAgent(name) == nullptr) {
+    return base::Fail(base::ErrorCode::kNotFound, "there is no robot \"" + name + "\"",
+                      specification_.name);
+  }
+  RemoveFromWorld({name});
+  AddEvent("robot_removed", name);
+  return {};
+}
+
+base::Status SteppingSimulation::SetBehaviour(const std::string& robot,
+                                              std::shared_ptr<BehaviourPort> behaviour) {
+  const std::lock_guard control(control_mutex_);
+  const AgentPtr found = FindAgent(robot);
+  if (found == nullptr) {
+    return base::Fail(base::ErrorCode::kNotFound, "there is no robot \"" + robot + "\"",
+                      specification_.name);
+  }
+  {
+    const std::lock_guard lock(shared_->mutex);
+    if (auto ok = RefuseUnless({Phase::kCreated}, "change a behaviour"); !ok) return ok;
+    found->SetBehaviour(behaviour);
+  }
+  const base::Status status = behaviour->Init(found);
+  if (!status) {
+    const std::lock_guard lock(shared_->mutex);
+    found->SetBehaviour(nullptr);
+  }
+  return status;
+}
+
+}  // namespace gsv::simulation

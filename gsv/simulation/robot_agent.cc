@@ -1,0 +1,270 @@
+#include "gsv/simulation/robot_agent.h"
+
+#include <cmath>
+
+namespace gsv::simulation {
+namespace {
+
+constexpr int kMaxClocks = 64;
+
+base::Error NotRunning(const std::string& robot) {
+  return {base::ErrorCode::kNotRunning,
+          "in lockstep a behaviour may command and read only while it runs, and this one waits",
+          robot};
+}
+
+}  // namespace
+
+RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
+                       std::shared_ptr<const sensing::SensorRegistry> types,
+                       std::shared_ptr<SharedState> shared)
+    : robot_(std::move(robot)),
+      model_(std::move(model)),
+      is_avatar_(is_avatar),
+      shared_(std::move(shared)),
+      rack_(robot_, *model_, std::move(types)) {}
+
+base::Status RobotAgent::CheckAlive(const std::unique_lock<std::mutex>&) const {
+  if (is_gone_) return base::Fail(base::ErrorCode::kEnded, "the robot has been removed", robot_);
+  if (!shared_->end_reason.empty()) {
+    return base::Fail(base::ErrorCode::kEnded, shared_->end_reason, robot_);
+  }
+  if (fate_ != Fate::kAlive) return base::Fail(base::ErrorCode::kEnded, detail_, robot_);
+  return {};
+}
+
+base::Status RobotAgent::CheckMayAct(const std::unique_lock<std::mutex>& lock) const {
+  if (auto alive = CheckAlive(lock); !alive) return alive;
+  const bool waits = shared_->mode == Mode::kLockstep && started_ && behaviour_ != nullptr &&
+                     clocks_.HasOpened() && !clocks_.IsFinished() && !clocks_.IsRunning();
+  return waits ? base::Fail(NotRunning(robot_)) : base::Status();
+}
+
+base::Status RobotAgent::CheckClock(ClockId clock) const {
+  if (clocks_.IsOpen(clock)) return {};
+  return base::Fail(base::ErrorCode::kEnded, "the clock is closed", robot_);
+}
+
+base::Result<ClockId> RobotAgent::OpenClock() {
+  std::unique_lock lock(shared_->mutex);
+  if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+  const ClockId clock = clocks_.Open();
+  if (clocks_.count() > kMaxClocks) {
+    clocks_.Close(clock);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "an agent has at most 64 clocks open",
+                      robot_);
+  }
+  return clock;
+}
+
+base::Status RobotAgent::CloseClock(ClockId clock) {
+  std::unique_lock lock(shared_->mutex);
+  if (auto ok = CheckClock(clock); !ok) return ok;
+  clocks_.Close(clock);
+  woken_.notify_all();
+  shared_->changed.notify_all();
+  return {};
+}
+
+SimTime RobotAgent::Now() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->now;
+}
+
+base::Result<Wait> RobotAgent::SleepUntil(ClockId clock, SimTime until,
+                                          std::chrono::milliseconds lease) {
+  std::unique_lock lock(shared_->mutex);
+  if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+  if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
+  return WaitOn(lock, clock, until, lease);
+}
+
+base::Result<Wait> RobotAgent::WaitOn(std::unique_lock<std::mutex>& lock, ClockId clock,
+                                      SimTime until, std::chrono::milliseconds lease) {
+  if (clocks_.WaitUntil(clock, until, shared_->now)) return Wait::kReached;
+  if (shared_->holdup == this && !HoldsUp()) shared_->changed.notify_all();
+  const WallTime lease_ends = WallNow() + lease;
+  for (;;) {
+    const std::cv_status status = woken_.wait_until(lock, lease_ends);
+    if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+    if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
+    if (!clocks_.IsWaiting(clock)) return Wait::kReached;
+    if (status == std::cv_status::timeout) return Wait::kNotYet;
+  }
+}
+
+base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
+                                             std::optional<world::DriveCommand> command,
+                                             SimTime until, std::chrono::milliseconds lease) {
+  Exchanged exchanged;
+  {
+    std::unique_lock lock(shared_->mutex);
+    if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+    if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
+    const std::uint64_t last = clocks_.last_cycle(clock);
+    if (cycle == last + 1) {
+      if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+      if (command && !world::IsFinite(*command)) {
+        return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
+      }
+      clocks_.set_last_cycle(clock, cycle);
+      if (command && (!pending_ || clock >= pending_->clock)) pending_ = {clock, *command};
+    } else if (cycle != last || cycle == 0) {
+      return base::Fail(
+          base::ErrorCode::kInvalidArgument,
+          "exchange cycle " + std::to_string(cycle) + " does not follow " + std::to_string(last),
+          robot_);
+    }
+    auto wait = WaitOn(lock, clock, until, lease);
+    if (!wait) return base::Fail(wait.error());
+    exchanged.wait = *wait;
+    exchanged.now = shared_->now;
+  }
+  if (exchanged.wait == Wait::kReached) {
+    auto readings = ReadOpenSensors();
+    if (!readings) return base::Fail(readings.error());
+    exchanged.readings = *std::move(readings);
+  }
+  return exchanged;
+}
+
+base::Result<std::vector<NamedReading>> RobotAgent::ReadOpenSensors() {
+  std::vector<NamedReading> readings;
+  for (const std::string& sensor : rack_.OpenSensors()) {
+    auto reading = Watch(sensor);
+    if (!reading) return base::Fail(reading.error());
+    rack_.CountReading(sensor);
+    readings.push_back({sensor, *std::move(reading)});
+  }
+  return readings;
+}
+
+base::Status RobotAgent::Command(const world::DriveCommand& command) {
+  if (!world::IsFinite(command)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
+  }
+  std::unique_lock lock(shared_->mutex);
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  if (!pending_ || pending_->clock == 0) pending_ = PendingCommand{0, command};
+  return {};
+}
+
+base::Status RobotAgent::OpenSensor(const std::string& name) {
+  std::unique_lock lock(shared_->mutex);
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  return rack_.Open(name);
+}
+
+base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
+  std::unique_lock lock(shared_->mutex);
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  return rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
+}
+
+base::Status RobotAgent::CloseSensor(const std::string& name) { return rack_.Close(name); }
+
+base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {
+  {
+    std::unique_lock lock(shared_->mutex);
+    if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+  }
+  auto reading = Watch(sensor);
+  if (reading) rack_.CountReading(sensor);
+  return reading;
+}
+
+base::Result<sensing::Reading> RobotAgent::Watch(const std::string& sensor) {
+  return rack_.Read(sensor, {shared_->history, shared_->rays, shared_->seed});
+}
+
+void RobotAgent::MarkStarted() {
+  started_ = true;
+  running_since_ = WallNow();
+}
+
+bool RobotAgent::HoldsUp() const {
+  return started_ && behaviour_ != nullptr && behaviour_->time_managed() && is_alive() &&
+         !is_gone_ && clocks_.IsRunning();
+}
+
+bool RobotAgent::Wake(SimTime now) {
+  const bool woke = clocks_.Wake(now);
+  if (woke) {
+    running_since_ = WallNow();
+    woken_.notify_all();
+  }
+  if (!death_reported_ || fate_ != Fate::kAlive || !(woke || clocks_.IsRunning())) return false;
+  fate_ = Fate::kDead;
+  StopDriving();
+  woken_.notify_all();
+  return true;
+}
+
+void RobotAgent::MarkUnresponsive(std::string detail) {
+  fate_ = Fate::kUnresponsive;
+  detail_ = std::move(detail);
+  StopDriving();
+  woken_.notify_all();
+}
+
+void RobotAgent::ReportDeath(std::string detail) {
+  death_reported_ = true;
+  detail_ = std::move(detail);
+}
+
+std::optional<world::DriveCommand> RobotAgent::TakeCommand() {
+  if (!pending_) return std::nullopt;
+  const world::DriveCommand command = pending_->command;
+  pending_.reset();
+  return command;
+}
+
+void RobotAgent::MarkGone() {
+  is_gone_ = true;
+  woken_.notify_all();
+}
+
+void RobotAgent::ResetClocks() {
+  clocks_ = AgentClocks();
+  pending_.reset();
+  started_ = false;
+  death_reported_ = false;
+  fate_ = Fate::kAlive;
+  detail_.clear();
+}
+
+void RobotAgent::FillStatus(RobotStatus& status) const {
+  status.name = robot_;
+  status.model = model_->name;
+  status.behaviour = behaviour_ != nullptr ? behaviour_->name() : "";
+  status.is_avatar = is_avatar_;
+  status.detail = detail_;
+  status.readings = rack_.readings_by_type();
+  if (behaviour_ == nullptr) {
+    status.phase = AgentPhase::kNone;
+  } else if (fate_ == Fate::kDead || death_reported_) {
+    status.phase = AgentPhase::kDead;
+  } else if (fate_ == Fate::kUnresponsive) {
+    status.phase = AgentPhase::kUnresponsive;
+  } else if (!started_) {
+    status.phase = AgentPhase::kInitialised;
+  } else if (clocks_.IsFinished()) {
+    status.phase = AgentPhase::kFinished;
+  } else {
+    status.phase = clocks_.IsRunning() ? AgentPhase::kRunning : AgentPhase::kWaiting;
+  }
+}
+
+std::string RobotAgent::Describe() const {
+  if (behaviour_ == nullptr) return robot_;
+  return robot_ + " (" + behaviour_->name() + " on " + behaviour_->place() + ")";
+}
+
+void RobotAgent::AddToHash(base::Hash& hash) const {
+  hash.Add(std::string_view(robot_));
+  hash.Add(std::uint64_t{behaviour_ != nullptr});
+  hash.Add(static_cast<std::uint64_t>(fate_));
+  clocks_.AddToHash(hash);
+}
+
+}  // namespace gsv::simulation

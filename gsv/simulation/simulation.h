@@ -1,0 +1,108 @@
+// One simulation: a world, its robots and their agents, a clock, and the loop that steps it.
+//
+// Threads      every public member may be called from any thread; none blocks on the stepping
+//              thread for longer than a step, except where it says so.
+// Determinism  in lockstep the state after each step is a function of the specification, the robots
+//              and what their behaviours command; see docs of time in ARCHITECTURE.md.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/sensing/registry.h"
+#include "gsv/simulation/agent.h"
+#include "gsv/simulation/behaviour_port.h"
+#include "gsv/simulation/types.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::simulation {
+
+// Is told what happens; must return at once and not call back. Snapshots come from the stepping
+// thread, events from any.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) = 0;
+  virtual void OnEvent(const Event& event) = 0;
+};
+
+struct RobotSpecification {
+  std::string name;  // empty: the model's name, numbered if taken
+  std::shared_ptr<const model::Model> model;
+  geometry::Pose world_from_robot;
+  // Lowered or lifted onto the floor at its place, see sensing/ground.h.
+  bool on_ground = true;
+  std::shared_ptr<BehaviourPort> behaviour;  // may be null: the robot stands still
+  // A behaviour that tells the time by the wall clock takes part in lockstep all the same.
+  bool allow_unmanaged = false;
+  bool is_avatar = false;
+};
+
+class Simulation : public std::enable_shared_from_this<Simulation> {
+ public:
+  // `sensors` outlives the simulation. Fails when the specification or the world cannot be run.
+  static base::Result<std::shared_ptr<Simulation>> Create(
+      Specification specification, std::shared_ptr<const sensing::SensorRegistry> sensors);
+
+  // Stops, waits for the stepping thread and for calls to behaviours.
+  virtual ~Simulation() = default;
+
+  // Places a robot (beside a wall that it would touch, with an event "robot_moved") and initialises
+  // its behaviour (blocks while that answers). Gives the name under which it stands. Fails when the
+  // place is taken, the name is, or the behaviour fails in init.
+  base::Result<std::string> AddRobot(RobotSpecification robot);
+  // The same for many at once: all stand, or none does.
+  virtual base::Result<std::vector<std::string>> AddRobots(
+      std::vector<RobotSpecification> robots) = 0;
+  virtual base::Status RemoveRobot(const std::string& name) = 0;
+  // Gives a behaviour to a robot that has none, such as one that came with the world.
+  virtual base::Status SetBehaviour(const std::string& robot,
+                                    std::shared_ptr<BehaviourPort> behaviour) = 0;
+
+  // Each returns once the request is accepted; what comes of it is seen in status(). An action that
+  // the phase does not allow fails with kNotRunning and says what is allowed.
+  virtual base::Status Start() = 0;
+  virtual base::Status Pause() = 0;
+  virtual base::Status Resume() = 0;
+  // Paused (or created): takes `count` steps, then is paused again.
+  virtual base::Status Step(std::int64_t count) = 0;
+  // Runs until the simulated time `until`, then freezes: nobody is woken at that instant.
+  virtual base::Status RunUntil(SimTime until) = 0;
+  virtual base::Status Stop() = 0;
+  // Back to the start: bodies, time, behaviours (initialised anew). Blocks while these answer.
+  virtual base::Status Reset() = 0;
+
+  virtual const Specification& specification() const = 0;
+  virtual SimulationStatus status() const = 0;
+  virtual std::shared_ptr<const world::Snapshot> snapshot() const = 0;  // the latest; never null
+  virtual std::string state_hash() const = 0;  // of the latest snapshot and the agents' waits
+
+  // Blocks until the phase is one of `phases` or `timeout` of wall time has passed; gives the
+  // phase.
+  virtual Phase WaitForPhase(const std::vector<Phase>& phases,
+                             std::chrono::milliseconds timeout) const = 0;
+
+  // The agent of a robot or avatar; null if there is none of that name.
+  virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
+
+  // A reading for somebody who watches: the same as the robot's own behaviour gets at that
+  // snapshot, without leaving a trace. Any thread but the stepping one; may take long (a picture).
+  virtual base::Result<sensing::Reading> Watch(const std::string& robot,
+                                               const std::string& sensor) = 0;
+  // The sensors of a robot: those of its model and those that were mounted since.
+  virtual std::vector<model::SensorDescription> sensors(const std::string& robot) const = 0;
+  virtual const sensing::SensorRegistry& sensor_types() const = 0;
+
+  // Events from number `first` on, counted from 0 (bounded: the oldest are dropped).
+  virtual std::vector<Event> events(std::uint64_t first) const = 0;
+
+  // From the next step on; kept alive until removed or the simulation ends.
+  virtual void AddObserver(std::shared_ptr<Observer> observer) = 0;
+  virtual void RemoveObserver(const std::shared_ptr<Observer>& observer) = 0;
+};
+
+}  // namespace gsv::simulation

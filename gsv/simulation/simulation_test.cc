@@ -1,0 +1,433 @@
+#include "gsv/simulation/simulation.h"
+
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace gsv::simulation {
+namespace {
+
+using namespace std::chrono_literals;
+using geometry::PlanarPose;
+
+constexpr auto kLease = 200ms;
+constexpr auto kPatience = 20s;  // wall time in which every expected change must have come
+
+// A behaviour on a thread of this process.
+class ThreadBehaviour final : public BehaviourPort {
+ public:
+  using Body = std::function<void(Agent&, ClockId)>;
+
+  explicit ThreadBehaviour(Body body, bool time_managed = true)
+      : body_(std::move(body)), time_managed_(time_managed) {}
+
+  base::Status Init(const std::shared_ptr<Agent>& agent) override {
+    agent_ = agent;
+    ++inits;
+    return init_error ? base::Fail(*init_error) : base::Status();
+  }
+  base::Status Start() override {
+    const auto clock = agent_->OpenClock();
+    if (!clock) return base::Fail(clock.error());
+    thread_ = std::jthread([this, id = *clock] {
+      body_(*agent_, id);
+      (void)agent_->CloseClock(id);
+    });
+    return {};
+  }
+  base::Status Stop() override {
+    if (thread_.joinable()) thread_.join();
+    ++stops;
+    return {};
+  }
+  base::Status Pause() override {
+    ++pauses;
+    return {};
+  }
+  base::Status Resume() override {
+    ++resumes;
+    return {};
+  }
+  void Destroy() override { agent_.reset(); }
+  bool IsDead() override { return dead; }
+  bool time_managed() const override { return time_managed_; }
+  const std::string& name() const override { return name_; }
+  const std::string& place() const override { return place_; }
+
+  std::optional<base::Error> init_error;
+  std::atomic<bool> dead = false;
+  std::atomic<int> inits = 0, stops = 0, pauses = 0, resumes = 0;
+
+ private:
+  const Body body_;
+  const bool time_managed_;
+  const std::string name_ = "test", place_ = "here:1";
+  std::shared_ptr<Agent> agent_;
+  std::jthread thread_;
+};
+
+bool SleepFor(Agent& agent, ClockId clock, SimTime duration) {
+  const SimTime until = agent.Now() + duration;
+  for (;;) {
+    const auto wait = agent.SleepUntil(clock, until, kLease);
+    if (!wait) return false;
+    if (*wait == Wait::kReached) return true;
+  }
+}
+
+std::shared_ptr<const model::Model> Disc(double radius) {
+  auto model = std::make_shared<model::Model>();
+  model->name = "disc";
+  model->links.resize(1);
+  model->links[0].name = "base";
+  model->links[0].collisions.push_back(
+      {"body", {{0, 0, 0.25}, {}}, geometry::Cylinder{radius, 0.5}, {}});
+  model->drive.emplace();
+  model->drive->kind = model::DriveKind::kVelocity;
+  model::SensorDescription sonar;
+  sonar.name = "front";
+  sonar.type = "sonar";
+  sonar.link_from_sensor = {{0, 0, 0.25}, {}};
+  sonar.parameters = {{"min", 0.1}, {"max", 5.0}};
+  model->sensors.push_back(sonar);
+  return model;
+}
+
+std::shared_ptr<const model::Model> Wall() {
+  auto model = std::make_shared<model::Model>();
+  model->name = "wall";
+  model->is_static = true;
+  model->links.resize(1);
+  model->links[0].collisions.push_back({"wall", {{0, 0, 1}, {}}, geometry::Box{{0.2, 10, 2}}, {}});
+  return model;
+}
+
+Specification Lockstep(SimTime duration) {
+  auto world = std::make_shared<model::WorldDescription>();
+  world->name = "test";
+  world->max_step_size = 10ms;
+  world->models.push_back({"wall", Wall(), PlanarPose(3, 0, 0, 0), true});
+  Specification specification;
+  specification.world = world;
+  specification.mode = Mode::kLockstep;
+  specification.duration = duration;
+  return specification;
+}
+
+std::shared_ptr<Simulation> Make(Specification specification) {
+  auto sensors = std::make_shared<sensing::SensorRegistry>();
+  sensing::AddBuiltInSensors(*sensors);
+  auto simulation = Simulation::Create(std::move(specification), sensors);
+  EXPECT_TRUE(simulation) << simulation.error().Sentence();
+  return *simulation;
+}
+
+RobotSpecification Robot(std::string name, double x, double y,
+                         std::shared_ptr<BehaviourPort> behaviour = nullptr) {
+  RobotSpecification robot;
+  robot.name = std::move(name);
+  robot.model = Disc(0.2);
+  robot.world_from_robot = PlanarPose(x, y, 0, 0);
+  robot.behaviour = std::move(behaviour);
+  return robot;
+}
+
+std::shared_ptr<ThreadBehaviour> Drives(double speed, std::chrono::microseconds dawdling = 0us) {
+  return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
+    do {
+      if (dawdling > 0us) std::this_thread::sleep_for(dawdling);
+      (void)agent.Command({speed, 0, 0});
+    } while (SleepFor(agent, clock, 50ms));
+  });
+}
+
+Phase RunToEnd(Simulation& simulation) {
+  EXPECT_TRUE(simulation.Start());
+  return simulation.WaitForPhase({Phase::kFinished, Phase::kFailed, Phase::kStopped}, kPatience);
+}
+
+RobotStatus StatusOf(const Simulation& simulation, const std::string& name) {
+  for (const RobotStatus& robot : simulation.status().robots) {
+    if (robot.name == name) return robot;
+  }
+  ADD_FAILURE() << "no robot " << name;
+  return {};
+}
+
+TEST(Simulation, ACommandActsFromTheInstantAtWhichItIsGiven) {
+  auto simulation = Make(Lockstep(1s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.5))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_EQ(simulation->status().step, 100);
+  // Commanded at t = 0 and without a limit on acceleration: 0.5 m/s for a whole second.
+  EXPECT_NEAR(StatusOf(*simulation, "robot").world_from_robot.position.x, 0.5, 1e-9);
+}
+
+TEST(Simulation, TheHashDoesNotDependOnHowSlowABehaviourIs) {
+  std::vector<std::string> hashes;
+  for (const auto dawdling : {0us, 300us, 0us}) {
+    auto simulation = Make(Lockstep(500ms));
+    ASSERT_TRUE(simulation->AddRobot(Robot("a", 0, 0, Drives(0.5, dawdling))));
+    ASSERT_TRUE(simulation->AddRobot(Robot("b", 0, 1, Drives(0.3, 400us - dawdling))));
+    ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+    hashes.push_back(simulation->state_hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(Simulation, TheOrderInWhichRobotsAreAddedLeavesNoTrace) {
+  std::vector<std::string> hashes;
+  for (const bool reversed : {false, true}) {
+    auto simulation = Make(Lockstep(300ms));
+    std::vector<RobotSpecification> robots{Robot("a", 0, 0, Drives(0.5)),
+                                           Robot("b", 0, 1, Drives(0.3))};
+    if (reversed) std::swap(robots[0], robots[1]);
+    for (auto& robot : robots) ASSERT_TRUE(simulation->AddRobot(std::move(robot)));
+    ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+    hashes.push_back(simulation->state_hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(Simulation, AfterAResetARunIsAsAfterAFreshStart) {
+  auto simulation = Make(Lockstep(300ms));
+  auto behaviour = Drives(0.5);
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  const std::string first = simulation->state_hash();
+  ASSERT_TRUE(simulation->Reset());
+  EXPECT_EQ(simulation->status().phase, Phase::kCreated);
+  EXPECT_EQ(simulation->status().step, 0);
+  EXPECT_EQ(behaviour->inits, 2);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_EQ(simulation->state_hash(), first);
+}
+
+TEST(Simulation, AReadingIsAFunctionOfTheInstantForBehaviourAndWatcherAlike) {
+  auto simulation = Make(Lockstep(200ms));
+  std::vector<double> ranges;
+  auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
+    do {
+      const auto reading = agent.Read("front");
+      ASSERT_TRUE(reading) << reading.error().Sentence();
+      ranges.push_back(reading->values.at(0));
+      (void)agent.Command({1.0, 0, 0});
+    } while (SleepFor(agent, clock, 50ms));
+  });
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  // The wall's face is at x = 2.9; at 1 m/s the range falls by 0.05 m each 50 ms.
+  ASSERT_EQ(ranges.size(), 4u);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(ranges[i], 2.9 - 0.05 * i, 1e-9);
+  const auto watched = simulation->Watch("robot", "front");
+  ASSERT_TRUE(watched);
+  EXPECT_NEAR(watched->values.at(0), 2.7, 1e-9);
+  EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], 4u);
+}
+
+TEST(Simulation, ExchangeAnswersWithTheReadingsAtItsInstantAndCommandsOnce) {
+  auto simulation = Make(Lockstep(200ms));
+  std::vector<double> ranges;
+  auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
+    ASSERT_TRUE(agent.OpenSensor("front"));
+    for (std::uint64_t cycle = 1;; ++cycle) {
+      const SimTime until = static_cast<std::int64_t>(cycle) * 50ms;
+      // A short lease, so that repetitions with the same cycle number are certain to come.
+      base::Result<Exchanged> exchanged = Exchanged{};
+      while (exchanged && exchanged->wait == Wait::kNotYet) {
+        exchanged = agent.Exchange(clock, cycle, world::DriveCommand{1.0, 0, 0}, until, 1ms);
+      }
+      if (!exchanged) return;
+      ASSERT_EQ(exchanged->readings.size(), 1u);
+      EXPECT_EQ(exchanged->now, until);
+      ranges.push_back(exchanged->readings[0].reading.values.at(0));
+    }
+  });
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_EQ(ranges.size(), 3u);  // nobody is woken at the final instant
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(ranges[i], 2.85 - 0.05 * i, 1e-9);
+}
+
+TEST(Simulation, InLockstepNothingComesFromAnAgentThatWaits) {
+  auto simulation = Make(Lockstep(100ms));
+  std::atomic<bool> go = false;
+  auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
+    go = true;
+    while (SleepFor(agent, clock, 1h)) {
+    }
+  });
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_TRUE(go);
+  auto agent = simulation->agent("robot");
+  const auto command = agent->Command({1, 0, 0});
+  ASSERT_FALSE(command);
+  EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
+}
+
+TEST(Simulation, AWaitingAgentsCommandIsRefusedWhileItRuns) {
+  Specification specification = Lockstep(0s);
+  auto simulation = Make(specification);
+  ASSERT_TRUE(simulation->AddRobot(
+      Robot("robot", 0, 0, std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
+              while (SleepFor(agent, clock, 1h)) {
+              }
+            }))));
+  ASSERT_TRUE(simulation->RunUntil(100ms));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  EXPECT_EQ(simulation->status().time, SimTime(100ms));
+  const auto command = simulation->agent("robot")->Command({1, 0, 0});
+  ASSERT_FALSE(command);
+  EXPECT_EQ(command.error().code, base::ErrorCode::kNotRunning);
+}
+
+TEST(Simulation, PauseFreezesTheClockAndTellsTheBehaviours) {
+  auto simulation = Make(Lockstep(0s));
+  auto behaviour = Drives(0.01);
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_TRUE(simulation->Start());
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_TRUE(simulation->Pause());
+  // A step that was under way when the pause came is the last one.
+  while (simulation->status().waiting_for.size() > 0) std::this_thread::yield();
+  ASSERT_TRUE(simulation->Step(7));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  const std::int64_t step = simulation->status().step;
+  ASSERT_TRUE(simulation->Step(7));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  EXPECT_EQ(simulation->status().step, step + 7);
+  ASSERT_TRUE(simulation->Resume());
+  ASSERT_TRUE(simulation->Stop());
+  EXPECT_EQ(simulation->status().phase, Phase::kStopped);
+  simulation.reset();
+  EXPECT_EQ(behaviour->stops, 1);
+  EXPECT_EQ(behaviour->pauses, 1);
+  EXPECT_EQ(behaviour->resumes, 1);
+}
+
+TEST(Simulation, ActionsThatThePhaseDoesNotAllowAreRefusedWithASentence) {
+  auto simulation = Make(Lockstep(0s));
+  const auto resumed = simulation->Resume();
+  ASSERT_FALSE(resumed);
+  EXPECT_EQ(resumed.error().code, base::ErrorCode::kNotRunning);
+  EXPECT_NE(resumed.error().message.find("paused"), std::string::npos);
+  ASSERT_TRUE(simulation->Stop());
+  EXPECT_FALSE(simulation->Start());
+  EXPECT_FALSE(simulation->Step(1));
+}
+
+TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunGoesOn) {
+  Specification specification = Lockstep(200ms);
+  specification.deadline = 50ms;
+  auto simulation = Make(specification);
+  std::atomic<bool> release = false;
+  auto stuck = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
+    (void)agent.Command({1.0, 0, 0});
+    release.wait(false);
+  });
+  ASSERT_TRUE(simulation->AddRobot(Robot("stuck", 0, 0, stuck)));
+  ASSERT_TRUE(simulation->AddRobot(Robot("good", 0, 1, Drives(1.0))));
+  ASSERT_TRUE(simulation->Start());
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  EXPECT_EQ(StatusOf(*simulation, "stuck").phase, AgentPhase::kUnresponsive);
+  EXPECT_EQ(StatusOf(*simulation, "stuck").distance, 0.0);  // its robot stops
+  EXPECT_NEAR(StatusOf(*simulation, "good").distance, 0.2, 1e-9);
+  release = true;
+  release.notify_all();
+}
+
+TEST(Simulation, ADeadBehaviourEndsTheRunWhereThePolicySaysSo) {
+  Specification specification = Lockstep(0s);
+  specification.on_failure = FailurePolicy::kFail;
+  auto simulation = Make(specification);
+  auto behaviour = Drives(0.001);
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_TRUE(simulation->Start());
+  behaviour->dead = true;
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFailed}, kPatience), Phase::kFailed);
+  EXPECT_NE(simulation->status().failure.find("robot (test on here:1)"), std::string::npos);
+}
+
+TEST(Simulation, RobotsCannotBePlacedInsideEachOtherOrAWall) {
+  auto simulation = Make(Lockstep(0s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("first", 0, 0)));
+  const auto second = simulation->AddRobot(Robot("second", 0.1, 0));
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, base::ErrorCode::kBadModel);
+  EXPECT_NE(second.error().Sentence().find("first"), std::string::npos);
+  const auto third = simulation->AddRobot(Robot("third", 3.0, 0));
+  ASSERT_FALSE(third);
+  EXPECT_NE(third.error().Sentence().find("wall"), std::string::npos);
+  EXPECT_EQ(simulation->status().robots.size(), 1u);
+  EXPECT_TRUE(simulation->AddRobot(Robot("second", 1, 0)));
+}
+
+TEST(Simulation, ARobotWhoseBehaviourFailsInInitIsNotThere) {
+  auto simulation = Make(Lockstep(0s));
+  auto behaviour = Drives(1);
+  behaviour->init_error = base::Error{base::ErrorCode::kBehaviour, "threw in init", "test"};
+  const auto added = simulation->AddRobot(Robot("robot", 0, 0, behaviour));
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().message, "threw in init");
+  EXPECT_TRUE(simulation->status().robots.empty());
+}
+
+TEST(Simulation, ARobotWithoutANameIsNumberedAfterItsModel) {
+  auto simulation = Make(Lockstep(0s));
+  EXPECT_EQ(simulation->AddRobot(Robot("", 0, 0)).value_or(""), "disc");
+  EXPECT_EQ(simulation->AddRobot(Robot("", 1, 0)).value_or(""), "disc_2");
+}
+
+TEST(Simulation, ABehaviourOnTheWallClockIsRefusedInLockstep) {
+  auto simulation = Make(Lockstep(0s));
+  auto behaviour = std::make_shared<ThreadBehaviour>([](Agent&, ClockId) {}, false);
+  EXPECT_FALSE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  RobotSpecification insists = Robot("robot", 0, 0, behaviour);
+  insists.allow_unmanaged = true;
+  EXPECT_TRUE(simulation->AddRobot(std::move(insists)));
+}
+
+TEST(Simulation, RemovingARobotEndsItsBehavioursCalls) {
+  auto simulation = Make(Lockstep(0s));
+  auto behaviour = Drives(0.01);
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_TRUE(simulation->Start());
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_TRUE(simulation->RemoveRobot("robot"));
+  EXPECT_TRUE(simulation->status().robots.empty());
+  EXPECT_FALSE(simulation->RemoveRobot("robot"));
+  simulation.reset();
+  EXPECT_GE(behaviour->stops, 1);
+}
+
+TEST(Simulation, InRealTimeNobodyIsWaitedFor) {
+  Specification specification = Lockstep(100ms);
+  specification.mode = Mode::kRealTime;
+  specification.factor = 10;
+  auto simulation = Make(specification);
+  std::atomic<bool> release = false;
+  auto stuck = std::make_shared<ThreadBehaviour>([&](Agent&, ClockId) { release.wait(false); });
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, stuck)));
+  ASSERT_TRUE(simulation->Start());
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  release = true;
+  release.notify_all();
+}
+
+TEST(Simulation, AnAvatarIsSteeredWithoutABehaviour) {
+  auto simulation = Make(Lockstep(1s));
+  RobotSpecification person = Robot("person", 0, 0);
+  person.is_avatar = true;
+  ASSERT_TRUE(simulation->AddRobot(std::move(person)));
+  ASSERT_TRUE(simulation->agent("person")->Command({0.5, 0, 0}));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_NEAR(StatusOf(*simulation, "person").distance, 0.5, 1e-9);
+  EXPECT_TRUE(StatusOf(*simulation, "person").is_avatar);
+}
+
+}  // namespace
+}  // namespace gsv::simulation

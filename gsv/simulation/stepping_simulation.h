@@ -1,0 +1,145 @@
+// The Simulation there is: a thread that steps a dynamics engine and wakes agents.
+//
+// Locks, in the order in which they are taken: control_mutex_ (one control action at a time),
+// world_mutex_ (the engine, the layout and the state), SharedState::mutex (phase and agents),
+// events_mutex_. No lock is held across a call to a behaviour, except control_mutex_.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "gsv/dynamics/engine.h"
+#include "gsv/simulation/behaviour_caller.h"
+#include "gsv/simulation/pacer.h"
+#include "gsv/simulation/robot_agent.h"
+#include "gsv/simulation/run_statistics.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::simulation {
+
+class SteppingSimulation final : public Simulation {
+ public:
+  SteppingSimulation(Specification specification,
+                     std::shared_ptr<const sensing::SensorRegistry> sensors,
+                     std::unique_ptr<dynamics::Engine> engine,
+                     std::shared_ptr<const world::Layout> layout);
+  ~SteppingSimulation() override;
+
+  base::Result<std::vector<std::string>> AddRobots(std::vector<RobotSpecification> robots) override;
+  base::Status RemoveRobot(const std::string& name) override;
+  base::Status SetBehaviour(const std::string& robot,
+                            std::shared_ptr<BehaviourPort> behaviour) override;
+
+  base::Status Start() override;
+  base::Status Pause() override;
+  base::Status Resume() override;
+  base::Status Step(std::int64_t count) override;
+  base::Status RunUntil(SimTime until) override;
+  base::Status Stop() override;
+  base::Status Reset() override;
+
+  const Specification& specification() const override { return specification_; }
+  SimulationStatus status() const override;
+  std::shared_ptr<const world::Snapshot> snapshot() const override {
+    return shared_->history.latest();
+  }
+  std::string state_hash() const override;
+  Phase WaitForPhase(const std::vector<Phase>& phases,
+                     std::chrono::milliseconds timeout) const override;
+
+  std::shared_ptr<Agent> agent(const std::string& robot) const override;
+  base::Result<sensing::Reading> Watch(const std::string& robot,
+                                       const std::string& sensor) override;
+  std::vector<model::SensorDescription> sensors(const std::string& robot) const override;
+  const sensing::SensorRegistry& sensor_types() const override { return *sensors_; }
+  std::vector<Event> events(std::uint64_t first) const override;
+  void AddObserver(std::shared_ptr<Observer> observer) override;
+  void RemoveObserver(const std::shared_ptr<Observer>& observer) override;
+
+ private:
+  using AgentPtr = std::shared_ptr<RobotAgent>;
+  using Lock = std::unique_lock<std::mutex>;
+
+  // control.cc: what people and programs ask for.
+  base::Status Go(SimTime until, std::int64_t steps);
+  base::Status RefuseUnless(std::initializer_list<Phase> allowed, const char* action) const;
+  void SetPhase(Phase phase);
+  void StartAgents(const std::vector<AgentPtr>& agents);
+  void EndAgents(std::string reason);
+  void TellBehaviours(const char* what, base::Status (BehaviourPort::*call)());
+  void ReportIfFailed(const AgentPtr& agent, const char* what, const base::Status& status);
+  void WatchForDeaths();
+  void AddEvent(std::string kind, std::string robot = {}, std::string detail = {});
+  AgentPtr FindAgent(const std::string& robot) const;
+  std::vector<AgentPtr> AgentsWithBehaviour() const;
+
+  // population.cc: who stands in the world.
+  base::Status PlaceRobots(std::vector<RobotSpecification>& robots);
+  base::Status NameRobots(std::vector<RobotSpecification>& robots) const;
+  geometry::Pose StandingPose(const RobotSpecification& robot) const;
+  base::Status ChangeLayout(std::vector<world::Body> bodies, const std::vector<std::string>& added);
+  // The state of those who stay, and the start of those who come.
+  world::State CarryOver(const world::Layout& layout) const;
+  // Who stands where `body` does, or -1.
+  int Intruded(const world::Layout& layout, const world::State& state, int body);
+  // Refuses robots that would stand in others, or deep in walls.
+  base::Status MakeRoom(const world::Layout& layout, const std::vector<std::string>& added,
+                        world::State& state);
+  // Moves the body to the nearest free place, no farther than its own radius. False: none there.
+  bool StepAside(const world::Layout& layout, int body, world::State& state);
+  void RemoveFromWorld(const std::vector<std::string>& names);
+  void IndexAgents();
+
+  // step_loop.cc: the stepping thread.
+  void RunLoop();
+  void WakeAgents();
+  // True when every agent waits. Else it has waited for something to change.
+  bool AllWait(Lock& lock);
+  bool IsDue(Lock& lock);
+  void TakeStep();
+  std::shared_ptr<const world::Snapshot> MoveWorld();
+  void AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallDuration duration);
+  void Finish();
+  void Fail(std::string reason);
+  std::string HashNow() const;  // under both locks
+
+  const Specification specification_;
+  const SimTime step_;
+  const std::shared_ptr<const sensing::SensorRegistry> sensors_;
+  const std::shared_ptr<SharedState> shared_;
+
+  std::mutex control_mutex_;
+
+  mutable std::mutex world_mutex_;
+  std::unique_ptr<dynamics::Engine> engine_;
+  std::shared_ptr<const world::Layout> layout_;
+  world::State state_;
+  std::map<std::string, int> body_of_;  // by robot, in layout_
+
+  // Guarded by shared_->mutex.
+  std::map<std::string, AgentPtr> agents_;
+  bool quit_ = false;
+  std::condition_variable watch_;      // wakes the watchdog to quit
+  std::set<std::string> watched_now_;  // robots whose behaviour is being asked for a sign of life
+  bool restart_pacing_ = false;
+  int starts_pending_ = 0;
+  SimTime run_until_{0};          // 0: none
+  std::int64_t steps_left_ = -1;  // -1: no limit
+  std::string failure_;
+  std::string final_hash_;  // of a run that finished
+  Pacer pacer_;
+  RunStatistics statistics_;
+
+  mutable std::mutex events_mutex_;
+  std::deque<Event> events_;
+  std::uint64_t events_dropped_ = 0;
+  std::vector<std::shared_ptr<Observer>> observers_;
+
+  BehaviourCaller caller_;
+  std::jthread stepping_;
+  std::jthread watchdog_;
+};
+
+}  // namespace gsv::simulation

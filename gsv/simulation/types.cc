@@ -1,0 +1,47 @@
+#include "gsv/simulation/types.h"
+
+namespace gsv::simulation {
+
+const char* ToString(Mode mode) { return mode == Mode::kLockstep ? "lockstep" : "real_time"; }
+
+const char* ToString(Phase phase) {
+  switch (phase) {
+    case Phase::kCreated:
+      return "created";
+    case Phase::kStarting:
+      return "starting";
+    case Phase::kRunning:
+      return "running";
+    case Phase::kPaused:
+      return "paused";
+    case Phase::kStopped:
+      return "stopped";
+    case Phase::kFinished:
+      return "finished";
+    case Phase::kFailed:
+      return "failed";
+  }
+  return "";
+}
+
+const char* ToString(AgentPhase phase) {
+  switch (phase) {
+    case AgentPhase::kNone:
+      return "none";
+    case AgentPhase::kInitialised:
+      return "initialised";
+    case AgentPhase::kRunning:
+      return "running";
+    case AgentPhase::kWaiting:
+      return "waiting";
+    case AgentPhase::kFinished:
+      return "finished";
+    case AgentPhase::kUnresponsive:
+      return "unresponsive";
+    case AgentPhase::kDead:
+      return "dead";
+  }
+  return "";
+}
+
+}  // namespace gsv::simulation

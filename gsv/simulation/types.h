@@ -1,0 +1,92 @@
+// The plain data that goes into a simulation and comes out of it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/sim_time.h"
+#include "gsv/model/world_description.h"
+#include "gsv/sensing/reading.h"
+
+namespace gsv::simulation {
+
+using base::SimTime;
+
+enum class Mode {
+  kRealTime,  // steps are paced by the wall clock times a factor; nobody is waited for
+  kLockstep,  // as fast as possible; the step is taken when every agent waits (reproducible)
+};
+
+// created → starting → running ⇄ paused; finished when the duration is over; failed when a
+// behaviour failed and the policy says so; stopped when somebody stopped it.
+enum class Phase { kCreated, kStarting, kRunning, kPaused, kStopped, kFinished, kFailed };
+
+const char* ToString(Mode mode);
+const char* ToString(Phase phase);
+
+// What becomes of the run when a behaviour crashes or does not answer.
+enum class FailurePolicy { kGoOn, kFail };
+
+struct Specification {
+  std::string name = "simulation";
+  std::shared_ptr<const model::WorldDescription> world;  // never null
+  Mode mode = Mode::kRealTime;
+  double factor = 1;  // kRealTime: simulated seconds a wall second, > 0
+  SimTime step{0};    // 0: the world's max_step_size
+  std::uint64_t seed = 0;
+  SimTime duration{0};  // 0: until stopped
+  FailurePolicy on_failure = FailurePolicy::kGoOn;
+  // Wall time that an agent may run before it must wait; then it is unresponsive.
+  std::chrono::milliseconds deadline{10'000};
+  bool keep = false;  // survives its creator
+};
+
+enum class AgentPhase { kNone, kInitialised, kRunning, kWaiting, kFinished, kUnresponsive, kDead };
+
+const char* ToString(AgentPhase phase);
+
+struct RobotStatus {
+  std::string name;
+  std::string model;
+  std::string behaviour;  // empty: none
+  bool is_avatar = false;
+  AgentPhase phase = AgentPhase::kNone;
+  std::string detail;  // why it is dead or unresponsive
+  geometry::Pose world_from_robot;
+  double distance = 0;  // m
+  std::uint64_t collisions = 0;
+  std::map<std::string, std::uint64_t> readings;  // taken by the behaviour, by sensor type
+};
+
+struct SimulationStatus {
+  std::string name;
+  Phase phase = Phase::kCreated;
+  Mode mode = Mode::kRealTime;
+  std::int64_t step = 0;
+  SimTime time{0};
+  SimTime step_size{0};
+  double target_factor = 1;
+  double real_time_factor = 0;  // over the last wall second or so while running, else over the run
+  std::chrono::nanoseconds wall_time{0};  // spent running
+  std::uint64_t late_steps = 0;
+  std::chrono::nanoseconds mean_step_time{0};  // wall time that moving the world took, per step
+  std::string waiting_for;          // "robot_3 (wander on host:pid) since 2.1 s"; empty: nobody
+  std::string failure;              // why it failed
+  std::uint64_t events = 0;         // how many lifecycle events there were so far
+  std::vector<RobotStatus> robots;  // by name
+};
+
+// Something that happened at a step: a start, a pause, a death, a robot added.
+struct Event {
+  std::int64_t step = 0;
+  SimTime time{0};
+  std::string kind;   // "started", "paused", "resumed", "stopped", "robot_added", "agent_dead", …
+  std::string robot;  // empty: the simulation
+  std::string detail;
+};
+
+}  // namespace gsv::simulation
