@@ -1,0 +1,209 @@
+#include "gsv/broker/broker.h"
+
+#include <cerrno>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "gsv/broker/admin_servant.h"
+#include "gsv/broker/lookup_servant.h"
+#include "gsv/broker/register_servant.h"
+#include "gsv/broker/service_reference.h"
+#include "gsv/broker/trading_objects.h"
+#include "gsv/broker/type_repository_servant.h"
+
+namespace gsv::broker {
+namespace {
+
+constexpr const char* kKey = "TradingService";
+
+// A nested TypeCode is read by recursion: at 16 bytes a level, a message of 64 KiB holds 4,096
+// levels.
+constexpr unsigned long kThreadStackBytes = 4ul << 20;
+
+std::string Endpoint(const BrokerOptions& options) {
+  return fmt::format("giop:tcp:{}:{}", options.host,
+                     options.port == 0 ? std::string() : std::to_string(options.port));
+}
+
+CORBA::ORB_ptr StartOrb(const BrokerOptions& options) {
+  const std::string endpoint = Endpoint(options);
+  // docs/broker.md gives the reasons.
+  const char* settings[][2] = {
+      {"endPoint", endpoint.c_str()},
+      {"giopMaxMsgSize", "65536"},
+      {"threadPerConnectionPolicy", "1"},
+      {"threadPerConnectionUpperLimit", "128"},
+      {"threadPerConnectionLowerLimit", "100"},
+      {"maxServerThreadPerConnection", "2"},
+      {"maxServerThreadPoolSize", "16"},
+      {"inConScanPeriod", "180"},
+      {"outConScanPeriod", "60"},
+      {"scanGranularity", "5"},
+      {"serverCallTimeOutPeriod", "10000"},
+      {"clientCallTimeOutPeriod", "2000"},
+      {"clientConnectTimeOutPeriod", "1000"},
+      {"supportPerThreadTimeOut", "1"},
+      {"strictIIOP", "1"},
+      {"traceLevel", "0"},
+      {nullptr, nullptr},
+  };
+  omni_thread::stacksize(kThreadStackBytes);
+  int no_arguments = 0;
+  return CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
+}
+
+// Why the endpoint could not be opened; omniORB does not say.
+std::string WhyNotListening(const BrokerOptions& options) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  const std::string port = std::to_string(options.port);
+  const char* host = options.host.empty() ? nullptr : options.host.c_str();
+  if (const int failure = getaddrinfo(host, port.c_str(), &hints, &found); failure != 0) {
+    return fmt::format("the address is not known ({})", gai_strerror(failure));
+  }
+  const int socket = ::socket(found->ai_family, SOCK_STREAM, 0);
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  const bool bound = bind(socket, found->ai_addr, found->ai_addrlen) == 0 && listen(socket, 1) == 0;
+  const int reason = errno;
+  close(socket);
+  freeaddrinfo(found);
+  if (bound) return "the ORB cannot listen here";
+  if (reason == EADDRINUSE) {
+    return fmt::format("port {} is in use; choose another, or 0 for one that is free",
+                       options.port);
+  }
+  return fmt::format("the port cannot be opened: {}", std::strerror(reason));
+}
+
+PortableServer::POA_ptr IteratorPoa(PortableServer::POA_ptr root, const char* name,
+                                    PortableServer::ServantBase* servant) {
+  CORBA::PolicyList policies;
+  policies.length(4);
+  policies[0] = root->create_request_processing_policy(PortableServer::USE_DEFAULT_SERVANT);
+  policies[1] = root->create_servant_retention_policy(PortableServer::NON_RETAIN);
+  policies[2] = root->create_id_assignment_policy(PortableServer::USER_ID);
+  policies[3] = root->create_id_uniqueness_policy(PortableServer::MULTIPLE_ID);
+  const PortableServer::POAManager_var manager = root->the_POAManager();
+  PortableServer::POA_var poa = root->create_POA(name, manager, policies);
+  poa->set_servant(servant);
+  servant->_remove_ref();
+  return poa._retn();
+}
+
+// Activates `servant`, which the POA then owns, under a key of its own.
+template <typename Interface, typename Servant>
+typename Interface::_ptr_type Activate(PortableServer::POA_ptr poa, const char* key,
+                                       Servant* servant) {
+  const PortableServer::ObjectId_var id = PortableServer::string_to_ObjectId(key);
+  poa->activate_object_with_id(id, servant);
+  servant->_remove_ref();
+  const CORBA::Object_var object = poa->id_to_reference(id);
+  return Interface::_narrow(object);
+}
+
+}  // namespace
+
+class Broker::Impl {
+ public:
+  explicit Impl(const BrokerOptions& options)
+      : objects_(options.limits, std::random_device()(), std::random_device()()) {
+    objects_.orb = StartOrb(options);
+    try {
+      Serve(options);
+    } catch (...) {
+      objects_.orb->destroy();
+      throw;
+    }
+  }
+
+  ~Impl() {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+    }
+    changed_.notify_all();
+    reaper_.join();
+    objects_.orb->destroy();
+  }
+
+  const std::string& reference() const { return reference_; }
+  std::uint16_t port() const { return port_; }
+  void Run() { objects_.orb->run(); }
+  void Shutdown() { objects_.orb->shutdown(false); }
+
+ private:
+  void Serve(const BrokerOptions& options) {
+    CORBA::Object_var object = objects_.orb->resolve_initial_references("RootPOA");
+    const PortableServer::POA_var root = PortableServer::POA::_narrow(object);
+    objects_.offer_iterators = IteratorPoa(root, "offers", new OfferIteratorServant(objects_));
+    objects_.id_iterators = IteratorPoa(root, "ids", new OfferIdIteratorServant(objects_));
+
+    object = objects_.orb->resolve_initial_references("omniINSPOA");
+    const PortableServer::POA_var poa = PortableServer::POA::_narrow(object);
+    objects_.types = Activate<CosTradingRepos::ServiceTypeRepository>(
+        poa, "TradingTypes", new TypeRepositoryServant(objects_.trader));
+    objects_.admin = Activate<CosTrading::Admin>(poa, "TradingAdmin", new AdminServant(objects_));
+    objects_.registry =
+        Activate<CosTrading::Register>(poa, "TradingRegister", new RegisterServant(objects_));
+    objects_.lookup = Activate<CosTrading::Lookup>(poa, kKey, new LookupServant(objects_));
+
+    const CORBA::String_var ior = objects_.orb->object_to_string(objects_.lookup);
+    const auto address = ReadReference(ior.in());
+    if (!address) throw CORBA::INTERNAL(0, CORBA::COMPLETED_NO);
+    port_ = address->port;
+    reference_ = fmt::format("corbaloc::1.2@{}/{}", address->Address(), kKey);
+
+    PortableServer::POAManager_var(root->the_POAManager())->activate();
+    PortableServer::POAManager_var(poa->the_POAManager())->activate();
+    reaper_ = std::thread([this, period = options.limits.iterator_lifetime] { Reap(period); });
+  }
+
+  // Lets go of iterators that nobody uses, though nobody asks for others either.
+  void Reap(std::chrono::seconds period) {
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, period, [this] { return ending_; })) {
+      objects_.offer_cursors.Expire();
+      objects_.id_cursors.Expire();
+    }
+  }
+
+  TradingObjects objects_;
+  std::string reference_;
+  std::uint16_t port_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool ending_ = false;
+  std::thread reaper_;
+};
+
+base::Result<std::unique_ptr<Broker>> Broker::Start(const BrokerOptions& options) {
+  try {
+    return std::unique_ptr<Broker>(new Broker(std::make_unique<Impl>(options)));
+  } catch (const CORBA::Exception&) {
+    return base::Fail(base::ErrorCode::kUnavailable, WhyNotListening(options),
+                      fmt::format("broker at {}:{}", options.host, options.port));
+  }
+}
+
+Broker::Broker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Broker::~Broker() = default;
+
+const std::string& Broker::reference() const { return impl_->reference(); }
+std::uint16_t Broker::port() const { return impl_->port(); }
+void Broker::Run() { impl_->Run(); }
+void Broker::Shutdown() { impl_->Shutdown(); }
+
+}  // namespace gsv::broker

@@ -1,0 +1,51 @@
+#include "gsv/broker/broker_command.h"
+
+#include <csignal>
+#include <cstdio>
+
+#include <sys/prctl.h>
+#include <unistd.h>
+
+namespace gsv::broker {
+namespace {
+
+constexpr int kOk = 0;
+constexpr int kInfrastructure = 5;
+constexpr int kInterrupted = 130;
+
+int Complain(const base::Error& error) {
+  std::fprintf(stderr, "%s\n", error.Sentence().c_str());
+  return kInfrastructure;
+}
+
+// False when the parent is gone already.
+bool EndWith(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  return getppid() == parent;
+}
+
+}  // namespace
+
+int BrokerMain(const BrokerCommand& command) {
+  // Blocked before a thread starts, so that only sigwait() sees them.
+  sigset_t ends;
+  sigemptyset(&ends);
+  sigaddset(&ends, SIGINT);
+  sigaddset(&ends, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &ends, nullptr);
+  if (command.parent != 0 && !EndWith(command.parent)) return kOk;
+
+  if (auto limited = ApplyProcessLimits(command.process); !limited) {
+    return Complain(limited.error());
+  }
+  const auto broker = Broker::Start(command.broker);
+  if (!broker) return Complain(broker.error());
+  std::printf("%s\n", (*broker)->reference().c_str());
+  std::fflush(stdout);
+
+  int signal = 0;
+  sigwait(&ends, &signal);
+  return signal == SIGINT ? kInterrupted : kOk;
+}
+
+}  // namespace gsv::broker

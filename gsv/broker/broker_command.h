@@ -1,0 +1,26 @@
+// What `gsv broker` does.
+#pragma once
+
+#include <sys/types.h>
+
+#include "gsv/broker/broker.h"
+#include "gsv/broker/process_limits.h"
+
+namespace gsv::broker {
+
+struct BrokerCommand {
+  BrokerOptions broker;
+  ProcessLimits process;
+  // Everything is kept in memory and ends with the process; nothing is read or written.
+  bool memory = true;
+  // The process that this one must not outlive; 0 for none. The kernel watches the *thread* that
+  // started this process, so it should live as long as its process.
+  pid_t parent = 0;
+};
+
+// Prints the reference as one line on stdout, then serves until SIGINT, SIGTERM, or the end of
+// `parent`. The calling thread must be the process's only one.
+// Returns the exit code: 0, 130 after SIGINT, or 5 after saying on stderr what is wrong.
+int BrokerMain(const BrokerCommand& command);
+
+}  // namespace gsv::broker

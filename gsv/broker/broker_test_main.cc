@@ -1,0 +1,24 @@
+// A broker in a process of its own, for tests: prints its reference, serves until its parent ends.
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include <unistd.h>
+
+#include "gsv/broker/broker_command.h"
+
+// Arguments: port, then NAME=VALUE for limits.
+int main(int argc, char** argv) {
+  gsv::broker::BrokerCommand command;
+  command.parent = getppid();
+  command.broker.port = argc > 1 ? static_cast<std::uint16_t>(std::atoi(argv[1])) : 0;
+  for (int i = 2; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t equals = argument.find('=');
+    const std::string name = argument.substr(0, equals);
+    const auto value = static_cast<std::size_t>(std::atoll(argument.c_str() + equals + 1));
+    if (name == "iterators") command.broker.limits.iterators = value;
+    if (name == "address_space_mib") command.process.address_space_bytes = value << 20;
+  }
+  return gsv::broker::BrokerMain(command);
+}

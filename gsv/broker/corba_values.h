@@ -1,0 +1,35 @@
+// Properties and their types between CORBA and the trader.
+//
+// A value that the constraint language can handle becomes plain data: an alias of its type is not
+// kept. Every other value is carried as it came.
+#pragma once
+
+#include <string>
+
+#include <COS/CosTrading.hh>
+#include <COS/CosTradingRepos.hh>
+
+#include "gsv/broker/property.h"
+#include "gsv/broker/service_type.h"
+
+namespace gsv::broker {
+
+// Errors  throws CORBA::MARSHAL for a value that its TypeCode does not describe.
+Value ToValue(const CORBA::Any& any);
+CORBA::Any ToAny(const Value& value);
+
+PropertyType ToPropertyType(CORBA::TypeCode_ptr type);
+// A new reference.
+CORBA::TypeCode_ptr ToTypeCode(const PropertyType& type);
+
+std::vector<Property> ToProperties(const CosTrading::PropertySeq& properties);
+CosTrading::Property ToCorba(const Property& property);
+
+CosTradingRepos::ServiceTypeRepository::PropStruct ToCorba(const PropertyDefinition& definition);
+PropertyDefinition ToDefinition(const CosTradingRepos::ServiceTypeRepository::PropStruct& prop);
+
+CosTradingRepos::ServiceTypeRepository::IncarnationNumber ToIncarnation(std::uint64_t number);
+std::uint64_t FromIncarnation(
+    const CosTradingRepos::ServiceTypeRepository::IncarnationNumber& number);
+
+}  // namespace gsv::broker

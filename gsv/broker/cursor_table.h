@@ -1,0 +1,159 @@
+// Results that are handed out bit by bit: what stands behind an iterator.
+//
+// Bounded in number, in entries held, and in time since the last use: the least recently used
+// cursor goes first.
+//
+// Threads  every member may be called at any time.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace gsv::broker {
+
+struct CursorLimits {
+  std::size_t cursors = 1000;
+  std::size_t entries = 2'000'000;
+  std::chrono::nanoseconds lifetime = std::chrono::seconds(60);
+};
+
+// How many entries from `next` on fit one answer: at most `count`, and no more than `bytes` by
+// `size_of`, but at least one where any remain and `count` is not 0.
+template <typename Entry, typename SizeOf>
+std::size_t CountFitting(const std::vector<Entry>& entries, std::size_t next, std::size_t count,
+                         std::size_t bytes, const SizeOf& size_of) {
+  const std::size_t most = std::min(count, entries.size() - next);
+  std::size_t taken_bytes = 0;
+  for (std::size_t taken = 0; taken < most; ++taken) {
+    taken_bytes += size_of(entries[next + taken]);
+    if (taken > 0 && taken_bytes > bytes) return taken;
+  }
+  return most;
+}
+
+template <typename Entry, typename Context>
+class CursorTable {
+ public:
+  using Clock = std::function<std::chrono::steady_clock::time_point()>;
+  using SizeOf = std::function<std::size_t(const Entry&, const Context&)>;
+
+  struct Batch {
+    std::vector<Entry> entries;
+    Context context;
+    bool more = false;  // entries remain
+  };
+
+  explicit CursorTable(const CursorLimits& limits, Clock clock = std::chrono::steady_clock::now)
+      : limits_(limits), clock_(std::move(clock)) {}
+
+  // `entries` holds at most limits.entries.
+  std::uint64_t Open(std::vector<Entry> entries, Context context) {
+    const std::lock_guard lock(mutex_);
+    RemoveExpired();
+    while (!cursors_.empty() &&
+           (cursors_.size() >= limits_.cursors || held_ + entries.size() > limits_.entries)) {
+      Remove(LeastRecentlyUsed());
+    }
+    held_ += entries.size();
+    const std::uint64_t key = next_key_++;
+    cursors_.emplace(key, Cursor{std::move(entries), 0, std::move(context), clock_()});
+    return key;
+  }
+
+  // Takes the next entries, see CountFitting. Nothing when there is no such cursor.
+  std::optional<Batch> Take(std::uint64_t key, std::size_t count, std::size_t bytes,
+                            const SizeOf& size_of) {
+    const std::lock_guard lock(mutex_);
+    Cursor* cursor = Use(key);
+    if (cursor == nullptr) return std::nullopt;
+    const std::size_t taken =
+        CountFitting(cursor->entries, cursor->next, count, bytes,
+                     [&](const Entry& entry) { return size_of(entry, cursor->context); });
+    const auto first = cursor->entries.begin() + static_cast<std::ptrdiff_t>(cursor->next);
+    Batch batch{{}, cursor->context, false};
+    std::move(first, first + static_cast<std::ptrdiff_t>(taken), std::back_inserter(batch.entries));
+    cursor->next += taken;
+    batch.more = cursor->next < cursor->entries.size();
+    return batch;
+  }
+
+  std::optional<std::size_t> Left(std::uint64_t key) {
+    const std::lock_guard lock(mutex_);
+    const Cursor* cursor = Use(key);
+    if (cursor == nullptr) return std::nullopt;
+    return cursor->entries.size() - cursor->next;
+  }
+
+  // False when there is no such cursor.
+  bool Close(std::uint64_t key) {
+    const std::lock_guard lock(mutex_);
+    const auto found = cursors_.find(key);
+    if (found == cursors_.end()) return false;
+    Remove(found);
+    return true;
+  }
+
+  // Lets go of what nobody has used for the lifetime.
+  void Expire() {
+    const std::lock_guard lock(mutex_);
+    RemoveExpired();
+  }
+
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return cursors_.size();
+  }
+
+ private:
+  struct Cursor {
+    std::vector<Entry> entries;
+    std::size_t next = 0;
+    Context context;
+    std::chrono::steady_clock::time_point used;
+  };
+  using Cursors = std::map<std::uint64_t, Cursor>;
+
+  Cursor* Use(std::uint64_t key) {
+    RemoveExpired();
+    const auto found = cursors_.find(key);
+    if (found == cursors_.end()) return nullptr;
+    found->second.used = clock_();
+    return &found->second;
+  }
+
+  void RemoveExpired() {
+    const auto now = clock_();
+    for (auto cursor = cursors_.begin(); cursor != cursors_.end();) {
+      const auto next = std::next(cursor);
+      if (now - cursor->second.used > limits_.lifetime) Remove(cursor);
+      cursor = next;
+    }
+  }
+
+  typename Cursors::iterator LeastRecentlyUsed() {
+    return std::min_element(cursors_.begin(), cursors_.end(), [](const auto& a, const auto& b) {
+      return a.second.used < b.second.used;
+    });
+  }
+
+  void Remove(typename Cursors::iterator cursor) {
+    held_ -= cursor->second.entries.size();
+    cursors_.erase(cursor);
+  }
+
+  const CursorLimits limits_;
+  const Clock clock_;
+  mutable std::mutex mutex_;
+  Cursors cursors_;
+  std::size_t held_ = 0;
+  std::uint64_t next_key_ = 1;
+};
+
+}  // namespace gsv::broker

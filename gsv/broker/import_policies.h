@@ -1,0 +1,52 @@
+// How far a query may go: what the importer asks for, and what the trader allows.
+//
+// Source  OMG Trading Object Service (formal/00-06-27), "policies".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gsv::broker {
+
+// As CosTrading::FollowOption.
+enum class FollowOption : std::uint8_t { kLocalOnly, kIfNoLocal, kAlways };
+
+// The trader's attributes: what it does by default, and at most.
+struct TraderAttributes {
+  std::uint32_t def_search_card = 200'000;
+  std::uint32_t max_search_card = 200'000;
+  std::uint32_t def_match_card = 200'000;
+  std::uint32_t max_match_card = 200'000;
+  std::uint32_t def_return_card = 200'000;
+  std::uint32_t max_return_card = 200'000;
+  std::uint32_t max_list = 1000;
+  std::uint32_t def_hop_count = 5;
+  std::uint32_t max_hop_count = 10;
+  FollowOption def_follow_policy = FollowOption::kIfNoLocal;
+  FollowOption max_follow_policy = FollowOption::kAlways;
+  FollowOption max_link_follow_policy = FollowOption::kAlways;
+  bool supports_modifiable_properties = true;
+};
+
+// The policies of one query; what is absent takes the trader's default.
+struct ImportPolicies {
+  std::optional<std::uint32_t> search_card{};
+  std::optional<std::uint32_t> match_card{};
+  std::optional<std::uint32_t> return_card{};
+  bool exact_type_match = false;
+  bool use_modifiable_properties = true;
+};
+
+// How many offers are looked at, ordered, and returned.
+struct Cardinalities {
+  std::uint32_t search = 0;
+  std::uint32_t match = 0;
+  std::uint32_t returned = 0;
+};
+
+Cardinalities EffectiveCardinalities(const ImportPolicies& policies,
+                                     const TraderAttributes& attributes);
+
+}  // namespace gsv::broker

@@ -1,0 +1,18 @@
+// The object ids of iterators.
+#pragma once
+
+#include <cstdint>
+
+#include <omniORB4/CORBA.h>
+
+namespace gsv::broker {
+
+// A new reference to the iterator `key` of `poa`.
+CORBA::Object_ptr IteratorReference(PortableServer::POA_ptr poa, std::uint64_t key,
+                                    const char* repository_id);
+
+// The key of the iterator that the current request addresses.
+// Errors  throws OBJECT_NOT_EXIST when it is none of ours.
+std::uint64_t CurrentIterator(CORBA::ORB_ptr orb);
+
+}  // namespace gsv::broker

@@ -1,0 +1,32 @@
+// How large what comes from outside may be. docs/broker.md lists them with their reasons.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace gsv::broker {
+
+// Of one constraint or preference.
+struct ExpressionLimits {
+  std::size_t length = 8192;  // characters
+  std::size_t depth = 64;     // nested parentheses
+  std::size_t nodes = 1000;   // operators, properties and literals
+};
+
+// Of what the trader holds.
+struct TraderLimits {
+  ExpressionLimits expression;
+  std::size_t offers = 200'000;
+  std::size_t properties_per_offer = 128;
+  std::size_t offer_bytes = 32 * 1024;       // encoded properties and reference
+  std::size_t type_names_bytes = 32 * 1024;  // all service types' names together, so that
+                                             // list_types fits a message
+  std::size_t type_bytes = 32 * 1024;        // one type's description with everything inherited
+  std::size_t super_types = 64;              // of one type, direct or not
+  std::size_t iterators = 1000;
+  std::size_t offers_in_iterators = 2'000'000;
+  std::chrono::seconds iterator_lifetime{60};  // since it was last used
+};
+
+}  // namespace gsv::broker

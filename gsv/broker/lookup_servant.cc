@@ -1,0 +1,129 @@
+#include "gsv/broker/lookup_servant.h"
+
+#include <algorithm>
+#include <set>
+
+#include "gsv/broker/corba_values.h"
+#include "gsv/broker/iterator_keys.h"
+#include "gsv/broker/names.h"
+#include "gsv/broker/policy_values.h"
+#include "gsv/broker/raise.h"
+
+namespace gsv::broker {
+namespace {
+
+DesiredProperties ToDesired(const CosTrading::Lookup::SpecifiedProps& props) {
+  DesiredProperties desired;
+  desired.all = props._d() == CosTrading::Lookup::all;
+  if (props._d() != CosTrading::Lookup::some) return desired;
+  std::set<std::string> seen;
+  const CosTrading::PropertyNameSeq& names = props.prop_names();
+  for (CORBA::ULong i = 0; i < names.length(); ++i) {
+    const char* name = names[i];
+    if (!IsIdentifier(name)) throw CosTrading::IllegalPropertyName(name);
+    if (!seen.insert(name).second) throw CosTrading::DuplicatePropertyName(name);
+    desired.names.emplace_back(name);
+  }
+  return desired;
+}
+
+bool IsDesired(const DesiredProperties& desired, const std::string& name) {
+  return desired.all ||
+         std::find(desired.names.begin(), desired.names.end(), name) != desired.names.end();
+}
+
+std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired) {
+  constexpr std::size_t kOverhead = 32;
+  std::size_t size = kOverhead + offer->reference.size() / 2;
+  if (desired.all || !desired.names.empty()) size += offer->properties.EncodedSize();
+  return size;
+}
+
+CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer,
+                          const DesiredProperties& desired) {
+  CosTrading::Offer result;
+  result.reference = orb->string_to_object(offer.reference.c_str());
+  for (const Property& property : offer.properties.all()) {
+    if (!IsDesired(desired, property.name)) continue;
+    const CORBA::ULong count = result.properties.length();
+    result.properties.length(count + 1);
+    result.properties[count] = ToCorba(property);
+  }
+  return result;
+}
+
+template <typename Iterator>
+CosTrading::OfferSeq* ToCorba(CORBA::ORB_ptr orb, Iterator first, Iterator last,
+                              const DesiredProperties& desired) {
+  CosTrading::OfferSeq_var offers = new CosTrading::OfferSeq;
+  offers->length(static_cast<CORBA::ULong>(last - first));
+  for (CORBA::ULong i = 0; first != last; ++first, ++i) {
+    offers[i] = ToCorba(orb, **first, desired);
+  }
+  return offers._retn();
+}
+
+CosTrading::PolicyNameSeq* ToCorba(const std::vector<std::string>& names) {
+  CosTrading::PolicyNameSeq_var result = new CosTrading::PolicyNameSeq;
+  result->length(static_cast<CORBA::ULong>(names.size()));
+  for (CORBA::ULong i = 0; i < names.size(); ++i) result[i] = names[i].c_str();
+  return result._retn();
+}
+
+}  // namespace
+
+LookupServant::LookupServant(TradingObjects& objects)
+    : ComponentsServant(objects), SupportServant(objects), ImportServant(objects.trader) {}
+
+void LookupServant::query(const char* type, const char* constr, const char* pref,
+                          const CosTrading::PolicySeq& policies,
+                          const CosTrading::Lookup::SpecifiedProps& desired_props,
+                          CORBA::ULong how_many, CosTrading::OfferSeq_out offers,
+                          CosTrading::OfferIterator_out offer_itr,
+                          CosTrading::PolicyNameSeq_out limits_applied) {
+  const DesiredProperties desired = ToDesired(desired_props);
+  QueryResult result =
+      ValueOrRaise(objects_.trader.Find({type, constr, pref, ToImportPolicies(policies)}));
+
+  const std::size_t count = std::min(how_many, objects_.trader.attributes().max_list);
+  const auto end = result.offers.begin() +
+                   static_cast<std::ptrdiff_t>(CountFitting(
+                       result.offers, 0, count, kReplyBytes,
+                       [&](const OfferPtr& offer) { return EncodedSize(offer, desired); }));
+  CosTrading::OfferSeq_var first_offers =
+      ToCorba(objects_.orb, result.offers.begin(), end, desired);
+  CosTrading::OfferIterator_var rest;
+  if (end != result.offers.end()) {
+    result.offers.erase(result.offers.begin(), end);
+    const std::uint64_t key = objects_.offer_cursors.Open(std::move(result.offers), desired);
+    const CORBA::Object_var iterator =
+        IteratorReference(objects_.offer_iterators, key, CosTrading::OfferIterator::_PD_repoId);
+    rest = CosTrading::OfferIterator::_unchecked_narrow(iterator);
+  }
+  limits_applied = ToCorba(result.limits_applied);
+  offers = first_offers._retn();
+  offer_itr = rest._retn();
+}
+
+CORBA::ULong OfferIteratorServant::max_left() {
+  const auto left = objects_.offer_cursors.Left(CurrentIterator(objects_.orb));
+  if (!left) throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
+  return static_cast<CORBA::ULong>(*left);
+}
+
+CORBA::Boolean OfferIteratorServant::next_n(CORBA::ULong n, CosTrading::OfferSeq_out offers) {
+  const std::size_t count = std::min(n, objects_.trader.attributes().max_list);
+  const auto batch =
+      objects_.offer_cursors.Take(CurrentIterator(objects_.orb), count, kReplyBytes, EncodedSize);
+  if (!batch) throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
+  offers = ToCorba(objects_.orb, batch->entries.begin(), batch->entries.end(), batch->context);
+  return batch->more;
+}
+
+void OfferIteratorServant::destroy() {
+  if (!objects_.offer_cursors.Close(CurrentIterator(objects_.orb))) {
+    throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
+  }
+}
+
+}  // namespace gsv::broker

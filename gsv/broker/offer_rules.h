@@ -1,0 +1,22 @@
+// What a service type demands of an offer's properties.
+//
+// Source  OMG Trading Object Service (formal/00-06-27), "Register": export and modify.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/broker/property.h"
+#include "gsv/broker/service_type.h"
+#include "gsv/broker/trader.h"
+
+namespace gsv::broker {
+
+// `type` is fully described. The properties in the order of their names.
+Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties);
+
+// The properties that `current` becomes. All of the modification is done, or nothing.
+Traded<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
+                                       Modification modification);
+
+}  // namespace gsv::broker

@@ -1,0 +1,19 @@
+// The order in which a preference returns offers.
+//
+// Source  OMG Trading Object Service (formal/00-06-27), "preference": min and max in the order of
+//         a number, with: the offers for which it is true first, random, first: as they were
+//         found. Offers for which the expression has no value come last. Otherwise equal offers
+//         keep the order in which they were found.
+#pragma once
+
+#include <cstdint>
+
+#include "gsv/broker/expression.h"
+#include "gsv/broker/offer.h"
+
+namespace gsv::broker {
+
+// `seed` decides what random does.
+void OrderBy(const Preference& preference, std::uint64_t seed, Offers& offers);
+
+}  // namespace gsv::broker

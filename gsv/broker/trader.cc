@@ -1,0 +1,315 @@
+#include "gsv/broker/trader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "gsv/broker/evaluation.h"
+#include "gsv/broker/expression.h"
+#include "gsv/broker/offer_rules.h"
+#include "gsv/broker/preference_order.h"
+#include "gsv/broker/type_check.h"
+
+namespace gsv::broker {
+namespace {
+
+using ReadLock = std::shared_lock<std::shared_mutex>;
+using WriteLock = std::unique_lock<std::shared_mutex>;
+
+constexpr std::size_t kIdLength = 8 + 1 + 16;  // stem-number, in hexadecimal
+
+template <typename Integer>
+bool ReadHex(std::string_view text, Integer& value) {
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size();
+}
+
+DeclaredTypes TypesOf(const ServiceType& type) {
+  return [&type](std::string_view name) -> std::optional<PropertyType> {
+    for (const PropertyDefinition& definition : type.properties) {
+      if (definition.name == name) return definition.type;
+    }
+    return std::nullopt;
+  };
+}
+
+Traded<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
+                                     const ExpressionLimits& limits) {
+  const auto refuse = [&](const base::Error& error) {
+    return Refuse(
+        {.refusal = Refusal::kIllegalConstraint, .name = text, .detail = error.Sentence()});
+  };
+  auto constraint = ParseConstraint(text, limits);
+  if (!constraint) return refuse(constraint.error());
+  const base::Status fits = CheckConstraintTypes(*constraint, TypesOf(type));
+  if (!fits) return refuse(fits.error());
+  return std::move(*constraint);
+}
+
+Traded<Preference> CompilePreference(const std::string& text, const ServiceType& type,
+                                     const ExpressionLimits& limits) {
+  const auto refuse = [&](const base::Error& error) {
+    return Refuse(
+        {.refusal = Refusal::kIllegalPreference, .name = text, .detail = error.Sentence()});
+  };
+  auto preference = ParsePreference(text, limits);
+  if (!preference) return refuse(preference.error());
+  const base::Status fits = CheckPreferenceTypes(*preference, TypesOf(type));
+  if (!fits) return refuse(fits.error());
+  return std::move(*preference);
+}
+
+bool IsReadonlyIn(const ServiceType& type, const Property& property) {
+  return std::any_of(type.properties.begin(), type.properties.end(),
+                     [&](const PropertyDefinition& definition) {
+                       return definition.name == property.name && IsReadonly(definition.mode);
+                     });
+}
+
+bool HasModifiableProperties(const ServiceType& type, const Offer& offer) {
+  const std::vector<Property>& properties = offer.properties.all();
+  return !std::all_of(properties.begin(), properties.end(),
+                      [&](const Property& property) { return IsReadonlyIn(type, property); });
+}
+
+// Keeps the offers that match, up to `limit`; true when there were more.
+bool KeepMatching(const Expression& constraint, std::size_t limit, Offers& offers) {
+  std::size_t kept = 0;
+  for (OfferPtr& offer : offers) {
+    if (!Matches(constraint, offer->properties)) continue;
+    if (kept == limit) {
+      offers.resize(kept);
+      return true;
+    }
+    if (&offers[kept] != &offer) offers[kept] = std::move(offer);
+    ++kept;
+  }
+  offers.resize(kept);
+  return false;
+}
+
+}  // namespace
+
+Trader::Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed)
+    : limits_(limits), stem_(stem), seed_(seed), types_(limits) {}
+
+TraderAttributes Trader::attributes() const {
+  const ReadLock lock(mutex_);
+  return attributes_;
+}
+
+void Trader::set_attributes(const TraderAttributes& attributes) {
+  const WriteLock lock(mutex_);
+  attributes_ = attributes;
+}
+
+std::uint64_t Trader::NextIncarnation() const {
+  const ReadLock lock(mutex_);
+  return types_.next_incarnation();
+}
+
+Traded<std::uint64_t> Trader::AddType(ServiceType type) {
+  const WriteLock lock(mutex_);
+  return types_.Add(std::move(type));
+}
+
+Traded<void> Trader::RemoveType(const std::string& name) {
+  const WriteLock lock(mutex_);
+  return types_.Remove(name);
+}
+
+std::vector<std::string> Trader::ListTypes(std::optional<std::uint64_t> since) const {
+  const ReadLock lock(mutex_);
+  return types_.List(since);
+}
+
+Traded<ServiceType> Trader::DescribeType(const std::string& name) const {
+  const ReadLock lock(mutex_);
+  return types_.Describe(name);
+}
+
+Traded<ServiceType> Trader::FullyDescribeType(const std::string& name) const {
+  const ReadLock lock(mutex_);
+  return types_.FullyDescribe(name);
+}
+
+Traded<void> Trader::MaskType(const std::string& name) {
+  const WriteLock lock(mutex_);
+  return types_.Mask(name);
+}
+
+Traded<void> Trader::UnmaskType(const std::string& name) {
+  const WriteLock lock(mutex_);
+  return types_.Unmask(name);
+}
+
+Traded<ServiceType> Trader::TypeForExport(const std::string& type) const {
+  auto described = FullyDescribeType(type);
+  if (described && described->masked) {
+    return Refuse({.refusal = Refusal::kUnknownServiceType, .type = type});
+  }
+  return described;
+}
+
+Traded<std::string> Trader::Export(const std::string& type, std::string reference,
+                                   std::vector<Property> properties) {
+  const auto described = TypeForExport(type);
+  if (!described) return Refuse(described.error());
+  auto checked = CheckExport(*described, std::move(properties));
+  if (!checked) return Refuse(checked.error());
+  if (auto fits = CheckSize(*checked, reference); !fits) return Refuse(fits.error());
+
+  const WriteLock lock(mutex_);
+  if (offers_.size() >= limits_.offers) {
+    return Refuse({.refusal = Refusal::kLimit,
+                   .detail = fmt::format("there are {} offers already", limits_.offers)});
+  }
+  return IdOf(offers_.Add(
+      {.type = type, .reference = std::move(reference), .properties = std::move(*checked)}));
+}
+
+Traded<void> Trader::Withdraw(const std::string& id) {
+  const auto number = NumberOf(id);
+  if (!number) return Refuse(number.error());
+  const WriteLock lock(mutex_);
+  if (offers_.Remove(*number)) return {};
+  return Refuse({.refusal = Refusal::kUnknownOfferId, .name = id});
+}
+
+Traded<OfferPtr> Trader::Describe(const std::string& id) const {
+  const ReadLock lock(mutex_);
+  return FindOffer(id);
+}
+
+Traded<void> Trader::Modify(const std::string& id, Modification modification) {
+  const WriteLock lock(mutex_);
+  if (!attributes_.supports_modifiable_properties) {
+    return Refuse({.refusal = Refusal::kNotImplemented});
+  }
+  const auto offer = FindOffer(id);
+  if (!offer) return Refuse(offer.error());
+  // The type of a living offer may have been removed meanwhile; it then demands nothing.
+  const ServiceType type =
+      types_.FullyDescribe((*offer)->type).value_or(ServiceType{.name = (*offer)->type});
+  auto modified = CheckModification(type, (*offer)->properties, std::move(modification));
+  if (!modified) return Refuse(modified.error());
+  if (auto fits = CheckSize(*modified, (*offer)->reference); !fits) return fits;
+  offers_.Replace({.number = (*offer)->number,
+                   .type = (*offer)->type,
+                   .reference = (*offer)->reference,
+                   .properties = std::move(*modified)});
+  return {};
+}
+
+Traded<std::size_t> Trader::WithdrawMatching(const std::string& type,
+                                             const std::string& constraint) {
+  const auto described = FullyDescribeType(type);
+  if (!described) return Refuse(described.error());
+  const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
+  if (!compiled) return Refuse(compiled.error());
+
+  const WriteLock lock(mutex_);
+  const auto types = types_.WithSubTypes(type);
+  if (!types) return Refuse(types.error());
+  Offers matching = offers_.OfTypes(*types, limits_.offers);
+  KeepMatching(*compiled, limits_.offers, matching);
+  for (const OfferPtr& offer : matching) offers_.Remove(offer->number);
+  if (matching.empty()) {
+    return Refuse({.refusal = Refusal::kNoMatchingOffers, .name = constraint});
+  }
+  return matching.size();
+}
+
+std::vector<std::string> Trader::OfferIds() const {
+  const ReadLock lock(mutex_);
+  std::vector<std::string> ids;
+  for (const std::uint64_t number : offers_.Numbers()) ids.push_back(IdOf(number));
+  return ids;
+}
+
+Traded<QueryResult> Trader::Find(const Query& query) const {
+  const auto type = FullyDescribeType(query.type);
+  if (!type) return Refuse(type.error());
+  const auto constraint = CompileConstraint(query.constraint, *type, limits_.expression);
+  if (!constraint) return Refuse(constraint.error());
+  const auto preference = CompilePreference(query.preference, *type, limits_.expression);
+  if (!preference) return Refuse(preference.error());
+
+  Cardinalities cardinalities;
+  QueryResult result = Candidates(query, cardinalities);
+  if (KeepMatching(*constraint, cardinalities.match, result.offers)) {
+    result.limits_applied.emplace_back("match_card");
+  }
+  OrderBy(*preference, seed_++, result.offers);
+  if (result.offers.size() > cardinalities.returned) {
+    result.offers.resize(cardinalities.returned);
+    result.limits_applied.emplace_back("return_card");
+  }
+  return result;
+}
+
+QueryResult Trader::Candidates(const Query& query, Cardinalities& cardinalities) const {
+  const ReadLock lock(mutex_);
+  cardinalities = EffectiveCardinalities(query.policies, attributes_);
+  std::vector<std::string> types = {query.type};
+  if (!query.policies.exact_type_match) {
+    types = types_.WithSubTypes(query.type).value_or(types);
+  }
+  QueryResult candidates{.offers = offers_.OfTypes(types, cardinalities.search)};
+  if (offers_.CountOfTypes(types) > cardinalities.search) {
+    candidates.limits_applied.emplace_back("search_card");
+  }
+  if (!query.policies.use_modifiable_properties && attributes_.supports_modifiable_properties) {
+    std::map<std::string_view, ServiceType> described;
+    for (const std::string& name : types) {
+      described.emplace(name, types_.FullyDescribe(name).value_or(ServiceType{.name = name}));
+    }
+    std::erase_if(candidates.offers, [&](const OfferPtr& offer) {
+      return HasModifiableProperties(described.at(offer->type), *offer);
+    });
+  }
+  return candidates;
+}
+
+Traded<std::uint64_t> Trader::NumberOf(const std::string& id) const {
+  std::uint32_t stem = 0;
+  std::uint64_t number = 0;
+  const std::string_view text = id;
+  if (text.size() != kIdLength || text[8] != '-' || !ReadHex(text.substr(0, 8), stem) ||
+      !ReadHex(text.substr(9), number)) {
+    return Refuse({.refusal = Refusal::kIllegalOfferId, .name = id});
+  }
+  if (stem != stem_) return Refuse({.refusal = Refusal::kUnknownOfferId, .name = id});
+  return number;
+}
+
+std::string Trader::IdOf(std::uint64_t number) const {
+  return fmt::format("{:08x}-{:016x}", stem_, number);
+}
+
+Traded<OfferPtr> Trader::FindOffer(const std::string& id) const {
+  const auto number = NumberOf(id);
+  if (!number) return Refuse(number.error());
+  OfferPtr offer = offers_.Find(*number);
+  if (offer == nullptr) return Refuse({.refusal = Refusal::kUnknownOfferId, .name = id});
+  return offer;
+}
+
+Traded<void> Trader::CheckSize(const PropertyList& properties, const std::string& reference) const {
+  if (properties.all().size() > limits_.properties_per_offer) {
+    return Refuse({.refusal = Refusal::kLimit,
+                   .detail = fmt::format("an offer has more than {} properties",
+                                         limits_.properties_per_offer)});
+  }
+  if (properties.EncodedSize() + reference.size() / 2 > limits_.offer_bytes) {
+    return Refuse(
+        {.refusal = Refusal::kLimit,
+         .detail = fmt::format("an offer takes more than {} bytes", limits_.offer_bytes)});
+  }
+  return {};
+}
+
+}  // namespace gsv::broker

@@ -1,0 +1,98 @@
+// The Trading Service without CORBA: service types, offers, and the queries that find them.
+//
+// Source   OMG Trading Object Service (formal/00-06-27).
+// Errors   those of the standard, see Refusal. What is refused changes nothing.
+// Threads  every member may be called at any time; queries run side by side and evaluate their
+//          constraint without a lock.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <shared_mutex>
+#include <string>
+#include <vector>
+
+#include "gsv/broker/import_policies.h"
+#include "gsv/broker/limits.h"
+#include "gsv/broker/offer.h"
+#include "gsv/broker/offer_store.h"
+#include "gsv/broker/trading_error.h"
+#include "gsv/broker/type_repository.h"
+
+namespace gsv::broker {
+
+struct Query {
+  std::string type;
+  std::string constraint{};
+  std::string preference{};
+  ImportPolicies policies{};
+};
+
+struct QueryResult {
+  Offers offers;
+  // The names of the policies that kept the query from returning more.
+  std::vector<std::string> limits_applied{};
+};
+
+// What Modify changes.
+struct Modification {
+  std::vector<std::string> remove{};
+  std::vector<Property> set{};
+};
+
+class Trader {
+ public:
+  // `stem` is part of every offer's id, so that an id of an earlier trader is unknown to this one;
+  // `seed` decides what the preference random does.
+  Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
+
+  const TraderLimits& limits() const { return limits_; }
+  TraderAttributes attributes() const;
+  void set_attributes(const TraderAttributes& attributes);
+
+  // ---- Service types, see TypeRepository
+  std::uint64_t NextIncarnation() const;
+  Traded<std::uint64_t> AddType(ServiceType type);
+  Traded<void> RemoveType(const std::string& name);
+  std::vector<std::string> ListTypes(std::optional<std::uint64_t> since) const;
+  Traded<ServiceType> DescribeType(const std::string& name) const;
+  Traded<ServiceType> FullyDescribeType(const std::string& name) const;
+  Traded<void> MaskType(const std::string& name);
+  Traded<void> UnmaskType(const std::string& name);
+
+  // ---- Offers
+  // The type that an offer may be exported for: known and not masked.
+  Traded<ServiceType> TypeForExport(const std::string& type) const;
+  // `reference` is not looked at. Returns the offer's id.
+  Traded<std::string> Export(const std::string& type, std::string reference,
+                             std::vector<Property> properties);
+  Traded<void> Withdraw(const std::string& id);
+  Traded<OfferPtr> Describe(const std::string& id) const;
+  Traded<void> Modify(const std::string& id, Modification modification);
+  // Withdraws the offers that a query without policies would find; returns how many.
+  Traded<std::size_t> WithdrawMatching(const std::string& type, const std::string& constraint);
+  std::vector<std::string> OfferIds() const;
+  std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
+
+  // ---- Queries
+  Traded<QueryResult> Find(const Query& query) const;
+
+ private:
+  // The offers to be searched, and the cardinalities that hold for the query.
+  QueryResult Candidates(const Query& query, Cardinalities& cardinalities) const;
+  Traded<std::uint64_t> NumberOf(const std::string& id) const;
+  std::string IdOf(std::uint64_t number) const;
+  Traded<OfferPtr> FindOffer(const std::string& id) const;
+  Traded<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
+
+  const TraderLimits limits_;
+  const std::uint32_t stem_;
+  mutable std::atomic<std::uint64_t> seed_;
+  mutable std::shared_mutex mutex_;  // guards all that follows
+  TraderAttributes attributes_;
+  TypeRepository types_;
+  OfferStore offers_;
+};
+
+}  // namespace gsv::broker

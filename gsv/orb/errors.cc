@@ -1,0 +1,98 @@
+#include "gsv/orb/errors.h"
+
+namespace gsv::orb {
+namespace {
+
+using base::ErrorCode;
+
+// sba exceptions all carry one member, the reason.
+template <typename Exception>
+bool Matches(const CORBA::UserException& exception, const std::string& where, ErrorCode code,
+             base::Error& error) {
+  const Exception* found = Exception::_downcast(&exception);
+  if (found == nullptr) return false;
+  error = {code, std::string(found->reason), where};
+  return true;
+}
+
+}  // namespace
+
+base::Error ToError(const CORBA::SystemException& exception, const std::string& where) {
+  if (CORBA::TRANSIENT::_downcast(&exception) != nullptr) {
+    if (exception.minor() == omni::TRANSIENT_CallTimedout) {
+      return {ErrorCode::kTimeout, "did not answer in time", where};
+    }
+    return {ErrorCode::kUnavailable, "nobody accepts connections there", where};
+  }
+  if (CORBA::TIMEOUT::_downcast(&exception) != nullptr) {
+    return {ErrorCode::kTimeout, "did not answer in time", where};
+  }
+  if (CORBA::COMM_FAILURE::_downcast(&exception) != nullptr) {
+    return {ErrorCode::kUnavailable, "the connection broke during the call", where};
+  }
+  if (CORBA::OBJECT_NOT_EXIST::_downcast(&exception) != nullptr) {
+    return {ErrorCode::kEnded, "the service is no longer there", where};
+  }
+  if (CORBA::MARSHAL::_downcast(&exception) != nullptr) {
+    return {ErrorCode::kCorrupt, "the message was too large or did not decode", where};
+  }
+  return {ErrorCode::kUnavailable, std::string("the call failed (") + exception._name() + ")",
+          where};
+}
+
+base::Error ToError(const CORBA::UserException& exception, const std::string& where) {
+  base::Error error;
+  if (Matches<sba::Refused>(exception, where, ErrorCode::kInvalidArgument, error) ||
+      Matches<sba::NotRunning>(exception, where, ErrorCode::kNotRunning, error) ||
+      Matches<sba::Ended>(exception, where, ErrorCode::kEnded, error) ||
+      Matches<sba::Failed>(exception, where, ErrorCode::kUnavailable, error)) {
+    return error;
+  }
+  return {ErrorCode::kUnavailable, std::string("the call raised ") + exception._name(), where};
+}
+
+bool MeansGone(const CORBA::SystemException& exception) {
+  if (CORBA::OBJECT_NOT_EXIST::_downcast(&exception) != nullptr) return true;
+  return CORBA::TRANSIENT::_downcast(&exception) != nullptr &&
+         exception.minor() == omni::TRANSIENT_ConnectFailed;
+}
+
+namespace {
+
+unsigned BestFit(base::ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kInvalidArgument:
+    case ErrorCode::kNotFound:
+    case ErrorCode::kBadModel:
+      return kRefused;
+    case ErrorCode::kNotRunning:
+      return kNotRunning;
+    case ErrorCode::kEnded:
+      return kEnded;
+    default:
+      return kFailed;
+  }
+}
+
+}  // namespace
+
+void Throw(const base::Error& error, unsigned raises) {
+  const std::string reason = error.Sentence();
+  for (const unsigned choice : {BestFit(error.code), unsigned{kFailed}, unsigned{kEnded},
+                                unsigned{kRefused}, unsigned{kNotRunning}}) {
+    if ((choice & raises) == 0) continue;
+    switch (choice) {
+      case kRefused:
+        throw sba::Refused(reason.c_str());
+      case kNotRunning:
+        throw sba::NotRunning(reason.c_str());
+      case kEnded:
+        throw sba::Ended(reason.c_str());
+      default:
+        throw sba::Failed(reason.c_str());
+    }
+  }
+  throw CORBA::INTERNAL();
+}
+
+}  // namespace gsv::orb

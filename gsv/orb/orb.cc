@@ -1,0 +1,105 @@
+#include "gsv/orb/orb.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <omniORB4/giopEndpoint.h>
+#include <omniORB4/omniIOR.h>
+#include <omniORB4/omniObjRef.h>
+
+namespace gsv::orb {
+
+base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
+  const std::string endpoint = "giop:tcp:" + options.host + ":" +
+                               (options.port > 0 ? std::to_string(options.port) : std::string());
+  const std::string max_message = std::to_string(options.max_message_bytes);
+  const std::string call_timeout = std::to_string(options.call_timeout.count());
+  const std::string connections = std::to_string(options.max_connections_per_server);
+  // A client closes an idle connection (60 s) before the server does (180 s); a message that
+  // stops half-way is given up after 30 s.
+  const char* settings[][2] = {
+      {"endPoint", endpoint.c_str()},
+      {"giopMaxMsgSize", max_message.c_str()},
+      {"clientCallTimeOutPeriod", call_timeout.c_str()},
+      {"clientConnectTimeOutPeriod", "5000"},
+      {"serverCallTimeOutPeriod", "30000"},
+      {"inConScanPeriod", "180"},
+      {"outConScanPeriod", "60"},
+      {"scanGranularity", "5"},
+      {"threadPerConnectionPolicy", "1"},
+      {"maxServerThreadPerConnection", "16"},
+      {"maxGIOPConnectionPerServer", connections.c_str()},
+      {"oneCallPerConnection", "1"},
+      {"supportPerThreadTimeOut", "1"},
+      {"lcdMode", "0"},
+      {"traceLevel", "0"},
+      {nullptr, nullptr},
+  };
+  try {
+    int argc = 0;
+    CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr, "omniORB4", settings);
+    PortableServer::POA_var poa = RootPoa(orb);
+    PortableServer::POAManager_var manager = poa->the_POAManager();
+    manager->activate();
+    return orb;
+  } catch (const CORBA::Exception& exception) {
+    const std::string where = options.host + ":" + std::to_string(options.port);
+    return base::Fail(
+        base::ErrorCode::kUnavailable,
+        options.port > 0
+            ? "the port is in use or not allowed; choose another, or 0 for any"
+            : std::string("the object request broker did not start (") + exception._name() + ")",
+        where);
+  }
+}
+
+PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb) {
+  CORBA::Object_var object = orb->resolve_initial_references("RootPOA");
+  return PortableServer::POA::_narrow(object);
+}
+
+base::Result<std::string> LocalAddressTowards(const std::string& host) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), "9", &hints, &found) != 0 || found == nullptr) {
+    return base::Fail(base::ErrorCode::kUnavailable, "there is no host of that name", host);
+  }
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, freeaddrinfo);
+  // Connecting a datagram socket sends nothing; it only chooses the way.
+  const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in local{};
+  socklen_t length = sizeof local;
+  const bool ok = descriptor >= 0 && connect(descriptor, found->ai_addr, found->ai_addrlen) == 0 &&
+                  getsockname(descriptor, reinterpret_cast<sockaddr*>(&local), &length) == 0;
+  if (descriptor >= 0) close(descriptor);
+  std::array<char, INET_ADDRSTRLEN> text{};
+  if (!ok || inet_ntop(AF_INET, &local.sin_addr, text.data(), text.size()) == nullptr) {
+    return base::Fail(base::ErrorCode::kUnavailable, "no local address reaches that host", host);
+  }
+  return std::string(text.data());
+}
+
+std::string AddressOf(CORBA::Object_ptr object) {
+  if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return {};
+  omniIOR_var ior = object->_PR_getobj()->_getIOR();
+  auto& addresses = ior->getIORInfo()->addresses();
+  if (addresses.empty()) return {};
+  const std::string address = addresses.front()->address();  // "giop:tcp:127.0.0.1:40123"
+  const std::size_t start = address.find(':', address.find(':') + 1);
+  return start == std::string::npos ? address : address.substr(start + 1);
+}
+
+void LimitCalls(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {
+  omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
+}
+
+}  // namespace gsv::orb

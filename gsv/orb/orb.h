@@ -1,0 +1,41 @@
+// The ORB of this process, with the settings that a distributed simulator needs: loopback unless
+// told otherwise, a time limit on every call, idle connections closed, large messages for pictures.
+//
+// Threads  StartOrb() once a process, before any other use of CORBA.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include <omniORB4/CORBA.h>
+
+#include "gsv/base/error.h"
+
+namespace gsv::orb {
+
+struct OrbOptions {
+  std::string host = "127.0.0.1";  // the address to listen on
+  int port = 0;                    // 0: the system chooses
+  std::uint64_t max_message_bytes = 64u << 20;
+  std::chrono::milliseconds call_timeout{10'000};
+  // A call in progress occupies its connection: at least as many as agents that wait at once.
+  int max_connections_per_server = 4096;
+};
+
+// Starts the ORB and its root POA. Fails with a sentence when the port is taken.
+base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options);
+
+PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);  // the caller owns the reference
+
+// The local address from which `host` is reached, to listen on for peers there; "127.0.0.1" for a
+// loopback host.
+base::Result<std::string> LocalAddressTowards(const std::string& host);
+
+// The host and port that a reference points to, "127.0.0.1:40123"; empty when it names none.
+std::string AddressOf(CORBA::Object_ptr object);
+
+// Limits how long calls through this reference may take, from all threads.
+void LimitCalls(CORBA::Object_ptr object, std::chrono::milliseconds timeout);
+
+}  // namespace gsv::orb
