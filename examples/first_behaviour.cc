@@ -1,0 +1,36 @@
+// A first behaviour: goes forward, and turns where a wall comes near.
+//
+//   example-first-behaviour --broker REF &
+//   gsv run --broker REF --robot pebble --behaviour first
+#include "sdk/behaviour/sonar_ring.h"
+#include "sdk/serve.h"
+
+namespace {
+
+class First final : public gsv::Behaviour {
+ public:
+  gsv::base::Status Init(gsv::Robot& robot) override {
+    auto sonars = gsv::SonarRing::Open(robot, 8);
+    if (!sonars) return gsv::base::Fail(sonars.error());
+    sonars_ = *std::move(sonars);
+    return {};
+  }
+
+  void Run(gsv::Robot& robot) override {
+    using namespace std::chrono_literals;
+    do {
+      const bool blocked = Nearest(sonars_.Read(), 0.0, 0.9) < robot.footprint_radius() + 0.4;
+      robot.Drive(blocked ? 0.0 : 0.3, blocked ? 0.8 : 0.0);
+    } while (robot.SleepFor(50ms));
+  }
+
+ private:
+  gsv::SonarRing sonars_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return gsv::ServeBehaviour(argc, argv, {"first", "Goes forward, and turns before walls."},
+                             [] { return std::make_unique<First>(); });
+}

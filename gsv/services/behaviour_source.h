@@ -1,0 +1,27 @@
+// Where behaviours for robots come from: an interface, so that simulations do not depend on a
+// broker.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/simulation/behaviour_port.h"
+
+namespace gsv::services {
+
+class BehaviourSource {
+ public:
+  virtual ~BehaviourSource() = default;
+
+  // A behaviour of its own for one more robot, from an offer that matches `constraint` (in the
+  // Trading Service's constraint language over the properties of docs/services.md). May take as
+  // long as a few remote calls.
+  virtual base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(
+      const std::string& constraint) = 0;
+};
+
+// The constraint for a behaviour by its name: name == 'wander'. Quotes in the name are escaped.
+std::string ConstraintForName(const std::string& name);
+
+}  // namespace gsv::services

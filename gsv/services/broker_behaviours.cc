@@ -1,0 +1,59 @@
+#include "gsv/services/broker_behaviours.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "gsv/broker/gsv_service_types.h"
+#include "gsv/orb/errors.h"
+#include "gsv/orb/orb.h"
+#include "gsv/services/remote_behaviour.h"
+
+namespace gsv::services {
+namespace {
+
+constexpr std::chrono::milliseconds kCreateTimeout{5000};
+// Of the matching offers so many are considered; some may be of programs that have died.
+constexpr std::size_t kOffersConsidered = 256;
+
+std::string PlaceOf(const broker::BehaviourOffer& offer) {
+  return offer.host + ":" + std::to_string(offer.pid);
+}
+
+}  // namespace
+
+base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
+    const std::string& constraint) {
+  const broker::ServiceType& type = broker::AgentBehaviourFactoryType();
+  auto offers = broker_.Query(type.name, constraint, "first", kOffersConsidered);
+  if (!offers) return base::Fail(offers.error());
+  base::Error error{base::ErrorCode::kBehaviour,
+                    "no behaviour is offered for the constraint: " + constraint +
+                        " (see `gsv offers`; start the behaviour program with --broker " +
+                        broker_.reference() + ")",
+                    broker_.reference()};
+  const std::lock_guard lock(mutex_);
+  std::stable_sort(offers->begin(), offers->end(), [this](const auto& a, const auto& b) {
+    return robots_of_[PlaceOf(broker::BehaviourOfferFrom(a.properties))] <
+           robots_of_[PlaceOf(broker::BehaviourOfferFrom(b.properties))];
+  });
+  for (const broker::FoundOffer& offer : *offers) {
+    const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);
+    const BehaviourIdentity identity{described.name, PlaceOf(described), described.time_managed};
+    orb::LimitCalls(offer.object, kCreateTimeout);
+    auto behaviour = orb::Call(identity.name + " on " + identity.place, [&] {
+      const sba::AgentBehaviourFactory_var factory =
+          sba::AgentBehaviourFactory::_narrow(offer.object);
+      if (CORBA::is_nil(factory)) throw sba::Failed("the offer is no AgentBehaviourFactory");
+      return sba::AgentBehaviour_var(factory->create());
+    });
+    if (behaviour) {
+      ++robots_of_[identity.place];
+      return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_);
+    }
+    error = behaviour.error();
+    error.code = base::ErrorCode::kBehaviour;
+  }
+  return base::Fail(std::move(error));
+}
+
+}  // namespace gsv::services

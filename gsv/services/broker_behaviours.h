@@ -1,0 +1,30 @@
+// Behaviours from the broker's offers: of those that match, the program that serves the fewest
+// robots so far.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "gsv/broker/broker_client.h"
+#include "gsv/services/behaviour_source.h"
+
+namespace gsv::services {
+
+class BrokerBehaviours final : public BehaviourSource {
+ public:
+  // `broker` outlives it; hardware for the behaviours is activated on `poa`.
+  BrokerBehaviours(broker::BrokerClient& broker, PortableServer::POA_ptr poa)
+      : broker_(broker), poa_(PortableServer::POA::_duplicate(poa)) {}
+
+  base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(
+      const std::string& constraint) override;
+
+ private:
+  broker::BrokerClient& broker_;
+  PortableServer::POA_var poa_;
+  std::mutex mutex_;
+  std::map<std::string, int> robots_of_;  // by "host:pid" of the program
+};
+
+}  // namespace gsv::services

@@ -1,0 +1,176 @@
+#include "gsv/services/conversions.h"
+
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+
+namespace gsv::services {
+namespace {
+
+model::ParameterValue ValueOf(const std::string& text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size() && !text.empty()) return number;
+  return text;
+}
+
+std::string TextOf(const model::ParameterValue& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const double* number = std::get_if<double>(&value)) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, *number);
+    return std::string(text, error == std::errc() ? end : text);
+  }
+  return std::get<std::string>(value);
+}
+
+sba::AgentPhase ToIdl(simulation::AgentPhase phase) {
+  switch (phase) {
+    case simulation::AgentPhase::kNone:
+      return sba::AGENT_NONE;
+    case simulation::AgentPhase::kInitialised:
+      return sba::AGENT_INITIALISED;
+    case simulation::AgentPhase::kRunning:
+      return sba::AGENT_RUNNING;
+    case simulation::AgentPhase::kWaiting:
+      return sba::AGENT_WAITING;
+    case simulation::AgentPhase::kFinished:
+      return sba::AGENT_FINISHED;
+    case simulation::AgentPhase::kUnresponsive:
+      return sba::AGENT_UNRESPONSIVE;
+    case simulation::AgentPhase::kDead:
+      return sba::AGENT_DEAD;
+  }
+  return sba::AGENT_NONE;
+}
+
+}  // namespace
+
+sba::Placement ToIdl(const geometry::Pose& pose) {
+  const auto angles = geometry::ToRollPitchYaw(pose.orientation);
+  return {pose.position.x, pose.position.y, pose.position.z, angles.roll, angles.pitch, angles.yaw};
+}
+
+geometry::Pose FromIdl(const sba::Placement& p) {
+  return {{p.x_m, p.y_m, p.z_m}, geometry::FromRollPitchYaw({p.roll_rad, p.pitch_rad, p.yaw_rad})};
+}
+
+sba::SensorTraits ToIdl(const model::SensorDescription& description,
+                        const geometry::Pose& robot_from_link) {
+  sba::SensorTraits traits;
+  traits.name = description.name.c_str();
+  traits.type = description.type.c_str();
+  traits.mounting = ToIdl(robot_from_link * description.link_from_sensor);
+  traits.update_rate_hz = description.update_rate;
+  traits.parameters = ToIdl(description.parameters);
+  return traits;
+}
+
+model::Parameters FromIdl(const sba::NameValues& values) {
+  model::Parameters parameters;
+  for (CORBA::ULong i = 0; i < values.length(); ++i) {
+    parameters[std::string(values[i].name)] = ValueOf(std::string(values[i].value));
+  }
+  return parameters;
+}
+
+sba::NameValues ToIdl(const model::Parameters& parameters) {
+  sba::NameValues values;
+  values.length(static_cast<CORBA::ULong>(parameters.size()));
+  CORBA::ULong i = 0;
+  for (const auto& [name, value] : parameters) {
+    values[i].name = name.c_str();
+    values[i].value = TextOf(value).c_str();
+    ++i;
+  }
+  return values;
+}
+
+sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading) {
+  sba::Measurement measurement;
+  measurement.sensor_name = sensor.c_str();
+  measurement.time_ns = reading.time.count();
+  measurement.values.length(static_cast<CORBA::ULong>(reading.values.size()));
+  std::copy(reading.values.begin(), reading.values.end(), measurement.values.get_buffer());
+  measurement.image_width = measurement.image_height = 0;
+  if (reading.picture != nullptr) {
+    const model::Image& picture = *reading.picture;
+    measurement.image_width = static_cast<CORBA::ULong>(picture.width);
+    measurement.image_height = static_cast<CORBA::ULong>(picture.height);
+    measurement.image.length(static_cast<CORBA::ULong>(picture.pixels.size()));
+    std::memcpy(measurement.image.get_buffer(), picture.pixels.data(), picture.pixels.size());
+  }
+  return measurement;
+}
+
+sba::SimulationPhase ToIdl(simulation::Phase phase) {
+  switch (phase) {
+    case simulation::Phase::kCreated:
+      return sba::PHASE_CREATED;
+    case simulation::Phase::kStarting:
+      return sba::PHASE_STARTING;
+    case simulation::Phase::kRunning:
+      return sba::PHASE_RUNNING;
+    case simulation::Phase::kPaused:
+      return sba::PHASE_PAUSED;
+    case simulation::Phase::kStopped:
+      return sba::PHASE_STOPPED;
+    case simulation::Phase::kFinished:
+      return sba::PHASE_FINISHED;
+    case simulation::Phase::kFailed:
+      return sba::PHASE_FAILED;
+  }
+  return sba::PHASE_FAILED;
+}
+
+simulation::Phase FromIdl(sba::SimulationPhase phase) {
+  switch (phase) {
+    case sba::PHASE_CREATED:
+      return simulation::Phase::kCreated;
+    case sba::PHASE_STARTING:
+      return simulation::Phase::kStarting;
+    case sba::PHASE_RUNNING:
+      return simulation::Phase::kRunning;
+    case sba::PHASE_PAUSED:
+      return simulation::Phase::kPaused;
+    case sba::PHASE_STOPPED:
+      return simulation::Phase::kStopped;
+    case sba::PHASE_FINISHED:
+      return simulation::Phase::kFinished;
+    default:
+      return simulation::Phase::kFailed;
+  }
+}
+
+sba::SimulationState ToIdl(const simulation::SimulationStatus& status) {
+  sba::SimulationState state;
+  state.name = status.name.c_str();
+  state.phase = ToIdl(status.phase);
+  state.pacing = status.mode == simulation::Mode::kLockstep ? sba::LOCKSTEP : sba::REAL_TIME;
+  state.step = static_cast<CORBA::ULongLong>(status.step);
+  state.time_ns = status.time.count();
+  state.step_ns = status.step_size.count();
+  state.target_factor = status.target_factor;
+  state.real_time_factor = status.real_time_factor;
+  state.late_steps = status.late_steps;
+  state.waiting_for = status.waiting_for.c_str();
+  state.failure = status.failure.c_str();
+  state.robots.length(static_cast<CORBA::ULong>(status.robots.size()));
+  for (CORBA::ULong i = 0; i < state.robots.length(); ++i) {
+    const simulation::RobotStatus& robot = status.robots[i];
+    sba::RobotState& out = state.robots[i];
+    out.name = robot.name.c_str();
+    out.model = robot.model.c_str();
+    out.behaviour = robot.behaviour.c_str();
+    out.phase = ToIdl(robot.phase);
+    out.detail = robot.detail.c_str();
+    out.place = ToIdl(robot.world_from_robot);
+    out.distance_m = robot.distance;
+    out.collisions = robot.collisions;
+  }
+  return state;
+}
+
+}  // namespace gsv::services

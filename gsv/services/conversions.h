@@ -1,0 +1,28 @@
+// Our plain data to and from that of the IDL.
+#pragma once
+
+#include "gsv/geometry/pose.h"
+#include "gsv/model/sensor_description.h"
+#include "gsv/sensing/reading.h"
+#include "gsv/simulation/types.h"
+#include "idl/simulation.hh"
+
+namespace gsv::services {
+
+sba::Placement ToIdl(const geometry::Pose& pose);
+geometry::Pose FromIdl(const sba::Placement& placement);
+
+// `robot_from_link` places the sensor's link.
+sba::SensorTraits ToIdl(const model::SensorDescription& description,
+                        const geometry::Pose& robot_from_link);
+// Numbers and flags are recognised in the parameters' text.
+model::Parameters FromIdl(const sba::NameValues& values);
+sba::NameValues ToIdl(const model::Parameters& parameters);
+
+sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
+
+sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
+sba::SimulationPhase ToIdl(simulation::Phase phase);
+simulation::Phase FromIdl(sba::SimulationPhase phase);
+
+}  // namespace gsv::services

@@ -1,0 +1,343 @@
+#include "gsv/services/hardware_servants.h"
+
+#include <chrono>
+#include <cstring>
+
+#include "gsv/orb/errors.h"
+#include "gsv/services/conversions.h"
+
+namespace gsv::services {
+namespace {
+
+using simulation::Agent;
+using AgentPtr = std::shared_ptr<Agent>;
+using GroupPtr = std::shared_ptr<ServantGroup>;
+
+// Wall time after which a wait is answered NOT_YET.
+constexpr std::chrono::milliseconds kLease{2000};
+constexpr unsigned kReadingRaises = orb::kNotRunning | orb::kEnded | orb::kFailed;
+
+// What all sensor servants have in common, mixed into the skeleton of each interface.
+template <typename Skeleton>
+class SensorServant : public Skeleton {
+ public:
+  SensorServant(AgentPtr agent, model::SensorDescription description, GroupPtr group)
+      : agent_(std::move(agent)), description_(std::move(description)), group_(std::move(group)) {}
+
+  sba::SensorTraits* traits() override {
+    return new sba::SensorTraits(ToIdl(description_, agent_->RobotFromLink(description_.link)));
+  }
+  sba::Measurement* measure() override {
+    return new sba::Measurement(ToIdl(description_.name, Read()));
+  }
+  void close() override {
+    (void)agent_->CloseSensor(description_.name);  // closed twice is closed
+    group_->Deactivate(this);
+  }
+
+ protected:
+  sensing::Reading Read() {
+    return orb::ValueOrThrow(agent_->Read(description_.name), kReadingRaises);
+  }
+  const model::SensorDescription& description() const { return description_; }
+
+ private:
+  const AgentPtr agent_;
+  const model::SensorDescription description_;
+  const GroupPtr group_;
+};
+
+using PlainSensorServant = SensorServant<POA_sba::Sensor>;
+
+class SonarServant final : public SensorServant<POA_sba::Sonar> {
+ public:
+  using SensorServant::SensorServant;
+  CORBA::Double range() override { return Read().values.at(0); }
+  CORBA::Double max_range() override {
+    return model::NumberOr(description().parameters, "max", 0.0);
+  }
+};
+
+class LidarServant final : public SensorServant<POA_sba::Lidar> {
+ public:
+  using SensorServant::SensorServant;
+  sba::Doubles* ranges() override {
+    const sensing::Reading reading = Read();
+    auto* ranges = new sba::Doubles;
+    ranges->length(static_cast<CORBA::ULong>(reading.values.size()));
+    std::copy(reading.values.begin(), reading.values.end(), ranges->get_buffer());
+    return ranges;
+  }
+};
+
+class CameraServant final : public SensorServant<POA_sba::Camera> {
+ public:
+  using SensorServant::SensorServant;
+  sba::Picture* take_picture() override {
+    const sba::Measurement measurement = ToIdl(description().name, Read());
+    auto* picture = new sba::Picture;
+    picture->width = measurement.image_width;
+    picture->height = measurement.image_height;
+    picture->rgb = measurement.image;
+    picture->time_ns = measurement.time_ns;
+    return picture;
+  }
+};
+
+class PositioningServant final : public SensorServant<POA_sba::PositioningSystem> {
+ public:
+  using SensorServant::SensorServant;
+  sba::Placement locate() override {
+    const std::vector<double> values = Read().values;
+    return {values.at(0), values.at(1), values.at(2), values.at(3), values.at(4), values.at(5)};
+  }
+};
+
+std::string Key(const PortableServer::ObjectId& id) {
+  return {reinterpret_cast<const char*>(id.get_buffer()), id.length()};
+}
+
+template <typename Servant>
+PortableServer::ServantBase* Make(AgentPtr agent, model::SensorDescription description,
+                                  GroupPtr group) {
+  return new Servant(std::move(agent), std::move(description), std::move(group));
+}
+
+std::map<std::string, SensorServantMaker>& Makers() {
+  static std::map<std::string, SensorServantMaker> makers = {
+      {"sonar", Make<SonarServant>},
+      {"lidar", Make<LidarServant>},
+      {"camera", Make<CameraServant>},
+      {"positioning", Make<PositioningServant>},
+  };
+  return makers;
+}
+
+class SensorFactoryServant final : public POA_sba::SensorFactory {
+ public:
+  SensorFactoryServant(AgentPtr agent, GroupPtr group)
+      : agent_(std::move(agent)), group_(std::move(group)) {}
+
+  sba::SensorTraitsList* list() override {
+    const auto descriptions = agent_->Sensors();
+    auto* list = new sba::SensorTraitsList;
+    list->length(static_cast<CORBA::ULong>(descriptions.size()));
+    for (CORBA::ULong i = 0; i < list->length(); ++i) {
+      (*list)[i] = ToIdl(descriptions[i], agent_->RobotFromLink(descriptions[i].link));
+    }
+    return list;
+  }
+
+  sba::Strings* types() override {
+    const auto names = agent_->SensorTypes();
+    auto* types = new sba::Strings;
+    types->length(static_cast<CORBA::ULong>(names.size()));
+    for (CORBA::ULong i = 0; i < types->length(); ++i) (*types)[i] = names[i].c_str();
+    return types;
+  }
+
+  sba::Sensor_ptr open(const char* name) override {
+    orb::ValueOrThrow(agent_->OpenSensor(name), orb::kRefused | orb::kNotRunning | orb::kEnded);
+    return Serve<sba::Sensor>(name);
+  }
+
+  sba::Sonar_ptr create_sonar(const char* name, const sba::Placement& mounting, CORBA::Double min_m,
+                              CORBA::Double max_m) override {
+    return Create<sba::Sonar>("sonar", name, mounting, {{"min", min_m}, {"max", max_m}});
+  }
+
+  sba::Camera_ptr create_camera(const char* name, const sba::Placement& mounting,
+                                CORBA::ULong width, CORBA::ULong height,
+                                CORBA::Double horizontal_fov_rad) override {
+    return Create<sba::Camera>("camera", name, mounting,
+                               {{"image.width", static_cast<double>(width)},
+                                {"image.height", static_cast<double>(height)},
+                                {"horizontal_fov", horizontal_fov_rad}});
+  }
+
+  sba::PositioningSystem_ptr create_positioning_system(const char* name) override {
+    return Create<sba::PositioningSystem>("positioning", name, {}, {});
+  }
+
+  sba::Sensor_ptr create(const char* type, const sba::SensorTraits& description) override {
+    return Create<sba::Sensor>(type, std::string(description.name), description.mounting,
+                               FromIdl(description.parameters), description.update_rate_hz);
+  }
+
+ private:
+  template <typename Interface>
+  typename Interface::_ptr_type Create(const std::string& type, const std::string& name,
+                                       const sba::Placement& mounting, model::Parameters parameters,
+                                       double update_rate = 0) {
+    model::SensorDescription description;
+    description.name = name;
+    description.type = type;
+    description.link_from_sensor = Inverse(agent_->RobotFromLink(0)) * FromIdl(mounting);
+    description.update_rate = update_rate;
+    description.parameters = std::move(parameters);
+    orb::ValueOrThrow(agent_->CreateSensor(std::move(description)),
+                      orb::kRefused | orb::kNotRunning | orb::kEnded);
+    return Serve<Interface>(name);
+  }
+
+  template <typename Interface>
+  typename Interface::_ptr_type Serve(const std::string& name) {
+    for (model::SensorDescription& description : agent_->Sensors()) {
+      if (description.name != name) continue;
+      const SensorServantMaker make = SensorServants::For(description.type);
+      return group_->Activate<Interface>(make(agent_, std::move(description), group_));
+    }
+    throw sba::Ended("the sensor has just been closed");
+  }
+
+  const AgentPtr agent_;
+  const GroupPtr group_;
+};
+
+class ActuatorServant final : public POA_sba::ActuatorProxy {
+ public:
+  explicit ActuatorServant(AgentPtr agent) : agent_(std::move(agent)) {}
+
+  void drive(CORBA::Double linear_m_s, CORBA::Double angular_rad_s) override {
+    orb::ValueOrThrow(agent_->Command({linear_m_s, 0, angular_rad_s}));
+  }
+  void drive_sideways(CORBA::Double linear_m_s, CORBA::Double lateral_m_s,
+                      CORBA::Double angular_rad_s) override {
+    orb::ValueOrThrow(agent_->Command({linear_m_s, lateral_m_s, angular_rad_s}));
+  }
+  void halt() override { orb::ValueOrThrow(agent_->Command({}), kReadingRaises); }
+
+ private:
+  const AgentPtr agent_;
+};
+
+class ClockServant final : public POA_sba::Clock {
+ public:
+  ClockServant(AgentPtr agent, simulation::ClockId clock, GroupPtr group)
+      : agent_(std::move(agent)), clock_(clock), group_(std::move(group)) {}
+
+  CORBA::LongLong now() override { return agent_->Now().count(); }
+
+  sba::WaitOutcome sleep_until(CORBA::LongLong instant) override {
+    return ToIdl(orb::ValueOrThrow(agent_->SleepUntil(clock_, base::SimTime(instant), kLease),
+                                   orb::kNotRunning | orb::kEnded));
+  }
+
+  sba::WaitOutcome exchange(CORBA::ULongLong cycle, const sba::BaseCommand& command,
+                            CORBA::LongLong instant, CORBA::LongLong& reached_ns,
+                            sba::Measurements_out readings) override {
+    std::optional<world::DriveCommand> given;
+    if (command.given) given = {command.linear_m_s, command.lateral_m_s, command.angular_rad_s};
+    const simulation::Exchanged exchanged =
+        orb::ValueOrThrow(agent_->Exchange(clock_, cycle, given, base::SimTime(instant), kLease));
+    reached_ns = exchanged.now.count();
+    readings = new sba::Measurements;
+    readings->length(static_cast<CORBA::ULong>(exchanged.readings.size()));
+    for (CORBA::ULong i = 0; i < readings->length(); ++i) {
+      readings[i] = services::ToIdl(exchanged.readings[i].sensor, exchanged.readings[i].reading);
+    }
+    return ToIdl(exchanged.wait);
+  }
+
+  void close() override {
+    (void)agent_->CloseClock(clock_);  // closed twice is closed
+    group_->Deactivate(this);
+  }
+
+ private:
+  static sba::WaitOutcome ToIdl(simulation::Wait wait) {
+    return wait == simulation::Wait::kReached ? sba::REACHED : sba::NOT_YET;
+  }
+
+  const AgentPtr agent_;
+  const simulation::ClockId clock_;
+  const GroupPtr group_;
+};
+
+class HardwareServant final : public POA_sba::Hardware {
+ public:
+  HardwareServant(AgentPtr agent, GroupPtr group)
+      : agent_(std::move(agent)), group_(std::move(group)) {}
+
+  char* robot_name() override { return CORBA::string_dup(agent_->robot().c_str()); }
+  char* robot_model() override { return CORBA::string_dup(agent_->model().c_str()); }
+  CORBA::Double footprint_radius_m() override { return agent_->footprint_radius(); }
+  sba::SensorFactory_ptr sensor_factory() override {
+    return group_->Activate<sba::SensorFactory>(new SensorFactoryServant(agent_, group_));
+  }
+  sba::ActuatorProxy_ptr base() override {
+    return group_->Activate<sba::ActuatorProxy>(new ActuatorServant(agent_));
+  }
+  sba::Clock_ptr open_clock() override {
+    const auto clock =
+        orb::ValueOrThrow(agent_->OpenClock(), orb::kRefused | orb::kNotRunning | orb::kEnded);
+    return group_->Activate<sba::Clock>(new ClockServant(agent_, clock, group_));
+  }
+
+ private:
+  const AgentPtr agent_;
+  const GroupPtr group_;
+};
+
+}  // namespace
+
+ServantGroup::ServantGroup(PortableServer::POA_ptr poa)
+    : poa_(PortableServer::POA::_duplicate(poa)) {}
+
+void ServantGroup::DeactivateAll() {
+  std::set<std::string> ids;
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    ids.swap(ids_);
+  }
+  for (const std::string& id : ids) DeactivateId(id);
+}
+
+void ServantGroup::DeactivateId(const std::string& id) {
+  try {
+    PortableServer::ObjectId object_id;
+    object_id.length(static_cast<CORBA::ULong>(id.size()));
+    std::memcpy(object_id.get_buffer(), id.data(), id.size());
+    poa_->deactivate_object(object_id);
+  } catch (const CORBA::Exception&) {
+    // It was deactivated by another call at the same moment.
+  }
+}
+
+CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant) {
+  const PortableServer::ServantBase_var owned(servant);  // the POA holds on to it
+  const std::lock_guard lock(mutex_);
+  if (closed_) throw sba::Ended("the robot is gone");
+  const PortableServer::ObjectId_var id = poa_->activate_object(servant);
+  ids_.insert(Key(id));
+  return poa_->id_to_reference(id);
+}
+
+void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {
+  try {
+    const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
+    {
+      const std::lock_guard lock(mutex_);
+      ids_.erase(Key(id));
+    }
+    DeactivateId(Key(id));
+  } catch (const CORBA::Exception&) {
+    // It was deactivated by another call at the same moment.
+  }
+}
+
+void SensorServants::Register(const std::string& type, SensorServantMaker maker) {
+  Makers()[type] = maker;
+}
+
+SensorServantMaker SensorServants::For(const std::string& type) {
+  const auto it = Makers().find(type);
+  return it == Makers().end() ? Make<PlainSensorServant> : it->second;
+}
+
+sba::Hardware_ptr ActivateHardware(AgentPtr agent, GroupPtr group) {
+  return group->Activate<sba::Hardware>(new HardwareServant(std::move(agent), group));
+}
+
+}  // namespace gsv::services

@@ -1,0 +1,99 @@
+#include "gsv/services/remote_behaviour.h"
+
+#include <chrono>
+
+#include "gsv/orb/errors.h"
+#include "gsv/orb/orb.h"
+
+namespace gsv::services {
+namespace {
+
+// Wall time that a behaviour has to answer a call; init may read files.
+constexpr std::chrono::milliseconds kCallTimeout{10'000};
+constexpr CORBA::ULong kPingTimeoutMs = 1500;
+
+// Limits the calls of this thread for as long as it lives.
+class ThreadTimeout {
+  // The ORB keeps the limit with its own notion of this thread, which a std::thread lacks.
+  omni_thread::ensure_self self_;
+
+ public:
+  explicit ThreadTimeout(CORBA::ULong milliseconds) {
+    omniORB::setClientThreadCallTimeout(milliseconds);
+  }
+  ~ThreadTimeout() { omniORB::setClientThreadCallTimeout(0); }
+};
+
+}  // namespace
+
+RemoteBehaviour::RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
+                                 PortableServer::POA_ptr poa)
+    : identity_(std::move(identity)),
+      behaviour_(sba::AgentBehaviour::_duplicate(behaviour)),
+      poa_(PortableServer::POA::_duplicate(poa)) {
+  orb::LimitCalls(behaviour_, kCallTimeout);
+}
+
+RemoteBehaviour::~RemoteBehaviour() { ReplaceHardware(nullptr); }
+
+void RemoteBehaviour::ReplaceHardware(std::shared_ptr<ServantGroup> hardware) {
+  {
+    const std::lock_guard lock(mutex_);
+    hardware_.swap(hardware);
+  }
+  if (hardware != nullptr) hardware->DeactivateAll();
+}
+
+template <typename Function>
+base::Status RemoteBehaviour::Call(const char* operation, Function call) const {
+  auto status = orb::Call(identity_.name + " on " + identity_.place, call);
+  if (status) return {};
+  base::Error error = status.error();
+  error.code = base::ErrorCode::kBehaviour;
+  error.message = std::string(operation) + ": " + error.message;
+  return base::Fail(std::move(error));
+}
+
+base::Status RemoteBehaviour::Init(const std::shared_ptr<simulation::Agent>& agent) {
+  auto hardware = std::make_shared<ServantGroup>(poa_);
+  ReplaceHardware(hardware);
+  const sba::Hardware_var reference = ActivateHardware(agent, std::move(hardware));
+  return Call("init", [&] { behaviour_->init(agent->robot().c_str(), reference); });
+}
+
+base::Status RemoteBehaviour::Start() {
+  return Call("start", [this] { behaviour_->start(); });
+}
+
+base::Status RemoteBehaviour::Stop() {
+  return Call("stop", [this] { behaviour_->stop(); });
+}
+
+base::Status RemoteBehaviour::Pause() {
+  return Call("pause", [this] { behaviour_->pause(); });
+}
+
+base::Status RemoteBehaviour::Resume() {
+  return Call("resume", [this] { behaviour_->resume(); });
+}
+
+void RemoteBehaviour::Destroy() {
+  (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone already
+  ReplaceHardware(nullptr);
+}
+
+bool RemoteBehaviour::IsDead() {
+  const ThreadTimeout timeout(kPingTimeoutMs);
+  // A connection that broke tells nothing about a process that may accept another: ask twice.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      return behaviour_->_non_existent();
+    } catch (const CORBA::SystemException& exception) {
+      if (orb::MeansGone(exception)) return true;
+      if (CORBA::COMM_FAILURE::_downcast(&exception) == nullptr) return false;
+    }
+  }
+  return false;
+}
+
+}  // namespace gsv::services

@@ -1,0 +1,53 @@
+// A behaviour in another process, reached through its sba::AgentBehaviour.
+//
+// Threads  as simulation::BehaviourPort.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "gsv/services/hardware_servants.h"
+#include "gsv/simulation/behaviour_port.h"
+#include "idl/behaviour.hh"
+
+namespace gsv::services {
+
+struct BehaviourIdentity {
+  std::string name;   // of its service: "wander"
+  std::string place;  // "host:pid"
+  bool time_managed = true;
+};
+
+class RemoteBehaviour final : public simulation::BehaviourPort {
+ public:
+  // Hardware is activated on `poa`.
+  RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
+                  PortableServer::POA_ptr poa);
+  ~RemoteBehaviour() override;
+
+  base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;
+  base::Status Start() override;
+  base::Status Stop() override;
+  base::Status Pause() override;
+  base::Status Resume() override;
+  void Destroy() override;
+  bool IsDead() override;
+
+  bool time_managed() const override { return identity_.time_managed; }
+  const std::string& name() const override { return identity_.name; }
+  const std::string& place() const override { return identity_.place; }
+
+ private:
+  template <typename Function>
+  base::Status Call(const char* operation, Function call) const;
+  void ReplaceHardware(std::shared_ptr<ServantGroup> hardware);
+
+  const BehaviourIdentity identity_;
+  sba::AgentBehaviour_var behaviour_;
+  PortableServer::POA_var poa_;
+  std::mutex mutex_;
+  std::shared_ptr<ServantGroup> hardware_;
+};
+
+}  // namespace gsv::services

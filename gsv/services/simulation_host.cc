@@ -1,0 +1,74 @@
+#include "gsv/services/simulation_host.h"
+
+#include <algorithm>
+
+namespace gsv::services {
+
+using simulation::Simulation;
+
+base::Result<std::string> SimulationHost::FreeName(std::string wanted) const {
+  const auto is_taken = [this](const std::string& name) {
+    return std::any_of(simulations_.begin(), simulations_.end(),
+                       [&](const auto& s) { return s->specification().name == name; });
+  };
+  if (simulations_.size() >= kMaxSimulations) {
+    return base::Fail(base::ErrorCode::kUnavailable, "this server already runs " +
+                                                         std::to_string(kMaxSimulations) +
+                                                         " simulations; destroy one first");
+  }
+  if (!wanted.empty()) {
+    if (wanted.size() > 128 || wanted.find('/') != std::string::npos) {
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        "a simulation's name has 1 to 128 characters and no \"/\"", wanted);
+    }
+    if (is_taken(wanted)) {
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        "a simulation of that name is there already", wanted);
+    }
+    return wanted;
+  }
+  for (int number = 1;; ++number) {
+    std::string name = "simulation_" + std::to_string(number);
+    if (!is_taken(name)) return name;
+  }
+}
+
+base::Result<std::shared_ptr<Simulation>> SimulationHost::Create(
+    simulation::Specification specification, const std::string& world, base::Problems& problems) {
+  auto description = library_->ReadWorld(world, problems);
+  if (!description) return base::Fail(description.error());
+  specification.world = std::make_shared<const model::WorldDescription>(*std::move(description));
+  const std::lock_guard lock(mutex_);
+  auto name = FreeName(specification.name);
+  if (!name) return base::Fail(name.error());
+  specification.name = *std::move(name);
+  auto created = Simulation::Create(std::move(specification), sensors_);
+  if (created) simulations_.push_back(*created);
+  return created;
+}
+
+base::Status SimulationHost::Remove(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  const auto it = std::find_if(simulations_.begin(), simulations_.end(),
+                               [&](const auto& s) { return s->specification().name == name; });
+  if (it == simulations_.end()) {
+    return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of that name", name);
+  }
+  simulations_.erase(it);
+  return {};
+}
+
+std::shared_ptr<Simulation> SimulationHost::Find(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& simulation : simulations_) {
+    if (simulation->specification().name == name) return simulation;
+  }
+  return nullptr;
+}
+
+std::vector<std::shared_ptr<Simulation>> SimulationHost::List() const {
+  const std::lock_guard lock(mutex_);
+  return simulations_;
+}
+
+}  // namespace gsv::services

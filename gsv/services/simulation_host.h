@@ -1,0 +1,48 @@
+// The simulations of one process, by name, with what they share: models, sensor types.
+//
+// Threads  any.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/sensing/registry.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::services {
+
+// At most this many simulations at once in one process.
+inline constexpr std::size_t kMaxSimulations = 64;
+
+class SimulationHost {
+ public:
+  SimulationHost(std::shared_ptr<const sensing::SensorRegistry> sensors,
+                 std::shared_ptr<formats::ModelLibrary> library)
+      : sensors_(std::move(sensors)), library_(std::move(library)) {}
+
+  // Reads the world and creates a simulation of it. `specification.world` is filled in; an empty
+  // name is chosen, a taken one is an error. What the files lack is added to `problems`.
+  base::Result<std::shared_ptr<simulation::Simulation>> Create(
+      simulation::Specification specification, const std::string& world, base::Problems& problems);
+  // Removes it from the list; it ends when nobody holds it any more.
+  base::Status Remove(const std::string& name);
+
+  std::shared_ptr<simulation::Simulation> Find(const std::string& name) const;  // may be null
+  std::vector<std::shared_ptr<simulation::Simulation>> List() const;  // in order of creation
+
+  formats::ModelLibrary& library() { return *library_; }
+
+ private:
+  base::Result<std::string> FreeName(std::string wanted) const;  // under the lock
+
+  const std::shared_ptr<const sensing::SensorRegistry> sensors_;
+  const std::shared_ptr<formats::ModelLibrary> library_;
+  mutable std::mutex mutex_;
+  std::vector<std::shared_ptr<simulation::Simulation>> simulations_;
+};
+
+}  // namespace gsv::services

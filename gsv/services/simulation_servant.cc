@@ -1,0 +1,258 @@
+#include "gsv/services/simulation_servant.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "gsv/base/log.h"
+#include "gsv/orb/errors.h"
+#include "gsv/orb/orb.h"
+#include "gsv/services/conversions.h"
+#include "gsv/services/remote_behaviour.h"
+
+namespace gsv::services {
+namespace {
+
+constexpr std::chrono::seconds kAbandonedAfter{60};
+constexpr std::chrono::milliseconds kAwaitLease{2000};
+
+using simulation::Phase;
+
+simulation::Specification FromIdl(const sba::SimulationSpecification& in) {
+  simulation::Specification out;
+  out.name = in.name;
+  out.mode = in.pacing == sba::LOCKSTEP ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
+  out.factor = in.factor;
+  out.step = base::SimTime(in.step_ns);
+  out.seed = in.seed;
+  out.duration = base::SimTime(in.duration_ns);
+  out.keep = in.keep;
+  const model::Parameters options = services::FromIdl(in.options);
+  if (model::TextOr(options, "on_failure", "go_on") == "fail") {
+    out.on_failure = simulation::FailurePolicy::kFail;
+  }
+  const double deadline_s = model::NumberOr(options, "deadline_s", 10.0);
+  if (!(deadline_s > 0 && deadline_s <= 86'400))
+    throw sba::Refused("deadline_s must lie in (0, 86400]");
+  out.deadline = std::chrono::milliseconds(static_cast<std::int64_t>(deadline_s * 1000));
+  if (in.step_ns < 0 || in.duration_ns < 0)
+    throw sba::Refused("step_ns and duration_ns must not be negative");
+  return out;
+}
+
+void Log(const std::string& simulation, const base::Problems& problems) {
+  for (const base::Problem& problem : problems)
+    spdlog::warn("{}: {}", simulation, problem.Sentence());
+}
+
+}  // namespace
+
+SimulationServant::SimulationServant(std::shared_ptr<simulation::Simulation> simulation,
+                                     SimulationServiceServant& service,
+                                     sba::SimulationSpecification specification)
+    : simulation_(std::move(simulation)),
+      service_(service),
+      specification_(std::move(specification)) {
+  NoteContact();
+}
+
+bool SimulationServant::IsAbandoned(std::chrono::seconds limit) const {
+  return !simulation_->specification().keep &&
+         std::chrono::steady_clock::now().time_since_epoch() - last_contact_.load() > limit;
+}
+
+sba::SimulationSpecification* SimulationServant::specification() {
+  NoteContact();
+  return new sba::SimulationSpecification(specification_);
+}
+
+char* SimulationServant::add_robot(const sba::RobotSpecification& robot) {
+  return CORBA::string_dup(Add(robot, false).c_str());
+}
+
+char* SimulationServant::add_avatar(const sba::RobotSpecification& avatar) {
+  return CORBA::string_dup(Add(avatar, true).c_str());
+}
+
+std::string SimulationServant::Add(const sba::RobotSpecification& robot, bool is_avatar) {
+  NoteContact();
+  simulation::RobotSpecification out;
+  out.name = robot.name;
+  out.world_from_robot = FromIdl(robot.start);
+  out.is_avatar = is_avatar;
+  const model::Parameters options = FromIdl(robot.options);
+  out.on_ground = model::FlagOr(options, "on_ground", true);
+  out.allow_unmanaged = model::FlagOr(options, "allow_unmanaged", false);
+  base::Problems problems;
+  out.model = orb::ValueOrThrow(service_.host().library().ReadModel(
+      std::string(robot.model), problems, simulation_->specification().world->source));
+  Log(simulation_->specification().name, problems);
+  if (!CORBA::is_nil(robot.behaviour)) {
+    out.behaviour = std::make_shared<RemoteBehaviour>(
+        robot.behaviour, BehaviourIdentity{"given", orb::AddressOf(robot.behaviour), true},
+        service_.poa());
+  } else if (const std::string constraint(robot.behaviour_constraint); !constraint.empty()) {
+    if (service_.behaviours() == nullptr)
+      throw sba::Refused("this server has no broker to ask for behaviours");
+    out.behaviour = orb::ValueOrThrow(service_.behaviours()->Get(constraint));
+  }
+  return orb::ValueOrThrow(simulation_->AddRobot(std::move(out)));
+}
+
+void SimulationServant::remove_robot(const char* name) {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->RemoveRobot(name), orb::kRefused | orb::kEnded);
+}
+
+void SimulationServant::start() {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->Start(), orb::kNotRunning | orb::kEnded);
+}
+
+void SimulationServant::pause() {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->Pause(), orb::kNotRunning | orb::kEnded);
+}
+
+void SimulationServant::resume() {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->Resume(), orb::kNotRunning | orb::kEnded);
+}
+
+void SimulationServant::step(CORBA::ULongLong count) {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->Step(static_cast<std::int64_t>(
+                        std::min<CORBA::ULongLong>(count, 1'000'000'001))),
+                    orb::kRefused | orb::kNotRunning | orb::kEnded);
+}
+
+void SimulationServant::run_until(CORBA::LongLong instant) {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->RunUntil(base::SimTime(instant)),
+                    orb::kRefused | orb::kNotRunning | orb::kEnded);
+}
+
+void SimulationServant::stop() {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->Stop(), orb::kEnded);
+}
+
+void SimulationServant::reset() {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->Reset(), orb::kEnded | orb::kFailed);
+}
+
+sba::SimulationState* SimulationServant::state() {
+  NoteContact();
+  return new sba::SimulationState(ToIdl(simulation_->status()));
+}
+
+sba::SimulationPhase SimulationServant::await_change(sba::SimulationPhase known) {
+  NoteContact();
+  std::vector<Phase> others;
+  for (const Phase phase : {Phase::kCreated, Phase::kStarting, Phase::kRunning, Phase::kPaused,
+                            Phase::kStopped, Phase::kFinished, Phase::kFailed}) {
+    if (ToIdl(phase) != known) others.push_back(phase);
+  }
+  return ToIdl(simulation_->WaitForPhase(others, kAwaitLease));
+}
+
+char* SimulationServant::state_hash() {
+  NoteContact();
+  return CORBA::string_dup(simulation_->state_hash().c_str());
+}
+
+char* SimulationServant::viewer_url() {
+  NoteContact();
+  const auto& hook = service_.hooks().viewer_url;
+  return CORBA::string_dup(hook ? hook(simulation_->specification().name).c_str() : "");
+}
+
+void SimulationServant::start_recording(const char* path) {
+  NoteContact();
+  if (!service_.hooks().start_recording) throw sba::Refused("this server does not record");
+  orb::ValueOrThrow(service_.hooks().start_recording(simulation_, path));
+}
+
+void SimulationServant::stop_recording() {
+  NoteContact();
+  if (!service_.hooks().stop_recording) throw sba::Refused("this server does not record");
+  orb::ValueOrThrow(service_.hooks().stop_recording(simulation_->specification().name));
+}
+
+void SimulationServant::destroy() { service_.Destroy(*this); }
+
+SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
+                                                   SimulationHost& host,
+                                                   BehaviourSource* behaviours, ServiceHooks hooks)
+    : poa_(PortableServer::POA::_duplicate(poa)),
+      host_(host),
+      behaviours_(behaviours),
+      hooks_(std::move(hooks)),
+      janitor_([this] { StopAbandoned(); }) {}
+
+SimulationServiceServant::~SimulationServiceServant() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  closing_changed_.notify_all();
+}
+
+sba::Simulation_ptr SimulationServiceServant::create_simulation(
+    const sba::SimulationSpecification& specification) {
+  std::string world(specification.world);
+  if (world.empty()) world = hooks_.default_world;
+  base::Problems problems;
+  auto created = orb::ValueOrThrow(host_.Create(FromIdl(specification), world, problems),
+                                   orb::kRefused | orb::kFailed);
+  const std::string name = created->specification().name;
+  Log(name, problems);
+  sba::SimulationSpecification described(specification);
+  described.name = name.c_str();
+  described.world = world.c_str();
+  described.step_ns = created->specification().step.count();
+  auto* servant = new SimulationServant(std::move(created), *this, described);
+  const PortableServer::ServantBase_var owned(servant);
+  const PortableServer::ObjectId_var id = poa_->activate_object(servant);
+  const std::lock_guard lock(mutex_);
+  servants_[name] = servant;
+  return servant->_this();
+}
+
+sba::Simulations* SimulationServiceServant::list() {
+  const std::lock_guard lock(mutex_);
+  auto* simulations = new sba::Simulations;
+  simulations->length(static_cast<CORBA::ULong>(servants_.size()));
+  CORBA::ULong i = 0;
+  for (const auto& [name, servant] : servants_) (*simulations)[i++] = servant->_this();
+  return simulations;
+}
+
+void SimulationServiceServant::Destroy(SimulationServant& servant) {
+  const std::string name = servant.simulation()->specification().name;
+  {
+    const std::lock_guard lock(mutex_);
+    if (servants_.erase(name) == 0) return;  // destroyed already
+  }
+  (void)servant.simulation()->Stop();
+  (void)host_.Remove(name);
+  const PortableServer::ObjectId_var id = poa_->servant_to_id(&servant);
+  poa_->deactivate_object(id);
+}
+
+void SimulationServiceServant::StopAbandoned() {
+  std::unique_lock lock(mutex_);
+  while (!closing_) {
+    closing_changed_.wait_for(lock, std::chrono::seconds(5), [this] { return closing_; });
+    for (const auto& [name, servant] : servants_) {
+      if (!servant->IsAbandoned(kAbandonedAfter)) continue;
+      const Phase phase = servant->simulation()->status().phase;
+      if (phase == Phase::kStopped || phase == Phase::kFinished || phase == Phase::kFailed)
+        continue;
+      spdlog::warn("{}: stopped, since nobody has called for {} s", name, kAbandonedAfter.count());
+      (void)servant->simulation()->Stop();
+    }
+  }
+}
+
+}  // namespace gsv::services

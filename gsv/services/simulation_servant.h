@@ -1,0 +1,99 @@
+// sba::Simulation and sba::SimulationService over the simulations of a SimulationHost.
+//
+// Threads  ORB threads.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "gsv/services/behaviour_source.h"
+#include "gsv/services/simulation_host.h"
+#include "idl/simulation.hh"
+
+namespace gsv::services {
+
+// What the program around the services adds to them.
+struct ServiceHooks {
+  std::string default_world;
+  // Where a browser watches a simulation; may be empty.
+  std::function<std::string(const std::string& simulation)> viewer_url;
+  std::function<base::Status(std::shared_ptr<simulation::Simulation>, const std::string& path)>
+      start_recording;
+  std::function<base::Status(const std::string& simulation)> stop_recording;
+};
+
+class SimulationServiceServant;
+
+class SimulationServant final : public POA_sba::Simulation {
+ public:
+  SimulationServant(std::shared_ptr<simulation::Simulation> simulation,
+                    SimulationServiceServant& service, sba::SimulationSpecification specification);
+
+  sba::SimulationSpecification* specification() override;
+  char* add_robot(const sba::RobotSpecification& robot) override;
+  char* add_avatar(const sba::RobotSpecification& avatar) override;
+  void remove_robot(const char* name) override;
+  void start() override;
+  void pause() override;
+  void resume() override;
+  void step(CORBA::ULongLong count) override;
+  void run_until(CORBA::LongLong instant) override;
+  void stop() override;
+  void reset() override;
+  sba::SimulationState* state() override;
+  sba::SimulationPhase await_change(sba::SimulationPhase known) override;
+  char* state_hash() override;
+  char* viewer_url() override;
+  void start_recording(const char* path) override;
+  void stop_recording() override;
+  void destroy() override;
+
+  const std::shared_ptr<simulation::Simulation>& simulation() const { return simulation_; }
+  // Nobody has called for `limit` of wall time, and it was not created to be kept.
+  bool IsAbandoned(std::chrono::seconds limit) const;
+
+ private:
+  std::string Add(const sba::RobotSpecification& robot, bool is_avatar);
+  void NoteContact() { last_contact_ = std::chrono::steady_clock::now().time_since_epoch(); }
+
+  const std::shared_ptr<simulation::Simulation> simulation_;
+  SimulationServiceServant& service_;
+  const sba::SimulationSpecification specification_;
+  std::atomic<std::chrono::steady_clock::duration> last_contact_;
+};
+
+class SimulationServiceServant final : public POA_sba::SimulationService {
+ public:
+  // `host` and `behaviours` outlive it; `behaviours` may be null: then only references serve.
+  SimulationServiceServant(PortableServer::POA_ptr poa, SimulationHost& host,
+                           BehaviourSource* behaviours, ServiceHooks hooks);
+  ~SimulationServiceServant() override;
+
+  sba::Simulation_ptr create_simulation(const sba::SimulationSpecification& specification) override;
+  sba::Simulations* list() override;
+
+  void Destroy(SimulationServant& servant);
+  SimulationHost& host() { return host_; }
+  BehaviourSource* behaviours() { return behaviours_; }
+  const ServiceHooks& hooks() const { return hooks_; }
+  PortableServer::POA_ptr poa() { return poa_; }
+
+ private:
+  void StopAbandoned();
+
+  PortableServer::POA_var poa_;
+  SimulationHost& host_;
+  BehaviourSource* const behaviours_;
+  const ServiceHooks hooks_;
+  std::mutex mutex_;
+  std::condition_variable closing_changed_;
+  bool closing_ = false;
+  std::map<std::string, SimulationServant*> servants_;  // by simulation; the POA holds them
+  std::jthread janitor_;
+};
+
+}  // namespace gsv::services

@@ -1,0 +1,237 @@
+#include "sdk/application.h"
+
+#include "gsv/broker/broker_client.h"
+#include "gsv/broker/corbaloc.h"
+#include "gsv/broker/gsv_service_types.h"
+#include "gsv/orb/errors.h"
+#include "gsv/orb/orb.h"
+#include "idl/simulation.hh"
+
+namespace gsv {
+namespace {
+
+// Reading a world and initialising behaviours may take long.
+constexpr std::chrono::milliseconds kCreateTimeout{120'000};
+
+const char* Text(sba::SimulationPhase phase) {
+  switch (phase) {
+    case sba::PHASE_CREATED:
+      return "created";
+    case sba::PHASE_STARTING:
+      return "starting";
+    case sba::PHASE_RUNNING:
+      return "running";
+    case sba::PHASE_PAUSED:
+      return "paused";
+    case sba::PHASE_STOPPED:
+      return "stopped";
+    case sba::PHASE_FINISHED:
+      return "finished";
+    case sba::PHASE_FAILED:
+      return "failed";
+  }
+  return "";
+}
+
+const char* Text(sba::AgentPhase phase) {
+  switch (phase) {
+    case sba::AGENT_NONE:
+      return "none";
+    case sba::AGENT_INITIALISED:
+      return "initialised";
+    case sba::AGENT_RUNNING:
+      return "running";
+    case sba::AGENT_WAITING:
+      return "waiting";
+    case sba::AGENT_FINISHED:
+      return "finished";
+    case sba::AGENT_UNRESPONSIVE:
+      return "unresponsive";
+    case sba::AGENT_DEAD:
+      return "dead";
+  }
+  return "";
+}
+
+SimulationState FromIdl(const sba::SimulationState& in) {
+  SimulationState out;
+  out.phase = Text(in.phase);
+  out.time = SimTime(in.time_ns);
+  out.real_time_factor = in.real_time_factor;
+  out.late_steps = in.late_steps;
+  out.waiting_for = in.waiting_for;
+  out.failure = in.failure;
+  for (CORBA::ULong i = 0; i < in.robots.length(); ++i) {
+    const sba::RobotState& robot = in.robots[i];
+    const sba::Placement& p = robot.place;
+    out.robots.push_back({std::string(robot.name),
+                          std::string(robot.model),
+                          std::string(robot.behaviour),
+                          Text(robot.phase),
+                          {p.x_m, p.y_m, p.z_m, p.roll_rad, p.pitch_rad, p.yaw_rad},
+                          robot.distance_m,
+                          robot.collisions});
+  }
+  return out;
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "'";
+}
+
+class SimulationProxy final : public RemoteSimulation {
+ public:
+  SimulationProxy(sba::Simulation_ptr simulation, std::string server)
+      : simulation_(sba::Simulation::_duplicate(simulation)), server_(std::move(server)) {
+    orb::LimitCalls(simulation_, kCreateTimeout);
+  }
+  ~SimulationProxy() override {
+    (void)orb::Call(server_, [this] { simulation_->destroy(); });  // the server may be gone
+  }
+
+  base::Result<std::string> AddRobot(const RobotRequest& request) override {
+    sba::RobotSpecification robot;
+    robot.name = request.name.c_str();
+    robot.model = request.model.c_str();
+    robot.start = {request.x, request.y, 0, 0, 0, request.yaw};
+    const std::string constraint =
+        request.behaviour.empty() ? "" : "name == " + Quoted(request.behaviour);
+    robot.behaviour_constraint = constraint.c_str();
+    return orb::Call(server_, [&] {
+      const CORBA::String_var name = simulation_->add_robot(robot);
+      return std::string(name);
+    });
+  }
+
+  base::Status Start() override {
+    return orb::Call(server_, [this] { simulation_->start(); });
+  }
+  base::Status Pause() override {
+    return orb::Call(server_, [this] { simulation_->pause(); });
+  }
+  base::Status Resume() override {
+    return orb::Call(server_, [this] { simulation_->resume(); });
+  }
+  base::Status Stop() override {
+    return orb::Call(server_, [this] { simulation_->stop(); });
+  }
+
+  base::Status RunUntil(SimTime until, std::chrono::seconds patience) override {
+    const auto give_up = std::chrono::steady_clock::now() + patience;
+    if (auto ok = orb::Call(server_, [&] { simulation_->run_until(until.count()); }); !ok)
+      return ok;
+    auto phase = sba::PHASE_STARTING;
+    while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
+      if (std::chrono::steady_clock::now() > give_up) {
+        return base::Fail(base::ErrorCode::kTimeout, "the simulation did not get there in time",
+                          server_);
+      }
+      const auto known = phase;
+      auto next = orb::Call(server_, [&] { return simulation_->await_change(known); });
+      if (!next) return base::Fail(next.error());
+      phase = *next;
+    }
+    if (phase == sba::PHASE_PAUSED || phase == sba::PHASE_FINISHED) return {};
+    auto state = State();
+    return base::Fail(base::ErrorCode::kEnded,
+                      std::string("the simulation is ") + Text(phase) +
+                          (state && !state->failure.empty() ? ": " + state->failure : ""),
+                      server_);
+  }
+
+  base::Result<SimulationState> State() override {
+    return orb::Call(server_, [this] {
+      const sba::SimulationState_var state = simulation_->state();
+      return FromIdl(state.in());
+    });
+  }
+
+  base::Result<std::string> StateHash() override {
+    return orb::Call(server_, [this] {
+      const CORBA::String_var hash = simulation_->state_hash();
+      return std::string(hash);
+    });
+  }
+
+  base::Result<std::string> ViewerUrl() override {
+    return orb::Call(server_, [this] {
+      const CORBA::String_var url = simulation_->viewer_url();
+      return std::string(url);
+    });
+  }
+
+ private:
+  sba::Simulation_var simulation_;
+  const std::string server_;
+};
+
+class BrokerApplication final : public Application {
+ public:
+  BrokerApplication(CORBA::ORB_ptr orb, broker::BrokerClient broker)
+      : orb_(CORBA::ORB::_duplicate(orb)), broker_(std::move(broker)) {}
+  ~BrokerApplication() override {
+    orb_->shutdown(true);
+    orb_->destroy();
+  }
+
+  base::Result<std::unique_ptr<RemoteSimulation>> Create(const SimulationRequest& request,
+                                                         const std::string& constraint) override {
+    auto offers = broker_.Query(broker::SimulationServiceType().name, constraint, "first", 16);
+    if (!offers) return base::Fail(offers.error());
+    base::Error error{base::ErrorCode::kNotFound,
+                      "no simulator is offered" +
+                          (constraint.empty() ? "" : " for the constraint: " + constraint) +
+                          "; start one with gsv serve --broker " + broker_.reference(),
+                      broker_.reference()};
+    for (const broker::FoundOffer& offer : *offers) {
+      auto created = CreateAt(offer.object, request);
+      if (created || created.error().code == base::ErrorCode::kInvalidArgument) return created;
+      error = created.error();  // the server may have died: try the next
+    }
+    return base::Fail(std::move(error));
+  }
+
+ private:
+  static base::Result<std::unique_ptr<RemoteSimulation>> CreateAt(
+      CORBA::Object_ptr object, const SimulationRequest& request) {
+    const std::string server = "simulator at " + orb::AddressOf(object);
+    orb::LimitCalls(object, kCreateTimeout);
+    return orb::Call(server, [&]() -> std::unique_ptr<RemoteSimulation> {
+      const sba::SimulationService_var service = sba::SimulationService::_narrow(object);
+      if (CORBA::is_nil(service)) throw sba::Failed("the offer is no SimulationService");
+      sba::SimulationSpecification specification;
+      specification.name = request.name.c_str();
+      specification.world = request.world.c_str();
+      specification.pacing = request.lockstep ? sba::LOCKSTEP : sba::REAL_TIME;
+      specification.factor = request.factor;
+      specification.step_ns = request.step.count();
+      specification.seed = request.seed;
+      specification.duration_ns = 0;
+      specification.keep = false;
+      const sba::Simulation_var simulation = service->create_simulation(specification);
+      return std::make_unique<SimulationProxy>(simulation, server);
+    });
+  }
+
+  CORBA::ORB_var orb_;
+  broker::BrokerClient broker_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Application>> Application::Connect(const std::string& broker) {
+  auto reference = broker::NormaliseReference(broker);
+  if (!reference) return base::Fail(reference.error());
+  auto orb = orb::StartOrb({});
+  if (!orb) return base::Fail(orb.error());
+  auto client = broker::BrokerClient::Connect(*orb, *reference);
+  if (!client) return base::Fail(client.error());
+  return std::make_unique<BrokerApplication>(*orb, *std::move(client));
+}
+
+}  // namespace gsv

@@ -1,0 +1,84 @@
+// For robotic applications: find a simulator through the broker, create a simulation, put robots in
+// it, run it, look at what came of it.
+//
+// Units    metres, radians; simulated time.
+// Errors   every call ends within its time limit; what failed, and where, is in the error.
+// Threads  one thread an object.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/base/sim_time.h"
+#include "sdk/behaviour/robot.h"
+
+namespace gsv {
+
+struct SimulationRequest {
+  std::string world;  // a file or model that the server can find; empty: its default
+  bool lockstep = true;
+  double factor = 1;  // in real time
+  SimTime step{0};    // 0: the world's
+  std::uint64_t seed = 0;
+  std::string name;  // empty: the server chooses
+};
+
+struct RobotRequest {
+  std::string model;
+  double x = 0, y = 0, yaw = 0;
+  std::string behaviour;  // the name of an offer; empty: none
+  std::string name;       // empty: after its model
+};
+
+struct RobotState {
+  std::string name, model, behaviour;
+  std::string agent;    // "running", "waiting", "finished", "unresponsive", "dead", …
+  Placement place;      // world_from_robot
+  double distance = 0;  // m
+  std::uint64_t collisions = 0;
+};
+
+struct SimulationState {
+  std::string phase;  // "created", "running", "paused", …
+  SimTime time{0};
+  double real_time_factor = 0;
+  std::uint64_t late_steps = 0;
+  std::string waiting_for;
+  std::string failure;
+  std::vector<RobotState> robots;
+};
+
+// A simulation on some server. It is destroyed with this.
+class RemoteSimulation {
+ public:
+  virtual ~RemoteSimulation() = default;
+
+  virtual base::Result<std::string> AddRobot(const RobotRequest& robot) = 0;
+  virtual base::Status Start() = 0;
+  virtual base::Status Pause() = 0;
+  virtual base::Status Resume() = 0;
+  virtual base::Status Stop() = 0;
+  // Runs to that instant and freezes there; blocks until then. `patience` is wall time.
+  virtual base::Status RunUntil(SimTime until,
+                                std::chrono::seconds patience = std::chrono::minutes(10)) = 0;
+  virtual base::Result<SimulationState> State() = 0;
+  virtual base::Result<std::string> StateHash() = 0;
+  virtual base::Result<std::string> ViewerUrl() = 0;
+};
+
+// The broker, as an application uses it. One a process.
+class Application {
+ public:
+  // `broker`: corbaloc::1.2@HOST:PORT/TradingService.
+  static base::Result<std::unique_ptr<Application>> Connect(const std::string& broker);
+  virtual ~Application() = default;
+
+  // On a simulator whose offer matches `constraint` (over the properties of docs/services.md;
+  // empty: any).
+  virtual base::Result<std::unique_ptr<RemoteSimulation>> Create(
+      const SimulationRequest& request, const std::string& constraint = "") = 0;
+};
+
+}  // namespace gsv

@@ -1,0 +1,38 @@
+// Sonars around a robot, evenly spread: those of its model, or, where it has none, mounted ones.
+//
+// Frame  bearings are counter-clockwise from straight ahead, in (-pi, pi].
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sdk/behaviour/robot.h"
+
+namespace gsv {
+
+class SonarRing {
+ public:
+  // `count` sonars whose bearings come nearest to 0, 1, … count-1 times 2 pi / count.
+  static base::Result<SonarRing> Open(Robot& robot, int count);
+
+  struct Echo {
+    double bearing = 0;    // rad
+    double distance = 0;   // m from the robot's origin
+    bool in_reach = true;  // false: nothing up to the sonar's maximum
+  };
+  // Reads them one after the other.
+  std::vector<Echo> Read();
+
+ private:
+  struct Mounted {
+    std::unique_ptr<Sonar> sonar;
+    double bearing;
+    double offset;  // m from the robot's origin to the sonar
+  };
+  std::vector<Mounted> sonars_;
+};
+
+// The least distance of the echoes within `half_angle` of `bearing`; infinite if there is none.
+double Nearest(const std::vector<SonarRing::Echo>& echoes, double bearing, double half_angle);
+
+}  // namespace gsv

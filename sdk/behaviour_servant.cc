@@ -1,0 +1,93 @@
+#include "sdk/behaviour_servant.h"
+
+#include <exception>
+
+#include "gsv/base/log.h"
+#include "gsv/orb/errors.h"
+
+namespace gsv::sdk {
+namespace {
+
+// Runs on the behaviour's own thread. Whatever the behaviour throws ends its run, not the program.
+void RunToItsEnd(Behaviour& behaviour, RemoteRobot& robot) {
+  try {
+    behaviour.Run(robot);
+  } catch (const std::exception& exception) {
+    spdlog::error("{}: the behaviour threw: {}", robot.name(), exception.what());
+  }
+  if (const std::string error = robot.error(); !error.empty()) spdlog::error("{}", error);
+  robot.CloseClock();
+}
+
+}  // namespace
+
+BehaviourServant::BehaviourServant(PortableServer::POA_ptr poa, BehaviourFactory factory)
+    : poa_(PortableServer::POA::_duplicate(poa)), factory_(std::move(factory)) {}
+
+BehaviourServant::~BehaviourServant() {
+  const std::lock_guard lock(mutex_);
+  EndRun();
+}
+
+void BehaviourServant::init(const char* agent_name, sba::Hardware_ptr hardware) {
+  const std::lock_guard lock(mutex_);
+  EndRun();
+  robot_ = orb::ValueOrThrow(RemoteRobot::Connect(agent_name, hardware));
+  behaviour_ = factory_();
+  try {
+    orb::ValueOrThrow(behaviour_->Init(*robot_));
+  } catch (const std::exception& exception) {
+    behaviour_.reset();
+    throw sba::Failed((std::string("the behaviour threw in Init: ") + exception.what()).c_str());
+  }
+}
+
+void BehaviourServant::start() {
+  const std::lock_guard lock(mutex_);
+  if (behaviour_ == nullptr) throw sba::Refused("start comes after init");
+  if (running_.joinable()) throw sba::Refused("the behaviour has been started already");
+  orb::ValueOrThrow(robot_->OpenClock());
+  running_ = std::jthread([this] { RunToItsEnd(*behaviour_, *robot_); });
+}
+
+void BehaviourServant::stop() {
+  const std::lock_guard lock(mutex_);
+  EndRun();
+}
+
+void BehaviourServant::EndRun() {
+  if (robot_ != nullptr) robot_->End();
+  if (running_.joinable()) running_.join();
+  running_ = {};
+}
+
+void BehaviourServant::pause() {
+  const std::lock_guard lock(mutex_);
+  if (behaviour_ != nullptr) behaviour_->Paused();
+}
+
+void BehaviourServant::resume() {
+  const std::lock_guard lock(mutex_);
+  if (behaviour_ != nullptr) behaviour_->Resumed();
+}
+
+void BehaviourServant::destroy() {
+  {
+    const std::lock_guard lock(mutex_);
+    EndRun();
+  }
+  const PortableServer::ObjectId_var id = poa_->servant_to_id(this);
+  poa_->deactivate_object(id);
+}
+
+BehaviourFactoryServant::BehaviourFactoryServant(PortableServer::POA_ptr poa,
+                                                 BehaviourFactory factory)
+    : poa_(PortableServer::POA::_duplicate(poa)), factory_(std::move(factory)) {}
+
+sba::AgentBehaviour_ptr BehaviourFactoryServant::create() {
+  PortableServer::Servant_var<BehaviourServant> servant(new BehaviourServant(poa_, factory_));
+  const PortableServer::ObjectId_var id = poa_->activate_object(servant);
+  return servant->_this();
+}
+
+}  // namespace gsv::sdk

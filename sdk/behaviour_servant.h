@@ -1,0 +1,50 @@
+// An offered behaviour as its callers see it: sba::AgentBehaviour over a gsv::Behaviour, and the
+// factory that makes one for each robot.
+//
+// Threads  calls come on ORB threads; the behaviour runs on a thread of its own.
+#pragma once
+
+#include <mutex>
+#include <thread>
+
+#include "idl/behaviour.hh"
+#include "sdk/behaviour/behaviour.h"
+#include "sdk/remote_robot.h"
+
+namespace gsv::sdk {
+
+class BehaviourServant final : public POA_sba::AgentBehaviour {
+ public:
+  BehaviourServant(PortableServer::POA_ptr poa, BehaviourFactory factory);
+  ~BehaviourServant() override;
+
+  void init(const char* agent_name, sba::Hardware_ptr robot) override;
+  void start() override;
+  void stop() override;
+  void pause() override;
+  void resume() override;
+  void destroy() override;
+
+ private:
+  void EndRun();  // under the lock
+
+  PortableServer::POA_var poa_;
+  const BehaviourFactory factory_;
+  std::mutex mutex_;
+  std::unique_ptr<RemoteRobot> robot_;
+  std::unique_ptr<Behaviour> behaviour_;
+  std::jthread running_;
+};
+
+class BehaviourFactoryServant final : public POA_sba::AgentBehaviourFactory {
+ public:
+  BehaviourFactoryServant(PortableServer::POA_ptr poa, BehaviourFactory factory);
+
+  sba::AgentBehaviour_ptr create() override;
+
+ private:
+  PortableServer::POA_var poa_;
+  const BehaviourFactory factory_;
+};
+
+}  // namespace gsv::sdk

@@ -1,0 +1,71 @@
+// The Robot behind an sba::Hardware reference.
+//
+// Threads  the behaviour's thread; End() from any.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+
+#include "idl/hardware.hh"
+#include "sdk/behaviour/robot.h"
+
+namespace gsv::sdk {
+
+class RemoteRobot final : public Robot {
+ public:
+  // Asks for the robot's parts; fails when the hardware does not answer.
+  static base::Result<std::unique_ptr<RemoteRobot>> Connect(const std::string& name,
+                                                            sba::Hardware_ptr hardware);
+  ~RemoteRobot() override;
+
+  // Opens the clock, so that the simulation counts the behaviour as running before it is told that
+  // it has started.
+  base::Status OpenClock();
+  // The run is over for this side: waits and calls return from now on.
+  void End();
+  // Says that the behaviour has finished. Called once, after its last use of the robot.
+  void CloseClock();
+
+  const std::string& name() const override { return name_; }
+  double footprint_radius() const override { return footprint_radius_; }
+  std::vector<SensorTraits> Sensors() override;
+  base::Result<std::unique_ptr<Sonar>> OpenSonar(const std::string& sensor) override;
+  base::Result<std::unique_ptr<Camera>> OpenCamera(const std::string& sensor) override;
+  base::Status OpenSensor(const std::string& sensor) override;
+  base::Result<std::unique_ptr<Sonar>> CreateSonar(const std::string& sensor,
+                                                   const Placement& robot_from_sonar,
+                                                   double min_range, double max_range) override;
+  base::Result<std::unique_ptr<Camera>> CreateCamera(const std::string& sensor,
+                                                     const Placement& robot_from_camera, int width,
+                                                     int height, double horizontal_fov) override;
+  base::Result<std::unique_ptr<PositioningSystem>> CreatePositioningSystem(
+      const std::string& sensor) override;
+  void Drive(double linear, double angular) override;
+  SimTime Now() override;
+  bool SleepUntil(SimTime instant) override;
+  bool Exchange(const DriveCommand& command, SimTime instant,
+                std::vector<Reading>& readings) override;
+  bool IsRunning() const override { return running_; }
+  std::string error() const override;
+
+  // Calls `call` unless the run is over; notes why it failed. True when it succeeded.
+  template <typename Function>
+  bool Try(Function call);
+
+ private:
+  RemoteRobot(std::string name, sba::Hardware_ptr hardware);
+  void Note(const base::Error& error);
+
+  const std::string name_;
+  sba::Hardware_var hardware_;
+  sba::SensorFactory_var factory_;
+  sba::ActuatorProxy_var base_;
+  sba::Clock_var clock_;
+  double footprint_radius_ = 0;
+  std::uint64_t cycle_ = 0;
+  std::atomic<bool> running_{true};
+  mutable std::mutex error_mutex_;
+  std::string error_;
+};
+
+}  // namespace gsv::sdk
