@@ -1,0 +1,29 @@
+// Starts the behaviour programs that ship with gsv, for behaviours that nobody offers yet.
+//
+// Threads  the thread that made it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/child_process.h"
+#include "gsv/broker/broker_client.h"
+
+namespace gsv::app {
+
+class BehaviourLauncher {
+ public:
+  // `broker` outlives it.
+  explicit BehaviourLauncher(broker::BrokerClient& broker) : broker_(broker) {}
+
+  // Sees to it that the behaviour is offered. If it is not, starts `programs` of the program
+  // gsv-NAME, which lies beside this one or on PATH, and waits until they offer it.
+  base::Status Ensure(const std::string& name, int programs);
+
+ private:
+  broker::BrokerClient& broker_;
+  std::vector<std::unique_ptr<ChildProcess>> children_;
+};
+
+}  // namespace gsv::app

@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <numeric>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/installation.h"
+#include "apps/gsv/population.h"
+
+namespace gsv::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Durations in milliseconds, from any thread.
+class Durations {
+ public:
+  void Add(Clock::duration duration) {
+    const std::lock_guard lock(mutex_);
+    values_.push_back(std::chrono::duration<double, std::milli>(duration).count());
+  }
+  void Clear() {
+    const std::lock_guard lock(mutex_);
+    values_.clear();
+  }
+  double mean() const {
+    const std::lock_guard lock(mutex_);
+    return values_.empty() ? 0
+                           : std::accumulate(values_.begin(), values_.end(), 0.0) /
+                                 static_cast<double>(values_.size());
+  }
+  // The value that the fraction `q` of all do not exceed (nearest rank).
+  double quantile(double q) const {
+    const std::lock_guard lock(mutex_);
+    if (values_.empty()) return 0;
+    std::vector<double> sorted = values_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto rank = static_cast<std::size_t>(q * static_cast<double>(sorted.size()));
+    return sorted[std::min(rank, sorted.size() - 1)];
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<double> values_;
+};
+
+// Times the intervals between state updates.
+class UpdateTimer final : public simulation::Observer {
+ public:
+  void OnSnapshot(const std::shared_ptr<const world::Snapshot>&) override {
+    const auto now = Clock::now();
+    if (last_ != Clock::time_point()) intervals.Add(now - last_);
+    last_ = now;
+  }
+  void OnEvent(const simulation::Event&) override {}
+
+  Durations intervals;
+
+ private:
+  Clock::time_point last_;  // stepping thread only
+};
+
+// A camera that notes how long each picture took, from request to picture.
+class TimedSensor final : public sensing::Sensor {
+ public:
+  TimedSensor(std::unique_ptr<sensing::Sensor> sensor, std::shared_ptr<Durations> times)
+      : Sensor(sensor->description()), sensor_(std::move(sensor)), times_(std::move(times)) {}
+  base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
+    const auto start = Clock::now();
+    auto reading = sensor_->Sample(sampling);
+    times_->Add(Clock::now() - start);
+    return reading;
+  }
+
+ private:
+  const std::unique_ptr<sensing::Sensor> sensor_;
+  const std::shared_ptr<Durations> times_;
+};
+
+struct TypicalArguments {
+  std::vector<int> robots{1, 2, 3, 4, 5};
+  std::string world = "office", model = "b21r", behaviour = "wander";
+  double duration = 20;
+  bool json = false;
+};
+
+struct Row {
+  int robots = 0;
+  simulation::SimulationStatus status;
+  std::shared_ptr<UpdateTimer> updates = std::make_shared<UpdateTimer>();
+  std::shared_ptr<Durations> pictures = std::make_shared<Durations>();
+};
+
+base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
+  Row row;
+  row.robots = robots;
+  RunOptions options;
+  options.runtime.viewer = false;
+  options.runtime.adapt_camera = [times = row.pictures](sensing::SensorType& camera) {
+    camera.create = [create = camera.create, times](const model::SensorDescription& description)
+        -> base::Result<std::unique_ptr<sensing::Sensor>> {
+      auto sensor = create(description);
+      if (!sensor) return sensor;
+      return std::make_unique<TimedSensor>(*std::move(sensor), times);
+    };
+  };
+  options.scenario.world = ResolveWorld(arguments.world);
+  for (int i = 0; i < robots; ++i)
+    options.scenario.robots.push_back({arguments.model, "", std::nullopt, ""});
+  options.behaviour = arguments.behaviour;
+  options.specification.duration = base::FromSeconds(arguments.duration);
+  options.specification.keep = true;
+
+  auto runtime = Runtime::Start(options.runtime);
+  if (!runtime) return base::Fail(runtime.error());
+  base::Problems problems;
+  auto simulation =
+      (*runtime)->host().Create(options.specification, options.scenario.world, problems);
+  if (!simulation) return base::Fail(simulation.error());
+  if (auto ok = Populate(**runtime, **simulation, options, problems); !ok)
+    return base::Fail(ok.error());
+  (*simulation)->AddObserver(row.updates);
+  if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
+  const auto patience =
+      std::chrono::milliseconds(static_cast<std::int64_t>(arguments.duration * 20'000) + 60'000);
+  if ((*simulation)->WaitForPhase({simulation::Phase::kFinished}, patience) !=
+      simulation::Phase::kFinished) {
+    return base::Fail(base::ErrorCode::kTimeout, "the run did not finish in time");
+  }
+  row.status = (*simulation)->status();
+  return row;
+}
+
+nlohmann::ordered_json ToJson(const Row& row) {
+  return {{"robots", row.robots},
+          {"real_time_factor", row.status.real_time_factor},
+          {"update_interval_ms",
+           {{"mean", row.updates->intervals.mean()},
+            {"median", row.updates->intervals.quantile(0.5)},
+            {"p99", row.updates->intervals.quantile(0.99)}}},
+          {"step_ms", std::chrono::duration<double, std::milli>(row.status.mean_step_time).count()},
+          {"camera_ms", {{"mean", row.pictures->mean()}, {"p99", row.pictures->quantile(0.99)}}},
+          {"late_steps", row.status.late_steps}};
+}
+
+int Typical(const TypicalArguments& arguments) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  if (!arguments.json) {
+    std::printf("robots  real time   update interval (ms)       step    camera (ms)    late\n");
+    std::printf("             x      mean  median     p99       (ms)    mean    p99   steps\n");
+  }
+  for (const int robots : arguments.robots) {
+    const auto row = RunTypical(arguments, robots);
+    if (!row) return Complain(row.error());
+    const auto json = ToJson(*row);
+    rows.push_back(json);
+    if (arguments.json) continue;
+    std::printf("%6d  %9.3f  %8.2f %7.2f %7.2f  %9.4f %7.2f %6.2f  %6llu\n", robots,
+                row->status.real_time_factor, row->updates->intervals.mean(),
+                row->updates->intervals.quantile(0.5), row->updates->intervals.quantile(0.99),
+                json["step_ms"].get<double>(), row->pictures->mean(), row->pictures->quantile(0.99),
+                static_cast<unsigned long long>(row->status.late_steps));
+    std::fflush(stdout);
+  }
+  if (arguments.json) std::printf("%s\n", nlohmann::ordered_json{{"rows", rows}}.dump().c_str());
+  return kOk;
+}
+
+}  // namespace
+
+void AddBenchCommands(const CommandLine& line) {
+  CLI::App* bench = line.app.add_subcommand("bench", "Measure this machine");
+  bench->require_subcommand(1);
+  CLI::App* command =
+      bench->add_subcommand("typical",
+                            "The original experiment: robots with the typical behaviour, each in "
+                            "a process of its own, in real time");
+  auto arguments = std::make_shared<TypicalArguments>();
+  command->add_option("--robots", arguments->robots, "numbers of robots, one row each")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--duration", arguments->duration, "simulated seconds a row")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3600.0));
+  command->add_option("--world", arguments->world)->capture_default_str();
+  command->add_option("--model", arguments->model)->capture_default_str();
+  command->add_option("--behaviour", arguments->behaviour)->capture_default_str();
+  command->add_flag("--json", arguments->json, "one JSON object");
+  command->callback([arguments, line] { line.exit_code = Typical(*arguments); });
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,91 @@
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "gsv/broker/broker_command.h"
+#include "gsv/broker/offer_listing.h"
+
+namespace gsv::app {
+namespace {
+
+void AddBrokerCommand(const CommandLine& line) {
+  struct Arguments {
+    broker::BrokerCommand command;
+    int port = 0;
+    bool memory = false;
+  };
+  CLI::App* command = line.app.add_subcommand("broker", "Run a broker: the OMG Trading Service");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("--port", arguments->port, "the port to listen on; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--listen", arguments->command.broker.host, "the address to listen on")
+      ->capture_default_str();
+  command->add_flag("--memory", arguments->memory, "keep nothing on disk (so far nothing ever is)");
+  command
+      ->add_option("--exit-with-parent", arguments->command.parent,
+                   "end when the process of this number ends")
+      ->group("");
+  command->callback([arguments, line] {
+    arguments->command.broker.port = static_cast<std::uint16_t>(arguments->port);
+    line.exit_code = broker::BrokerMain(arguments->command);
+  });
+}
+
+struct ListArguments {
+  std::string broker;
+  bool json = false;
+};
+
+std::shared_ptr<ListArguments> AddListOptions(CLI::App& command) {
+  auto arguments = std::make_shared<ListArguments>();
+  command
+      .add_option("--broker", arguments->broker,
+                  "the broker, corbaloc::1.2@HOST:PORT/TradingService")
+      ->envname("GSV_BROKER")
+      ->required();
+  command.add_flag("--json", arguments->json, "one JSON object a line");
+  return arguments;
+}
+
+void AddOffersCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand("offers", "List what is offered at a broker");
+  auto arguments = AddListOptions(*command);
+  command->callback([arguments, line] {
+    const auto offers = broker::ListOffers(arguments->broker);
+    if (!offers) {
+      line.exit_code = Complain(offers.error());
+    } else if (arguments->json) {
+      broker::PrintOffersJson(*offers, std::cout);
+    } else {
+      broker::PrintOffers(*offers, std::cout);
+    }
+  });
+}
+
+void AddTypesCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand("types", "List the service types of a broker");
+  auto arguments = AddListOptions(*command);
+  command->callback([arguments, line] {
+    const auto types = broker::ListServiceTypes(arguments->broker);
+    if (!types) {
+      line.exit_code = Complain(types.error());
+    } else if (arguments->json) {
+      broker::PrintServiceTypesJson(*types, std::cout);
+    } else {
+      broker::PrintServiceTypes(*types, std::cout);
+    }
+  });
+}
+
+}  // namespace
+
+void AddBrokerCommands(const CommandLine& line) {
+  AddBrokerCommand(line);
+  AddOffersCommand(line);
+  AddTypesCommand(line);
+}
+
+}  // namespace gsv::app

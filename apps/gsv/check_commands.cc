@@ -1,0 +1,102 @@
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/installation.h"
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::app {
+namespace {
+
+struct CheckArguments {
+  std::string file;
+  std::vector<std::string> model_path;
+  bool json = false;
+  bool strict = false;
+};
+
+// Prints each problem; gives the exit code: 3 when the simulation would not be faithful.
+int Report(const CheckArguments& arguments, const base::Problems& problems,
+           const base::Status& read) {
+  int errors = read ? 0 : 1;
+  int warnings = 0;
+  const auto print = [&](const char* severity, const std::string& where,
+                         const std::string& message) {
+    if (arguments.json) {
+      const nlohmann::ordered_json line = {
+          {"severity", severity}, {"where", where}, {"message", message}};
+      std::printf("%s\n",
+                  line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    } else {
+      std::printf("%s: %s%s%s\n", severity, where.c_str(), where.empty() ? "" : ": ",
+                  message.c_str());
+    }
+  };
+  for (const base::Problem& problem : problems) {
+    const bool is_error = problem.severity == base::Problem::Severity::kError;
+    ++(is_error ? errors : warnings);
+    print(is_error ? "error" : "warning", problem.where, problem.message);
+  }
+  if (!read) print("error", read.error().where, read.error().message);
+  if (!arguments.json) std::printf("%d errors, %d warnings\n", errors, warnings);
+  return errors > 0 || (arguments.strict && warnings > 0) ? kBadModel : kOk;
+}
+
+template <typename Read>
+void AddCheck(const CommandLine& line, const char* group, const char* what, Read read) {
+  CLI::App* parent = line.app.add_subcommand(group, std::string("Look at ") + what);
+  parent->require_subcommand(1);
+  CLI::App* command =
+      parent->add_subcommand("check", std::string("Print every problem of ") + what);
+  auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("file", arguments->file, "its file, folder or name")->required();
+  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  command->add_flag("--json", arguments->json, "one JSON object a line");
+  command->add_flag("--strict", arguments->strict, "warnings count as errors");
+  command->callback([arguments, line, read] {
+    formats::ReadOptions options;
+    options.model_path.assign(arguments->model_path.begin(), arguments->model_path.end());
+    formats::ModelLibrary library(std::move(options));
+    base::Problems problems;
+    const base::Status status = read(library, arguments->file, problems);
+    line.exit_code = Report(*arguments, problems, status);
+  });
+}
+
+int Doctor() {
+  const auto renderer = rendering::Renderer::Start();
+  if (renderer) {
+    std::printf("cameras: ok, %s\n", (*renderer)->renderer_name().c_str());
+  } else {
+    std::printf("cameras: none: %s\n", renderer.error().Sentence().c_str());
+  }
+  std::error_code ignored;
+  const bool viewer = std::filesystem::exists(ShareFolder() / "web" / "index.html", ignored);
+  std::printf("viewer: %s %s\n", viewer ? "ok," : "missing:", (ShareFolder() / "web").c_str());
+  const bool worlds = std::filesystem::exists(ResolveWorld("office"), ignored);
+  std::printf("worlds: %s %s\n", worlds ? "ok," : "missing:", (ShareFolder() / "worlds").c_str());
+  return renderer && viewer && worlds ? kOk : kInfrastructure;
+}
+
+}  // namespace
+
+void AddCheckCommands(const CommandLine& line) {
+  AddCheck(line, "world", "a world",
+           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems) {
+             const auto world = library.ReadWorld(ResolveWorld(file), problems);
+             return world ? base::Status() : base::Fail(world.error());
+           });
+  AddCheck(line, "model", "a model",
+           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems) {
+             const auto model = library.ReadModel(file, problems);
+             return model ? base::Status() : base::Fail(model.error());
+           });
+  line.app.add_subcommand("doctor", "Check this machine: cameras, viewer, worlds")
+      ->callback([line] { line.exit_code = Doctor(); });
+}
+
+}  // namespace gsv::app

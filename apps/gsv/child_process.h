@@ -1,0 +1,49 @@
+// A program started by this one, which ends with it.
+//
+// Threads  one at a time. The thread that starts it must live as long as this process: the kernel
+//          ends the child when that thread ends.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::app {
+
+class ChildProcess {
+ public:
+  // `arguments[0]` is the program's path. Its stdout can be read here; stdin is empty; stderr is
+  // ours, or nobody's when `quiet`.
+  static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
+                                                           bool quiet);
+  // SIGTERM, and SIGKILL for one that is still there two seconds later.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  pid_t pid() const { return pid_; }
+  // Its next line on stdout, without the end of line. Nothing when it ends or the time is over.
+  std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
+  // How it ended ("exit code 5", "signal 11"); empty while it runs.
+  std::string Ending();
+  // The same, once it has ended or the time is over.
+  std::string AwaitEnd(std::chrono::milliseconds timeout);
+  void Signal(int signal);
+
+ private:
+  ChildProcess(pid_t pid, int output);
+
+  const pid_t pid_;
+  const int output_;
+  int pid_descriptor_ = -1;  // becomes readable when it ends
+  std::string buffer_;
+  std::optional<int> status_;  // of waitpid()
+};
+
+}  // namespace gsv::app

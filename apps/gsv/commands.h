@@ -1,0 +1,26 @@
+// The subcommands of gsv. Each adds itself to the command line; its callback sets the exit code.
+#pragma once
+
+#include "apps/gsv/signals.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gsv::app {
+
+struct CommandLine {
+  CLI::App& app;
+  Signals& signals;
+  int& exit_code;
+};
+
+void AddRunCommand(const CommandLine& line);
+void AddServeCommand(const CommandLine& line);
+void AddBrokerCommands(const CommandLine& line);     // broker, offers, types
+void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
+void AddRecordingCommands(const CommandLine& line);  // rec, replay
+void AddBenchCommands(const CommandLine& line);      // bench
+void AddViewCommand(const CommandLine& line);
+
+}  // namespace gsv::app

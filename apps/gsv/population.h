@@ -1,0 +1,13 @@
+// Puts robots, with their behaviours, into a simulation.
+#pragma once
+
+#include "apps/gsv/run_options.h"
+
+namespace gsv::app {
+
+// Adds the scenario's robots and the avatars, and gives behaviours to all, those that came with
+// the world included. A robot without a place gets the first free one on a spiral about the origin.
+base::Status Populate(Runtime& runtime, simulation::Simulation& simulation,
+                      const RunOptions& options, base::Problems& problems);
+
+}  // namespace gsv::app

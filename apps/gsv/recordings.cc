@@ -1,0 +1,92 @@
+#include "apps/gsv/recordings.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "gsv/base/log.h"
+#include "gsv/formats/gltf_writer.h"
+#include "gsv/recording/simulation_recorder.h"
+
+namespace gsv::app {
+namespace {
+
+std::string CommandLineOfThisProcess() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string line{std::istreambuf_iterator<char>(file), {}};
+  while (!line.empty() && line.back() == '\0') line.pop_back();
+  for (char& character : line) {
+    if (character == '\0') character = ' ';
+  }
+  return line;
+}
+
+std::string Host() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+recording::RecorderOptions Options() {
+  recording::RecorderOptions options;
+  options.write_glb = &formats::WriteGlb;
+  options.metadata = {
+      {"gsv_version", GSV_VERSION}, {"command", CommandLineOfThisProcess()}, {"host", Host()}};
+  return options;
+}
+
+}  // namespace
+
+Recordings::Recordings() = default;
+Recordings::~Recordings() = default;
+
+base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
+                               const std::string& path) {
+  const std::string name = simulation->specification().name;
+  const std::lock_guard lock(mutex_);
+  const auto found = recordings_.find(name);
+  if (found != recordings_.end()) {
+    // A recording is over when its simulation is gone, was reset, or the disk failed.
+    if (found->second.simulation.lock() == simulation && found->second.recorder->is_recording()) {
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        "it is being recorded to " + found->second.path + "; stop that first",
+                        name);
+    }
+    recordings_.erase(found);
+  }
+  auto recorder = recording::SimulationRecorder::Start(simulation, path, Options());
+  if (!recorder) return base::Fail(recorder.error());
+  recordings_.emplace(name, Recording{simulation, path, *std::move(recorder)});
+  return {};
+}
+
+base::Status Recordings::Stop(const std::string& simulation) {
+  std::unique_lock lock(mutex_);
+  auto node = recordings_.extract(simulation);
+  lock.unlock();
+  if (node.empty()) {
+    return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
+  }
+  return node.mapped().recorder->Stop();
+}
+
+base::Status Recordings::StopAll() {
+  std::unique_lock lock(mutex_);
+  auto recordings = std::exchange(recordings_, {});
+  lock.unlock();
+  base::Status first;
+  for (auto& [name, recording] : recordings) {
+    const base::Status stopped = recording.recorder->Stop();
+    if (stopped) continue;
+    if (first) {
+      first = stopped;
+    } else {
+      spdlog::error("{}: {}", name, stopped.error().Sentence());
+    }
+  }
+  return first;
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,45 @@
+// The recordings under way in this process, one a simulation at most.
+//
+// Threads  any; starting writes the models, stopping waits for the disk.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "gsv/base/error.h"
+
+namespace gsv::simulation {
+class Simulation;
+}
+namespace gsv::recording {
+class SimulationRecorder;
+}
+
+namespace gsv::app {
+
+class Recordings {
+ public:
+  Recordings();
+  ~Recordings();
+
+  // kInvalidArgument when the simulation is being recorded, or the file is there already.
+  base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path);
+  // kNotFound when that simulation is not recorded. Another error is why the recording ended early.
+  base::Status Stop(const std::string& simulation);
+  // The first error, if there is one; the others are logged.
+  base::Status StopAll();
+
+ private:
+  struct Recording {
+    std::weak_ptr<simulation::Simulation> simulation;
+    std::string path;
+    std::unique_ptr<recording::SimulationRecorder> recorder;
+  };
+
+  std::mutex mutex_;
+  std::map<std::string, Recording> recordings_;  // by the simulation's name
+};
+
+}  // namespace gsv::app

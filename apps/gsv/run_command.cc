@@ -1,0 +1,145 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/population.h"
+#include "apps/gsv/recordings.h"
+#include "apps/gsv/run_options.h"
+#include "apps/gsv/run_report.h"
+
+namespace gsv::app {
+namespace {
+
+using simulation::Phase;
+using simulation::Simulation;
+
+// Each problem once, in order; errors come first.
+std::vector<std::string> Sentences(const base::Problems& problems,
+                                   base::Problem::Severity severity) {
+  std::vector<std::string> sentences;
+  for (const base::Problem& problem : problems) {
+    if (problem.severity != severity) continue;
+    const std::string sentence = problem.Sentence();
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+      sentences.push_back(sentence);
+  }
+  return sentences;
+}
+
+void OpenBrowser(const std::string& url) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  if (fork() == 0) {
+    execlp("xdg-open", "xdg-open", url.c_str(), nullptr);
+    _exit(127);
+  }
+}
+
+// Until the run is over or somebody interrupts it; gives the exit code so far.
+int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
+  using Clock = std::chrono::steady_clock;
+  const auto give_up = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                          std::chrono::duration<double>(options.wall_timeout));
+  // With a viewer, someone may stop the run to reset it and start it again.
+  const bool ends_when_stopped = !options.runtime.viewer;
+  for (;;) {
+    const Phase phase =
+        simulation.WaitForPhase({Phase::kFinished, Phase::kFailed}, std::chrono::milliseconds(50));
+    if (phase == Phase::kFinished) return kOk;
+    if (phase == Phase::kFailed) return kBehaviourFailed;
+    if (phase == Phase::kStopped && ends_when_stopped) return kOk;
+    if (signals.WaitFor(0) != 0) {
+      (void)simulation.Stop();
+      return kInterrupted;
+    }
+    if (options.wall_timeout > 0 && Clock::now() > give_up) {
+      std::fprintf(stderr, "gsv: given up after %g s of wall time (--wall-timeout)\n",
+                   options.wall_timeout);
+      (void)simulation.Stop();
+      return kTimedOut;
+    }
+  }
+}
+
+// What the behaviours' ends make of the exit code; each end is told.
+int JudgeBehaviours(const Simulation& simulation, int exit_code) {
+  const auto status = simulation.status();
+  for (const auto& robot : status.robots) {
+    if (robot.phase != simulation::AgentPhase::kDead &&
+        robot.phase != simulation::AgentPhase::kUnresponsive)
+      continue;
+    std::fprintf(stderr, "gsv: %s: the behaviour %s is %s: %s\n", robot.name.c_str(),
+                 robot.behaviour.c_str(), ToString(robot.phase), robot.detail.c_str());
+    if (exit_code == kOk) exit_code = kBehaviourFailed;
+  }
+  if (!status.failure.empty())
+    std::fprintf(stderr, "gsv: the run failed: %s\n", status.failure.c_str());
+  return exit_code;
+}
+
+base::Result<int> Run(const RunOptions& options, Signals& signals) {
+  auto runtime = Runtime::Start(options.runtime);
+  if (!runtime) return base::Fail(runtime.error());
+  base::Problems problems;
+  auto simulation =
+      (*runtime)->host().Create(options.specification, options.scenario.world, problems);
+  if (!simulation) return base::Fail(simulation.error());
+  if (auto ok = Populate(**runtime, **simulation, options, problems); !ok)
+    return base::Fail(ok.error());
+
+  const auto errors = Sentences(problems, base::Problem::Severity::kError);
+  for (const std::string& error : errors) std::fprintf(stderr, "gsv: error: %s\n", error.c_str());
+  if (!errors.empty()) return kBadModel;
+  const auto warnings = Sentences(problems, base::Problem::Severity::kWarning);
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "gsv: warning: %s\n", warning.c_str());
+
+  for (const simulation::Event& event : (*simulation)->events(0)) {
+    if (event.kind == "robot_moved")
+      std::fprintf(stderr, "gsv: note: %s: %s\n", event.robot.c_str(), event.detail.c_str());
+  }
+
+  if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
+  if (const std::string& url = (*runtime)->viewer_url(); !url.empty()) {
+    std::fprintf(options.json ? stderr : stdout, "viewer: %s\n", url.c_str());
+    std::fflush(stdout);
+    if (options.open_browser) OpenBrowser(url);
+  }
+  if (!options.record.empty()) {
+    if (auto ok = (*runtime)->recordings().Start(*simulation, options.record); !ok)
+      return base::Fail(ok.error());
+  }
+  if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
+  int exit_code = JudgeBehaviours(**simulation, Await(**simulation, options, signals));
+  if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
+  const std::string report =
+      options.json ? JsonReport(**simulation, warnings) + "\n" : TextReport(**simulation);
+  std::fputs(report.c_str(), stdout);
+  std::fflush(stdout);
+  return exit_code;
+}
+
+}  // namespace
+
+void AddRunCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand(
+      "run", "Run a simulation: a world, robots, their behaviours, a viewer");
+  auto arguments = std::make_shared<RunArguments>();
+  AddRunOptions(*command, *arguments);
+  command->callback([arguments, line] {
+    const auto options = Understand(*arguments);
+    if (!options) {
+      line.exit_code = Complain(options.error());
+      return;
+    }
+    const auto result = Run(*options, line.signals);
+    line.exit_code = result ? *result : Complain(result.error());
+  });
+}
+
+}  // namespace gsv::app

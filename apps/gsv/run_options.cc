@@ -1,0 +1,139 @@
+#include "apps/gsv/run_options.h"
+
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/installation.h"
+
+namespace gsv::app {
+
+void AddRunOptions(CLI::App& command, RunArguments& a) {
+  command.add_option(
+      "world", a.world,
+      "a world's file, a model to use as one, or one of ours (office, maze, playground); "
+      "without one: the office with five robots");
+  command.add_option(
+      "--robot", a.robots,
+      "MODEL[@x,y[,yaw]]: a robot and where it starts; metres, yaw in radians or as 90deg");
+  command.add_option("--behaviour", a.behaviours,
+                     "NAME for all robots, or ROBOT=NAME for one: a behaviour that is offered, or "
+                     "a program gsv-NAME to start");
+  command.add_option("--avatar", a.avatars,
+                     "MODEL[@x,y[,yaw]]: a person in the world, steered from the viewer");
+  command.add_flag("--lockstep", a.lockstep,
+                   "as fast as possible and reproducible: every step waits for every behaviour");
+  command.add_option("--factor", a.factor, "simulated seconds a wall second, in real time")
+      ->capture_default_str();
+  command.add_option("--duration", a.duration,
+                     "simulated seconds after which the run ends; without it: Ctrl-C");
+  command.add_option("--step", a.step, "seconds a step; without it: the world's max_step_size");
+  command.add_option("--seed", a.seed, "seed of all noise")->capture_default_str();
+  command
+      .add_option("--deadline", a.deadline, "wall seconds a behaviour may run before it must wait")
+      ->capture_default_str();
+  command
+      .add_option("--on-failure", a.mode_on_failure,
+                  "when a behaviour dies or hangs: go_on or fail")
+      ->check(CLI::IsMember({"go_on", "fail"}))
+      ->capture_default_str();
+  command.add_option("--wall-timeout", a.wall_timeout,
+                     "wall seconds after which the run is given up with exit code 124");
+  command.add_option("--record", a.record, "write a recording (MCAP) to this file");
+  command
+      .add_option("--broker", a.broker,
+                  "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
+      ->envname("GSV_BROKER");
+  command.add_option("--model-path", a.model_path, "a folder to look for models in");
+  command
+      .add_option("--port", a.port,
+                  "the viewer's port; 0: any that is free (default: 8080, or any)")
+      ->check(CLI::Range(0, 65535));
+  command.add_flag("--headless", a.headless, "without a viewer");
+  command.add_flag("--open", a.open, "open the viewer in a browser");
+  command.add_flag("--json", a.json, "the last line on stdout is the result as JSON");
+}
+
+namespace {
+
+base::Result<base::SimTime> Time(double seconds, const char* option) {
+  if (!std::isfinite(seconds) || seconds < 0 || seconds > 1e9) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "must be a number of seconds from 0 to 1e9", option);
+  }
+  return base::FromSeconds(seconds);
+}
+
+base::Status UnderstandBehaviours(const std::vector<std::string>& texts, RunOptions& options) {
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      options.behaviour = text;
+    } else if (equals == 0 || equals + 1 == text.size()) {
+      return base::Fail(base::ErrorCode::kInvalidArgument, "expected NAME or ROBOT=NAME",
+                        "--behaviour " + text);
+    } else {
+      options.behaviour_of[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+  }
+  return {};
+}
+
+base::Status UnderstandRobots(const std::vector<std::string>& texts,
+                              std::vector<scenario::RobotEntry>& robots) {
+  for (const std::string& text : texts) {
+    auto robot = scenario::ParseRobot(text);
+    if (!robot) return base::Fail(robot.error());
+    robots.push_back(*std::move(robot));
+  }
+  return {};
+}
+
+}  // namespace
+
+base::Result<RunOptions> Understand(const RunArguments& a) {
+  RunOptions options;
+  if (a.world.empty() && a.robots.empty()) {
+    options.scenario = scenario::DefaultScenario();
+  } else if (a.world.empty()) {
+    options.scenario.world = scenario::DefaultScenario().world;
+  } else {
+    options.scenario.world = a.world;
+  }
+  options.scenario.world = ResolveWorld(options.scenario.world);
+  if (auto ok = UnderstandRobots(a.robots, options.scenario.robots); !ok)
+    return base::Fail(ok.error());
+  if (auto ok = UnderstandRobots(a.avatars, options.avatars); !ok) return base::Fail(ok.error());
+  if (auto ok = UnderstandBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());
+
+  simulation::Specification& specification = options.specification;
+  specification.name = "simulation";
+  specification.mode = a.lockstep ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
+  specification.factor = a.factor;
+  specification.seed = a.seed;
+  specification.on_failure = a.mode_on_failure == "fail" ? simulation::FailurePolicy::kFail
+                                                         : simulation::FailurePolicy::kGoOn;
+  const auto duration = Time(a.duration, "--duration");
+  const auto step = Time(a.step, "--step");
+  const auto deadline = Time(a.deadline, "--deadline");
+  for (const auto* time : {&duration, &step, &deadline}) {
+    if (!*time) return base::Fail(time->error());
+  }
+  specification.duration = *duration;
+  specification.step = *step;
+  specification.deadline = std::chrono::duration_cast<std::chrono::milliseconds>(*deadline);
+  specification.keep = true;
+
+  options.runtime.broker = a.broker;
+  options.runtime.model_path.assign(a.model_path.begin(), a.model_path.end());
+  options.runtime.viewer = !a.headless;
+  options.runtime.port_given = a.port >= 0;
+  if (a.port >= 0) options.runtime.port = a.port;
+  options.record = a.record;
+  options.wall_timeout = a.wall_timeout;
+  options.open_browser = a.open;
+  options.json = a.json;
+  return options;
+}
+
+}  // namespace gsv::app

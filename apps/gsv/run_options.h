@@ -1,0 +1,45 @@
+// What `gsv run` was asked for.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/runtime.h"
+#include "gsv/scenario/scenario.h"
+#include "gsv/simulation/types.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gsv::app {
+
+struct RunOptions {
+  RuntimeOptions runtime;
+  scenario::Scenario scenario;
+  std::vector<scenario::RobotEntry> avatars;
+  std::string behaviour;                            // of all robots that have none of their own
+  std::map<std::string, std::string> behaviour_of;  // by robot
+  simulation::Specification specification;
+  std::string record;       // a file; empty: no recording
+  double wall_timeout = 0;  // s; 0: none
+  bool open_browser = false;
+  bool json = false;
+};
+
+// The options as they stand on the command line, before they are understood.
+struct RunArguments {
+  std::string world;
+  std::vector<std::string> robots, avatars, behaviours, model_path;
+  std::string broker, mode_on_failure = "go_on", record;
+  double duration = 0, step = 0, factor = 1, deadline = 10, wall_timeout = 0;
+  std::uint64_t seed = 0;
+  int port = -1;
+  bool lockstep = false, headless = false, json = false, open = false;
+};
+
+void AddRunOptions(CLI::App& command, RunArguments& arguments);
+base::Result<RunOptions> Understand(const RunArguments& arguments);
+
+}  // namespace gsv::app

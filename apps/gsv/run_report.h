@@ -1,0 +1,20 @@
+// What `gsv run` says at the end.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::app {
+
+// One line of JSON: sim_time_s, wall_time_s, real_time_factor, steps, late_steps, state_hash,
+// phase, robots:[{name, model, behaviour, agent, pose:{x_m,y_m,z_m,yaw_rad}, distance_m,
+// collisions, readings:{sonar: count, …}}], warnings:[…].
+std::string JsonReport(const simulation::Simulation& simulation,
+                       const std::vector<std::string>& warnings);
+
+// The same for people.
+std::string TextReport(const simulation::Simulation& simulation);
+
+}  // namespace gsv::app

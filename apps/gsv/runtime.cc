@@ -1,0 +1,181 @@
+#include "apps/gsv/runtime.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <thread>
+
+#include "apps/gsv/installation.h"
+#include "apps/gsv/recordings.h"
+#include "gsv/base/check.h"
+#include "gsv/base/log.h"
+#include "gsv/broker/corbaloc.h"
+#include "gsv/broker/gsv_service_types.h"
+#include "gsv/gateway/gateway.h"
+#include "gsv/orb/orb.h"
+#include "gsv/rendering/camera_sensor.h"
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::app {
+namespace {
+
+constexpr std::chrono::seconds kBrokerStartTimeout{15};
+
+std::string HostName() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "localhost";
+}
+
+std::shared_ptr<const sensing::SensorRegistry> MakeSensors(const RuntimeOptions& options) {
+  auto sensors = std::make_shared<sensing::SensorRegistry>();
+  sensing::AddBuiltInSensors(*sensors);
+  auto renderer = rendering::Renderer::Start();
+  if (!renderer) spdlog::warn("no cameras: {}", renderer.error().Sentence());
+  if (!options.adapt_camera) {
+    rendering::AddCameraSensor(*sensors, std::move(renderer));
+    return sensors;
+  }
+  sensing::SensorRegistry cameras;
+  rendering::AddCameraSensor(cameras, std::move(renderer));
+  sensing::SensorType camera = *cameras.Find("camera");
+  options.adapt_camera(camera);
+  const auto added = sensors->Add(std::move(camera));
+  GSV_CHECK(added.has_value());
+  return sensors;
+}
+
+class HostDirectory final : public gateway::SimulationDirectory {
+ public:
+  explicit HostDirectory(std::shared_ptr<services::SimulationHost> host) : host_(std::move(host)) {}
+  std::vector<std::shared_ptr<simulation::Simulation>> List() override { return host_->List(); }
+  std::shared_ptr<simulation::Simulation> Find(const std::string& name) override {
+    return host_->Find(name);
+  }
+
+ private:
+  const std::shared_ptr<services::SimulationHost> host_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& options) {
+  std::unique_ptr<Runtime> runtime(new Runtime);
+  if (auto ok = runtime->StartBroker(options); !ok) return base::Fail(ok.error());
+  formats::ReadOptions reading;
+  reading.model_path = options.model_path;
+  runtime->host_ = std::make_shared<services::SimulationHost>(
+      MakeSensors(options), std::make_shared<formats::ModelLibrary>(std::move(reading)));
+  runtime->recordings_ = std::make_unique<Recordings>();
+  const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
+  runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);
+  runtime->launcher_ = std::make_unique<BehaviourLauncher>(*runtime->broker_);
+  if (options.viewer) {
+    if (auto ok = runtime->StartGateway(options); !ok) return base::Fail(ok.error());
+  }
+  return runtime;
+}
+
+base::Status Runtime::StartBroker(const RuntimeOptions& options) {
+  std::string reference = options.broker;
+  if (reference.empty()) {
+    auto child = ChildProcess::Start({ProgramPath(), "broker", "--port", "0", "--memory",
+                                      "--exit-with-parent", std::to_string(getpid())},
+                                     false);
+    if (!child) return base::Fail(child.error());
+    broker_process_ = *std::move(child);
+    const auto line = broker_process_->ReadLine(kBrokerStartTimeout);
+    if (!line) {
+      return base::Fail(base::ErrorCode::kUnavailable,
+                        "the embedded broker did not start (" + broker_process_->Ending() + ")");
+    }
+    reference = *line;
+  }
+  auto normalised = broker::NormaliseReference(reference);
+  if (!normalised) return base::Fail(normalised.error());
+  orb::OrbOptions orb_options;
+  if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
+    auto local = orb::LocalAddressTowards(host);
+    if (!local) return base::Fail(local.error());
+    orb_options.host = *local;
+  }
+  auto orb = orb::StartOrb(orb_options);
+  if (!orb) return base::Fail(orb.error());
+  orb_ = *orb;
+  auto client = broker::BrokerClient::Connect(orb_, *normalised);
+  if (!client) return base::Fail(client.error());
+  broker_ = std::make_unique<broker::BrokerClient>(*std::move(client));
+  return {};
+}
+
+base::Status Runtime::StartGateway(const RuntimeOptions& options) {
+  gateway::GatewayOptions gateway;
+  gateway.port = static_cast<std::uint16_t>(options.port);
+  gateway.web_root = ShareFolder() / "web";
+  auto directory = std::make_shared<HostDirectory>(host_);
+  auto started = gateway::Gateway::Start(gateway, directory);
+  if (!started && !options.port_given) {
+    gateway.port = 0;
+    started = gateway::Gateway::Start(gateway, directory);
+  }
+  if (!started) return base::Fail(started.error());
+  gateway_ = *std::move(started);
+  viewer_url_ = gateway_->url();
+  return {};
+}
+
+services::ServiceHooks Runtime::Hooks() {
+  services::ServiceHooks hooks;
+  hooks.default_world = ResolveWorld("office");
+  hooks.viewer_url = [this](const std::string& simulation) {
+    return viewer_url_.empty() ? "" : viewer_url_ + "?simulation=" + simulation;
+  };
+  hooks.start_recording = [this](std::shared_ptr<simulation::Simulation> simulation,
+                                 const std::string& path) {
+    return recordings_->Start(std::move(simulation), path);
+  };
+  hooks.stop_recording = [this](const std::string& simulation) {
+    return recordings_->Stop(simulation);
+  };
+  return hooks;
+}
+
+base::Status Runtime::OfferService(const std::string& name) {
+  const PortableServer::POA_var poa = orb::RootPoa(orb_);
+  service_ = new services::SimulationServiceServant(poa, *host_, behaviours_.get(), Hooks());
+  const PortableServer::ObjectId_var id = poa->activate_object(service_);
+  const CORBA::Object_var reference = poa->id_to_reference(id);
+  if (auto ok = broker_->EnsureServiceType(broker::SimulationServiceType()); !ok) return ok;
+  broker::SimulationServiceOffer offer;
+  offer.name = name;
+  offer.host = HostName();
+  offer.pid = static_cast<std::int32_t>(getpid());
+  offer.viewer_url = viewer_url_;
+  offer.cores = static_cast<std::int32_t>(std::thread::hardware_concurrency());
+  auto exported =
+      broker_->Export(broker::SimulationServiceType().name, reference, PropertiesOf(offer));
+  if (!exported) return base::Fail(exported.error());
+  service_offer_ = *exported;
+  return {};
+}
+
+Runtime::~Runtime() {
+  if (!service_offer_.empty()) (void)broker_->Withdraw(service_offer_);  // the broker may be gone
+  gateway_.reset();
+  if (host_ != nullptr) {
+    for (const auto& simulation : host_->List()) (void)simulation->Stop();
+  }
+  if (recordings_ != nullptr) recordings_->StopAll();
+  if (host_ != nullptr) {
+    // Ending a simulation tells its behaviours, so it comes before their programs end.
+    for (const auto& simulation : host_->List())
+      (void)host_->Remove(simulation->specification().name);
+  }
+  launcher_.reset();
+  if (!CORBA::is_nil(orb_)) {
+    orb_->shutdown(true);
+    service_ = nullptr;
+    orb_->destroy();
+  }
+}
+
+}  // namespace gsv::app

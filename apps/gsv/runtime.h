@@ -1,0 +1,71 @@
+// What a gsv process that runs simulations consists of: an ORB, a broker (its own or one that is
+// there), sensors with a renderer, simulations, behaviours, the services, the gateway.
+//
+// Threads  made and destroyed on the main thread.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/behaviour_launcher.h"
+#include "apps/gsv/child_process.h"
+#include "gsv/services/broker_behaviours.h"
+#include "gsv/services/simulation_host.h"
+#include "gsv/services/simulation_servant.h"
+
+namespace gsv::gateway {
+class Gateway;
+}
+
+namespace gsv::app {
+
+class Recordings;
+
+struct RuntimeOptions {
+  std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
+  std::vector<std::filesystem::path> model_path;
+  bool viewer = true;
+  int port = 8080;  // of the viewer; 0: the system chooses
+  // Changes the camera type before it is registered; may be empty.
+  std::function<void(sensing::SensorType&)> adapt_camera;
+  bool port_given = false;  // else another port is taken when this one is in use
+};
+
+class Runtime {
+ public:
+  static base::Result<std::unique_ptr<Runtime>> Start(const RuntimeOptions& options);
+  ~Runtime();
+
+  services::SimulationHost& host() { return *host_; }
+  services::BrokerBehaviours& behaviours() { return *behaviours_; }
+  BehaviourLauncher& launcher() { return *launcher_; }
+  broker::BrokerClient& broker() { return *broker_; }
+  Recordings& recordings() { return *recordings_; }
+  const std::string& viewer_url() const { return viewer_url_; }  // empty: none
+
+  // Registers sba::SimulationService with the broker until this ends.
+  base::Status OfferService(const std::string& name);
+
+ private:
+  Runtime() = default;
+  base::Status StartBroker(const RuntimeOptions& options);
+  base::Status StartGateway(const RuntimeOptions& options);
+  services::ServiceHooks Hooks();
+
+  std::unique_ptr<ChildProcess> broker_process_;
+  CORBA::ORB_var orb_;
+  std::unique_ptr<broker::BrokerClient> broker_;
+  std::shared_ptr<services::SimulationHost> host_;
+  std::unique_ptr<Recordings> recordings_;
+  std::unique_ptr<services::BrokerBehaviours> behaviours_;
+  std::unique_ptr<BehaviourLauncher> launcher_;
+  std::unique_ptr<gateway::Gateway> gateway_;
+  std::string viewer_url_;
+  PortableServer::Servant_var<services::SimulationServiceServant> service_;
+  std::string service_offer_;
+};
+
+}  // namespace gsv::app

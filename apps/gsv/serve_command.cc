@@ -1,0 +1,56 @@
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/runtime.h"
+
+namespace gsv::app {
+namespace {
+
+struct ServeArguments {
+  std::string broker, name = "gsv";
+  std::vector<std::string> model_path;
+  int port = -1;
+  bool headless = false;
+};
+
+int Serve(const ServeArguments& arguments, Signals& signals) {
+  RuntimeOptions options;
+  options.broker = arguments.broker;
+  options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
+  options.viewer = !arguments.headless;
+  options.port_given = arguments.port >= 0;
+  if (arguments.port >= 0) options.port = arguments.port;
+  auto runtime = Runtime::Start(options);
+  if (!runtime) return Complain(runtime.error());
+  if (auto ok = (*runtime)->OfferService(arguments.name); !ok) return Complain(ok.error());
+  if (!(*runtime)->viewer_url().empty())
+    std::printf("viewer: %s\n", (*runtime)->viewer_url().c_str());
+  std::printf("broker: %s\n", (*runtime)->broker().reference().c_str());
+  std::fflush(stdout);
+  signals.Wait();
+  return kOk;
+}
+
+}  // namespace
+
+void AddServeCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand("serve", "Offer simulations as a service, and wait");
+  auto arguments = std::make_shared<ServeArguments>();
+  command
+      ->add_option("--broker", arguments->broker,
+                   "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
+      ->envname("GSV_BROKER");
+  command->add_option("--name", arguments->name, "the name in the offer")->capture_default_str();
+  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  command
+      ->add_option("--port", arguments->port,
+                   "the viewer's port; 0: any that is free (default: 8080, or any)")
+      ->check(CLI::Range(0, 65535));
+  command->add_flag("--headless", arguments->headless, "without a viewer");
+  command->callback([arguments, line] { line.exit_code = Serve(*arguments, line.signals); });
+}
+
+}  // namespace gsv::app

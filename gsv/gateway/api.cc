@@ -1,0 +1,136 @@
+#include "gsv/gateway/api.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "gsv/gateway/command_json.h"
+#include "gsv/gateway/status_json.h"
+#include "gsv/presentation/scene_json.h"
+
+namespace gsv::gateway {
+namespace {
+
+using simulation::Simulation;
+
+base::Status StepBy(Simulation& simulation, const std::string& body) {
+  const base::Result<std::int64_t> count = ParseStepCount(body);
+  if (!count) return base::Fail(count.error());
+  return simulation.Step(*count);
+}
+
+using Action = base::Status (*)(Simulation& simulation, const std::string& body);
+
+const std::map<std::string, Action>& Actions() {
+  static const std::map<std::string, Action> kActions{
+      {"start", [](Simulation& s, const std::string&) { return s.Start(); }},
+      {"pause", [](Simulation& s, const std::string&) { return s.Pause(); }},
+      {"resume", [](Simulation& s, const std::string&) { return s.Resume(); }},
+      {"stop", [](Simulation& s, const std::string&) { return s.Stop(); }},
+      {"reset", [](Simulation& s, const std::string&) { return s.Reset(); }},
+      {"step", &StepBy},
+  };
+  return kActions;
+}
+
+Response StatusOf(const Simulation& simulation) {
+  return JsonResponse(200, StatusJson(simulation.status()));
+}
+
+Response NoSuchAddress() {
+  return ErrorResponse(404, "there is nothing at this address; docs/api.yaml lists what there is");
+}
+
+// Steers an avatar. Robots with a behaviour are steered by that alone.
+Response Drive(const Simulation& simulation, const std::string& robot, const std::string& body) {
+  const std::shared_ptr<simulation::Agent> agent = simulation.agent(robot);
+  if (!agent) return ErrorResponse(404, "there is no robot '" + robot + "'");
+  const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
+  const int index = snapshot->layout->Find(robot);
+  if (index < 0 || !snapshot->layout->bodies[index].is_avatar) {
+    return ErrorResponse(409, "'" + robot + "' is not an avatar: only its behaviour steers it");
+  }
+  const base::Result<world::DriveCommand> command = ParseDriveCommand(body);
+  if (!command) return ErrorResponse(command.error());
+  if (const base::Status given = agent->Command(*command); !given) {
+    return ErrorResponse(given.error());
+  }
+  return JsonResponse(200, "{}");
+}
+
+}  // namespace
+
+Api::Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb)
+    : directory_(std::move(directory)), models_(std::move(write_glb)) {}
+
+Response Api::Handle(const Request& request) {
+  const std::vector<std::string>& path = request.target.segments;
+  if (path.size() < 2) return NoSuchAddress();
+  if (path[1] == "models") return Model(request);
+  if (path[1] != "simulations") return NoSuchAddress();
+  if (path.size() > 2) return OfSimulation(request);
+  return request.method == "GET" ? List() : MethodNotAllowed("GET");
+}
+
+Response Api::List() const {
+  std::vector<simulation::SimulationStatus> statuses;
+  for (const SimulationPointer& simulation : directory_->List()) {
+    statuses.push_back(simulation->status());
+  }
+  return JsonResponse(200, SimulationListJson(statuses));
+}
+
+Response Api::OfSimulation(const Request& request) {
+  const std::vector<std::string>& path = request.target.segments;
+  const SimulationPointer simulation = directory_->Find(path[2]);
+  if (!simulation) return ErrorResponse(404, "there is no simulation '" + path[2] + "'");
+  const bool is_get = request.method == "GET";
+  if (path.size() == 3) return is_get ? StatusOf(*simulation) : MethodNotAllowed("GET");
+  if (path.size() > 4) return OfRobot(request, simulation);
+  if (path[3] == "scene") return is_get ? Scene(*simulation) : MethodNotAllowed("GET");
+  const auto action = Actions().find(path[3]);
+  if (action == Actions().end()) return NoSuchAddress();
+  if (request.method != "POST") return MethodNotAllowed("POST");
+  if (const base::Status done = action->second(*simulation, request.body); !done) {
+    return ErrorResponse(done.error());
+  }
+  return StatusOf(*simulation);
+}
+
+Response Api::OfRobot(const Request& request, const SimulationPointer& simulation) const {
+  const std::vector<std::string>& path = request.target.segments;
+  if (path.size() != 6 || path[3] != "robots" || path[5] != "drive") return NoSuchAddress();
+  if (request.method != "POST") return MethodNotAllowed("POST");
+  return Drive(*simulation, path[4], request.body);
+}
+
+Response Api::Scene(const Simulation& simulation) {
+  return JsonResponse(
+      200, presentation::SceneJson(simulation, [this](const std::shared_ptr<const model::Model>& model) {
+        return models_.Identify(model);
+      }));
+}
+
+// /api/models/ID.glb
+Response Api::Model(const Request& request) {
+  const std::vector<std::string>& path = request.target.segments;
+  static constexpr std::string_view kEnding = ".glb";
+  if (path.size() != 3 || !path[2].ends_with(kEnding)) return NoSuchAddress();
+  if (request.method != "GET") return MethodNotAllowed("GET");
+  const std::string id = path[2].substr(0, path[2].size() - kEnding.size());
+  const base::Result<SharedBytes> glb = models_.Glb(id);
+  if (!glb) return ErrorResponse(glb.error());
+  Response response;
+  response.content_type = "model/gltf-binary";
+  response.etag = '"' + id + '"';
+  response.cache_control = "public, max-age=31536000, immutable";
+  if (Matches(request.if_none_match, response.etag)) {
+    response.status = 304;
+  } else {
+    response.body = *glb;
+  }
+  return response;
+}
+
+}  // namespace gsv::gateway

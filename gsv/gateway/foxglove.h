@@ -1,0 +1,83 @@
+// The Foxglove WebSocket protocol, version 1: texts and headers that go over the wire.
+//
+// Source  https://github.com/foxglove/ws-protocol/blob/main/docs/spec.md. `foxglove.sdk.v1` is the
+//         name under which Foxglove's later SDK speaks the same messages.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::gateway::foxglove {
+
+// In the order of the server's preference.
+inline constexpr std::array<std::string_view, 2> kSubprotocols{"foxglove.sdk.v1",
+                                                               "foxglove.websocket.v1"};
+
+// The one to speak, out of a Sec-WebSocket-Protocol header; empty: the client knows neither.
+std::string_view ChooseSubprotocol(std::string_view offered);
+
+using ChannelId = std::uint32_t;
+using SubscriptionId = std::uint32_t;
+
+struct Channel {
+  ChannelId id = 0;
+  std::string topic;            // "/gsv/poses"
+  std::string encoding;         // "cdr"
+  std::string schema_name;      // "gsv_msgs/msg/Poses"
+  std::string schema_encoding;  // "ros2msg"
+  std::string schema;
+};
+
+struct ServerInfo {
+  std::string name;
+  std::vector<std::string> capabilities;
+  std::map<std::string, std::string> metadata;
+  std::string session_id;  // another one tells a client that the server is not the one it knew
+};
+
+enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
+
+// Server to client.
+std::string ServerInfoText(const ServerInfo& info);
+std::string AdvertiseText(std::span<const Channel> channels);
+std::string UnadvertiseText(std::span<const ChannelId> channels);
+std::string StatusText(StatusLevel level, std::string_view message);
+
+// Client to server.
+struct Subscription {
+  SubscriptionId id = 0;
+  ChannelId channel = 0;
+};
+struct Subscribe {
+  std::vector<Subscription> subscriptions;
+};
+struct Unsubscribe {
+  std::vector<SubscriptionId> subscriptions;
+};
+// A message for a capability that this server does not declare.
+struct Unsupported {
+  std::string op;
+};
+using ClientMessage = std::variant<Subscribe, Unsubscribe, Unsupported>;
+
+// Fails with kCorrupt on what is not a message of the protocol.
+base::Result<ClientMessage> ParseClientMessage(std::string_view text);
+
+// What stands before the payload of a binary message: at most opcode (1), subscription (4, little
+// endian) and time (8, nanoseconds, little endian).
+struct BinaryHeader {
+  std::array<std::uint8_t, 13> bytes{};
+  std::uint8_t size = 0;
+};
+BinaryHeader MessageDataHeader(SubscriptionId subscription, std::uint64_t time_ns);
+BinaryHeader TimeHeader(std::uint64_t time_ns);
+
+}  // namespace gsv::gateway::foxglove

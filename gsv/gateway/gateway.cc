@@ -1,0 +1,101 @@
+#include "gsv/gateway/gateway.h"
+
+#include <utility>
+
+#include "gsv/formats/gltf_writer.h"
+#include "gsv/gateway/api.h"
+#include "gsv/gateway/publisher.h"
+#include "gsv/gateway/static_files.h"
+#include "gsv/gateway/worker_pool.h"
+
+namespace gsv::gateway {
+namespace {
+
+constexpr std::size_t kWaitingRequests = 256;
+constexpr std::size_t kWaitingReadings = 64;
+
+class LocalGateway final : public Gateway, private Handler {
+ public:
+  LocalGateway(const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory)
+      : directory_(directory),
+        files_(options.web_root),
+        api_(directory, &formats::WriteGlb),
+        publisher_(std::move(directory), watchers_) {}
+
+  ~LocalGateway() override { Stop(); }
+
+  base::Status Open(const ServerOptions& options) {
+    base::Result<std::unique_ptr<Server>> server = Server::Start(options, *this);
+    if (!server) return base::Fail(server.error());
+    server_ = std::move(*server);
+    return {};
+  }
+
+  std::uint16_t port() const override { return server_->port(); }
+  std::string url() const override { return server_->url(); }
+
+  void Stop() override {
+    publisher_.Stop();
+    watchers_.Stop();
+    readers_.Stop();
+    commanders_.Stop();
+    if (server_) server_->Stop();
+  }
+
+ private:
+  void Handle(Request request, Respond respond) override {
+    // What commands may block (a reset calls behaviours), and must not hold up those who look.
+    WorkerPool& workers = request.method == "GET" ? readers_ : commanders_;
+    const bool accepted = workers.Submit([this, respond, request = std::move(request)] {
+      respond(Answer(request));
+    });
+    if (!accepted) respond(ErrorResponse(503, "the server is busy; try again in a moment"));
+  }
+
+  Response Answer(const Request& request) {
+    const std::vector<std::string>& path = request.target.segments;
+    if (!path.empty() && path[0] == "api") return api_.Handle(request);
+    if (request.method != "GET") return MethodNotAllowed("GET");
+    if (path == std::vector<std::string>{"ws"}) {
+      return ErrorResponse(426, "this address is for WebSockets that speak foxglove.sdk.v1");
+    }
+    if (path == std::vector<std::string>{"healthz"}) return JsonResponse(200, R"({"ok":true})");
+    return files_.Get(request);
+  }
+
+  base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
+    const auto name = target.query.find("simulation");
+    std::shared_ptr<simulation::Simulation> simulation;
+    if (name != target.query.end()) {
+      simulation = directory_->Find(name->second);
+    } else if (const auto all = directory_->List(); !all.empty()) {
+      simulation = all.front();
+    }
+    if (simulation) return publisher_.HubOf(simulation);
+    return base::Fail(base::ErrorCode::kNotFound,
+                      name != target.query.end()
+                          ? "there is no simulation '" + name->second + "'"
+                          : "there is no simulation yet; create one, then connect again");
+  }
+
+  // In the order in which the threads may start; Stop() ends them in the opposite sense.
+  const std::shared_ptr<SimulationDirectory> directory_;
+  StaticFiles files_;
+  Api api_;
+  WorkerPool readers_{2, kWaitingRequests};
+  WorkerPool commanders_{2, kWaitingRequests};
+  WorkerPool watchers_{2, kWaitingReadings};
+  Publisher publisher_;
+  std::unique_ptr<Server> server_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Gateway>> Gateway::Start(
+    const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory) {
+  auto gateway = std::make_unique<LocalGateway>(options, std::move(directory));
+  if (base::Status opened = gateway->Open(options); !opened) return base::Fail(opened.error());
+  return gateway;
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,34 @@
+// The simulations of this program on the web: the viewer's files, an HTTP API, and live data over
+// the Foxglove WebSocket protocol at /ws. See docs/formats/live.md and docs/api.yaml.
+//
+// Threads  its own; the stepping threads of simulations are never waited for, nor do they wait.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "gsv/gateway/ports.h"
+#include "gsv/gateway/server.h"
+
+namespace gsv::gateway {
+
+struct GatewayOptions : ServerOptions {
+  std::filesystem::path web_root;  // the viewer's files; may be absent
+};
+
+class Gateway {
+ public:
+  // Fails when the port cannot be had.
+  static base::Result<std::unique_ptr<Gateway>> Start(
+      const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory);
+  virtual ~Gateway() = default;
+
+  virtual std::uint16_t port() const = 0;
+  virtual std::string url() const = 0;  // "http://127.0.0.1:8080/"
+
+  // Disconnects all viewers. Waits for requests under way.
+  virtual void Stop() = 0;
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,219 @@
+#include "gsv/gateway/http_session.h"
+
+#include <optional>
+#include <utility>
+
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "gsv/base/log.h"
+#include "gsv/gateway/websocket_session.h"
+
+namespace gsv::gateway {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using boost::system::error_code;
+using SpanBody = http::span_body<const char>;
+
+std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
+
+std::string Text(const http::request<http::string_body>& request, http::field field) {
+  return std::string(View(request[field]));
+}
+
+// What is wrong with bytes that are not an acceptable request; empty: the connection is just gone.
+std::optional<Response> ResponseTo(error_code error, const ServerLimits& limits) {
+  if (error == http::error::header_limit || error == http::error::buffer_overflow) {
+    return ErrorResponse(431, "the request's header is longer than " +
+                                  std::to_string(limits.header_bytes) + " bytes");
+  }
+  if (error == http::error::body_limit) {
+    return ErrorResponse(413, "the request's body is longer than " +
+                                  std::to_string(limits.body_bytes) + " bytes");
+  }
+  if (error.category() == make_error_code(http::error::bad_target).category() &&
+      error != http::error::end_of_stream && error != http::error::partial_message) {
+    return ErrorResponse(400, "this is not an HTTP request: " + error.message());
+  }
+  return std::nullopt;
+}
+
+class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
+ public:
+  HttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+              std::unique_ptr<ConnectionSlot> slot,
+              std::function<void(std::weak_ptr<Connection>)> keep_track)
+      : stream_(std::move(socket)),
+        context_(std::move(context)),
+        slot_(std::move(slot)),
+        keep_track_(std::move(keep_track)) {}
+
+  void Read() {
+    parser_.emplace();
+    parser_->header_limit(limits().header_bytes);
+    parser_->body_limit(limits().body_bytes);
+    stream_.expires_after(limits().request_time);
+    is_idle_ = true;
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](error_code error, std::size_t) {
+                       self->is_idle_ = false;
+                       self->OnRead(error);
+                     });
+  }
+
+  void Shutdown() override {
+    if (is_idle_) stream_.close();
+  }
+
+  void Cut() override { stream_.close(); }
+
+ private:
+  const ServerLimits& limits() const { return context_->options.limits; }
+
+  void OnRead(error_code error) {
+    if (error) {
+      std::optional<Response> complaint = ResponseTo(error, limits());
+      if (complaint) {
+        keep_alive_ = false;
+        Write(std::move(*complaint));
+      }
+      return;
+    }
+    const auto& request = parser_->get();
+    keep_alive_ = request.keep_alive();
+    version_ = request.version();
+    is_head_ = request.method() == http::verb::head;
+    const base::Status allowed = context_->access.Check(View(request[http::field::host]),
+                                                        View(request[http::field::origin]));
+    if (!allowed) return Write(ErrorResponse(403, allowed.error().Sentence()));
+    base::Result<Target> target = ParseTarget(View(request.target()));
+    if (!target) return Write(ErrorResponse(target.error()));
+    if (beast::websocket::is_upgrade(request)) return Upgrade(*target);
+    Dispatch(std::move(*target));
+  }
+
+  void Dispatch(Target target) {
+    const auto& message = parser_->get();
+    Request request;
+    request.method = is_head_ ? "GET" : std::string(View(message.method_string()));
+    request.raw_target = std::string(View(message.target()));
+    request.target = std::move(target);
+    request.body = message.body();
+    request.content_type = Text(message, http::field::content_type);
+    request.if_none_match = Text(message, http::field::if_none_match);
+    stream_.expires_never();  // whoever answers has limits of their own
+    context_->handler.Handle(
+        std::move(request), [self = shared_from_this()](Response response) mutable {
+          auto executor = self->stream_.get_executor();
+          boost::asio::post(executor, [self = std::move(self), answer = std::move(response)]() mutable {
+            self->Write(std::move(answer));
+          });
+        });
+  }
+
+  void Upgrade(const Target& target) {
+    if (target.segments != std::vector<std::string>{"ws"}) {
+      return Write(ErrorResponse(404, "WebSockets are served at /ws"));
+    }
+    const std::string offered = Text(parser_->get(), http::field::sec_websocket_protocol);
+    const std::string_view subprotocol = foxglove::ChooseSubprotocol(offered);
+    if (subprotocol.empty()) {
+      return Write(ErrorResponse(400, "a WebSocket must offer the sub-protocol foxglove.sdk.v1 or "
+                                      "foxglove.websocket.v1"));
+    }
+    base::Result<std::shared_ptr<Hub>> hub = context_->handler.FindHub(target);
+    if (!hub) return Write(ErrorResponse(hub.error()));
+    stream_.expires_never();
+    keep_track_(StartWebSocketSession(stream_.release_socket(), parser_->release(), subprotocol,
+                                      std::move(*hub), context_, std::move(slot_)));
+  }
+
+  void Write(Response response) {
+    keep_alive_ = keep_alive_ && !context_->stopping;
+    if (is_head_ || response.status == 304) {
+      http::response<http::empty_body> message = Header<http::empty_body>(response);
+      if (response.status != 304) message.content_length(response.body.size());
+      return Send(std::move(message), {});
+    }
+    http::response<SpanBody> message = Header<SpanBody>(response);
+    message.body() = {response.body.data(), response.body.size()};
+    message.content_length(response.body.size());
+    Send(std::move(message), std::move(response.body));
+  }
+
+  template <typename Body>
+  http::response<Body> Header(const Response& response) const {
+    http::response<Body> message{static_cast<http::status>(response.status), version_};
+    const auto set = [&](http::field field, const std::string& value) {
+      if (!value.empty()) message.set(field, value);
+    };
+    message.set(http::field::server, "gsv");
+    set(http::field::content_type, response.content_type);
+    set(http::field::etag, response.etag);
+    set(http::field::cache_control, response.cache_control);
+    set(http::field::allow, response.allow);
+    message.set("X-Content-Type-Options", "nosniff");
+    message.set("Content-Security-Policy", "frame-ancestors 'none'");
+    message.set("Cross-Origin-Resource-Policy", "same-origin");
+    message.keep_alive(keep_alive_);
+    return message;
+  }
+
+  // `bytes` is what the message's body points to.
+  template <typename Body>
+  void Send(http::response<Body> response, SharedBytes bytes) {
+    auto message = std::make_shared<http::response<Body>>(std::move(response));
+    stream_.expires_after(limits().request_time);
+    http::async_write(stream_, *message,
+                      [self = shared_from_this(), message, bytes](error_code error, std::size_t) {
+                        self->OnWritten(error);
+                      });
+  }
+
+  void OnWritten(error_code error) {
+    if (error) return;
+    if (keep_alive_ && !context_->stopping) return Read();
+    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, error);
+    Drain();
+  }
+
+  // Takes what the client still sends, so that closing does not destroy our answer on its way.
+  void Drain() {
+    is_idle_ = true;
+    stream_.expires_after(std::chrono::seconds(1));
+    buffer_.clear();
+    stream_.async_read_some(buffer_.prepare(4096),
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              if (!error) self->Drain();
+                            });
+  }
+
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  std::shared_ptr<ServerContext> context_;
+  std::unique_ptr<ConnectionSlot> slot_;
+  std::function<void(std::weak_ptr<Connection>)> keep_track_;
+  unsigned version_ = 11;
+  bool keep_alive_ = false;
+  bool is_head_ = false;
+  bool is_idle_ = false;  // waits for bytes that may never come
+};
+
+}  // namespace
+
+void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+                      std::unique_ptr<ConnectionSlot> slot,
+                      std::function<void(std::weak_ptr<Connection>)> keep_track) {
+  const auto session = std::make_shared<HttpSession>(std::move(socket), std::move(context),
+                                                     std::move(slot), keep_track);
+  keep_track(session);
+  session->Read();
+}
+
+}  // namespace gsv::gateway

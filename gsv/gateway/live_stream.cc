@@ -1,0 +1,152 @@
+#include "gsv/gateway/live_stream.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gsv/gateway/channels.h"
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/messages/time.h"
+#include "gsv/presentation/state_messages.h"
+
+namespace gsv::gateway {
+namespace {
+
+constexpr double kStatusRate = 5;   // Hz
+constexpr double kRefreshRate = 1;  // how often new sensors are looked for
+// Of what happened before a viewer came, so much is told.
+constexpr std::size_t kMostPastEvents = 100;
+
+std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
+
+foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
+  const auto started = std::chrono::system_clock::now().time_since_epoch();
+  return {"gsv: " + simulation.specification().name,
+          {"time"},
+          {{"simulation", simulation.specification().name}},
+          std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(started).count())};
+}
+
+Hub::Message MessageOf(const simulation::Event& event) {
+  return {Nanoseconds(event.time), Encoded(presentation::EventMessage(event))};
+}
+
+}  // namespace
+
+LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation,
+                       WorkerPool& workers, std::function<void()> on_demand)
+    : hub_(std::make_shared<Hub>(InfoOf(*simulation), std::move(on_demand))),
+      status_pacing_(kStatusRate),
+      refresh_pacing_(kRefreshRate) {
+  const std::vector<foxglove::ChannelId> channels =
+      hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
+                       ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
+                       ChannelFor<messages::tf2_msgs::TFMessage>("/tf"),
+                       ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status"),
+                       ChannelFor<messages::gsv_msgs::LifecycleEvent>("/gsv/events")});
+  snapshot_topics_.resize(3);
+  snapshot_topics_[0].encode = &LiveStream::EncodeClock;
+  snapshot_topics_[1].encode = &LiveStream::EncodePoses;
+  snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;
+  for (std::size_t i = 0; i < 3; ++i) snapshot_topics_[i].channel = channels[i];
+  status_channel_ = channels[3];
+  events_channel_ = channels[4];
+  sensors_ = std::make_shared<SensorTopics>(hub_, workers);
+}
+
+void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now) {
+  if (!hub_->has_clients()) return;
+  const SnapshotPointer snapshot = simulation->snapshot();
+  FollowLayout(*simulation, *snapshot, now);
+  PublishTime(snapshot);
+  for (SnapshotTopic& topic : snapshot_topics_) Publish(topic, snapshot, now);
+  PublishStatus(*simulation, now);
+  PublishEvents(*simulation);
+  sensors_->Publish(simulation, snapshot, now);
+}
+
+void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
+                              WallTime now) {
+  const bool is_new = snapshot.layout != layout_;
+  if (is_new) {
+    layout_ = snapshot.layout;
+    pose_list_ = presentation::PoseListOf(*layout_);
+  }
+  // Sensors can be mounted without a change of the layout.
+  if (!is_new && !refresh_pacing_.IsDue(now)) return;
+  sensors_->Refresh(simulation, snapshot);
+  refresh_pacing_.Done(now);
+}
+
+void LiveStream::PublishTime(const SnapshotPointer& snapshot) {
+  if (time_of_.lock() == snapshot) return;
+  time_of_ = snapshot;
+  hub_->PublishTime(Nanoseconds(snapshot->state.time));
+}
+
+void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now) {
+  if (!hub_->IsSubscribed(topic.channel)) return;
+  const bool is_due = topic.published.lock() != snapshot && topic.pacing.IsDue(now);
+  if (!is_due && !hub_->HasNewcomers(topic.channel)) return;
+  if (topic.published.lock() != snapshot) {
+    topic.latest = {Nanoseconds(snapshot->state.time), (this->*topic.encode)(*snapshot)};
+  }
+  if (!is_due) return hub_->Welcome(topic.channel, {&topic.latest, 1});
+  hub_->Publish(topic.channel, topic.latest);
+  topic.published = snapshot;
+  topic.pacing.Done(now);
+}
+
+void LiveStream::PublishStatus(simulation::Simulation& simulation, WallTime now) {
+  if (!hub_->IsSubscribed(status_channel_)) return;
+  const simulation::Phase phase = simulation.WaitForPhase({}, std::chrono::milliseconds(0));
+  const bool is_due = phase != published_phase_ || status_pacing_.IsDue(now);
+  const bool has_newcomers = hub_->HasNewcomers(status_channel_);
+  if (!is_due && !has_newcomers) return;
+  const simulation::SimulationStatus status = simulation.status();
+  const Hub::Message message{Nanoseconds(status.time), Encoded(presentation::StatusMessage(status))};
+  if (is_due) {
+    status_pacing_.Done(now);
+    published_phase_ = status.phase;
+  }
+  const bool has_changed = message.payload.view() != latest_status_.payload.view();
+  latest_status_ = message;
+  if (has_changed) return hub_->Publish(status_channel_, message);
+  if (has_newcomers) hub_->Welcome(status_channel_, {&message, 1});
+}
+
+std::vector<simulation::Event> LiveStream::TakeNewEvents(simulation::Simulation& simulation) {
+  if (simulation.events(next_event_).empty()) return {};
+  // The simulation forgets its oldest events, so that their number says where we are: read before
+  // the events themselves, it is not ahead of them.
+  const std::uint64_t count = simulation.status().events;
+  std::vector<simulation::Event> events = simulation.events(next_event_);
+  next_event_ = std::max(next_event_ + events.size(), count);
+  return events;
+}
+
+void LiveStream::PublishEvents(simulation::Simulation& simulation) {
+  for (const simulation::Event& event : TakeNewEvents(simulation)) {
+    hub_->Publish(events_channel_, MessageOf(event), Hub::Audience::kEstablished);
+  }
+  if (!hub_->HasNewcomers(events_channel_)) return;
+  const std::vector<simulation::Event> past = simulation.events(0);
+  std::vector<Hub::Message> messages;
+  for (std::size_t i = past.size() - std::min(past.size(), kMostPastEvents); i < past.size(); ++i) {
+    messages.push_back(MessageOf(past[i]));
+  }
+  hub_->Welcome(events_channel_, messages);
+}
+
+SharedBytes LiveStream::EncodeClock(const world::Snapshot& snapshot) const {
+  return Encoded(messages::rosgraph_msgs::Clock{messages::ToMessage(snapshot.state.time)});
+}
+
+SharedBytes LiveStream::EncodePoses(const world::Snapshot& snapshot) const {
+  return Encoded(presentation::PosesMessage(snapshot, pose_list_));
+}
+
+SharedBytes LiveStream::EncodeTransforms(const world::Snapshot& snapshot) const {
+  return Encoded(presentation::TransformsMessage(snapshot, pose_list_));
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,37 @@
+// The HTTP API of a replay: the same addresses as a simulation's (docs/api.yaml), and
+//   POST /api/simulations/NAME/seek   {"time_s": T}
+//   GET  /api/simulations/NAME/replay {"start_s", "end_s", "time_s", "speed", "loop"}
+//
+// `stop` and `reset` both go back to the start.
+//
+// Threads  any.
+#pragma once
+
+#include <string>
+
+#include "gsv/gateway/http.h"
+#include "gsv/gateway/replay_player.h"
+
+namespace gsv::gateway {
+
+class ReplayApi {
+ public:
+  // `player` must outlive this.
+  explicit ReplayApi(ReplayPlayer& player) : player_(player) {}
+
+  // `request.target` begins with "api".
+  Response Handle(const Request& request);
+
+ private:
+  Response OfSimulation(const Request& request);
+  Response Act(const std::string& action, const std::string& body);
+  Response Timeline() const;
+  Response Model(const Request& request) const;
+
+  ReplayPlayer& player_;
+};
+
+// {"time_s": T}: a finite number, within the times there are.
+base::Result<base::SimTime> ParseSeekTime(std::string_view body);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,80 @@
+#include "gsv/gateway/replay_gateway.h"
+
+#include <utility>
+
+#include "gsv/gateway/replay_api.h"
+#include "gsv/gateway/static_files.h"
+#include "gsv/gateway/worker_pool.h"
+
+namespace gsv::gateway {
+namespace {
+
+constexpr std::size_t kWaitingRequests = 256;
+
+class LocalReplayGateway final : public ReplayGateway, private Handler {
+ public:
+  LocalReplayGateway(const GatewayOptions& options, ReplayPlayer& player)
+      : player_(player), files_(options.web_root), api_(player) {}
+
+  ~LocalReplayGateway() override { Stop(); }
+
+  base::Status Open(const ServerOptions& options) {
+    base::Result<std::unique_ptr<Server>> server = Server::Start(options, *this);
+    if (!server) return base::Fail(server.error());
+    server_ = std::move(*server);
+    return {};
+  }
+
+  std::uint16_t port() const override { return server_->port(); }
+  std::string url() const override { return server_->url(); }
+
+  void Stop() override {
+    player_.Stop();
+    workers_.Stop();
+    if (server_) server_->Stop();
+  }
+
+ private:
+  void Handle(Request request, Respond respond) override {
+    const bool accepted = workers_.Submit([this, respond, request = std::move(request)] {
+      respond(Answer(request));
+    });
+    if (!accepted) respond(ErrorResponse(503, "the server is busy; try again in a moment"));
+  }
+
+  Response Answer(const Request& request) {
+    const std::vector<std::string>& path = request.target.segments;
+    if (!path.empty() && path[0] == "api") return api_.Handle(request);
+    if (request.method != "GET") return MethodNotAllowed("GET");
+    if (path == std::vector<std::string>{"ws"}) {
+      return ErrorResponse(426, "this address is for WebSockets that speak foxglove.sdk.v1");
+    }
+    if (path == std::vector<std::string>{"healthz"}) return JsonResponse(200, R"({"ok":true})");
+    return files_.Get(request);
+  }
+
+  base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
+    const auto name = target.query.find("simulation");
+    if (name == target.query.end() || name->second == player_.name()) return player_.hub();
+    return base::Fail(base::ErrorCode::kNotFound, "there is no simulation '" + name->second +
+                                                      "'; this is a replay of '" + player_.name() +
+                                                      "'");
+  }
+
+  ReplayPlayer& player_;
+  StaticFiles files_;
+  ReplayApi api_;
+  WorkerPool workers_{2, kWaitingRequests};
+  std::unique_ptr<Server> server_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<ReplayGateway>> ReplayGateway::Start(const GatewayOptions& options,
+                                                                  ReplayPlayer& player) {
+  auto gateway = std::make_unique<LocalReplayGateway>(options, player);
+  if (base::Status opened = gateway->Open(options); !opened) return base::Fail(opened.error());
+  return gateway;
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,241 @@
+#include "gsv/gateway/replay_gateway.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "gsv/gateway/testing/web_client.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/visualization_msgs.h"
+#include "gsv/recording/mcap_file_writer.h"
+#include "gsv/recording/simulation_recorder.h"
+#include "gsv/recording/test_recording.h"
+#include "gsv/recording/test_simulation.h"
+
+namespace gsv::gateway {
+namespace {
+
+using messages::gsv_msgs::Poses;
+using messages::gsv_msgs::SimulationStatus;
+using nlohmann::json;
+using recording::operator""s;
+using recording::operator""ms;
+using testing::Decoded;
+using testing::Fetch;
+using testing::HttpReply;
+using testing::Viewer;
+
+base::Result<std::vector<std::uint8_t>> NameAsGlb(const model::Model& model) {
+  return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
+}
+
+std::string PathFor(const std::string& name) {
+  return ::testing::TempDir() + "gsv_replay_" + std::to_string(getpid()) + "_" + name + ".mcap";
+}
+
+// A robot that drives from the origin at 0.5 m/s towards a wall, for two seconds.
+void RecordRun(const std::string& path) {
+  auto simulation = recording::MakeSimulation(2s, recording::Drives(0.5));
+  recording::RecorderOptions options;
+  options.write_glb = &NameAsGlb;
+  auto recorder = recording::SimulationRecorder::Start(simulation, path, options);
+  ASSERT_TRUE(recorder) << recorder.error().Sentence();
+  ASSERT_EQ(recording::RunToEnd(*simulation), simulation::Phase::kFinished);
+  ASSERT_TRUE((*recorder)->Stop());
+}
+
+class ReplayGatewayTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { RecordRun(PathFor("run")); }
+  static void TearDownTestSuite() { std::filesystem::remove(PathFor("run")); }
+
+  void SetUp() override { Open(PathFor("run"), {}); }
+  void TearDown() override {
+    gateway_.reset();
+    player_.reset();
+  }
+
+  void Open(const std::string& path, const ReplayOptions& options) {
+    TearDown();
+    auto player = ReplayPlayer::Open(path, options);
+    ASSERT_TRUE(player) << player.error().Sentence();
+    player_ = *std::move(player);
+    auto gateway = ReplayGateway::Start({}, *player_);
+    ASSERT_TRUE(gateway) << gateway.error().Sentence();
+    gateway_ = *std::move(gateway);
+  }
+
+  std::uint16_t port() const { return gateway_->port(); }
+  HttpReply Get(const std::string& target) const { return Fetch(port(), "GET", target); }
+  HttpReply Post(const std::string& action, const std::string& body = "") const {
+    return Fetch(port(), "POST", "/api/simulations/simulation/" + action, "", body);
+  }
+
+  std::unique_ptr<ReplayPlayer> player_;
+  std::unique_ptr<ReplayGateway> gateway_;
+};
+
+TEST_F(ReplayGatewayTest, LooksLikeTheSimulationThatWasRecorded) {
+  const json list = json::parse(Get("/api/simulations").body);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0]["name"], "simulation");
+  EXPECT_EQ(list[0]["mode"], "lockstep");
+  EXPECT_EQ(list[0]["phase"], "created");
+  EXPECT_EQ(Get("/api/simulations/other").status, 404);
+  EXPECT_EQ(Post("robots/robot/drive", "{}").status, 409);
+  EXPECT_EQ(Get("/ws").status, 426);
+}
+
+TEST_F(ReplayGatewayTest, ServesTheSceneAndItsModels) {
+  const json scene = json::parse(Get("/api/simulations/simulation/scene").body);
+  ASSERT_EQ(scene["bodies"].size(), 2u);
+  EXPECT_EQ(scene["bodies"][0]["name"], "robot");
+  EXPECT_EQ(scene["bodies"][0]["sensors"].size(), 2u);
+  const std::string models[] = {"disc", "wall"};
+  for (int i = 0; i < 2; ++i) {
+    const HttpReply glb =
+        Get("/api/models/" + scene["bodies"][i]["model"].get<std::string>() + ".glb");
+    EXPECT_EQ(glb.status, 200);
+    EXPECT_EQ(glb.headers.at("content-type"), "model/gltf-binary");
+    EXPECT_EQ(glb.body, models[i]);
+  }
+  EXPECT_EQ(Get("/api/models/0123456789abcdef.glb").status, 404);
+}
+
+TEST_F(ReplayGatewayTest, AViewerIsToldHowThingsStandBeforeItPlays) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  viewer.Subscribe(2, "/gsv/status");
+  const Poses poses = Decoded<Poses>(viewer.ReceiveData(1));
+  ASSERT_EQ(poses.poses.size(), 7u);
+  EXPECT_EQ(poses.poses[0], 0);
+  const auto status = Decoded<SimulationStatus>(viewer.ReceiveData(2));
+  EXPECT_EQ(status.state, "created");
+  ASSERT_EQ(status.robots.size(), 1u);
+  EXPECT_EQ(status.robots[0].name, "robot");
+}
+
+TEST_F(ReplayGatewayTest, PlaysToTheEnd) {
+  Open(PathFor("run"), {.speed = 20});
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 0u);
+  EXPECT_EQ(json::parse(Post("start").body)["phase"], "running");
+  Poses poses;
+  while (poses.step < 200) {
+    const Poses next = Decoded<Poses>(viewer.ReceiveData(1));
+    EXPECT_GT(next.step, poses.step);
+    poses = next;
+  }
+  EXPECT_NEAR(poses.poses[0], 1.0, 1e-9);  // m
+  viewer.Subscribe(2, "/gsv/status");
+  while (Decoded<SimulationStatus>(viewer.ReceiveData(2)).state != "finished") {
+  }
+  EXPECT_EQ(Post("start").status, 409);
+  EXPECT_EQ(json::parse(Post("reset").body)["phase"], "created");
+  EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 0u);
+}
+
+TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  viewer.Subscribe(2, "/robot/front");
+  viewer.Subscribe(3, "/gsv/beams");
+  viewer.ReceiveData(1);
+  viewer.ReceiveData(2);
+  viewer.ReceiveData(3);
+  // The face is at 2.9 m, the robot at 0.5 m/s times the time.
+  for (const double time : {1.5, 0.25, 1.0}) {
+    const HttpReply reply = Post("seek", json{{"time_s", time}}.dump());
+    EXPECT_EQ(reply.status, 200);
+    const json status = json::parse(reply.body);
+    EXPECT_EQ(status["time_s"], time);
+    EXPECT_EQ(status["phase"], "paused");
+    const Poses poses = Decoded<Poses>(viewer.ReceiveData(1));
+    EXPECT_NEAR(poses.poses[0], 0.5 * time, 0.5 * 0.02);  // recorded at 50 Hz
+    const auto range = Decoded<messages::sensor_msgs::Range>(viewer.ReceiveData(2));
+    EXPECT_NEAR(range.range, 2.9 - 0.5 * time, 1e-6);  // each is an instant of 20 Hz
+    const auto beams =
+        Decoded<messages::visualization_msgs::MarkerArray>(viewer.ReceiveData(3));
+    ASSERT_EQ(beams.markers.size(), 1u);
+    EXPECT_FALSE(beams.markers[0].points.empty());
+  }
+  const json robot = json::parse(Get("/api/simulations/simulation").body)["robots"][0];
+  EXPECT_NEAR(robot["pose"]["x_m"].get<double>(), 0.5, 1e-9);
+}
+
+TEST_F(ReplayGatewayTest, StepsAndPauses) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  viewer.ReceiveData(1);
+  EXPECT_EQ(json::parse(Post("step", R"({"count":4})").body)["time_s"], 0.04);
+  EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 4u);
+  EXPECT_EQ(Post("pause").status, 200);
+  EXPECT_EQ(Post("resume").status, 200);
+  EXPECT_EQ(Post("step").status, 409);
+  EXPECT_EQ(json::parse(Post("stop").body)["phase"], "created");
+}
+
+TEST_F(ReplayGatewayTest, ASeekWithoutATimeIsRefused) {
+  for (const char* body : {"", "[]", "{}", R"({"time_s":"1"})", R"({"time_s":1e99})"}) {
+    EXPECT_EQ(Post("seek", body).status, 400) << body;
+  }
+  const json timeline = json::parse(Get("/api/simulations/simulation/replay").body);
+  EXPECT_EQ(timeline["start_s"], 0.0);
+  EXPECT_EQ(timeline["end_s"], 2.0);
+}
+
+TEST_F(ReplayGatewayTest, BeginsAnewWithLoop) {
+  Open(PathFor("run"), {.speed = 50, .loop = true});
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  Post("start");
+  for (int rounds = 0; rounds < 2;) {
+    std::uint64_t before = 0;
+    for (;;) {
+      const std::uint64_t step = Decoded<Poses>(viewer.ReceiveData(1)).step;
+      if (step < before) break;
+      before = step;
+    }
+    ++rounds;
+  }
+  EXPECT_EQ(json::parse(Get("/api/simulations/simulation").body)["phase"], "running");
+}
+
+TEST_F(ReplayGatewayTest, ARecordingWithoutASceneSaysSo) {
+  const std::string path = PathFor("bare");
+  const recording::Bytes bytes = recording::ThreeChunks();
+  auto sink = recording::FileSink::Create(path, true).value();
+  ASSERT_TRUE(sink->Write(bytes));
+  Open(path, {});
+  ASSERT_EQ(player_->problems().size(), 1u);
+  EXPECT_NE(player_->problems()[0].message.find("holds no scene"), std::string::npos);
+  const std::string name = player_->name();
+  EXPECT_EQ(name, std::filesystem::path(path).stem().string());
+  const HttpReply scene = Get("/api/simulations/" + name + "/scene");
+  EXPECT_EQ(scene.status, 404);
+  EXPECT_NE(scene.body.find("holds no scene"), std::string::npos);
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/even");
+  EXPECT_EQ(viewer.ReceiveData(1).time_ns, 0u);
+  std::filesystem::remove(path);
+}
+
+TEST_F(ReplayGatewayTest, AFileThatIsNoRecordingIsAnError) {
+  EXPECT_EQ(ReplayPlayer::Open("/nowhere.mcap", {}).error().code, base::ErrorCode::kNotFound);
+  EXPECT_EQ(ReplayPlayer::Open("/proc/self/exe", {}).error().code, base::ErrorCode::kCorrupt);
+}
+
+TEST_F(ReplayGatewayTest, StopsWhileSomebodyWatches) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  viewer.ReceiveData(1);
+  gateway_->Stop();
+  while (viewer.Receive()) {
+  }
+  EXPECT_EQ(viewer.close_code(), 1001);
+}
+
+}  // namespace
+}  // namespace gsv::gateway

@@ -1,0 +1,51 @@
+#include "gsv/gateway/send_queue.h"
+
+#include <utility>
+
+namespace gsv::gateway {
+
+bool SendQueue::PushText(SharedBytes text) {
+  const std::lock_guard lock(mutex_);
+  if (control_bytes_ + text.size() > limits_.control_bytes) return false;
+  control_bytes_ += text.size();
+  control_.push_back({true, {}, std::move(text)});
+  return true;
+}
+
+void SendQueue::PushData(const foxglove::BinaryHeader& header, SharedBytes payload) {
+  Outgoing message{false, header, std::move(payload)};
+  const std::lock_guard lock(mutex_);
+  while (!data_.empty() && (data_.size() >= limits_.data_messages ||
+                            data_bytes_ + message.size() > limits_.data_bytes)) {
+    Take(data_, data_bytes_);
+    ++dropped_;
+  }
+  data_bytes_ += message.size();
+  data_.push_back(std::move(message));
+}
+
+std::optional<Outgoing> SendQueue::Pop() {
+  const std::lock_guard lock(mutex_);
+  if (!control_.empty()) return Take(control_, control_bytes_);
+  if (!data_.empty()) return Take(data_, data_bytes_);
+  return std::nullopt;
+}
+
+bool SendQueue::empty() const {
+  const std::lock_guard lock(mutex_);
+  return control_.empty() && data_.empty();
+}
+
+std::uint64_t SendQueue::dropped() const {
+  const std::lock_guard lock(mutex_);
+  return dropped_;
+}
+
+Outgoing SendQueue::Take(std::deque<Outgoing>& queue, std::size_t& bytes) {
+  Outgoing message = std::move(queue.front());
+  queue.pop_front();
+  bytes -= message.size();
+  return message;
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,63 @@
+// Listens on one port; speaks HTTP and WebSocket with those who connect.
+//
+// Threads   one thread serves all connections and never waits for anybody. A Handler is called on
+//           it and returns at once.
+// Bounded   connections, headers, bodies, messages, what waits for a client, and the time each
+//           exchange may take.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/gateway/http.h"
+#include "gsv/gateway/hub.h"
+#include "gsv/gateway/send_queue.h"
+
+namespace gsv::gateway {
+
+struct ServerLimits {
+  std::size_t connections = 256;
+  std::uint32_t header_bytes = 16u << 10;
+  std::uint64_t body_bytes = 64u << 10;
+  std::size_t message_bytes = 256u << 10;      // of one WebSocket message from a client
+  std::chrono::milliseconds request_time{30'000};  // to send a request, or to take its answer
+  std::chrono::milliseconds idle_time{60'000};     // a viewer that answers no ping for so long is gone
+  SendLimits send;
+};
+
+struct ServerOptions {
+  std::string host = "127.0.0.1";  // an address of this machine, or "localhost"
+  std::uint16_t port = 0;          // 0: the system chooses
+  std::vector<std::string> allowed_hosts;    // see AccessRule
+  std::vector<std::string> allowed_origins;
+  ServerLimits limits;
+};
+
+class Handler {
+ public:
+  virtual ~Handler() = default;
+  // `respond` must be called once, here or later, from any thread, before the server is stopped.
+  virtual void Handle(Request request, Respond respond) = 0;
+  // The hub that a WebSocket at this target is to be a client of.
+  virtual base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) = 0;
+};
+
+class Server {
+ public:
+  // `handler` outlives the server. Fails when the port cannot be had.
+  static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options, Handler& handler);
+  virtual ~Server() = default;
+
+  virtual std::uint16_t port() const = 0;
+  virtual std::string url() const = 0;  // "http://127.0.0.1:8080/"
+
+  // Says goodbye to all, waits a moment for them to go, then cuts them off. May be called again.
+  virtual void Stop() = 0;
+};
+
+}  // namespace gsv::gateway

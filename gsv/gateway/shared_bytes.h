@@ -1,0 +1,38 @@
+// Bytes that several readers share and nobody changes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gsv::gateway {
+
+class SharedBytes {
+ public:
+  SharedBytes() = default;
+  explicit SharedBytes(std::string bytes) { Own(std::move(bytes)); }
+  explicit SharedBytes(std::vector<std::byte> bytes) { Own(std::move(bytes)); }
+  explicit SharedBytes(std::vector<std::uint8_t> bytes) { Own(std::move(bytes)); }
+
+  // Valid as long as any copy of this object.
+  std::string_view view() const { return view_; }
+  std::size_t size() const { return view_.size(); }
+  const char* data() const { return view_.data(); }
+
+ private:
+  template <typename Container>
+  void Own(Container bytes) {
+    auto owner = std::make_shared<const Container>(std::move(bytes));
+    view_ = {reinterpret_cast<const char*>(owner->data()), owner->size()};
+    owner_ = std::move(owner);
+  }
+
+  std::shared_ptr<const void> owner_;
+  std::string_view view_;
+};
+
+}  // namespace gsv::gateway

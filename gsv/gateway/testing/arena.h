@@ -1,0 +1,20 @@
+// For tests: the models of ScriptedSimulation's world, made of boxes and cylinders.
+#pragma once
+
+#include <memory>
+
+#include "gsv/model/world_description.h"
+#include "gsv/sensing/registry.h"
+
+namespace gsv::gateway::testing {
+
+model::Model FloorModel();
+model::Model CrateModel();  // a cube of 1 m on the ground
+// Two driven wheels (continuous joints), a sonar ahead and one to the left, a lidar, a camera.
+model::Model RobotModel();
+model::WorldDescription ArenaDescription();
+
+// A sensor of the type "camera" whose picture is a gradient, sent as JPEG.
+sensing::SensorType GradientCameraType();
+
+}  // namespace gsv::gateway::testing

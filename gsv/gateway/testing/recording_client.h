@@ -1,0 +1,124 @@
+// For tests: a client that keeps all it is sent.
+#pragma once
+
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "gsv/gateway/hub.h"
+#include "gsv/messages/cdr.h"
+
+namespace gsv::gateway::testing {
+
+struct ReceivedData {
+  int opcode = 0;
+  foxglove::SubscriptionId subscription = 0;  // opcode 1
+  std::uint64_t time_ns = 0;
+  std::string payload;
+};
+
+// Takes a binary message of the protocol apart, written anew from its specification.
+inline ReceivedData ParseData(const std::string& bytes) {
+  ReceivedData data;
+  data.opcode = bytes.at(0);
+  const std::size_t time_at = data.opcode == 1 ? 5 : 1;
+  if (data.opcode == 1) std::memcpy(&data.subscription, bytes.substr(1, 4).data(), 4);
+  std::memcpy(&data.time_ns, bytes.substr(time_at, 8).data(), 8);
+  data.payload = bytes.substr(time_at + 8);
+  return data;
+}
+
+template <typename Message>
+Message Decoded(const ReceivedData& data) {
+  const auto bytes = std::as_bytes(std::span(data.payload));
+  return messages::Decode<Message>(bytes).value();
+}
+
+class RecordingClient final : public Client {
+ public:
+  void SendText(SharedBytes text) override {
+    const std::lock_guard lock(mutex_);
+    texts_.push_back(nlohmann::json::parse(text.view()));
+  }
+
+  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
+    const std::lock_guard lock(mutex_);
+    std::string bytes(reinterpret_cast<const char*>(header.bytes.data()), header.size);
+    bytes += payload.view();
+    data_.push_back(ParseData(bytes));
+  }
+
+  void Close(CloseCode code, std::string reason) override {
+    const std::lock_guard lock(mutex_);
+    close_code_ = code;
+    close_reason_ = std::move(reason);
+  }
+
+  std::vector<nlohmann::json> texts() const {
+    const std::lock_guard lock(mutex_);
+    return texts_;
+  }
+
+  // The messages of one subscription.
+  std::vector<ReceivedData> data(foxglove::SubscriptionId subscription) const {
+    const std::lock_guard lock(mutex_);
+    std::vector<ReceivedData> found;
+    for (const ReceivedData& data : data_) {
+      if (data.opcode == 1 && data.subscription == subscription) found.push_back(data);
+    }
+    return found;
+  }
+
+  std::vector<std::uint64_t> times() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::uint64_t> times;
+    for (const ReceivedData& data : data_) {
+      if (data.opcode == 2) times.push_back(data.time_ns);
+    }
+    return times;
+  }
+
+  // The number of a topic's channel, by the latest advertisement; 0: it was withdrawn or never was.
+  foxglove::ChannelId ChannelOf(const std::string& topic) const {
+    foxglove::ChannelId id = 0;
+    for (const nlohmann::json& text : texts()) {
+      if (text["op"] == "advertise") {
+        for (const auto& channel : text["channels"]) {
+          if (channel["topic"] == topic) id = channel["id"];
+        }
+      } else if (text["op"] == "unadvertise") {
+        for (const auto& gone : text["channelIds"]) {
+          if (gone == id) id = 0;
+        }
+      }
+    }
+    return id;
+  }
+
+  std::string close_reason() const {
+    const std::lock_guard lock(mutex_);
+    return close_reason_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<nlohmann::json> texts_;
+  std::vector<ReceivedData> data_;
+  CloseCode close_code_{};
+  std::string close_reason_;
+};
+
+inline std::string SubscribeText(foxglove::SubscriptionId id, foxglove::ChannelId channel) {
+  return nlohmann::json{{"op", "subscribe"},
+                        {"subscriptions", {{{"id", id}, {"channelId", channel}}}}}
+      .dump();
+}
+
+inline std::string UnsubscribeText(foxglove::SubscriptionId id) {
+  return nlohmann::json{{"op", "unsubscribe"}, {"subscriptionIds", {id}}}.dump();
+}
+
+}  // namespace gsv::gateway::testing

@@ -1,0 +1,86 @@
+// For tests: a simulation whose robots drive in circles by formula, so that every value it shows is
+// known in closed form. Sensors are the real ones. Nothing in it moves unless Advance() is called.
+//
+// World    "arena": a floor, four crates at (±4, ±4), robots robot_0, robot_1, … and one avatar.
+//          Robot i goes round (0, 0) with radius 1 + i/2 at 0.2 rad/s, ahead by i radians; its
+//          wheels turn at 1 rad/s.
+// Threads  any.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway::testing {
+
+class ScriptedSimulation final : public simulation::Simulation {
+ public:
+  ScriptedSimulation(std::string name, int robots);
+
+  // Time passes, whatever the phase.
+  void Advance(base::SimTime time);
+  // One robot more, at the end of the list: the layout changes.
+  void AddOneRobot();
+  // A sensor more on a robot, as by its behaviour: the layout does not change.
+  void Mount(const std::string& robot, model::SensorDescription sensor);
+  void AddEvent(const std::string& kind);
+  // Watch() first calls this; to count, to fail or to block.
+  void set_on_watch(std::function<base::Status(const std::string& sensor)> on_watch);
+  world::DriveCommand avatar_command() const;
+
+  base::Result<std::vector<std::string>> AddRobots(
+      std::vector<simulation::RobotSpecification> robots) override;
+  base::Status RemoveRobot(const std::string& name) override;
+  base::Status SetBehaviour(const std::string& robot,
+                            std::shared_ptr<simulation::BehaviourPort> behaviour) override;
+  base::Status Start() override;
+  base::Status Pause() override;
+  base::Status Resume() override;
+  base::Status Step(std::int64_t count) override;
+  base::Status RunUntil(base::SimTime until) override;
+  base::Status Stop() override;
+  base::Status Reset() override;
+  const simulation::Specification& specification() const override { return specification_; }
+  simulation::SimulationStatus status() const override;
+  std::shared_ptr<const world::Snapshot> snapshot() const override;
+  std::string state_hash() const override;
+  simulation::Phase WaitForPhase(const std::vector<simulation::Phase>& phases,
+                                 std::chrono::milliseconds timeout) const override;
+  std::shared_ptr<simulation::Agent> agent(const std::string& robot) const override;
+  base::Result<sensing::Reading> Watch(const std::string& robot,
+                                       const std::string& sensor) override;
+  std::vector<model::SensorDescription> sensors(const std::string& robot) const override;
+  const sensing::SensorRegistry& sensor_types() const override { return sensor_types_; }
+  std::vector<simulation::Event> events(std::uint64_t first) const override;
+  void AddObserver(std::shared_ptr<simulation::Observer> observer) override;
+  void RemoveObserver(const std::shared_ptr<simulation::Observer>& observer) override;
+
+ private:
+  class Avatar;
+
+  void PlaceAll();  // the layout anew, then everything at time_
+  void PublishSnapshot();
+  base::Status Become(simulation::Phase phase, std::vector<simulation::Phase> from,
+                      const char* event);
+
+  simulation::Specification specification_;
+  sensing::SensorRegistry sensor_types_;
+  sensing::RaySceneCache rays_;
+  std::shared_ptr<const model::Model> floor_, crate_, robot_model_;
+  std::shared_ptr<Avatar> avatar_;
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  int robots_ = 0;
+  simulation::Phase phase_ = simulation::Phase::kCreated;
+  base::SimTime time_{0};
+  std::shared_ptr<const world::Layout> layout_;
+  std::shared_ptr<const world::Snapshot> snapshot_;
+  std::vector<simulation::Event> events_;
+  std::map<std::string, std::vector<model::SensorDescription>> mounted_;
+  std::function<base::Status(const std::string&)> on_watch_;
+};
+
+}  // namespace gsv::gateway::testing

@@ -1,0 +1,25 @@
+// Which poses a viewer is sent, in which order: the meaning of gsv_msgs/Poses.
+#pragma once
+
+#include <vector>
+
+#include "gsv/world/snapshot.h"
+
+namespace gsv::presentation {
+
+// One of the poses: of a body (link -1: world_from_model), or of a link that moves against its
+// body's model (world_from_link).
+struct PoseEntry {
+  int body = 0;   // index in Layout::bodies
+  int link = -1;  // index in Model::links
+  friend bool operator==(const PoseEntry&, const PoseEntry&) = default;
+};
+
+// For each body that is not static, in the layout's order: itself, then its moving links.
+std::vector<PoseEntry> PoseListOf(const world::Layout& layout);
+
+// The pose of each entry; `list` belongs to the snapshot's layout.
+std::vector<geometry::Pose> PosesOf(const world::Snapshot& snapshot,
+                                    const std::vector<PoseEntry>& list);
+
+}  // namespace gsv::presentation

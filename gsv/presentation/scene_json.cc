@@ -1,0 +1,181 @@
+#include "gsv/presentation/scene_json.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "gsv/presentation/state_messages.h"
+#include "gsv/presentation/pose_list.h"
+
+namespace gsv::presentation {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using geometry::Bounds;
+using geometry::Pose;
+using geometry::Vector3;
+
+Json VectorJson(const Vector3& v) { return {v.x, v.y, v.z}; }
+
+Json ColourJson(const model::Colour& colour) { return {colour.r, colour.g, colour.b}; }
+
+Json PoseJson(const Pose& pose) {
+  const Vector3& p = pose.position;
+  const geometry::Quaternion& q = pose.orientation;
+  return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+}
+
+const char* KindName(model::Light::Kind kind) {
+  switch (kind) {
+    case model::Light::Kind::kDirectional: return "directional";
+    case model::Light::Kind::kPoint: return "point";
+    case model::Light::Kind::kSpot: return "spot";
+  }
+  return "point";
+}
+
+const char* OverlayName(sensing::Overlay overlay) {
+  switch (overlay) {
+    case sensing::Overlay::kNone: return "none";
+    case sensing::Overlay::kLines: return "lines";
+    case sensing::Overlay::kPoints: return "points";
+    case sensing::Overlay::kPicture: return "picture";
+  }
+  return "none";
+}
+
+Json LightJson(const model::Light& light) {
+  return {{"name", light.name},
+          {"kind", KindName(light.kind)},
+          {"pose", PoseJson(light.world_from_light)},
+          {"direction", VectorJson(light.world_from_light.orientation * light.direction)},
+          {"colour", ColourJson(light.diffuse)},
+          {"intensity", light.intensity},
+          {"range_m", light.range},
+          {"inner_angle_rad", light.inner_angle},
+          {"outer_angle_rad", light.outer_angle},
+          {"cast_shadows", light.cast_shadows}};
+}
+
+Json LookJson(const model::SceneLook& look) {
+  return {{"ambient", ColourJson(look.ambient)},
+          {"background", ColourJson(look.background)},
+          {"shadows", look.shadows},
+          {"sky", look.sky}};
+}
+
+Json SensorsJson(const SceneSource& source, const world::Body& body) {
+  Json sensors = Json::array();
+  if (!body.is_robot && !body.is_avatar) return sensors;
+  for (const model::SensorDescription& sensor : source.sensors(body.name)) {
+    const sensing::SensorType* type = source.sensor_types.Find(sensor.type);
+    const bool has_link = sensor.link >= 0 &&
+                          sensor.link < static_cast<int>(body.model->links.size());
+    if (type == nullptr || !has_link) continue;
+    sensors.push_back({{"name", sensor.name},
+                       {"type", type->name},
+                       {"overlay", OverlayName(type->overlay)},
+                       {"link", body.model->links[sensor.link].name},
+                       {"topic", "/" + FrameOf(body.name, sensor.name)}});
+  }
+  return sensors;
+}
+
+Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose) {
+  Json links = Json::array();
+  for (const model::Link& link : body.model->links) links.push_back(link.name);
+  return {{"name", body.name},
+          {"model", source.identify(body.model)},
+          {"is_static", body.is_static},
+          {"is_robot", body.is_robot},
+          {"is_avatar", body.is_avatar},
+          {"pose", PoseJson(pose)},
+          {"links", std::move(links)},
+          {"sensors", SensorsJson(source, body)}};
+}
+
+Json PoseListJson(const world::Layout& layout) {
+  Json list = Json::array();
+  for (const PoseEntry& entry : PoseListOf(layout)) {
+    Json link = nullptr;
+    if (entry.link >= 0) link = layout.bodies[entry.body].model->links[entry.link].name;
+    list.push_back({{"body", entry.body}, {"link", std::move(link)}});
+  }
+  return list;
+}
+
+void Grow(std::optional<Bounds>& bounds, const Vector3& point) {
+  if (!geometry::IsFinite(point)) return;
+  if (!bounds) bounds = Bounds{point, point};
+  bounds->min = {std::min(bounds->min.x, point.x), std::min(bounds->min.y, point.y),
+                 std::min(bounds->min.z, point.z)};
+  bounds->max = {std::max(bounds->max.x, point.x), std::max(bounds->max.y, point.y),
+                 std::max(bounds->max.z, point.z)};
+}
+
+// Grows `bounds` by the corners of `box`.
+void Grow(std::optional<Bounds>& bounds, const Pose& target_from_box, const Bounds& box) {
+  for (int corner = 0; corner < 8; ++corner) {
+    Grow(bounds, target_from_box * Vector3{corner & 1 ? box.max.x : box.min.x,
+                                           corner & 2 ? box.max.y : box.min.y,
+                                           corner & 4 ? box.max.z : box.min.z});
+  }
+}
+
+// In the model's frame, at zero joint positions.
+std::optional<Bounds> VisibleBounds(const model::Model& model) {
+  std::optional<Bounds> bounds;
+  for (const model::Link& link : model.links) {
+    for (const model::Visual& visual : link.visuals) {
+      if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
+      Grow(bounds, link.model_from_link * visual.link_from_visual, BoundsOf(visual.shape));
+    }
+  }
+  return bounds;
+}
+
+}  // namespace
+
+Bounds SceneBounds(const world::Snapshot& snapshot) {
+  std::map<const model::Model*, std::optional<Bounds>> of_model;  // one model may stand often
+  std::optional<Bounds> bounds;
+  for (std::size_t i = 0; i < snapshot.layout->bodies.size(); ++i) {
+    const model::Model* model = snapshot.layout->bodies[i].model.get();
+    const auto [entry, is_new] = of_model.try_emplace(model);
+    if (is_new) entry->second = VisibleBounds(*model);
+    if (entry->second) Grow(bounds, snapshot.state.bodies[i].world_from_model, *entry->second);
+  }
+  return bounds.value_or(Bounds{{-5, -5, -5}, {5, 5, 5}});
+}
+
+std::string SceneJson(const SceneSource& source) {
+  const world::Snapshot& snapshot = source.snapshot;
+  const world::Layout& layout = *snapshot.layout;
+  const Bounds bounds = SceneBounds(snapshot);
+  Json lights = Json::array();
+  for (const model::Light& light : layout.description->lights) lights.push_back(LightJson(light));
+  Json bodies = Json::array();
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    bodies.push_back(BodyJson(source, layout.bodies[i], snapshot.state.bodies[i].world_from_model));
+  }
+  const Json scene{{"layout_version", layout.version},
+                   {"name", layout.description->name},
+                   {"bounds", {{"min", VectorJson(bounds.min)}, {"max", VectorJson(bounds.max)}}},
+                   {"look", LookJson(layout.description->scene)},
+                   {"lights", std::move(lights)},
+                   {"bodies", std::move(bodies)},
+                   {"poses", PoseListJson(layout)}};
+  return scene.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string SceneJson(const simulation::Simulation& simulation, const IdentifyModel& identify) {
+  const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
+  return SceneJson({*snapshot, simulation.sensor_types(),
+                    [&](const std::string& robot) { return simulation.sensors(robot); }, identify});
+}
+
+}  // namespace gsv::presentation

@@ -1,0 +1,152 @@
+#include "gsv/presentation/state_messages.h"
+
+#include <algorithm>
+
+#include "gsv/messages/time.h"
+
+namespace gsv::presentation {
+namespace {
+
+using messages::geometry_msgs::TransformStamped;
+
+std::uint64_t StepNumber(std::int64_t step) { return static_cast<std::uint64_t>(step); }
+
+TransformStamped Stamped(std::string_view parent, std::string child, base::SimTime time,
+                         const geometry::Pose& parent_from_child) {
+  TransformStamped message;
+  message.header.stamp = messages::ToMessage(time);
+  message.header.frame_id = parent;
+  message.child_frame_id = std::move(child);
+  const geometry::Vector3& p = parent_from_child.position;
+  const geometry::Quaternion& q = parent_from_child.orientation;
+  message.transform.translation = {p.x, p.y, p.z};
+  message.transform.rotation.x = q.x;
+  message.transform.rotation.y = q.y;
+  message.transform.rotation.z = q.z;
+  message.transform.rotation.w = q.w;
+  return message;
+}
+
+messages::gsv_msgs::RobotStatus RobotMessage(const simulation::RobotStatus& robot) {
+  messages::gsv_msgs::RobotStatus message;
+  message.name = robot.name;
+  message.model = robot.model;
+  message.behaviour = robot.behaviour;
+  message.agent_state = simulation::ToString(robot.phase);
+  message.detail = robot.detail;
+  message.distance_m = robot.distance;
+  message.collisions = robot.collisions;
+  return message;
+}
+
+messages::visualization_msgs::Marker Marker(const std::string& robot, base::SimTime time) {
+  messages::visualization_msgs::Marker marker;
+  marker.header.stamp = messages::ToMessage(time);
+  marker.header.frame_id = kWorldFrame;
+  marker.ns = robot;
+  marker.type = messages::visualization_msgs::Marker::kLineList;
+  marker.pose.orientation.w = 1;
+  return marker;
+}
+
+}  // namespace
+
+std::string FrameOf(std::string_view body, std::string_view part) {
+  return std::string(body) + "/" + std::string(part);
+}
+
+messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
+                                       const std::vector<PoseEntry>& list) {
+  messages::gsv_msgs::Poses message;
+  message.stamp = messages::ToMessage(snapshot.state.time);
+  message.step = StepNumber(snapshot.state.step);
+  message.layout_version = snapshot.layout->version;
+  message.poses.reserve(7 * list.size());
+  for (const geometry::Pose& pose : PosesOf(snapshot, list)) {
+    const geometry::Vector3& p = pose.position;
+    const geometry::Quaternion& q = pose.orientation;
+    message.poses.insert(message.poses.end(), {p.x, p.y, p.z, q.x, q.y, q.z, q.w});
+  }
+  return message;
+}
+
+messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
+                                                const std::vector<PoseEntry>& list) {
+  const base::SimTime time = snapshot.state.time;
+  const std::vector<geometry::Pose> poses = PosesOf(snapshot, list);
+  messages::tf2_msgs::TFMessage message;
+  message.transforms.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const world::Body& body = snapshot.layout->bodies[list[i].body];
+    if (list[i].link < 0) {
+      message.transforms.push_back(Stamped(kWorldFrame, body.name, time, poses[i]));
+      continue;
+    }
+    const geometry::Pose& world_from_model = snapshot.state.bodies[list[i].body].world_from_model;
+    message.transforms.push_back(Stamped(body.name,
+                                         FrameOf(body.name, body.model->links[list[i].link].name),
+                                         time, Inverse(world_from_model) * poses[i]));
+  }
+  return message;
+}
+
+void AppendSensorTransform(const world::Layout& layout, int body,
+                           const model::SensorDescription& sensor, base::SimTime time,
+                           messages::tf2_msgs::TFMessage& message) {
+  const world::Body& robot = layout.bodies[body];
+  const model::Link& link = robot.model->links[sensor.link];
+  const std::vector<int> moving = world::MovingLinks(*robot.model);
+  const bool moves = std::find(moving.begin(), moving.end(), sensor.link) != moving.end();
+  message.transforms.push_back(
+      Stamped(moves ? FrameOf(robot.name, link.name) : robot.name,
+              FrameOf(robot.name, sensor.name), time,
+              moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
+}
+
+messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status) {
+  messages::gsv_msgs::SimulationStatus message;
+  message.stamp = messages::ToMessage(status.time);
+  message.step = StepNumber(status.step);
+  message.state = simulation::ToString(status.phase);
+  message.mode = simulation::ToString(status.mode);
+  message.real_time_factor = status.real_time_factor;
+  message.target_factor = status.target_factor;
+  message.late_steps = status.late_steps;
+  message.waiting_for = status.waiting_for;
+  message.robots.reserve(status.robots.size());
+  for (const simulation::RobotStatus& robot : status.robots) {
+    message.robots.push_back(RobotMessage(robot));
+  }
+  return message;
+}
+
+messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event) {
+  messages::gsv_msgs::LifecycleEvent message;
+  message.stamp = messages::ToMessage(event.time);
+  message.step = StepNumber(event.step);
+  message.event = event.kind;
+  message.robot = event.robot;
+  message.detail = event.detail;
+  return message;
+}
+
+messages::visualization_msgs::Marker BeamsMarker(const std::string& robot, base::SimTime time,
+                                                 std::vector<geometry::Vector3> points_in_world) {
+  messages::visualization_msgs::Marker marker = Marker(robot, time);
+  marker.scale.x = 0.01;  // the lines' width, m
+  marker.color.r = 0.2f;
+  marker.color.g = 0.8f;
+  marker.color.b = 1.0f;
+  marker.color.a = 0.8f;
+  marker.points.reserve(points_in_world.size());
+  for (const geometry::Vector3& p : points_in_world) marker.points.push_back({p.x, p.y, p.z});
+  return marker;
+}
+
+messages::visualization_msgs::Marker NoBeamsMarker(const std::string& robot, base::SimTime time) {
+  messages::visualization_msgs::Marker marker = Marker(robot, time);
+  marker.action = messages::visualization_msgs::Marker::kDelete;
+  return marker;
+}
+
+}  // namespace gsv::presentation

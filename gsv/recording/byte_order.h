@@ -1,0 +1,91 @@
+// Scalars, strings and maps as MCAP lays them out: little endian, unaligned, lengths in 32 bits.
+#pragma once
+
+#include <bit>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/base/check.h"
+
+namespace gsv::recording {
+
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
+
+using Bytes = std::vector<std::byte>;
+using StringMap = std::map<std::string, std::string>;
+
+inline void PutBytes(Bytes& out, std::span<const std::byte> bytes) {
+  out.insert(out.end(), bytes.begin(), bytes.end());
+}
+
+template <std::unsigned_integral Number>
+void Put(Bytes& out, Number value) {
+  PutBytes(out, std::as_bytes(std::span(&value, 1)));
+}
+
+// Times before zero cannot be written.
+inline void PutTime(Bytes& out, std::chrono::nanoseconds time) {
+  GSV_CHECK(time.count() >= 0);
+  Put(out, static_cast<std::uint64_t>(time.count()));
+}
+
+inline void PutString(Bytes& out, std::string_view text) {
+  Put(out, static_cast<std::uint32_t>(text.size()));
+  PutBytes(out, std::as_bytes(std::span(text)));
+}
+
+// Takes bytes apart. Once something does not fit, ok() is false and every read gives zero or
+// nothing.
+class ByteReader {
+ public:
+  // `bytes` must outlive the reader and what it returns.
+  explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  bool ok() const { return ok_; }
+  std::size_t remaining() const { return bytes_.size(); }
+
+  std::span<const std::byte> Take(std::uint64_t size) {
+    if (size > bytes_.size()) {
+      ok_ = false;
+      bytes_ = {};
+      return {};
+    }
+    const std::span<const std::byte> taken = bytes_.first(size);
+    bytes_ = bytes_.subspan(size);
+    return taken;
+  }
+
+  template <std::unsigned_integral Number>
+  Number Get() {
+    Number value = 0;
+    const std::span<const std::byte> bytes = Take(sizeof value);
+    if (!bytes.empty()) std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+
+  // Times past the year 2262 do not fit and count as damage.
+  std::chrono::nanoseconds GetTime() {
+    const auto value = Get<std::uint64_t>();
+    if (value > INT64_MAX) ok_ = false;
+    return std::chrono::nanoseconds(ok_ ? static_cast<std::int64_t>(value) : 0);
+  }
+
+  std::string GetString() {
+    const std::span<const std::byte> bytes = Take(Get<std::uint32_t>());
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+  bool ok_ = true;
+};
+
+}  // namespace gsv::recording

@@ -1,0 +1,17 @@
+// What a recording says, apart from how it was written: equal for two runs that went alike.
+#pragma once
+
+#include <string>
+
+#include "gsv/recording/mcap_reader.h"
+
+namespace gsv::recording {
+
+// Sixteen hexadecimal digits over (topic, type, time, number within the topic, bytes) of every
+// message of the channels that do not tell of the wall clock (see ChannelOptions).
+//
+// The hashes of the messages are added up, so that neither the limits of chunks nor the order in
+// which the topics of one instant were written matter. An unreadable chunk is an error.
+[[nodiscard]] base::Result<std::string> ContentHash(const McapReader& reader);
+
+}  // namespace gsv::recording

@@ -1,0 +1,27 @@
+// The instants 0, P, 2P, … of simulated time, each taken at the first snapshot at or after it.
+#pragma once
+
+#include "gsv/base/check.h"
+#include "gsv/base/sim_time.h"
+
+namespace gsv::recording {
+
+class Instants {
+ public:
+  explicit Instants(base::SimTime period) : period_(period) { GSV_CHECK(period.count() > 0); }
+
+  // Whether an instant has come since the snapshot that was asked about before. Of the first one
+  // it is told only where the snapshot falls on an instant.
+  bool Pass(base::SimTime time) {
+    const std::int64_t index = time / period_;
+    const bool has_come = index_ < 0 ? time % period_ == base::SimTime(0) : index != index_;
+    index_ = index;
+    return has_come;
+  }
+
+ private:
+  base::SimTime period_;
+  std::int64_t index_ = -1;  // of the newest instant that has passed
+};
+
+}  // namespace gsv::recording

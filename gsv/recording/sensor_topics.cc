@@ -1,0 +1,159 @@
+#include "gsv/recording/sensor_topics.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "gsv/base/log.h"
+#include "gsv/presentation/state_messages.h"
+
+namespace gsv::recording {
+namespace {
+
+// Every n-th instant of the sensor, n as small as `rate` allows.
+base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
+  if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
+  const base::SimTime own = base::FromSeconds(1 / description.update_rate);
+  return own * static_cast<std::int64_t>(std::ceil(description.update_rate / rate - 1e-9));
+}
+
+bool SameDescription(const model::SensorDescription& a, const model::SensorDescription& b) {
+  return a.name == b.name && a.type == b.type && a.link == b.link &&
+         a.link_from_sensor == b.link_from_sensor && a.update_rate == b.update_rate &&
+         a.parameters == b.parameters;
+}
+
+}  // namespace
+
+struct SensorTopics::Sensor {
+  std::string robot;
+  model::SensorDescription description;
+  const sensing::SensorType* type = nullptr;
+  std::unique_ptr<sensing::Sensor> sensor;
+  Instants instants;
+  std::optional<ChannelId> channel;  // once there was a reading
+  std::optional<sensing::Reading> newest;
+  bool has_failed = false;
+};
+
+SensorTopics::SensorTopics(McapWriter& writer,
+                           std::shared_ptr<const sensing::SensorRegistry> types,
+                           std::uint64_t seed, const SensorRates& rates)
+    : writer_(writer),
+      types_(std::move(types)),
+      seed_(seed),
+      rates_(rates),
+      beams_instants_(base::FromSeconds(1 / rates.beams)),
+      beams_(writer, "/gsv/beams"),
+      transforms_(writer, "/tf_static") {}
+
+SensorTopics::~SensorTopics() = default;
+
+void SensorTopics::Mount(const SensorLists& lists, const world::Snapshot& snapshot) {
+  Sensors found;
+  for (const auto& [robot, list] : lists) {
+    for (const model::SensorDescription& description : list) {
+      const std::string topic = "/" + presentation::FrameOf(robot, description.name);
+      const auto known = sensors_.find(topic);
+      if (known != sensors_.end() && SameDescription(known->second->description, description)) {
+        found.insert(*known);
+      } else if (std::shared_ptr<Sensor> sensor = Make(robot, description)) {
+        found.emplace(topic, std::move(sensor));
+      }
+    }
+  }
+  if (found == sensors_) return;
+  sensors_ = std::move(found);
+  WriteTransforms(snapshot);
+}
+
+std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
+    const std::string& robot, const model::SensorDescription& description) {
+  const sensing::SensorType* type = types_->Find(description.type);
+  if (type == nullptr || type->schema == nullptr) return nullptr;
+  auto sensor = type->create(description);
+  if (!sensor) {
+    Complain(sensor.error());
+    return nullptr;
+  }
+  const double rate =
+      type->overlay == sensing::Overlay::kPicture ? rates_.pictures : rates_.readings;
+  return std::make_shared<Sensor>(Sensor{robot, description, type, *std::move(sensor),
+                                         Instants(PeriodOf(description, rate)), {}, {}, false});
+}
+
+void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  for (const auto& [topic, sensor] : sensors_) {
+    if (!sensor->instants.Pass(snapshot->state.time) || sensor->has_failed) continue;
+    const int body = snapshot->layout->Find(sensor->robot);
+    if (body >= 0) Sample(topic, *sensor, snapshot, body);
+  }
+  if (beams_instants_.Pass(snapshot->state.time)) WriteBeams(*snapshot);
+}
+
+void SensorTopics::Sample(const std::string& topic, Sensor& sensor,
+                          const std::shared_ptr<const world::Snapshot>& snapshot, int body) {
+  base::Result<sensing::Reading> reading =
+      sensor.sensor->Sample({snapshot, body, seed_, rays_});
+  if (!reading) {
+    sensor.has_failed = true;
+    return Complain(reading.error());
+  }
+  if (!sensor.channel) {
+    const auto channel = writer_.AddChannel(topic, *sensor.type->schema);
+    if (!channel) {
+      sensor.has_failed = true;
+      return Complain(channel.error());
+    }
+    sensor.channel = *channel;
+  }
+  const std::vector<std::uint8_t> message = sensor.type->encode(
+      sensor.description, *reading, presentation::FrameOf(sensor.robot, sensor.description.name));
+  writer_.Write(*sensor.channel, reading->time, std::as_bytes(std::span(message)));
+  sensor.newest = *std::move(reading);
+}
+
+void SensorTopics::WriteTransforms(const world::Snapshot& snapshot) {
+  messages::tf2_msgs::TFMessage message;
+  for (const auto& [topic, sensor] : sensors_) {
+    const int body = snapshot.layout->Find(sensor->robot);
+    if (body < 0) continue;
+    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description,
+                                        snapshot.state.time, message);
+  }
+  transforms_.Write(snapshot.state.time, message);
+}
+
+void SensorTopics::WriteBeams(const world::Snapshot& snapshot) {
+  std::map<std::string, std::vector<geometry::Vector3>> points;  // in the world, by robot
+  for (const auto& [topic, sensor] : sensors_) {
+    if (sensor->type->overlay != sensing::Overlay::kLines || !sensor->newest) continue;
+    const int body = snapshot.layout->Find(sensor->robot);
+    if (body < 0) continue;
+    const geometry::Pose world_from_sensor =
+        world::LinkPose(snapshot, body, sensor->description.link) *
+        sensor->description.link_from_sensor;
+    for (const sensing::Segment& beam : sensor->type->beams(sensor->description, *sensor->newest)) {
+      points[sensor->robot].push_back(world_from_sensor * beam.from);
+      points[sensor->robot].push_back(world_from_sensor * beam.to);
+    }
+  }
+  const base::SimTime time = snapshot.state.time;
+  messages::visualization_msgs::MarkerArray message;
+  for (const std::string& robot : robots_with_beams_) {
+    if (!points.contains(robot)) message.markers.push_back(presentation::NoBeamsMarker(robot, time));
+  }
+  robots_with_beams_.clear();
+  for (auto& [robot, its_points] : points) {
+    robots_with_beams_.insert(robot);
+    message.markers.push_back(presentation::BeamsMarker(robot, time, std::move(its_points)));
+  }
+  if (!message.markers.empty()) beams_.Write(time, message);
+}
+
+void SensorTopics::Complain(const base::Error& error) {
+  if (std::exchange(has_complained_, true)) return;
+  spdlog::warn("a sensor is not recorded: {}", error.Sentence());
+}
+
+}  // namespace gsv::recording

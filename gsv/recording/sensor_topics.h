@@ -1,0 +1,69 @@
+// The readings of all sensors, each on its topic /ROBOT/SENSOR, their beams in one, and where the
+// sensors sit (/tf_static).
+//
+// A reading is a function of the snapshot, so it is sampled here again: the same value that the
+// robot's behaviour gets, without leaving a trace in the simulation.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gsv/messages/tf2_msgs.h"
+#include "gsv/messages/visualization_msgs.h"
+#include "gsv/recording/instants.h"
+#include "gsv/recording/simulation_feed.h"
+#include "gsv/recording/topic_writer.h"
+#include "gsv/sensing/registry.h"
+
+namespace gsv::recording {
+
+// Hz of simulated time, > 0. A sensor that samples faster is recorded at every n-th of its instants.
+struct SensorRates {
+  double readings = 20;
+  double pictures = 1;
+  double beams = 10;
+};
+
+class SensorTopics {
+ public:
+  // `writer` must outlive this. `seed` is the simulation's.
+  SensorTopics(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
+               std::uint64_t seed, const SensorRates& rates);
+  ~SensorTopics();
+
+  // These are the sensors from here on.
+  void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
+  // Writes what is due at the snapshot's time.
+  void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
+
+ private:
+  struct Sensor;
+  using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
+
+  std::shared_ptr<Sensor> Make(const std::string& robot,
+                               const model::SensorDescription& description);
+  void Sample(const std::string& topic, Sensor& sensor,
+              const std::shared_ptr<const world::Snapshot>& snapshot, int body);
+  void WriteTransforms(const world::Snapshot& snapshot);
+  void WriteBeams(const world::Snapshot& snapshot);
+  // Of all sensors that cannot be recorded only the first is told of: there may be thousands.
+  void Complain(const base::Error& error);
+
+  McapWriter& writer_;
+  const std::shared_ptr<const sensing::SensorRegistry> types_;
+  const std::uint64_t seed_;
+  const SensorRates rates_;
+  sensing::RaySceneCache rays_;
+  Sensors sensors_;
+  Instants beams_instants_;
+  std::set<std::string> robots_with_beams_;  // in the last message
+  bool has_complained_ = false;
+
+  TopicWriter<messages::visualization_msgs::MarkerArray> beams_;
+  TopicWriter<messages::tf2_msgs::TFMessage> transforms_;
+};
+
+}  // namespace gsv::recording

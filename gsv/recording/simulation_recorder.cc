@@ -1,0 +1,161 @@
+#include "gsv/recording/simulation_recorder.h"
+
+#include <utility>
+
+#include "gsv/base/check.h"
+#include "gsv/base/log.h"
+
+namespace gsv::recording {
+namespace {
+
+// Wall time: how soon it is seen that the simulation is gone or the disk has failed, and after
+// which time what was recorded is safe on the disk.
+constexpr std::chrono::milliseconds kPatience{250};
+constexpr std::chrono::seconds kFlushAge{1};
+
+using simulation::Simulation;
+
+MetadataRecord Describe(const Simulation& simulation, const StringMap& further) {
+  const simulation::Specification& specification = simulation.specification();
+  const model::WorldDescription& world = *specification.world;
+  const base::SimTime step =
+      specification.step.count() > 0 ? specification.step : world.max_step_size;
+  MetadataRecord record{"gsv.simulation",
+                        {{"name", specification.name},
+                         {"world", world.name},
+                         {"world_source", world.source},
+                         {"mode", ToString(specification.mode)},
+                         {"seed", std::to_string(specification.seed)},
+                         {"step_ns", std::to_string(step.count())},
+                         {"factor", std::to_string(specification.factor)}}};
+  record.values.insert(further.begin(), further.end());
+  return record;
+}
+
+// How the run stands at the end of its recording.
+StringMap ResultOf(const Simulation& simulation) {
+  const simulation::SimulationStatus status = simulation.status();
+  return {{"phase", ToString(status.phase)},
+          {"step", std::to_string(status.step)},
+          {"state_hash", simulation.state_hash()}};
+}
+
+WhenFull WhenFullFor(simulation::Mode mode) {
+  return mode == simulation::Mode::kLockstep ? WhenFull::kWait : WhenFull::kDrop;
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<SimulationRecorder>> SimulationRecorder::Start(
+    const std::shared_ptr<Simulation>& simulation, const std::string& path,
+    RecorderOptions options) {
+  GSV_CHECK(options.write_glb != nullptr);
+  WriterOptions writing;
+  writing.replace = options.replace;
+  writing.when_full = WhenFullFor(simulation->specification().mode);
+  auto writer = McapWriter::Create(path, writing);
+  if (!writer) return base::Fail(writer.error());
+  std::unique_ptr<SimulationRecorder> recorder(
+      new SimulationRecorder(simulation, *std::move(writer), std::move(options)));
+  recorder->RecordFirst(*simulation);
+  simulation->AddObserver(recorder->feed_);
+  recorder->thread_ = std::thread([self = recorder.get()] { self->Run(); });
+  return recorder;
+}
+
+SimulationRecorder::SimulationRecorder(const std::shared_ptr<Simulation>& simulation,
+                                       std::unique_ptr<McapWriter> writer, RecorderOptions options)
+    : simulation_(simulation),
+      writer_(std::move(writer)),
+      types_(std::make_shared<sensing::SensorRegistry>(simulation->sensor_types())),
+      states_(*writer_, options.poses_rate),
+      sensors_(*writer_, types_, simulation->specification().seed, options.sensors),
+      scene_(*writer_, types_, std::move(options.write_glb)),
+      feed_(std::make_shared<SimulationFeed>(
+          *simulation,
+          FeedOptions{.when_full = WhenFullFor(simulation->specification().mode)})) {
+  writer_->AddMetadata(Describe(*simulation, options.metadata));
+}
+
+SimulationRecorder::~SimulationRecorder() {
+  if (is_stopped_) return;
+  if (const base::Status stopped = Stop(); !stopped) {
+    spdlog::error("the recording ended early: {}", stopped.error().Sentence());
+  }
+}
+
+void SimulationRecorder::RecordFirst(const Simulation& simulation) {
+  const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
+  Record(Observation{snapshot,
+                     std::make_shared<SensorLists>(SensorsOf(simulation, *snapshot->layout)),
+                     simulation.status()});
+}
+
+base::Status SimulationRecorder::Stop() {
+  const std::lock_guard lock(stopping_);
+  if (!std::exchange(is_stopped_, true)) {
+    const std::shared_ptr<Simulation> simulation = simulation_.lock();
+    if (simulation) {
+      if (!feed_->was_reset()) result_ = ResultOf(*simulation);
+      // A run is known to be over somewhat earlier than its last snapshot is handed out.
+      feed_->Close(Observation{simulation->snapshot(), nullptr, simulation->status()});
+      simulation->RemoveObserver(feed_);
+    }
+    feed_->Close();
+    thread_.join();
+  }
+  return writer_->Close();
+}
+
+bool SimulationRecorder::is_recording() const { return !has_ended_; }
+
+void SimulationRecorder::Run() {
+  while (!writer_->failed()) {
+    if (const std::optional<Occurrence> occurrence = feed_->Next(kPatience)) {
+      Record(*occurrence);
+    } else if (feed_->is_over() || simulation_.expired()) {
+      break;
+    }
+    writer_->FlushIfOlderThan(kFlushAge);
+  }
+  feed_->Close();
+  if (feed_->was_reset()) spdlog::warn("a recording ended: its simulation was reset");
+  WriteEnd();
+  has_ended_ = true;
+}
+
+void SimulationRecorder::Record(const Occurrence& occurrence) {
+  if (const auto* observation = std::get_if<Observation>(&occurrence)) return Record(*observation);
+  states_.RecordEvent(std::get<simulation::Event>(occurrence));
+}
+
+void SimulationRecorder::Record(const Observation& observation) {
+  const world::Snapshot& snapshot = *observation.snapshot;
+  // The first and the last are taken from the simulation itself, and may be handed out as well.
+  if (latest_ && snapshot.state.step <= latest_->state.step) {
+    if (observation.status) states_.RecordStatus(*observation.status);
+    return;
+  }
+  // The last: who came without taking a step is no part of it.
+  if (latest_ && snapshot.layout != latest_->layout && !observation.sensors) return;
+  if (observation.sensors) {
+    scene_.Attach(snapshot, *observation.sensors);
+    sensors_.Mount(*observation.sensors, snapshot);
+  }
+  states_.Record(observation.snapshot);
+  if (observation.status) states_.RecordStatus(*observation.status);
+  sensors_.Record(observation.snapshot);
+  latest_ = observation.snapshot;
+}
+
+// A replay ends with what was seen last.
+void SimulationRecorder::WriteEnd() {
+  if (writer_->failed()) return;
+  states_.RecordAnyway(*latest_);
+  StringMap result = result_;
+  result["dropped_snapshots"] = std::to_string(feed_->dropped());
+  writer_->AddMetadata({"gsv.result", std::move(result)});
+  (void)writer_->Close();  // the error is kept for Stop()
+}
+
+}  // namespace gsv::recording

@@ -1,0 +1,77 @@
+// Records one simulation to an MCAP file while it runs (docs/formats/recording.md).
+//
+// The stepping thread hands over its snapshots; a thread of the recorder samples the sensors and
+// encodes, another writes the file. Nothing is drawn from the simulation that changes its course.
+//
+// One run     a reset of the simulation ends the recording.
+// Errors      a disk that fails ends the recording, never the simulation; Stop() tells why.
+// Threads     any; Stop() waits for the disk.
+// Determinism in lockstep, recorded from its start, equal runs give equal content hashes.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "gsv/recording/scene_attachments.h"
+#include "gsv/recording/sensor_topics.h"
+#include "gsv/recording/simulation_feed.h"
+#include "gsv/recording/state_topics.h"
+
+namespace gsv::recording {
+
+struct RecorderOptions {
+  WriteGlb write_glb;         // required
+  double poses_rate = 50;     // Hz of simulated time, > 0
+  SensorRates sensors;
+  bool replace = false;       // an existing file
+  // Added to the metadata record "gsv.simulation".
+  StringMap metadata;
+};
+
+class SimulationRecorder {
+ public:
+  // Creates the file, with the scene and the models as they are now, and begins. What was there
+  // before (a simulation that is running) is not recorded.
+  [[nodiscard]] static base::Result<std::unique_ptr<SimulationRecorder>> Start(
+      const std::shared_ptr<simulation::Simulation>& simulation, const std::string& path,
+      RecorderOptions options);
+  // Stops; an error that nobody asked for is logged.
+  ~SimulationRecorder();
+
+  // Writes what is queued, and the end of the file. Idempotent. An error is why the recording
+  // ended early.
+  base::Status Stop();
+
+  // Whether there is still somebody to record, and a disk that takes it.
+  bool is_recording() const;
+  McapWriter::Progress progress() const { return writer_->progress(); }
+
+ private:
+  SimulationRecorder(const std::shared_ptr<simulation::Simulation>& simulation,
+                     std::unique_ptr<McapWriter> writer, RecorderOptions options);
+
+  void RecordFirst(const simulation::Simulation& simulation);
+  void Run();
+  void Record(const Occurrence& occurrence);
+  void Record(const Observation& observation);
+  void WriteEnd();
+
+  const std::weak_ptr<simulation::Simulation> simulation_;
+  const std::unique_ptr<McapWriter> writer_;
+  const std::shared_ptr<const sensing::SensorRegistry> types_;
+  StateTopics states_;
+  SensorTopics sensors_;
+  SceneAttachments scene_;
+  std::shared_ptr<SimulationFeed> feed_;
+  std::shared_ptr<const world::Snapshot> latest_;  // that was recorded
+  std::atomic<bool> has_ended_ = false;
+
+  std::mutex stopping_;
+  bool is_stopped_ = false;
+  StringMap result_;  // set before the feed is closed
+  std::thread thread_;
+};
+
+}  // namespace gsv::recording

@@ -1,0 +1,64 @@
+#include "gsv/recording/state_topics.h"
+
+#include "gsv/base/hash.h"
+#include "gsv/messages/time.h"
+
+namespace gsv::recording {
+namespace {
+
+constexpr base::SimTime kHashPeriod = std::chrono::seconds(1);
+
+}  // namespace
+
+StateTopics::StateTopics(McapWriter& writer, double poses_rate)
+    : poses_instants_(base::FromSeconds(1 / poses_rate)),
+      hash_instants_(kHashPeriod),
+      clock_(writer, "/clock"),
+      poses_(writer, "/gsv/poses"),
+      transforms_(writer, "/tf"),
+      status_(writer, "/gsv/status", {.reproducible = false}),
+      events_(writer, "/gsv/events"),
+      hash_(writer, "/gsv/state_hash") {}
+
+void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  const base::SimTime time = snapshot->state.time;
+  const bool is_new = snapshot->layout != layout_;
+  if (is_new) {
+    layout_ = snapshot->layout;
+    pose_list_ = presentation::PoseListOf(*layout_);
+  }
+  if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
+  if (hash_instants_.Pass(time)) WriteHash(*snapshot);
+}
+
+void StateTopics::RecordAnyway(const world::Snapshot& snapshot) {
+  if (poses_step_ != snapshot.state.step) WritePoses(snapshot);
+}
+
+void StateTopics::WritePoses(const world::Snapshot& snapshot) {
+  const base::SimTime time = snapshot.state.time;
+  clock_.Write(time, {messages::ToMessage(time)});
+  poses_.Write(time, presentation::PosesMessage(snapshot, pose_list_));
+  transforms_.Write(time, presentation::TransformsMessage(snapshot, pose_list_));
+  poses_step_ = snapshot.state.step;
+}
+
+void StateTopics::WriteHash(const world::Snapshot& snapshot) {
+  base::Hash hash;
+  world::AddToHash(*snapshot.layout, snapshot.state, hash);
+  messages::gsv_msgs::StateHash message;
+  message.stamp = messages::ToMessage(snapshot.state.time);
+  message.step = static_cast<std::uint64_t>(snapshot.state.step);
+  message.hash = hash.Hex();
+  hash_.Write(snapshot.state.time, message);
+}
+
+void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
+  status_.Write(status.time, presentation::StatusMessage(status));
+}
+
+void StateTopics::RecordEvent(const simulation::Event& event) {
+  events_.Write(event.time, presentation::EventMessage(event));
+}
+
+}  // namespace gsv::recording

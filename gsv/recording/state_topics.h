@@ -1,0 +1,47 @@
+// The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/status,
+// /gsv/events, /gsv/state_hash (docs/formats/messages.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/presentation/state_messages.h"
+#include "gsv/recording/instants.h"
+#include "gsv/recording/topic_writer.h"
+
+namespace gsv::recording {
+
+class StateTopics {
+ public:
+  // `poses_rate`: Hz of simulated time, > 0. `writer` must outlive this.
+  StateTopics(McapWriter& writer, double poses_rate);
+
+  // Writes of a snapshot what is due at its time.
+  void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
+  // The same, whether it is due or not, unless it is written.
+  void RecordAnyway(const world::Snapshot& snapshot);
+
+  void RecordStatus(const simulation::SimulationStatus& status);
+  void RecordEvent(const simulation::Event& event);
+
+ private:
+  void WritePoses(const world::Snapshot& snapshot);
+  void WriteHash(const world::Snapshot& snapshot);
+
+  Instants poses_instants_;
+  Instants hash_instants_;
+  std::optional<std::int64_t> poses_step_;  // whose poses were written last
+  std::shared_ptr<const world::Layout> layout_;
+  std::vector<presentation::PoseEntry> pose_list_;  // of layout_
+
+  TopicWriter<messages::rosgraph_msgs::Clock> clock_;
+  TopicWriter<messages::gsv_msgs::Poses> poses_;
+  TopicWriter<messages::tf2_msgs::TFMessage> transforms_;
+  TopicWriter<messages::gsv_msgs::SimulationStatus> status_;
+  TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
+  TopicWriter<messages::gsv_msgs::StateHash> hash_;
+};
+
+}  // namespace gsv::recording

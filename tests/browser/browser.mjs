@@ -1,0 +1,86 @@
+// Debian's Chromium, headless, drawing in software; alone on a profile of its own.
+import fs from "node:fs";
+import { createRequire } from "node:module";
+import os from "node:os";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+// The packages of the viewer serve its tests too.
+export const requireFromWeb = createRequire(path.resolve(here, "../../web/package.json"));
+const { chromium } = requireFromWeb("playwright-core");
+
+const EXECUTABLE = process.env.GSV_CHROMIUM ?? "/usr/bin/chromium";
+const ARGUMENTS = [
+  "--no-sandbox",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
+const ACTION_TIMEOUT_MS = 20_000;
+
+// Opens a browser; close() ends it and removes its profile.
+export async function openBrowser({ width = 1280, height = 800, colorScheme = "light" } = {}) {
+  const profile = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-browser-"));
+  const context = await chromium.launchPersistentContext(profile, {
+    executablePath: EXECUTABLE,
+    headless: true,
+    args: ARGUMENTS,
+    viewport: { width, height },
+    colorScheme,
+    reducedMotion: "reduce",
+  });
+  context.setDefaultTimeout(ACTION_TIMEOUT_MS);
+  return {
+    context,
+    async close() {
+      await context.close();
+      fs.rmSync(profile, { recursive: true, force: true });
+    },
+  };
+}
+
+// A page on the viewer. Whatever it asks of another host, and whatever goes wrong in its scripts, is
+// in `faults`.
+export async function openPage(browser, url) {
+  const page = await browser.context.newPage();
+  const faults = [];
+  const { origin } = new URL(url);
+  page.on("pageerror", (error) => faults.push(`script error: ${error.message}`));
+  page.on("console", (message) => {
+    if (message.type() === "error") faults.push(`console: ${message.text()}`);
+  });
+  page.on("request", (request) => {
+    const asked = request.url();
+    if (/^(blob|data):/.test(asked) || new URL(asked).origin === origin) return;
+    faults.push(`request to another host: ${asked}`);
+  });
+  await page.goto(url);
+  return { page, faults };
+}
+
+// The first scene is there with all its shapes, and drawn.
+export async function waitUntilDrawn(page, timeoutMs = 60_000) {
+  await page.waitForFunction(() => window.gsv !== undefined);
+  await withTimeout(
+    page.evaluate(() => window.gsv.ready),
+    timeoutMs,
+    "the page's first picture",
+  );
+}
+
+export async function withTimeout(promise, timeoutMs, what) {
+  let timer;
+  const late = new Promise((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`${what}: nothing within ${timeoutMs / 1000} s`)), timeoutMs);
+  });
+  try {
+    return await Promise.race([promise, late]);
+  } finally {
+    clearTimeout(timer);
+  }
+}

@@ -1,0 +1,49 @@
+// Judges pictures by their pixels. A picture is what pngjs decodes: {width, height, data: RGBA}.
+import { requireFromWeb } from "./browser.mjs";
+
+const { PNG } = requireFromWeb("pngjs");
+
+// Darker or lighter than this many of 255 counts as another colour.
+const SAME_COLOUR = 24;
+const BLANK_SHARE = 0.985;
+
+// The part of the page inside `clip` (CSS pixels; the tests' pages have one pixel for each).
+export async function picture(page, clip) {
+  return PNG.sync.read(await page.screenshot({ clip, animations: "disabled", caret: "hide" }));
+}
+
+// Whether nearly all pixels have one colour: nothing was drawn, or only a background.
+export function isBlank(image) {
+  const counts = new Map();
+  let most = 0;
+  for (let i = 0; i < image.data.length; i += 4) {
+    const key = (image.data[i] >> 3) * 1024 + (image.data[i + 1] >> 3) * 32 + (image.data[i + 2] >> 3);
+    const count = (counts.get(key) ?? 0) + 1;
+    counts.set(key, count);
+    most = Math.max(most, count);
+  }
+  return most / (image.data.length / 4) > BLANK_SHARE;
+}
+
+// How many pixels of `after` differ from `before` and satisfy the test on their colour.
+export function changedPixels(before, after, isWanted = () => true) {
+  let changed = 0;
+  for (let i = 0; i < after.data.length; i += 4) {
+    const [r, g, b] = after.data.subarray(i, i + 3);
+    const difference = Math.max(
+      Math.abs(r - before.data[i]),
+      Math.abs(g - before.data[i + 1]),
+      Math.abs(b - before.data[i + 2]),
+    );
+    if (difference > SAME_COLOUR && isWanted(r, g, b)) changed += 1;
+  }
+  return changed;
+}
+
+export const isRed = (r, g, b) => r > 120 && r > 1.6 * g && r > 1.6 * b;
+export const isYellow = (r, g, b) => r > 120 && g > 100 && r > 1.5 * b && g > 1.4 * b;
+
+// A square of `size` pixels around a place on the page.
+export function around({ x, y }, size) {
+  return { x: Math.round(x - size / 2), y: Math.round(y - size / 2), width: size, height: size };
+}

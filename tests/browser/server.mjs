@@ -1,0 +1,74 @@
+// The server under test: the real `gsv run` of this build, on a port that the system chooses.
+//
+// GSV_BUILD_DIR     the build whose bin/gsv is started
+// GSV_RUN_COMMAND   another command, as a shell would take it, that prints the viewer's address
+import { spawn } from "node:child_process";
+import { once } from "node:events";
+import path from "node:path";
+import process from "node:process";
+import { withTimeout } from "./browser.mjs";
+
+const START_TIMEOUT_MS = 90_000;
+const STOP_TIMEOUT_MS = 30_000;
+const ADDRESS = /http:\/\/127\.0\.0\.1:(\d+)\//;
+
+// Starts it with these arguments after `run`; `url` is the viewer's address.
+export async function startServer(args = []) {
+  const server = new Server(args);
+  await server.start(0);
+  return server;
+}
+
+class Server {
+  constructor(args) {
+    this.args = args;
+  }
+
+  // The port stays the same over a restart, as it would for an open page.
+  async restart() {
+    const port = Number(new URL(this.url).port);
+    await this.stop();
+    await this.start(port);
+  }
+
+  async start(port) {
+    const [program, ...args] = this.commandLine(port);
+    this.child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"], detached: true });
+    this.output = "";
+    const address = new Promise((resolve, reject) => {
+      const read = (chunk) => {
+        this.output += chunk;
+        const found = ADDRESS.exec(this.output);
+        if (found) resolve(found[0]);
+      };
+      this.child.stdout.setEncoding("utf8").on("data", read);
+      this.child.stderr.setEncoding("utf8").on("data", read);
+      this.child.on("error", reject);
+      this.child.on("exit", (code) => reject(new Error(`the server ended with ${code}:\n${this.output}`)));
+    });
+    this.url = await withTimeout(address, START_TIMEOUT_MS, "the server's address");
+  }
+
+  // Ends it as Ctrl-C does; gives its exit code. What does not end in time is killed and an error.
+  async stop() {
+    const { child } = this;
+    if (child.exitCode !== null || child.signalCode !== null) return child.exitCode;
+    const exit = once(child, "exit");
+    child.kill("SIGINT");
+    try {
+      const [code] = await withTimeout(exit, STOP_TIMEOUT_MS, "the server's end after SIGINT");
+      return code;
+    } catch (error) {
+      process.kill(-child.pid, "SIGKILL"); // its own group: its behaviours as well
+      throw error;
+    }
+  }
+
+  commandLine(port) {
+    const other = process.env.GSV_RUN_COMMAND;
+    if (other) return [...other.split(" "), "--port", String(port)];
+    const build = process.env.GSV_BUILD_DIR;
+    if (!build) throw new Error("GSV_BUILD_DIR must name the build whose bin/gsv is tested");
+    return [path.join(build, "bin", "gsv"), "run", ...this.args, "--port", String(port)];
+  }
+}

@@ -1,0 +1,335 @@
+// The viewer in a real browser, on a real simulation: what a person sees and presses.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { around, changedPixels, isBlank, isRed, isYellow, picture } from "./pixels.mjs";
+import { startServer } from "./server.mjs";
+
+const CARDS_WIDTH_PX = 300; // the inspector and the camera lie at the view's right
+const MIDDLE_PX = 4; // lies within the smallest robot, seen from above
+const ROBOT_PX = 28; // no robot is wider
+const SIMULATION = [
+  "office",
+  ...["b21r@-5,-1.5,0", "b21r@5,1.6,180deg", "rover4@0,0", "pebble@-2,0", "pebble@2,0,180deg"].flatMap(
+    (robot) => ["--robot", robot],
+  ),
+  ...["--behaviour", "wander"],
+  ...["--avatar", "avatar@-6.5,0"],
+];
+const STEPS_TO_MOVE = 300; // three simulated seconds: enough to leave one's place
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(SIMULATION);
+  browser = await openBrowser({ width: 1024, height: 680 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+// The 3D view without the cards over it.
+async function viewClip(of = page) {
+  const box = await of.locator("main.view").boundingBox();
+  return { ...box, width: box.width - CARDS_WIDTH_PX };
+}
+
+async function phaseIs(phase, of = page) {
+  await of.waitForFunction((wanted) => window.gsv.phase === wanted, phase);
+}
+
+async function press(name, of = page) {
+  await of.getByRole("button", { name, exact: true }).click();
+}
+
+async function show(part, shown) {
+  const button = page.getByRole("button", { name: part, exact: true });
+  if ((await button.getAttribute("aria-pressed")) !== String(shown)) await button.click();
+}
+
+// Waits until the picture has stopped changing: poses settled and everything drawn.
+async function settled(of = page) {
+  await of.evaluate(async () => {
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    let still = 0;
+    let frames = window.gsv.frames;
+    while (still < 20) {
+      await frame();
+      still = window.gsv.frames === frames ? still + 1 : 0;
+      frames = window.gsv.frames;
+    }
+  });
+}
+
+async function until(isTrue, what) {
+  const end = Date.now() + 20_000;
+  while (!(await isTrue())) assert.ok(Date.now() < end, `${what} did not come`);
+}
+
+// What the page's server says, past the page's own code.
+async function ask(path, body) {
+  return page.evaluate(
+    async ([path, body]) => {
+      const [{ name }] = await (await fetch("api/simulations")).json();
+      const request = body
+        ? { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) }
+        : {};
+      return (await fetch(`api/simulations/${encodeURIComponent(name)}${path}`, request)).json();
+    },
+    [path, body],
+  );
+}
+
+async function pause() {
+  const phase = await page.evaluate(() => window.gsv.phase);
+  if (phase === "running") await press("Pause");
+  await phaseIs("paused");
+  await settled();
+}
+
+async function resume() {
+  await press("Resume");
+  await phaseIs("running");
+}
+
+function isWithin(clip, { x, y }, margin) {
+  const isInX = x > clip.x + margin && x < clip.x + clip.width - margin;
+  return isInX && y > clip.y + margin && y < clip.y + clip.height - margin;
+}
+
+async function robotsInView() {
+  return page.evaluate(() => {
+    const places = window.gsv.robots.map((name) => ({ name, at: window.gsv.robotScreenPosition(name) }));
+    return places.filter(({ at }) => at !== null);
+  });
+}
+
+test("the page shows the world: the picture is not blank", async () => {
+  await phaseIs("running");
+  assert.equal(isBlank(await picture(page, await viewClip())), false);
+});
+
+test("a lost canvas is found blank, and the picture comes back", async () => {
+  await show("Names", false);
+  const clip = await viewClip();
+  await page.evaluate(() => {
+    const gl = document.querySelector("main.view > canvas").getContext("webgl2");
+    window.testContext = gl.getExtension("WEBGL_lose_context");
+    window.testContext.loseContext();
+  });
+  await until(async () => isBlank(await picture(page, clip)), "a blank picture");
+  await page.evaluate(() => window.testContext.restoreContext());
+  await until(async () => !isBlank(await picture(page, clip)), "the picture after the loss");
+  await show("Names", true);
+});
+
+test("every control has a name", async () => {
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll("button, select, input")]
+      .filter((each) => !(each.getAttribute("aria-label") ?? each.textContent).trim())
+      .map((each) => each.outerHTML),
+  );
+  assert.deepEqual(nameless, []);
+});
+
+test("pause freezes the simulated time, resume lets it go on", async () => {
+  await pause();
+  const frozen = (await ask("")).time_s;
+  for (let i = 0; i < 20; i++) assert.equal((await ask("")).time_s, frozen);
+  assert.ok(Math.abs((await page.evaluate(() => window.gsv.time)) - frozen) < 1e-6);
+  await resume();
+  await page.waitForFunction((then) => window.gsv.time > then + 0.2, frozen);
+});
+
+// Seen from above, where no wall hides a robot; a desk may, hence "most". What is at a robot's middle
+// must be something else once it has gone.
+test("robots are drawn at their projected places, and leave them when they move", async () => {
+  await pause();
+  for (const part of ["Beams", "Names", "Grid"]) await show(part, false);
+  await page.keyboard.press("t");
+  await settled();
+  const clip = await viewClip();
+  const robots = (await robotsInView()).filter(({ at }) => isWithin(clip, at, MIDDLE_PX));
+  assert.ok(robots.length > 0, "no robot is in the picture");
+  const here = await Promise.all(robots.map(({ at }) => picture(page, around(at, MIDDLE_PX))));
+  await ask("/step", { count: STEPS_TO_MOVE });
+  await page.waitForFunction(
+    (places) =>
+      places.some(({ name, at }) => {
+        const now = window.gsv.robotScreenPosition(name);
+        return now && Math.hypot(now.x - at.x, now.y - at.y) > 20;
+      }),
+    robots,
+  );
+  await phaseIs("paused");
+  await settled();
+  const now = (await robotsInView()).map(({ at }) => at);
+  const left = robots.map(({ at }) =>
+    now.every((other) => Math.hypot(other.x - at.x, other.y - at.y) > ROBOT_PX),
+  );
+  const verdicts = await Promise.all(
+    robots.map(async ({ name, at }, i) => {
+      if (!left[i]) return null;
+      const without = await picture(page, around(at, MIDDLE_PX));
+      return { name, wasThere: changedPixels(here[i], without) > 0.5 * MIDDLE_PX ** 2 };
+    }),
+  );
+  const judged = verdicts.filter((verdict) => verdict !== null);
+  const seen = judged.filter(({ wasThere }) => wasThere);
+  assert.ok(judged.length > 0, "no robot moved away from its place");
+  assert.ok(
+    seen.length > judged.length / 2,
+    `seen at their places: ${seen.length} of ${JSON.stringify(judged)}`,
+  );
+  await page.keyboard.press("r");
+  await settled();
+});
+
+test("beams are drawn in red or yellow, and only while they are shown", async () => {
+  const clip = await viewClip();
+  await show("Beams", false);
+  await settled();
+  const without = await picture(page, clip);
+  await show("Beams", true);
+  await settled();
+  const drawn = await picture(page, clip);
+  const changed = changedPixels(without, drawn);
+  const coloured = changedPixels(without, drawn, (r, g, b) => isRed(r, g, b) || isYellow(r, g, b));
+  assert.ok(coloured > 40, `only ${coloured} pixels of beams`);
+  assert.ok(coloured > 0.6 * changed, `${changed} pixels changed, ${coloured} of them red or yellow`);
+});
+
+test("a click on a robot selects it and shows where it is", async () => {
+  const clip = await viewClip();
+  const robot = (await robotsInView()).find(({ at }) => at.x < clip.x + clip.width - 10);
+  await page.mouse.click(robot.at.x, robot.at.y);
+  const inspector = page.getByRole("region", { name: "Selected robot" });
+  const title = await inspector.getByRole("heading").textContent();
+  // Another robot may stand in front of it.
+  assert.ok((await robotsInView()).some(({ name }) => name === title));
+  const { pose } = (await ask("")).robots.find(({ name }) => name === title);
+  const shown = await inspector.locator("dd").first().textContent();
+  const [x, y] = shown.split(",").map(Number.parseFloat);
+  assert.ok(Math.hypot(x - pose.x_m, y - pose.y_m) < 0.02, `${shown} is not ${JSON.stringify(pose)}`);
+  await page.keyboard.press("Escape");
+  await inspector.waitFor({ state: "hidden" });
+});
+
+test("keys work: views, help, space", async () => {
+  const robot = (await robotsInView())[0].name;
+  const place = () => page.evaluate((name) => window.gsv.robotScreenPosition(name), robot);
+  const first = await place();
+  await page.keyboard.press("t");
+  await settled();
+  const fromAbove = await place();
+  assert.notDeepEqual(fromAbove, first);
+  await page.keyboard.press("r");
+  await settled();
+  const again = await place();
+  assert.ok(Math.hypot(again.x - first.x, again.y - first.y) < 2, "R does not bring the first view back");
+  await page.keyboard.press("?");
+  await page.getByRole("dialog", { name: "Help" }).waitFor();
+  await page.keyboard.press("Escape");
+  await page.getByRole("dialog", { name: "Help" }).waitFor({ state: "hidden" });
+  await page.keyboard.press("Space");
+  await phaseIs("running");
+});
+
+test("the camera's pictures arrive and have something in them", async () => {
+  const canvas = page.locator("canvas.picture");
+  await page.waitForFunction(() => document.querySelector("canvas.picture").width > 1);
+  const colours = await canvas.evaluate((each) => {
+    const { data } = each.getContext("2d").getImageData(0, 0, each.width, each.height);
+    const seen = new Set();
+    for (let i = 0; i < data.length; i += 4)
+      seen.add(((data[i] >> 4) << 8) | ((data[i + 1] >> 4) << 4) | (data[i + 2] >> 4));
+    return seen.size;
+  });
+  assert.ok(colours >= 8, `the camera's picture has ${colours} colours`);
+  const time = page.locator(".picture-time");
+  const then = await time.textContent();
+  await page.waitForFunction((text) => document.querySelector(".picture-time").textContent !== text, then);
+});
+
+test("the keys drive the avatar, and letting go stops it", async () => {
+  const { bodies } = await ask("/scene");
+  const { name } = bodies.find(({ is_avatar }) => is_avatar);
+  const avatar = async () => (await ask("")).robots.find((robot) => robot.name === name);
+  const start = (await avatar()).distance_m;
+  await page.keyboard.down("w");
+  await until(async () => (await avatar()).distance_m > start + 0.2, "the avatar's motion");
+  await page.keyboard.up("w");
+  await until(async () => {
+    const { distance_m: before } = await avatar();
+    const time = await page.evaluate(() => window.gsv.time);
+    await page.waitForFunction((then) => window.gsv.time > then + 0.3, time);
+    return (await avatar()).distance_m === before;
+  }, "the avatar's standing still");
+});
+
+test("two browsers show the same phase, whoever presses", async () => {
+  const other = await openBrowser({ width: 900, height: 600, colorScheme: "dark" });
+  try {
+    const second = await openPage(other, server.url);
+    await waitUntilDrawn(second.page);
+    await phaseIs("running", second.page);
+    await press("Pause");
+    await phaseIs("paused", second.page);
+    await second.page.getByRole("button", { name: "Resume", exact: true }).waitFor();
+    await press("Resume", second.page);
+    await phaseIs("running");
+    await page.getByRole("button", { name: "Pause", exact: true }).waitFor();
+    assert.deepEqual(second.faults, []);
+  } finally {
+    await other.close();
+  }
+});
+
+test("it works on a phone's screen", async () => {
+  const phone = await openBrowser({ width: 390, height: 760 });
+  try {
+    const small = await openPage(phone, server.url);
+    await waitUntilDrawn(small.page);
+    const overflow = await small.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.equal(overflow, 0);
+    await press("Robots", small.page);
+    await small.page.locator("[data-robot]").first().click();
+    await small.page.getByRole("region", { name: "Selected robot" }).waitFor();
+    await press("Pause", small.page);
+    await phaseIs("paused", small.page);
+    await press("Resume", small.page);
+    await phaseIs("running");
+    assert.deepEqual(small.faults, []);
+  } finally {
+    await phone.close();
+  }
+});
+
+test("stop ends it, and the buttons say so", async () => {
+  await press("Stop");
+  await phaseIs("stopped");
+  assert.equal(await page.getByRole("button", { name: "Stop", exact: true }).isDisabled(), true);
+  assert.equal(await page.getByRole("button", { name: "Reset", exact: true }).isDisabled(), false);
+});
+
+test("all this needed no other host and raised no error", () => {
+  assert.deepEqual(faults, []);
+});
+
+test("after a restart of the server the open page goes on by itself", async () => {
+  await phaseIs("stopped");
+  await server.restart();
+  await phaseIs("running");
+  const then = await page.evaluate(() => window.gsv.time);
+  await page.waitForFunction((time) => window.gsv.time !== time, then);
+  const frames = await page.evaluate(() => window.gsv.frames);
+  await page.waitForFunction((then) => window.gsv.frames > then + 2, frames);
+  assert.equal(isBlank(await picture(page, await viewClip())), false);
+});

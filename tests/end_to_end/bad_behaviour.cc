@@ -1,0 +1,45 @@
+// A behaviour that goes wrong in the way it is told to, for tests.
+#include <csignal>
+#include <stdexcept>
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include "sdk/serve.h"
+
+namespace {
+
+using namespace gsv;
+
+class BadBehaviour final : public Behaviour {
+ public:
+  explicit BadBehaviour(std::string fault) : fault_(std::move(fault)) {}
+
+  base::Status Init(Robot&) override {
+    if (fault_ == "throw-in-init") throw std::runtime_error("no thank you");
+    return {};
+  }
+  void Run(Robot& robot) override {
+    robot.Drive(0.1, 0);
+    if (fault_ == "never-wait") {
+      while (robot.IsRunning()) usleep(1000);  // busy with itself: it never tells the simulation
+    }
+    if (robot.SleepFor(200ms) && fault_ == "die") raise(SIGKILL);
+    while (robot.SleepFor(50ms)) {
+    }
+  }
+
+ private:
+  const std::string fault_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string fault;
+  gsv::BehaviourProgram program{"bad", "Goes wrong."};
+  program.add_options = [&](CLI::App& app) { app.add_option("--fault", fault)->required(); };
+  return gsv::ServeBehaviour(argc, argv, program,
+                             [&] { return std::make_unique<BadBehaviour>(fault); });
+}

@@ -1,0 +1,213 @@
+// Whatever is wrong from outside gets one clear sentence and the right exit code, and nothing
+// hangs.
+#include <csignal>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Strings = std::vector<std::string>;
+
+constexpr const char* kPlayground = "playground";
+
+Outcome Headless(const std::string& world, Strings more) {
+  Strings arguments{"run", world, "--headless", "--lockstep", "--json", "--duration", "1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return Run("gsv", arguments);
+}
+
+void ExpectOneSentence(const Outcome& outcome, int exit_code, const std::string& part) {
+  EXPECT_EQ(outcome.ending, "exit code " + std::to_string(exit_code)) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("gsv: "), HasSubstr(part)));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("terminate called")));
+}
+
+TEST(BadInput, NoSuchWorld) {
+  ExpectOneSentence(Headless("/nowhere/world.sdf", {}), 3, "/nowhere/world.sdf");
+}
+
+TEST(BadInput, MalformedXml) {
+  TemporaryFolder folder;
+  const auto world = folder.Write(
+      "bad.sdf", "<?xml version='1.0'?>\n<sdf version='1.9'>\n<world name='w'>\n</sdf>");
+  ExpectOneSentence(Headless(world.string(), {}), 3, "bad.sdf:");
+}
+
+TEST(BadInput, NoSuchRobot) {
+  ExpectOneSentence(Headless(kPlayground, {"--robot", "unicorn@0,0"}), 3, "unicorn");
+}
+
+std::string RobotWithMesh(const std::string& mesh) {
+  return "<sdf version='1.9'><model name='r'><link name='l'><collision "
+         "name='c'><geometry><box><size>.3 .3 .3</size></box>"
+         "</geometry></collision><visual name='v'><geometry><mesh><uri>" +
+         mesh +
+         "</uri></mesh></geometry></visual></link>"
+         "<plugin filename='gz-sim-velocity-control-system' "
+         "name='gz::sim::systems::VelocityControl'/></model></sdf>";
+}
+
+TEST(BadInput, MeshThatIsMissingIsNamedAndTheRestRuns) {
+  TemporaryFolder folder;
+  const auto robot = folder.Write("r.sdf", RobotWithMesh("absent.dae"));
+  const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  ASSERT_EQ(outcome.LastLine()["warnings"].size(), 1u) << outcome.out;
+  EXPECT_THAT(outcome.LastLine()["warnings"][0].get<std::string>(), HasSubstr("absent.dae"));
+}
+
+TEST(BadInput, MeshThatIsCorruptIsNamedAndTheRestRuns) {
+  TemporaryFolder folder;
+  folder.Write("broken.stl", "solid x facet normal 0 0 nonsense");
+  const auto robot = folder.Write("r.sdf", RobotWithMesh("broken.stl"));
+  const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
+  EXPECT_THAT(outcome.err, HasSubstr("broken.stl"));
+  EXPECT_THAT(outcome.ending, ::testing::AnyOf("exit code 0", "exit code 3"));
+}
+
+TEST(BadInput, MeshThatClaimsABillionTrianglesIsRefusedWithoutReadingThem) {
+  TemporaryFolder folder;
+  std::string stl(84, '\0');
+  stl[80] = '\0', stl[81] = '\xca', stl[82] = '\x9a', stl[83] = '\x3b';  // 1,000,000,000
+  folder.Write("huge.stl", stl);
+  const auto robot = folder.Write("r.sdf", RobotWithMesh("huge.stl"));
+  const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
+  EXPECT_THAT(outcome.err, HasSubstr("huge.stl"));
+  EXPECT_THAT(outcome.ending, ::testing::AnyOf("exit code 0", "exit code 3"));
+}
+
+TEST(BadInput, TwoRobotsAtOnePlace) {
+  ExpectOneSentence(Headless(kPlayground, {"--robot", "pebble@0,0", "--robot", "pebble@0.1,0"}), 3,
+                    "no room at (0.1, 0)");
+}
+
+TEST(BadInput, RobotInsideAWall) {
+  TemporaryFolder folder;
+  const auto world = folder.Write("w.sdf",
+                                  "<sdf version='1.9'><world name='w'><model "
+                                  "name='wall'><static>true</static><pose>1 0 1 0 0 0</pose><link "
+                                  "name='l'><collision name='c'><geometry><box><size>1 5 "
+                                  "2</size></box></geometry></collision></link></model>"
+                                  "</world></sdf>");
+  ExpectOneSentence(Headless(world.string(), {"--robot", "pebble@1,0"}), 3, "wall");
+}
+
+TEST(BadInput, NoBrokerAtTheAddress) {
+  ExpectOneSentence(Headless(kPlayground, {"--broker", "corbaloc::1.2@127.0.0.1:1/TradingService"}),
+                    5, "127.0.0.1:1");
+}
+
+TEST(BadInput, BehaviourThatNobodyOffersIsNamed) {
+  ExpectOneSentence(Headless(kPlayground, {"--robot", "pebble@0,0", "--behaviour", "juggle"}), 4,
+                    "juggle");
+}
+
+TEST(BadInput, BehaviourThatThrowsInInitIsNamed) {
+  const BrokerProcess broker;
+  Running bad("../tests/bad_behaviour",
+              {"--broker", broker.reference(), "--fault", "throw-in-init"});
+  bad.AwaitLine("offered at");
+  ExpectOneSentence(Headless(kPlayground, {"--broker", broker.reference(), "--robot", "pebble@0,0",
+                                           "--behaviour", "bad"}),
+                    4, "no thank you");
+}
+
+TEST(BadInput, BehaviourThatNeverReturnsIsDeclaredUnresponsive) {
+  const BrokerProcess broker;
+  Running bad("../tests/bad_behaviour", {"--broker", broker.reference(), "--fault", "never-wait"});
+  bad.AwaitLine("offered at");
+  const Outcome outcome =
+      Headless(kPlayground, {"--broker", broker.reference(), "--robot", "pebble@0,0", "--behaviour",
+                             "bad", "--deadline", "0.5"});
+  ExpectOneSentence(outcome, 4, "unresponsive");
+  EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);  // the run went on
+  EXPECT_EQ(outcome.LastLine()["robots"][0]["agent"], "unresponsive");
+}
+
+TEST(BadInput, KilledBehaviourIsReported) {
+  const BrokerProcess broker;
+  Running bad("../tests/bad_behaviour", {"--broker", broker.reference(), "--fault", "die"});
+  bad.AwaitLine("offered at");
+  const Outcome outcome = Headless(
+      kPlayground, {"--broker", broker.reference(), "--robot", "pebble@0,0", "--behaviour", "bad"});
+  ExpectOneSentence(outcome, 4, "dead");
+  EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);
+}
+
+TEST(BadInput, FailurePolicyEndsTheRun) {
+  const BrokerProcess broker;
+  Running bad("../tests/bad_behaviour", {"--broker", broker.reference(), "--fault", "die"});
+  bad.AwaitLine("offered at");
+  const Outcome outcome =
+      Headless(kPlayground, {"--broker", broker.reference(), "--robot", "pebble@0,0", "--behaviour",
+                             "bad", "--on-failure", "fail"});
+  ExpectOneSentence(outcome, 4, "the run failed");
+  EXPECT_LT(outcome.LastLine()["sim_time_s"], 1.0);
+}
+
+TEST(BadInput, FullDiskEndsTheRecordingAndNotTheRun) {
+  const Outcome outcome = Headless(
+      kPlayground, {"--robot", "pebble@0,0", "--behaviour", "wander", "--record", "/dev/full"});
+  ExpectOneSentence(outcome, 5, "/dev/full");
+}
+
+// A socket that listens, so that its port is taken.
+class TakenPort {
+ public:
+  TakenPort() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t length = sizeof address;
+    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), length), 0);
+    EXPECT_EQ(listen(socket_, 1), 0);
+    EXPECT_EQ(getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &length), 0);
+    port_ = std::to_string(ntohs(address.sin_port));
+  }
+  ~TakenPort() { close(socket_); }
+  const std::string& port() const { return port_; }
+
+ private:
+  const int socket_;
+  std::string port_;
+};
+
+TEST(BadInput, ViewerPortInUse) {
+  const TakenPort taken;
+  const Outcome outcome =
+      Run("gsv", {"run", kPlayground, "--port", taken.port(), "--duration", "1"});
+  ExpectOneSentence(outcome, 5, taken.port());
+}
+
+TEST(BadInput, BrokerPortInUse) {
+  const TakenPort taken;
+  const Outcome outcome = Run("gsv", {"broker", "--port", taken.port(), "--memory"});
+  EXPECT_EQ(outcome.ending, "exit code 5");
+  EXPECT_THAT(outcome.err, HasSubstr(taken.port()));
+}
+
+TEST(BadInput, WithoutEglEverythingButCamerasWorks) {
+  setenv("EGL_PLATFORM", "nonsense", 1);
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
+  const Outcome outcome = Headless(kPlayground, {"--robot", "pebble@0,0", "--behaviour", "wander"});
+  unsetenv("EGL_PLATFORM");
+  unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no cameras: "));
+  EXPECT_GT(outcome.LastLine()["robots"][0]["readings"]["sonar"], 0);
+}
+
+}  // namespace
+}  // namespace gsv::testing

@@ -1,0 +1,167 @@
+// The command line as a user types it, with the real programs.
+#include <csignal>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Strings = std::vector<std::string>;
+
+Strings RunArguments(Strings more) {
+  Strings arguments{"run", "playground", "--headless", "--lockstep", "--json", "--seed", "1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
+  const Outcome outcome = Run("gsv", {"run", "--port", "0", "--duration", "3", "--json"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("viewer: http://127.0.0.1:"));
+  const auto report = outcome.LastLine();
+  ASSERT_EQ(report["robots"].size(), 5u) << outcome.out;
+  std::set<std::string> behaviours;
+  for (const auto& robot : report["robots"]) {
+    EXPECT_GT(robot["distance_m"], 0.1) << robot;
+    EXPECT_GT(robot["readings"]["sonar"], 8) << robot;
+    behaviours.insert(robot["behaviour"]);
+  }
+  EXPECT_GE(behaviours.size(), 2u);
+  EXPECT_EQ(report["warnings"].size(), 0u);
+}
+
+TEST(CommandLine, RunTakesWorldRobotsAndBehaviours) {
+  const Outcome outcome = Run(
+      "gsv",
+      RunArguments({"--robot", "pebble@-2,-2,90deg", "--robot", "b21r@2,2", "--behaviour", "wander",
+                    "--behaviour", "b21r=follow-wall", "--step", "0.02", "--duration", "2"}));
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  const auto report = outcome.LastLine();
+  EXPECT_EQ(report["steps"], 100);
+  EXPECT_DOUBLE_EQ(report["sim_time_s"], 2.0);
+  ASSERT_EQ(report["robots"].size(), 2u);
+  EXPECT_EQ(report["robots"][0]["name"], "b21r");
+  EXPECT_EQ(report["robots"][0]["behaviour"], "follow-wall");
+  EXPECT_EQ(report["robots"][1]["behaviour"], "wander");
+  EXPECT_EQ(report["robots"][1]["readings"]["camera"], 2);
+}
+
+TEST(CommandLine, LockstepGivesTheSameHashTwice) {
+  const Strings arguments = RunArguments({"--robot", "pebble@-2,-2", "--robot", "b21r@2,2",
+                                          "--behaviour", "wander", "--duration", "5"});
+  const auto first = Run("gsv", arguments).LastLine();
+  const auto second = Run("gsv", arguments).LastLine();
+  ASSERT_EQ(first["state_hash"].get<std::string>().size(), 16u);
+  EXPECT_EQ(first["state_hash"], second["state_hash"]);
+}
+
+TEST(CommandLine, RunAddsAnAvatar) {
+  const Outcome outcome =
+      Run("gsv",
+          RunArguments({"--avatar", "avatar@1,1,0", "--robot", "pebble@0,1", "--duration", "0.5"}));
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_EQ(outcome.LastLine()["robots"].size(), 2u);
+}
+
+TEST(CommandLine, InterruptEndsCleanly) {
+  TemporaryFolder folder;
+  const auto file = (folder.path() / "run.mcap").string();
+  Running run("gsv", {"run", "playground", "--port", "0", "--robot", "pebble", "--behaviour",
+                      "wander", "--record", file});
+  run.AwaitLine("viewer: ");
+  run.process().Signal(SIGINT);
+  EXPECT_EQ(run.AwaitEnd().ending, "exit code 130");
+  EXPECT_EQ(Run("gsv", {"rec", "info", file, "--json"}).ending, "exit code 0");
+}
+
+TEST(CommandLine, ServeRegistersWithTheBroker) {
+  const BrokerProcess broker;
+  Running serve("gsv",
+                {"serve", "--broker", broker.reference(), "--name", "laboratory", "--headless"});
+  serve.AwaitLine("broker: ");
+  const Outcome offers = Run("gsv", {"offers", "--broker", broker.reference(), "--json"});
+  EXPECT_EQ(offers.ending, "exit code 0");
+  const auto offer = offers.LastLine();
+  EXPECT_EQ(offer["type"], "gsv::SimulationService");
+  EXPECT_EQ(offer["properties"]["name"], "laboratory");
+}
+
+TEST(CommandLine, ServeWithdrawsItsOfferOnSigterm) {
+  const BrokerProcess broker;
+  Running serve("gsv", {"serve", "--broker", broker.reference(), "--headless"});
+  serve.AwaitLine("broker: ");
+  serve.process().Signal(SIGTERM);
+  EXPECT_EQ(serve.AwaitEnd().ending, "exit code 0");
+  EXPECT_EQ(Run("gsv", {"offers", "--broker", broker.reference(), "--json"}).out, "");
+}
+
+TEST(CommandLine, RecordsAndReplays) {
+  TemporaryFolder folder;
+  const auto file = (folder.path() / "run.mcap").string();
+  const Outcome recorded =
+      Run("gsv", RunArguments({"--robot", "pebble@0,0", "--behaviour", "wander", "--duration", "3",
+                               "--record", file}));
+  EXPECT_EQ(recorded.ending, "exit code 0") << recorded.err;
+  const auto info = Run("gsv", {"rec", "info", file, "--json"}).LastLine();
+  EXPECT_NEAR(info["duration_s"].get<double>(), 3.0, 0.1);
+  EXPECT_GT(info["messages"].get<int>(), 100);
+  const Outcome replayed = Run("gsv", {"replay", file, "--headless", "--json"});
+  EXPECT_EQ(replayed.ending, "exit code 0") << replayed.err;
+  EXPECT_EQ(replayed.LastLine()["messages"], info["messages"]);
+}
+
+TEST(CommandLine, ViewShowsAnotherInstance) {
+  Running run("gsv",
+              {"run", "playground", "--port", "0", "--robot", "pebble", "--behaviour", "wander"});
+  const std::string line = run.AwaitLine("viewer: ");
+  Running view("gsv", {"view", line.substr(std::string("viewer: ").size()), "--port", "0"});
+  const std::string url = view.AwaitLine("viewer: ").substr(std::string("viewer: ").size());
+  const auto simulations = nlohmann::json::parse(HttpGet(url + "api/simulations"), nullptr, false);
+  ASSERT_EQ(simulations.size(), 1u);
+  EXPECT_EQ(simulations[0]["phase"], "running");
+  const auto scene =
+      nlohmann::json::parse(HttpGet(url + "api/simulations/simulation/scene"), nullptr, false);
+  EXPECT_EQ(std::count_if(scene["bodies"].begin(), scene["bodies"].end(),
+                          [](const auto& body) { return body["is_robot"] == true; }),
+            1);
+}
+
+TEST(CommandLine, BenchTypicalKeepsFiveRobotsUnderTwentyMilliseconds) {
+  const Outcome outcome =
+      Run("gsv", {"bench", "typical", "--robots", "1,5", "--duration", "3", "--json"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  const auto rows = outcome.LastLine()["rows"];
+  ASSERT_EQ(rows.size(), 2u) << outcome.out;
+  EXPECT_EQ(rows[1]["robots"], 5);
+  // The promise is 20 ms; the step is 10 ms. Shapes, not timings, are tested beyond that.
+  EXPECT_GT(rows[1]["update_interval_ms"]["median"], 0.0);
+  EXPECT_LT(rows[1]["update_interval_ms"]["median"], 20.0);
+  EXPECT_GT(rows[1]["camera_ms"]["mean"], 0.0);
+}
+
+TEST(CommandLine, UsageErrorsExitWithTwo) {
+  for (const Strings& arguments :
+       {Strings{}, Strings{"fly"}, Strings{"run", "--seed", "x"}, Strings{"run", "--port", "70000"},
+        Strings{"run", "--robot", "pebble@1"}, Strings{"run", "--behaviour", "a="}}) {
+    const Outcome outcome = Run("gsv", arguments);
+    EXPECT_EQ(outcome.ending, "exit code 2") << outcome.err;
+    EXPECT_NE(outcome.err, "");
+  }
+}
+
+TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
+  TemporaryFolder folder;
+  const auto world = folder.Write("bad.sdf", "<sdf version='1.9'><world name='w'><model name='m'>");
+  const Outcome bad = Run("gsv", {"world", "check", world.string(), "--json"});
+  EXPECT_EQ(bad.ending, "exit code 3");
+  EXPECT_EQ(bad.LastLine()["severity"], "error");
+  EXPECT_EQ(Run("gsv", {"world", "check", "office"}).ending, "exit code 0");
+}
+
+}  // namespace
+}  // namespace gsv::testing

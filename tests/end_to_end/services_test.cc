@@ -1,0 +1,279 @@
+// The services as an application calls them: the real server in a process of its own, our IDL's
+// stubs here.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gsv/broker/broker_client.h"
+#include "gsv/broker/gsv_service_types.h"
+#include "gsv/orb/orb.h"
+#include "idl/simulation.hh"
+#include "sdk/application.h"
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+// One broker, one server and one behaviour program for all tests here.
+class Services : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    broker_ = new BrokerProcess;
+    server_ = new Running("gsv", {"serve", "--broker", broker_->reference(), "--port", "0"});
+    server_->AwaitLine("broker: ");
+    wander_ = new Running("gsv-wander", {"--broker", broker_->reference()});
+    wander_->AwaitLine("offered at");
+    auto orb = orb::StartOrb({});
+    ASSERT_TRUE(orb);
+    orb_ = *orb;
+    auto client = broker::BrokerClient::Connect(orb_, broker_->reference());
+    ASSERT_TRUE(client) << client.error().Sentence();
+    const auto offers =
+        client->Query(broker::SimulationServiceType().name, "cores >= 1", "first", 1);
+    ASSERT_TRUE(offers && offers->size() == 1);
+    service_ = sba::SimulationService::_narrow(offers->front().object);
+    const auto behaviours =
+        client->Query(broker::AgentBehaviourFactoryType().name, "name == 'wander'", "first", 1);
+    ASSERT_TRUE(behaviours && behaviours->size() == 1);
+    factory_ = sba::AgentBehaviourFactory::_narrow(behaviours->front().object);
+  }
+  static void TearDownTestSuite() {
+    service_ = sba::SimulationService::_nil();
+    factory_ = sba::AgentBehaviourFactory::_nil();
+    orb_->destroy();
+    delete wander_;
+    delete server_;
+    delete broker_;
+  }
+
+  static sba::SimulationSpecification Playground() {
+    sba::SimulationSpecification specification;
+    specification.world = "playground";
+    specification.pacing = sba::LOCKSTEP;
+    specification.factor = 1;
+    specification.step_ns = 0;
+    specification.seed = 1;
+    specification.duration_ns = 0;
+    specification.keep = false;
+    return specification;
+  }
+  static sba::RobotSpecification Pebble(double x, double y, const char* constraint = "") {
+    sba::RobotSpecification robot;
+    robot.model = "pebble";
+    robot.start = {x, y, 0, 0, 0, 0};
+    robot.behaviour_constraint = constraint;
+    return robot;
+  }
+  static sba::SimulationPhase Await(sba::Simulation_ptr simulation, sba::SimulationPhase wanted) {
+    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    sba::SimulationPhase phase = simulation->state()->phase;
+    while (phase != wanted && std::chrono::steady_clock::now() < give_up)
+      phase = simulation->await_change(phase);
+    return phase;
+  }
+  static sba::SimulationPhase RunTo(sba::Simulation_ptr simulation, double seconds) {
+    simulation->run_until(static_cast<CORBA::LongLong>(seconds * 1e9));
+    return Await(simulation, sba::PHASE_PAUSED);
+  }
+
+  static inline BrokerProcess* broker_;
+  static inline Running* server_;
+  static inline Running* wander_;
+  static inline CORBA::ORB_var orb_;
+  static inline sba::SimulationService_var service_;
+  static inline sba::AgentBehaviourFactory_var factory_;
+};
+
+using SimulationService = Services;
+using AgentBehaviour = Services;
+
+template <typename Exception, typename Call>
+std::string ReasonOf(Call call) {
+  try {
+    call();
+  } catch (const Exception& exception) {
+    return std::string(exception.reason);
+  } catch (const CORBA::Exception& exception) {
+    return std::string("raised ") + exception._name();
+  }
+  return "raised nothing";
+}
+
+TEST_F(SimulationService, CreatesASimulationOfAWorld) {
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const sba::SimulationState_var state = simulation->state();
+  EXPECT_EQ(state->phase, sba::PHASE_CREATED);
+  EXPECT_EQ(state->time_ns, 0);
+  EXPECT_EQ(state->robots.length(), 0u);
+  const CORBA::String_var url = simulation->viewer_url();
+  EXPECT_THAT(std::string(url), HasSubstr("http://127.0.0.1:"));
+  const sba::Simulations_var all = service_->list();
+  EXPECT_EQ(all->length(), 1u);
+  simulation->destroy();
+}
+
+TEST_F(SimulationService, ParametersTakeEffect) {
+  sba::SimulationSpecification specification = Playground();
+  specification.name = "parameters";
+  specification.step_ns = 20'000'000;
+  specification.duration_ns = 100'000'000;
+  specification.seed = 42;
+  sba::Simulation_var simulation = service_->create_simulation(specification);
+  simulation->start();
+  ASSERT_EQ(Await(simulation, sba::PHASE_FINISHED), sba::PHASE_FINISHED);
+  const sba::SimulationState_var state = simulation->state();
+  EXPECT_STREQ(state->name, "parameters");
+  EXPECT_EQ(state->step, 5u);
+  EXPECT_EQ(state->pacing, sba::LOCKSTEP);
+  EXPECT_EQ(sba::SimulationSpecification_var(simulation->specification())->seed, 42u);
+  simulation->destroy();
+}
+
+TEST_F(SimulationService, AddsAndRemovesRobots) {
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const sba::AgentBehaviour_var behaviour = factory_->create();
+  sba::RobotSpecification by_reference = Pebble(-1, -2);
+  by_reference.name = "mine";
+  by_reference.behaviour = behaviour;
+  EXPECT_STREQ(CORBA::String_var(simulation->add_robot(by_reference)), "mine");
+  EXPECT_STREQ(CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'"))),
+               "pebble");
+  EXPECT_STREQ(CORBA::String_var(simulation->add_robot(Pebble(1, -2))), "pebble_2");
+  simulation->remove_robot("pebble_2");
+  EXPECT_EQ(sba::SimulationState_var(simulation->state())->robots.length(), 2u);
+  ASSERT_EQ(RunTo(simulation, 2.0), sba::PHASE_PAUSED);
+  const sba::SimulationState_var state = simulation->state();
+  for (CORBA::ULong i = 0; i < 2; ++i) EXPECT_GT(state->robots[i].distance_m, 0.1);
+  simulation->destroy();
+}
+
+TEST_F(SimulationService, RefusesABadWorldWithItsPlace) {
+  sba::SimulationSpecification specification = Playground();
+  specification.world = "/nowhere/to.sdf";
+  EXPECT_THAT(ReasonOf<sba::Refused>([&] { service_->create_simulation(specification); }),
+              HasSubstr("/nowhere/to.sdf"));
+}
+
+TEST_F(SimulationService, SimulationsAreIndependent) {
+  sba::Simulation_var first = service_->create_simulation(Playground());
+  sba::Simulation_var second = service_->create_simulation(Playground());
+  ASSERT_EQ(RunTo(first, 0.5), sba::PHASE_PAUSED);
+  EXPECT_EQ(sba::SimulationState_var(second->state())->time_ns, 0);
+  ASSERT_EQ(RunTo(second, 0.25), sba::PHASE_PAUSED);
+  EXPECT_EQ(sba::SimulationState_var(first->state())->time_ns, 500'000'000);
+  first->destroy();
+  EXPECT_EQ(sba::SimulationState_var(second->state())->time_ns, 250'000'000);
+  second->destroy();
+}
+
+TEST_F(SimulationService, LifecycleFollowsTheCalls) {
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'")));
+  simulation->start();
+  ASSERT_EQ(Await(simulation, sba::PHASE_RUNNING), sba::PHASE_RUNNING);
+  simulation->pause();
+  ASSERT_EQ(Await(simulation, sba::PHASE_PAUSED), sba::PHASE_PAUSED);
+  simulation->step(5);
+  ASSERT_EQ(Await(simulation, sba::PHASE_PAUSED), sba::PHASE_PAUSED);
+  simulation->resume();
+  simulation->stop();
+  ASSERT_EQ(Await(simulation, sba::PHASE_STOPPED), sba::PHASE_STOPPED);
+  EXPECT_THAT(ReasonOf<sba::NotRunning>([&] { simulation->start(); }), HasSubstr("stopped"));
+  simulation->reset();
+  EXPECT_EQ(sba::SimulationState_var(simulation->state())->time_ns, 0);
+  simulation->destroy();
+}
+
+TEST_F(SimulationService, DestroyEndsTheSimulation) {
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  simulation->destroy();
+  EXPECT_THROW(sba::SimulationState_var(simulation->state()), CORBA::OBJECT_NOT_EXIST);
+  EXPECT_EQ(sba::Simulations_var(service_->list())->length(), 0u);
+}
+
+TEST_F(SimulationService, ReportsStateTimeAndResults) {
+  std::vector<std::string> hashes;
+  for (int run = 0; run < 2; ++run) {
+    sba::Simulation_var simulation = service_->create_simulation(Playground());
+    CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'")));
+    ASSERT_EQ(RunTo(simulation, 1.0), sba::PHASE_PAUSED);
+    const sba::SimulationState_var state = simulation->state();
+    EXPECT_EQ(state->time_ns, 1'000'000'000);
+    EXPECT_EQ(state->robots[0].phase, sba::AGENT_WAITING);
+    EXPECT_STREQ(state->robots[0].behaviour, "wander");
+    hashes.emplace_back(CORBA::String_var(simulation->state_hash()));
+    simulation->destroy();
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST_F(SimulationService, BadArgumentsRaiseDeclaredExceptions) {
+  sba::SimulationSpecification bad_step = Playground();
+  bad_step.step_ns = -1;
+  EXPECT_THAT(ReasonOf<sba::Refused>([&] { service_->create_simulation(bad_step); }),
+              HasSubstr("step_ns"));
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  sba::RobotSpecification unknown = Pebble(0, 0);
+  unknown.model = "unicorn";
+  EXPECT_THAT(ReasonOf<sba::Refused>([&] { simulation->add_robot(unknown); }),
+              HasSubstr("unicorn"));
+  EXPECT_THAT(
+      ReasonOf<sba::Failed>([&] { simulation->add_robot(Pebble(0, 0, "name == 'nobody'")); }),
+      HasSubstr("nobody"));
+  EXPECT_THAT(ReasonOf<sba::Refused>([&] { simulation->add_robot(Pebble(0, 0, "name ==")); }),
+              HasSubstr("name =="));
+  EXPECT_THAT(ReasonOf<sba::Refused>([&] { simulation->remove_robot("nobody"); }),
+              HasSubstr("nobody"));
+  EXPECT_THAT(ReasonOf<sba::Refused>([&] { simulation->step(0); }), HasSubstr("steps"));
+  EXPECT_THAT(ReasonOf<sba::NotRunning>([&] { simulation->resume(); }), HasSubstr("paused"));
+  simulation->destroy();
+}
+
+TEST_F(AgentBehaviour, OneProgramServesSeveralRobots) {
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  for (const double x : {-2.0, 0.0, 2.0})
+    CORBA::String_var(simulation->add_robot(Pebble(x, -2, "name == 'wander'")));
+  ASSERT_EQ(RunTo(simulation, 1.0), sba::PHASE_PAUSED);
+  const sba::SimulationState_var state = simulation->state();
+  ASSERT_EQ(state->robots.length(), 3u);
+  for (CORBA::ULong i = 0; i < 3; ++i) EXPECT_EQ(state->robots[i].phase, sba::AGENT_WAITING);
+  simulation->destroy();
+}
+
+TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'")));
+  ASSERT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
+  simulation->stop();
+  // The same behaviour runs again: its thread has come back from its wait.
+  simulation->reset();
+  EXPECT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
+  simulation->destroy();
+}
+
+// The SDK's side of the same services.
+TEST_F(Services, AnApplicationWritesNoCorba) {
+  // One ORB a process: the SDK uses this one.
+  EXPECT_EQ(
+      Run("example-test-wandering", {"--broker", broker_->reference(), "--world", "playground",
+                                     "--places", "-2", "-2", "2", "-2", "--seconds", "10"})
+          .ending,
+      "exit code 0");
+}
+
+TEST_F(Services, AnApplicationFailsItsVerdictWhenNobodyGetsFarEnough) {
+  const Outcome outcome =
+      Run("example-test-wandering", {"--broker", broker_->reference(), "--world", "playground",
+                                     "--places", "-2", "-2", "--seconds", "0.1"});
+  EXPECT_EQ(outcome.ending, "exit code 1");
+  EXPECT_THAT(outcome.out, HasSubstr("verdict: failed"));
+}
+
+TEST_F(Services, BehaviourDrivesHardwareThatIsNoSimulation) {
+  const Outcome outcome = Run("example-real-robot", {"--broker", broker_->reference()});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.out << outcome.err;
+}
+
+}  // namespace
+}  // namespace gsv::testing

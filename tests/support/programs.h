@@ -1,0 +1,72 @@
+// Runs GSV's real programs for tests.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/child_process.h"
+
+namespace gsv::testing {
+
+// Wall time after which a program that should have answered has hung.
+inline constexpr std::chrono::seconds kPatience{90};
+
+std::filesystem::path Program(const std::string& name);   // in the build's bin
+std::filesystem::path RealFile(const std::string& path);  // of GSV_REAL_DIR; may not be there
+
+// A folder for one test, removed at its end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path Write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct Outcome {
+  std::string ending;  // "exit code 0"
+  std::string out, err;
+
+  nlohmann::json LastLine() const;  // of stdout, as JSON
+};
+
+// A program in the background, its stderr kept in a file.
+class Running {
+ public:
+  Running(const std::string& program, std::vector<std::string> arguments);
+  // The first line on stdout that contains `text`, which is waited for.
+  std::string AwaitLine(const std::string& text);
+  Outcome AwaitEnd();
+  app::ChildProcess& process() { return *process_; }
+  std::string errors() const;
+
+ private:
+  TemporaryFolder folder_;
+  std::unique_ptr<app::ChildProcess> process_;
+  std::string out_;
+};
+
+Outcome Run(const std::string& program, std::vector<std::string> arguments);
+
+// The body of the answer from a server on this machine; empty when there is none.
+std::string HttpGet(const std::string& url);
+
+// A broker on loopback.
+class BrokerProcess {
+ public:
+  BrokerProcess();
+  const std::string& reference() const { return reference_; }
+
+ private:
+  Running process_;
+  std::string reference_;
+};
+
+}  // namespace gsv::testing

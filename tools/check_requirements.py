@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Checks that docs/requirements.md is kept: every use case names tests, and they ran and passed.
+
+usage: check_requirements.py REQUIREMENTS.md JUNIT.xml
+
+The requirements are sections ("## RQ1 …") of table rows
+    | RQ1.1 | what somebody does | `Suite.Name`, `a-ctest-name` |
+The JUnit file is what `ctest --output-junit` writes. Prints one sentence for each thing that is
+wrong and exits 1 when there is any. A test that was skipped did not run.
+"""
+
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+EXPECTED_SECTIONS = [f"RQ{number}" for number in range(1, 13)]
+SECTION = re.compile(r"^## (\w+)\b")
+USE_CASE = re.compile(r"^\|\s*(\w+)\.(\d+)\s*\|(.*)\|([^|]*)\|\s*$")
+NAME = re.compile(r"`([^`]+)`")
+
+
+class UseCase:
+    def __init__(self, identifier, line, tests):
+        self.identifier = identifier
+        self.line = line
+        self.tests = tests
+
+
+def read_requirements(text, source):
+    """The use cases by section, and a sentence for each thing wrong with the page itself."""
+    sections, problems, section = {}, [], None
+    seen = set()
+    for number, line in enumerate(text.splitlines(), start=1):
+        heading = SECTION.match(line)
+        if heading:
+            section = heading.group(1)
+            sections.setdefault(section, [])
+            continue
+        row = USE_CASE.match(line)
+        if not row:
+            continue
+        identifier = f"{row.group(1)}.{row.group(2)}"
+        if row.group(1) != section:
+            problems.append(f"{source}:{number}: {identifier} stands in the section {section}")
+        if identifier in seen:
+            problems.append(f"{source}:{number}: {identifier} appears twice")
+        seen.add(identifier)
+        sections.setdefault(row.group(1), []).append(
+            UseCase(identifier, number, NAME.findall(row.group(4)))
+        )
+    for expected in EXPECTED_SECTIONS:
+        if not sections.get(expected):
+            problems.append(f"{source}: {expected} has no use case")
+    return sections, problems
+
+
+def outcome(case):
+    """What became of one <testcase>: "passed", "failed" or "skipped"."""
+    if case.find("failure") is not None or case.find("error") is not None:
+        return "failed"
+    if case.find("skipped") is not None or case.get("status") in ("notrun", "disabled"):
+        return "skipped"
+    return "failed" if case.get("status") == "fail" else "passed"
+
+
+def read_outcomes(junit):
+    return {case.get("name"): outcome(case) for case in ElementTree.parse(junit).iter("testcase")}
+
+
+def unkept(sections, outcomes, source):
+    """A sentence for each use case that is not shown to work."""
+    says = {None: "is not among the tests that ran", "failed": "failed", "skipped": "was skipped"}
+    for use_cases in sections.values():
+        for use_case in use_cases:
+            place = f"{source}:{use_case.line}: {use_case.identifier}"
+            if not use_case.tests:
+                yield f"{place} names no test"
+            for test in use_case.tests:
+                result = outcomes.get(test)
+                if result != "passed":
+                    yield f"{place}: the test {test} {says[result]}"
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print(__doc__.strip(), file=sys.stderr)
+        return 2
+    source, junit = arguments
+    sections, problems = read_requirements(Path(source).read_text(encoding="utf-8"), source)
+    try:
+        outcomes = read_outcomes(junit)
+    except (OSError, ElementTree.ParseError) as error:
+        print(f"{junit}: no test results to read ({error}); run the tests first")
+        return 1
+    problems += unkept(sections, outcomes, source)
+    for problem in problems:
+        print(problem)
+    count = sum(len(use_cases) for use_cases in sections.values())
+    if problems:
+        print(f"requirements: {len(problems)} problems in {count} use cases")
+        return 1
+    print(f"requirements: all {count} use cases are shown by tests that passed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,49 @@
+import { expect, test, vi } from "vitest";
+import { ApiError, SimulationApi } from "./SimulationApi";
+
+const STATUS = { name: "a b", phase: "running", mode: "real_time", robots: [] };
+
+function answering(body: unknown, status = 200) {
+  const fetchPage = vi.fn<typeof fetch>(async () => new Response(JSON.stringify(body), { status }));
+  return { api: new SimulationApi("http://127.0.0.1:8080/", fetchPage), fetchPage };
+}
+
+test("an action is posted to its simulation, whose name may hold anything", async () => {
+  const { api, fetchPage } = answering(STATUS);
+  expect((await api.act("a b", "step", 5)).phase).toBe("running");
+  const [url, init] = fetchPage.mock.calls[0]!;
+  expect(url).toBe("http://127.0.0.1:8080/api/simulations/a%20b/step");
+  expect(init).toMatchObject({ method: "POST", body: '{"count":5}' });
+});
+
+test("a refusal carries the server's sentence", async () => {
+  const { api } = answering({ error: "to pause it must be running, and it is stopped" }, 409);
+  const refusal = await api.act("a", "pause").catch((error: unknown) => error);
+  expect(refusal).toBeInstanceOf(ApiError);
+  expect(refusal).toMatchObject({
+    httpStatus: 409,
+    message: "to pause it must be running, and it is stopped",
+  });
+});
+
+test("an error without a sentence still reads as one", async () => {
+  const api = new SimulationApi("http://127.0.0.1/", async () => new Response("<html>", { status: 502 }));
+  await expect(api.simulations()).rejects.toThrow("The server answered 502.");
+});
+
+test("a server that is away and one that is silent are told apart", async () => {
+  const refusing = new SimulationApi("http://127.0.0.1/", () =>
+    Promise.reject(new TypeError("fetch failed")),
+  );
+  await expect(refusing.simulations()).rejects.toThrow("The server cannot be reached.");
+  const silent = new SimulationApi("http://127.0.0.1/", () =>
+    Promise.reject(new DOMException("timed out", "TimeoutError")),
+  );
+  await expect(silent.simulations()).rejects.toThrow("The server did not answer in time.");
+});
+
+test("addresses stay below the page's own", () => {
+  const api = new SimulationApi("https://example.test/gsv/");
+  expect(api.modelUrl("r/1")).toBe("https://example.test/gsv/api/models/r%2F1.glb");
+  expect(api.socketUrl("a b")).toBe("wss://example.test/gsv/ws?simulation=a%20b");
+});

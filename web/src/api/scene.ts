@@ -1,0 +1,158 @@
+// The scene of a simulation: what stands where, the light, and what each entry of /gsv/poses is.
+// Metres, radians, z up; a pose is seven numbers: x y z qx qy qz qw.
+import type { JsonObject } from "./json";
+import { listAt, numberAt, numberOr, numbersAt, objectAt, textAt, textOr } from "./json";
+
+export type Triple = [number, number, number];
+export type PoseNumbers = number[]; // seven
+
+export interface SceneLight {
+  name: string;
+  kind: "directional" | "point" | "spot";
+  position: Triple;
+  direction: Triple; // in the world
+  colour: Triple; // sRGB
+  intensity: number;
+  range: number;
+  innerAngle: number;
+  outerAngle: number;
+  castShadows: boolean;
+}
+
+export type Overlay = "none" | "lines" | "points" | "picture";
+
+export interface SceneSensor {
+  name: string;
+  type: string;
+  overlay: Overlay;
+  link: string;
+  topic: string;
+}
+
+export interface SceneBody {
+  name: string;
+  model: string; // the ID under which its shape is fetched
+  isStatic: boolean;
+  isRobot: boolean;
+  isAvatar: boolean;
+  pose: PoseNumbers;
+  links: string[];
+  sensors: SceneSensor[];
+}
+
+export interface PoseEntry {
+  body: number;
+  link: string | null; // null: the body's own pose
+}
+
+export interface SceneDescription {
+  layoutVersion: number;
+  name: string;
+  bounds: { min: Triple; max: Triple };
+  look: { ambient: Triple; background: Triple; shadows: boolean; sky: boolean };
+  lights: SceneLight[];
+  bodies: SceneBody[];
+  poses: PoseEntry[];
+}
+
+export function parseScene(json: unknown): SceneDescription {
+  const scene = objectAt(json, "scene");
+  const bounds = objectAt(scene.bounds, "bounds");
+  const look = objectAt(scene.look, "look");
+  const bodies = listAt(scene.bodies, "bodies").map((body, i) => parseBody(body, `bodies[${i}]`));
+  return {
+    layoutVersion: numberAt(scene.layout_version, "layout_version"),
+    name: textOr(scene.name, ""),
+    bounds: { min: triple(bounds.min, "bounds.min"), max: triple(bounds.max, "bounds.max") },
+    look: {
+      ambient: triple(look.ambient, "look.ambient"),
+      background: triple(look.background, "look.background"),
+      shadows: look.shadows !== false,
+      sky: look.sky === true,
+    },
+    lights: listAt(scene.lights, "lights").map((light, i) => parseLight(light, `lights[${i}]`)),
+    bodies,
+    poses: listAt(scene.poses, "poses").map((entry, i) =>
+      parsePoseEntry(entry, bodies.length, `poses[${i}]`),
+    ),
+  };
+}
+
+export function robotsOf(scene: SceneDescription | null): SceneBody[] {
+  return scene ? scene.bodies.filter((body) => body.isRobot || body.isAvatar) : [];
+}
+
+export interface CameraChoice {
+  robot: string;
+  sensor: string;
+  topic: string;
+}
+
+export function camerasOf(scene: SceneDescription | null): CameraChoice[] {
+  return robotsOf(scene).flatMap((body) =>
+    body.sensors
+      .filter((sensor) => sensor.overlay === "picture")
+      .map((sensor) => ({ robot: body.name, sensor: sensor.name, topic: sensor.topic })),
+  );
+}
+
+function parseBody(value: unknown, where: string): SceneBody {
+  const body = objectAt(value, where);
+  return {
+    name: textAt(body.name, `${where}.name`),
+    model: textAt(body.model, `${where}.model`),
+    isStatic: body.is_static === true,
+    isRobot: body.is_robot === true,
+    isAvatar: body.is_avatar === true,
+    pose: numbersAt(body.pose, 7, `${where}.pose`),
+    links: listAt(body.links ?? [], `${where}.links`).map((link) => textAt(link, `${where}.links`)),
+    sensors: listAt(body.sensors ?? [], `${where}.sensors`).map((sensor, i) =>
+      parseSensor(objectAt(sensor, `${where}.sensors[${i}]`), `${where}.sensors[${i}]`),
+    ),
+  };
+}
+
+function parseSensor(sensor: JsonObject, where: string): SceneSensor {
+  const overlay = textOr(sensor.overlay, "none");
+  return {
+    name: textAt(sensor.name, `${where}.name`),
+    type: textOr(sensor.type, ""),
+    overlay: overlay === "lines" || overlay === "points" || overlay === "picture" ? overlay : "none",
+    link: textOr(sensor.link, ""),
+    topic: textAt(sensor.topic, `${where}.topic`),
+  };
+}
+
+function parseLight(value: unknown, where: string): SceneLight {
+  const light = objectAt(value, where);
+  const kind = textAt(light.kind, `${where}.kind`);
+  if (kind !== "directional" && kind !== "point" && kind !== "spot") {
+    throw new Error(`${where}.kind: expected directional, point or spot, found ${kind}`);
+  }
+  const pose = numbersAt(light.pose, 7, `${where}.pose`);
+  return {
+    name: textOr(light.name, ""),
+    kind,
+    position: pose.slice(0, 3) as Triple,
+    direction: triple(light.direction, `${where}.direction`),
+    colour: triple(light.colour, `${where}.colour`),
+    intensity: numberOr(light.intensity, 1),
+    range: numberOr(light.range_m, 0),
+    innerAngle: numberOr(light.inner_angle_rad, 0),
+    outerAngle: numberOr(light.outer_angle_rad, 0.8),
+    castShadows: light.cast_shadows === true,
+  };
+}
+
+function parsePoseEntry(value: unknown, bodies: number, where: string): PoseEntry {
+  const entry = objectAt(value, where);
+  const body = numberAt(entry.body, `${where}.body`);
+  if (!Number.isInteger(body) || body < 0 || body >= bodies) {
+    throw new Error(`${where}.body: expected the index of one of ${bodies} bodies, found ${body}`);
+  }
+  return { body, link: typeof entry.link === "string" ? entry.link : null };
+}
+
+function triple(value: unknown, where: string): Triple {
+  return numbersAt(value, 3, where) as Triple;
+}

@@ -1,0 +1,92 @@
+import { expect, test, vi } from "vitest";
+import type { SimulationApi } from "../api/SimulationApi";
+import { ApiError } from "../api/SimulationApi";
+import type { Phase, SimulationStatus } from "../api/status";
+import type { State } from "../state/State";
+import { initialState } from "../state/State";
+import { Store } from "../state/Store";
+import { App } from "./App";
+import { Session } from "./Session";
+
+function status(phase: Phase): SimulationStatus {
+  return {
+    phase,
+    mode: "real_time",
+    step: 0,
+    time: 0,
+    targetFactor: 1,
+    realTimeFactor: 1,
+    lateSteps: 0,
+    waitingFor: "",
+    failure: "",
+    robots: [
+      {
+        name: "robbie",
+        model: "",
+        behaviour: "",
+        agentPhase: "none",
+        detail: "",
+        distance: 0,
+        collisions: 0,
+      },
+    ],
+  };
+}
+
+function appIn(phase: Phase, act: SimulationApi["act"]) {
+  const store = new Store<State>({
+    ...initialState,
+    connection: { phase: "open" },
+    simulation: "house",
+    status: status(phase),
+  });
+  const api = { act } as unknown as SimulationApi;
+  const session = new Session(api, store, { onPoses: () => {}, onBeams: () => {} }, null);
+  return { store, app: new App(store, session, api, null) };
+}
+
+test("the main action is what the phase calls for, and its answer is shown", async () => {
+  const act = vi.fn(async () => status("paused"));
+  const { store, app } = appIn("running", act);
+  app.startPauseOrResume();
+  expect(act).toHaveBeenCalledWith("house", "pause", 1);
+  expect(store.get().pending).toBe("pause");
+  await vi.waitFor(() => expect(store.get().pending).toBeNull());
+  expect(store.get().status?.phase).toBe("paused");
+});
+
+test("a refusal shows the server's sentence and changes nothing", async () => {
+  const { store, app } = appIn("running", async () => {
+    throw new ApiError(409, "to pause it must be running, and it is stopped");
+  });
+  await app.act("pause");
+  expect(store.get().notices).toMatchObject([
+    { kind: "error", sentence: "to pause it must be running, and it is stopped" },
+  ]);
+  expect(store.get().status?.phase).toBe("running");
+  expect(store.get().pending).toBeNull();
+});
+
+test("a second press while the first is under way is not sent", async () => {
+  const act = vi.fn(() => new Promise<SimulationStatus>(() => {}));
+  const { app } = appIn("running", act);
+  void app.act("pause");
+  void app.act("pause");
+  expect(act).toHaveBeenCalledOnce();
+});
+
+test("what the phase does not allow is not even asked for", () => {
+  const act = vi.fn(async () => status("stopped"));
+  const { app } = appIn("stopped", act);
+  app.startPauseOrResume();
+  app.stepOnce();
+  expect(act).not.toHaveBeenCalled();
+});
+
+test("following takes the first robot when none is selected, and ends with the selection", () => {
+  const { store, app } = appIn("running", vi.fn());
+  app.toggleFollowing();
+  expect(store.get()).toMatchObject({ selection: "robbie", following: true });
+  app.select(null);
+  expect(store.get()).toMatchObject({ selection: null, following: false });
+});

@@ -1,0 +1,37 @@
+import { Matrix4 } from "three";
+import { expect, test } from "vitest";
+import { SelectedPose, yawOf } from "./SelectedPose";
+
+function at(x: number, stamp: number) {
+  return { pose: new Matrix4().makeRotationZ(0.5).setPosition(x, 2, 0), stamp };
+}
+
+test("it gives position and heading, and the speed in simulated time", () => {
+  const selected = new SelectedPose();
+  expect(selected.update("a", at(1, 10), 0)).toEqual({
+    x: 1,
+    y: 2,
+    z: 0,
+    yaw: expect.closeTo(0.5),
+    speed: 0,
+  });
+  expect(selected.update("a", at(1.25, 10.5), 100)?.speed).toBeCloseTo(0.5);
+});
+
+test("values do not change faster than they can be read", () => {
+  const selected = new SelectedPose();
+  selected.update("a", at(1, 0), 0);
+  expect(selected.update("a", at(2, 0.05), 50)).toBeNull();
+  expect(selected.update("b", at(2, 0.05), 60)).not.toBeNull();
+});
+
+test("a reset does not count as speed", () => {
+  const selected = new SelectedPose();
+  selected.update("a", at(9, 100), 0);
+  expect(selected.update("a", at(0, 0), 200)?.speed).toBe(0);
+});
+
+test("a heading of a tilted robot is that of its x axis", () => {
+  const tilted = new Matrix4().makeRotationZ(-2).multiply(new Matrix4().makeRotationY(0.3));
+  expect(yawOf(tilted)).toBeCloseTo(-2);
+});

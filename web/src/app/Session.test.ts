@@ -1,0 +1,198 @@
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import type { SimulationApi } from "../api/SimulationApi";
+import { ApiError } from "../api/SimulationApi";
+import type { Phase, SimulationStatus } from "../api/status";
+import type { ClientEvents } from "../protocol/FoxgloveClient";
+import { body, scene } from "../scene/testScene";
+import type { State } from "../state/State";
+import { initialState } from "../state/State";
+import { Store } from "../state/Store";
+import type { LiveClient } from "./Session";
+import { Session } from "./Session";
+
+// A server that can be told what to answer, and the stream to it.
+class Fixture {
+  readonly store = new Store<State>(initialState);
+  readonly handlers = new Map<string, (message: never) => void>();
+  readonly clients: { url: string; events: ClientEvents; closed: boolean }[] = [];
+  readonly onPoses = vi.fn();
+  names = ["house"];
+  layoutVersion = 1;
+  failure = "";
+  sceneRequests = 0;
+  readonly session: Session;
+
+  constructor(wanted: string | null = null) {
+    const api = {
+      simulations: async () => this.names.map((name) => ({ name, phase: "running", robots: 0 })),
+      status: async (name: string) => {
+        if (!this.names.includes(name)) throw new ApiError(404, "no such simulation");
+        return status(this.failure ? "failed" : "running", this.failure);
+      },
+      scene: async (name: string) => {
+        this.sceneRequests += 1;
+        const camera = {
+          name: "eye",
+          type: "camera",
+          overlay: "picture",
+          link: "",
+          topic: "/a/eye",
+        } as const;
+        const visitor = body("visitor", { isAvatar: true, sensors: [{ ...camera, topic: "/visitor/eye" }] });
+        const robot = body("a", { sensors: [camera] });
+        return scene({ name, layoutVersion: this.layoutVersion, bodies: [visitor, robot] });
+      },
+      socketUrl: (name: string) => `ws://test/ws?simulation=${name}`,
+    } as unknown as SimulationApi;
+    this.session = new Session(
+      api,
+      this.store,
+      { onPoses: this.onPoses, onBeams: () => {} },
+      wanted,
+      (url, events) => this.makeClient(url, events),
+    );
+  }
+
+  get state(): State {
+    return this.store.get();
+  }
+
+  send(topic: string, message: object): void {
+    this.handlers.get(topic)!(message as never);
+  }
+
+  sendPoses(layoutVersion: number): void {
+    this.send("/gsv/poses", { layout_version: layoutVersion });
+  }
+
+  private makeClient(url: string, events: ClientEvents): LiveClient {
+    const client = { url, events, closed: false };
+    this.clients.push(client);
+    return {
+      connect: () => events.onConnection({ phase: "open" }),
+      close: () => void (client.closed = true),
+      retryNow: () => {},
+      subscribe: (topic, handler) => {
+        this.handlers.set(topic, handler as (message: never) => void);
+        return () => this.handlers.delete(topic);
+      },
+    };
+  }
+}
+
+function status(phase: Phase, failure = ""): SimulationStatus {
+  return {
+    phase,
+    mode: "real_time",
+    step: 500,
+    time: 5,
+    targetFactor: 1,
+    realTimeFactor: 1,
+    lateSteps: 0,
+    waitingFor: "",
+    failure,
+    robots: [],
+  };
+}
+
+async function joined(fixture: Fixture): Promise<Fixture> {
+  fixture.session.start();
+  await vi.waitFor(() => expect(fixture.state.status).not.toBeNull());
+  return fixture;
+}
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+test("it joins the simulation that the address names, or else the first", async () => {
+  const named = new Fixture("yard");
+  named.names = ["house", "yard"];
+  expect((await joined(named)).state.simulation).toBe("yard");
+  const other = await joined(new Fixture("gone"));
+  expect(other.state.simulation).toBe("house");
+  expect(other.state.notices[0]?.sentence).toBe("There is no simulation gone here; this is house.");
+});
+
+test("it takes up the scene and turns to a robot's camera rather than a visitor's", async () => {
+  const { state, clients } = await joined(new Fixture());
+  expect(state.scene?.name).toBe("house");
+  expect(state.camera?.robot).toBe("a");
+  expect(clients[0]?.url).toBe("ws://test/ws?simulation=house");
+});
+
+test("while there is no simulation it looks again until there is one", async () => {
+  const fixture = new Fixture();
+  fixture.names = [];
+  fixture.session.start();
+  await vi.waitFor(() => expect(fixture.state.simulations).toEqual([]));
+  fixture.names = ["late"];
+  await vi.advanceTimersByTimeAsync(2500);
+  expect(fixture.state.simulation).toBe("late");
+});
+
+test("poses of another layout make it fetch the scene again, once", async () => {
+  const fixture = await joined(new Fixture());
+  fixture.layoutVersion = 2;
+  fixture.sendPoses(1);
+  expect(fixture.sceneRequests).toBe(1);
+  fixture.sendPoses(2);
+  fixture.sendPoses(2);
+  await vi.waitFor(() => expect(fixture.state.scene?.layoutVersion).toBe(2));
+  fixture.sendPoses(2);
+  expect(fixture.sceneRequests).toBe(2);
+  expect(fixture.onPoses).toHaveBeenCalledTimes(4);
+});
+
+test("a selected robot stays selected over a change of layout while it is there", async () => {
+  const fixture = await joined(new Fixture());
+  fixture.store.set({ selection: "a" });
+  fixture.layoutVersion = 2;
+  fixture.sendPoses(2);
+  await vi.waitFor(() => expect(fixture.state.scene?.layoutVersion).toBe(2));
+  expect(fixture.state.selection).toBe("a");
+});
+
+test("when its simulation is gone after a restart, it joins the one that is there", async () => {
+  const fixture = await joined(new Fixture());
+  fixture.names = ["other"];
+  fixture.clients[0]!.events.onConnection({ phase: "waiting", attempt: 1, retryAtMs: 0 });
+  await vi.waitFor(() => expect(fixture.state.simulation).toBe("other"));
+  expect(fixture.clients[0]?.closed).toBe(true);
+});
+
+test("that it connected again is said; that it connected is not", async () => {
+  const fixture = await joined(new Fixture());
+  expect(fixture.state.notices).toEqual([]);
+  fixture.clients[0]!.events.onConnection({ phase: "open" });
+  expect(fixture.state.notices.map(({ sentence }) => sentence)).toEqual(["Connected again."]);
+});
+
+test("deaths of behaviours are told, those of before the page was opened are not", async () => {
+  const fixture = await joined(new Fixture());
+  const death = (sec: number, robot: string) => ({
+    stamp: { sec, nsec: 0 },
+    event: "agent_dead",
+    robot,
+    detail: `${robot} (wander): killed`,
+  });
+  fixture.send("/gsv/events", death(4, "a"));
+  fixture.send("/gsv/events", death(6, "b"));
+  expect(fixture.state.notices.map(({ sentence }) => sentence)).toEqual(["b (wander): killed"]);
+});
+
+test("why a simulation failed is fetched when the stream says that it has", async () => {
+  const fixture = await joined(new Fixture());
+  fixture.failure = "a's behaviour was killed";
+  fixture.send("/gsv/status", {
+    stamp: { sec: 6, nsec: 0 },
+    step: 600n,
+    state: "failed",
+    mode: "real_time",
+    real_time_factor: 1,
+    target_factor: 1,
+    late_steps: 0n,
+    waiting_for: "",
+    robots: [],
+  });
+  await vi.waitFor(() => expect(fixture.state.status?.failure).toBe("a's behaviour was killed"));
+});

@@ -1,0 +1,223 @@
+// Keeps the store in step with the server: finds the simulation, fetches its scene, listens to its
+// live stream, and starts over when the connection was lost or the layout changed.
+import type { SimulationApi } from "../api/SimulationApi";
+import { ApiError } from "../api/SimulationApi";
+import type { SceneDescription } from "../api/scene";
+import { camerasOf } from "../api/scene";
+import type { SimulationStatus } from "../api/status";
+import { statusFromMessage } from "../api/status";
+import { backoffMs } from "../protocol/Backoff";
+import type { ClientEvents } from "../protocol/FoxgloveClient";
+import { FoxgloveClient } from "../protocol/FoxgloveClient";
+import type {
+  ClockMessage,
+  LifecycleEventMessage,
+  MarkerArrayMessage,
+  PosesMessage,
+  SimulationStatusMessage,
+} from "../protocol/messages";
+import { seconds } from "../protocol/messages";
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+import { notify } from "./notices";
+
+const EMPTY_POLL_MS = 2000;
+const SCENE_RETRY_MS = 3000;
+
+// Where the stream's many small messages go without passing through the store.
+export interface LiveListener {
+  onPoses(message: PosesMessage): void;
+  onBeams(message: MarkerArrayMessage): void;
+}
+
+// The live stream, as far as the session needs it.
+export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe">;
+export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
+
+export class Session {
+  private client: LiveClient | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private attempt = 0;
+  private sceneText = "";
+  private fetchingScene: string | null = null; // of the simulation of this name
+  private sceneFailedAtMs = -Infinity;
+  private wasOpen = false;
+  private newsSince = Infinity; // s, simulated
+
+  constructor(
+    private readonly api: SimulationApi,
+    private readonly store: Store<State>,
+    private readonly live: LiveListener,
+    private readonly wanted: string | null, // the simulation's name, if the address gives one
+    private readonly makeClient: ClientFactory = (url, events) => new FoxgloveClient(url, events),
+  ) {}
+
+  start(): void {
+    void this.findSimulation();
+  }
+
+  retryNow(): void {
+    if (this.client) this.client.retryNow();
+    else void this.findSimulation();
+  }
+
+  join(name: string): void {
+    this.client?.close();
+    this.client = null;
+    this.wasOpen = false;
+    this.sceneText = "";
+    this.store.set({
+      simulation: name,
+      scene: null,
+      status: null,
+      time: 0,
+      selection: null,
+      selectedPose: null,
+      following: false,
+      camera: null,
+    });
+    this.connect(name);
+  }
+
+  // Hears a topic of the present simulation; gives the function that ends it.
+  subscribe<Message>(topic: string, handler: (message: Message) => void): () => void {
+    return this.client?.subscribe(topic, handler) ?? (() => {});
+  }
+
+  takeStatus(status: SimulationStatus): void {
+    const known = this.store.get().status;
+    const failure = status.failure || (status.phase === "failed" ? (known?.failure ?? "") : "");
+    this.store.set({ status: { ...status, failure }, time: status.time });
+  }
+
+  private async findSimulation(): Promise<void> {
+    clearTimeout(this.timer);
+    this.attempt += 1;
+    try {
+      const simulations = await this.api.simulations();
+      this.attempt = 0;
+      this.store.set({ simulations });
+      const chosen = simulations.find(({ name }) => name === this.wanted) ?? simulations[0];
+      if (chosen) {
+        if (this.wanted && chosen.name !== this.wanted) {
+          notify(this.store, "note", `There is no simulation ${this.wanted} here; this is ${chosen.name}.`);
+        }
+        this.join(chosen.name);
+        return;
+      }
+      this.store.set({ connection: { phase: "open" } });
+      this.timer = setTimeout(() => void this.findSimulation(), EMPTY_POLL_MS);
+    } catch {
+      const wait = backoffMs(this.attempt);
+      this.store.set({
+        connection: { phase: "waiting", attempt: this.attempt, retryAtMs: Date.now() + wait },
+      });
+      this.timer = setTimeout(() => void this.findSimulation(), wait);
+    }
+  }
+
+  private connect(name: string): void {
+    const client = this.makeClient(this.api.socketUrl(name), {
+      onConnection: (connection) => {
+        this.store.set({ connection });
+        if (connection.phase === "open") void this.opened(name);
+        else if (connection.phase === "waiting") void this.checkStillThere(name);
+      },
+      onProblem: (sentence) => notify(this.store, "error", sentence),
+    });
+    this.client = client;
+    client.subscribe<PosesMessage>("/gsv/poses", (message) => this.takePoses(name, message));
+    client.subscribe<MarkerArrayMessage>("/gsv/beams", (message) => this.live.onBeams(message), {
+      newestOnly: true,
+    });
+    client.subscribe<ClockMessage>("/clock", ({ clock }) => this.store.set({ time: seconds(clock) }));
+    client.subscribe<SimulationStatusMessage>("/gsv/status", (message) => {
+      const hadFailed = this.store.get().status?.phase === "failed";
+      this.takeStatus(statusFromMessage(message));
+      // The stream says that it failed, the API says why.
+      if (message.state === "failed" && !hadFailed) void this.fetchStatus(name);
+    });
+    client.subscribe<LifecycleEventMessage>("/gsv/events", (message) => this.takeEvent(message));
+    client.connect();
+  }
+
+  private async opened(name: string): Promise<void> {
+    if (this.wasOpen) notify(this.store, "note", "Connected again.");
+    this.wasOpen = true;
+    this.newsSince = Infinity;
+    await this.fetchScene(name);
+    await this.fetchStatus(name);
+  }
+
+  // After a server's restart the simulation may be gone: then look for what is there now.
+  private async checkStillThere(name: string): Promise<void> {
+    try {
+      await this.api.status(name);
+    } catch (error) {
+      if (!(error instanceof ApiError && error.httpStatus === 404)) return;
+      if (this.store.get().simulation !== name) return;
+      this.client?.close();
+      this.client = null;
+      this.store.set({ simulation: null, scene: null, status: null, selection: null, camera: null });
+      this.sceneText = "";
+      void this.findSimulation();
+    }
+  }
+
+  private takePoses(name: string, message: PosesMessage): void {
+    const { scene } = this.store.get();
+    const isStale = scene?.layoutVersion !== message.layout_version;
+    if (isStale && Date.now() - this.sceneFailedAtMs > SCENE_RETRY_MS) void this.fetchScene(name);
+    this.live.onPoses(message);
+  }
+
+  private async fetchScene(name: string): Promise<void> {
+    if (this.fetchingScene === name) return;
+    this.fetchingScene = name;
+    try {
+      const scene = await this.api.scene(name);
+      const text = JSON.stringify(scene);
+      if (this.store.get().simulation === name && text !== this.sceneText) {
+        this.sceneText = text;
+        this.takeScene(scene);
+      }
+    } catch (error) {
+      this.sceneFailedAtMs = Date.now();
+      notify(this.store, "error", `The scene cannot be shown: ${(error as Error).message}`);
+    } finally {
+      if (this.fetchingScene === name) this.fetchingScene = null;
+    }
+  }
+
+  private takeScene(scene: SceneDescription): void {
+    const avatars = new Set(scene.bodies.filter(({ isAvatar }) => isAvatar).map(({ name }) => name));
+    this.store.set(({ camera, selection }) => {
+      const cameras = camerasOf(scene);
+      const kept = cameras.find(({ topic }) => topic === camera?.topic);
+      return {
+        scene,
+        camera: kept ?? cameras.find(({ robot }) => !avatars.has(robot)) ?? cameras[0] ?? null,
+        selection: scene.bodies.some(({ name }) => name === selection) ? selection : null,
+      };
+    });
+  }
+
+  private async fetchStatus(name: string): Promise<void> {
+    try {
+      const status = await this.api.status(name);
+      if (this.store.get().simulation !== name) return;
+      this.takeStatus(status);
+      this.newsSince = Math.min(this.newsSince, status.time);
+    } catch {
+      // The stream carries the status as well, and says when it is lost.
+    }
+  }
+
+  // A new subscription brings the past events as well; only what happens from now on is news.
+  private takeEvent(message: LifecycleEventMessage): void {
+    if (seconds(message.stamp) < this.newsSince) return;
+    if (message.event === "agent_dead" || message.event === "agent_unresponsive") {
+      notify(this.store, "error", message.detail || `${message.robot}: its behaviour has died.`);
+    }
+  }
+}

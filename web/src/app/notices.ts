@@ -1,0 +1,23 @@
+// Short messages at the edge of the page: what the server refused, what became of a robot.
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+
+const LONGEST_LIST = 4;
+const NOTE_MS = 6000;
+const ERROR_MS = 12_000;
+
+let nextId = 1;
+
+export function notify(store: Store<State>, kind: "error" | "note", sentence: string): void {
+  const id = nextId++;
+  store.set(({ notices }) => ({
+    notices: [...notices.filter((each) => each.sentence !== sentence), { id, kind, sentence }].slice(
+      -LONGEST_LIST,
+    ),
+  }));
+  setTimeout(() => dismiss(store, id), kind === "error" ? ERROR_MS : NOTE_MS);
+}
+
+export function dismiss(store: Store<State>, id: number): void {
+  store.set(({ notices }) => ({ notices: notices.filter((each) => each.id !== id) }));
+}

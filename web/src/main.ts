@@ -1,0 +1,132 @@
+// Puts the page together: one store, the session that fills it, the 3D view, and the panels.
+import "./style/page.css";
+import "./style/panels.css";
+import { SimulationApi } from "./api/SimulationApi";
+import { robotsOf } from "./api/scene";
+import { App } from "./app/App";
+import { SelectedPose } from "./app/SelectedPose";
+import { Session } from "./app/Session";
+import { notify } from "./app/notices";
+import { AvatarSteering } from "./input/AvatarSteering";
+import { listenForKeys } from "./input/Keyboard";
+import { createCameraPane } from "./panels/CameraPane";
+import { createHelpSheet } from "./panels/HelpSheet";
+import { createInspector } from "./panels/Inspector";
+import { createNotices } from "./panels/Notices";
+import { createOverlay } from "./panels/Overlay";
+import { createSceneTree } from "./panels/SceneTree";
+import { createStatusBar } from "./panels/StatusBar";
+import { createToolbar } from "./panels/Toolbar";
+import { World3D } from "./scene/World3D";
+import type { State } from "./state/State";
+import { initialState } from "./state/State";
+import { Store } from "./state/Store";
+import { exposeForTests } from "./testing";
+import { element } from "./ui/element";
+
+// The page's address may carry: simulation=NAME, which one to join; quality=high, which keeps the
+// picture sharp however slow it gets.
+const parameters = new URLSearchParams(location.search);
+const store = new Store<State>(initialState);
+const api = new SimulationApi(document.baseURI);
+
+function createWorld(host: HTMLElement): World3D | null {
+  try {
+    return new World3D(
+      host,
+      { urlOfModel: (id) => api.modelUrl(id), fixedQuality: parameters.get("quality") === "high" },
+      {
+        onPick: (robot) => app.select(robot),
+        onModelsMissing: (modelsMissing) => store.set({ modelsMissing }),
+        onProblem: (sentence) => notify(store, "error", sentence),
+        onFrameRate: (framesPerSecond) => store.set({ framesPerSecond }),
+      },
+    );
+  } catch (error) {
+    console.warn(error);
+    return null;
+  }
+}
+
+const view = element("main", { class: "view" });
+const world = createWorld(view);
+const selected = new SelectedPose();
+const session = new Session(
+  api,
+  store,
+  {
+    onPoses: (message) => {
+      world?.setPoses(message);
+      showSelectedPose();
+    },
+    onBeams: (message) => world?.setBeams(message),
+  },
+  parameters.get("simulation"),
+);
+const app = new App(store, session, api, world);
+
+function showSelectedPose(): void {
+  const { selection } = store.get();
+  const latest = selection === null ? null : world?.latestPose(selection);
+  const pose = selection !== null && latest ? selected.update(selection, latest, performance.now()) : null;
+  if (pose) store.set({ selectedPose: pose });
+}
+
+function connectWorld(world: World3D): void {
+  store.watch(
+    ({ scene }) => scene,
+    (scene) => world.setScene(scene),
+  );
+  store.watch(
+    ({ shown }) => shown,
+    (shown) => world.show(shown),
+  );
+  store.watch(
+    ({ following }) => following,
+    (following) => world.follow(following),
+  );
+  store.watch(
+    ({ selection }) => selection,
+    (selection) => {
+      world.select(selection);
+      showSelectedPose();
+    },
+  );
+}
+
+// The selected avatar, or else the first one.
+function avatarToDrive(): string | null {
+  const { scene, selection } = store.get();
+  const avatars = robotsOf(scene).filter(({ isAvatar }) => isAvatar);
+  return (avatars.find(({ name }) => name === selection) ?? avatars[0])?.name ?? null;
+}
+
+async function drive(avatar: string, wish: Parameters<SimulationApi["drive"]>[2]): Promise<void> {
+  const { simulation } = store.get();
+  if (!simulation) return;
+  await api.drive(simulation, avatar, wish).catch((error: Error) => notify(store, "error", error.message));
+}
+
+const page = document.getElementById("app")!;
+const toggleSidebar = () => page.classList.toggle("sidebar-open");
+view.append(
+  element("div", { class: "cards" }, createInspector(app), createCameraPane(app)),
+  createOverlay(app, world !== null),
+  createNotices(app),
+);
+page.append(
+  createToolbar(app, toggleSidebar),
+  createSceneTree(app),
+  view,
+  createStatusBar(app),
+  createHelpSheet(app),
+);
+store.watch(
+  ({ simulation }) => simulation,
+  (simulation) => (document.title = simulation ? `${simulation} · GSV` : "GSV"),
+);
+if (world) connectWorld(world);
+listenForKeys(app);
+new AvatarSteering(avatarToDrive, drive).listen(window);
+exposeForTests(store, world);
+session.start();

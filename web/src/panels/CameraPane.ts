@@ -1,0 +1,150 @@
+// The pictures of one robot's camera, as they arrive. It listens only while it is open.
+import type { App } from "../app/App";
+import type { CameraChoice } from "../api/scene";
+import { camerasOf } from "../api/scene";
+import type { CompressedImageMessage } from "../protocol/messages";
+import { seconds } from "../protocol/messages";
+import { shallowEqual } from "../state/Store";
+import { element, setText } from "../ui/element";
+import { formatTime } from "../ui/format";
+import { icon } from "../ui/icons";
+
+const SEPARATOR = " · ";
+
+export function createCameraPane(app: App): HTMLElement {
+  const choice = element("select", { "aria-label": "Camera" });
+  const picture = element("canvas", { class: "picture", role: "img", "aria-label": "Camera picture" });
+  picture.width = picture.height = 1;
+  const caption = element("span", { class: "picture-time number" });
+  const waiting = element("p", { class: "picture-waiting" });
+  const body = element("div", { class: "picture-frame" }, picture, waiting, caption);
+  const enlarge = headButton("enlarge", "Enlarge camera picture");
+  const fold = headButton("close", "Close camera picture");
+  const reopen = element(
+    "button",
+    { class: "button camera-reopen", type: "button", "aria-label": "Open camera picture", title: "Camera" },
+    icon("camera"),
+  );
+  const card = element(
+    "section",
+    { class: "card camera-pane", "aria-label": "Camera" },
+    element("div", { class: "card-head" }, choice, enlarge, fold),
+    body,
+  );
+  const pane = element("div", { class: "camera-place" }, card, reopen);
+
+  let isOpen = true;
+  let unsubscribe = () => {};
+  const painter = new PicturePainter(picture, (time) => {
+    waiting.hidden = true;
+    setText(caption, formatTime(time));
+  });
+  const listen = (camera: CameraChoice | null) => {
+    unsubscribe();
+    unsubscribe = () => {};
+    painter.clear();
+    setText(caption, "");
+    waiting.hidden = false;
+    setText(waiting, "Waiting for a picture…");
+    card.hidden = !camera || !isOpen;
+    reopen.hidden = !camera || isOpen;
+    if (camera && isOpen) {
+      choice.value = camera.topic;
+      unsubscribe = app.session.subscribe<CompressedImageMessage>(camera.topic, (image) =>
+        painter.take(image),
+      );
+    }
+  };
+  const open = (value: boolean) => {
+    isOpen = value;
+    listen(app.store.get().camera);
+  };
+
+  choice.addEventListener("change", () => {
+    const camera = camerasOf(app.store.get().scene).find(({ topic }) => topic === choice.value);
+    if (camera) app.store.set({ camera });
+  });
+  enlarge.addEventListener("click", () => {
+    const large = card.classList.toggle("large");
+    enlarge.setAttribute("aria-pressed", String(large));
+  });
+  fold.addEventListener("click", () => open(false));
+  reopen.addEventListener("click", () => open(true));
+  app.store.watch(
+    ({ scene }) => camerasOf(scene).map(({ topic }) => topic),
+    () => fillChoice(choice, camerasOf(app.store.get().scene), app.store.get().camera),
+    shallowEqual,
+  );
+  app.store.watch(
+    ({ camera }) => camera,
+    listen,
+    (a, b) => a?.topic === b?.topic,
+  );
+  // Another simulation has another stream, even under the same topic's name.
+  app.store.watch(
+    ({ simulation }) => simulation,
+    () => listen(app.store.get().camera),
+  );
+  return pane;
+}
+
+function headButton(picture: "enlarge" | "close", label: string): HTMLButtonElement {
+  return element(
+    "button",
+    { class: "button plain small", type: "button", "aria-label": label, title: label },
+    icon(picture),
+  );
+}
+
+function fillChoice(choice: HTMLSelectElement, cameras: CameraChoice[], chosen: CameraChoice | null): void {
+  choice.replaceChildren(
+    ...cameras.map(({ robot, sensor, topic }) => new Option(robot + SEPARATOR + sensor, topic)),
+  );
+  if (chosen) choice.value = chosen.topic;
+}
+
+// Decodes one picture at a time; of those that arrive meanwhile only the newest is kept.
+class PicturePainter {
+  private next: CompressedImageMessage | null = null;
+  private busy = false;
+  private generation = 0;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly onPainted: (time: number) => void,
+  ) {}
+
+  clear(): void {
+    this.generation += 1;
+    this.next = null;
+    this.canvas.getContext("2d")?.clearRect(0, 0, this.canvas.width, this.canvas.height);
+  }
+
+  take(image: CompressedImageMessage): void {
+    this.next = image;
+    if (!this.busy) void this.paintAll();
+  }
+
+  private async paintAll(): Promise<void> {
+    this.busy = true;
+    while (this.next) {
+      const image = this.next;
+      this.next = null;
+      await this.paint(image, this.generation);
+    }
+    this.busy = false;
+  }
+
+  private async paint(image: CompressedImageMessage, generation: number): Promise<void> {
+    const type = image.format.includes("png") ? "image/png" : "image/jpeg";
+    // A copy: the message may be a view on memory that the connection uses again.
+    const blob = new Blob([image.data.slice()], { type });
+    const bitmap = await createImageBitmap(blob).catch(() => null);
+    if (!bitmap || generation !== this.generation) return;
+    this.canvas.width = bitmap.width;
+    this.canvas.height = bitmap.height;
+    this.canvas.getContext("2d")?.drawImage(bitmap, 0, 0);
+    bitmap.close();
+    this.onPainted(seconds(image.header.stamp));
+  }
+}

@@ -1,0 +1,98 @@
+// What covers the picture while there is nothing to show: what is going on, and what to do.
+import type { App } from "../app/App";
+import type { State } from "../state/State";
+import { shallowEqual } from "../state/Store";
+import { element } from "../ui/element";
+
+type Situation = "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
+
+export function situationOf(state: State, hasView: boolean): Situation {
+  const { connection, simulations, simulation, scene } = state;
+  if (connection.phase !== "open" && scene) return "lost";
+  if (connection.phase === "waiting") return "unreachable";
+  if (simulations !== null && simulations.length === 0 && simulation === null) return "no-simulation";
+  if (!hasView) return "no-webgl";
+  if (scene) return "none";
+  return simulation === null ? "connecting" : "loading";
+}
+
+export function createOverlay(app: App, hasView: boolean): HTMLElement {
+  const place = element("div", { class: "overlay", "aria-live": "polite" });
+  app.store.watch(
+    (state) => situationOf(state, hasView),
+    (situation) => {
+      place.hidden = situation === "none";
+      place.dataset.situation = situation;
+      place.replaceChildren(...content(app, situation));
+    },
+  );
+  return place;
+}
+
+function content(app: App, situation: Situation): Node[] {
+  switch (situation) {
+    case "none":
+      return [];
+    case "connecting":
+      return [message("Connecting to GSV…")];
+    case "loading":
+      return [message("Fetching the scene…")];
+    case "no-webgl":
+      return [
+        message(
+          "This browser cannot draw in 3D",
+          "WebGL 2 is not available here. The buttons and lists work all the same; for the picture, use another browser or turn on graphics acceleration.",
+        ),
+      ];
+    case "no-simulation":
+      return [
+        message(
+          "No simulation yet",
+          "Start one in a terminal. It appears here by itself.",
+          element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
+        ),
+      ];
+    case "unreachable":
+      return [
+        message(
+          "GSV cannot be reached",
+          `Nothing answers at ${location.host}. Is gsv still running there?`,
+          retry(app),
+        ),
+      ];
+    case "lost":
+      return [
+        message(
+          "Connection lost",
+          "This is the last picture. The page connects again by itself as soon as GSV answers.",
+          retry(app),
+        ),
+      ];
+  }
+}
+
+function message(title: string, ...more: (string | Node)[]): HTMLElement {
+  const parts = more.map((part) => (typeof part === "string" ? element("p", {}, part) : part));
+  return element("div", { class: "card message" }, element("h2", {}, title), ...parts);
+}
+
+function retry(app: App): HTMLElement {
+  const countdown = element("span", { class: "dim number" });
+  const unwatch = app.store.watch(
+    ({ connection }) => connection,
+    (connection) => {
+      if (countdown.parentElement && !countdown.isConnected) return unwatch();
+      countdown.textContent =
+        connection.phase === "waiting"
+          ? `next attempt in ${Math.max(1, Math.round((connection.retryAtMs - Date.now()) / 1000))} s`
+          : "trying…";
+    },
+    shallowEqual,
+  );
+  return element(
+    "div",
+    { class: "retry" },
+    element("button", { class: "button", type: "button", onclick: () => app.session.retryNow() }, "Try now"),
+    countdown,
+  );
+}

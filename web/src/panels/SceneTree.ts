@@ -1,0 +1,127 @@
+// The list at the side: the robots and how they are doing, and what else is in the world.
+import type { App } from "../app/App";
+import type { RobotStatus } from "../api/status";
+import type { SceneDescription } from "../api/scene";
+import { robotsOf } from "../api/scene";
+import { shallowEqual } from "../state/Store";
+import { element, setText } from "../ui/element";
+import { count, formatDistance } from "../ui/format";
+
+export function createSceneTree(app: App): HTMLElement {
+  const heading = element("h2", {}, "Robots");
+  const robots = element("ul", { class: "robots", "aria-label": "Robots" });
+  const empty = element(
+    "div",
+    { class: "hint" },
+    element("p", {}, "No robots here yet. Start the simulation with some:"),
+    element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
+  );
+  const world = element("details", { class: "world-tree" });
+  const tree = element("nav", { class: "sidebar", "aria-label": "Scene" }, heading, robots, empty, world);
+
+  const rows = new Map<string, RobotRow>();
+  app.store.watch(
+    ({ status }) => status?.robots ?? [],
+    (statuses) => {
+      setText(heading, statuses.length > 0 ? count(statuses.length, "robot") : "Robots");
+      updateRows(app, robots, rows, statuses);
+    },
+    (a, b) => a.length === b.length && a.every((robot, i) => shallowEqual(robot, b[i])),
+  );
+  app.store.watch(
+    ({ status }) => status === null || status.robots.length > 0,
+    (hidden) => (empty.hidden = hidden),
+  );
+  app.store.watch(
+    ({ selection }) => selection,
+    (selection) => {
+      for (const [name, row] of rows) row.setSelected(name === selection);
+      if (selection) rows.get(selection)?.item.scrollIntoView({ block: "nearest" });
+    },
+  );
+  app.store.watch(
+    ({ scene }) => scene,
+    (scene) => {
+      showWorld(world, scene);
+      updateRows(app, robots, rows, app.store.get().status?.robots ?? []); // who is an avatar
+    },
+  );
+  return tree;
+}
+
+class RobotRow {
+  readonly item: HTMLLIElement;
+  private readonly button: HTMLButtonElement;
+  private readonly dot = element("span", { class: "dot" });
+  private readonly name = element("span", { class: "robot-name" });
+  private readonly behaviour = element("span", { class: "robot-behaviour" });
+  private readonly distance = element("span", { class: "number" });
+  private readonly collisions = element("span", { class: "number collisions" });
+
+  constructor(app: App, robot: string) {
+    this.button = element(
+      "button",
+      { class: "robot", type: "button", "data-robot": robot, onclick: () => app.select(robot) },
+      this.dot,
+      this.name,
+      this.distance,
+      this.behaviour,
+      this.collisions,
+    );
+    this.button.addEventListener("dblclick", () => app.toggleFollowing());
+    this.item = element("li", {}, this.button);
+    this.setSelected(app.store.get().selection === robot);
+  }
+
+  update(robot: RobotStatus, isAvatar: boolean): void {
+    this.dot.dataset.phase = robot.agentPhase;
+    this.dot.title = agentLabel(robot);
+    setText(this.name, robot.name);
+    setText(
+      this.behaviour,
+      isAvatar ? "avatar · W A S D" : `${robot.behaviour || "no behaviour"} · ${agentLabel(robot)}`,
+    );
+    setText(this.distance, formatDistance(robot.distance));
+    setText(this.collisions, robot.collisions > 0 ? count(robot.collisions, "collision") : "");
+    this.button.title = robot.detail;
+  }
+
+  setSelected(selected: boolean): void {
+    this.button.setAttribute("aria-pressed", String(selected));
+  }
+}
+
+export function agentLabel({ agentPhase, behaviour }: RobotStatus): string {
+  if (agentPhase === "none") return behaviour ? "not started" : "idle";
+  return agentPhase;
+}
+
+function updateRows(app: App, list: HTMLElement, rows: Map<string, RobotRow>, statuses: RobotStatus[]): void {
+  const names = new Set(statuses.map(({ name }) => name));
+  const avatars = new Set(
+    robotsOf(app.store.get().scene).flatMap(({ name, isAvatar }) => (isAvatar ? [name] : [])),
+  );
+  for (const [name, row] of [...rows]) {
+    if (names.has(name)) continue;
+    row.item.remove();
+    rows.delete(name);
+  }
+  for (const status of statuses) {
+    let row = rows.get(status.name);
+    if (!row) {
+      row = new RobotRow(app, status.name);
+      rows.set(status.name, row);
+      list.append(row.item);
+    }
+    row.update(status, avatars.has(status.name));
+  }
+}
+
+function showWorld(details: HTMLElement, scene: SceneDescription | null): void {
+  const bodies = scene?.bodies.filter(({ isRobot, isAvatar }) => !isRobot && !isAvatar) ?? [];
+  details.hidden = bodies.length === 0;
+  details.replaceChildren(
+    element("summary", {}, `World: ${count(bodies.length, "object")}`),
+    element("ul", {}, ...bodies.map(({ name }) => element("li", {}, name))),
+  );
+}

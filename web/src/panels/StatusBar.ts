@@ -1,0 +1,74 @@
+// The line at the bottom: phase, time, pace, who is waited for, and the connection.
+import type { App } from "../app/App";
+import type { SimulationStatus } from "../api/status";
+import type { State } from "../state/State";
+import { phaseLabel } from "../state/actions";
+import { shallowEqual } from "../state/Store";
+import { element, setText } from "../ui/element";
+import { count, formatFactor, formatTime } from "../ui/format";
+
+export function createStatusBar(app: App): HTMLElement {
+  const phase = element("span", { class: "phase", role: "status", "data-testid": "phase" });
+  const time = element("span", { class: "time number", "data-testid": "time", title: "Simulated time" });
+  const factor = element("span", {
+    class: "number",
+    "data-testid": "factor",
+    title: "Real-time factor: actual / target",
+  });
+  const late = element("span", { class: "number late", "data-testid": "late" });
+  const waiting = element("span", { class: "waiting", role: "status", "data-testid": "waiting" });
+  const connection = element("span", { class: "connection", role: "status", "data-testid": "connection" });
+  const frames = element("span", { class: "number dim frames", title: "Pictures drawn in the last second" });
+
+  app.store.watch(
+    ({ status }) => status?.phase,
+    (value) => {
+      phase.dataset.phase = value ?? "";
+      setText(phase, value ? phaseLabel(value) : "–");
+    },
+  );
+  app.store.watch(
+    ({ time: value, status }) => (status ? formatTime(value) : ""),
+    (text) => setText(time, text),
+  );
+  app.store.watch(
+    ({ status }) => (status ? pace(status) : ""),
+    (text) => setText(factor, text),
+  );
+  app.store.watch(
+    ({ status }) => status?.lateSteps ?? 0,
+    (steps) => setText(late, steps > 0 ? count(steps, "late step") : ""),
+  );
+  app.store.watch(
+    ({ status }) => status?.failure || (status?.waitingFor ? `waiting for ${status.waitingFor}` : ""),
+    (text) => setText(waiting, text),
+  );
+  app.store.watch(
+    ({ connection: value, modelsMissing }) => ({
+      phase: value.phase,
+      text: connectionLabel(value, modelsMissing),
+    }),
+    ({ phase: value, text }) => {
+      connection.dataset.phase = value;
+      setText(connection, text);
+    },
+    shallowEqual,
+  );
+  app.store.watch(
+    ({ framesPerSecond }) => Math.round(framesPerSecond),
+    (value) => setText(frames, value > 0 ? `${value} fps` : ""),
+  );
+  return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, frames, connection);
+}
+
+// In lockstep there is no pace to keep, only the one that is reached.
+function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus): string {
+  const actual = formatFactor(realTimeFactor);
+  return mode === "lockstep" ? `${actual} · lockstep` : `${actual} / ${formatFactor(targetFactor)}`;
+}
+
+function connectionLabel(connection: State["connection"], modelsMissing: number): string {
+  if (connection.phase === "connecting") return "Connecting…";
+  if (connection.phase === "waiting") return "Connection lost";
+  return modelsMissing > 0 ? `Loading ${count(modelsMissing, "model")}…` : "Live";
+}

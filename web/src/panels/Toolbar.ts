@@ -1,0 +1,172 @@
+// The bar at the top: which simulation, the buttons that run it, and the views.
+import type { App } from "../app/App";
+import type { Action } from "../api/SimulationApi";
+import type { State } from "../state/State";
+import { isAllowed, mainAction } from "../state/actions";
+import { shallowEqual } from "../state/Store";
+import { element } from "../ui/element";
+import type { IconName } from "../ui/icons";
+import { icon, setIcon } from "../ui/icons";
+
+export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement {
+  return element(
+    "header",
+    { class: "toolbar" },
+    element(
+      "div",
+      { class: "toolbar-start" },
+      sidebarButton(toggleSidebar),
+      element("span", { class: "wordmark" }, "GSV"),
+      simulationChoice(app),
+    ),
+    element(
+      "div",
+      { class: "toolbar-transport", role: "group", "aria-label": "Run" },
+      mainButton(app),
+      actionButton(app, "step", "step", "Step", "One step (paused)"),
+      actionButton(app, "stop", "stop", "Stop", "Stop for good"),
+      actionButton(app, "reset", "reset", "Reset", "Back to the start"),
+    ),
+    element(
+      "div",
+      { class: "toolbar-views", role: "group", "aria-label": "View" },
+      viewButton("home", "Reset view", "R", () => app.resetView()),
+      viewButton("top", "Top view", "T", () => app.topView()),
+      followButton(app),
+      element("span", { class: "divider", "aria-hidden": "true" }),
+      toggleButton(app, "beams", "beams", "Beams"),
+      toggleButton(app, "labels", "label", "Names"),
+      toggleButton(app, "grid", "grid", "Grid"),
+      element("span", { class: "divider", "aria-hidden": "true" }),
+      viewButton("help", "Help", "?", () => app.openHelp(true)),
+    ),
+  );
+}
+
+function sidebarButton(toggle: () => void): HTMLElement {
+  return element(
+    "button",
+    {
+      class: "button plain sidebar-toggle",
+      type: "button",
+      "aria-label": "Robots",
+      title: "Robots",
+      onclick: toggle,
+    },
+    icon("list"),
+  );
+}
+
+// A name where there is one simulation, a choice where there are several.
+function simulationChoice(app: App): HTMLElement {
+  const place = element("div", { class: "simulation-choice" });
+  app.store.watch(
+    ({ simulations, simulation }) => [simulation, ...(simulations ?? []).map(({ name }) => name)],
+    ([chosen, ...names]) => {
+      if (names.length < 2) {
+        place.replaceChildren(element("h1", {}, chosen ?? ""));
+        return;
+      }
+      const choice = element("select", { "aria-label": "Simulation" });
+      for (const name of names) choice.append(new Option(name ?? "", name ?? "", false, name === chosen));
+      choice.addEventListener("change", () => app.session.join(choice.value));
+      place.replaceChildren(choice);
+    },
+    shallowEqual,
+  );
+  return place;
+}
+
+const MAIN: Record<ReturnType<typeof mainAction>, { label: string; icon: IconName }> = {
+  start: { label: "Start", icon: "play" },
+  resume: { label: "Resume", icon: "play" },
+  pause: { label: "Pause", icon: "pause" },
+};
+
+function mainButton(app: App): HTMLElement {
+  const picture = icon("play");
+  const label = element("span", {});
+  const button = element(
+    "button",
+    {
+      class: "button primary main-action",
+      type: "button",
+      "aria-keyshortcuts": "Space",
+      onclick: () => app.startPauseOrResume(),
+    },
+    picture,
+    label,
+  );
+  app.store.watch(
+    (state) => ({ phase: state.status?.phase, enabled: canAct(state) }),
+    ({ phase, enabled }) => {
+      const action = mainAction(phase);
+      setIcon(picture, MAIN[action].icon);
+      label.textContent = MAIN[action].label;
+      button.title = `${MAIN[action].label} (Space)`;
+      button.disabled = !enabled || !isAllowed(phase, action);
+    },
+    shallowEqual,
+  );
+  return button;
+}
+
+function actionButton(
+  app: App,
+  action: Action,
+  picture: IconName,
+  label: string,
+  title: string,
+): HTMLElement {
+  const button = element(
+    "button",
+    { class: "button", type: "button", "aria-label": label, title, onclick: () => void app.act(action) },
+    icon(picture),
+  );
+  app.store.watch(
+    (state) => canAct(state) && isAllowed(state.status?.phase, action),
+    (enabled) => (button.disabled = !enabled),
+  );
+  return button;
+}
+
+function canAct({ connection, pending }: State): boolean {
+  return connection.phase === "open" && pending === null;
+}
+
+function viewButton(picture: IconName, label: string, key: string, onclick: () => void): HTMLElement {
+  const title = `${label} (${key})`;
+  return element(
+    "button",
+    { class: "button plain", type: "button", "aria-label": label, "aria-keyshortcuts": key, title, onclick },
+    icon(picture),
+  );
+}
+
+function followButton(app: App): HTMLElement {
+  const button = viewButton("follow", "Follow", "F", () => app.toggleFollowing());
+  app.store.watch(
+    ({ following }) => following,
+    (following) => button.setAttribute("aria-pressed", String(following)),
+  );
+  return button;
+}
+
+function toggleButton(app: App, part: keyof State["shown"], picture: IconName, label: string): HTMLElement {
+  const button = element(
+    "button",
+    {
+      class: "button plain",
+      type: "button",
+      "aria-label": label,
+      title: label,
+      onclick: () => app.toggle(part),
+    },
+    icon(picture),
+  );
+  app.store.watch(
+    ({ shown }) => shown[part],
+    (shown) => button.setAttribute("aria-pressed", String(shown)),
+  );
+  return button;
+}

@@ -1,0 +1,138 @@
+// @vitest-environment jsdom
+import { beforeAll, expect, test, vi } from "vitest";
+import { body, scene } from "../scene/testScene";
+import { createInspector } from "./Inspector";
+import { createNotices } from "./Notices";
+import { createSceneTree } from "./SceneTree";
+import { createStatusBar } from "./StatusBar";
+import { robotStatus, simulationStatus, testApp } from "./testApp";
+import { createToolbar } from "./Toolbar";
+
+beforeAll(() => {
+  Element.prototype.scrollIntoView = () => {}; // jsdom has no layout
+});
+
+function enabledButtons(toolbar: HTMLElement): string[] {
+  const buttons = toolbar.querySelectorAll<HTMLButtonElement>(".toolbar-transport button:not(:disabled)");
+  return [...buttons].map((button) => button.getAttribute("aria-label") ?? button.textContent ?? "");
+}
+
+test.each([
+  ["created", ["Start", "Step", "Stop", "Reset"]],
+  ["running", ["Pause", "Stop", "Reset"]],
+  ["paused", ["Resume", "Step", "Stop", "Reset"]],
+  ["stopped", ["Reset"]],
+  ["finished", ["Reset"]],
+  ["failed", ["Reset"]],
+] as const)("while it is %s these buttons can be pressed: %s", (phase, names) => {
+  const { app } = testApp({ status: simulationStatus(phase) });
+  expect(enabledButtons(createToolbar(app, () => {}))).toEqual(names);
+});
+
+test("buttons follow what another viewer pressed", () => {
+  const { app, store } = testApp({ status: simulationStatus("running") });
+  const toolbar = createToolbar(app, () => {});
+  store.set({ status: simulationStatus("paused") });
+  expect(toolbar.querySelector(".main-action")?.textContent).toBe("Resume");
+});
+
+test("nothing can be pressed while the connection is lost or an answer is awaited", () => {
+  const { app, store } = testApp({ status: simulationStatus("running"), pending: "pause" });
+  const toolbar = createToolbar(app, () => {});
+  expect(enabledButtons(toolbar)).toEqual([]);
+  store.set({ pending: null, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } });
+  expect(enabledButtons(toolbar)).toEqual([]);
+});
+
+test("several simulations can be chosen from", () => {
+  const simulations = ["house", "yard"].map((name) => ({ name, phase: "running", robots: 0 }) as const);
+  const { app } = testApp({ simulations });
+  const join = vi.spyOn(app.session, "join").mockImplementation(() => {});
+  const choice = createToolbar(app, () => {}).querySelector("select")!;
+  expect(choice.value).toBe("house");
+  choice.value = "yard";
+  choice.dispatchEvent(new Event("change"));
+  expect(join).toHaveBeenCalledWith("yard");
+});
+
+test("each robot has a row with its behaviour, distance and collisions", () => {
+  const robots = [robotStatus("a", { distance: 1.5, collisions: 2 }), robotStatus("b", { behaviour: "" })];
+  const { app, store } = testApp({ status: simulationStatus("running", { robots }) });
+  const tree = createSceneTree(app);
+  const rows = () => [...tree.querySelectorAll(".robot")].map((row) => row.textContent);
+  expect(rows()).toEqual(["a1.50 mwander · waiting2 collisions", "b0.00 mno behaviour · waiting"]);
+  store.set({ status: simulationStatus("running", { robots: [robotStatus("b")] }) });
+  expect(rows()).toEqual(["b0.00 mwander · waiting"]);
+});
+
+test("an avatar's row says how to drive it", () => {
+  const { app, store } = testApp({ status: simulationStatus("running", { robots: [robotStatus("me")] }) });
+  const tree = createSceneTree(app);
+  store.set({ scene: scene({ bodies: [body("me", { isAvatar: true })] }) });
+  expect(tree.querySelector(".robot-behaviour")?.textContent).toBe("avatar · W A S D");
+});
+
+test("a list without robots teaches how to get some", () => {
+  const { app } = testApp({ status: simulationStatus("running") });
+  const hint = createSceneTree(app).querySelector<HTMLElement>(".hint")!;
+  expect(hint.hidden).toBe(false);
+  expect(hint.textContent).toContain("gsv run");
+});
+
+test("names with markup are shown as they are", () => {
+  const name = "<img src=x onerror=alert(1)>";
+  const robots = [robotStatus(name, { detail: "<b>bold</b>" })];
+  const { app } = testApp({ status: simulationStatus("running", { robots }), selection: name });
+  const tree = createSceneTree(app);
+  const inspector = createInspector(app);
+  expect(tree.querySelector("img")).toBeNull();
+  expect(inspector.querySelector("img, b")).toBeNull();
+  expect(inspector.querySelector("h2")?.textContent).toBe(name);
+});
+
+test("a press on a row selects its robot, and the inspector shows where it is", () => {
+  const { app, store } = testApp({ status: simulationStatus("running", { robots: [robotStatus("a")] }) });
+  const tree = createSceneTree(app);
+  const inspector = createInspector(app);
+  expect(inspector.hidden).toBe(true);
+  tree.querySelector<HTMLButtonElement>(".robot")!.click();
+  expect(tree.querySelector(".robot")?.getAttribute("aria-pressed")).toBe("true");
+  store.set({ selectedPose: { x: 1.234, y: -0.001, z: 0, yaw: Math.PI / 2, speed: 0.3 } });
+  expect(inspector.hidden).toBe(false);
+  const values = [...inspector.querySelectorAll("dd")].slice(0, 3).map((value) => value.textContent);
+  expect(values).toEqual(["1.23, 0.00, 0.00 m", "90.0°", "0.30 m/s"]);
+});
+
+test("the status bar shows phase, time, pace, late steps and who is waited for", () => {
+  const status = simulationStatus("running", {
+    realTimeFactor: 0.5,
+    lateSteps: 3,
+    waitingFor: "robot_3 (wander) since 2.1 s",
+  });
+  const { app } = testApp({ status, time: 75.25 });
+  const bar = createStatusBar(app);
+  const text = (part: string) => bar.querySelector(`[data-testid="${part}"]`)?.textContent;
+  expect(text("phase")).toBe("Running");
+  expect(text("time")).toBe("1:15.25");
+  expect(text("factor")).toBe("0.50× / 1.00×");
+  expect(text("late")).toBe("3 late steps");
+  expect(text("waiting")).toBe("waiting for robot_3 (wander) since 2.1 s");
+  expect(text("connection")).toBe("Live");
+});
+
+test("in lockstep there is no pace to keep", () => {
+  const { app } = testApp({
+    status: simulationStatus("running", { mode: "lockstep", realTimeFactor: 12.3 }),
+  });
+  const factor = createStatusBar(app).querySelector('[data-testid="factor"]');
+  expect(factor?.textContent).toBe("12.3× · lockstep");
+});
+
+test("a notice can be dismissed", () => {
+  const { app, store } = testApp({ notices: [{ id: 1, kind: "error", sentence: "No." }] });
+  const notices = createNotices(app);
+  expect(notices.querySelector("p")?.textContent).toBe("No.");
+  notices.querySelector("button")!.click();
+  expect(store.get().notices).toEqual([]);
+  expect(notices.children).toHaveLength(0);
+});

@@ -1,0 +1,51 @@
+// An App on a store of the test's own, with no server and no 3D view behind it.
+import type { SimulationApi } from "../api/SimulationApi";
+import type { Phase, RobotStatus, SimulationStatus } from "../api/status";
+import { App } from "../app/App";
+import { Session } from "../app/Session";
+import type { State } from "../state/State";
+import { initialState } from "../state/State";
+import { Store } from "../state/Store";
+
+export function robotStatus(name: string, more: Partial<RobotStatus> = {}): RobotStatus {
+  return {
+    name,
+    model: "b21r",
+    behaviour: "wander",
+    agentPhase: "waiting",
+    detail: "",
+    distance: 0,
+    collisions: 0,
+    ...more,
+  };
+}
+
+export function simulationStatus(phase: Phase, more: Partial<SimulationStatus> = {}): SimulationStatus {
+  return {
+    phase,
+    mode: "real_time",
+    step: 0,
+    time: 0,
+    targetFactor: 1,
+    realTimeFactor: 1,
+    lateSteps: 0,
+    waitingFor: "",
+    failure: "",
+    robots: [],
+    ...more,
+  };
+}
+
+export function testApp(
+  state: Partial<State> = {},
+  api: Partial<SimulationApi> = {},
+): { app: App; store: Store<State> } {
+  const store = new Store<State>({
+    ...initialState,
+    connection: { phase: "open" },
+    simulation: "house",
+    ...state,
+  });
+  const session = new Session(api as SimulationApi, store, { onPoses: () => {}, onBeams: () => {} }, null);
+  return { app: new App(store, session, api as SimulationApi, null), store };
+}

@@ -1,0 +1,10 @@
+// How long to wait before the next attempt: twice as long each time, up to a bound, and a little
+// different for everyone, so that a restarted server is not asked by all its viewers at once.
+const FIRST_MS = 500;
+const LONGEST_MS = 8000;
+const SPREAD = 0.2;
+
+export function backoffMs(attempt: number, random: () => number = Math.random): number {
+  const middle = Math.min(LONGEST_MS, FIRST_MS * 2 ** Math.max(0, attempt - 1));
+  return middle * (1 + SPREAD * (2 * random() - 1));
+}

@@ -1,0 +1,223 @@
+import { MessageWriter } from "@foxglove/rosmsg2-serialization";
+import { parse } from "@foxglove/rosmsg";
+import { afterEach, expect, test, vi } from "vitest";
+import WebSocketClient, { WebSocketServer } from "ws";
+import type { ConnectionState } from "./FoxgloveClient";
+import { FoxgloveClient, SUBPROTOCOLS } from "./FoxgloveClient";
+
+const SCHEMA = "uint32 number\nstring text";
+const CHANNEL = {
+  id: 7,
+  topic: "/greeting",
+  encoding: "cdr",
+  schemaName: "test_msgs/msg/Greeting",
+  schema: SCHEMA,
+  schemaEncoding: "ros2msg",
+};
+
+interface Op {
+  op: string;
+  subscriptions?: { id: number; channelId: number }[];
+  subscriptionIds?: number[];
+}
+
+// A server that advertises its channels to whoever connects and keeps what it is told.
+class Server {
+  readonly heard: Op[] = [];
+  readonly protocols: string[] = [];
+  private readonly server: WebSocketServer;
+
+  constructor(
+    private readonly channels: object[] = [CHANNEL],
+    port = 0,
+  ) {
+    this.server = new WebSocketServer({
+      host: "127.0.0.1",
+      port,
+      handleProtocols: (offered) => [...offered][0] ?? false,
+    });
+    this.server.on("connection", (socket) => {
+      this.protocols.push(socket.protocol);
+      socket.on("message", (data) => this.heard.push(JSON.parse(String(data))));
+      socket.send(JSON.stringify({ op: "serverInfo", name: "test", capabilities: [] }));
+      socket.send(JSON.stringify({ op: "advertise", channels: this.channels }));
+    });
+  }
+
+  get port(): number {
+    return (this.server.address() as { port: number }).port;
+  }
+
+  listening(): Promise<void> {
+    return new Promise((resolve) => this.server.once("listening", () => resolve()));
+  }
+
+  send(data: string | Uint8Array): void {
+    for (const socket of this.server.clients) socket.send(data);
+  }
+
+  close(): Promise<void> {
+    for (const socket of this.server.clients) socket.terminate();
+    return new Promise((resolve) => this.server.close(() => resolve()));
+  }
+}
+
+function greeting(subscription: number, number: number, text: string): Uint8Array {
+  const payload = new MessageWriter(parse(SCHEMA, { ros2: true })).writeMessage({ number, text });
+  const frame = new Uint8Array(13 + payload.length);
+  const view = new DataView(frame.buffer);
+  view.setUint8(0, 1);
+  view.setUint32(1, subscription, true);
+  view.setBigUint64(5, 123n, true);
+  frame.set(payload, 13);
+  return frame;
+}
+
+const opened: { close(): unknown }[] = [];
+afterEach(async () => {
+  for (const each of opened.splice(0)) await each.close();
+});
+
+async function serve(channels?: object[], port?: number): Promise<Server> {
+  const server = new Server(channels, port);
+  opened.push(server);
+  await server.listening();
+  return server;
+}
+
+function connectTo(server: Server) {
+  const states: ConnectionState[] = [];
+  const problems: string[] = [];
+  const client = new FoxgloveClient(
+    `ws://127.0.0.1:${server.port}/ws`,
+    { onConnection: (state) => states.push(state), onProblem: (sentence) => problems.push(sentence) },
+    WebSocketClient as unknown as typeof WebSocket,
+  );
+  opened.unshift(client);
+  client.connect();
+  return { client, states, problems };
+}
+
+test("it offers both sub-protocols and subscribes to what is advertised", async () => {
+  const server = await serve();
+  const { client } = connectTo(server);
+  client.subscribe("/greeting", () => {});
+  client.subscribe("/nowhere", () => {});
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  expect(server.protocols).toEqual([SUBPROTOCOLS[0]]);
+  expect(server.heard[0]).toEqual({ op: "subscribe", subscriptions: [{ id: 1, channelId: 7 }] });
+});
+
+test("messages arrive decoded", async () => {
+  const server = await serve();
+  const { client } = connectTo(server);
+  const handler = vi.fn();
+  client.subscribe("/greeting", handler);
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  server.send(greeting(1, 42, "hello"));
+  await vi.waitFor(() => expect(handler).toHaveBeenCalledWith({ number: 42, text: "hello" }));
+});
+
+test("who wants the newest only is spared what came before it", async () => {
+  const server = await serve();
+  const { client } = connectTo(server);
+  const newest = vi.fn();
+  const all = vi.fn();
+  client.subscribe("/greeting", newest, { newestOnly: true });
+  client.subscribe("/greeting", all);
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  // While this thread is busy, all of these wait at the socket.
+  for (let i = 0; i < 50; i++) {
+    server.send(greeting(1, i, ""));
+    server.send(greeting(2, i, ""));
+  }
+  await vi.waitFor(() => expect(all).toHaveBeenCalledTimes(50));
+  await vi.waitFor(() => expect(newest).toHaveBeenLastCalledWith({ number: 49, text: "" }));
+  expect(newest.mock.calls.length).toBeLessThan(50);
+});
+
+test("ending a subscription tells the server, and late messages are dropped", async () => {
+  const server = await serve();
+  const { client, problems } = connectTo(server);
+  const handler = vi.fn();
+  const other = vi.fn();
+  const unsubscribe = client.subscribe("/greeting", handler);
+  client.subscribe("/greeting", other);
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  unsubscribe();
+  await vi.waitFor(() => expect(server.heard.at(-1)).toEqual({ op: "unsubscribe", subscriptionIds: [1] }));
+  server.send(greeting(1, 1, "late"));
+  server.send(greeting(2, 2, "in time"));
+  await vi.waitFor(() => expect(other).toHaveBeenCalledOnce());
+  expect(handler).not.toHaveBeenCalled();
+  expect(problems).toEqual([]);
+});
+
+test("after the server went away it connects again and subscribes anew", async () => {
+  const first = await serve();
+  const { client, states } = connectTo(first);
+  const handler = vi.fn();
+  client.subscribe("/greeting", handler);
+  await vi.waitFor(() => expect(first.heard).toHaveLength(1));
+  const { port } = first;
+  await first.close();
+  await vi.waitFor(() => expect(states.at(-1)?.phase).toBe("waiting"));
+  const second = await serve([{ ...CHANNEL, id: 9 }], port);
+  client.retryNow();
+  await vi.waitFor(() => expect(second.heard).toHaveLength(1));
+  expect(second.heard[0]?.subscriptions?.[0]?.channelId).toBe(9);
+  expect(states.map(({ phase }) => phase)).toEqual(["connecting", "open", "waiting", "connecting", "open"]);
+  second.send(greeting(second.heard[0]!.subscriptions![0]!.id, 1, "back"));
+  await vi.waitFor(() => expect(handler).toHaveBeenCalledWith({ number: 1, text: "back" }));
+});
+
+test("a channel that comes later is subscribed to, one that goes is forgotten", async () => {
+  const server = await serve([]);
+  const { client } = connectTo(server);
+  const handler = vi.fn();
+  client.subscribe("/greeting", handler);
+  await vi.waitFor(() => expect(server.protocols).toHaveLength(1));
+  server.send(JSON.stringify({ op: "advertise", channels: [CHANNEL] }));
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  server.send(JSON.stringify({ op: "unadvertise", channelIds: [7] }));
+  server.send(JSON.stringify({ op: "advertise", channels: [{ ...CHANNEL, id: 8 }] }));
+  await vi.waitFor(() => expect(server.heard).toHaveLength(2));
+  expect(server.heard[1]?.subscriptions?.[0]?.channelId).toBe(8);
+});
+
+test("what cannot be read is reported once and does no further harm", async () => {
+  const server = await serve();
+  const { client, problems } = connectTo(server);
+  const handler = vi.fn();
+  client.subscribe("/greeting", handler);
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  const cut = greeting(1, 1, "a text that is cut off").slice(0, 26);
+  server.send(cut);
+  server.send(cut);
+  server.send("{ no json");
+  server.send(new Uint8Array([1, 2]));
+  server.send(greeting(1, 5, "fine"));
+  await vi.waitFor(() => expect(handler).toHaveBeenCalledWith({ number: 5, text: "fine" }));
+  expect(problems).toHaveLength(2);
+  expect(problems[0]).toMatch(/^A message on \/greeting cannot be read: /);
+  expect(problems[1]).toMatch(/^The server sent something unreadable: /);
+});
+
+test("a channel in another encoding is refused with a sentence", async () => {
+  const server = await serve([{ ...CHANNEL, encoding: "json" }]);
+  const { client, problems } = connectTo(server);
+  client.subscribe("/greeting", () => {});
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  server.send(greeting(1, 1, "x"));
+  await vi.waitFor(() => expect(problems).toHaveLength(1));
+  expect(problems[0]).toContain("expected messages in cdr, found json");
+});
+
+test("the server's own warnings are passed on", async () => {
+  const server = await serve();
+  const { problems } = connectTo(server);
+  await vi.waitFor(() => expect(server.protocols).toHaveLength(1));
+  server.send(JSON.stringify({ op: "status", level: 0, message: "welcome" }));
+  server.send(JSON.stringify({ op: "status", level: 2, message: "no such channel" }));
+  await vi.waitFor(() => expect(problems).toEqual(["no such channel"]));
+});

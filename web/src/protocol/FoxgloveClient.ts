@@ -1,0 +1,245 @@
+// A client of the Foxglove WebSocket protocol: subscribes by topic, decodes, and connects again by
+// itself, with growing waits, whenever the connection is lost. Subscriptions outlive a connection:
+// they are made anew as soon as a server advertises their topic.
+import { backoffMs } from "./Backoff";
+import type { Channel } from "./MessageDecoder";
+import { MessageDecoders } from "./MessageDecoder";
+
+export const SUBPROTOCOLS = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
+
+const OPENING_TIMEOUT_MS = 5000;
+const MESSAGE_DATA = 1;
+const MESSAGE_DATA_HEADER_BYTES = 13;
+
+export type ConnectionState =
+  | { phase: "connecting"; attempt: number }
+  | { phase: "open" }
+  | { phase: "waiting"; attempt: number; retryAtMs: number };
+
+export interface ClientEvents {
+  onConnection(state: ConnectionState): void;
+  // Something that the server sent could not be understood, or it reports a problem itself.
+  onProblem(sentence: string): void;
+}
+
+type Handler = (message: unknown) => void;
+
+export interface SubscribeOptions {
+  // Of messages that arrive faster than the page can take them only the newest is decoded.
+  newestOnly?: boolean;
+}
+
+interface Subscription {
+  topic: string;
+  handler: Handler;
+  newestOnly: boolean;
+  waiting: DataView | null; // the newest payload, if it is not decoded yet
+  id: number | null; // null: not subscribed at the server
+}
+
+export class FoxgloveClient {
+  private socket: WebSocket | null = null;
+  private attempt = 0;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private closed = false;
+  private nextSubscription = 1;
+  private readonly channels = new Map<number, Channel>();
+  private readonly subscriptions = new Set<Subscription>();
+  private readonly channelOf = new Map<number, { subscription: Subscription; channel: Channel }>();
+  private readonly decoders = new MessageDecoders();
+  private readonly reported = new Set<string>();
+
+  constructor(
+    private readonly url: string,
+    private readonly events: ClientEvents,
+    private readonly SocketClass: typeof WebSocket = WebSocket,
+  ) {}
+
+  connect(): void {
+    this.closed = false;
+    this.attempt = 0;
+    this.open();
+  }
+
+  // Attempts at once instead of after the present wait.
+  retryNow(): void {
+    if (this.socket || this.closed) return;
+    clearTimeout(this.timer);
+    this.open();
+  }
+
+  close(): void {
+    this.closed = true;
+    clearTimeout(this.timer);
+    this.abandon();
+  }
+
+  get topics(): string[] {
+    return [...this.channels.values()].map((channel) => channel.topic);
+  }
+
+  // Hears the messages of a topic from now on; gives the function that ends it.
+  subscribe<Message>(
+    topic: string,
+    handler: (message: Message) => void,
+    { newestOnly = false }: SubscribeOptions = {},
+  ): () => void {
+    const subscription: Subscription = {
+      topic,
+      handler: handler as Handler,
+      newestOnly,
+      waiting: null,
+      id: null,
+    };
+    this.subscriptions.add(subscription);
+    this.request([subscription]);
+    return () => this.unsubscribe(subscription);
+  }
+
+  private unsubscribe(subscription: Subscription): void {
+    this.subscriptions.delete(subscription);
+    if (subscription.id === null) return;
+    this.channelOf.delete(subscription.id);
+    this.send({ op: "unsubscribe", subscriptionIds: [subscription.id] });
+    subscription.id = null;
+  }
+
+  private open(): void {
+    this.attempt += 1;
+    this.events.onConnection({ phase: "connecting", attempt: this.attempt });
+    const socket = new this.SocketClass(this.url, SUBPROTOCOLS);
+    this.socket = socket;
+    socket.binaryType = "arraybuffer";
+    this.timer = setTimeout(() => this.lost(socket), OPENING_TIMEOUT_MS);
+    socket.onopen = () => {
+      clearTimeout(this.timer);
+      this.attempt = 0;
+      this.events.onConnection({ phase: "open" });
+    };
+    socket.onmessage = (event: MessageEvent) => this.receive(event.data);
+    socket.onclose = () => this.lost(socket);
+  }
+
+  private lost(socket: WebSocket): void {
+    if (socket !== this.socket) return;
+    this.abandon();
+    const wait = backoffMs(Math.max(1, this.attempt));
+    this.events.onConnection({
+      phase: "waiting",
+      attempt: this.attempt,
+      retryAtMs: Date.now() + wait,
+    });
+    this.timer = setTimeout(() => this.open(), wait);
+  }
+
+  private abandon(): void {
+    const socket = this.socket;
+    this.socket = null;
+    clearTimeout(this.timer);
+    this.channels.clear();
+    this.channelOf.clear();
+    for (const subscription of this.subscriptions) subscription.id = null;
+    if (!socket) return;
+    socket.onopen = socket.onmessage = socket.onclose = null;
+    socket.close();
+  }
+
+  private receive(data: unknown): void {
+    try {
+      if (typeof data === "string") this.receiveText(data);
+      else if (data instanceof ArrayBuffer) this.receiveBinary(new DataView(data));
+    } catch (error) {
+      this.problem(`The server sent something unreadable: ${sentenceOf(error)}`);
+    }
+  }
+
+  private receiveText(text: string): void {
+    const message = JSON.parse(text) as Record<string, unknown>;
+    switch (message.op) {
+      case "advertise":
+        this.advertise((message.channels ?? []) as Channel[]);
+        break;
+      case "unadvertise":
+        this.unadvertise((message.channelIds ?? []) as number[]);
+        break;
+      case "status":
+        if (Number(message.level) >= 1) this.problem(String(message.message));
+        break;
+    }
+  }
+
+  private advertise(channels: Channel[]): void {
+    for (const channel of channels) this.channels.set(channel.id, channel);
+    this.request([...this.subscriptions]);
+  }
+
+  private unadvertise(ids: number[]): void {
+    for (const id of ids) this.channels.delete(id);
+    for (const [id, { subscription, channel }] of [...this.channelOf]) {
+      if (!ids.includes(channel.id)) continue;
+      this.channelOf.delete(id);
+      subscription.id = null;
+    }
+  }
+
+  private request(subscriptions: Subscription[]): void {
+    const byTopic = new Map([...this.channels.values()].map((channel) => [channel.topic, channel]));
+    const wanted: { id: number; channelId: number }[] = [];
+    for (const subscription of subscriptions) {
+      const channel = byTopic.get(subscription.topic);
+      if (!channel || subscription.id !== null) continue;
+      subscription.id = this.nextSubscription++;
+      this.channelOf.set(subscription.id, { subscription, channel });
+      wanted.push({ id: subscription.id, channelId: channel.id });
+    }
+    if (wanted.length > 0) this.send({ op: "subscribe", subscriptions: wanted });
+  }
+
+  private receiveBinary(frame: DataView): void {
+    if (frame.byteLength < MESSAGE_DATA_HEADER_BYTES || frame.getUint8(0) !== MESSAGE_DATA) return;
+    const entry = this.channelOf.get(frame.getUint32(1, true));
+    if (!entry) return; // unsubscribed while this was under way
+    const { subscription, channel } = entry;
+    const payload = new DataView(frame.buffer, frame.byteOffset + MESSAGE_DATA_HEADER_BYTES);
+    if (subscription.newestOnly) this.handOverLater(subscription, channel, payload);
+    else this.handOver(subscription, channel, payload);
+  }
+
+  // After the messages that have arrived already.
+  private handOverLater(subscription: Subscription, channel: Channel, payload: DataView): void {
+    const isScheduled = subscription.waiting !== null;
+    subscription.waiting = payload;
+    if (isScheduled) return;
+    setTimeout(() => {
+      const newest = subscription.waiting;
+      subscription.waiting = null;
+      if (newest && subscription.id !== null) this.handOver(subscription, channel, newest);
+    });
+  }
+
+  private handOver(subscription: Subscription, channel: Channel, payload: DataView): void {
+    let message: unknown;
+    try {
+      message = this.decoders.decoderOf(channel)(payload);
+    } catch (error) {
+      this.problem(`A message on ${channel.topic} cannot be read: ${sentenceOf(error)}`);
+      return;
+    }
+    subscription.handler(message);
+  }
+
+  private send(message: object): void {
+    if (this.socket?.readyState === this.SocketClass.OPEN) this.socket.send(JSON.stringify(message));
+  }
+
+  // Each sentence once: a stream repeats its faults many times a second.
+  private problem(sentence: string): void {
+    if (this.reported.has(sentence) || this.reported.size > 100) return;
+    this.reported.add(sentence);
+    this.events.onProblem(sentence);
+  }
+}
+
+function sentenceOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}

@@ -1,0 +1,89 @@
+// The ROS 2 messages that the viewer reads, as @foxglove/rosmsg2-serialization hands them over.
+// Their definitions come with each channel; these types say what the viewer relies on.
+
+export interface Time {
+  sec: number;
+  nsec: number;
+}
+
+export interface Point {
+  x: number;
+  y: number;
+  z: number;
+}
+
+export interface Colour {
+  r: number;
+  g: number;
+  b: number;
+  a: number;
+}
+
+export interface ClockMessage {
+  clock: Time;
+}
+
+// gsv_msgs/msg/Poses: seven numbers a pose (x y z qx qy qz qw), as the scene's `poses` lists them.
+export interface PosesMessage {
+  stamp: Time;
+  step: bigint;
+  layout_version: number;
+  poses: Float64Array;
+}
+
+export interface RobotStatusMessage {
+  name: string;
+  model: string;
+  behaviour: string;
+  agent_state: string;
+  detail: string;
+  distance_m: number;
+  collisions: bigint;
+}
+
+export interface SimulationStatusMessage {
+  stamp: Time;
+  step: bigint;
+  state: string;
+  mode: string;
+  real_time_factor: number;
+  target_factor: number;
+  late_steps: bigint;
+  waiting_for: string;
+  robots: RobotStatusMessage[];
+}
+
+export const LINE_LIST = 5;
+
+export interface MarkerMessage {
+  header: { stamp: Time; frame_id: string };
+  ns: string;
+  id: number;
+  type: number;
+  action: number;
+  color: Colour;
+  points: Point[];
+  colors: Colour[];
+}
+
+export interface MarkerArrayMessage {
+  markers: MarkerMessage[];
+}
+
+export interface CompressedImageMessage {
+  header: { stamp: Time; frame_id: string };
+  format: string;
+  data: Uint8Array;
+}
+
+export interface LifecycleEventMessage {
+  stamp: Time;
+  step: bigint;
+  event: string;
+  robot: string;
+  detail: string;
+}
+
+export function seconds(time: Time): number {
+  return time.sec + time.nsec * 1e-9;
+}

@@ -1,0 +1,79 @@
+import type { InterleavedBufferAttribute } from "three";
+import { Matrix4 } from "three";
+import { expect, test } from "vitest";
+import type { MarkerMessage, Point } from "../protocol/messages";
+import { LINE_LIST } from "../protocol/messages";
+import { BeamLayer } from "./BeamLayer";
+
+const BLUE = { r: 0, g: 0, b: 1, a: 1 };
+const YELLOW = { r: 1, g: 1, b: 0, a: 1 };
+
+function marker(points: Point[], more: Partial<MarkerMessage> = {}): MarkerMessage {
+  return {
+    header: { stamp: { sec: 0, nsec: 0 }, frame_id: "world" },
+    ns: "a",
+    id: 0,
+    type: LINE_LIST,
+    action: 0,
+    color: BLUE,
+    points,
+    colors: [],
+    ...more,
+  };
+}
+
+function drawn(layer: BeamLayer): number[] {
+  const starts = layer.lines.geometry.getAttribute("instanceStart") as InterleavedBufferAttribute;
+  return Array.from(starts.data.array.slice(0, 6 * layer.segments));
+}
+
+const beam = [
+  { x: 3, y: 0, z: 0.2 },
+  { x: 5, y: 0, z: 0.2 },
+];
+
+test("a beam moves and turns along with its robot", () => {
+  const layer = new BeamLayer();
+  layer.setRobot("a", marker(beam), new Matrix4().makeTranslation(2, 0, 0));
+  const shown = new Matrix4().makeRotationZ(Math.PI / 2).setPosition(0, 10, 0);
+  layer.place(() => shown);
+  const expected = [0, 11, 0.2, 0, 13, 0.2];
+  drawn(layer).forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 6));
+});
+
+test("beams without a robot to hang on are not drawn", () => {
+  const layer = new BeamLayer();
+  layer.setRobot("a", marker(beam), new Matrix4());
+  layer.place(() => null);
+  expect(layer.segments).toBe(0);
+});
+
+test("each end has its own colour; beams that are given none are red", () => {
+  const layer = new BeamLayer();
+  layer.setRobot("a", marker(beam, { colors: [YELLOW, YELLOW] }), new Matrix4());
+  layer.setRobot("b", marker(beam), new Matrix4());
+  layer.place(() => new Matrix4());
+  const colours = layer.lines.geometry.getAttribute("instanceColorStart");
+  expect([colours.getX(0), colours.getY(0), colours.getZ(0)]).toEqual([1, 1, 0]);
+  expect(colours.getX(1)).toBe(1);
+  expect(colours.getY(1) + colours.getZ(1)).toBeLessThan(0.2);
+});
+
+test("many robots' beams fit", () => {
+  const layer = new BeamLayer();
+  const many = Array.from({ length: 48 }, (_, i) => ({ x: i, y: 0, z: 0 }));
+  for (let robot = 0; robot < 100; robot++) layer.setRobot(`r${robot}`, marker(many), new Matrix4());
+  layer.place(() => new Matrix4());
+  expect(layer.segments).toBe(2400);
+  expect(drawn(layer).at(-3)).toBe(47);
+});
+
+test("a robot without beams any more loses its lines", () => {
+  const layer = new BeamLayer();
+  layer.setRobot("a", marker(beam), new Matrix4());
+  layer.setRobot("b", marker(beam), new Matrix4());
+  layer.setRobot("a", marker([]), new Matrix4());
+  layer.keepOnly(new Set(["a"]));
+  layer.place(() => new Matrix4());
+  expect(layer.segments).toBe(0);
+});

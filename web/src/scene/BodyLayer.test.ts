@@ -1,0 +1,91 @@
+import {
+  Box3,
+  BoxGeometry,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  Raycaster,
+  Vector3,
+} from "three";
+import { expect, test } from "vitest";
+import { BodyLayer } from "./BodyLayer";
+import type { ModelTemplate } from "./ModelTemplate";
+import { HERE, body, scene } from "./testScene";
+
+function template(): ModelTemplate {
+  const part = (link: string, x: number) => ({
+    geometry: new BoxGeometry(0.4, 0.4, 0.4),
+    material: new MeshBasicMaterial(),
+    link,
+    linkFromPart: new Matrix4(),
+    modelFromPart: new Matrix4().makeTranslation(x, 0, 0),
+  });
+  return { parts: [part("chassis", 0), part("wheel", 1)], bounds: new Box3() };
+}
+
+const wallPose = [3, 0, 0, 0, 0, 0, 1];
+
+function layer(): BodyLayer {
+  const bodies = new BodyLayer(
+    scene({
+      bodies: [
+        body("wall", { model: "wall-1", isStatic: true, isRobot: false, pose: wallPose }),
+        body("a"),
+        body("b"),
+      ],
+      poses: [
+        { body: 1, link: null },
+        { body: 1, link: "wheel" },
+        { body: 2, link: null },
+      ],
+    }),
+  );
+  bodies.addModel("cart-1", template());
+  bodies.addModel("wall-1", template());
+  return bodies;
+}
+
+function poses(...xs: number[]): Float64Array {
+  return Float64Array.from(xs.flatMap((x) => [x, ...HERE.slice(1)]));
+}
+
+function matrixX(mesh: Mesh, instance: number): number {
+  const matrix = new Matrix4();
+  if (mesh instanceof InstancedMesh) mesh.getMatrixAt(instance, matrix);
+  else matrix.copy(mesh.matrix);
+  return new Vector3().setFromMatrixPosition(matrix).x;
+}
+
+test("bodies of one model are drawn together, a single one alone", () => {
+  const kinds = layer().group.children.map((mesh) => (mesh instanceof InstancedMesh ? mesh.count : 1));
+  expect(kinds).toEqual([2, 2, 1, 1]);
+});
+
+test("a moving link follows its own pose, every other part its body's", () => {
+  const bodies = layer();
+  bodies.setPoses(poses(10, 11.5, 20));
+  const [chassis, wheel] = bodies.group.children as [Mesh, Mesh];
+  expect([matrixX(chassis, 0), matrixX(chassis, 1)]).toEqual([10, 20]);
+  expect([matrixX(wheel, 0), matrixX(wheel, 1)]).toEqual([11.5, 21]);
+});
+
+test("what is static stays where the scene puts it", () => {
+  const bodies = layer();
+  bodies.setPoses(poses(10, 11.5, 20));
+  expect(matrixX(bodies.group.children[2] as Mesh, 0)).toBe(3);
+});
+
+test("a ray from above picks the robot below it after it moved", () => {
+  const bodies = layer();
+  bodies.group.updateMatrixWorld(true);
+  const down = (x: number) => new Raycaster(new Vector3(x, 0, 5), new Vector3(0, 0, -1));
+  bodies.setPoses(poses(10, 11.5, 20));
+  expect(bodies.pick(down(20))?.name).toBe("b");
+  expect(bodies.pick(down(10))?.name).toBe("a");
+  bodies.setPoses(poses(-2, -1, 20));
+  expect(bodies.pick(down(-2))?.name).toBe("a");
+  expect(bodies.pick(down(10))).toBeNull();
+  bodies.group.updateMatrixWorld(true);
+  expect(bodies.pick(down(3))?.name).toBe("wall");
+});

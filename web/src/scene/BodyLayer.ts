@@ -1,0 +1,151 @@
+// The bodies of a scene. Bodies of one model share its geometry and are drawn in one call for each
+// part; a link that moves against its model is placed by its own pose.
+import type { Intersection, Raycaster } from "three";
+import { Group, InstancedMesh, Matrix4, Mesh, Quaternion, Vector3 } from "three";
+import type { PoseNumbers, SceneBody, SceneDescription } from "../api/scene";
+import type { ModelPart, ModelTemplate } from "./ModelTemplate";
+
+// A part of a body that moves: where its matrix is written after each update.
+interface MovingPart {
+  mesh: Mesh | InstancedMesh;
+  instance: number;
+  frame: Matrix4;
+  frameFromPart: Matrix4;
+}
+
+const UNIT_SCALE = new Vector3(1, 1, 1);
+
+export class BodyLayer {
+  readonly group = new Group();
+  private readonly worldFromBody: Matrix4[];
+  private readonly worldFromLink: Map<string, Matrix4>[];
+  private readonly frames: Matrix4[]; // one for each entry of the scene's poses
+  private readonly templates = new Map<string, ModelTemplate>();
+  private readonly bodiesOfMesh = new Map<Mesh, number[]>();
+  private readonly moving: MovingPart[] = [];
+  private readonly indices: Map<string, number>;
+  private readonly poseEntries: Map<string, number>;
+
+  constructor(readonly scene: SceneDescription) {
+    this.worldFromBody = scene.bodies.map((body) => matrixOf(body.pose));
+    this.worldFromLink = scene.bodies.map(() => new Map());
+    this.frames = scene.poses.map(({ body, link }) => {
+      if (link === null) return this.worldFromBody[body]!;
+      const frame = new Matrix4().copy(this.worldFromBody[body]!);
+      this.worldFromLink[body]!.set(link, frame);
+      return frame;
+    });
+    this.indices = new Map(scene.bodies.map(({ name }, index) => [name, index]));
+    this.poseEntries = new Map(
+      scene.poses.flatMap(({ body, link }, entry) =>
+        link === null ? [[scene.bodies[body]!.name, entry] as const] : [],
+      ),
+    );
+  }
+
+  // Shows all bodies of a model.
+  addModel(id: string, template: ModelTemplate): void {
+    this.templates.set(id, template);
+    const bodies = this.scene.bodies.flatMap((body, index) => (body.model === id ? [index] : []));
+    for (const part of template.parts) this.addPart(part, bodies);
+  }
+
+  // The poses in the order of the scene's list, seven numbers each.
+  setPoses(poses: Float64Array): void {
+    this.frames.forEach((frame, index) => readMatrix(poses, 7 * index, frame));
+    for (const part of this.moving) place(part);
+    for (const { mesh } of this.moving) {
+      if (mesh instanceof InstancedMesh) mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+
+  // -1 when there is no body of that name.
+  indexOf(name: string): number {
+    return this.indices.get(name) ?? -1;
+  }
+
+  // A body's own entry in the scene's poses; null when it has none.
+  poseEntryOf(name: string): number | null {
+    return this.poseEntries.get(name) ?? null;
+  }
+
+  // world_from_body, as shown now; it changes with the next poses.
+  poseOf(body: number): Matrix4 | null {
+    return this.worldFromBody[body] ?? null;
+  }
+
+  templateOf(body: number): ModelTemplate | null {
+    const model = this.scene.bodies[body]?.model;
+    return (model !== undefined && this.templates.get(model)) || null;
+  }
+
+  // The body that the ray meets first.
+  pick(raycaster: Raycaster): SceneBody | null {
+    for (const mesh of this.bodiesOfMesh.keys()) {
+      if (mesh instanceof InstancedMesh) mesh.computeBoundingSphere();
+    }
+    const hit = raycaster.intersectObject(this.group, true)[0];
+    return hit ? this.bodyAt(hit) : null;
+  }
+
+  dispose(): void {
+    for (const mesh of this.bodiesOfMesh.keys()) if (mesh instanceof InstancedMesh) mesh.dispose();
+    this.group.removeFromParent();
+  }
+
+  private bodyAt(hit: Intersection): SceneBody | null {
+    const bodies = this.bodiesOfMesh.get(hit.object as Mesh);
+    const index = bodies?.[hit.instanceId ?? 0];
+    return index === undefined ? null : (this.scene.bodies[index] ?? null);
+  }
+
+  private addPart(part: ModelPart, bodies: number[]): void {
+    const mesh =
+      bodies.length === 1
+        ? new Mesh(part.geometry, part.material)
+        : new InstancedMesh(part.geometry, part.material, bodies.length);
+    mesh.matrixAutoUpdate = false;
+    mesh.castShadow = mesh.receiveShadow = !part.material.transparent;
+    bodies.forEach((body, instance) => {
+      const placed = this.placedPart(part, body, mesh, instance);
+      place(placed);
+      if (this.scene.bodies[body]!.isStatic) return;
+      this.moving.push(placed);
+      mesh.frustumCulled = false;
+    });
+    this.bodiesOfMesh.set(mesh, bodies);
+    this.group.add(mesh);
+  }
+
+  private placedPart(part: ModelPart, body: number, mesh: Mesh, instance: number): MovingPart {
+    const link = part.link === null ? undefined : this.worldFromLink[body]!.get(part.link);
+    return link
+      ? { mesh, instance, frame: link, frameFromPart: part.linkFromPart }
+      : { mesh, instance, frame: this.worldFromBody[body]!, frameFromPart: part.modelFromPart };
+  }
+}
+
+const worldFromPart = new Matrix4();
+
+function place({ mesh, instance, frame, frameFromPart }: MovingPart): void {
+  worldFromPart.multiplyMatrices(frame, frameFromPart);
+  if (mesh instanceof InstancedMesh) {
+    mesh.setMatrixAt(instance, worldFromPart);
+  } else {
+    mesh.matrix.copy(worldFromPart);
+    mesh.matrixWorldNeedsUpdate = true;
+  }
+}
+
+const position = new Vector3();
+const rotation = new Quaternion();
+
+function readMatrix(numbers: ArrayLike<number>, at: number, out: Matrix4): Matrix4 {
+  position.set(numbers[at]!, numbers[at + 1]!, numbers[at + 2]!);
+  rotation.set(numbers[at + 3]!, numbers[at + 4]!, numbers[at + 5]!, numbers[at + 6]!);
+  return out.compose(position, rotation, UNIT_SCALE);
+}
+
+export function matrixOf(pose: PoseNumbers | Float64Array, at = 0): Matrix4 {
+  return readMatrix(pose, at, new Matrix4());
+}

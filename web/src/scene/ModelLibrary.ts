@@ -1,0 +1,40 @@
+// Fetches models by ID, each once, and keeps those that the present scene uses.
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import type { ModelTemplate } from "./ModelTemplate";
+import { disposeTemplate, makeTemplate } from "./ModelTemplate";
+
+export class ModelLibrary {
+  private readonly loader = new GLTFLoader();
+  private readonly templates = new Map<string, Promise<ModelTemplate>>();
+
+  constructor(private readonly urlOf: (id: string) => string) {}
+
+  // Fails with a sentence; a later call tries again.
+  get(id: string, links: readonly string[]): Promise<ModelTemplate> {
+    let template = this.templates.get(id);
+    if (!template) {
+      template = this.fetch(id, links);
+      this.templates.set(id, template);
+      template.catch(() => this.templates.delete(id));
+    }
+    return template;
+  }
+
+  // Lets go of every model that is not among these.
+  keepOnly(ids: ReadonlySet<string>): void {
+    for (const [id, template] of [...this.templates]) {
+      if (ids.has(id)) continue;
+      this.templates.delete(id);
+      template.then(disposeTemplate).catch(() => {});
+    }
+  }
+
+  private async fetch(id: string, links: readonly string[]): Promise<ModelTemplate> {
+    try {
+      const { scene } = await this.loader.loadAsync(this.urlOf(id));
+      return makeTemplate(scene, links);
+    } catch (error) {
+      throw new Error(`The shape of model ${id} cannot be shown: ${(error as Error).message}`);
+    }
+  }
+}

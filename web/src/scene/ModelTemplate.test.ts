@@ -1,0 +1,49 @@
+import { BoxGeometry, Mesh, MeshBasicMaterial, Object3D, Vector3 } from "three";
+import { expect, test } from "vitest";
+import { makeTemplate } from "./ModelTemplate";
+
+// A cart: its body lifted by 0.5 m, a wheel link at y = 0.3 whose mesh is shifted by 0.1 in x.
+function cart(): Object3D {
+  const root = new Object3D();
+  const chassis = new Object3D();
+  chassis.userData.name = "chassis";
+  chassis.position.set(0, 0, 0.5);
+  chassis.add(new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial()));
+  const wheel = new Object3D();
+  wheel.name = "wheelleft"; // as GLTFLoader cleans it
+  wheel.userData.name = "wheel:left";
+  wheel.position.set(0, 0.3, 0);
+  const tyre = new Mesh(new BoxGeometry(0.2, 0.2, 0.2), new MeshBasicMaterial());
+  tyre.position.set(0.1, 0, 0);
+  wheel.add(tyre);
+  root.add(chassis, wheel);
+  return root;
+}
+
+test("each part knows its link by the original name", () => {
+  const { parts } = makeTemplate(cart(), ["chassis", "wheel:left"]);
+  expect(parts.map((part) => part.link)).toEqual(["chassis", "wheel:left"]);
+});
+
+test("parts are placed both in their link and in the model", () => {
+  const { parts } = makeTemplate(cart(), ["chassis", "wheel:left"]);
+  const tyre = parts[1]!;
+  expect(new Vector3().setFromMatrixPosition(tyre.linkFromPart).toArray()).toEqual([0.1, 0, 0]);
+  expect(new Vector3().setFromMatrixPosition(tyre.modelFromPart).toArray()).toEqual([0.1, 0.3, 0]);
+});
+
+test("a mesh that belongs to no link hangs under the model", () => {
+  const { parts } = makeTemplate(cart(), ["wheel:left"]);
+  expect(parts[0]!.link).toBeNull();
+  expect(new Vector3().setFromMatrixPosition(parts[0]!.linkFromPart).toArray()).toEqual([0, 0, 0.5]);
+});
+
+test("the bounds hold all parts", () => {
+  const { bounds } = makeTemplate(cart(), ["chassis", "wheel:left"]);
+  expect(bounds.min.toArray()).toEqual([-0.5, -0.5, expect.closeTo(-0.1)]);
+  expect(bounds.max.toArray()).toEqual([0.5, 0.5, 1]);
+});
+
+test("a model without shapes has empty bounds", () => {
+  expect(makeTemplate(new Object3D(), []).bounds.isEmpty()).toBe(true);
+});

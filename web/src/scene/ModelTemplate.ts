@@ -1,0 +1,68 @@
+// One model's shape, fetched once and placed many times: the drawable parts of its links.
+import type { BufferGeometry, Material, Mesh, Object3D } from "three";
+import { Box3, Matrix4 } from "three";
+
+export interface ModelPart {
+  geometry: BufferGeometry;
+  material: Material;
+  link: string | null; // null: hangs directly under the model
+  linkFromPart: Matrix4;
+  modelFromPart: Matrix4;
+}
+
+export interface ModelTemplate {
+  parts: ModelPart[];
+  bounds: Box3; // in the model's frame; empty when nothing is drawn
+}
+
+// `root` holds one node for each link, named by it. GLTFLoader alters names and keeps the original
+// in the node's userData.
+export function makeTemplate(root: Object3D, links: readonly string[]): ModelTemplate {
+  root.updateMatrixWorld(true);
+  const modelFromWorld = root.matrixWorld.clone().invert();
+  const linkNames = new Set(links);
+  const template: ModelTemplate = { parts: [], bounds: new Box3() };
+  root.traverse((node) => {
+    const mesh = node as Mesh;
+    if (!mesh.isMesh) return;
+    const linkNode = linkAbove(node, root, linkNames);
+    const frame = linkNode ?? root;
+    const part: ModelPart = {
+      geometry: mesh.geometry,
+      material: Array.isArray(mesh.material) ? mesh.material[0]! : mesh.material,
+      link: linkNode ? originalName(linkNode) : null,
+      linkFromPart: frame.matrixWorld.clone().invert().multiply(mesh.matrixWorld),
+      modelFromPart: modelFromWorld.clone().multiply(mesh.matrixWorld),
+    };
+    template.parts.push(part);
+    template.bounds.union(boundsOf(part));
+  });
+  return template;
+}
+
+export function disposeTemplate(template: ModelTemplate): void {
+  for (const { geometry, material } of template.parts) {
+    geometry.dispose();
+    for (const value of Object.values(material)) {
+      if ((value as { isTexture?: boolean } | null)?.isTexture) value.dispose();
+    }
+    material.dispose();
+  }
+}
+
+function originalName(node: Object3D): string {
+  const name: unknown = node.userData.name;
+  return typeof name === "string" ? name : node.name;
+}
+
+function linkAbove(node: Object3D, root: Object3D, links: Set<string>): Object3D | null {
+  for (let each: Object3D | null = node; each && each !== root; each = each.parent) {
+    if (links.has(originalName(each))) return each;
+  }
+  return null;
+}
+
+function boundsOf(part: ModelPart): Box3 {
+  if (!part.geometry.boundingBox) part.geometry.computeBoundingBox();
+  return (part.geometry.boundingBox ?? new Box3()).clone().applyMatrix4(part.modelFromPart);
+}

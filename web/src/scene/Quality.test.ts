@@ -1,0 +1,33 @@
+import { expect, test } from "vitest";
+import { Quality } from "./Quality";
+
+function frames(quality: Quality, count: number, milliseconds: number): void {
+  for (let i = 0; i < count; i++) quality.frameTook(milliseconds);
+}
+
+test("a dense screen is drawn at no more than two pixels for each of the page's", () => {
+  expect(new Quality(3, false).pixelRatio).toBe(2);
+});
+
+test("slow frames cost pixels, down to a bound", () => {
+  const quality = new Quality(1, false);
+  frames(quality, 11, 80);
+  expect(quality.pixelRatio).toBe(1);
+  frames(quality, 1, 80);
+  expect(quality.pixelRatio).toBeCloseTo(0.8);
+  frames(quality, 1000, 80);
+  expect(quality.pixelRatio).toBeCloseTo(0.6);
+});
+
+test("the pixels come back when there is time for them", () => {
+  const quality = new Quality(1, false);
+  frames(quality, 12, 80);
+  frames(quality, 1000, 10);
+  expect(quality.pixelRatio).toBe(1);
+});
+
+test("a fixed quality stays", () => {
+  const quality = new Quality(1, true);
+  frames(quality, 1000, 80);
+  expect(quality.pixelRatio).toBe(1);
+});

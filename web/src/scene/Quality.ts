@@ -1,0 +1,50 @@
+// Keeps the picture fluent where drawing is slow, as without a graphics card: fewer pixels, then
+// more again when there is time.
+
+const SLOW_MS = 55;
+const FAST_MS = 20;
+const PATIENCE = 12; // frames in a row
+const LOWEST = 0.6;
+const HIGHEST_DEVICE_RATIO = 2;
+
+export class Quality {
+  private scale = 1;
+  private slow = 0;
+  private fast = 0;
+
+  constructor(
+    private readonly deviceRatio: number,
+    private readonly fixed: boolean,
+  ) {}
+
+  // Device pixels for each pixel of the page.
+  get pixelRatio(): number {
+    return Math.min(HIGHEST_DEVICE_RATIO, this.deviceRatio) * this.scale;
+  }
+
+  // Told the time between two successive frames; true when the pixel ratio changed.
+  frameTook(milliseconds: number): boolean {
+    if (this.fixed) return false;
+    this.slow = milliseconds > SLOW_MS ? this.slow + 1 : 0;
+    this.fast = milliseconds < FAST_MS ? this.fast + 1 : 0;
+    if (this.slow >= PATIENCE && this.scale > LOWEST) return this.rescale(this.scale * 0.8);
+    if (this.fast >= 10 * PATIENCE && this.scale < 1) return this.rescale(this.scale * 1.25);
+    return false;
+  }
+
+  private rescale(scale: number): boolean {
+    this.scale = Math.min(1, Math.max(LOWEST, scale));
+    this.slow = this.fast = 0;
+    return true;
+  }
+}
+
+// Whether the browser has no graphics card to draw with.
+export function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return true;
+  const names = gl.getExtension("WEBGL_debug_renderer_info");
+  const renderer: unknown = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(String(renderer));
+}

@@ -1,0 +1,60 @@
+import { Box3, PerspectiveCamera, Vector3 } from "three";
+import { expect, test } from "vitest";
+import { fittingDistance, focusOf } from "./framing";
+import { body, scene } from "./testScene";
+
+function camera(aspect: number): PerspectiveCamera {
+  const made = new PerspectiveCamera(60, aspect, 0.1, 1000);
+  made.up.set(0, 0, 1);
+  return made;
+}
+
+test("looking along x at a flat square, the distance is half its height over the tangent", () => {
+  const box = new Box3(new Vector3(0, -2, -2), new Vector3(0, 2, 2));
+  const distance = fittingDistance(camera(1), box, new Vector3(1, 0, 0));
+  expect(distance).toBeCloseTo(2 / Math.tan(Math.PI / 6), 9);
+});
+
+test("a tall picture needs more distance for the width", () => {
+  const box = new Box3(new Vector3(0, -2, -2), new Vector3(0, 2, 2));
+  const distance = fittingDistance(camera(0.5), box, new Vector3(1, 0, 0));
+  expect(distance).toBeCloseTo(4 / Math.tan(Math.PI / 6), 9);
+});
+
+test("from that distance every corner is in the picture, and one is at its edge", () => {
+  const box = new Box3(new Vector3(-3, 1, 0), new Vector3(6, 9, 2.5));
+  const direction = new Vector3(0.3, 0.8, -0.9).normalize();
+  const eye = camera(1.6);
+  const centre = box.getCenter(new Vector3());
+  eye.position.copy(centre).addScaledVector(direction, -fittingDistance(eye, box, direction));
+  eye.lookAt(centre);
+  eye.updateMatrixWorld(true);
+  let outermost = 0;
+  for (let i = 0; i < 8; i++) {
+    const corner = new Vector3(
+      i & 1 ? box.max.x : box.min.x,
+      i & 2 ? box.max.y : box.min.y,
+      i & 4 ? box.max.z : box.min.z,
+    ).project(eye);
+    outermost = Math.max(outermost, Math.abs(corner.x), Math.abs(corner.y));
+  }
+  expect(outermost).toBeCloseTo(1, 9);
+});
+
+test("a small world is shown whole, but not its whole height", () => {
+  const focus = focusOf(scene({ bounds: { min: [-5, -4, 0], max: [5, 4, 12] } }));
+  expect(focus.min.toArray()).toEqual([-5, -4, 0]);
+  expect(focus.max.toArray()).toEqual([5, 4, 3]);
+});
+
+test("in a large world the robots are what counts", () => {
+  const robots = [body("a", { pose: [10, 0, 0, 0, 0, 0, 1] }), body("b", { pose: [12, 2, 0, 0, 0, 0, 1] })];
+  const focus = focusOf(scene({ bounds: { min: [-500, -500, 0], max: [500, 500, 1] }, bodies: robots }));
+  expect(focus.min.toArray()).toEqual([6, -4, 0]);
+  expect(focus.max.toArray()).toEqual([16, 6, 1]);
+});
+
+test("a large world without robots is shown from its middle", () => {
+  const focus = focusOf(scene({ bounds: { min: [-500, -500, 0], max: [500, 500, 1] } }));
+  expect(focus.getSize(new Vector3()).toArray()).toEqual([26, 26, 1]);
+});

@@ -1,0 +1,58 @@
+// Where a camera stands to see a part of the world.
+import { Box3, Matrix4, PerspectiveCamera, Vector3 } from "three";
+import type { SceneDescription } from "../api/scene";
+import { robotsOf } from "../api/scene";
+
+const UP = new Vector3(0, 0, 1);
+const AROUND_ROBOTS = 4; // m of the world around the robots that belong into the first picture
+const SMALL_WORLD = 13; // m: a world of at most this half-width is shown whole
+const TALLEST_SHOWN = 3; // m: what rises higher does not push the camera away
+
+// The part of the scene that the first picture shows: all of a small world, else the robots and
+// what is around them.
+export function focusOf(scene: SceneDescription): Box3 {
+  const world = new Box3(new Vector3(...scene.bounds.min), new Vector3(...scene.bounds.max));
+  const robots = new Box3();
+  for (const { pose } of robotsOf(scene)) robots.expandByPoint(new Vector3(pose[0], pose[1], pose[2]));
+  const size = world.getSize(new Vector3());
+  const isSmall = Math.max(size.x, size.y) <= 2 * SMALL_WORLD;
+  if (!world.isEmpty() && (isSmall || robots.isEmpty())) {
+    const focus = isSmall ? world.clone().union(robots) : boxAround(new Vector3(), SMALL_WORLD);
+    focus.max.z = Math.min(focus.max.z, focus.min.z + TALLEST_SHOWN);
+    return focus;
+  }
+  if (robots.isEmpty()) return boxAround(new Vector3(), AROUND_ROBOTS);
+  robots.expandByVector(new Vector3(AROUND_ROBOTS, AROUND_ROBOTS, 0));
+  robots.max.z += 1;
+  return robots;
+}
+
+function boxAround(centre: Vector3, halfWidth: number): Box3 {
+  return new Box3(
+    new Vector3(centre.x - halfWidth, centre.y - halfWidth, 0),
+    new Vector3(centre.x + halfWidth, centre.y + halfWidth, 1),
+  );
+}
+
+// How far from the box's centre, looking along `direction`, a camera must stand so that each of the
+// box's corners is in the picture. With a corner at (x, y) in the picture's plane and z nearer to the
+// camera than the centre, that is z + |x| / tan(half the horizontal field), and the same for y.
+export function fittingDistance(camera: PerspectiveCamera, box: Box3, direction: Vector3): number {
+  const tanY = Math.tan((camera.fov * Math.PI) / 360);
+  const tanX = tanY * camera.aspect;
+  const centre = box.getCenter(new Vector3());
+  const back = direction.clone().normalize().negate();
+  const view = new Matrix4().lookAt(back, new Vector3(), UP).transpose();
+  let distance = 0;
+  for (let corner = 0; corner < 8; corner++) {
+    const at = new Vector3(
+      corner & 1 ? box.max.x : box.min.x,
+      corner & 2 ? box.max.y : box.min.y,
+      corner & 4 ? box.max.z : box.min.z,
+    )
+      .sub(centre)
+      .applyMatrix4(view);
+    distance = Math.max(distance, at.z + Math.abs(at.x) / tanX, at.z + Math.abs(at.y) / tanY);
+  }
+  return distance;
+}

@@ -1,0 +1,48 @@
+// What a person means with a click: places are in CSS pixels of the page.
+import type { Camera } from "three";
+import { Raycaster, Vector2 } from "three";
+
+export interface ScreenPlace {
+  x: number;
+  y: number;
+}
+
+const NEAREST_PX = 18; // a click this near to a robot means it: small ones are hard to hit
+const DRAG_PX = 5;
+
+// Calls back for presses that are not the end of a drag.
+export function onClick(canvas: HTMLCanvasElement, listener: (place: ScreenPlace) => void): void {
+  let down: ScreenPlace | null = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    down = event.isPrimary && event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
+  });
+  canvas.addEventListener("pointerup", ({ clientX: x, clientY: y }) => {
+    if (down && Math.hypot(x - down.x, y - down.y) <= DRAG_PX) listener({ x, y });
+    down = null;
+  });
+}
+
+// The ray from the eye through a place in the picture that fills `frame`.
+export function rayThrough(place: ScreenPlace, frame: DOMRect, camera: Camera): Raycaster {
+  const x = (2 * (place.x - frame.left)) / frame.width - 1;
+  const y = 1 - (2 * (place.y - frame.top)) / frame.height;
+  const raycaster = new Raycaster();
+  raycaster.setFromCamera(new Vector2(x, y), camera);
+  return raycaster;
+}
+
+// The one drawn nearest to the place, if it is near at all.
+export function nearest(
+  place: ScreenPlace,
+  robots: { name: string; at: ScreenPlace | null }[],
+): string | null {
+  let best: string | null = null;
+  let bestPx = NEAREST_PX;
+  for (const { name, at } of robots) {
+    const px = at ? Math.hypot(at.x - place.x, at.y - place.y) : Infinity;
+    if (px > bestPx) continue;
+    best = name;
+    bestPx = px;
+  }
+  return best;
+}

@@ -1,0 +1,55 @@
+// The page's state, in one place. Panels watch the part that they show; nothing else is shared
+// between them.
+
+export type Listener<T> = (value: T, previous: T | undefined) => void;
+
+export class Store<State extends object> {
+  private state: State;
+  private readonly watchers = new Set<() => void>();
+
+  constructor(initial: State) {
+    this.state = initial;
+  }
+
+  get(): State {
+    return this.state;
+  }
+
+  set(change: Partial<State> | ((state: State) => Partial<State>)): void {
+    const patch = typeof change === "function" ? change(this.state) : change;
+    this.state = { ...this.state, ...patch };
+    for (const notify of [...this.watchers]) notify();
+  }
+
+  // Calls `listener` now and whenever the selected part is another one (by `equal`) from then on.
+  // Gives the function that ends this.
+  watch<T>(
+    select: (state: State) => T,
+    listener: Listener<T>,
+    equal: (a: T, b: T) => boolean = Object.is,
+  ): () => void {
+    let current = select(this.state);
+    const notify = () => {
+      if (!this.watchers.has(notify)) return;
+      const next = select(this.state);
+      if (equal(next, current)) return;
+      const previous = current;
+      current = next;
+      listener(next, previous);
+    };
+    this.watchers.add(notify);
+    listener(current, undefined);
+    return () => this.watchers.delete(notify);
+  }
+}
+
+// Equal when both have the same members: for selectors that build an object or a list.
+export function shallowEqual(a: unknown, b: unknown): boolean {
+  if (Object.is(a, b)) return true;
+  if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;
+  const keys = Object.keys(a);
+  if (keys.length !== Object.keys(b).length) return false;
+  return keys.every((key) =>
+    Object.is((a as Record<string, unknown>)[key], (b as Record<string, unknown>)[key]),
+  );
+}

@@ -1,0 +1,37 @@
+// What a person may do in each phase of a simulation. The server has the last word.
+import type { Action } from "../api/SimulationApi";
+import type { Phase } from "../api/status";
+
+const ALLOWED: Record<Phase, readonly Action[]> = {
+  created: ["start", "step", "stop", "reset"],
+  starting: ["pause", "stop", "reset"],
+  running: ["pause", "stop", "reset"],
+  paused: ["resume", "step", "stop", "reset"],
+  stopped: ["reset"],
+  finished: ["reset"],
+  failed: ["reset"],
+};
+
+export function isAllowed(phase: Phase | undefined, action: Action): boolean {
+  return phase !== undefined && ALLOWED[phase].includes(action);
+}
+
+// The one action that the main button stands for: what makes it run, or stand still.
+export function mainAction(phase: Phase | undefined): "start" | "pause" | "resume" {
+  if (phase === "running" || phase === "starting") return "pause";
+  return phase === "paused" ? "resume" : "start";
+}
+
+const SENTENCES: Record<Phase, string> = {
+  created: "Ready to start",
+  starting: "Starting",
+  running: "Running",
+  paused: "Paused",
+  stopped: "Stopped",
+  finished: "Finished",
+  failed: "Failed",
+};
+
+export function phaseLabel(phase: Phase): string {
+  return SENTENCES[phase];
+}

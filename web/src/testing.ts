@@ -1,0 +1,66 @@
+// window.gsv: what browser tests and scripts can ask the page. web/README.md documents it; nothing
+// else in the page uses it.
+import type { World3D } from "./scene/World3D";
+import type { State } from "./state/State";
+import type { Store } from "./state/Store";
+
+export interface PageHandle {
+  // Resolves once the first scene is there with all its shapes, and has been drawn.
+  ready: Promise<void>;
+  // Pictures drawn so far.
+  readonly frames: number;
+  // Simulated seconds, as shown.
+  readonly time: number;
+  readonly phase: string | null;
+  // The names of the robots.
+  readonly robots: string[];
+  // Where the robot's middle is drawn, in CSS pixels of the page; null outside of the picture.
+  robotScreenPosition(name: string): { x: number; y: number } | null;
+}
+
+declare global {
+  interface Window {
+    gsv: PageHandle;
+  }
+}
+
+export function exposeForTests(store: Store<State>, world: World3D | null): void {
+  window.gsv = {
+    ready: firstPicture(store, world),
+    get frames() {
+      return world?.frames ?? 0;
+    },
+    get time() {
+      return store.get().time;
+    },
+    get phase() {
+      return store.get().status?.phase ?? null;
+    },
+    get robots() {
+      return store.get().status?.robots.map(({ name }) => name) ?? [];
+    },
+    robotScreenPosition: (name) => world?.screenPosition(name) ?? null,
+  };
+}
+
+function firstPicture(store: Store<State>, world: World3D | null): Promise<void> {
+  return new Promise((resolve) => {
+    let framesThen = -1;
+    const unwatch = store.watch(
+      ({ scene, modelsMissing }) => scene !== null && modelsMissing === 0,
+      (complete) => {
+        if (!complete || framesThen >= 0) return;
+        framesThen = world?.frames ?? 0;
+        const check = () => {
+          if (world && world.frames <= framesThen) {
+            requestAnimationFrame(check);
+            return;
+          }
+          unwatch();
+          resolve();
+        };
+        requestAnimationFrame(check);
+      },
+    );
+  });
+}

@@ -1,0 +1,26 @@
+// Builds parts of the page. Text is always set as text: a name with markup in it shows as it is.
+
+type Child = Node | string | null | false;
+type Attributes = Record<string, string | boolean | ((event: never) => void)>;
+
+// element("button", { class: "plain", title: "Close", onclick: close }, "×"): names that begin with
+// "on" are listeners, everything else is an attribute; true means present, false absent.
+export function element<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") made.addEventListener(name.slice(2), value as EventListener);
+    else if (value === true) made.setAttribute(name, "");
+    else if (value !== false) made.setAttribute(name, value);
+  }
+  made.append(...children.filter((child): child is Node | string => child !== null && child !== false));
+  return made;
+}
+
+// Writes only what differs: a text that is set anew loses the reader's selection.
+export function setText(node: Node, text: string): void {
+  if (node.textContent !== text) node.textContent = text;
+}

@@ -1,0 +1,48 @@
+import { expect, test } from "vitest";
+import { count, formatDistance, formatFactor, formatNumber, formatTime } from "./format";
+
+test.each([
+  [0, "0:00.00"],
+  [0.07, "0:00.07"],
+  [59.999, "0:59.99"],
+  [75.25, "1:15.25"],
+  [3675.25, "1:01:15.25"],
+  [-1, "0:00.00"],
+])("%f s reads %s", (seconds, text) => {
+  expect(formatTime(seconds)).toBe(text);
+});
+
+test("a time that binary fractions only approach is not shown a hundredth early", () => {
+  expect(formatTime(1.15)).toBe("0:01.15");
+  expect(formatTime(0.29)).toBe("0:00.29");
+});
+
+test.each([
+  [0.9871, "0.99×"],
+  [1, "1.00×"],
+  [12.34, "12.3×"],
+  [250.2, "250×"],
+])("a factor of %f reads %s", (factor, text) => {
+  expect(formatFactor(factor)).toBe(text);
+});
+
+test.each([
+  [0.123, "0.12 m"],
+  [345.67, "345.7 m"],
+  [1234.5, "1.23 km"],
+])("%f m reads %s", (metres, text) => {
+  expect(formatDistance(metres)).toBe(text);
+});
+
+test("a zero has no sign", () => {
+  expect(formatNumber(-0.0001, 2)).toBe("0.00");
+  expect(formatNumber(-0.1, 2)).toBe("-0.10");
+});
+
+test("one of a thing is singular", () => {
+  expect([count(1, "robot"), count(0, "robot"), count(2, "robot")]).toEqual([
+    "1 robot",
+    "0 robots",
+    "2 robots",
+  ]);
+});

@@ -1,0 +1,34 @@
+// Numbers as people read them.
+
+// 75.25 → "1:15.25"; from an hour on "1:01:15.25". Not rounded up: the time has been reached.
+export function formatTime(seconds: number): string {
+  const hundredths = Math.max(0, Math.floor(seconds * 100 + 1e-6));
+  const two = (value: number) => String(value).padStart(2, "0");
+  const s = Math.floor(hundredths / 100);
+  const tail = `${two(s % 60)}.${two(hundredths % 100)}`;
+  const minutes = Math.floor(s / 60);
+  if (minutes < 60) return `${minutes}:${tail}`;
+  return `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${tail}`;
+}
+
+// 0.9871 → "0.99×", 12.34 → "12.3×", 250.2 → "250×".
+export function formatFactor(factor: number): string {
+  const digits = factor < 10 ? 2 : factor < 100 ? 1 : 0;
+  return `${factor.toFixed(digits)}×`;
+}
+
+// 0.123 → "0.12 m", 1234.5 → "1.23 km".
+export function formatDistance(metres: number): string {
+  if (metres >= 1000) return `${(metres / 1000).toFixed(2)} km`;
+  return `${metres.toFixed(metres < 100 ? 2 : 1)} m`;
+}
+
+// Without a minus before a zero.
+export function formatNumber(value: number, digits: number): string {
+  const text = value.toFixed(digits);
+  return Number(text) === 0 ? text.replace("-", "") : text;
+}
+
+export function count(number: number, one: string, many = `${one}s`): string {
+  return `${number} ${number === 1 ? one : many}`;
+}

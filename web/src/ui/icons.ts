@@ -1,0 +1,45 @@
+// The page's pictograms, drawn on a square of 24.
+
+const PATHS = {
+  play: "M7 4.5v15l13-7.5z",
+  pause: "M6.500 4.500h4v15h-4zM13.500 4.500h4v15h-4z",
+  stop: "M6 6h12v12H6z",
+  step: "M5 4.500v15l10-7.500zM16.500 4.500h3v15h-3z",
+  reset: "M12 5a7 7 0 1 1-6.700 5l-1.900-.6A9 9 0 1 0 12 3V0L7.500 4 12 8z",
+  top: "M12 3l9 5-9 5-9-5zM3 12l9 5 9-5v2.300l-9 5-9-5z",
+  home: "M12 3.500 2.500 12H5v8h5.500v-5.500h3V20H19v-8h2.500z",
+  follow:
+    "M12 2v3.100A7 7 0 0 1 18.900 11H22v2h-3.100A7 7 0 0 1 13 18.900V22h-2v-3.100A7 7 0 0 1 5.100 13H2v-2h3.100A7 7 0 0 1 11 5.100V2zm0 5a5 5 0 1 0 0 10 5 5 0 0 0 0-10zm0 2.500a2.500 2.500 0 1 1 0 5 2.500 2.500 0 0 1 0-5z",
+  beams:
+    "M4.500 19.500a3 3 0 1 0 0-.1zM8 15 19 3.500l1.500 1.400L9.400 16.400zM9.500 18.200 21.500 14l.7 1.900-12 4.200zM4.200 13.800 8.500 2l1.900.7-4.300 11.800z",
+  label: "M3 5h11l7 7-7 7H3zm3.500 5.500a1.500 1.500 0 1 0 0 3 1.500 1.500 0 0 0 0-3z",
+  grid: "M3 3h18v18H3zm2 2v4h4V5zm6 0v4h4V5zm6 0v4h2V5zM5 11v4h4v-4zm6 0v4h4v-4zm6 0v4h2v-4zM5 17v2h4v-2zm6 0v2h4v-2zm6 0v2h2v-2z",
+  help: "M12 2a10 10 0 1 0 0 20 10 10 0 0 0 0-20zm-1 14.500h2v2h-2zm1-11a4 4 0 0 1 4 4c0 2.500-3 2.700-3 5.500h-2c0-3.600 3-3.800 3-5.500a2 2 0 0 0-4 0H8a4 4 0 0 1 4-4z",
+  list: "M4 5h3v3H4zm5 .5h11v2H9zM4 10.500h3v3H4zm5 .5h11v2H9zM4 16h3v3H4zm5 .5h11v2H9z",
+  camera: "M3 7h4l2-2.500h6L17 7h4v12H3zm9 2.500a4 4 0 1 0 0 8 4 4 0 0 0 0-8z",
+  enlarge:
+    "M4 4h7v2H7.400l3.800 3.800-1.400 1.400L6 7.400V11H4zm16 16h-7v-2h3.600l-3.800-3.800 1.400-1.400 3.800 3.800V13h2z",
+  close:
+    "M6.400 5 12 10.600 17.600 5 19 6.400 13.400 12l5.600 5.600-1.400 1.400-5.600-5.600L6.400 19 5 17.600l5.600-5.600L5 6.400z",
+  copy: "M8 3h12v13H8zM4 7h2v11h11v2H4z",
+} as const;
+
+export type IconName = keyof typeof PATHS;
+
+const SVG = "http://www.w3.org/2000/svg";
+
+export function icon(name: IconName): SVGSVGElement {
+  const svg = document.createElementNS(SVG, "svg");
+  svg.setAttribute("viewBox", "0 0 24 24");
+  svg.setAttribute("class", "icon");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS(SVG, "path");
+  path.setAttribute("d", PATHS[name]);
+  path.setAttribute("fill-rule", "evenodd");
+  svg.append(path);
+  return svg;
+}
+
+export function setIcon(svg: SVGSVGElement, name: IconName): void {
+  svg.querySelector("path")?.setAttribute("d", PATHS[name]);
+}
