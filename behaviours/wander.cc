@@ -1,6 +1,8 @@
 // Wanders about: goes forward where the eight sonars leave room, else turns to the freer side;
 // takes a picture every second.
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "sdk/behaviour/sonar_ring.h"
 #include "sdk/serve.h"
@@ -23,8 +25,11 @@ class Wander final : public Behaviour {
   void Run(Robot& robot) override {
     SimTime next_picture = robot.Now();
     do {
-      const DriveCommand command = Decide(robot.footprint_radius(), sonars_.Read());
+      const std::vector<SonarRing::Echo> echoes = sonars_.Read();
+      const DriveCommand command =
+          IsStuck(echoes) ? BackOut() : Decide(robot.footprint_radius(), echoes);
       robot.Drive(command.linear, command.angular);
+      going_ = command.linear > 0;
       if (camera_ != nullptr && robot.Now() >= next_picture) {
         camera_->TakePicture();
         next_picture += 1s;
@@ -58,7 +63,34 @@ class Wander final : public Behaviour {
     return {speed, drift_ < 200 ? 0.1 : -0.1};
   }
 
+  // Something between the beams holds the robot: it should go forward, and what it sees does not
+  // change for a second.
+  bool IsStuck(const std::vector<SonarRing::Echo>& echoes) {
+    if (backing_ > 0) return true;
+    double change = 0;
+    bool sees_anything = false;
+    for (std::size_t i = 0; i < echoes.size() && i < before_.size(); ++i) {
+      change += std::abs(echoes[i].distance - before_[i].distance);
+      sees_anything = sees_anything || echoes[i].in_reach;
+    }
+    still_ = going_ && sees_anything && change < 0.01 ? still_ + 1 : 0;
+    before_ = echoes;
+    if (still_ < 20) return false;
+    still_ = 0;
+    backing_ = 40;
+    return true;
+  }
+
+  DriveCommand BackOut() {
+    --backing_;
+    return backing_ > 20 ? DriveCommand{-0.2, 0.0} : DriveCommand{0.0, 0.9};
+  }
+
   SonarRing sonars_;
+  std::vector<SonarRing::Echo> before_;  // of the last cycle
+  bool going_ = false;
+  int still_ = 0;    // control cycles without a change
+  int backing_ = 0;  // control cycles of backing out that are left
   std::unique_ptr<Camera> camera_;
   int turn_ = 0;   // +1: to the left, -1: to the right, 0: going forward
   int drift_ = 0;  // control cycles

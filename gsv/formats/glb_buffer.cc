@@ -10,7 +10,8 @@ constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963, kNoTarget = 0;
 
 void Append(std::uint32_t value, std::vector<std::uint8_t>& out) {
-  for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::uint8_t>(value >> shift));
+  for (int shift = 0; shift < 32; shift += 8)
+    out.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
 void Pad(std::vector<std::uint8_t>& out, std::uint8_t with) {
@@ -31,10 +32,8 @@ int GlbBuffer::AddView(std::span<const T> values, int target) {
 }
 
 int GlbBuffer::AddAccessor(int view, int component_type, std::size_t count, const char* type) {
-  accessors_.push_back({{"bufferView", view},
-                        {"componentType", component_type},
-                        {"count", count},
-                        {"type", type}});
+  accessors_.push_back(
+      {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
   return static_cast<int>(accessors_.size()) - 1;
 }
 

@@ -76,9 +76,10 @@ class Writer {
                   {"scene", 0},
                   {"scenes", Json::array({{{"name", model.name}, {"nodes", roots}}})},
                   {"nodes", nodes_}};
-    for (const auto& [name, list] :
-         {std::pair{"meshes", &meshes_}, {"materials", &materials_}, {"textures", &textures_},
-          {"images", &images_}}) {
+    for (const auto& [name, list] : {std::pair{"meshes", &meshes_},
+                                     {"materials", &materials_},
+                                     {"textures", &textures_},
+                                     {"images", &images_}}) {
       if (!list->empty()) document[name] = *list;
     }
     if (!textures_.empty()) {

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <numbers>
 
-#include <assimp/Importer.hpp>
 #include <assimp/GltfMaterial.h>
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
+#include <assimp/Importer.hpp>
 #include <nlohmann/json.hpp>
 
 #include "gsv/formats/web_texture.h"
@@ -43,7 +43,8 @@ nlohmann::json JsonOf(const Bytes& glb) {
   return nlohmann::json::parse(glb.begin() + 20, glb.begin() + 20 + size);
 }
 
-model::Link LinkWith(const std::string& name, geometry::Shape shape, model::Material material = {}) {
+model::Link LinkWith(const std::string& name, geometry::Shape shape,
+                     model::Material material = {}) {
   model::Link link;
   link.name = name;
   link.visuals.resize(1);
@@ -68,7 +69,8 @@ model::Model Robot() {
   robot.links.push_back(LinkWith("right::wheel", geometry::Cylinder{0.5, 0.2}));
   robot.links.push_back(model::Link{});
   robot.links[3].name = "frame";
-  robot.links[1].model_from_link = {{1, 2, 3}, geometry::FromAxisAngle({0, 0, 1}, std::numbers::pi / 2)};
+  robot.links[1].model_from_link = {{1, 2, 3},
+                                    geometry::FromAxisAngle({0, 0, 1}, std::numbers::pi / 2)};
   robot.links[1].visuals[0].link_from_visual = {{0.5, 0, 0}, {}};
   return robot;
 }

@@ -15,8 +15,8 @@ struct WebTexture {
 };
 
 // The file that the picture came from, if `original_allowed` and it is a PNG or JPEG of its size
-// and no side is above `most_side`; else JPEG, or PNG where something is see-through, scaled down to
-// `most_side`.
+// and no side is above `most_side`; else JPEG, or PNG where something is see-through, scaled down
+// to `most_side`.
 WebTexture EncodeForWeb(const model::Image& image, bool original_allowed, int most_side = 1024);
 
 }  // namespace gsv::formats

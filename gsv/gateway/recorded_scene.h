@@ -27,7 +27,8 @@ class RecordedScene {
   // with a sentence, when the recording holds none.
   base::Result<SharedBytes> Scene(std::uint32_t layout_version) const;
 
-  // The places of robots in a message gsv_msgs/Poses of that layout: body's name, index of its pose.
+  // The places of robots in a message gsv_msgs/Poses of that layout: body's name, index of its
+  // pose.
   const std::map<std::string, std::size_t>& BodyPoses(std::uint32_t layout_version) const;
 
   // The GLB file of a model. kNotFound.
@@ -43,7 +44,7 @@ class RecordedScene {
   void Warn(const base::Error& error);
 
   const recording::McapReader& reader_;
-  std::map<std::uint32_t, Entry> scenes_;  // by layout version
+  std::map<std::uint32_t, Entry> scenes_;                           // by layout version
   std::map<std::string, recording::AttachmentIndexRecord> models_;  // by attachment's name
   base::Problems problems_;
 };

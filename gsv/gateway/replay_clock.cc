@@ -12,9 +12,9 @@ using simulation::Phase;
 constexpr std::chrono::milliseconds kLongestRound{200};
 
 base::Status Refuse(const char* action, const char* needed, Phase phase) {
-  return base::Fail(base::ErrorCode::kNotRunning,
-                    std::string("to ") + action + " a replay it must be " + needed + ", and it is " +
-                        ToString(phase));
+  return base::Fail(base::ErrorCode::kNotRunning, std::string("to ") + action +
+                                                      " a replay it must be " + needed +
+                                                      ", and it is " + ToString(phase));
 }
 
 }  // namespace

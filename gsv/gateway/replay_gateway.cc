@@ -36,9 +36,8 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
 
  private:
   void Handle(Request request, Respond respond) override {
-    const bool accepted = workers_.Submit([this, respond, request = std::move(request)] {
-      respond(Answer(request));
-    });
+    const bool accepted = workers_.Submit(
+        [this, respond, request = std::move(request)] { respond(Answer(request)); });
     if (!accepted) respond(ErrorResponse(503, "the server is busy; try again in a moment"));
   }
 

@@ -156,8 +156,7 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
     EXPECT_NEAR(poses.poses[0], 0.5 * time, 0.5 * 0.02);  // recorded at 50 Hz
     const auto range = Decoded<messages::sensor_msgs::Range>(viewer.ReceiveData(2));
     EXPECT_NEAR(range.range, 2.9 - 0.5 * time, 1e-6);  // each is an instant of 20 Hz
-    const auto beams =
-        Decoded<messages::visualization_msgs::MarkerArray>(viewer.ReceiveData(3));
+    const auto beams = Decoded<messages::visualization_msgs::MarkerArray>(viewer.ReceiveData(3));
     ASSERT_EQ(beams.markers.size(), 1u);
     EXPECT_FALSE(beams.markers[0].points.empty());
   }

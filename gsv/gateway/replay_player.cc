@@ -27,9 +27,9 @@ std::string NameOf(const recording::McapReader& reader, const std::string& path)
 }
 
 AgentPhase ParseAgentPhase(const std::string& text) {
-  for (const AgentPhase phase : {AgentPhase::kInitialised, AgentPhase::kRunning,
-                                 AgentPhase::kWaiting, AgentPhase::kFinished,
-                                 AgentPhase::kUnresponsive, AgentPhase::kDead}) {
+  for (const AgentPhase phase :
+       {AgentPhase::kInitialised, AgentPhase::kRunning, AgentPhase::kWaiting, AgentPhase::kFinished,
+        AgentPhase::kUnresponsive, AgentPhase::kDead}) {
     if (text == ToString(phase)) return phase;
   }
   return AgentPhase::kNone;

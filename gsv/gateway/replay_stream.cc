@@ -45,9 +45,9 @@ ReplayStream::ReplayStream(const recording::McapReader& reader, const std::strin
     : reader_(reader),
       hub_(std::make_shared<Hub>(InfoOf(name), std::move(on_demand))),
       status_pacing_(kStatusRate) {
-  const auto own = hub_->Advertise(
-      {ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
-       ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status")});
+  const auto own =
+      hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
+                       ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status")});
   clock_channel_ = own[0];
   status_channel_ = own[1];
   Advertise(reader.summary());
@@ -133,9 +133,8 @@ void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime
   const bool has_moved = published_time_ != time;
   const bool is_due = published_phase_ != phase || (has_moved && status_pacing_.IsDue(now));
   if (has_moved) hub_->PublishTime(Nanoseconds(time));
-  PublishOwn(clock_channel_, has_moved, time, [&] {
-    return Encoded(messages::rosgraph_msgs::Clock{messages::ToMessage(time)});
-  });
+  PublishOwn(clock_channel_, has_moved, time,
+             [&] { return Encoded(messages::rosgraph_msgs::Clock{messages::ToMessage(time)}); });
   PublishOwn(status_channel_, is_due, time,
              [&] { return Encoded(presentation::StatusMessage(status())); });
   if (is_due) status_pacing_.Done(now);

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gsv/presentation/state_messages.h"
 #include "gsv/presentation/pose_list.h"
+#include "gsv/presentation/state_messages.h"
 
 namespace gsv::presentation {
 namespace {
@@ -31,19 +31,26 @@ Json PoseJson(const Pose& pose) {
 
 const char* KindName(model::Light::Kind kind) {
   switch (kind) {
-    case model::Light::Kind::kDirectional: return "directional";
-    case model::Light::Kind::kPoint: return "point";
-    case model::Light::Kind::kSpot: return "spot";
+    case model::Light::Kind::kDirectional:
+      return "directional";
+    case model::Light::Kind::kPoint:
+      return "point";
+    case model::Light::Kind::kSpot:
+      return "spot";
   }
   return "point";
 }
 
 const char* OverlayName(sensing::Overlay overlay) {
   switch (overlay) {
-    case sensing::Overlay::kNone: return "none";
-    case sensing::Overlay::kLines: return "lines";
-    case sensing::Overlay::kPoints: return "points";
-    case sensing::Overlay::kPicture: return "picture";
+    case sensing::Overlay::kNone:
+      return "none";
+    case sensing::Overlay::kLines:
+      return "lines";
+    case sensing::Overlay::kPoints:
+      return "points";
+    case sensing::Overlay::kPicture:
+      return "picture";
   }
   return "none";
 }
@@ -73,8 +80,8 @@ Json SensorsJson(const SceneSource& source, const world::Body& body) {
   if (!body.is_robot && !body.is_avatar) return sensors;
   for (const model::SensorDescription& sensor : source.sensors(body.name)) {
     const sensing::SensorType* type = source.sensor_types.Find(sensor.type);
-    const bool has_link = sensor.link >= 0 &&
-                          sensor.link < static_cast<int>(body.model->links.size());
+    const bool has_link =
+        sensor.link >= 0 && sensor.link < static_cast<int>(body.model->links.size());
     if (type == nullptr || !has_link) continue;
     sensors.push_back({{"name", sensor.name},
                        {"type", type->name},
@@ -88,14 +95,10 @@ Json SensorsJson(const SceneSource& source, const world::Body& body) {
 Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose) {
   Json links = Json::array();
   for (const model::Link& link : body.model->links) links.push_back(link.name);
-  return {{"name", body.name},
-          {"model", source.identify(body.model)},
-          {"is_static", body.is_static},
-          {"is_robot", body.is_robot},
-          {"is_avatar", body.is_avatar},
-          {"pose", PoseJson(pose)},
-          {"links", std::move(links)},
-          {"sensors", SensorsJson(source, body)}};
+  return {{"name", body.name},           {"model", source.identify(body.model)},
+          {"is_static", body.is_static}, {"is_robot", body.is_robot},
+          {"is_avatar", body.is_avatar}, {"pose", PoseJson(pose)},
+          {"links", std::move(links)},   {"sensors", SensorsJson(source, body)}};
 }
 
 Json PoseListJson(const world::Layout& layout) {

@@ -97,10 +97,9 @@ void AppendSensorTransform(const world::Layout& layout, int body,
   const model::Link& link = robot.model->links[sensor.link];
   const std::vector<int> moving = world::MovingLinks(*robot.model);
   const bool moves = std::find(moving.begin(), moving.end(), sensor.link) != moving.end();
-  message.transforms.push_back(
-      Stamped(moves ? FrameOf(robot.name, link.name) : robot.name,
-              FrameOf(robot.name, sensor.name), time,
-              moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
+  message.transforms.push_back(Stamped(
+      moves ? FrameOf(robot.name, link.name) : robot.name, FrameOf(robot.name, sensor.name), time,
+      moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
 }
 
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status) {

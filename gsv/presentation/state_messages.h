@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "gsv/presentation/pose_list.h"
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/tf2_msgs.h"
 #include "gsv/messages/visualization_msgs.h"
 #include "gsv/model/sensor_description.h"
+#include "gsv/presentation/pose_list.h"
 #include "gsv/simulation/types.h"
 
 namespace gsv::presentation {

@@ -35,7 +35,8 @@ class Search {
       return std::any_of(block.channels.begin(), block.channels.end(), is_open);
     }
     const Channels& all = reader_.summary().channels;
-    return std::any_of(all.begin(), all.end(), [&](const auto& each) { return is_open(each.first); });
+    return std::any_of(all.begin(), all.end(),
+                       [&](const auto& each) { return is_open(each.first); });
   }
 
   void Look(const MessageBlock& block) {
@@ -54,7 +55,8 @@ class Search {
     }
     for (const auto& [channel, message] : newest) {
       const auto found = result_.by_channel.find(channel);
-      if (found != result_.by_channel.end() && found->second.log_time >= message->log_time) continue;
+      if (found != result_.by_channel.end() && found->second.log_time >= message->log_time)
+        continue;
       result_.by_channel[channel] = {message->log_time,
                                      Bytes(message->data.begin(), message->data.end())};
     }

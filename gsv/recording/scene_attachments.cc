@@ -41,10 +41,12 @@ void SceneAttachments::Attach(const world::Snapshot& snapshot, const SensorLists
   const auto identify = [this](const std::shared_ptr<const model::Model>& model) {
     return Identify(model);
   };
-  const std::string scene =
-      presentation::SceneJson({snapshot, *types_, sensors_of, identify});
+  const std::string scene = presentation::SceneJson({snapshot, *types_, sensors_of, identify});
   const base::SimTime time = snapshot.state.time;
-  writer_.Attach({time, {}, std::string(kSceneAttachment), "application/json",
+  writer_.Attach({time,
+                  {},
+                  std::string(kSceneAttachment),
+                  "application/json",
                   std::as_bytes(std::span(scene))});
   for (const world::Body& body : layout_->bodies) {
     const std::string id = Identify(body.model);
@@ -65,8 +67,8 @@ void SceneAttachments::AttachModel(const model::Model& model, const std::string&
     spdlog::warn("the recording goes without the model {}: {}", model.name, glb.error().Sentence());
     return;
   }
-  writer_.Attach({time, {}, ModelAttachment(id), "model/gltf-binary",
-                  std::as_bytes(std::span(*glb))});
+  writer_.Attach(
+      {time, {}, ModelAttachment(id), "model/gltf-binary", std::as_bytes(std::span(*glb))});
 }
 
 }  // namespace gsv::recording

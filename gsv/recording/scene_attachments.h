@@ -40,7 +40,7 @@ class SceneAttachments {
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const WriteGlb write_glb_;
   std::map<std::shared_ptr<const model::Model>, std::string> identities_;
-  std::set<std::string> attached_;  // models, by identity
+  std::set<std::string> attached_;               // models, by identity
   std::shared_ptr<const world::Layout> layout_;  // of the last scene
   std::set<std::string> sensors_;                // of the last scene
 };

@@ -36,8 +36,7 @@ struct SensorTopics::Sensor {
   bool has_failed = false;
 };
 
-SensorTopics::SensorTopics(McapWriter& writer,
-                           std::shared_ptr<const sensing::SensorRegistry> types,
+SensorTopics::SensorTopics(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
                            std::uint64_t seed, const SensorRates& rates)
     : writer_(writer),
       types_(std::move(types)),
@@ -78,8 +77,14 @@ std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
   }
   const double rate =
       type->overlay == sensing::Overlay::kPicture ? rates_.pictures : rates_.readings;
-  return std::make_shared<Sensor>(Sensor{robot, description, type, *std::move(sensor),
-                                         Instants(PeriodOf(description, rate)), {}, {}, false});
+  return std::make_shared<Sensor>(Sensor{robot,
+                                         description,
+                                         type,
+                                         *std::move(sensor),
+                                         Instants(PeriodOf(description, rate)),
+                                         {},
+                                         {},
+                                         false});
 }
 
 void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
@@ -93,8 +98,7 @@ void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot
 
 void SensorTopics::Sample(const std::string& topic, Sensor& sensor,
                           const std::shared_ptr<const world::Snapshot>& snapshot, int body) {
-  base::Result<sensing::Reading> reading =
-      sensor.sensor->Sample({snapshot, body, seed_, rays_});
+  base::Result<sensing::Reading> reading = sensor.sensor->Sample({snapshot, body, seed_, rays_});
   if (!reading) {
     sensor.has_failed = true;
     return Complain(reading.error());
@@ -141,7 +145,8 @@ void SensorTopics::WriteBeams(const world::Snapshot& snapshot) {
   const base::SimTime time = snapshot.state.time;
   messages::visualization_msgs::MarkerArray message;
   for (const std::string& robot : robots_with_beams_) {
-    if (!points.contains(robot)) message.markers.push_back(presentation::NoBeamsMarker(robot, time));
+    if (!points.contains(robot))
+      message.markers.push_back(presentation::NoBeamsMarker(robot, time));
   }
   robots_with_beams_.clear();
   for (auto& [robot, its_points] : points) {

@@ -20,7 +20,8 @@
 
 namespace gsv::recording {
 
-// Hz of simulated time, > 0. A sensor that samples faster is recorded at every n-th of its instants.
+// Hz of simulated time, > 0. A sensor that samples faster is recorded at every n-th of its
+// instants.
 struct SensorRates {
   double readings = 20;
   double pictures = 1;

@@ -28,8 +28,7 @@ Observation SimulationFeed::Observe(const std::shared_ptr<const world::Snapshot>
   const base::SimTime time = snapshot->state.time;
   if (status_instants_.Pass(time)) observation.status = simulation_.status();
   if (sensor_instants_.Pass(time) || layout_ != snapshot->layout) {
-    observation.sensors =
-        std::make_shared<SensorLists>(SensorsOf(simulation_, *snapshot->layout));
+    observation.sensors = std::make_shared<SensorLists>(SensorsOf(simulation_, *snapshot->layout));
     layout_ = snapshot->layout;
   }
   return observation;

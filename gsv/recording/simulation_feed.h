@@ -31,8 +31,8 @@ SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Lay
 
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::shared_ptr<const SensorLists> sensors;            // null: as before, or not looked at
-  std::optional<simulation::SimulationStatus> status;    // at its rate
+  std::shared_ptr<const SensorLists> sensors;          // null: as before, or not looked at
+  std::optional<simulation::SimulationStatus> status;  // at its rate
 };
 using Occurrence = std::variant<Observation, simulation::Event>;
 
@@ -53,8 +53,8 @@ class SimulationFeed final : public simulation::Observer {
   // The next one; nothing if none comes within `patience` of wall time, or no more will.
   std::optional<Occurrence> Next(std::chrono::milliseconds patience);
 
-  // Takes nothing more, and lets those go on who wait. What is queued stays; `last` comes behind it.
-  // A reset of the simulation closes it, too.
+  // Takes nothing more, and lets those go on who wait. What is queued stays; `last` comes behind
+  // it. A reset of the simulation closes it, too.
   void Close(std::optional<Observation> last = std::nullopt);
   bool is_over() const;  // closed, and nothing is queued
   bool was_reset() const;

@@ -72,8 +72,7 @@ SimulationRecorder::SimulationRecorder(const std::shared_ptr<Simulation>& simula
       sensors_(*writer_, types_, simulation->specification().seed, options.sensors),
       scene_(*writer_, types_, std::move(options.write_glb)),
       feed_(std::make_shared<SimulationFeed>(
-          *simulation,
-          FeedOptions{.when_full = WhenFullFor(simulation->specification().mode)})) {
+          *simulation, FeedOptions{.when_full = WhenFullFor(simulation->specification().mode)})) {
   writer_->AddMetadata(Describe(*simulation, options.metadata));
 }
 

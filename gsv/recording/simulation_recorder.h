@@ -22,10 +22,10 @@
 namespace gsv::recording {
 
 struct RecorderOptions {
-  WriteGlb write_glb;         // required
-  double poses_rate = 50;     // Hz of simulated time, > 0
+  WriteGlb write_glb;      // required
+  double poses_rate = 50;  // Hz of simulated time, > 0
   SensorRates sensors;
-  bool replace = false;       // an existing file
+  bool replace = false;  // an existing file
   // Added to the metadata record "gsv.simulation".
   StringMap metadata;
 };

@@ -35,7 +35,8 @@ class SimulationRecorderTest : public testing::Test {
               testing::UnitTest::GetInstance()->current_test_info()->name() + ".mcap") {}
   ~SimulationRecorderTest() override { std::filesystem::remove(path_); }
 
-  std::unique_ptr<SimulationRecorder> Start(const std::shared_ptr<simulation::Simulation>& simulation) {
+  std::unique_ptr<SimulationRecorder> Start(
+      const std::shared_ptr<simulation::Simulation>& simulation) {
     auto recorder = SimulationRecorder::Start(simulation, path_, Options());
     EXPECT_TRUE(recorder) << recorder.error().Sentence();
     return *std::move(recorder);
@@ -85,9 +86,9 @@ class SimulationRecorderTest : public testing::Test {
   }
 
   nlohmann::json Scene(const Attachment& attachment) const {
-    return nlohmann::json::parse(reinterpret_cast<const char*>(attachment.data.data()),
-                                 reinterpret_cast<const char*>(attachment.data.data()) +
-                                     attachment.data.size());
+    return nlohmann::json::parse(
+        reinterpret_cast<const char*>(attachment.data.data()),
+        reinterpret_cast<const char*>(attachment.data.data()) + attachment.data.size());
   }
 
   const std::string path_;
@@ -111,7 +112,8 @@ TEST_F(SimulationRecorderTest, LeavesNoTraceInTheSimulation) {
 TEST_F(SimulationRecorderTest, EachTopicKeepsItsRateInSimulatedTime) {
   std::map<std::string, std::uint64_t> counts;
   for (const auto& channel : Record(0.5).channels) counts[channel.topic] = channel.messages;
-  // Over one second, both ends counted: 50, 20, 10 and 5 Hz. "back" is there from the first step on.
+  // Over one second, both ends counted: 50, 20, 10 and 5 Hz. "back" is there from the first step
+  // on.
   EXPECT_EQ(counts["/clock"], 51u);
   EXPECT_EQ(counts["/gsv/poses"], 51u);
   EXPECT_EQ(counts["/tf"], 51u);
@@ -155,8 +157,9 @@ TEST_F(SimulationRecorderTest, EachModelIsAttachedOnce) {
   for (const auto& model : {Disc(), Wall()}) {
     const auto files = Attachments(ModelAttachment(presentation::ModelIdentity(*model)));
     ASSERT_EQ(files.size(), 1u) << model->name;
-    EXPECT_EQ(std::string(reinterpret_cast<const char*>(files[0].data.data()), files[0].data.size()),
-              model->name);
+    EXPECT_EQ(
+        std::string(reinterpret_cast<const char*>(files[0].data.data()), files[0].data.size()),
+        model->name);
     EXPECT_EQ(files[0].media_type, "model/gltf-binary");
   }
 }

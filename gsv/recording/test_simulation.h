@@ -68,19 +68,21 @@ inline bool SleepFor(simulation::Agent& agent, simulation::ClockId clock, base::
 }
 
 // Forwards at `speed`, m/s. It mounts a second sonar, "back", before it first waits.
-inline std::shared_ptr<ThreadBehaviour> Drives(double speed, std::chrono::microseconds dawdling = 0us) {
-  return std::make_shared<ThreadBehaviour>([=](simulation::Agent& agent, simulation::ClockId clock) {
-    model::SensorDescription back;
-    back.name = "back";
-    back.type = "sonar";
-    back.link_from_sensor = geometry::PlanarPose(0, 0, 0.25, 3.14159);
-    back.parameters = {{"min", 0.1}, {"max", 5.0}};
-    EXPECT_TRUE(agent.CreateSensor(back));
-    do {
-      if (dawdling > 0us) std::this_thread::sleep_for(dawdling);
-      (void)agent.Command({speed, 0, 0});
-    } while (SleepFor(agent, clock, 50ms));
-  });
+inline std::shared_ptr<ThreadBehaviour> Drives(double speed,
+                                               std::chrono::microseconds dawdling = 0us) {
+  return std::make_shared<ThreadBehaviour>(
+      [=](simulation::Agent& agent, simulation::ClockId clock) {
+        model::SensorDescription back;
+        back.name = "back";
+        back.type = "sonar";
+        back.link_from_sensor = geometry::PlanarPose(0, 0, 0.25, 3.14159);
+        back.parameters = {{"min", 0.1}, {"max", 5.0}};
+        EXPECT_TRUE(agent.CreateSensor(back));
+        do {
+          if (dawdling > 0us) std::this_thread::sleep_for(dawdling);
+          (void)agent.Command({speed, 0, 0});
+        } while (SleepFor(agent, clock, 50ms));
+      });
 }
 
 // A disc of 0.2 m with a sonar, "front", at its middle.
@@ -89,7 +91,8 @@ inline std::shared_ptr<const model::Model> Disc() {
   model->name = "disc";
   model->links.resize(1);
   model->links[0].name = "base";
-  model->links[0].collisions.push_back({"body", {{0, 0, 0.25}, {}}, geometry::Cylinder{0.2, 0.5}, {}});
+  model->links[0].collisions.push_back(
+      {"body", {{0, 0, 0.25}, {}}, geometry::Cylinder{0.2, 0.5}, {}});
   model->drive.emplace();
   model->drive->kind = model::DriveKind::kVelocity;
   model::SensorDescription sonar;

@@ -39,7 +39,8 @@ class Camera final : public sensing::Sensor {
   Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
     if (!renderer_) return Fail(renderer_.error());
     auto picture =
-        (*renderer_)->Draw(sampling.snapshot(), {sampling.WorldFromSensor(description()), parameters_});
+        (*renderer_)
+            ->Draw(sampling.snapshot(), {sampling.WorldFromSensor(description()), parameters_});
     if (!picture) return Fail(picture.error());
     sensing::Reading reading = sampling.Stamped();
     reading.values = {static_cast<double>(parameters_.width),
@@ -70,13 +71,14 @@ std::vector<std::uint8_t> Encode(const model::SensorDescription&, const sensing:
 base::Status AddCameraSensor(sensing::SensorRegistry& registry,
                              Result<std::shared_ptr<Renderer>> renderer) {
   if (renderer && *renderer == nullptr) {
-    renderer = Fail(base::ErrorCode::kUnavailable,
-                    "no renderer was started, so there are no pictures");
+    renderer =
+        Fail(base::ErrorCode::kUnavailable, "no renderer was started, so there are no pictures");
   }
   sensing::SensorType type;
   type.name = "camera";
-  type.create = [renderer = std::move(renderer)](const model::SensorDescription& description)
-      -> Result<std::unique_ptr<sensing::Sensor>> {
+  type.create =
+      [renderer = std::move(renderer)](
+          const model::SensorDescription& description) -> Result<std::unique_ptr<sensing::Sensor>> {
     const auto parameters = ReadParameters(description);
     if (!parameters) return Fail(parameters.error());
     return std::make_unique<Camera>(description, *parameters, renderer);

@@ -63,8 +63,8 @@ TEST(Camera, BecomesAJpegMessage) {
   reading.time = std::chrono::milliseconds(1500);
   reading.picture = picture;
   const auto bytes = fixture.type().encode(Front(), reading, "robot/front");
-  const auto message = messages::Decode<messages::sensor_msgs::CompressedImage>(
-      std::as_bytes(std::span(bytes)));
+  const auto message =
+      messages::Decode<messages::sensor_msgs::CompressedImage>(std::as_bytes(std::span(bytes)));
   ASSERT_TRUE(message) << message.error().Sentence();
   EXPECT_EQ(message->format, "jpeg");
   EXPECT_EQ(message->header.frame_id, "robot/front");
@@ -75,8 +75,8 @@ TEST(Camera, BecomesAJpegMessage) {
   const std::unique_ptr<std::remove_pointer_t<tjhandle>, int (*)(tjhandle)> decoder(
       tjInitDecompress(), tjDestroy);
   std::vector<std::uint8_t> back(32 * 16 * 3);
-  ASSERT_EQ(tjDecompress2(decoder.get(), message->data.data(), message->data.size(), back.data(), 32,
-                          0, 16, TJPF_RGB, 0),
+  ASSERT_EQ(tjDecompress2(decoder.get(), message->data.data(), message->data.size(), back.data(),
+                          32, 0, 16, TJPF_RGB, 0),
             0);
   EXPECT_NEAR(back[0], 200, 4);
   EXPECT_NEAR(back[1], 100, 4);
@@ -85,10 +85,15 @@ TEST(Camera, BecomesAJpegMessage) {
 
 TEST(Camera, RefusesImpossiblePictures) {
   Fixture fixture(nullptr);
-  for (const auto& [name, value] :
-       {std::pair{"image.width", 0.0}, {"image.width", 100000.0}, {"image.height", -3.0},
-        {"image.height", 2.5}, {"horizontal_fov", 0.0}, {"horizontal_fov", 6.28},
-        {"clip.near", 0.0}, {"clip.near", 200.0}, {"clip.far", 0.01}}) {
+  for (const auto& [name, value] : {std::pair{"image.width", 0.0},
+                                    {"image.width", 100000.0},
+                                    {"image.height", -3.0},
+                                    {"image.height", 2.5},
+                                    {"horizontal_fov", 0.0},
+                                    {"horizontal_fov", 6.28},
+                                    {"clip.near", 0.0},
+                                    {"clip.near", 200.0},
+                                    {"clip.far", 0.01}}) {
     const auto camera = fixture.type().create(Front({{name, value}}));
     ASSERT_FALSE(camera) << name << " " << value;
     EXPECT_NE(camera.error().Sentence().find(name), std::string::npos) << camera.error().Sentence();

@@ -48,7 +48,7 @@ double FocalLength(const CameraParameters& camera) {
 Frustum FrustumOf(const CameraView& view) {
   const geometry::Quaternion& q = view.world_from_camera.orientation;
   const CameraParameters& camera = view.parameters;
-  const double right = 0.5 * camera.width / FocalLength(camera);   // at x = 1
+  const double right = 0.5 * camera.width / FocalLength(camera);  // at x = 1
   const double top = 0.5 * camera.height / FocalLength(camera);
   const auto side = [&](const Vector3& normal) {
     return Frustum::Plane{q * geometry::Normalized(normal), 0};

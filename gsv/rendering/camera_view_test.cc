@@ -62,8 +62,8 @@ TEST(Frustum, HoldsWhatTheCameraSees) {
   const CameraView view{{{0, 0, 10}, geometry::FromAxisAngle({0, 0, 1}, std::numbers::pi / 2)},
                         {100, 100, std::numbers::pi / 2, 1, 20}};
   const Frustum frustum = FrustumOf(view);
-  EXPECT_TRUE(frustum.MeetsSphere({0, 5, 0}, 0));       // ahead, which is world y
-  EXPECT_FALSE(frustum.MeetsSphere({0, -5, 0}, 1));     // behind
+  EXPECT_TRUE(frustum.MeetsSphere({0, 5, 0}, 0));    // ahead, which is world y
+  EXPECT_FALSE(frustum.MeetsSphere({0, -5, 0}, 1));  // behind
   EXPECT_TRUE(frustum.MeetsSphere({4.9, 5, 0}, 0));
   EXPECT_FALSE(frustum.MeetsSphere({5.2, 5, 0}, 0.1));  // 0.2 / sqrt(2) outside
   EXPECT_TRUE(frustum.MeetsSphere({5.2, 5, 0}, 0.15));

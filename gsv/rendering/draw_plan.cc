@@ -32,8 +32,8 @@ geometry::Shape AsDrawn(const model::Visual& visual) {
       visual.materials.front().base_colour_map != nullptr) {
     return visual.shape;
   }
-  return geometry::Plane{plane->normal, {std::max(plane->size.x, kHorizon),
-                                         std::max(plane->size.y, kHorizon)}};
+  return geometry::Plane{plane->normal,
+                         {std::max(plane->size.x, kHorizon), std::max(plane->size.y, kHorizon)}};
 }
 
 class Builder {
@@ -60,8 +60,7 @@ class Builder {
       item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
       item.radius = 0.5 * Norm(Scaled(chunk.bounds.max - chunk.bounds.min, shape.scale));
       item.factors = FactorsOf(material);
-      item.casts_shadow =
-          visual.cast_shadows && !plane && group.blending != Blending::kSeeThrough;
+      item.casts_shadow = visual.cast_shadows && !plane && group.blending != Blending::kSeeThrough;
       item.group = Index(std::move(group));
       items.push_back(item);
     }
@@ -88,9 +87,15 @@ class Builder {
   }
 
   int Index(DrawGroup group) {
-    const Key key{group.mesh.get(), group.first_index, group.base_colour.get(), group.normal.get(),
-                  group.metallic_roughness.get(), group.emissive.get(), group.blending,
-                  group.mirrored, group.double_sided};
+    const Key key{group.mesh.get(),
+                  group.first_index,
+                  group.base_colour.get(),
+                  group.normal.get(),
+                  group.metallic_roughness.get(),
+                  group.emissive.get(),
+                  group.blending,
+                  group.mirrored,
+                  group.double_sided};
     const auto [it, is_new] = index_of_.try_emplace(key, static_cast<int>(groups.size()));
     if (is_new) groups.push_back(std::move(group));
     return it->second;

@@ -51,7 +51,8 @@ struct DrawItem {
 
 // An item in the world.
 struct PlacedItem {
-  // Columns of the turn and stretch that take the mesh to the world's axes, and where its origin is.
+  // Columns of the turn and stretch that take the mesh to the world's axes, and where its origin
+  // is.
   std::array<geometry::Vector3, 3> columns;
   geometry::Vector3 origin;
   geometry::Vector3 centre;

@@ -17,16 +17,16 @@ inline constexpr int kMaxLights = 8;
 using Float4 = std::array<float, 4>;
 
 struct LightBlock {
-  Float4 position_range;         // metres; range 0: directional
-  Float4 direction_outer;        // from the light, unit; cosine of the outer half angle, -2: no cone
-  Float4 colour_inner;           // cosine of the inner half angle
-  Float4 attenuation;            // constant, linear, quadratic
+  Float4 position_range;   // metres; range 0: directional
+  Float4 direction_outer;  // from the light, unit; cosine of the outer half angle, -2: no cone
+  Float4 colour_inner;     // cosine of the inner half angle
+  Float4 attenuation;      // constant, linear, quadratic
 };
 
 struct FrameBlock {
   std::array<float, 16> clip_from_relative;
   std::array<float, 16> shadow_from_relative;
-  Float4 to_sun;                 // w: the side of a shadow map's texel in metres, 0: no shadows
+  Float4 to_sun;  // w: the side of a shadow map's texel in metres, 0: no shadows
   Float4 sun_colour;
   Float4 ambient_above, ambient_below;
   Float4 zenith, horizon, nadir;

@@ -48,9 +48,8 @@ Arrays WithoutNormals(const TriangleMesh& mesh, const std::vector<std::uint32_t>
   Arrays arrays;
   for (const std::uint32_t triangle : order) {
     const auto& t = mesh.triangles[triangle];
-    const Vector3 normal = geometry::Normalized(
-        geometry::Cross(mesh.positions[t[1]] - mesh.positions[t[0]],
-                        mesh.positions[t[2]] - mesh.positions[t[0]]));
+    const Vector3 normal = geometry::Normalized(geometry::Cross(
+        mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]));
     for (const std::uint32_t vertex : t) {
       arrays.indices.push_back(static_cast<std::uint32_t>(arrays.vertices.size() / 8));
       Append(mesh.positions[vertex], normal, TextureCoordinate(mesh, vertex), arrays.vertices);
@@ -72,8 +71,8 @@ GlBuffer Upload(const std::vector<T>& values) {
 
 std::shared_ptr<const GpuMesh> Upload(const TriangleMesh& mesh) {
   MeshChunks chunks = CutIntoChunks(mesh);
-  const Arrays arrays = mesh.normals.empty() ? WithoutNormals(mesh, chunks.order)
-                                             : WithNormals(mesh, chunks.order);
+  const Arrays arrays =
+      mesh.normals.empty() ? WithoutNormals(mesh, chunks.order) : WithNormals(mesh, chunks.order);
   return std::make_shared<GpuMesh>(
       GpuMesh{Upload(arrays.vertices), Upload(arrays.indices), std::move(chunks.chunks)});
 }

@@ -15,7 +15,8 @@ bool Usable(const Image& image) {
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   return image.width > 0 && image.height > 0 && image.width <= largest && image.height <= largest &&
          (image.channels == 3 || image.channels == 4) &&
-         image.pixels.size() == static_cast<std::size_t>(image.width) * image.height * image.channels;
+         image.pixels.size() ==
+             static_cast<std::size_t>(image.width) * image.height * image.channels;
 }
 
 bool SeeThrough(const Image& image) {
@@ -34,7 +35,8 @@ std::shared_ptr<const GpuTexture> Upload(const Image& image) {
   glTextureStorage2D(name, levels, GL_RGBA8, image.width, image.height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(name, 0, 0, 0, image.width, image.height,
-                      image.channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
+                      image.channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE,
+                      image.pixels.data());
   glGenerateTextureMipmap(name);
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

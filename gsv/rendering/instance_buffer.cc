@@ -65,9 +65,9 @@ void InstanceBuffer::Draw(const DrawGroup& group, std::size_t first, std::size_t
                             kVertexBytes);
   glVertexArrayElementBuffer(arrays_.name(), group.mesh->indices.name());
   const std::size_t offset = group.first_index * sizeof(std::uint32_t);
-  glDrawElementsInstancedBaseInstance(
-      GL_TRIANGLES, static_cast<int>(group.index_count), GL_UNSIGNED_INT,
-      reinterpret_cast<const void*>(offset), static_cast<int>(count), static_cast<unsigned>(first));
+  glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<int>(group.index_count),
+                                      GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
+                                      static_cast<int>(count), static_cast<unsigned>(first));
 }
 
 }  // namespace gsv::rendering

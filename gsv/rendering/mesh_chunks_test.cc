@@ -47,9 +47,7 @@ TEST(CutIntoChunks, BoundsHoldTheirTrianglesAndAreSmallerThanTheWhole) {
   }
 }
 
-TEST(CutIntoChunks, OfAnEmptyMeshIsEmpty) {
-  EXPECT_TRUE(CutIntoChunks({}).chunks.empty());
-}
+TEST(CutIntoChunks, OfAnEmptyMeshIsEmpty) { EXPECT_TRUE(CutIntoChunks({}).chunks.empty()); }
 
 }  // namespace
 }  // namespace gsv::rendering

@@ -20,8 +20,8 @@ constexpr int kColumnPixels = 4 << 20;
 PictureTarget::PictureTarget(int width, int height)
     : width_(width),
       height_(height),
-      capacity_(std::clamp(std::min(kColumnPixels / (width * height), 16384 / height), 1,
-                           kMostInColumn)),
+      capacity_(
+          std::clamp(std::min(kColumnPixels / (width * height), 16384 / height), 1, kMostInColumn)),
       colour_(CreateRenderbuffer()),
       depth_(CreateRenderbuffer()),
       finished_(CreateRenderbuffer()),

@@ -61,8 +61,8 @@ TEST_F(Picture, APointFallsWhereThePinholeCameraSays) {
   const CameraView view{{{0.3, -0.2, 0.5}, geometry::FromRollPitchYaw({0.05, 0.1, 0.7})},
                         {320, 240, 1.047, 0.05, 100}};
   const double f = 160 / std::tan(1.047 / 2);
-  for (const Vector3& p : {Vector3{3, 0, 0}, Vector3{4, 1.2, 0.8}, Vector3{6, -2.5, -1.5},
-                           Vector3{2, 0.5, -0.6}}) {
+  for (const Vector3& p :
+       {Vector3{3, 0, 0}, Vector3{4, 1.2, 0.8}, Vector3{6, -2.5, -1.5}, Vector3{2, 0.5, -0.6}}) {
     // A radius of three pixels: its picture's centre is off by less than 0.01 pixels.
     scene_.Add("ball", geometry::Sphere{3 * p.x / f}, {view.world_from_camera * p, {}},
                Glowing(1, 0, 0));
@@ -178,8 +178,7 @@ TEST_F(Picture, OfAMirroredMeshShowsItsOutside) {
   EXPECT_GT(FindBlob(*plain, 0).pixels, 1000);
 }
 
-// A white floor seen from straight above at 10 m, so that a pixel is at x = (v - 50)/10·…: with 90°
-// over 100 pixels, 0.2 m a pixel; up in the picture is world x.
+// The ground seen from 10 m above, 90° over 100 pixels: 0.2 m a pixel, world x up in the picture.
 CameraView FromAbove() {
   return {{{0, 0, 10}, geometry::FromAxisAngle({0, 1, 0}, kPi / 2)}, {100, 100, kPi / 2, 0.1, 100}};
 }
@@ -209,7 +208,8 @@ TEST_F(Picture, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
   const auto second = std::make_shared<world::Snapshot>(*first);
   second->state.bodies[first->layout->Find("robot")].world_from_model.position.y = -4;
   // Seen from the side and from low, so that the shadow is not hidden.
-  const CameraView view{{{-9, 0, 4}, geometry::FromRollPitchYaw({0, 0.4, 0})}, {160, 120, 1.3, 0.1, 50}};
+  const CameraView view{{{-9, 0, 4}, geometry::FromRollPitchYaw({0, 0.4, 0})},
+                        {160, 120, 1.3, 0.1, 50}};
   const auto before = renderer_->Draw(first, view, std::chrono::seconds(30));
   const auto after = renderer_->Draw(second, view, std::chrono::seconds(30));
   ASSERT_TRUE(before && after);
@@ -221,6 +221,39 @@ TEST_F(Picture, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
     }
   }
   EXPECT_LT(different, 160 * 120 / 200);
+}
+
+TEST_F(Picture, IsTheSameWhateverWasDrawnBefore) {
+  model::Light sun;
+  sun.direction = geometry::Normalized(Vector3{-1, 0.5, -1});
+  scene_.description().lights = {sun};
+  scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
+  scene_.Add("chair", Box{{1, 1, 1}}, {{2, 2, 0.5}, {}}, Matt(0.7, 0.2, 0.2));
+  scene_.Add("robot", Box{{1, 1, 1}}, {{-2, 0, 0.5}, {}}, Matt(0.2, 0.2, 0.7));
+  const auto first = scene_.Snapshot();
+  const auto second = std::make_shared<world::Snapshot>(*first);
+  second->state.bodies[first->layout->Find("robot")].world_from_model.position = {1, -3, 0.5};
+  const CameraView view = FromAbove();
+  for (const auto& snapshot : {first, std::shared_ptr<const world::Snapshot>(second), first}) {
+    const auto fresh = Renderer::Start();
+    ASSERT_TRUE(fresh);
+    const auto alone = (*fresh)->Draw(snapshot, view, std::chrono::seconds(30));
+    const auto after = renderer_->Draw(snapshot, view, std::chrono::seconds(30));
+    ASSERT_TRUE(alone && after);
+    EXPECT_EQ((*alone)->pixels, (*after)->pixels);
+  }
+}
+
+TEST_F(Picture, BeyondAllThatCastsShadowsTheGroundIsInTheSun) {
+  model::Light sun;
+  sun.direction = geometry::Normalized(Vector3{1, 0, -1});
+  scene_.description().lights = {sun};
+  scene_.Add("ground", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
+  scene_.Add("post", Box{{0.2, 0.2, 1}}, {{-3, -3, 0.5}, {}}, Matt(0.7, 0.7, 0.7), true);
+  // Along the light, where the ground is farther from the sun than the foot of the post.
+  const auto picture = Take({{{0, 0, 2}, {}}, {160, 120, 1, 0.1, 200}});
+  const int near = Brightness(*picture, 80, 115), far = Brightness(*picture, 80, 65);
+  EXPECT_NEAR(near, far, 30);
 }
 
 TEST_F(Picture, AWorldWithoutLightsHasASunAndIsNotDark) {
@@ -276,7 +309,8 @@ TEST_F(Picture, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
   const CameraView view{{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}};
   const CameraView other{PlanarPose(5, 5, 1, -2), {64, 64, 2, 0.1, 30}};
   const auto alone = renderer_->Draw(snapshot, view, std::chrono::seconds(30));
-  const auto batch = renderer_->Draw(snapshot, {other, view, other, view}, std::chrono::seconds(30));
+  const auto batch =
+      renderer_->Draw(snapshot, {other, view, other, view}, std::chrono::seconds(30));
   ASSERT_TRUE(alone && batch);
   EXPECT_EQ((*batch)[1]->pixels, (*alone)->pixels);
   EXPECT_EQ((*batch)[3]->pixels, (*alone)->pixels);

@@ -109,9 +109,8 @@ class Renderer::RenderThread {
       Batch batch = TakeBatch();
       std::vector<std::promise<GpuCopies>> counts = std::exchange(counts_, {});
       if (batch.empty() && counts.empty()) {
-        const bool woken = work_.wait_for(lock, kIdleSweep, [&] {
-          return stopping_ || !queue_.empty() || !counts_.empty();
-        });
+        const bool woken = work_.wait_for(
+            lock, kIdleSweep, [&] { return stopping_ || !queue_.empty() || !counts_.empty(); });
         if (!woken) painter.Sweep();
         continue;
       }

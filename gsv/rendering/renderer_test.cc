@@ -46,7 +46,8 @@ TEST(Renderer, FreesWhatBelongedToARemovedBody) {
 
   model::Material material;
   material.base_colour_map = Grey();
-  auto mesh = std::make_shared<const geometry::TriangleMesh>(geometry::Tessellate(geometry::Cone{}));
+  auto mesh =
+      std::make_shared<const geometry::TriangleMesh>(geometry::Tessellate(geometry::Cone{}));
   scene.Add("cone", geometry::Mesh{std::move(mesh)}, {{2, 0, 0}, {}}, std::move(material));
   scene.Add("ball", geometry::Sphere{}, {{2, 0, 0}, {}}, {});
   {
@@ -121,8 +122,9 @@ TEST(Renderer, DrawsAThousandThingsInOneWorld) {
 
 TEST(Renderer, TimesOutWithASentence) {
   const auto renderer = StartRenderer();
-  const auto picture = renderer->Draw(TestScene().Snapshot(), CameraView{{}, {4096, 4096, 1, 0.1, 100}},
-                                      std::chrono::milliseconds(0));
+  const auto picture =
+      renderer->Draw(TestScene().Snapshot(), CameraView{{}, {4096, 4096, 1, 0.1, 100}},
+                     std::chrono::milliseconds(0));
   ASSERT_FALSE(picture);
   EXPECT_EQ(picture.error().code, base::ErrorCode::kTimeout);
 }

@@ -29,8 +29,8 @@ vec3 Sky(float height) {
 }
 )";
 
-// To sRGB by roots, which is within half a step of eight bits (Taylor, chilliant.blogspot.com, 2012).
-// Done here instead of by the framebuffer, which would do it for each sample of a pixel.
+// To sRGB by roots, which is within half a step of eight bits (Taylor, chilliant.blogspot.com,
+// 2012). Done here instead of by the framebuffer, which would do it for each sample of a pixel.
 const std::string kEncoding = R"(
 vec3 Encode(vec3 linear) {
   vec3 s1 = sqrt(max(linear, vec3(0.0))), s2 = sqrt(s1), s3 = sqrt(s2);

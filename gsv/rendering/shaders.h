@@ -3,7 +3,8 @@
 // Surfaces  Cook–Torrance with the GGX distribution (Walter et al. 2007), Hammon's approximation of
 //           the height-correlated Smith term (2017), Schlick's Fresnel term; ambient reflections by
 //           Karis' fit of the environment BRDF (2014).
-// Tones     the compression of the Khronos PBR Neutral tone mapper (2024): colours up to 0.8 stay as
+// Tones     the compression of the Khronos PBR Neutral tone mapper (2024): colours up to 0.8 stay
+// as
 //           they are, highlights are compressed and lose colour.
 #pragma once
 

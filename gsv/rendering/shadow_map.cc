@@ -218,14 +218,12 @@ void ShadowMap::Describe(const Vector3& origin, FrameBlock& block) const {
     block.shadow_from_relative[axis] = static_cast<float>(row.x);
     block.shadow_from_relative[4 + axis] = static_cast<float>(row.y);
     block.shadow_from_relative[8 + axis] = static_cast<float>(row.z);
-    block.shadow_from_relative[12 + axis] =
-        static_cast<float>(Dot(row, origin) - k * min[axis]);
+    block.shadow_from_relative[12 + axis] = static_cast<float>(Dot(row, origin) - k * min[axis]);
   }
   for (int column = 0; column < 4; ++column) {
     block.shadow_from_relative[4 * column + 3] = column == 3 ? 1.0f : 0.0f;
   }
-  block.to_sun[3] = static_cast<float>(
-      std::max(max[0] - min[0], max[1] - min[1]) / kSide);
+  block.to_sun[3] = static_cast<float>(std::max(max[0] - min[0], max[1] - min[1]) / kSide);
 }
 
 }  // namespace gsv::rendering

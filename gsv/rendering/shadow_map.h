@@ -60,7 +60,7 @@ class ShadowMap {
   GlFramebuffer still_frame_, moving_frame_;
   GlProgram solid_, cut_out_;
   Region region_;
-  Drawn drawn_;          // what still_ holds
+  Drawn drawn_;                   // what still_ holds
   std::vector<Rectangle> moved_;  // where moving_ differs from still_
   std::vector<InstanceData> staged_;
 };

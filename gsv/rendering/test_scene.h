@@ -78,7 +78,8 @@ inline Blob FindBlob(const model::Image& picture, int channel, int margin = 40) 
   double weight = 0;
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      const std::uint8_t* p = &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
+      const std::uint8_t* p =
+          &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
       const int above = p[channel] - std::max(p[(channel + 1) % 3], p[(channel + 2) % 3]);
       if (above <= margin) continue;
       ++blob.pixels;

@@ -96,9 +96,10 @@ void ViewPainter::FindVisible(const CameraView& view, const DrawPlan& plan,
     const double distance = geometry::Norm(centre);
     if (item.radius < smallest * distance) continue;
     const bool see_through = plan.groups()[item.group].blending == Blending::kSeeThrough;
-    (see_through ? see_through_ : solid_).push_back(
-        {item.group, distance, i,
-         shadows != nullptr && shadows->MayFallOn(plan.placed()[i].centre, item.radius)});
+    (see_through ? see_through_ : solid_)
+        .push_back(
+            {item.group, distance, i,
+             shadows != nullptr && shadows->MayFallOn(plan.placed()[i].centre, item.radius)});
   }
 }
 
@@ -115,12 +116,10 @@ void ViewPainter::StageSolid(const DrawPlan& plan, const Vector3& origin) {
     solid_calls_.back().shadowed |= seen.shadowed;
     staged_.push_back(InstanceOf(plan.items()[seen.item], plan.placed()[seen.item], origin));
   }
-  std::stable_sort(solid_calls_.begin(), solid_calls_.end(),
-                   [&](const Call& a, const Call& b) {
-                     const bool a_ground = plan.groups()[a.group].ground,
-                                b_ground = plan.groups()[b.group].ground;
-                     return a_ground != b_ground ? b_ground : a.distance < b.distance;
-                   });
+  std::stable_sort(solid_calls_.begin(), solid_calls_.end(), [&](const Call& a, const Call& b) {
+    const bool a_ground = plan.groups()[a.group].ground, b_ground = plan.groups()[b.group].ground;
+    return a_ground != b_ground ? b_ground : a.distance < b.distance;
+  });
 }
 
 void ViewPainter::StageSeeThrough(const DrawPlan& plan, const Vector3& origin) {
@@ -138,8 +137,8 @@ void ViewPainter::Draw(const std::vector<Call>& calls, const DrawPlan& plan, boo
                        const InstanceBuffer& instances) {
   for (const Call& call : calls) {
     const DrawGroup& group = plan.groups()[call.group];
-    glUseProgram(ProgramFor(FeaturesOf(group) | (call.shadowed ? kShadows : 0u) |
-                            (lamps ? kLamps : 0u)));
+    glUseProgram(
+        ProgramFor(FeaturesOf(group) | (call.shadowed ? kShadows : 0u) | (lamps ? kLamps : 0u)));
     BindMaps(group);
     SetFaces(group);
     instances.Draw(group, call.first, call.count);

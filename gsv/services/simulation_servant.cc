@@ -1,7 +1,7 @@
 #include "gsv/services/simulation_servant.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "gsv/base/log.h"
 #include "gsv/orb/errors.h"
@@ -12,7 +12,7 @@
 namespace gsv::services {
 namespace {
 
-constexpr std::chrono::seconds kAbandonedAfter{60};
+constexpr double kAbandonedAfter = 60;  // s of wall time, unless the specification says otherwise
 constexpr std::chrono::milliseconds kAwaitLease{2000};
 
 using simulation::Phase;
@@ -53,11 +53,15 @@ SimulationServant::SimulationServant(std::shared_ptr<simulation::Simulation> sim
       service_(service),
       specification_(std::move(specification)) {
   NoteContact();
+  const double wanted =
+      model::NumberOr(FromIdl(specification_.options), "abandoned_after_s", kAbandonedAfter);
+  abandoned_after_ = std::chrono::milliseconds(
+      static_cast<std::int64_t>(std::clamp(wanted, 1.0, 1e9) * 1000));
 }
 
-bool SimulationServant::IsAbandoned(std::chrono::seconds limit) const {
+bool SimulationServant::IsAbandoned() const {
   return !simulation_->specification().keep &&
-         std::chrono::steady_clock::now().time_since_epoch() - last_contact_.load() > limit;
+         std::chrono::steady_clock::now().time_since_epoch() - last_contact_.load() > abandoned_after_;
 }
 
 sba::SimulationSpecification* SimulationServant::specification() {
@@ -243,13 +247,13 @@ void SimulationServiceServant::Destroy(SimulationServant& servant) {
 void SimulationServiceServant::StopAbandoned() {
   std::unique_lock lock(mutex_);
   while (!closing_) {
-    closing_changed_.wait_for(lock, std::chrono::seconds(5), [this] { return closing_; });
+    closing_changed_.wait_for(lock, std::chrono::seconds(1), [this] { return closing_; });
     for (const auto& [name, servant] : servants_) {
-      if (!servant->IsAbandoned(kAbandonedAfter)) continue;
+      if (!servant->IsAbandoned()) continue;
       const Phase phase = servant->simulation()->status().phase;
       if (phase == Phase::kStopped || phase == Phase::kFinished || phase == Phase::kFailed)
         continue;
-      spdlog::warn("{}: stopped, since nobody has called for {} s", name, kAbandonedAfter.count());
+      spdlog::warn("{}: stopped, since its creator has not called for too long", name);
       (void)servant->simulation()->Stop();
     }
   }

@@ -53,8 +53,8 @@ class SimulationServant final : public POA_sba::Simulation {
   void destroy() override;
 
   const std::shared_ptr<simulation::Simulation>& simulation() const { return simulation_; }
-  // Nobody has called for `limit` of wall time, and it was not created to be kept.
-  bool IsAbandoned(std::chrono::seconds limit) const;
+  // Nobody has called for too long, and it was not created to be kept.
+  bool IsAbandoned() const;
 
  private:
   std::string Add(const sba::RobotSpecification& robot, bool is_avatar);
@@ -63,6 +63,7 @@ class SimulationServant final : public POA_sba::Simulation {
   const std::shared_ptr<simulation::Simulation> simulation_;
   SimulationServiceServant& service_;
   const sba::SimulationSpecification specification_;
+  std::chrono::steady_clock::duration abandoned_after_;
   std::atomic<std::chrono::steady_clock::duration> last_contact_;
 };
 

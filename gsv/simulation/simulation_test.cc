@@ -429,5 +429,91 @@ TEST(Simulation, AnAvatarIsSteeredWithoutABehaviour) {
   EXPECT_TRUE(StatusOf(*simulation, "person").is_avatar);
 }
 
+TEST(Simulation, ASonarIsMountedAtAPose) {
+  auto simulation = Make(Lockstep(0s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
+  auto agent = simulation->agent("robot");
+  model::SensorDescription sonar;
+  sonar.name = "ahead";
+  sonar.type = "sonar";
+  sonar.link_from_sensor = PlanarPose(0.5, 0, 0.3, 0);
+  sonar.parameters = {{"min", 0.1}, {"max", 4.0}};
+  ASSERT_TRUE(agent->CreateSensor(sonar));
+  // The wall's face is at x = 2.9.
+  EXPECT_NEAR(agent->Read("ahead")->values.at(0), 2.4, 1e-9);
+  EXPECT_FALSE(agent->CreateSensor(sonar));  // the name is taken
+  sonar.name = "on a link that is not there";
+  sonar.link = 7;
+  EXPECT_FALSE(agent->CreateSensor(sonar));
+  EXPECT_TRUE(agent->CloseSensor("ahead"));
+  EXPECT_FALSE(agent->Read("ahead"));
+}
+
+TEST(Simulation, ARobotKnowsWhereItIs) {
+  auto simulation = Make(Lockstep(0s));
+  RobotSpecification robot = Robot("robot", 1, -2);
+  robot.world_from_robot = PlanarPose(1, -2, 0, 0.5);
+  ASSERT_TRUE(simulation->AddRobot(std::move(robot)));
+  model::SensorDescription positioning;
+  positioning.name = "where";
+  positioning.type = "positioning";
+  ASSERT_TRUE(simulation->agent("robot")->CreateSensor(positioning));
+  const auto reading = simulation->agent("robot")->Read("where");
+  ASSERT_TRUE(reading);
+  EXPECT_NEAR(reading->values.at(0), 1.0, 1e-12);
+  EXPECT_NEAR(reading->values.at(1), -2.0, 1e-12);
+  EXPECT_NEAR(reading->values.at(5), 0.5, 1e-12);
+}
+
+TEST(Simulation, RobotsAppearInEachOthersSonars) {
+  auto simulation = Make(Lockstep(0s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("behind", 0, 0)));
+  ASSERT_TRUE(simulation->AddRobot(Robot("ahead", 1.5, 0)));
+  // The disc ahead has a radius of 0.2 m.
+  EXPECT_NEAR(simulation->agent("behind")->Read("front")->values.at(0), 1.3, 1e-9);
+}
+
+TEST(Simulation, ARobotThatTouchesAWallStartsBesideItAndSaysSo) {
+  auto simulation = Make(Lockstep(0s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 2.85, 0)));  // the wall's face is at x = 2.9
+  const auto status = StatusOf(*simulation, "robot");
+  EXPECT_LE(status.world_from_robot.position.x, 2.7 + 1e-3);
+  EXPECT_GE(status.world_from_robot.position.x, 2.68);
+  const auto events = simulation->events(0);
+  EXPECT_EQ(events.front().kind, "robot_moved");
+  EXPECT_NE(events.front().detail.find("wall"), std::string::npos);
+}
+
+// Tells the heading: a type that nothing in the tree knows.
+class Compass final : public sensing::Sensor {
+ public:
+  using Sensor::Sensor;
+  base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
+    sensing::Reading reading = sampling.Stamped();
+    reading.values = {geometry::Yaw(sampling.WorldFromSensor(description()).orientation)};
+    return reading;
+  }
+};
+
+TEST(Simulation, ASensorTypeComesFromOutsideTheTree) {
+  auto sensors = std::make_shared<sensing::SensorRegistry>();
+  sensing::SensorType compass;
+  compass.name = "compass";
+  compass.create =
+      [](const model::SensorDescription& d) -> base::Result<std::unique_ptr<sensing::Sensor>> {
+    return std::make_unique<Compass>(d);
+  };
+  ASSERT_TRUE(sensors->Add(compass));
+  auto simulation = *Simulation::Create(Lockstep(0s), sensors);
+  RobotSpecification robot = Robot("robot", 0, 0);
+  robot.world_from_robot = PlanarPose(0, 0, 0, 0.75);
+  ASSERT_TRUE(simulation->AddRobot(std::move(robot)));
+  model::SensorDescription description;
+  description.name = "heading";
+  description.type = "compass";
+  ASSERT_TRUE(simulation->agent("robot")->CreateSensor(description));
+  EXPECT_NEAR(simulation->agent("robot")->Read("heading")->values.at(0), 0.75, 1e-12);
+}
+
 }  // namespace
 }  // namespace gsv::simulation

@@ -25,7 +25,7 @@ constexpr const char* kPlayground = "playground";
 Outcome Headless(const std::string& world, Strings more) {
   Strings arguments{"run", world, "--headless", "--lockstep", "--json", "--duration", "1"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return Run("gsv", arguments);
+  return RunProgram("gsv", arguments);
 }
 
 void ExpectOneSentence(const Outcome& outcome, int exit_code, const std::string& part) {
@@ -187,13 +187,13 @@ class TakenPort {
 TEST(BadInput, ViewerPortInUse) {
   const TakenPort taken;
   const Outcome outcome =
-      Run("gsv", {"run", kPlayground, "--port", taken.port(), "--duration", "1"});
+      RunProgram("gsv", {"run", kPlayground, "--port", taken.port(), "--duration", "1"});
   ExpectOneSentence(outcome, 5, taken.port());
 }
 
 TEST(BadInput, BrokerPortInUse) {
   const TakenPort taken;
-  const Outcome outcome = Run("gsv", {"broker", "--port", taken.port(), "--memory"});
+  const Outcome outcome = RunProgram("gsv", {"broker", "--port", taken.port(), "--memory"});
   EXPECT_EQ(outcome.ending, "exit code 5");
   EXPECT_THAT(outcome.err, HasSubstr(taken.port()));
 }

@@ -20,7 +20,7 @@ Strings RunArguments(Strings more) {
 }
 
 TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
-  const Outcome outcome = Run("gsv", {"run", "--port", "0", "--duration", "3", "--json"});
+  const Outcome outcome = RunProgram("gsv", {"run", "--port", "0", "--duration", "3", "--json"});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("viewer: http://127.0.0.1:"));
   const auto report = outcome.LastLine();
@@ -54,16 +54,15 @@ TEST(CommandLine, RunTakesWorldRobotsAndBehaviours) {
 TEST(CommandLine, LockstepGivesTheSameHashTwice) {
   const Strings arguments = RunArguments({"--robot", "pebble@-2,-2", "--robot", "b21r@2,2",
                                           "--behaviour", "wander", "--duration", "5"});
-  const auto first = Run("gsv", arguments).LastLine();
-  const auto second = Run("gsv", arguments).LastLine();
+  const auto first = RunProgram("gsv", arguments).LastLine();
+  const auto second = RunProgram("gsv", arguments).LastLine();
   ASSERT_EQ(first["state_hash"].get<std::string>().size(), 16u);
   EXPECT_EQ(first["state_hash"], second["state_hash"]);
 }
 
 TEST(CommandLine, RunAddsAnAvatar) {
-  const Outcome outcome =
-      Run("gsv",
-          RunArguments({"--avatar", "avatar@1,1,0", "--robot", "pebble@0,1", "--duration", "0.5"}));
+  const Outcome outcome = RunProgram("gsv", RunArguments({"--avatar", "avatar@1,1,0", "--robot",
+                                                          "pebble@0,1", "--duration", "0.5"}));
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   EXPECT_EQ(outcome.LastLine()["robots"].size(), 2u);
 }
@@ -76,7 +75,7 @@ TEST(CommandLine, InterruptEndsCleanly) {
   run.AwaitLine("viewer: ");
   run.process().Signal(SIGINT);
   EXPECT_EQ(run.AwaitEnd().ending, "exit code 130");
-  EXPECT_EQ(Run("gsv", {"rec", "info", file, "--json"}).ending, "exit code 0");
+  EXPECT_EQ(RunProgram("gsv", {"rec", "info", file, "--json"}).ending, "exit code 0");
 }
 
 TEST(CommandLine, ServeRegistersWithTheBroker) {
@@ -84,7 +83,7 @@ TEST(CommandLine, ServeRegistersWithTheBroker) {
   Running serve("gsv",
                 {"serve", "--broker", broker.reference(), "--name", "laboratory", "--headless"});
   serve.AwaitLine("broker: ");
-  const Outcome offers = Run("gsv", {"offers", "--broker", broker.reference(), "--json"});
+  const Outcome offers = RunProgram("gsv", {"offers", "--broker", broker.reference(), "--json"});
   EXPECT_EQ(offers.ending, "exit code 0");
   const auto offer = offers.LastLine();
   EXPECT_EQ(offer["type"], "gsv::SimulationService");
@@ -97,20 +96,20 @@ TEST(CommandLine, ServeWithdrawsItsOfferOnSigterm) {
   serve.AwaitLine("broker: ");
   serve.process().Signal(SIGTERM);
   EXPECT_EQ(serve.AwaitEnd().ending, "exit code 0");
-  EXPECT_EQ(Run("gsv", {"offers", "--broker", broker.reference(), "--json"}).out, "");
+  EXPECT_EQ(RunProgram("gsv", {"offers", "--broker", broker.reference(), "--json"}).out, "");
 }
 
 TEST(CommandLine, RecordsAndReplays) {
   TemporaryFolder folder;
   const auto file = (folder.path() / "run.mcap").string();
   const Outcome recorded =
-      Run("gsv", RunArguments({"--robot", "pebble@0,0", "--behaviour", "wander", "--duration", "3",
-                               "--record", file}));
+      RunProgram("gsv", RunArguments({"--robot", "pebble@0,0", "--behaviour", "wander",
+                                      "--duration", "3", "--record", file}));
   EXPECT_EQ(recorded.ending, "exit code 0") << recorded.err;
-  const auto info = Run("gsv", {"rec", "info", file, "--json"}).LastLine();
+  const auto info = RunProgram("gsv", {"rec", "info", file, "--json"}).LastLine();
   EXPECT_NEAR(info["duration_s"].get<double>(), 3.0, 0.1);
   EXPECT_GT(info["messages"].get<int>(), 100);
-  const Outcome replayed = Run("gsv", {"replay", file, "--headless", "--json"});
+  const Outcome replayed = RunProgram("gsv", {"replay", file, "--headless", "--json"});
   EXPECT_EQ(replayed.ending, "exit code 0") << replayed.err;
   EXPECT_EQ(replayed.LastLine()["messages"], info["messages"]);
 }
@@ -133,7 +132,7 @@ TEST(CommandLine, ViewShowsAnotherInstance) {
 
 TEST(CommandLine, BenchTypicalKeepsFiveRobotsUnderTwentyMilliseconds) {
   const Outcome outcome =
-      Run("gsv", {"bench", "typical", "--robots", "1,5", "--duration", "3", "--json"});
+      RunProgram("gsv", {"bench", "typical", "--robots", "1,5", "--duration", "3", "--json"});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   const auto rows = outcome.LastLine()["rows"];
   ASSERT_EQ(rows.size(), 2u) << outcome.out;
@@ -148,7 +147,7 @@ TEST(CommandLine, UsageErrorsExitWithTwo) {
   for (const Strings& arguments :
        {Strings{}, Strings{"fly"}, Strings{"run", "--seed", "x"}, Strings{"run", "--port", "70000"},
         Strings{"run", "--robot", "pebble@1"}, Strings{"run", "--behaviour", "a="}}) {
-    const Outcome outcome = Run("gsv", arguments);
+    const Outcome outcome = RunProgram("gsv", arguments);
     EXPECT_EQ(outcome.ending, "exit code 2") << outcome.err;
     EXPECT_NE(outcome.err, "");
   }
@@ -157,10 +156,10 @@ TEST(CommandLine, UsageErrorsExitWithTwo) {
 TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
   TemporaryFolder folder;
   const auto world = folder.Write("bad.sdf", "<sdf version='1.9'><world name='w'><model name='m'>");
-  const Outcome bad = Run("gsv", {"world", "check", world.string(), "--json"});
+  const Outcome bad = RunProgram("gsv", {"world", "check", world.string(), "--json"});
   EXPECT_EQ(bad.ending, "exit code 3");
   EXPECT_EQ(bad.LastLine()["severity"], "error");
-  EXPECT_EQ(Run("gsv", {"world", "check", "office"}).ending, "exit code 0");
+  EXPECT_EQ(RunProgram("gsv", {"world", "check", "office"}).ending, "exit code 0");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST_P(RealWorld, RunsWithRobotsThatTravel) {
     arguments.push_back("--robot");
     arguments.push_back(RealFile(robot));
   }
-  const Outcome outcome = Run("gsv", arguments);
+  const Outcome outcome = RunProgram("gsv", arguments);
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   const auto report = outcome.LastLine();
   ASSERT_FALSE(report["robots"].empty()) << outcome.out;

@@ -255,23 +255,54 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
 // The SDK's side of the same services.
 TEST_F(Services, AnApplicationWritesNoCorba) {
   // One ORB a process: the SDK uses this one.
-  EXPECT_EQ(
-      Run("example-test-wandering", {"--broker", broker_->reference(), "--world", "playground",
-                                     "--places", "-2", "-2", "2", "-2", "--seconds", "10"})
-          .ending,
-      "exit code 0");
+  EXPECT_EQ(RunProgram("example-test-wandering",
+                       {"--broker", broker_->reference(), "--world", "playground", "--places", "-2",
+                        "-2", "2", "-2", "--seconds", "10"})
+                .ending,
+            "exit code 0");
 }
 
 TEST_F(Services, AnApplicationFailsItsVerdictWhenNobodyGetsFarEnough) {
-  const Outcome outcome =
-      Run("example-test-wandering", {"--broker", broker_->reference(), "--world", "playground",
-                                     "--places", "-2", "-2", "--seconds", "0.1"});
+  const Outcome outcome = RunProgram("example-test-wandering",
+                                     {"--broker", broker_->reference(), "--world", "playground",
+                                      "--places", "-2", "-2", "--seconds", "0.1"});
   EXPECT_EQ(outcome.ending, "exit code 1");
   EXPECT_THAT(outcome.out, HasSubstr("verdict: failed"));
 }
 
+TEST_F(Services, AFirstBehaviourDrivesARobot) {
+  Running first("example-first-behaviour", {"--broker", broker_->reference()});
+  first.AwaitLine("offered at");
+  const Outcome outcome = RunProgram(
+      "gsv", {"run", "playground", "--broker", broker_->reference(), "--robot", "pebble@0,-2",
+              "--behaviour", "first", "--lockstep", "--duration", "5", "--headless", "--json"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_GT(outcome.LastLine()["robots"][0]["distance_m"], 0.5);
+}
+
+TEST_F(SimulationService, EndsWhenItsCreatorIsGone) {
+  sba::SimulationSpecification specification = Playground();
+  specification.options.length(1);
+  specification.options[0].name = "abandoned_after_s";
+  specification.options[0].value = "1";
+  sba::Simulation_var simulation = service_->create_simulation(specification);
+  simulation->start();
+  // Watched from outside, which is no sign of life from its creator.
+  const CORBA::String_var viewer(simulation->viewer_url());
+  const std::string url =
+      std::string(viewer).substr(0, std::string(viewer).find('?')) + "api/simulations";
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  std::string seen;
+  while (seen.find("\"stopped\"") == std::string::npos &&
+         std::chrono::steady_clock::now() < give_up) {
+    seen = HttpGet(url);
+  }
+  EXPECT_THAT(seen, HasSubstr("\"stopped\""));
+  simulation->destroy();
+}
+
 TEST_F(Services, BehaviourDrivesHardwareThatIsNoSimulation) {
-  const Outcome outcome = Run("example-real-robot", {"--broker", broker_->reference()});
+  const Outcome outcome = RunProgram("example-real-robot", {"--broker", broker_->reference()});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.out << outcome.err;
 }
 

@@ -88,7 +88,7 @@ Outcome Running::AwaitEnd() {
 
 std::string Running::errors() const { return ReadFile(folder_.path() / "stderr"); }
 
-Outcome Run(const std::string& program, std::vector<std::string> arguments) {
+Outcome RunProgram(const std::string& program, std::vector<std::string> arguments) {
   return Running(program, std::move(arguments)).AwaitEnd();
 }
 

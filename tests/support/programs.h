@@ -53,7 +53,7 @@ class Running {
   std::string out_;
 };
 
-Outcome Run(const std::string& program, std::vector<std::string> arguments);
+Outcome RunProgram(const std::string& program, std::vector<std::string> arguments);
 
 // The body of the answer from a server on this machine; empty when there is none.
 std::string HttpGet(const std::string& url);

@@ -1,0 +1,173 @@
+#include "gsv/gateway/relay.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "gsv/gateway/testing/scripted_simulation.h"
+#include "gsv/gateway/testing/simulation_list.h"
+#include "gsv/gateway/testing/web_client.h"
+#include "gsv/gateway/upstream/address.h"
+#include "gsv/gateway/upstream/protocol.h"
+#include "gsv/messages/gsv_msgs.h"
+
+namespace gsv::gateway {
+namespace {
+
+using messages::gsv_msgs::LifecycleEvent;
+using messages::gsv_msgs::Poses;
+using messages::gsv_msgs::SimulationStatus;
+using nlohmann::json;
+using testing::Decoded;
+using testing::Fetch;
+using testing::HttpReply;
+using testing::ScriptedSimulation;
+using testing::Viewer;
+
+TEST(UpstreamAddress, IsWhatAViewersUrlSays) {
+  EXPECT_EQ(upstream::ParseAddress("http://127.0.0.1:8080/")->Authority(), "127.0.0.1:8080");
+  EXPECT_EQ(upstream::ParseAddress("http://robot.lan")->Authority(), "robot.lan:80");
+  EXPECT_EQ(upstream::ParseAddress("http://[::1]:99")->Authority(), "[::1]:99");
+  EXPECT_EQ(upstream::ParseAddress("http://[::1]:99")->host, "::1");
+  for (const char* bad : {"", "127.0.0.1:8080", "https://a:1/", "http://", "http://a:0/", "http://a:x",
+                          "http://a:65536", "http://a/b", "http://[::1", "http://::1:80",
+                          "http://a b:80", "http://[]:80"}) {
+    EXPECT_FALSE(upstream::ParseAddress(bad)) << bad;
+  }
+}
+
+TEST(UpstreamProtocol, RefusesWhatIsNone) {
+  for (const char* bad :
+       {"", "[]", R"({"op":"advertise"})", R"({"op":"advertise","channels":[{}]})",
+        R"({"op":"advertise","channels":[{"id":-1}]})", R"({"op":"unadvertise","channelIds":["x"]})"}) {
+    EXPECT_FALSE(upstream::ParseServerText(bad)) << bad;
+  }
+  EXPECT_TRUE(upstream::ParseServerText(R"({"op":"serverInfo"})"));
+  EXPECT_FALSE(upstream::ParseServerData(""));
+  EXPECT_FALSE(upstream::ParseServerData(std::string(12, '\x01')));
+  EXPECT_FALSE(upstream::ParseServerData(std::string(8, '\x02')));
+}
+
+class RelayTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    directory_->Add(simulation_);
+    StartGateway(0);
+    auto relay = Relay::Start({}, gateway_->url());
+    ASSERT_TRUE(relay) << relay.error().Sentence();
+    relay_ = std::move(*relay);
+  }
+
+  void StartGateway(std::uint16_t port) {
+    GatewayOptions options;
+    options.port = port;
+    auto gateway = Gateway::Start(options, directory_);
+    ASSERT_TRUE(gateway) << gateway.error().Sentence();
+    gateway_ = std::move(*gateway);
+  }
+  std::uint16_t port() const { return relay_->port(); }
+
+  std::shared_ptr<ScriptedSimulation> simulation_ =
+      std::make_shared<ScriptedSimulation>("arena", 1);
+  std::shared_ptr<testing::SimulationList> directory_ = std::make_shared<testing::SimulationList>();
+  std::unique_ptr<Gateway> gateway_;
+  std::unique_ptr<Relay> relay_;
+};
+
+TEST_F(RelayTest, PassesRequestsAndAnswersOn) {
+  const std::string scene = "/api/simulations/arena/scene";
+  const HttpReply here = Fetch(port(), "GET", scene);
+  EXPECT_EQ(here.body, Fetch(gateway_->port(), "GET", scene).body);
+  const std::string id = json::parse(here.body)["bodies"][0]["model"];
+  const HttpReply model = Fetch(port(), "GET", "/api/models/" + id + ".glb");
+  EXPECT_EQ(model.body.substr(0, 4), "glTF");
+  EXPECT_EQ(model.headers.at("content-type"), "model/gltf-binary");
+  EXPECT_EQ(model.headers.at("cache-control"), "public, max-age=31536000, immutable");
+  EXPECT_EQ(Fetch(port(), "GET", "/api/models/" + id + ".glb",
+                  "If-None-Match: " + model.headers.at("etag") + "\r\n").status,
+            304);
+  EXPECT_EQ(Fetch(port(), "POST", "/api/simulations/arena/start", "", "{}").status, 200);
+  EXPECT_EQ(simulation_->status().phase, simulation::Phase::kRunning);
+  const HttpReply again = Fetch(port(), "POST", "/api/simulations/arena/start", "", "{}");
+  EXPECT_EQ(again.status, 409);
+  EXPECT_EQ(json::parse(again.body)["error"], "the simulation is running and cannot be started");
+  Fetch(port(), "POST", "/api/simulations/arena/robots/avatar/drive", "", R"({"linear_m_s":0.5})");
+  EXPECT_EQ(simulation_->avatar_command().linear, 0.5);
+  EXPECT_EQ(Fetch(port(), "GET", "/", "Origin: http://evil.example\r\n").status, 403);
+}
+
+TEST_F(RelayTest, SeveralViewersSeeTheRobotsMove) {
+  Viewer first(port()), second(port(), "/ws?simulation=arena", "foxglove.websocket.v1");
+  first.Subscribe(1, "/gsv/poses");
+  second.Subscribe(2, "/gsv/poses");
+  EXPECT_NEAR(Decoded<Poses>(first.ReceiveData(1)).poses[7 * 3], 1, 1e-12);
+  EXPECT_NEAR(Decoded<Poses>(second.ReceiveData(2)).poses[7 * 3], 1, 1e-12);
+  simulation_->Advance(std::chrono::seconds(5));
+  const testing::ReceivedData data = first.ReceiveData(1);
+  EXPECT_EQ(data.time_ns, 5'000'000'000u);
+  EXPECT_NEAR(Decoded<Poses>(data).poses[7 * 3], std::cos(1), 1e-12);
+  EXPECT_NEAR(Decoded<Poses>(second.ReceiveData(2)).poses[7 * 3], std::cos(1), 1e-12);
+}
+
+TEST_F(RelayTest, ALateViewerOfAPausedSimulationGetsThePresentAndTheEvents) {
+  simulation_->AddEvent("one");
+  simulation_->AddEvent("two");
+  Viewer early(port());
+  early.Subscribe(1, "/gsv/poses");
+  early.Subscribe(2, "/gsv/events");
+  early.ReceiveData(1);
+  early.ReceiveData(2);
+  early.ReceiveData(2);
+  Viewer late(port());
+  late.Subscribe(1, "/gsv/poses");
+  EXPECT_EQ(Decoded<Poses>(late.ReceiveData(1)).poses.size(), 7u * 6);
+  late.Subscribe(2, "/gsv/events");
+  EXPECT_EQ(Decoded<LifecycleEvent>(late.ReceiveData(2)).event, "one");
+  EXPECT_EQ(Decoded<LifecycleEvent>(late.ReceiveData(2)).event, "two");
+}
+
+TEST_F(RelayTest, WaitsForAnInstanceThatIsRestarted) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/status");
+  viewer.ReceiveData(1);
+  const std::uint16_t same_port = gateway_->port();
+  gateway_.reset();
+  EXPECT_NE(viewer.ReceiveText("status")["message"].get<std::string>().find("is tried again"),
+            std::string::npos);
+  EXPECT_EQ(Fetch(port(), "GET", "/api/simulations").status, 503);
+  StartGateway(same_port);
+  const json channels = viewer.ReceiveText("advertise")["channels"];
+  for (const json& channel : channels) {
+    if (channel["topic"] == "/gsv/status") {
+      viewer.SendText(testing::SubscribeText(7, channel["id"]));
+    }
+  }
+  EXPECT_EQ(Decoded<SimulationStatus>(viewer.ReceiveData(7)).state, "created");
+}
+
+TEST_F(RelayTest, ViewersOfASimulationThatIsGoneAreTold) {
+  Viewer stranger(port(), "/ws?simulation=nobody");
+  while (stranger.Receive()) {
+  }
+  EXPECT_EQ(stranger.close_code(), 1001);
+  EXPECT_EQ(stranger.close_reason(), "the simulation 'nobody' is gone");
+}
+
+TEST_F(RelayTest, ARelayCanBeRelayed) {
+  auto second = Relay::Start({}, relay_->url());
+  ASSERT_TRUE(second);
+  Viewer viewer((*second)->port());
+  viewer.Subscribe(1, "/robot_0/front_sonar");
+  viewer.ReceiveData(1);
+}
+
+TEST(Relay, NothingThereIsAnError) {
+  const auto silent = Relay::Start({}, "http://127.0.0.1:1/");
+  ASSERT_FALSE(silent);
+  EXPECT_EQ(silent.error().code, base::ErrorCode::kUnavailable);
+  EXPECT_NE(silent.error().Sentence().find("http://127.0.0.1:1/"), std::string::npos);
+  EXPECT_EQ(Relay::Start({}, "127.0.0.1").error().code, base::ErrorCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace gsv::gateway

@@ -1,0 +1,47 @@
+// The client's half of the Foxglove WebSocket protocol (see gsv/gateway/foxglove.h).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gsv/gateway/foxglove.h"
+
+namespace gsv::gateway::upstream {
+
+struct Advertise {
+  std::vector<foxglove::Channel> channels;
+};
+struct Unadvertise {
+  std::vector<foxglove::ChannelId> channels;
+};
+struct StatusMessage {
+  foxglove::StatusLevel level = foxglove::StatusLevel::kInfo;
+  std::string message;
+};
+struct Other {};  // one that this client has no use for
+using ServerText = std::variant<Advertise, Unadvertise, StatusMessage, Other>;
+
+// Fails with kCorrupt on what is not a message of the protocol.
+base::Result<ServerText> ParseServerText(std::string_view text);
+
+struct MessageData {
+  foxglove::SubscriptionId subscription = 0;
+  std::uint64_t time_ns = 0;
+  std::string_view payload;
+};
+struct Time {
+  std::uint64_t time_ns = 0;
+};
+using ServerData = std::variant<MessageData, Time, Other>;
+
+// The payload points into `bytes`.
+base::Result<ServerData> ParseServerData(std::string_view bytes);
+
+std::string SubscribeText(std::span<const foxglove::Subscription> subscriptions);
+std::string UnsubscribeText(std::span<const foxglove::SubscriptionId> subscriptions);
+
+}  // namespace gsv::gateway::upstream

@@ -1,0 +1,296 @@
+#include "gsv/gateway/upstream/stream.h"
+
+#include <algorithm>
+#include <atomic>
+#include <concepts>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include "gsv/gateway/target.h"
+#include "gsv/gateway/upstream/channel_map.h"
+
+namespace gsv::gateway::upstream {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+using boost::system::error_code;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using WebSocket = websocket::stream<beast::tcp_stream>;
+
+// A big picture, or the list of two thousand channels with their definitions.
+constexpr std::size_t kLargestMessage = 64u << 20;
+constexpr seconds kConnectTime{10};
+constexpr seconds kIdleTime{30};
+constexpr milliseconds kFirstPause{200}, kLongestPause{5000};
+
+foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulation) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return {"gsv relay of " + address.Url(),
+          {"time"},
+          {{"simulation", simulation}},
+          std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count())};
+}
+
+// One attempt, from looking up the name to the end of the connection. What is under way keeps it
+// alive; whatever comes of an attempt that is not the present one is not heard.
+struct Attempt {
+  explicit Attempt(asio::io_context& io) : resolver(io), socket(io) {}
+
+  void Abandon() {
+    resolver.cancel();
+    beast::get_lowest_layer(socket).close();
+  }
+
+  tcp::resolver resolver;
+  WebSocket socket;
+  websocket::response_type answer;   // to the handshake
+  beast::flat_buffer incoming;
+  std::deque<std::string> outgoing;  // the front is being written
+};
+using AttemptPointer = std::shared_ptr<Attempt>;
+
+class RemoteStream final : public Stream, public std::enable_shared_from_this<RemoteStream> {
+ public:
+  RemoteStream(asio::io_context& io, const Address& address, const std::string& simulation)
+      : io_(io), address_(address), simulation_(simulation), pause_(io) {}
+
+  void Open() {
+    hub_ = std::make_shared<Hub>(InfoOf(address_, simulation_), [weak = weak_from_this()] {
+      if (const auto self = weak.lock()) self->OnDemand();
+    });
+    channels_.emplace(hub_);
+  }
+
+  const std::shared_ptr<Hub>& hub() const override { return hub_; }
+  bool has_ended() const override { return has_ended_; }
+
+  void Stop() override {
+    asio::post(io_, [self = shared_from_this()] {
+      self->is_stopped_ = true;
+      self->Disconnect();
+    });
+  }
+
+ private:
+  // Any thread: somebody came, went, subscribed or unsubscribed.
+  void OnDemand() {
+    if (is_called_.exchange(true)) return;
+    asio::post(io_, [self = shared_from_this()] {
+      self->is_called_ = false;
+      self->FollowDemand();
+    });
+  }
+
+  void FollowDemand() {
+    if (is_stopped_ || has_ended_) return;
+    if (!hub_->has_clients()) return Disconnect();
+    if (state_ == State::kIdle) return Connect();
+    if (state_ != State::kOpen) return;
+    for (std::string& text : channels_->FollowDemand()) Send(std::move(text));
+    channels_->WelcomeNewcomers();
+  }
+
+  // A handler that does nothing once its attempt is over.
+  template <typename Then>
+  auto ForThis(Then then) {
+    return [self = shared_from_this(), attempt = attempt_,
+            then]<typename... Results>(error_code error, const Results&... results)
+      requires std::invocable<const Then&, RemoteStream&, error_code, const Results&...>
+    {
+      if (attempt == self->attempt_) then(*self, error, results...);
+    };
+  }
+
+  void Connect() {
+    state_ = State::kConnecting;
+    attempt_ = std::make_shared<Attempt>(io_);
+    attempt_->resolver.async_resolve(
+        address_.host, address_.port,
+        ForThis([](RemoteStream& self, error_code error, const tcp::resolver::results_type& found) {
+          if (error) return self.TryAgain(error.message());
+          self.ConnectTo(found);
+        }));
+  }
+
+  void ConnectTo(const tcp::resolver::results_type& found) {
+    auto& tcp_stream = beast::get_lowest_layer(attempt_->socket);
+    tcp_stream.expires_after(kConnectTime);
+    tcp_stream.async_connect(
+        found, ForThis([](RemoteStream& self, error_code error, const tcp::endpoint&) {
+          if (error) return self.TryAgain(error.message());
+          self.Handshake();
+        }));
+  }
+
+  void Handshake() {
+    WebSocket& socket = attempt_->socket;
+    beast::get_lowest_layer(socket).expires_never();
+    websocket::stream_base::timeout timeout{};
+    timeout.handshake_timeout = kConnectTime;
+    timeout.idle_timeout = kIdleTime;
+    timeout.keep_alive_pings = true;
+    socket.set_option(timeout);
+    socket.read_message_max(kLargestMessage);
+    socket.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
+      request.set(beast::http::field::user_agent, "gsv");
+      request.set(beast::http::field::sec_websocket_protocol,
+                  std::string(foxglove::kSubprotocols[0]) + ", " +
+                      std::string(foxglove::kSubprotocols[1]));
+    }));
+    const std::string target = simulation_.empty() ? "/ws" : "/ws?simulation=" + Escape(simulation_);
+    socket.async_handshake(
+        attempt_->answer, address_.Authority(), target,
+        ForThis([](RemoteStream& self, error_code error) { self.OnHandshake(error); }));
+  }
+
+  void OnHandshake(error_code error) {
+    const auto& answer = attempt_->answer;
+    const bool is_refused = error == websocket::error::upgrade_declined;
+    if (is_refused && answer.result() == beast::http::status::not_found) return End();
+    if (is_refused) {
+      return TryAgain("it answers " + std::to_string(answer.result_int()) + " " +
+                      answer.body().substr(0, 200));
+    }
+    if (error) return TryAgain(error.message());
+    state_ = State::kOpen;
+    pause_length_ = kFirstPause;
+    Read();
+  }
+
+  void Read() {
+    attempt_->socket.async_read(
+        attempt_->incoming, ForThis([](RemoteStream& self, error_code error, std::size_t) {
+          if (error) return self.TryAgain(self.LastWords(error));
+          self.OnMessage();
+        }));
+  }
+
+  std::string LastWords(error_code error) const {
+    const auto& reason = attempt_->socket.reason().reason;
+    return reason.empty() ? error.message() : std::string(reason.data(), reason.size());
+  }
+
+  void OnMessage() {
+    const AttemptPointer attempt = attempt_;  // what is taken may end it
+    const auto data = attempt->incoming.cdata();
+    const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
+    const base::Status taken = attempt->socket.got_text() ? TakeText(bytes) : TakeData(bytes);
+    attempt->incoming.clear();
+    if (attempt != attempt_) return;
+    if (!taken) return TryAgain(taken.error().message);
+    Read();
+  }
+
+  base::Status TakeText(std::string_view bytes) {
+    const base::Result<ServerText> text = ParseServerText(bytes);
+    if (!text) return base::Fail(text.error());
+    std::visit([this](const auto& message) { Take(message); }, *text);
+    return {};
+  }
+
+  base::Status TakeData(std::string_view bytes) {
+    const base::Result<ServerData> data = ParseServerData(bytes);
+    if (!data) return base::Fail(data.error());
+    std::visit([this](const auto& message) { Take(message); }, *data);
+    return {};
+  }
+
+  void Take(const Advertise& message) {
+    channels_->Take(message);
+    FollowDemand();
+  }
+  void Take(const Unadvertise& message) { channels_->Take(message); }
+  void Take(const StatusMessage& message) { hub_->SendStatus(message.level, message.message); }
+  void Take(const MessageData& message) { channels_->Take(message); }
+  void Take(const Time& message) { hub_->PublishTime(message.time_ns); }
+  void Take(const Other&) {}
+
+  void Send(std::string text) {
+    attempt_->outgoing.push_back(std::move(text));
+    if (attempt_->outgoing.size() == 1) WriteNext();
+  }
+
+  void WriteNext() {
+    attempt_->socket.text(true);
+    attempt_->socket.async_write(
+        asio::buffer(attempt_->outgoing.front()),
+        ForThis([](RemoteStream& self, error_code error, std::size_t) {
+          if (error) return self.TryAgain(error.message());
+          self.attempt_->outgoing.pop_front();
+          if (!self.attempt_->outgoing.empty()) self.WriteNext();
+        }));
+  }
+
+  void Disconnect() {
+    state_ = State::kIdle;
+    pause_.cancel();
+    if (attempt_) attempt_->Abandon();
+    attempt_ = nullptr;
+    channels_->Clear();
+  }
+
+  void TryAgain(const std::string& why) {
+    const bool was_open = state_ == State::kOpen;
+    Disconnect();
+    if (was_open || pause_length_ == kFirstPause) {
+      hub_->SendStatus(foxglove::StatusLevel::kWarning,
+                       address_.Url() + ": the connection is lost: " + why +
+                           "; it is tried again");
+    }
+    state_ = State::kPausing;
+    pause_.expires_after(pause_length_);
+    pause_length_ = std::min(2 * pause_length_, kLongestPause);
+    pause_.async_wait([self = shared_from_this()](error_code error) {
+      if (error || self->state_ != State::kPausing) return;
+      self->state_ = State::kIdle;
+      self->FollowDemand();
+    });
+  }
+
+  void End() {
+    Disconnect();
+    has_ended_ = true;
+    hub_->Close(CloseCode::kGoingAway,
+                simulation_.empty() ? "there is no simulation at " + address_.Url()
+                                    : "the simulation '" + simulation_ + "' is gone");
+  }
+
+  // kPausing: until the next attempt. kIdle: nobody watches.
+  enum class State { kIdle, kConnecting, kOpen, kPausing };
+
+  asio::io_context& io_;
+  const Address address_;
+  const std::string simulation_;
+  std::shared_ptr<Hub> hub_;
+  std::optional<ChannelMap> channels_;
+  asio::steady_timer pause_;
+  AttemptPointer attempt_;  // null while there is none
+  State state_ = State::kIdle;
+  milliseconds pause_length_ = kFirstPause;
+  bool is_stopped_ = false;
+  std::atomic<bool> is_called_{false};
+  std::atomic<bool> has_ended_{false};
+};
+
+}  // namespace
+
+std::shared_ptr<Stream> Stream::Make(asio::io_context& io, const Address& address,
+                                     const std::string& simulation) {
+  auto stream = std::make_shared<RemoteStream>(io, address, simulation);
+  stream->Open();
+  return stream;
+}
+
+}  // namespace gsv::gateway::upstream

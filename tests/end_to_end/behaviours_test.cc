@@ -1,0 +1,55 @@
+// The behaviours that ship, in our own worlds.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using Strings = std::vector<std::string>;
+
+nlohmann::json RobotAfter(const std::string& broker, const std::string& world,
+                          const std::string& robot, const std::string& behaviour, int seconds) {
+  const Outcome outcome = RunProgram(
+      "gsv", {"run", world, "--broker", broker, "--robot", robot, "--behaviour", behaviour,
+              "--lockstep", "--duration", std::to_string(seconds), "--headless", "--json"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  return outcome.LastLine()["robots"][0];
+}
+
+TEST(Behaviours, WanderTravels) {
+  const BrokerProcess broker;
+  Running program("gsv-wander", {"--broker", broker.reference()});
+  program.AwaitLine("offered at");
+  const auto robot = RobotAfter(broker.reference(), "office", "b21r@-3,0", "wander", 30);
+  EXPECT_GT(robot["distance_m"], 3.0);
+  EXPECT_EQ(robot["readings"]["camera"], 30);  // one a second
+}
+
+TEST(Behaviours, FollowWallKeepsItsDistance) {
+  const BrokerProcess broker;
+  Running program("gsv-follow-wall", {"--broker", broker.reference()});
+  program.AwaitLine("offered at");
+  const auto robot =
+      RobotAfter(broker.reference(), "playground", "pebble@3,-4.2,0", "follow-wall", 60);
+  EXPECT_GT(robot["distance_m"], 8.0);
+  EXPECT_EQ(robot["collisions"], 0);
+  // The square's walls stand 5 m from its middle.
+  const double x = robot["pose"]["x_m"], y = robot["pose"]["y_m"];
+  EXPECT_GT(std::max(std::abs(x), std::abs(y)), 5.0 - 1.5) << robot;
+}
+
+TEST(Behaviours, GotoReachesItsGoal) {
+  const BrokerProcess broker;
+  Running program("gsv-goto", {"--broker", broker.reference(), "--goal-x", "-4", "--goal-y", "0"});
+  program.AwaitLine("offered at");
+  const auto robot = RobotAfter(broker.reference(), "office", "pebble@3,0", "goto", 60);
+  EXPECT_NEAR(robot["pose"]["x_m"].get<double>(), -4.0, 0.2) << robot;
+  EXPECT_NEAR(robot["pose"]["y_m"].get<double>(), 0.0, 0.2) << robot;
+  EXPECT_EQ(robot["agent"], "finished");
+}
+
+}  // namespace
+}  // namespace gsv::testing
