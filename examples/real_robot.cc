@@ -209,18 +209,19 @@ class CartClock final : public POA_sba::Clock {
 
 class CartHardware final : public POA_sba::Hardware {
  public:
-  explicit CartHardware(Cart& cart) : cart_(cart), sensors_(cart), base_(cart) {}
+  explicit CartHardware(Cart& cart)
+      : cart_(cart), sensors_(new CartSensors(cart)), base_(new CartBase(cart)) {}
   char* robot_name() override { return CORBA::string_dup("cart"); }
   char* robot_model() override { return CORBA::string_dup("cart"); }
   CORBA::Double footprint_radius_m() override { return kRadius; }
-  sba::SensorFactory_ptr sensor_factory() override { return sensors_._this(); }
-  sba::ActuatorProxy_ptr base() override { return base_._this(); }
+  sba::SensorFactory_ptr sensor_factory() override { return sensors_->_this(); }
+  sba::ActuatorProxy_ptr base() override { return base_->_this(); }
   sba::Clock_ptr open_clock() override { return (new CartClock(cart_))->_this(); }
 
  private:
   Cart& cart_;
-  CartSensors sensors_;
-  CartBase base_;
+  PortableServer::Servant_var<CartSensors> sensors_;
+  PortableServer::Servant_var<CartBase> base_;
 };
 
 base::Status DriveFor(double seconds, CORBA::ORB_ptr orb, const std::string& broker_reference,
@@ -234,12 +235,13 @@ base::Status DriveFor(double seconds, CORBA::ORB_ptr orb, const std::string& bro
     return base::Fail(base::ErrorCode::kNotFound, "the behaviour is not offered there",
                       broker->reference());
   }
-  CartHardware hardware(cart);
+  // The ORB holds on to its servants until it is destroyed.
+  const PortableServer::Servant_var<CartHardware> hardware(new CartHardware(cart));
   const auto status = orb::Call(behaviour_name, [&] {
     const sba::AgentBehaviourFactory_var factory =
         sba::AgentBehaviourFactory::_narrow(offers->front().object);
     const sba::AgentBehaviour_var behaviour = factory->create();
-    const sba::Hardware_var reference = hardware._this();
+    const sba::Hardware_var reference = hardware->_this();
     behaviour->init("cart", reference);
     behaviour->start();
     cart.WaitUntil(cart.Now() + static_cast<std::int64_t>(seconds * 1e9));

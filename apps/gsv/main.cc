@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
   AddCheckCommands(line);
   AddRecordingCommands(line);
   AddBenchCommands(line);
-  // AddViewCommand(line);
+  AddViewCommand(line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -15,6 +15,7 @@
 #include "gsv/orb/orb.h"
 #include "gsv/rendering/camera_sensor.h"
 #include "gsv/rendering/renderer.h"
+#include "gsv/scenario/scenario.h"
 
 namespace gsv::app {
 namespace {
@@ -125,7 +126,9 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
 
 services::ServiceHooks Runtime::Hooks() {
   services::ServiceHooks hooks;
-  hooks.default_world = ResolveWorld("office");
+  hooks.find_world = [](const std::string& world) {
+    return ResolveWorld(world.empty() ? scenario::DefaultScenario().world : world);
+  };
   hooks.viewer_url = [this](const std::string& simulation) {
     return viewer_url_.empty() ? "" : viewer_url_ + "?simulation=" + simulation;
   };

@@ -11,8 +11,8 @@ const AccessRule& Local() {
 }
 
 TEST(AccessRule, AllowsThisMachinesNamesWithThePort) {
-  for (const char* host : {"127.0.0.1:8080", "localhost:8080", "LocalHost:8080", "[::1]:8080",
-                           "robot.lan:8080"}) {
+  for (const char* host :
+       {"127.0.0.1:8080", "localhost:8080", "LocalHost:8080", "[::1]:8080", "robot.lan:8080"}) {
     EXPECT_TRUE(Local().Check(host, "")) << host;
     EXPECT_TRUE(Local().Check(host, "http://" + std::string(host))) << host;
   }
@@ -20,15 +20,16 @@ TEST(AccessRule, AllowsThisMachinesNamesWithThePort) {
 }
 
 TEST(AccessRule, RefusesOtherNamesAndPorts) {
-  for (const char* host : {"", "127.0.0.1", "127.0.0.1:80", "evil.example:8080", "127.0.0.1:8080.evil",
-                           "localhost:8080 "}) {
+  for (const char* host : {"", "127.0.0.1", "127.0.0.1:80", "evil.example:8080",
+                           "127.0.0.1:8080.evil", "localhost:8080 "}) {
     EXPECT_FALSE(Local().Check(host, "")) << host;
   }
 }
 
 TEST(AccessRule, RefusesPagesFromElsewhere) {
-  for (const char* origin : {"null", "http://evil.example", "https://localhost:8080",
-                             "http://localhost:5173", "http://localhost", "http://localhost:8080/"}) {
+  for (const char* origin :
+       {"null", "http://evil.example", "https://localhost:8080", "http://localhost:5173",
+        "http://localhost", "http://localhost:8080/"}) {
     const base::Status status = Local().Check("localhost:8080", origin);
     ASSERT_FALSE(status) << origin;
     EXPECT_NE(status.error().message.find("http://127.0.0.1:8080/"), std::string::npos);

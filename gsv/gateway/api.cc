@@ -107,7 +107,8 @@ Response Api::OfRobot(const Request& request, const SimulationPointer& simulatio
 
 Response Api::Scene(const Simulation& simulation) {
   return JsonResponse(
-      200, presentation::SceneJson(simulation, [this](const std::shared_ptr<const model::Model>& model) {
+      200,
+      presentation::SceneJson(simulation, [this](const std::shared_ptr<const model::Model>& model) {
         return models_.Identify(model);
       }));
 }

@@ -106,11 +106,11 @@ TEST_F(ApiTest, ARobotWithABehaviourIsNotDriven) {
 }
 
 TEST_F(ApiTest, UnknownAddressesAndMethods) {
-  for (const char* target : {"/api", "/api/robots", "/api/simulations/other",
-                             "/api/simulations/first%20light/fly",
-                             "/api/simulations/first%20light/robots/avatar",
-                             "/api/simulations/first%20light/robots/avatar/drive/x",
-                             "/api/models", "/api/models/0123", "/api/models/0123.glb"}) {
+  for (const char* target :
+       {"/api", "/api/robots", "/api/simulations/other", "/api/simulations/first%20light/fly",
+        "/api/simulations/first%20light/robots/avatar",
+        "/api/simulations/first%20light/robots/avatar/drive/x", "/api/models", "/api/models/0123",
+        "/api/models/0123.glb"}) {
     EXPECT_TRUE(AskJson("GET", target, 404).contains("error")) << target;
   }
   EXPECT_EQ(Ask("POST", "/api/simulations").allow, "GET");

@@ -74,9 +74,7 @@ TEST(Foxglove, RefusesWhatIsNoMessage) {
   }
 }
 
-TEST(Foxglove, SurvivesDeepNesting) {
-  EXPECT_FALSE(ParseClientMessage(std::string(200'000, '[')));
-}
+TEST(Foxglove, SurvivesDeepNesting) { EXPECT_FALSE(ParseClientMessage(std::string(200'000, '['))); }
 
 }  // namespace
 }  // namespace gsv::gateway::foxglove

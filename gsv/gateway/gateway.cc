@@ -46,9 +46,8 @@ class LocalGateway final : public Gateway, private Handler {
   void Handle(Request request, Respond respond) override {
     // What commands may block (a reset calls behaviours), and must not hold up those who look.
     WorkerPool& workers = request.method == "GET" ? readers_ : commanders_;
-    const bool accepted = workers.Submit([this, respond, request = std::move(request)] {
-      respond(Answer(request));
-    });
+    const bool accepted =
+        workers.Submit([this, respond, request = std::move(request)] { respond(Answer(request)); });
     if (!accepted) respond(ErrorResponse(503, "the server is busy; try again in a moment"));
   }
 

@@ -8,14 +8,20 @@ namespace {
 int StatusOf(base::ErrorCode code) {
   switch (code) {
     case base::ErrorCode::kInvalidArgument:
-    case base::ErrorCode::kCorrupt: return 400;
-    case base::ErrorCode::kNotFound: return 404;
+    case base::ErrorCode::kCorrupt:
+      return 400;
+    case base::ErrorCode::kNotFound:
+      return 404;
     case base::ErrorCode::kNotRunning:
-    case base::ErrorCode::kEnded: return 409;
-    case base::ErrorCode::kUnavailable: return 503;
-    case base::ErrorCode::kTimeout: return 504;
+    case base::ErrorCode::kEnded:
+      return 409;
+    case base::ErrorCode::kUnavailable:
+      return 503;
+    case base::ErrorCode::kTimeout:
+      return 504;
     case base::ErrorCode::kBadModel:
-    case base::ErrorCode::kBehaviour: return 500;
+    case base::ErrorCode::kBehaviour:
+      return 500;
   }
   return 500;
 }

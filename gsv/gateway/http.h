@@ -12,8 +12,8 @@
 namespace gsv::gateway {
 
 struct Request {
-  std::string method;         // "GET", "POST"; a HEAD arrives as GET and loses its body on the way out
-  std::string raw_target;     // as it came: "/api/simulations?x=1"
+  std::string method;      // "GET", "POST"; a HEAD arrives as GET and loses its body on the way out
+  std::string raw_target;  // as it came: "/api/simulations?x=1"
   Target target;
   std::string body;
   std::string content_type;
@@ -24,9 +24,9 @@ struct Response {
   int status = 200;
   std::string content_type;
   SharedBytes body;
-  std::string etag;                      // with its quotes; empty: none
+  std::string etag;  // with its quotes; empty: none
   std::string cache_control = "no-store";
-  std::string allow;                     // 405: the methods that are allowed
+  std::string allow;  // 405: the methods that are allowed
 };
 
 // May be called from any thread, exactly once.

@@ -33,8 +33,8 @@ std::optional<Response> ResponseTo(error_code error, const ServerLimits& limits)
                                   std::to_string(limits.header_bytes) + " bytes");
   }
   if (error == http::error::body_limit) {
-    return ErrorResponse(413, "the request's body is longer than " +
-                                  std::to_string(limits.body_bytes) + " bytes");
+    return ErrorResponse(
+        413, "the request's body is longer than " + std::to_string(limits.body_bytes) + " bytes");
   }
   if (error.category() == make_error_code(http::error::bad_target).category() &&
       error != http::error::end_of_stream && error != http::error::partial_message) {
@@ -107,13 +107,13 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     request.content_type = Text(message, http::field::content_type);
     request.if_none_match = Text(message, http::field::if_none_match);
     stream_.expires_never();  // whoever answers has limits of their own
-    context_->handler.Handle(
-        std::move(request), [self = shared_from_this()](Response response) mutable {
-          auto executor = self->stream_.get_executor();
-          boost::asio::post(executor, [self = std::move(self), answer = std::move(response)]() mutable {
-            self->Write(std::move(answer));
-          });
-        });
+    context_->handler.Handle(std::move(request), [self = shared_from_this()](
+                                                     Response response) mutable {
+      auto executor = self->stream_.get_executor();
+      boost::asio::post(executor, [self = std::move(self), answer = std::move(response)]() mutable {
+        self->Write(std::move(answer));
+      });
+    });
   }
 
   void Upgrade(const Target& target) {
@@ -123,8 +123,9 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     const std::string offered = Text(parser_->get(), http::field::sec_websocket_protocol);
     const std::string_view subprotocol = foxglove::ChooseSubprotocol(offered);
     if (subprotocol.empty()) {
-      return Write(ErrorResponse(400, "a WebSocket must offer the sub-protocol foxglove.sdk.v1 or "
-                                      "foxglove.websocket.v1"));
+      return Write(ErrorResponse(400,
+                                 "a WebSocket must offer the sub-protocol foxglove.sdk.v1 or "
+                                 "foxglove.websocket.v1"));
     }
     base::Result<std::shared_ptr<Hub>> hub = context_->handler.FindHub(target);
     if (!hub) return Write(ErrorResponse(hub.error()));

@@ -57,7 +57,8 @@ void Hub::Apply(Member& member, const foxglove::Subscribe& message) {
     } else if (member.subscriptions.contains(wish.id)) {
       Complain(member, "the subscription " + std::to_string(wish.id) +
                            " is in use; unsubscribe it first, or take another number");
-    } else if (!topic->second.listeners.try_emplace(member.client.get(), Listener{wish.id}).second) {
+    } else if (!topic->second.listeners.try_emplace(member.client.get(), Listener{wish.id})
+                    .second) {
       Complain(member, "the channel " + topic->second.channel.topic + " is subscribed to already");
     } else {
       member.subscriptions.emplace(wish.id, wish.channel);

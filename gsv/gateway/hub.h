@@ -1,7 +1,8 @@
 // The channels of one simulation, the clients that listen, and who of them listens to what. Where
 // the messages come from (a simulation here, or another instance) is no concern of it.
 //
-// Threads  any; no call blocks. Clients are called under the hub's lock: they queue, and do not call
+// Threads  any; no call blocks. Clients are called under the hub's lock: they queue, and do not
+// call
 //          back.
 #pragma once
 

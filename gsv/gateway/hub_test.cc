@@ -100,7 +100,8 @@ TEST_F(HubTest, MistakesAreNamedAndDoNoHarm) {
   const auto complaint = [&] { return client->texts().back().value("message", ""); };
   ASSERT_TRUE(hub_.Receive(client.get(), SubscribeText(1, a)));
   ASSERT_TRUE(hub_.Receive(client.get(), SubscribeText(1, b)));
-  EXPECT_EQ(complaint(), "the subscription 1 is in use; unsubscribe it first, or take another number");
+  EXPECT_EQ(complaint(),
+            "the subscription 1 is in use; unsubscribe it first, or take another number");
   ASSERT_TRUE(hub_.Receive(client.get(), SubscribeText(2, a)));
   EXPECT_EQ(complaint(), "the channel /a is subscribed to already");
   ASSERT_TRUE(hub_.Receive(client.get(), SubscribeText(2, 999)));

@@ -103,7 +103,8 @@ void LiveStream::PublishStatus(simulation::Simulation& simulation, WallTime now)
   const bool has_newcomers = hub_->HasNewcomers(status_channel_);
   if (!is_due && !has_newcomers) return;
   const simulation::SimulationStatus status = simulation.status();
-  const Hub::Message message{Nanoseconds(status.time), Encoded(presentation::StatusMessage(status))};
+  const Hub::Message message{Nanoseconds(status.time),
+                             Encoded(presentation::StatusMessage(status))};
   if (is_due) {
     status_pacing_.Done(now);
     published_phase_ = status.phase;

@@ -225,12 +225,14 @@ TEST_F(LiveStreamTest, AReadingIsTakenOnlyForThoseWhoWatchAndOnlyWhenTimeHasPass
 TEST_F(LiveStreamTest, PicturesComeAtMostFiveTimesASecond) {
   Round();
   Subscribe(1, "/robot_0/camera");
-  for (int i = 0; i < 100; ++i) {
-    simulation_->Advance(milliseconds(10));
-    Round(milliseconds(10));
+  for (std::size_t fifth = 1; fifth <= 5; ++fifth) {
+    for (int i = 0; i < 20; ++i) {
+      simulation_->Advance(milliseconds(10));
+      Round(milliseconds(10));
+    }
+    while (client_->data(1).size() < fifth) std::this_thread::yield();
   }
   workers_.Stop();
-  EXPECT_GE(client_->data(1).size(), 1u);
   EXPECT_LE(client_->data(1).size(), 6u);
 }
 
@@ -258,9 +260,8 @@ TEST_F(LiveStreamTest, BeamsAreLinesFromTheSensorAsLongAsTheReading) {
 }
 
 TEST_F(LiveStreamTest, ASensorThatFailsIsReportedOnce) {
-  simulation_->set_on_watch([](const std::string&) {
-    return base::Fail(base::ErrorCode::kUnavailable, "no renderer");
-  });
+  simulation_->set_on_watch(
+      [](const std::string&) { return base::Fail(base::ErrorCode::kUnavailable, "no renderer"); });
   Round();
   Subscribe(1, "/robot_0/camera");
   while (Complaints("no renderer") == 0) {

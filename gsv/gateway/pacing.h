@@ -1,8 +1,8 @@
 // How often something is sent: at most at a rate, evenly, whatever the jitter of those who ask.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
+#include <cstdint>
 
 namespace gsv::gateway {
 
@@ -16,7 +16,7 @@ class Pacing {
   // Somewhat early is due as well: else a round that comes a microsecond early would lose a turn.
   // The mean rate does not exceed the one given, since what came early counts as on time.
   bool IsDue(WallTime now) const { return now + interval_ / 4 >= next_; }
-  void Done(WallTime now) { next_ = std::max(next_, now - interval_) + interval_; }
+  void Done(WallTime now) { next_ = (now - next_ > interval_ ? now : next_) + interval_; }
 
  private:
   std::chrono::nanoseconds interval_;

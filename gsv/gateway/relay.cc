@@ -60,9 +60,10 @@ class LocalRelay final : public Relay, private Handler {
     request.raw_target = "/api/simulations";
     const base::Result<Response> answer = upstream::Fetch(address_, request, kProbeTime);
     if (!answer) {
-      return base::Fail(answer.error().code,
-                        answer.error().message + "; is gsv running there, and is the address right?",
-                        answer.error().where);
+      return base::Fail(
+          answer.error().code,
+          answer.error().message + "; is gsv running there, and is the address right?",
+          answer.error().where);
     }
     if (answer->status == 200 && answer->content_type == "application/json") return {};
     return base::Fail(base::ErrorCode::kUnavailable,
@@ -74,9 +75,8 @@ class LocalRelay final : public Relay, private Handler {
 
   void Handle(Request request, Respond respond) override {
     WorkerPool& workers = request.method == "GET" ? readers_ : commanders_;
-    const bool accepted = workers.Submit([this, respond, request = std::move(request)] {
-      respond(Answer(request));
-    });
+    const bool accepted =
+        workers.Submit([this, respond, request = std::move(request)] { respond(Answer(request)); });
     if (!accepted) respond(ErrorResponse(503, "the server is busy; try again in a moment"));
   }
 

@@ -1,6 +1,6 @@
 // Another instance's simulations, for viewers of this one: the viewer's files are our own, requests
-// are passed on, and of each simulation that is watched there is one stream from there, however many
-// watch here.
+// are passed on, and of each simulation that is watched there is one stream from there, however
+// many watch here.
 //
 // Threads  its own.
 #pragma once

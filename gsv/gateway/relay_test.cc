@@ -29,9 +29,9 @@ TEST(UpstreamAddress, IsWhatAViewersUrlSays) {
   EXPECT_EQ(upstream::ParseAddress("http://robot.lan")->Authority(), "robot.lan:80");
   EXPECT_EQ(upstream::ParseAddress("http://[::1]:99")->Authority(), "[::1]:99");
   EXPECT_EQ(upstream::ParseAddress("http://[::1]:99")->host, "::1");
-  for (const char* bad : {"", "127.0.0.1:8080", "https://a:1/", "http://", "http://a:0/", "http://a:x",
-                          "http://a:65536", "http://a/b", "http://[::1", "http://::1:80",
-                          "http://a b:80", "http://[]:80"}) {
+  for (const char* bad : {"", "127.0.0.1:8080", "https://a:1/", "http://", "http://a:0/",
+                          "http://a:x", "http://a:65536", "http://a/b", "http://[::1",
+                          "http://::1:80", "http://a b:80", "http://[]:80"}) {
     EXPECT_FALSE(upstream::ParseAddress(bad)) << bad;
   }
 }
@@ -39,7 +39,8 @@ TEST(UpstreamAddress, IsWhatAViewersUrlSays) {
 TEST(UpstreamProtocol, RefusesWhatIsNone) {
   for (const char* bad :
        {"", "[]", R"({"op":"advertise"})", R"({"op":"advertise","channels":[{}]})",
-        R"({"op":"advertise","channels":[{"id":-1}]})", R"({"op":"unadvertise","channelIds":["x"]})"}) {
+        R"({"op":"advertise","channels":[{"id":-1}]})",
+        R"({"op":"unadvertise","channelIds":["x"]})"}) {
     EXPECT_FALSE(upstream::ParseServerText(bad)) << bad;
   }
   EXPECT_TRUE(upstream::ParseServerText(R"({"op":"serverInfo"})"));
@@ -84,7 +85,8 @@ TEST_F(RelayTest, PassesRequestsAndAnswersOn) {
   EXPECT_EQ(model.headers.at("content-type"), "model/gltf-binary");
   EXPECT_EQ(model.headers.at("cache-control"), "public, max-age=31536000, immutable");
   EXPECT_EQ(Fetch(port(), "GET", "/api/models/" + id + ".glb",
-                  "If-None-Match: " + model.headers.at("etag") + "\r\n").status,
+                  "If-None-Match: " + model.headers.at("etag") + "\r\n")
+                .status,
             304);
   EXPECT_EQ(Fetch(port(), "POST", "/api/simulations/arena/start", "", "{}").status, 200);
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kRunning);

@@ -1,6 +1,9 @@
 #include "gsv/gateway/replay_gateway.h"
 
 #include <filesystem>
+#include <map>
+#include <set>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -43,6 +46,19 @@ void RecordRun(const std::string& path) {
   ASSERT_TRUE(recorder) << recorder.error().Sentence();
   ASSERT_EQ(recording::RunToEnd(*simulation), simulation::Phase::kFinished);
   ASSERT_TRUE((*recorder)->Stop());
+}
+
+// One message of each of these subscriptions, in whatever order they come.
+std::map<int, testing::ReceivedData> ReceiveEach(Viewer& viewer, std::set<int> subscriptions) {
+  std::map<int, testing::ReceivedData> received;
+  while (!subscriptions.empty()) {
+    const auto frame = viewer.Receive();
+    if (!frame) throw std::runtime_error("the connection ended");
+    if (frame->is_text || frame->data().opcode != 1) continue;
+    const int id = static_cast<int>(frame->data().subscription);
+    if (subscriptions.erase(id) > 0) received[id] = frame->data();
+  }
+  return received;
 }
 
 class ReplayGatewayTest : public ::testing::Test {
@@ -107,10 +123,11 @@ TEST_F(ReplayGatewayTest, AViewerIsToldHowThingsStandBeforeItPlays) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/poses");
   viewer.Subscribe(2, "/gsv/status");
-  const Poses poses = Decoded<Poses>(viewer.ReceiveData(1));
+  const auto received = ReceiveEach(viewer, {1, 2});
+  const Poses poses = Decoded<Poses>(received.at(1));
   ASSERT_EQ(poses.poses.size(), 7u);
   EXPECT_EQ(poses.poses[0], 0);
-  const auto status = Decoded<SimulationStatus>(viewer.ReceiveData(2));
+  const auto status = Decoded<SimulationStatus>(received.at(2));
   EXPECT_EQ(status.state, "created");
   ASSERT_EQ(status.robots.size(), 1u);
   EXPECT_EQ(status.robots[0].name, "robot");
@@ -142,9 +159,7 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
   viewer.Subscribe(1, "/gsv/poses");
   viewer.Subscribe(2, "/robot/front");
   viewer.Subscribe(3, "/gsv/beams");
-  viewer.ReceiveData(1);
-  viewer.ReceiveData(2);
-  viewer.ReceiveData(3);
+  ReceiveEach(viewer, {1, 2, 3});
   // The face is at 2.9 m, the robot at 0.5 m/s times the time.
   for (const double time : {1.5, 0.25, 1.0}) {
     const HttpReply reply = Post("seek", json{{"time_s", time}}.dump());
@@ -152,11 +167,12 @@ TEST_F(ReplayGatewayTest, SeeksForwardsAndBack) {
     const json status = json::parse(reply.body);
     EXPECT_EQ(status["time_s"], time);
     EXPECT_EQ(status["phase"], "paused");
-    const Poses poses = Decoded<Poses>(viewer.ReceiveData(1));
+    const auto received = ReceiveEach(viewer, {1, 2, 3});
+    const Poses poses = Decoded<Poses>(received.at(1));
     EXPECT_NEAR(poses.poses[0], 0.5 * time, 0.5 * 0.02);  // recorded at 50 Hz
-    const auto range = Decoded<messages::sensor_msgs::Range>(viewer.ReceiveData(2));
+    const auto range = Decoded<messages::sensor_msgs::Range>(received.at(2));
     EXPECT_NEAR(range.range, 2.9 - 0.5 * time, 1e-6);  // each is an instant of 20 Hz
-    const auto beams = Decoded<messages::visualization_msgs::MarkerArray>(viewer.ReceiveData(3));
+    const auto beams = Decoded<messages::visualization_msgs::MarkerArray>(received.at(3));
     ASSERT_EQ(beams.markers.size(), 1u);
     EXPECT_FALSE(beams.markers[0].points.empty());
   }

@@ -10,7 +10,7 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr double kBeamsRate = 15;     // Hz
+constexpr double kBeamsRate = 15;  // Hz
 constexpr double kReadingsRate = 15;
 constexpr double kPicturesRate = 5;
 
@@ -134,9 +134,8 @@ void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simula
 }
 
 void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
-  const bool is_wanted =
-      hub_->HasNewcomers(transforms_channel_) ||
-      (transforms_changed_ && hub_->IsSubscribed(transforms_channel_));
+  const bool is_wanted = hub_->HasNewcomers(transforms_channel_) ||
+                         (transforms_changed_ && hub_->IsSubscribed(transforms_channel_));
   if (!is_wanted) return;
   messages::tf2_msgs::TFMessage message;
   for (const auto& [topic, sensor] : sensors_) {
@@ -153,15 +152,13 @@ void SensorTopics::PublishReadings(const std::shared_ptr<simulation::Simulation>
                                    const world::Snapshot& snapshot, WallTime now) {
   for (const auto& [topic, sensor] : sensors_) {
     if (sensor->channel == 0 || sensor->is_busy || !hub_->IsSubscribed(sensor->channel)) continue;
-    const bool is_due =
-        sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now);
+    const bool is_due = sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now);
     if (!is_due && !hub_->HasNewcomers(sensor->channel)) continue;
     sensor->is_busy = true;
-    const bool accepted =
-        workers_.Submit([self = shared_from_this(), simulation, sensor = sensor] {
-          self->TakeReading(*simulation, *sensor);
-          sensor->is_busy = false;
-        });
+    const bool accepted = workers_.Submit([self = shared_from_this(), simulation, sensor = sensor] {
+      self->TakeReading(*simulation, *sensor);
+      sensor->is_busy = false;
+    });
     if (!accepted) {
       sensor->is_busy = false;  // the workers are behind: it is tried again next round
       return;
@@ -183,11 +180,10 @@ void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& senso
   }
   const bool is_new = sensor.published_step.exchange(reading->step) != reading->step;
   if (!is_new && !hub_->HasNewcomers(sensor.channel)) return;
-  const Hub::Message message{
-      Nanoseconds(reading->time),
-      SharedBytes(
-          sensor.type->encode(sensor.description, *reading,
-                              presentation::FrameOf(sensor.robot, sensor.description.name)))};
+  const Hub::Message message{Nanoseconds(reading->time),
+                             SharedBytes(sensor.type->encode(
+                                 sensor.description, *reading,
+                                 presentation::FrameOf(sensor.robot, sensor.description.name)))};
   if (is_new) {
     hub_->Publish(sensor.channel, message);
   } else {
@@ -202,8 +198,8 @@ void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& s
   const bool is_due = beams_of_.lock() != snapshot && beams_pacing_.IsDue(now);
   if (!is_due && !hub_->HasNewcomers(beams_channel_)) return;
   beams_busy_ = true;
-  const bool accepted = workers_.Submit(
-      [self = shared_from_this(), simulation, snapshot, sensors = beam_sensors_] {
+  const bool accepted =
+      workers_.Submit([self = shared_from_this(), simulation, snapshot, sensors = beam_sensors_] {
         self->TakeBeams(*simulation, *snapshot, *sensors);
         self->beams_busy_ = false;
       });

@@ -59,14 +59,14 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   WorkerPool& workers_;
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
   Sensors sensors_;
-  std::size_t topics_ = 0;      // how many of them have a channel
+  std::size_t topics_ = 0;  // how many of them have a channel
   bool told_of_limit_ = false;
   bool transforms_changed_ = true;
   std::shared_ptr<const SensorList> beam_sensors_;
   Pacing beams_pacing_;
   std::weak_ptr<const world::Snapshot> beams_of_;  // the last that beams were taken for
   std::atomic<bool> beams_busy_{false};
-  std::set<std::string> robots_with_beams_;        // used by the beams' job alone
+  std::set<std::string> robots_with_beams_;  // used by the beams' job alone
 };
 
 }  // namespace gsv::gateway

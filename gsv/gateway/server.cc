@@ -31,8 +31,9 @@ base::Result<tcp::endpoint> EndpointOf(const ServerOptions& options) {
   const auto address = asio::ip::make_address(host, error);
   if (error) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "'" + options.host + "' is not an address to listen on; give 127.0.0.1 for "
-                      "this machine alone, or one of its addresses");
+                      "'" + options.host +
+                          "' is not an address to listen on; give 127.0.0.1 for "
+                          "this machine alone, or one of its addresses");
   }
   return tcp::endpoint(address, options.port);
 }
@@ -42,7 +43,8 @@ base::Error CannotListen(const ServerOptions& options, error_code error) {
   if (error == asio::error::address_in_use) {
     return {base::ErrorCode::kUnavailable,
             "the port is used by another program; give another one, or --port 0 to let the system "
-            "choose", where};
+            "choose",
+            where};
   }
   return {base::ErrorCode::kUnavailable,
           "cannot listen here: " + error.message() + "; give another address or port", where};

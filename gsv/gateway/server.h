@@ -24,16 +24,16 @@ struct ServerLimits {
   std::size_t connections = 256;
   std::uint32_t header_bytes = 16u << 10;
   std::uint64_t body_bytes = 64u << 10;
-  std::size_t message_bytes = 256u << 10;      // of one WebSocket message from a client
+  std::size_t message_bytes = 256u << 10;          // of one WebSocket message from a client
   std::chrono::milliseconds request_time{30'000};  // to send a request, or to take its answer
-  std::chrono::milliseconds idle_time{60'000};     // a viewer that answers no ping for so long is gone
+  std::chrono::milliseconds idle_time{60'000};  // a viewer that answers no ping for so long is gone
   SendLimits send;
 };
 
 struct ServerOptions {
-  std::string host = "127.0.0.1";  // an address of this machine, or "localhost"
-  std::uint16_t port = 0;          // 0: the system chooses
-  std::vector<std::string> allowed_hosts;    // see AccessRule
+  std::string host = "127.0.0.1";          // an address of this machine, or "localhost"
+  std::uint16_t port = 0;                  // 0: the system chooses
+  std::vector<std::string> allowed_hosts;  // see AccessRule
   std::vector<std::string> allowed_origins;
   ServerLimits limits;
 };
@@ -50,7 +50,8 @@ class Handler {
 class Server {
  public:
   // `handler` outlives the server. Fails when the port cannot be had.
-  static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options, Handler& handler);
+  static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options,
+                                                     Handler& handler);
   virtual ~Server() = default;
 
   virtual std::uint16_t port() const = 0;

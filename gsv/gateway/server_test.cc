@@ -47,10 +47,11 @@ class Echo final : public Handler {
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::shared_ptr<Hub> hub_ = std::make_shared<Hub>(foxglove::ServerInfo{"echo", {}, {}, "1"}, [this] {
-    const std::lock_guard lock(mutex_);
-    changed_.notify_all();
-  });
+  std::shared_ptr<Hub> hub_ =
+      std::make_shared<Hub>(foxglove::ServerInfo{"echo", {}, {}, "1"}, [this] {
+        const std::lock_guard lock(mutex_);
+        changed_.notify_all();
+      });
   foxglove::ChannelId channel_ = 0;
 };
 

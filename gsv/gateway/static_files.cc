@@ -69,17 +69,25 @@ std::string TagOf(const fs::path& file) {
 
 std::string Page(const std::string& body) {
   return "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>gsv</title>"
-         "<body style=\"font:16px/1.5 sans-serif;max-width:40em;margin:4em auto\">" + body;
+         "<body style=\"font:16px/1.5 sans-serif;max-width:40em;margin:4em auto\">" +
+         body;
 }
 
 std::string EscapedHtml(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '&': escaped += "&amp;"; break;
-      default: escaped += c;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '&':
+        escaped += "&amp;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;
@@ -126,15 +134,16 @@ Response StaticFiles::Get(const Request& request) const {
 }
 
 Response StaticFiles::Explain() const {
-  const std::string place =
-      given_.empty() ? "no directory was given for it"
-                     : "there is no index.html in " + EscapedHtml(given_.string());
+  const std::string place = given_.empty()
+                                ? "no directory was given for it"
+                                : "there is no index.html in " + EscapedHtml(given_.string());
   Response response;
   response.status = 404;
   response.content_type = "text/html; charset=utf-8";
   response.body = SharedBytes(Page(
       "<h1>The viewer is not here</h1><p>gsv is running, but its viewer cannot be shown: " + place +
-      ". Build it with <code>npm ci &amp;&amp; npm run build</code> in <code>web/</code>, then load "
+      ". Build it with <code>npm ci &amp;&amp; npm run build</code> in <code>web/</code>, then "
+      "load "
       "this page again.</p><p>The simulations can be reached without it: "
       "<a href=\"/api/simulations\">/api/simulations</a>.</p>"));
   return response;

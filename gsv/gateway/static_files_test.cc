@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 class StaticFilesTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    place_ = fs::temp_directory_path() / ("gsv_static_files_" + std::to_string(getpid()) + "_" +
-                                          ::testing::UnitTest::GetInstance()
-                                              ->current_test_info()->name());
+    place_ = fs::temp_directory_path() /
+             ("gsv_static_files_" + std::to_string(getpid()) + "_" +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(place_ / "web/assets");
     Write("secret.txt", "secret");
     Write("web/index.html", "<p>viewer");
@@ -69,7 +69,8 @@ TEST_F(StaticFilesTest, NothingOutsideTheRootIsServed) {
   for (const char* target :
        {"/../secret.txt", "/..%2fsecret.txt", "/%2e%2e/secret.txt", "/assets/../../secret.txt",
         "/assets/..%2f..%2fsecret.txt", "/..%5csecret.txt", "/link.txt", "/up/secret.txt",
-        "/.hidden", "//etc/passwd", "/%2fetc%2fpasswd", "/index.html%00.js", "/assets", "/absent.js"}) {
+        "/.hidden", "//etc/passwd", "/%2fetc%2fpasswd", "/index.html%00.js", "/assets",
+        "/absent.js"}) {
     const Response response = Get(target);
     EXPECT_EQ(response.status, 404) << target;
     EXPECT_EQ(response.body.view().find("secret"), std::string_view::npos) << target;

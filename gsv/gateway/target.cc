@@ -62,7 +62,8 @@ bool AddQuery(std::string_view part, Target& target) {
 base::Result<Target> ParseTarget(std::string_view target) {
   using base::ErrorCode;
   if (target.size() > kLongest) {
-    return base::Fail(ErrorCode::kInvalidArgument, "the request's target is longer than 4096 bytes");
+    return base::Fail(ErrorCode::kInvalidArgument,
+                      "the request's target is longer than 4096 bytes");
   }
   if (target.empty() || target.front() != '/') {
     return base::Fail(ErrorCode::kInvalidArgument, "the request's target does not begin with '/'");

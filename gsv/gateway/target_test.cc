@@ -8,7 +8,8 @@ namespace {
 using Segments = std::vector<std::string>;
 
 TEST(Target, SplitsPathAndQueryAndDecodesEach) {
-  const auto target = ParseTarget("/api/simulations/two%20words/x%2Fy?simulation=a%26b&empty&c=1=2");
+  const auto target =
+      ParseTarget("/api/simulations/two%20words/x%2Fy?simulation=a%26b&empty&c=1=2");
   ASSERT_TRUE(target);
   EXPECT_EQ(target->segments, (Segments{"api", "simulations", "two words", "x/y"}));
   EXPECT_EQ(target->query, (std::map<std::string, std::string>{

@@ -94,10 +94,9 @@ class WebSocketSession final : public Client,
   }
 
   void Read() {
-    stream_.async_read_some(buffer_, kReadSize,
-                            [self = shared_from_this()](error_code error, std::size_t) {
-                              self->OnRead(error);
-                            });
+    stream_.async_read_some(
+        buffer_, kReadSize,
+        [self = shared_from_this()](error_code error, std::size_t) { self->OnRead(error); });
   }
 
   void OnRead(error_code error) {
@@ -105,8 +104,8 @@ class WebSocketSession final : public Client,
     if (close_reason_) {
       buffer_.clear();
     } else if (buffer_.size() > limits().message_bytes) {
-      Refuse(CloseCode::kTooBig, "a message is longer than " +
-                                     std::to_string(limits().message_bytes) + " bytes");
+      Refuse(CloseCode::kTooBig,
+             "a message is longer than " + std::to_string(limits().message_bytes) + " bytes");
     } else if (stream_.is_message_done()) {
       TakeMessage();
     }
@@ -200,7 +199,7 @@ class WebSocketSession final : public Client,
   Outgoing in_flight_;
   std::optional<websocket::close_reason> close_reason_;
   std::atomic<bool> is_woken_{false};
-  bool is_open_ = false;     // accepted, and no close frame was sent
+  bool is_open_ = false;  // accepted, and no close frame was sent
   bool is_writing_ = false;
   bool has_left_ = false;
 };
@@ -212,9 +211,8 @@ std::weak_ptr<Connection> StartWebSocketSession(boost::asio::ip::tcp::socket soc
                                                 std::shared_ptr<Hub> hub,
                                                 std::shared_ptr<ServerContext> context,
                                                 std::unique_ptr<ConnectionSlot> slot) {
-  const auto session =
-      std::make_shared<WebSocketSession>(std::move(socket), std::move(request), std::move(hub),
-                                         std::move(context), std::move(slot));
+  const auto session = std::make_shared<WebSocketSession>(
+      std::move(socket), std::move(request), std::move(hub), std::move(context), std::move(slot));
   session->Accept(subprotocol);
   return session;
 }

@@ -205,7 +205,7 @@ SimulationServiceServant::~SimulationServiceServant() {
 sba::Simulation_ptr SimulationServiceServant::create_simulation(
     const sba::SimulationSpecification& specification) {
   std::string world(specification.world);
-  if (world.empty()) world = hooks_.default_world;
+  if (hooks_.find_world) world = hooks_.find_world(world);
   base::Problems problems;
   auto created = orb::ValueOrThrow(host_.Create(FromIdl(specification), world, problems),
                                    orb::kRefused | orb::kFailed);

@@ -36,9 +36,9 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
 }
 
 TEST(CommandLine, RunTakesWorldRobotsAndBehaviours) {
-  const Outcome outcome = Run(
+  const Outcome outcome = RunProgram(
       "gsv",
-      RunArguments({"--robot", "pebble@-2,-2,90deg", "--robot", "b21r@2,2", "--behaviour", "wander",
+      RunArguments({"--robot", "pebble@-2,-3.5,90deg", "--robot", "b21r@0,1", "--behaviour", "wander",
                     "--behaviour", "b21r=follow-wall", "--step", "0.02", "--duration", "2"}));
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   const auto report = outcome.LastLine();
@@ -52,7 +52,7 @@ TEST(CommandLine, RunTakesWorldRobotsAndBehaviours) {
 }
 
 TEST(CommandLine, LockstepGivesTheSameHashTwice) {
-  const Strings arguments = RunArguments({"--robot", "pebble@-2,-2", "--robot", "b21r@2,2",
+  const Strings arguments = RunArguments({"--robot", "pebble@-2,-3.5", "--robot", "b21r@0,1",
                                           "--behaviour", "wander", "--duration", "5"});
   const auto first = RunProgram("gsv", arguments).LastLine();
   const auto second = RunProgram("gsv", arguments).LastLine();

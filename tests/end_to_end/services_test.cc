@@ -133,13 +133,13 @@ TEST_F(SimulationService, ParametersTakeEffect) {
 TEST_F(SimulationService, AddsAndRemovesRobots) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
   const sba::AgentBehaviour_var behaviour = factory_->create();
-  sba::RobotSpecification by_reference = Pebble(-1, -2);
+  sba::RobotSpecification by_reference = Pebble(-1, 0);
   by_reference.name = "mine";
   by_reference.behaviour = behaviour;
   EXPECT_STREQ(CORBA::String_var(simulation->add_robot(by_reference)), "mine");
-  EXPECT_STREQ(CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'"))),
+  EXPECT_STREQ(CORBA::String_var(simulation->add_robot(Pebble(0, 0, "name == 'wander'"))),
                "pebble");
-  EXPECT_STREQ(CORBA::String_var(simulation->add_robot(Pebble(1, -2))), "pebble_2");
+  EXPECT_STREQ(CORBA::String_var(simulation->add_robot(Pebble(1, 0))), "pebble_2");
   simulation->remove_robot("pebble_2");
   EXPECT_EQ(sba::SimulationState_var(simulation->state())->robots.length(), 2u);
   ASSERT_EQ(RunTo(simulation, 2.0), sba::PHASE_PAUSED);
@@ -169,7 +169,7 @@ TEST_F(SimulationService, SimulationsAreIndependent) {
 
 TEST_F(SimulationService, LifecycleFollowsTheCalls) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
-  CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'")));
+  CORBA::String_var(simulation->add_robot(Pebble(0, 0, "name == 'wander'")));
   simulation->start();
   ASSERT_EQ(Await(simulation, sba::PHASE_RUNNING), sba::PHASE_RUNNING);
   simulation->pause();
@@ -196,7 +196,7 @@ TEST_F(SimulationService, ReportsStateTimeAndResults) {
   std::vector<std::string> hashes;
   for (int run = 0; run < 2; ++run) {
     sba::Simulation_var simulation = service_->create_simulation(Playground());
-    CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'")));
+    CORBA::String_var(simulation->add_robot(Pebble(0, 0, "name == 'wander'")));
     ASSERT_EQ(RunTo(simulation, 1.0), sba::PHASE_PAUSED);
     const sba::SimulationState_var state = simulation->state();
     EXPECT_EQ(state->time_ns, 1'000'000'000);
@@ -232,8 +232,8 @@ TEST_F(SimulationService, BadArgumentsRaiseDeclaredExceptions) {
 
 TEST_F(AgentBehaviour, OneProgramServesSeveralRobots) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
-  for (const double x : {-2.0, 0.0, 2.0})
-    CORBA::String_var(simulation->add_robot(Pebble(x, -2, "name == 'wander'")));
+  for (const double x : {-1.2, 0.0, 1.2})
+    CORBA::String_var(simulation->add_robot(Pebble(x, 0, "name == 'wander'")));
   ASSERT_EQ(RunTo(simulation, 1.0), sba::PHASE_PAUSED);
   const sba::SimulationState_var state = simulation->state();
   ASSERT_EQ(state->robots.length(), 3u);
@@ -243,7 +243,7 @@ TEST_F(AgentBehaviour, OneProgramServesSeveralRobots) {
 
 TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
-  CORBA::String_var(simulation->add_robot(Pebble(0, -2, "name == 'wander'")));
+  CORBA::String_var(simulation->add_robot(Pebble(0, 0, "name == 'wander'")));
   ASSERT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
   simulation->stop();
   // The same behaviour runs again: its thread has come back from its wait.
@@ -265,7 +265,7 @@ TEST_F(Services, AnApplicationWritesNoCorba) {
 TEST_F(Services, AnApplicationFailsItsVerdictWhenNobodyGetsFarEnough) {
   const Outcome outcome = RunProgram("example-test-wandering",
                                      {"--broker", broker_->reference(), "--world", "playground",
-                                      "--places", "-2", "-2", "--seconds", "0.1"});
+                                      "--places", "-1", "0", "--seconds", "0.1"});
   EXPECT_EQ(outcome.ending, "exit code 1");
   EXPECT_THAT(outcome.out, HasSubstr("verdict: failed"));
 }
@@ -274,7 +274,7 @@ TEST_F(Services, AFirstBehaviourDrivesARobot) {
   Running first("example-first-behaviour", {"--broker", broker_->reference()});
   first.AwaitLine("offered at");
   const Outcome outcome = RunProgram(
-      "gsv", {"run", "playground", "--broker", broker_->reference(), "--robot", "pebble@0,-2",
+      "gsv", {"run", "playground", "--broker", broker_->reference(), "--robot", "pebble@0,0",
               "--behaviour", "first", "--lockstep", "--duration", "5", "--headless", "--json"});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   EXPECT_GT(outcome.LastLine()["robots"][0]["distance_m"], 0.5);

@@ -166,8 +166,8 @@ base::Status ScriptedSimulation::Become(Phase phase, std::vector<Phase> from, co
   const std::lock_guard lock(mutex_);
   if (std::find(from.begin(), from.end(), phase_) == from.end()) {
     return base::Fail(ErrorCode::kNotRunning, std::string("the simulation is ") +
-                                                  simulation::ToString(phase_) +
-                                                  " and cannot be " + event);
+                                                  simulation::ToString(phase_) + " and cannot be " +
+                                                  event);
   }
   phase_ = phase;
   events_.push_back({snapshot_->state.step, time_, event, "", ""});

@@ -22,9 +22,7 @@ using boost::system::error_code;
 
 namespace {
 
-tcp::endpoint Endpoint(std::uint16_t port) {
-  return {asio::ip::address_v4::loopback(), port};
-}
+tcp::endpoint Endpoint(std::uint16_t port) { return {asio::ip::address_v4::loopback(), port}; }
 
 std::string HostOf(std::uint16_t port) { return "127.0.0.1:" + std::to_string(port); }
 
@@ -145,17 +143,30 @@ std::optional<Viewer::Frame> Viewer::Receive() {
 
 nlohmann::json Viewer::ReceiveText(const std::string& op) {
   while (const std::optional<Frame> frame = Receive()) {
-    if (frame->is_text && frame->json()["op"] == op) return frame->json();
+    if (!frame->is_text) {
+      Keep(*frame);
+    } else if (frame->json()["op"] == op) {
+      return frame->json();
+    }
   }
   throw std::runtime_error("the connection ended before a text '" + op + "'");
 }
 
 ReceivedData Viewer::ReceiveData(foxglove::SubscriptionId subscription) {
-  while (const std::optional<Frame> frame = Receive()) {
-    if (frame->is_text || frame->data().opcode != 1) continue;
-    if (frame->data().subscription == subscription) return frame->data();
+  std::deque<ReceivedData>& kept = kept_[subscription];
+  while (kept.empty()) {
+    const std::optional<Frame> frame = Receive();
+    if (!frame) throw std::runtime_error("the connection ended before data");
+    if (!frame->is_text) Keep(*frame);
   }
-  throw std::runtime_error("the connection ended before data");
+  ReceivedData data = std::move(kept.front());
+  kept.pop_front();
+  return data;
+}
+
+void Viewer::Keep(const Frame& frame) {
+  ReceivedData data = frame.data();
+  if (data.opcode == 1) kept_[data.subscription].push_back(std::move(data));
 }
 
 void Viewer::Subscribe(foxglove::SubscriptionId id, const std::string& topic) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -61,9 +62,9 @@ class Viewer {
   void SendRaw(const std::string& bytes);  // past the protocol
   // The next message; empty when the connection has ended.
   std::optional<Frame> Receive();
-  // The next text of that operation; other messages are passed over.
+  // The next text of that operation; other texts are passed over.
   nlohmann::json ReceiveText(const std::string& op);
-  // The next message of a subscription.
+  // The next message of a subscription; those of others are kept until they are asked for.
   ReceivedData ReceiveData(foxglove::SubscriptionId subscription);
   // Waits for the advertisement of a topic, then subscribes.
   void Subscribe(foxglove::SubscriptionId id, const std::string& topic);
@@ -74,9 +75,12 @@ class Viewer {
   void Close();
 
  private:
+  void Keep(const Frame& frame);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::map<std::string, foxglove::ChannelId> channels_;
+  std::map<foxglove::SubscriptionId, std::deque<ReceivedData>> kept_;
 };
 
 }  // namespace gsv::gateway::testing

@@ -44,7 +44,7 @@ class ChannelMap {
   void Welcome(foxglove::ChannelId ours, const Source& source);
 
   const std::shared_ptr<Hub> hub_;
-  std::map<foxglove::ChannelId, Source> sources_;                     // by our number
+  std::map<foxglove::ChannelId, Source> sources_;  // by our number
   std::map<foxglove::ChannelId, foxglove::ChannelId> ours_by_theirs_;
 };
 

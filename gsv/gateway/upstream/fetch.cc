@@ -74,9 +74,8 @@ class Exchange {
   }
 
   void Read() {
-    http::async_read(socket_, buffer_, parser_, [this](error_code error, std::size_t) {
-      is_done_ = !Failed(error);
-    });
+    http::async_read(socket_, buffer_, parser_,
+                     [this](error_code error, std::size_t) { is_done_ = !Failed(error); });
   }
 
   Response Answer() {

@@ -93,7 +93,8 @@ base::Result<ServerData> ParseServerData(std::string_view bytes) {
     case 2:
       if (bytes.size() < kTimeHeader) return Malformed("a time that ends too early");
       return Time{Read<std::uint64_t>(bytes, 1)};
-    default: return Other{};
+    default:
+      return Other{};
   }
 }
 
@@ -106,9 +107,9 @@ std::string SubscribeText(std::span<const foxglove::Subscription> subscriptions)
 }
 
 std::string UnsubscribeText(std::span<const foxglove::SubscriptionId> subscriptions) {
-  return Json{{"op", "unsubscribe"},
-              {"subscriptionIds", std::vector<std::uint32_t>(subscriptions.begin(),
-                                                             subscriptions.end())}}
+  return Json{
+      {"op", "unsubscribe"},
+      {"subscriptionIds", std::vector<std::uint32_t>(subscriptions.begin(), subscriptions.end())}}
       .dump();
 }
 

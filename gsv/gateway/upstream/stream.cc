@@ -55,7 +55,7 @@ struct Attempt {
 
   tcp::resolver resolver;
   WebSocket socket;
-  websocket::response_type answer;   // to the handshake
+  websocket::response_type answer;  // to the handshake
   beast::flat_buffer incoming;
   std::deque<std::string> outgoing;  // the front is being written
 };
@@ -105,10 +105,10 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   // A handler that does nothing once its attempt is over.
   template <typename Then>
   auto ForThis(Then then) {
-    return [self = shared_from_this(), attempt = attempt_,
-            then]<typename... Results>(error_code error, const Results&... results)
-      requires std::invocable<const Then&, RemoteStream&, error_code, const Results&...>
-    {
+    return [ self = shared_from_this(), attempt = attempt_, then ]<typename... Results>(
+        error_code error,
+        const Results&... results) requires std::invocable<const Then&, RemoteStream&, error_code,
+                                                           const Results&...> {
       if (attempt == self->attempt_) then(*self, error, results...);
     };
   }
@@ -145,11 +145,12 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     socket.read_message_max(kLargestMessage);
     socket.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
       request.set(beast::http::field::user_agent, "gsv");
-      request.set(beast::http::field::sec_websocket_protocol,
-                  std::string(foxglove::kSubprotocols[0]) + ", " +
-                      std::string(foxglove::kSubprotocols[1]));
+      request.set(
+          beast::http::field::sec_websocket_protocol,
+          std::string(foxglove::kSubprotocols[0]) + ", " + std::string(foxglove::kSubprotocols[1]));
     }));
-    const std::string target = simulation_.empty() ? "/ws" : "/ws?simulation=" + Escape(simulation_);
+    const std::string target =
+        simulation_.empty() ? "/ws" : "/ws?simulation=" + Escape(simulation_);
     socket.async_handshake(
         attempt_->answer, address_.Authority(), target,
         ForThis([](RemoteStream& self, error_code error) { self.OnHandshake(error); }));
@@ -161,7 +162,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     if (is_refused && answer.result() == beast::http::status::not_found) return End();
     if (is_refused) {
       return TryAgain("it answers " + std::to_string(answer.result_int()) + " " +
-                      answer.body().substr(0, 200));
+                      std::string(answer.reason()));
     }
     if (error) return TryAgain(error.message());
     state_ = State::kOpen;
@@ -170,11 +171,11 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   }
 
   void Read() {
-    attempt_->socket.async_read(
-        attempt_->incoming, ForThis([](RemoteStream& self, error_code error, std::size_t) {
-          if (error) return self.TryAgain(self.LastWords(error));
-          self.OnMessage();
-        }));
+    attempt_->socket.async_read(attempt_->incoming,
+                                ForThis([](RemoteStream& self, error_code error, std::size_t) {
+                                  if (error) return self.TryAgain(self.LastWords(error));
+                                  self.OnMessage();
+                                }));
   }
 
   std::string LastWords(error_code error) const {
@@ -224,13 +225,12 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   void WriteNext() {
     attempt_->socket.text(true);
-    attempt_->socket.async_write(
-        asio::buffer(attempt_->outgoing.front()),
-        ForThis([](RemoteStream& self, error_code error, std::size_t) {
-          if (error) return self.TryAgain(error.message());
-          self.attempt_->outgoing.pop_front();
-          if (!self.attempt_->outgoing.empty()) self.WriteNext();
-        }));
+    attempt_->socket.async_write(asio::buffer(attempt_->outgoing.front()),
+                                 ForThis([](RemoteStream& self, error_code error, std::size_t) {
+                                   if (error) return self.TryAgain(error.message());
+                                   self.attempt_->outgoing.pop_front();
+                                   if (!self.attempt_->outgoing.empty()) self.WriteNext();
+                                 }));
   }
 
   void Disconnect() {
@@ -246,8 +246,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     Disconnect();
     if (was_open || pause_length_ == kFirstPause) {
       hub_->SendStatus(foxglove::StatusLevel::kWarning,
-                       address_.Url() + ": the connection is lost: " + why +
-                           "; it is tried again");
+                       address_.Url() + ": the connection is lost: " + why + "; it is tried again");
     }
     state_ = State::kPausing;
     pause_.expires_after(pause_length_);
@@ -262,9 +261,9 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   void End() {
     Disconnect();
     has_ended_ = true;
-    hub_->Close(CloseCode::kGoingAway,
-                simulation_.empty() ? "there is no simulation at " + address_.Url()
-                                    : "the simulation '" + simulation_ + "' is gone");
+    hub_->Close(CloseCode::kGoingAway, simulation_.empty()
+                                           ? "there is no simulation at " + address_.Url()
+                                           : "the simulation '" + simulation_ + "' is gone");
   }
 
   // kPausing: until the next attempt. kIdle: nobody watches.
