@@ -79,8 +79,7 @@ int CheckReplay(const ReplayArguments& arguments) {
                 json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     std::printf("%s: %.3f s, %llu messages, content %s\n", info->path.c_str(),
-                base::ToSeconds(info->duration()),
-                static_cast<unsigned long long>(info->messages),
+                base::ToSeconds(info->duration()), static_cast<unsigned long long>(info->messages),
                 is_whole ? info->content_hash.c_str() : "damaged");
     for (const base::Problem& problem : info->problems) {
       std::fprintf(stderr, "gsv: warning: %s\n", problem.Sentence().c_str());
@@ -89,8 +88,8 @@ int CheckReplay(const ReplayArguments& arguments) {
   return is_whole ? kOk : kInfrastructure;
 }
 
-base::Result<std::unique_ptr<gateway::ReplayGateway>> StartGateway(
-    const ReplayArguments& arguments, gateway::ReplayPlayer& player) {
+base::Result<std::unique_ptr<gateway::ReplayGateway>> StartGateway(const ReplayArguments& arguments,
+                                                                   gateway::ReplayPlayer& player) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
   const bool is_given = arguments.port >= 0;
@@ -129,7 +128,8 @@ void AddReplayCommand(const CommandLine& line) {
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
   command->add_flag("--loop", arguments->options.loop, "begin anew at the end");
-  command->add_flag("--paused", arguments->paused, "wait at the beginning for somebody to start it");
+  command->add_flag("--paused", arguments->paused,
+                    "wait at the beginning for somebody to start it");
   CLI::Option* headless =
       command->add_flag("--headless", arguments->headless, "no viewer: read all of it, and check");
   command->add_flag("--json", arguments->json, "one JSON object")->needs(headless);

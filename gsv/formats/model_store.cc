@@ -6,6 +6,7 @@
 
 #include "gsv/formats/include_scan.h"
 #include "gsv/formats/sdf_document.h"
+#include "gsv/formats/sdf_drive.h"
 #include "gsv/formats/sdf_world.h"
 #include "gsv/formats/urdf_text.h"
 
@@ -46,7 +47,9 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   if (xml->dialect == XmlDialect::kUrdf) {
     auto text = UrdfText(*xml);
     if (!text) return Fail(text.error());
-    return FromText(*text, file, {}, std::move(stored));
+    auto robot = FromText(*text, file, {}, std::move(stored));
+    if (robot) AddGuessedDrive(*robot, file);
+    return robot;
   }
   XMLElement* content = xml->root->FirstChildElement("model");
   if (content == nullptr) content = xml->root->FirstChildElement("light");
@@ -66,6 +69,20 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   printer.Element(*content);
   printer.Text("</sdf>");
   return FromText(printer.Take(), file, includes.files(), std::move(stored));
+}
+
+void ModelStore::AddGuessedDrive(StoredFile& stored, const std::filesystem::path& file) {
+  const auto& model = stored.framed.model;
+  if (model == nullptr || model->drive) return;
+  auto drive = GuessDifferentialDrive(*model);
+  if (!drive) return;
+  auto driven = std::make_shared<model::Model>(*model);
+  driven->drive = std::move(drive);
+  stored.framed.model = std::move(driven);
+  stored.problems.push_back({base::Problem::Severity::kWarning,
+                             "the robot has no drive plugin; its two wheels are taken as a "
+                             "differential drive",
+                             file.string()});
 }
 
 base::Result<StoredFile> ModelStore::FromText(

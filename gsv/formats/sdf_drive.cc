@@ -240,4 +240,37 @@ std::optional<Drive> ReadDrive(const sdf::ElementPtr& plugin, const Model& model
   return DriveReader(plugin, model, scope, context).Read(*kind);
 }
 
+std::optional<Drive> GuessDifferentialDrive(const Model& model) {
+  constexpr double kAside = 0.99;   // cosine: how well the axis must point to the side
+  constexpr double kInLine = 0.01;  // m
+  const auto turns_freely = [](const Joint& joint) {
+    return joint.kind == model::JointKind::kContinuous ||
+           (joint.kind == model::JointKind::kRevolute && joint.position_limits.min < -1e6 &&
+            joint.position_limits.max > 1e6);
+  };
+  std::vector<int> wheels;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const Vector3 axis = joint.model_from_joint.orientation * joint.axis;
+    if (turns_freely(joint) && std::abs(axis.y) > kAside) wheels.push_back(static_cast<int>(i));
+  }
+  if (wheels.size() != 2) return std::nullopt;
+  const auto place = [&](int joint) { return model.joints[joint].model_from_joint.position; };
+  if (place(wheels[0]).y < place(wheels[1]).y) std::swap(wheels[0], wheels[1]);
+  const Vector3 apart = place(wheels[0]) - place(wheels[1]);
+  if (std::abs(apart.x) > kInLine || std::abs(apart.z) > kInLine || apart.y < kInLine) {
+    return std::nullopt;
+  }
+  Drive drive;
+  drive.left_wheels = {wheels[0]};
+  drive.right_wheels = {wheels[1]};
+  drive.wheel_separation = apart.y;
+  for (const model::Collision& collision : model.links[model.joints[wheels[0]].child].collisions) {
+    if (const auto* wheel = std::get_if<geometry::Cylinder>(&collision.shape)) {
+      drive.wheel_radius = wheel->radius;
+    }
+  }
+  return drive;
+}
+
 }  // namespace gsv::formats

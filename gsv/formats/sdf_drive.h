@@ -21,4 +21,9 @@ namespace gsv::formats {
 std::optional<model::Drive> ReadDrive(const sdf::ElementPtr& plugin, const model::Model& model,
                                       const std::string& scope, const ReadingContext& context);
 
+// Of a model without any such plugin: two wheels side by side, on joints that turn without limit
+// about one axis across the model, are a differential drive. Robot descriptions made for other
+// programs say no more than that. None for anything else.
+std::optional<model::Drive> GuessDifferentialDrive(const model::Model& model);
+
 }  // namespace gsv::formats

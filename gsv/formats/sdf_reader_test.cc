@@ -392,5 +392,32 @@ TEST_F(SdfReaderTest, ReadsUrdfWithItsFixedJointsLumped) {
   EXPECT_THAT(macro.error().Sentence(), HasSubstr("macro.urdf:2: <xacro:macro> needs xacro"));
 }
 
+TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {
+  const auto wheel = [](const std::string& name, const std::string& y) {
+    return "<link name='" + name +
+           "'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' "
+           "ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry><cylinder radius='0.07' "
+           "length='0.02'/></geometry></collision></link><joint name='" +
+           name +
+           "_joint' "
+           "type='continuous'><parent link='base'/><child link='" +
+           name + "'/><origin xyz='0.1 " + y +
+           " 0' rpy='-1.5707963 0 0'/><axis xyz='0 0 1'/></joint>";
+  };
+  folder_.Write("robot.urdf",
+                "<robot name='r'><link name='base'><inertial><mass value='1'/><inertia ixx='1' "
+                "iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>" +
+                    wheel("right", "-0.15") + wheel("left", "0.25") + "</robot>");
+  const auto model = ModelLibrary().ReadModel((folder_.path() / "robot.urdf").string(), problems_);
+  ASSERT_TRUE(model.has_value()) << model.error().Sentence();
+  ASSERT_TRUE((*model)->drive.has_value());
+  const model::Drive& drive = *(*model)->drive;
+  EXPECT_EQ((*model)->joints.at(drive.left_wheels.at(0)).name, "left_joint");
+  EXPECT_EQ((*model)->joints.at(drive.right_wheels.at(0)).name, "right_joint");
+  EXPECT_NEAR(drive.wheel_separation, 0.4, 1e-9);
+  EXPECT_NEAR(drive.wheel_radius, 0.07, 1e-9);
+  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("no drive plugin")));
+}
+
 }  // namespace
 }  // namespace gsv::formats

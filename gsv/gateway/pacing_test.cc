@@ -21,7 +21,8 @@ int CountIn(std::chrono::seconds length, microseconds round, WallTime start) {
 
 TEST(Pacing, KeepsItsMeanRateWhateverTheRounds) {
   const WallTime start = WallTime{} + std::chrono::hours(5);
-  for (const microseconds round : {microseconds(1000), microseconds(33'333), microseconds(99'999)}) {
+  for (const microseconds round :
+       {microseconds(1000), microseconds(33'333), microseconds(99'999)}) {
     EXPECT_NEAR(CountIn(std::chrono::seconds(10), round, start), 100, 1) << round.count();
   }
   // Rounds that are slower than the rate are each used.

@@ -55,13 +55,14 @@ SimulationServant::SimulationServant(std::shared_ptr<simulation::Simulation> sim
   NoteContact();
   const double wanted =
       model::NumberOr(FromIdl(specification_.options), "abandoned_after_s", kAbandonedAfter);
-  abandoned_after_ = std::chrono::milliseconds(
-      static_cast<std::int64_t>(std::clamp(wanted, 1.0, 1e9) * 1000));
+  abandoned_after_ =
+      std::chrono::milliseconds(static_cast<std::int64_t>(std::clamp(wanted, 1.0, 1e9) * 1000));
 }
 
 bool SimulationServant::IsAbandoned() const {
   return !simulation_->specification().keep &&
-         std::chrono::steady_clock::now().time_since_epoch() - last_contact_.load() > abandoned_after_;
+         std::chrono::steady_clock::now().time_since_epoch() - last_contact_.load() >
+             abandoned_after_;
 }
 
 sba::SimulationSpecification* SimulationServant::specification() {

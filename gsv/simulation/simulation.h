@@ -21,9 +21,9 @@
 
 namespace gsv::simulation {
 
-// Is told what happens; must return at once. Snapshots come from the stepping thread, which holds no
-// lock then, so that const members of the simulation may be asked; events come from any thread, with
-// locks held: nothing may be asked.
+// Is told what happens; must return at once. Snapshots come from the stepping thread, which holds
+// no lock then, so that const members of the simulation may be asked; events come from any thread,
+// with locks held: nothing may be asked.
 class Observer {
  public:
   virtual ~Observer() = default;

@@ -36,10 +36,10 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
 }
 
 TEST(CommandLine, RunTakesWorldRobotsAndBehaviours) {
-  const Outcome outcome = RunProgram(
-      "gsv",
-      RunArguments({"--robot", "pebble@-2,-3.5,90deg", "--robot", "b21r@0,1", "--behaviour", "wander",
-                    "--behaviour", "b21r=follow-wall", "--step", "0.02", "--duration", "2"}));
+  const Outcome outcome =
+      RunProgram("gsv", RunArguments({"--robot", "pebble@-2,-3.5,90deg", "--robot", "b21r@0,1",
+                                      "--behaviour", "wander", "--behaviour", "b21r=follow-wall",
+                                      "--step", "0.02", "--duration", "2"}));
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   const auto report = outcome.LastLine();
   EXPECT_EQ(report["steps"], 100);

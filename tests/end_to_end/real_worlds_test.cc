@@ -16,6 +16,8 @@ struct Case {
   Strings absent;  // what the warnings may name, and nothing else
 };
 
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
 class RealWorld : public ::testing::TestWithParam<Case> {};
 
 TEST_P(RealWorld, RunsWithRobotsThatTravel) {
@@ -65,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Urdf",
              "turtlebot3/worlds/empty_world.world",
              {"turtlebot3/turtlebot3_description/urdf/turtlebot3_burger.urdf@0,0"},
-             {}}),
+             {"no drive plugin", "burger_base.stl"}}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

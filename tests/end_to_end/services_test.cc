@@ -256,8 +256,8 @@ TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
 TEST_F(Services, AnApplicationWritesNoCorba) {
   // One ORB a process: the SDK uses this one.
   EXPECT_EQ(RunProgram("example-test-wandering",
-                       {"--broker", broker_->reference(), "--world", "playground", "--places", "-2",
-                        "-2", "2", "-2", "--seconds", "10"})
+                       {"--broker", broker_->reference(), "--world", "playground", "--places", "-1",
+                        "0", "1", "0", "--seconds", "10"})
                 .ending,
             "exit code 0");
 }
