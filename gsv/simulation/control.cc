@@ -184,7 +184,10 @@ base::Status SteppingSimulation::Resume() {
   const std::lock_guard control(control_mutex_);
   {
     const std::lock_guard lock(shared_->mutex);
-    if (shared_->phase == Phase::kRunning || shared_->phase == Phase::kStarting) return {};
+    if (shared_->phase == Phase::kRunning || shared_->phase == Phase::kStarting) {
+      steps_left_ = -1;  // some steps were asked for, and now it is to go on
+      return {};
+    }
     if (auto ok = RefuseUnless({Phase::kPaused}, "resume"); !ok) return ok;
     AddEvent("resumed");
     if (auto ok = Go(SimTime(0), -1); !ok) return ok;

@@ -429,6 +429,24 @@ TEST(Simulation, AnAvatarIsSteeredWithoutABehaviour) {
   EXPECT_TRUE(StatusOf(*simulation, "person").is_avatar);
 }
 
+TEST(Simulation, ResumingDuringAFewStepsGoesOnBeyondThem) {
+  auto simulation = Make(Lockstep(0s));
+  std::atomic<bool> release = false;
+  auto slow = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
+    release.wait(false);  // the steps cannot be over before the resume comes
+    while (SleepFor(agent, clock, 10ms)) {
+    }
+  });
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, slow)));
+  ASSERT_TRUE(simulation->Step(1));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_TRUE(simulation->Resume());
+  release = true;
+  release.notify_all();
+  while (simulation->status().step < 5) std::this_thread::yield();
+  EXPECT_EQ(simulation->status().phase, Phase::kRunning);
+}
+
 TEST(Simulation, ASonarIsMountedAtAPose) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
