@@ -33,11 +33,13 @@ std::shared_ptr<const sensing::SensorRegistry> MakeSensors(const RuntimeOptions&
   auto renderer = rendering::Renderer::Start();
   if (!renderer) spdlog::warn("no cameras: {}", renderer.error().Sentence());
   if (!options.adapt_camera) {
-    rendering::AddCameraSensor(*sensors, std::move(renderer));
+    const auto added = rendering::AddCameraSensor(*sensors, std::move(renderer));
+    GSV_CHECK(added.has_value());
     return sensors;
   }
   sensing::SensorRegistry cameras;
-  rendering::AddCameraSensor(cameras, std::move(renderer));
+  const auto camera_added = rendering::AddCameraSensor(cameras, std::move(renderer));
+  GSV_CHECK(camera_added.has_value());
   sensing::SensorType camera = *cameras.Find("camera");
   options.adapt_camera(camera);
   const auto added = sensors->Add(std::move(camera));

@@ -48,7 +48,7 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
     auto text = UrdfText(*xml);
     if (!text) return Fail(text.error());
     auto robot = FromText(*text, file, {}, std::move(stored));
-    if (robot) AddGuessedDrive(*robot, file);
+    if (robot) AddGuessedDrive(*robot);
     return robot;
   }
   XMLElement* content = xml->root->FirstChildElement("model");
@@ -71,7 +71,7 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   return FromText(printer.Take(), file, includes.files(), std::move(stored));
 }
 
-void ModelStore::AddGuessedDrive(StoredFile& stored, const std::filesystem::path& file) {
+void ModelStore::AddGuessedDrive(StoredFile& stored) {
   const auto& model = stored.framed.model;
   if (model == nullptr || model->drive) return;
   auto drive = GuessDifferentialDrive(*model);
@@ -79,10 +79,6 @@ void ModelStore::AddGuessedDrive(StoredFile& stored, const std::filesystem::path
   auto driven = std::make_shared<model::Model>(*model);
   driven->drive = std::move(drive);
   stored.framed.model = std::move(driven);
-  stored.problems.push_back({base::Problem::Severity::kWarning,
-                             "the robot has no drive plugin; its two wheels are taken as a "
-                             "differential drive",
-                             file.string()});
 }
 
 base::Result<StoredFile> ModelStore::FromText(

@@ -47,7 +47,7 @@ class ModelStore {
 
  private:
   base::Result<StoredFile> ReadFresh(const std::filesystem::path& file, const std::string& plugins);
-  static void AddGuessedDrive(StoredFile& stored, const std::filesystem::path& file);
+  static void AddGuessedDrive(StoredFile& stored);
   base::Result<StoredFile> FromText(const std::string& text, const std::filesystem::path& file,
                                     const std::map<std::string, std::filesystem::path>& includes,
                                     StoredFile stored);

@@ -416,7 +416,7 @@ TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {
   EXPECT_EQ((*model)->joints.at(drive.right_wheels.at(0)).name, "right_joint");
   EXPECT_NEAR(drive.wheel_separation, 0.4, 1e-9);
   EXPECT_NEAR(drive.wheel_radius, 0.07, 1e-9);
-  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("no drive plugin")));
+  EXPECT_THAT(Sentences(), IsEmpty());
 }
 
 }  // namespace

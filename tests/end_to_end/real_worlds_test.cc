@@ -67,8 +67,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Urdf",
              "turtlebot3/worlds/empty_world.world",
              {"turtlebot3/turtlebot3_description/urdf/turtlebot3_burger.urdf@0,0"},
-             {"no drive plugin", "burger_base.stl"}}),
-    [](const auto& info) { return info.param.name; });
+             {"burger_base.stl"}}),
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace gsv::testing
