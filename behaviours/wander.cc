@@ -1,7 +1,7 @@
 // Wanders about: goes forward where the eight sonars leave room, else turns to the freer side;
 // takes a picture every second.
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "sdk/behaviour/sonar_ring.h"
@@ -25,11 +25,8 @@ class Wander final : public Behaviour {
   void Run(Robot& robot) override {
     SimTime next_picture = robot.Now();
     do {
-      const std::vector<SonarRing::Echo> echoes = sonars_.Read();
-      const DriveCommand command =
-          IsStuck(echoes) ? BackOut() : Decide(robot.footprint_radius(), echoes);
+      const DriveCommand command = Decide(robot.footprint_radius(), sonars_.Read());
       robot.Drive(command.linear, command.angular);
-      going_ = command.linear > 0;
       if (camera_ != nullptr && robot.Now() >= next_picture) {
         camera_->TakePicture();
         next_picture += 1s;
@@ -47,6 +44,7 @@ class Wander final : public Behaviour {
   }
 
   DriveCommand Decide(double radius, const std::vector<SonarRing::Echo>& echoes) {
+    if (reconsidering_ > 0) return Reconsider(radius, echoes);
     const double ahead = Nearest(echoes, 0.0, 0.9);
     const double left = Nearest(echoes, 0.9, 0.9);
     const double right = Nearest(echoes, -0.9, 0.9);
@@ -57,43 +55,31 @@ class Wander final : public Behaviour {
       return {0.0, 0.9 * turn_};
     }
     turn_ = 0;
-    // Drifts to one side and then to the other: straight lines see little of a room.
-    drift_ = (drift_ + 1) % 400;
+    // Drifts to one side and then to the other: straight lines see little of a room. After a while
+    // it tries another way: something between the beams may hold it.
+    forward_ = (forward_ + 1) % kReconsiderAfter;
+    if (forward_ == 0) reconsidering_ = kReconsiderFor;
     const double speed = std::clamp(0.5 * (ahead - radius), 0.1, 0.4);
-    return {speed, drift_ < 200 ? 0.1 : -0.1};
+    return {speed, forward_ < kReconsiderAfter / 2 ? 0.1 : -0.1};
   }
 
-  // Something between the beams holds the robot: it should go forward, and what it sees does not
-  // change for a second.
-  bool IsStuck(const std::vector<SonarRing::Echo>& echoes) {
-    if (backing_ > 0) return true;
-    double change = 0;
-    bool sees_anything = false;
-    for (std::size_t i = 0; i < echoes.size() && i < before_.size(); ++i) {
-      change += std::abs(echoes[i].distance - before_[i].distance);
-      sees_anything = sees_anything || echoes[i].in_reach;
-    }
-    still_ = going_ && sees_anything && change < 0.01 ? still_ + 1 : 0;
-    before_ = echoes;
-    if (still_ < 20) return false;
-    still_ = 0;
-    backing_ = 40;
-    return true;
+  // Backs out where there is room behind, then turns.
+  DriveCommand Reconsider(double radius, const std::vector<SonarRing::Echo>& echoes) {
+    --reconsidering_;
+    const bool room_behind = Nearest(echoes, std::numbers::pi, 0.9) > radius + 0.25;
+    if (reconsidering_ > kReconsiderFor / 2 && room_behind) return {-0.2, 0.0};
+    return {0.0, 0.9};
   }
 
-  DriveCommand BackOut() {
-    --backing_;
-    return backing_ > 20 ? DriveCommand{-0.2, 0.0} : DriveCommand{0.0, 0.9};
-  }
+  // In control cycles.
+  static constexpr int kReconsiderAfter = 200;
+  static constexpr int kReconsiderFor = 40;
 
   SonarRing sonars_;
-  std::vector<SonarRing::Echo> before_;  // of the last cycle
-  bool going_ = false;
-  int still_ = 0;    // control cycles without a change
-  int backing_ = 0;  // control cycles of backing out that are left
   std::unique_ptr<Camera> camera_;
-  int turn_ = 0;   // +1: to the left, -1: to the right, 0: going forward
-  int drift_ = 0;  // control cycles
+  int turn_ = 0;           // +1: to the left, -1: to the right, 0: going forward
+  int forward_ = 0;        // control cycles spent going forward
+  int reconsidering_ = 0;  // control cycles of it that are left
 };
 
 }  // namespace

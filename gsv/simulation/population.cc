@@ -188,14 +188,20 @@ bool SteppingSimulation::StepAside(const world::Layout& layout, int body, world:
   constexpr int kDirections = 16;
   const geometry::Pose wanted = layout.bodies[body].initial_pose;
   const double farthest = model::FootprintRadius(*layout.bodies[body].model);
+  const auto is_free_at = [&](double distance, double direction) {
+    geometry::Pose& pose = state.bodies[body].world_from_model;
+    pose = wanted;
+    pose.position.x += distance * std::cos(direction);
+    pose.position.y += distance * std::sin(direction);
+    return Intruded(layout, state, body) < 0;
+  };
   for (double distance = kStride; distance <= farthest; distance += kStride) {
     for (int i = 0; i < kDirections; ++i) {
       const double direction = 2 * std::numbers::pi * i / kDirections;
-      geometry::Pose& pose = state.bodies[body].world_from_model;
-      pose = wanted;
-      pose.position.x += distance * std::cos(direction);
-      pose.position.y += distance * std::sin(direction);
-      if (Intruded(layout, state, body) < 0) return true;
+      // Not just free of the wall, but with room to turn away from it.
+      if (is_free_at(distance, direction) && is_free_at(distance + 2 * kStride, direction)) {
+        return true;
+      }
     }
   }
   return false;
