@@ -16,13 +16,14 @@ export class App {
     private readonly world: World3D | null, // null where the browser cannot draw in 3D
   ) {}
 
-  // Sends one action; what comes of it arrives as the status. A refusal shows the server's sentence.
+  // Sends one action. What comes of it arrives with the stream: the answer may come later than what
+  // happened after it. A refusal shows the server's sentence.
   async act(action: Action, count = 1): Promise<void> {
     const { simulation, pending } = this.store.get();
     if (!simulation || pending) return;
     this.store.set({ pending: action });
     try {
-      this.session.takeStatus(await this.api.act(simulation, action, count));
+      await this.api.act(simulation, action, count);
     } catch (error) {
       notify(this.store, "error", (error as Error).message);
     } finally {
