@@ -238,6 +238,8 @@ test("keys work: views, help, space", async () => {
   await page.getByRole("dialog", { name: "Help" }).waitFor();
   await page.keyboard.press("Escape");
   await page.getByRole("dialog", { name: "Help" }).waitFor({ state: "hidden" });
+  // A button that has the focus keeps Space for itself.
+  await page.evaluate(() => document.activeElement?.blur());
   await page.keyboard.press("Space");
   await phaseIs("running");
 });
