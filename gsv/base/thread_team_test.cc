@@ -1,0 +1,56 @@
+#include "gsv/base/thread_team.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <vector>
+
+namespace gsv::base {
+namespace {
+
+TEST(ThreadTeam, EveryPlaceOfTheRangeIsVisitedOnce) {
+  for (const int threads : {1, 2, 5}) {
+    ThreadTeam team(threads);
+    EXPECT_EQ(team.threads(), threads);
+    for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 10'000u}) {
+      std::vector<std::atomic<int>> visits(count);
+      team.Share(count, 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      });
+      for (const auto& times : visits) EXPECT_EQ(times, 1);
+    }
+  }
+}
+
+TEST(ThreadTeam, APieceIsNoLongerThanTheGrain) {
+  ThreadTeam team(3);
+  std::atomic<std::size_t> longest{0};
+  team.Share(1000, 7, [&](std::size_t begin, std::size_t end) {
+    std::size_t known = longest;
+    while (end - begin > known && !longest.compare_exchange_weak(known, end - begin)) {
+    }
+  });
+  EXPECT_EQ(longest, 7u);
+}
+
+TEST(ThreadTeam, SmallWorkStaysWithTheCaller) {
+  ThreadTeam team(4);
+  std::set<std::thread::id> threads;
+  team.Share(10, 10, [&](std::size_t, std::size_t) { threads.insert(std::this_thread::get_id()); });
+  EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
+}
+
+TEST(ThreadTeam, ManyJobsInARowAreAllDone) {
+  ThreadTeam team(3);
+  std::uint64_t sum = 0;
+  for (int job = 0; job < 20'000; ++job) {
+    std::atomic<std::uint64_t> part{0};
+    team.Share(3, 1, [&](std::size_t begin, std::size_t) { part += begin + 1; });
+    sum += part;
+  }
+  EXPECT_EQ(sum, 20'000u * 6);
+}
+
+}  // namespace
+}  // namespace gsv::base
