@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,6 +39,8 @@ struct Exchanged {
   base::SimTime now{0};
   std::vector<NamedReading> readings;  // kReached: of all opened sensors, by name
 };
+
+class MountedSensor;
 
 class Agent {
  public:
@@ -71,6 +74,8 @@ class Agent {
   virtual base::Status CreateSensor(model::SensorDescription description) = 0;
   virtual base::Status CloseSensor(const std::string& name) = 0;
   virtual base::Result<sensing::Reading> Read(const std::string& sensor) = 0;
+  // For the turns of a local behaviour.
+  virtual base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const = 0;
 };
 
 }  // namespace gsv::simulation

@@ -29,6 +29,11 @@ bool AgentClocks::IsWaiting(ClockId clock) const {
   return it != clocks_.end() && it->second.waiting;
 }
 
+bool AgentClocks::IsWaitingUntil(ClockId clock, base::SimTime until) const {
+  const auto it = clocks_.find(clock);
+  return it != clocks_.end() && it->second.waiting && it->second.until == until;
+}
+
 bool AgentClocks::Wake(base::SimTime now) {
   bool woke = false;
   for (auto& [id, clock] : clocks_) {

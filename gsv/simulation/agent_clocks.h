@@ -26,6 +26,7 @@ class AgentClocks {
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
 
   bool IsWaiting(ClockId clock) const;
+  bool IsWaitingUntil(ClockId clock, base::SimTime until) const;
 
   // Ends the waits for instants up to `now`. True when a clock that waited runs again.
   bool Wake(base::SimTime now);

@@ -14,6 +14,7 @@
 namespace gsv::simulation {
 
 class Agent;
+class LocalBehaviour;
 
 class BehaviourPort {
  public:
@@ -38,6 +39,8 @@ class BehaviourPort {
   virtual const std::string& name() const = 0;
   // Where it runs: "host:pid".
   virtual const std::string& place() const = 0;
+  // Itself, where the simulation is to run it, see local_behaviour.h.
+  virtual LocalBehaviour* local() { return nullptr; }
 };
 
 }  // namespace gsv::simulation

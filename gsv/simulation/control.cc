@@ -63,18 +63,21 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       sensors_(std::move(sensors)),
       shared_(std::make_shared<SharedState>(std::make_shared<world::Snapshot>(world::Snapshot{
                                                 layout, world::InitialState(*layout), {}}),
-                                            specification_.mode, specification_.seed)),
+                                            specification_.mode, specification_.seed, sensors_)),
       engine_(std::move(engine)),
       layout_(std::move(layout)),
       state_(world::InitialState(*layout_)),
+      team_(specification_.threads > 0 ? specification_.threads
+                                       : base::ThreadTeam::DefaultThreads()),
       pacer_(step_, specification_.factor),
       caller_(kCallingThreads) {
   for (const world::Body& body : layout_->bodies) {
     if (!body.is_robot) continue;
-    agents_.emplace(body.name,
-                    std::make_shared<RobotAgent>(body.name, body.model, false, sensors_, shared_));
+    agents_.emplace(body.name, std::make_shared<RobotAgent>(body.name, body.model, false, shared_));
   }
   IndexAgents();
+  instant_.rays = &shared_->rays;
+  instant_.seed = specification_.seed;
   stepping_ = std::jthread([this] { RunLoop(); });
   watchdog_ = std::jthread([this] { WatchForDeaths(); });
 }
@@ -150,6 +153,7 @@ void SteppingSimulation::StartAgents(const std::vector<AgentPtr>& agents) {
       ReportIfFailed(agent, "start", status);
       const std::lock_guard lock(shared_->mutex);
       agent->MarkStarted();
+      if (status && agent->behaviour()->local() != nullptr) agent->MakeReady();
       if (--starts_pending_ == 0 && shared_->phase == Phase::kStarting) SetPhase(Phase::kRunning);
     });
   }
@@ -262,6 +266,9 @@ base::Status SteppingSimulation::Reset() {
     const std::lock_guard world_lock(world_mutex_);
     const std::lock_guard lock(shared_->mutex);
     state_ = world::InitialState(*layout_);
+    shared_->sleepers.Clear();
+    shared_->commanded.clear();
+    shared_->ready.clear();
     shared_->history.Restart(
         std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}}));
     shared_->now = SimTime(0);
@@ -352,7 +359,7 @@ SimulationStatus SteppingSimulation::status() const {
     }
     status.robots.push_back(std::move(robot));
     if (status.waiting_for.empty() && shared_->phase == Phase::kRunning &&
-        shared_->mode == Mode::kLockstep && agent->HoldsUp()) {
+        shared_->mode == Mode::kLockstep && agent->IsAtWork()) {
       const double since =
           std::chrono::duration<double>(WallNow() - agent->running_since()).count();
       if (since > 0.1) {

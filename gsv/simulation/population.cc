@@ -98,8 +98,7 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
   if (auto ok = ChangeLayout(std::move(bodies), added); !ok) return ok;
   const std::lock_guard lock(shared_->mutex);
   for (const RobotSpecification& robot : robots) {
-    auto agent =
-        std::make_shared<RobotAgent>(robot.name, robot.model, robot.is_avatar, sensors_, shared_);
+    auto agent = std::make_shared<RobotAgent>(robot.name, robot.model, robot.is_avatar, shared_);
     agent->SetBehaviour(robot.behaviour);
     agents_.emplace(robot.name, std::move(agent));
   }
@@ -208,8 +207,7 @@ bool SteppingSimulation::StepAside(const world::Layout& layout, int body, world:
 }
 
 void SteppingSimulation::IndexAgents() {
-  body_of_.clear();
-  for (const auto& [name, agent] : agents_) body_of_[name] = layout_->Find(name);
+  for (const auto& [name, agent] : agents_) agent->SetBody(layout_->Find(name));
 }
 
 base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
@@ -248,6 +246,9 @@ void SteppingSimulation::RemoveFromWorld(const std::vector<std::string>& names) 
   for (const std::string& name : names) {
     const auto it = agents_.find(name);
     it->second->MarkGone();
+    shared_->sleepers.Remove(it->second.get());
+    std::erase(shared_->commanded, it->second.get());
+    std::erase(shared_->ready, it->second.get());
     if (const auto& behaviour = it->second->behaviour(); behaviour != nullptr) {
       caller_.Post(name, [behaviour] {
         (void)behaviour->Stop();

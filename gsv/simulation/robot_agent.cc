@@ -1,6 +1,6 @@
 #include "gsv/simulation/robot_agent.h"
 
-#include <cmath>
+#include <utility>
 
 namespace gsv::simulation {
 namespace {
@@ -16,13 +16,35 @@ base::Error NotRunning(const std::string& robot) {
 }  // namespace
 
 RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
-                       std::shared_ptr<const sensing::SensorRegistry> types,
                        std::shared_ptr<SharedState> shared)
     : robot_(std::move(robot)),
       model_(std::move(model)),
       is_avatar_(is_avatar),
       shared_(std::move(shared)),
-      rack_(robot_, *model_, std::move(types)) {}
+      rack_(robot_, model_, shared_->designs) {
+  for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
+    shared_->history.Use(design->period);
+  }
+}
+
+void RobotAgent::SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) {
+  behaviour_ = std::move(behaviour);
+  Recount();
+}
+
+void RobotAgent::Recount() {
+  const bool holds_up = HoldsUp();
+  if (holds_up == is_counted_) return;
+  is_counted_ = holds_up;
+  shared_->running += holds_up ? 1 : -1;
+  if (shared_->running == 0) shared_->changed.notify_all();
+}
+
+void RobotAgent::Pend(const PendingCommand& command) {
+  pending_ = command;
+  if (std::exchange(is_commanded_, true)) return;
+  shared_->commanded.push_back(this);
+}
 
 base::Status RobotAgent::CheckAlive(const std::unique_lock<std::mutex>&) const {
   if (is_gone_) return base::Fail(base::ErrorCode::kEnded, "the robot has been removed", robot_);
@@ -54,6 +76,7 @@ base::Result<ClockId> RobotAgent::OpenClock() {
     return base::Fail(base::ErrorCode::kInvalidArgument, "an agent has at most 64 clocks open",
                       robot_);
   }
+  Recount();
   return clock;
 }
 
@@ -62,7 +85,7 @@ base::Status RobotAgent::CloseClock(ClockId clock) {
   if (auto ok = CheckClock(clock); !ok) return ok;
   clocks_.Close(clock);
   woken_.notify_all();
-  shared_->changed.notify_all();
+  Recount();
   return {};
 }
 
@@ -79,10 +102,17 @@ base::Result<Wait> RobotAgent::SleepUntil(ClockId clock, SimTime until,
   return WaitOn(lock, clock, until, lease);
 }
 
+bool RobotAgent::BeginWait(ClockId clock, SimTime until) {
+  const bool waits_already = clocks_.IsWaitingUntil(clock, until);
+  if (clocks_.WaitUntil(clock, until, shared_->now)) return false;
+  if (!waits_already) shared_->sleepers.Add(until, this);
+  Recount();
+  return true;
+}
+
 base::Result<Wait> RobotAgent::WaitOn(std::unique_lock<std::mutex>& lock, ClockId clock,
                                       SimTime until, std::chrono::milliseconds lease) {
-  if (clocks_.WaitUntil(clock, until, shared_->now)) return Wait::kReached;
-  if (shared_->holdup == this && !HoldsUp()) shared_->changed.notify_all();
+  if (!BeginWait(clock, until)) return Wait::kReached;
   const WallTime lease_ends = WallNow() + lease;
   for (;;) {
     const std::cv_status status = woken_.wait_until(lock, lease_ends);
@@ -108,7 +138,7 @@ base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
         return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
       }
       clocks_.set_last_cycle(clock, cycle);
-      if (command && (!pending_ || clock >= pending_->clock)) pending_ = {clock, *command};
+      if (command && (!pending_ || clock >= pending_->clock)) Pend({clock, *command});
     } else if (cycle != last || cycle == 0) {
       return base::Fail(
           base::ErrorCode::kInvalidArgument,
@@ -130,11 +160,11 @@ base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
 
 base::Result<std::vector<NamedReading>> RobotAgent::ReadOpenSensors() {
   std::vector<NamedReading> readings;
-  for (const std::string& sensor : rack_.OpenSensors()) {
-    auto reading = Watch(sensor);
+  for (const MountedSensorPtr& sensor : rack_.OpenSensors()) {
+    auto reading = Sample(*sensor);
     if (!reading) return base::Fail(reading.error());
-    rack_.CountReading(sensor);
-    readings.push_back({sensor, *std::move(reading)});
+    sensor->CountReading();
+    readings.push_back({sensor->name(), *std::move(reading)});
   }
   return readings;
 }
@@ -145,7 +175,7 @@ base::Status RobotAgent::Command(const world::DriveCommand& command) {
   }
   std::unique_lock lock(shared_->mutex);
   if (auto ok = CheckMayAct(lock); !ok) return ok;
-  if (!pending_ || pending_->clock == 0) pending_ = PendingCommand{0, command};
+  if (!pending_ || pending_->clock == 0) Pend({0, command});
   return {};
 }
 
@@ -158,28 +188,44 @@ base::Status RobotAgent::OpenSensor(const std::string& name) {
 base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
   std::unique_lock lock(shared_->mutex);
   if (auto ok = CheckMayAct(lock); !ok) return ok;
-  return rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
+  const std::string name = description.name;
+  auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
+  if (!created) return created;
+  shared_->history.Use((*rack_.Find(name))->design().period);
+  return {};
 }
 
 base::Status RobotAgent::CloseSensor(const std::string& name) { return rack_.Close(name); }
+
+base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
+  const auto snapshot = shared_->history.At(sensor.design().period);
+  const int body = snapshot->layout->Find(robot_);
+  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
+  return sensor.Read({snapshot, body, shared_->seed, shared_->rays});
+}
 
 base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {
   {
     std::unique_lock lock(shared_->mutex);
     if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
   }
-  auto reading = Watch(sensor);
-  if (reading) rack_.CountReading(sensor);
+  const auto mounted = rack_.Find(sensor);
+  if (!mounted) return base::Fail(mounted.error());
+  auto reading = Sample(**mounted);
+  if (reading) (*mounted)->CountReading();
   return reading;
 }
 
 base::Result<sensing::Reading> RobotAgent::Watch(const std::string& sensor) {
-  return rack_.Read(sensor, {shared_->history, shared_->rays, shared_->seed});
+  const auto mounted = rack_.Find(sensor);
+  if (!mounted) return base::Fail(mounted.error());
+  return Sample(**mounted);
 }
 
 void RobotAgent::MarkStarted() {
   started_ = true;
   running_since_ = WallNow();
+  Recount();
 }
 
 bool RobotAgent::HoldsUp() const {
@@ -187,17 +233,26 @@ bool RobotAgent::HoldsUp() const {
          !is_gone_ && clocks_.IsRunning();
 }
 
-bool RobotAgent::Wake(SimTime now) {
+bool RobotAgent::IsAtWork() const {
+  return HoldsUp() && (behaviour_->local() == nullptr || in_turn_ || is_blocked_);
+}
+
+bool RobotAgent::Wake(SimTime now, WallTime wall_now) {
   const bool woke = clocks_.Wake(now);
-  if (woke) {
-    running_since_ = WallNow();
-    woken_.notify_all();
+  const bool dies = death_reported_ && fate_ == Fate::kAlive && (woke || clocks_.IsRunning());
+  if (dies) {
+    fate_ = Fate::kDead;
+    StopDriving();
   }
-  if (!death_reported_ || fate_ != Fate::kAlive || !(woke || clocks_.IsRunning())) return false;
-  fate_ = Fate::kDead;
-  StopDriving();
-  woken_.notify_all();
-  return true;
+  if (woke) {
+    running_since_ = wall_now;
+    if (!dies && behaviour_ != nullptr && behaviour_->local() != nullptr) MakeReady();
+  }
+  if (woke || dies) {
+    woken_.notify_all();
+    Recount();
+  }
+  return dies;
 }
 
 void RobotAgent::MarkUnresponsive(std::string detail) {
@@ -205,14 +260,48 @@ void RobotAgent::MarkUnresponsive(std::string detail) {
   detail_ = std::move(detail);
   StopDriving();
   woken_.notify_all();
+  Recount();
 }
 
 void RobotAgent::ReportDeath(std::string detail) {
   death_reported_ = true;
   detail_ = std::move(detail);
+  shared_->has_reported_deaths = true;
+  Recount();
+}
+
+void RobotAgent::MakeReady() {
+  is_blocked_ = false;
+  shared_->ready.push_back(this);
+}
+
+void RobotAgent::TakeTurn(const Turn::Instant& instant) {
+  turn_ = Turn(instant, body_);
+  in_turn_ = true;
+  behaviour_->local()->TakeTurn(turn_);
+  in_turn_ = false;
+}
+
+std::function<void()> RobotAgent::Settle() {
+  const ClockId clock = behaviour_->local()->clock();
+  if (is_gone_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
+  clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
+  if (turn_.command_) Pend({turn_.exchanges_ > 0 ? clock : 0, *turn_.command_});
+  if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
+    is_blocked_ = true;
+    return std::move(blocked->work);
+  }
+  if (const auto* waiting = std::get_if<Turn::Waiting>(&turn_.end_)) {
+    if (!BeginWait(clock, waiting->until)) MakeReady();
+  } else {
+    clocks_.Close(clock);
+    Recount();
+  }
+  return {};
 }
 
 std::optional<world::DriveCommand> RobotAgent::TakeCommand() {
+  is_commanded_ = false;
   if (!pending_) return std::nullopt;
   const world::DriveCommand command = pending_->command;
   pending_.reset();
@@ -222,15 +311,18 @@ std::optional<world::DriveCommand> RobotAgent::TakeCommand() {
 void RobotAgent::MarkGone() {
   is_gone_ = true;
   woken_.notify_all();
+  Recount();
 }
 
 void RobotAgent::ResetClocks() {
   clocks_ = AgentClocks();
   pending_.reset();
+  is_commanded_ = false;
   started_ = false;
   death_reported_ = false;
   fate_ = Fate::kAlive;
   detail_.clear();
+  Recount();
 }
 
 void RobotAgent::FillStatus(RobotStatus& status) const {

@@ -2,20 +2,20 @@
 // members under "stepping" need it held.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/agent_clocks.h"
-#include "gsv/simulation/behaviour_port.h"
+#include "gsv/simulation/local_behaviour.h"
 #include "gsv/simulation/shared_state.h"
 #include "gsv/simulation/wall_clock.h"
 
 namespace gsv::simulation {
 
-class RobotAgent final : public Agent {
+class RobotAgent final : public Agent, public std::enable_shared_from_this<RobotAgent> {
  public:
   RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
-             std::shared_ptr<const sensing::SensorRegistry> types,
              std::shared_ptr<SharedState> shared);
 
   // Agent.
@@ -39,20 +39,27 @@ class RobotAgent final : public Agent {
   base::Status OpenSensor(const std::string& name) override;
   base::Status CreateSensor(model::SensorDescription description) override;
   base::Status CloseSensor(const std::string& name) override;
+  base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const override {
+    return rack_.Find(sensor);
+  }
   base::Result<sensing::Reading> Read(const std::string& sensor) override;
 
   // A reading for somebody who watches.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
 
   // Stepping.
-  void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) { behaviour_ = std::move(behaviour); }
+  void SetBody(int body) { body_ = body; }  // its index in the present layout
+  int body() const { return body_; }
+  void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour);
   const std::shared_ptr<BehaviourPort>& behaviour() const { return behaviour_; }
   void MarkStarted();
   // The simulation must not step: the agent is waited for and runs.
   bool HoldsUp() const;
+  // It holds up the simulation, and not only because others have their turn before it.
+  bool IsAtWork() const;
   WallTime running_since() const { return running_since_; }
   // Ends waits up to `now`. True when a reported death has taken effect with that.
-  bool Wake(SimTime now);
+  bool Wake(SimTime now, WallTime wall_now);
   // It runs and will never wait: takes effect at once.
   void MarkUnresponsive(std::string detail);
   // Its end is known; takes effect at its next wake, at once if it runs.
@@ -63,11 +70,19 @@ class RobotAgent final : public Agent {
   std::optional<world::DriveCommand> TakeCommand();
   void Interrupt() { woken_.notify_all(); }
   void MarkGone();
+  bool is_gone() const { return is_gone_; }
   void ResetClocks();
   void FillStatus(RobotStatus& status) const;
   std::string Describe() const;  // "robot_3 (wander on host:pid)"
   void AddToHash(base::Hash& hash) const;
   SensorRack& rack() { return rack_; }
+
+  // A local behaviour's turn. TakeTurn() needs no lock; Settle() enters what came of it, and gives
+  // the work that the behaviour is blocked on, if it is.
+  void TakeTurn(const Turn::Instant& instant);
+  std::function<void()> Settle();
+  // The turn of its local behaviour has come.
+  void MakeReady();
 
  private:
   enum class Fate { kAlive, kUnresponsive, kDead };
@@ -78,12 +93,18 @@ class RobotAgent final : public Agent {
   base::Result<Wait> WaitOn(std::unique_lock<std::mutex>& lock, ClockId clock, SimTime until,
                             std::chrono::milliseconds lease);
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
-  void StopDriving() { pending_ = PendingCommand{}; }
+  base::Result<sensing::Reading> Sample(MountedSensor& sensor);
+  // The clock waits; false when `until` is here already.
+  bool BeginWait(ClockId clock, SimTime until);
+  // Tells the simulation whether it has to wait for this agent; after whatever may change that.
+  void Recount();
 
   struct PendingCommand {
     ClockId clock = 0;  // 0: given directly
     world::DriveCommand command;
   };
+  void Pend(const PendingCommand& command);
+  void StopDriving() { Pend({}); }
 
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;
@@ -96,12 +117,19 @@ class RobotAgent final : public Agent {
   std::shared_ptr<BehaviourPort> behaviour_;
   AgentClocks clocks_;
   std::optional<PendingCommand> pending_;
+  int body_ = -1;
+  bool is_counted_ = false;    // in shared_->running
+  bool is_commanded_ = false;  // in shared_->commanded
+  bool is_blocked_ = false;    // a local behaviour on work that takes its time
   bool started_ = false;
   bool is_gone_ = false;
   bool death_reported_ = false;
   Fate fate_ = Fate::kAlive;
   std::string detail_;
   WallTime running_since_{};
+
+  Turn turn_;  // the stepping thread's, and during a turn the thread's that takes it
+  std::atomic<bool> in_turn_{false};
 };
 
 }  // namespace gsv::simulation

@@ -1,81 +1,45 @@
 #include "gsv/simulation/sensor_rack.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace gsv::simulation {
 namespace {
 
 constexpr std::size_t kMaxSensorsPerRobot = 1024;
 
-base::SimTime PeriodOf(double update_rate) {
-  return update_rate > 0 ? base::FromSeconds(1.0 / update_rate) : base::SimTime(0);
-}
-
 }  // namespace
 
-struct SensorRack::Slot {
-  model::SensorDescription description;
-  std::unique_ptr<sensing::Sensor> sensor;  // null: cannot be made, see `refusal`
-  base::Error refusal;
-  base::SimTime period{0};
-  bool created = false;  // by a caller, not by the model
-  bool open = false;     // guarded by the rack's mutex
-
-  std::mutex mutex;  // guards what follows
-  std::shared_ptr<const world::Snapshot> sampled_at;
-  sensing::Reading newest;
-};
-
-SensorRack::SensorRack(std::string robot, const model::Model& model,
-                       std::shared_ptr<const sensing::SensorRegistry> types)
-    : robot_(std::move(robot)), types_(std::move(types)) {
-  for (const model::SensorDescription& description : model.sensors) {
-    auto slot = MakeSlot(description);
-    if (!slot) {
-      auto refused = std::make_shared<Slot>();
-      refused->description = description;
-      refused->refusal = slot.error();
-      slot = std::move(refused);
-    }
-    slots_.emplace(description.name, *std::move(slot));
+SensorRack::SensorRack(std::string robot, const std::shared_ptr<const model::Model>& model,
+                       SensorDesigns& designs)
+    : robot_(std::move(robot)), designs_(designs) {
+  const auto of_model = designs.Of(model);
+  slots_.reserve(of_model->size());
+  for (const SensorDesignPtr& design : *of_model) {
+    slots_.push_back({std::make_shared<MountedSensor>(design)});
   }
 }
 
-SensorRack::~SensorRack() = default;
-
-base::Result<std::shared_ptr<SensorRack::Slot>> SensorRack::MakeSlot(
-    model::SensorDescription description) const {
-  const std::string where = robot_ + "/" + description.name;
-  const sensing::SensorType* type = types_->Find(description.type);
-  if (type == nullptr) {
-    return base::Fail(base::ErrorCode::kNotFound,
-                      "there is no sensor type \"" + description.type + "\"", where);
-  }
-  if (!std::isfinite(description.update_rate) || description.update_rate < 0 ||
-      description.update_rate > 1e6) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the update rate must lie between 0 and 1e6 Hz", where);
-  }
-  description.type = type->name;
-  auto slot = std::make_shared<Slot>();
-  auto sensor = type->create(description);
-  if (!sensor) return base::Fail(sensor.error());
-  slot->sensor = *std::move(sensor);
-  slot->period = PeriodOf(description.update_rate);
-  slot->description = std::move(description);
-  return slot;
+std::size_t SensorRack::PlaceOf(const std::string& name) const {
+  const auto place = std::lower_bound(
+      slots_.begin(), slots_.end(), name,
+      [](const Slot& slot, const std::string& wanted) { return slot.sensor->name() < wanted; });
+  return static_cast<std::size_t>(place - slots_.begin());
 }
 
-std::shared_ptr<SensorRack::Slot> SensorRack::Find(const std::string& name) const {
-  const std::lock_guard lock(mutex_);
-  const auto it = slots_.find(name);
-  return it == slots_.end() ? nullptr : it->second;
+const SensorRack::Slot* SensorRack::Seek(const std::string& name) const {
+  const std::size_t place = PlaceOf(name);
+  const bool is_there = place < slots_.size() && slots_[place].sensor->name() == name;
+  return is_there ? &slots_[place] : nullptr;
+}
+
+base::Error SensorRack::NoSuchSensor(const std::string& name) const {
+  return {base::ErrorCode::kNotFound, "the robot has no sensor \"" + name + "\"", robot_};
 }
 
 std::vector<model::SensorDescription> SensorRack::Descriptions() const {
   const std::lock_guard lock(mutex_);
   std::vector<model::SensorDescription> descriptions;
-  for (const auto& [name, slot] : slots_) descriptions.push_back(slot->description);
+  for (const Slot& slot : slots_) descriptions.push_back(slot.sensor->design().description);
   return descriptions;
 }
 
@@ -93,98 +57,77 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
   if (!geometry::IsFinite(description.link_from_sensor)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the mounting pose is not finite", where);
   }
-  auto slot = MakeSlot(std::move(description));
-  if (!slot) return base::Fail(slot.error());
-  (*slot)->created = true;
-  (*slot)->open = true;
+  const auto design = MakeSensorDesign(std::move(description), designs_.types(), where);
+  if (!design) return base::Fail(design.error());
   const std::lock_guard lock(mutex_);
   if (slots_.size() >= kMaxSensorsPerRobot) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "a robot carries at most 1024 sensors",
                       where);
   }
-  if (!slots_.emplace(name, *slot).second) {
+  if (Seek(name) != nullptr) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "a sensor of that name is there already",
                       where);
   }
+  slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(PlaceOf(name)),
+                {std::make_shared<MountedSensor>(*design), true, true});
   return {};
 }
 
 base::Status SensorRack::Open(const std::string& name) {
-  const auto slot = Find(name);
-  if (slot == nullptr) {
-    return base::Fail(base::ErrorCode::kNotFound, "the robot has no sensor \"" + name + "\"",
-                      robot_);
-  }
-  if (slot->sensor == nullptr) return base::Fail(slot->refusal);
   const std::lock_guard lock(mutex_);
-  slot->open = true;
+  if (Seek(name) == nullptr) return base::Fail(NoSuchSensor(name));
+  Slot& slot = slots_[PlaceOf(name)];
+  if (slot.sensor->design().sensor == nullptr) return base::Fail(slot.sensor->design().refusal);
+  slot.is_open = true;
   return {};
 }
 
 base::Status SensorRack::Close(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  const auto it = slots_.find(name);
-  if (it == slots_.end()) {
-    return base::Fail(base::ErrorCode::kNotFound, "the robot has no sensor \"" + name + "\"",
-                      robot_);
-  }
-  it->second->open = false;
-  if (it->second->created) slots_.erase(it);
+  if (Seek(name) == nullptr) return base::Fail(NoSuchSensor(name));
+  const auto slot = slots_.begin() + static_cast<std::ptrdiff_t>(PlaceOf(name));
+  slot->is_open = false;
+  if (!slot->is_created) return {};
+  of_the_gone_[slot->sensor->design().description.type] += slot->sensor->readings();
+  slots_.erase(slot);
   return {};
 }
 
 void SensorRack::Reset() {
   const std::lock_guard lock(mutex_);
-  for (auto it = slots_.begin(); it != slots_.end();) {
-    Slot& slot = *it->second;
-    slot.open = false;
-    {
-      const std::lock_guard slot_lock(slot.mutex);
-      slot.sampled_at = nullptr;
-    }
-    it = slot.created ? slots_.erase(it) : std::next(it);
+  std::erase_if(slots_, [](const Slot& slot) { return slot.is_created; });
+  for (Slot& slot : slots_) {
+    slot.is_open = false;
+    slot.sensor->Forget();
   }
-  readings_by_type_.clear();
+  of_the_gone_.clear();
 }
 
-base::Result<sensing::Reading> SensorRack::Read(const std::string& name,
-                                                const SamplingSource& source) {
-  const auto slot = Find(name);
-  if (slot == nullptr) {
-    return base::Fail(base::ErrorCode::kNotFound, "the robot has no sensor \"" + name + "\"",
-                      robot_);
-  }
-  if (slot->sensor == nullptr) return base::Fail(slot->refusal);
-  auto snapshot = source.history.At(slot->period);
-  const std::lock_guard lock(slot->mutex);
-  if (slot->sampled_at == snapshot) return slot->newest;
-  const int body = snapshot->layout->Find(robot_);
-  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
-  auto reading = slot->sensor->Sample({snapshot, body, source.seed, source.rays});
-  if (!reading) return reading;
-  slot->sampled_at = std::move(snapshot);
-  slot->newest = *reading;
-  return reading;
-}
-
-std::vector<std::string> SensorRack::OpenSensors() const {
+base::Result<MountedSensorPtr> SensorRack::Find(const std::string& name) const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> names;
-  for (const auto& [name, slot] : slots_) {
-    if (slot->open) names.push_back(name);
-  }
-  return names;
+  const Slot* slot = Seek(name);
+  if (slot == nullptr) return base::Fail(NoSuchSensor(name));
+  return slot->sensor;
 }
 
-void SensorRack::CountReading(const std::string& name) {
+std::vector<MountedSensorPtr> SensorRack::OpenSensors() const {
   const std::lock_guard lock(mutex_);
-  const auto it = slots_.find(name);
-  if (it != slots_.end()) ++readings_by_type_[it->second->description.type];
+  std::vector<MountedSensorPtr> sensors;
+  for (const Slot& slot : slots_) {
+    if (slot.is_open) sensors.push_back(slot.sensor);
+  }
+  return sensors;
 }
 
 std::map<std::string, std::uint64_t> SensorRack::readings_by_type() const {
   const std::lock_guard lock(mutex_);
-  return readings_by_type_;
+  std::map<std::string, std::uint64_t> readings = of_the_gone_;
+  for (const Slot& slot : slots_) {
+    if (const std::uint64_t count = slot.sensor->readings(); count > 0) {
+      readings[slot.sensor->design().description.type] += count;
+    }
+  }
+  return readings;
 }
 
 }  // namespace gsv::simulation

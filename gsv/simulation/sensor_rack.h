@@ -1,6 +1,6 @@
-// The sensors of one robot, and their newest readings.
+// The sensors of one robot.
 //
-// Threads  any. Sampling one sensor never holds up another.
+// Threads  any.
 #pragma once
 
 #include <map>
@@ -9,28 +9,20 @@
 #include <string>
 #include <vector>
 
-#include "gsv/sensing/registry.h"
-#include "gsv/simulation/snapshot_history.h"
+#include "gsv/simulation/mounted_sensor.h"
 
 namespace gsv::simulation {
 
-// What readings of one simulation have in common.
-struct SamplingSource {
-  SnapshotHistory& history;
-  sensing::RaySceneCache& rays;
-  std::uint64_t seed;
-};
+using MountedSensorPtr = std::shared_ptr<MountedSensor>;
 
 class SensorRack {
  public:
-  // The sensors of the robot's model are there from the start; a model's sensor of a type that is
-  // not registered, or whose parameters are refused, is listed but fails when opened.
-  SensorRack(std::string robot, const model::Model& model,
-             std::shared_ptr<const sensing::SensorRegistry> types);
-  ~SensorRack();
+  // The sensors of the robot's model are there from the start. `designs` outlives the rack.
+  SensorRack(std::string robot, const std::shared_ptr<const model::Model>& model,
+             SensorDesigns& designs);
 
   std::vector<model::SensorDescription> Descriptions() const;
-  std::vector<std::string> TypeNames() const { return types_->names(); }  // that can be created
+  std::vector<std::string> TypeNames() const { return designs_.types().names(); }  // to be created
 
   // Adds a sensor; it is open. `link_count` is that of the model.
   base::Status Create(model::SensorDescription description, int link_count);
@@ -40,24 +32,28 @@ class SensorRack {
   // Closes all, drops the created ones, forgets readings and counts.
   void Reset();
 
-  // The newest sample: taken now if nobody has asked since its instant.
-  base::Result<sensing::Reading> Read(const std::string& name, const SamplingSource& source);
-  std::vector<std::string> OpenSensors() const;  // by name
+  // Open or not; an error if there is none of that name.
+  base::Result<MountedSensorPtr> Find(const std::string& name) const;
+  std::vector<MountedSensorPtr> OpenSensors() const;  // by name
 
-  // Counts a reading handed to the behaviour.
-  void CountReading(const std::string& name);
   std::map<std::string, std::uint64_t> readings_by_type() const;
 
  private:
-  struct Slot;
-  std::shared_ptr<Slot> Find(const std::string& name) const;
-  base::Result<std::shared_ptr<Slot>> MakeSlot(model::SensorDescription description) const;
+  struct Slot {
+    MountedSensorPtr sensor;
+    bool is_created = false;  // by a caller, not by the model
+    bool is_open = false;
+  };
+  // Null if there is none of that name. Under the lock.
+  const Slot* Seek(const std::string& name) const;
+  std::size_t PlaceOf(const std::string& name) const;  // of the first whose name is not below
+  base::Error NoSuchSensor(const std::string& name) const;
 
   const std::string robot_;
-  const std::shared_ptr<const sensing::SensorRegistry> types_;
+  SensorDesigns& designs_;
   mutable std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<Slot>> slots_;
-  std::map<std::string, std::uint64_t> readings_by_type_;
+  std::vector<Slot> slots_;                           // by name
+  std::map<std::string, std::uint64_t> of_the_gone_;  // readings of closed sensors, by type
 };
 
 }  // namespace gsv::simulation

@@ -5,32 +5,43 @@
 #include <condition_variable>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "gsv/simulation/sensor_rack.h"
 #include "gsv/simulation/snapshot_history.h"
 #include "gsv/simulation/types.h"
+#include "gsv/simulation/wake_calendar.h"
 
 namespace gsv::simulation {
 
 class RobotAgent;
 
 struct SharedState {
-  SharedState(std::shared_ptr<const world::Snapshot> initial, Mode m, std::uint64_t s)
-      : history(std::move(initial)), mode(m), seed(s) {}
+  SharedState(std::shared_ptr<const world::Snapshot> initial, Mode m, std::uint64_t s,
+              std::shared_ptr<const sensing::SensorRegistry> types)
+      : history(std::move(initial)), designs(std::move(types)), mode(m), seed(s) {}
 
   // These have their own locks.
   SnapshotHistory history;
   sensing::RaySceneCache rays;
+  SensorDesigns designs;
   const Mode mode;
   const std::uint64_t seed;
 
   std::mutex mutex;
-  // The phase changed, or the agent that `holdup` names has begun to wait.
+  // The phase changed, the last agent that was waited for has begun to wait, or a local behaviour
+  // can go on.
   std::condition_variable changed;
-  const RobotAgent* holdup = nullptr;
   Phase phase = Phase::kCreated;
   std::string end_reason;  // not empty: agents' calls end with it
   SimTime now{0};
+
+  // Agents enter themselves here; whoever takes one out of the world removes it.
+  int running = 0;                     // agents that hold up the simulation
+  WakeCalendar<RobotAgent> sleepers;   // who waits for an instant
+  std::vector<RobotAgent*> commanded;  // have a command for the next step
+  std::vector<RobotAgent*> ready;      // local behaviours whose turn it is
+  bool has_reported_deaths = false;    // of agents that may be running
 };
 
 }  // namespace gsv::simulation

@@ -13,6 +13,12 @@ SnapshotHistory::SnapshotPtr SnapshotHistory::At(base::SimTime period) {
   return at_instant_.emplace(period, latest_).first->second;
 }
 
+void SnapshotHistory::MakeFrame(Frame& frame) const {
+  const std::lock_guard lock(mutex_);
+  frame.latest_ = latest_;
+  frame.at_instant_.assign(at_instant_.begin(), at_instant_.end());
+}
+
 void SnapshotHistory::Publish(SnapshotPtr snapshot) {
   const std::lock_guard lock(mutex_);
   const base::SimTime before = latest_->state.time;
@@ -24,7 +30,7 @@ void SnapshotHistory::Publish(SnapshotPtr snapshot) {
 
 void SnapshotHistory::Restart(SnapshotPtr snapshot) {
   const std::lock_guard lock(mutex_);
-  at_instant_.clear();
+  for (auto& [period, kept] : at_instant_) kept = snapshot;
   latest_ = std::move(snapshot);
 }
 

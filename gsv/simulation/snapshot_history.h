@@ -10,6 +10,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include "gsv/world/snapshot.h"
 
@@ -19,12 +21,33 @@ class SnapshotHistory {
  public:
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;
 
+  // What At() gives at one instant, for many who ask without a lock.
+  class Frame {
+   public:
+    // The latest where the period was not in use when the frame was made.
+    const SnapshotPtr& At(base::SimTime period) const {
+      for (const auto& [known, snapshot] : at_instant_) {
+        if (known == period) return snapshot;
+      }
+      return latest_;
+    }
+
+   private:
+    friend class SnapshotHistory;
+    SnapshotPtr latest_;
+    std::vector<std::pair<base::SimTime, SnapshotPtr>> at_instant_;
+  };
+
   explicit SnapshotHistory(SnapshotPtr initial) : latest_(std::move(initial)) {}
 
   SnapshotPtr latest() const;
   // At the newest instant of a sensor with this period; zero: the latest. A period that is new
   // starts with the latest snapshot.
   SnapshotPtr At(base::SimTime period);
+  // A period is in use from the first time that somebody says so. Sensors do when they are mounted,
+  // so that those who merely watch leave no trace.
+  void Use(base::SimTime period) { (void)At(period); }
+  void MakeFrame(Frame& frame) const;
 
   void Publish(SnapshotPtr snapshot);
   // The world has changed between two steps (a robot was added): from here on this is the latest,

@@ -1,9 +1,17 @@
-// The stepping thread of a simulation: wake who is due, wait until all wait (or, in real time, for
-// the wall clock), step, publish.
+// The stepping thread of a simulation: wake who is due, give local behaviours their turns, wait
+// until all wait (or, in real time, for the wall clock), step, publish.
+#include <utility>
+
 #include "gsv/base/check.h"
 #include "gsv/simulation/stepping_simulation.h"
 
 namespace gsv::simulation {
+namespace {
+
+// Turns that one thread takes at a time: some tens of microseconds of work.
+constexpr std::size_t kTurnsAPiece = 16;
+
+}  // namespace
 
 void SteppingSimulation::RunLoop() {
   Lock lock(shared_->mutex);
@@ -17,7 +25,14 @@ void SteppingSimulation::RunLoop() {
       pacer_.Restart(WallNow());
     }
     WakeAgents();
-    if (shared_->phase != Phase::kRunning || !AllWait(lock) || !IsDue(lock)) continue;
+    if (shared_->phase != Phase::kRunning) continue;
+    if (!shared_->ready.empty()) {
+      lock.unlock();
+      TakeTurns();
+      lock.lock();
+      continue;
+    }
+    if (!AllWait(lock) || !IsDue(lock)) continue;
     lock.unlock();
     TakeStep();
     lock.lock();
@@ -25,35 +40,77 @@ void SteppingSimulation::RunLoop() {
 }
 
 void SteppingSimulation::WakeAgents() {
-  for (const auto& [name, agent] : agents_) {
-    if (agent->Wake(shared_->now) && specification_.on_failure == FailurePolicy::kFail) {
-      return Fail("the behaviour of " + agent->Describe() + " died");
+  const bool has_reported_deaths = std::exchange(shared_->has_reported_deaths, false);
+  if (!has_reported_deaths && !shared_->sleepers.HasDue(shared_->now)) return;
+  const WallTime wall_now = WallNow();
+  const auto wake = [&](RobotAgent& agent) {
+    if (agent.Wake(shared_->now, wall_now) && specification_.on_failure == FailurePolicy::kFail &&
+        shared_->phase == Phase::kRunning) {
+      Fail("the behaviour of " + agent.Describe() + " died");
     }
+  };
+  shared_->sleepers.TakeDue(shared_->now, wake);
+  if (!has_reported_deaths) return;
+  for (const auto& [name, agent] : agents_) wake(*agent);
+}
+
+void SteppingSimulation::TakeTurns() {
+  const std::lock_guard world_lock(world_mutex_);
+  {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->phase != Phase::kRunning) return;
+    turns_.swap(shared_->ready);
+    instant_.now = shared_->now;
+    shared_->history.MakeFrame(instant_.snapshots);
   }
+  team_.Share(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_);
+  });
+  const std::lock_guard lock(shared_->mutex);
+  const WallTime deadline = WallNow() - specification_.deadline;
+  for (RobotAgent* agent : turns_) {
+    if (auto work = agent->Settle()) PostBlocked(agent->shared_from_this(), std::move(work));
+    // It may have waited for instants that were here already, again and again.
+    if (agent->HoldsUp() && agent->running_since() < deadline) GiveUpOn(*agent);
+  }
+  turns_.clear();
+}
+
+void SteppingSimulation::PostBlocked(AgentPtr agent, std::function<void()> work) {
+  const std::string key = "block " + agent->robot();
+  caller_.Post(key, [this, agent = std::move(agent), work = std::move(work)] {
+    work();
+    const std::lock_guard lock(shared_->mutex);
+    if (!agent->is_gone()) agent->MakeReady();
+    shared_->changed.notify_all();
+  });
 }
 
 bool SteppingSimulation::AllWait(Lock& lock) {
-  if (shared_->mode != Mode::kLockstep) return true;
+  if (shared_->mode != Mode::kLockstep || shared_->running == 0) return true;
+  AgentPtr longest;
   for (const auto& [name, agent] : agents_) {
     if (!agent->HoldsUp()) continue;
-    const WallTime deadline = agent->running_since() + specification_.deadline;
-    shared_->holdup = agent.get();
-    // `agents_` may change while the lock is released: hold on to the agent.
-    const AgentPtr held = agent;
-    const std::cv_status status = shared_->changed.wait_until(lock, deadline);
-    shared_->holdup = nullptr;
-    if (status == std::cv_status::timeout && shared_->phase == Phase::kRunning && held->HoldsUp() &&
-        WallNow() >= held->running_since() + specification_.deadline) {
-      const std::string detail = "neither waited nor returned within " +
-                                 std::to_string(specification_.deadline.count()) + " ms";
-      held->MarkUnresponsive(detail);
-      AddEvent("agent_unresponsive", held->robot(),
-               held->Describe() + " " + detail + "; its robot stops");
-      if (specification_.on_failure == FailurePolicy::kFail) Fail(held->Describe() + " " + detail);
-    }
-    return false;
+    if (longest == nullptr || agent->running_since() < longest->running_since()) longest = agent;
   }
-  return true;
+  GSV_CHECK(longest != nullptr);
+  const WallTime deadline = longest->running_since() + specification_.deadline;
+  // `agents_` may change while the lock is released: `longest` holds on to the agent.
+  const std::cv_status status = shared_->changed.wait_until(lock, deadline);
+  if (status == std::cv_status::timeout && shared_->phase == Phase::kRunning &&
+      longest->HoldsUp() && WallNow() >= longest->running_since() + specification_.deadline) {
+    GiveUpOn(*longest);
+  }
+  return false;
+}
+
+void SteppingSimulation::GiveUpOn(RobotAgent& agent) {
+  const std::string detail = "neither waited nor returned within " +
+                             std::to_string(specification_.deadline.count()) + " ms";
+  agent.MarkUnresponsive(detail);
+  AddEvent("agent_unresponsive", agent.robot(),
+           agent.Describe() + " " + detail + "; its robot stops");
+  if (specification_.on_failure == FailurePolicy::kFail) Fail(agent.Describe() + " " + detail);
 }
 
 bool SteppingSimulation::IsDue(Lock& lock) {
@@ -67,53 +124,51 @@ void SteppingSimulation::TakeStep() {
   std::shared_ptr<const world::Snapshot> snapshot;
   {
     const std::lock_guard world_lock(world_mutex_);
+    const WallTime start = WallNow();
     {
       const std::lock_guard lock(shared_->mutex);
       if (shared_->phase != Phase::kRunning) return;
       // Somebody may have come between the check and the locks: a robot added, a clock opened.
-      if (shared_->mode == Mode::kLockstep) {
-        for (const auto& [name, agent] : agents_) {
-          if (agent->HoldsUp()) return;
-        }
-      }
-      for (const auto& [name, agent] : agents_) {
+      if (shared_->mode == Mode::kLockstep && shared_->running > 0) return;
+      for (RobotAgent* agent : shared_->commanded) {
         const auto command = agent->TakeCommand();
         if (!command) continue;
-        world::DriveState& drive = state_.bodies[body_of_.at(name)].drive;
+        world::DriveState& drive = state_.bodies[agent->body()].drive;
         drive.command = *command;
         drive.command_time = state_.time;
       }
-      if (shared_->mode == Mode::kRealTime) pacer_.StepStarts(WallNow());
+      shared_->commanded.clear();
+      if (shared_->mode == Mode::kRealTime) pacer_.StepStarts(start);
     }
-    const WallTime start = WallNow();
     snapshot = MoveWorld();
-    AfterStep(snapshot, WallNow() - start);
+    AfterStep(snapshot, start);
   }
   std::vector<std::shared_ptr<Observer>> observers;
   {
     const std::lock_guard lock(events_mutex_);
+    if (observers_.empty()) return;
     observers = observers_;
   }
   for (const auto& observer : observers) observer->OnSnapshot(snapshot);
 }
 
 std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
-  std::vector<world::Contact> contacts = engine_->Step(step_, state_);
+  auto snapshot = snapshots_.Take();
+  snapshot->contacts = engine_->Step(step_, state_);
   ++state_.step;
   state_.time = state_.step * step_;
-  auto snapshot = std::make_shared<world::Snapshot>();
   snapshot->layout = layout_;
   snapshot->state = state_;
-  snapshot->contacts = std::move(contacts);
   return snapshot;
 }
 
 void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot,
-                                   WallDuration duration) {
+                                   WallTime start) {
   shared_->history.Publish(snapshot);
+  const WallTime end = WallNow();
   const std::lock_guard lock(shared_->mutex);
   shared_->now = snapshot->state.time;
-  statistics_.Stepped(WallNow(), shared_->now, duration);
+  statistics_.Stepped(end, shared_->now, end - start);
   if (steps_left_ > 0) --steps_left_;
   if (specification_.duration.count() > 0 && shared_->now >= specification_.duration)
     return Finish();

@@ -6,16 +6,19 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <set>
 #include <thread>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/dynamics/engine.h"
 #include "gsv/simulation/behaviour_caller.h"
 #include "gsv/simulation/pacer.h"
 #include "gsv/simulation/robot_agent.h"
 #include "gsv/simulation/run_statistics.h"
 #include "gsv/simulation/simulation.h"
+#include "gsv/simulation/snapshot_pool.h"
 
 namespace gsv::simulation {
 
@@ -95,12 +98,16 @@ class SteppingSimulation final : public Simulation {
   // step_loop.cc: the stepping thread.
   void RunLoop();
   void WakeAgents();
+  // Local behaviours whose time has come run until they wait.
+  void TakeTurns();
+  void PostBlocked(AgentPtr agent, std::function<void()> work);
+  void GiveUpOn(RobotAgent& agent);
   // True when every agent waits. Else it has waited for something to change.
   bool AllWait(Lock& lock);
   bool IsDue(Lock& lock);
   void TakeStep();
   std::shared_ptr<const world::Snapshot> MoveWorld();
-  void AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallDuration duration);
+  void AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start);
   void Finish();
   void Fail(std::string reason);
   std::string HashNow() const;  // under both locks
@@ -116,7 +123,10 @@ class SteppingSimulation final : public Simulation {
   std::unique_ptr<dynamics::Engine> engine_;
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;
-  std::map<std::string, int> body_of_;  // by robot, in layout_
+  SnapshotPool snapshots_;
+  base::ThreadTeam team_;
+  Turn::Instant instant_;           // of the turns being taken
+  std::vector<RobotAgent*> turns_;  // being taken
 
   // Guarded by shared_->mutex.
   std::map<std::string, AgentPtr> agents_;

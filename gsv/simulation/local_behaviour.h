@@ -1,0 +1,82 @@
+// A behaviour inside this process: the simulation itself runs it, in turns between two steps, on
+// the threads of its team. A turn goes from a wake to the next wait.
+//
+// Threads      one turn of a behaviour at a time, not always on the same thread; turns of different
+//              behaviours at the same time.
+// Determinism  a turn may depend on the readings it takes and on what the behaviour remembers.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <variant>
+
+#include "gsv/simulation/agent.h"
+#include "gsv/simulation/behaviour_port.h"
+#include "gsv/simulation/mounted_sensor.h"
+#include "gsv/simulation/snapshot_history.h"
+
+namespace gsv::simulation {
+
+// What a behaviour may do in its turn. Ends as the last of WaitUntil(), Block() and Finish() says;
+// without any of them the behaviour has finished.
+class Turn {
+ public:
+  // What all turns of one instant share.
+  struct Instant {
+    base::SimTime now{0};
+    SnapshotHistory::Frame snapshots;
+    sensing::RaySceneCache* rays = nullptr;
+    std::uint64_t seed = 0;
+  };
+
+  Turn() = default;
+  Turn(const Instant& instant, int body) : instant_(&instant), body_(body) {}
+
+  base::SimTime now() const { return instant_->now; }
+
+  // A reading at this instant; for sensors that answer at once, see Block().
+  base::Result<sensing::Reading> Read(MountedSensor& sensor) const;
+
+  // Acts from this step on; a later command replaces it.
+  void Command(const world::DriveCommand& command) { command_ = command; }
+  // The command belongs to an exchange on the behaviour's clock.
+  void CountExchange() { ++exchanges_; }
+
+  // The next turn comes at the first step at or after `instant`; at once if that is here.
+  void WaitUntil(base::SimTime instant) { end_ = Waiting{instant}; }
+  // Does `work`, which may take its time (a picture), on a thread that may wait; the next turn
+  // comes when it is done. Time does not go on in lockstep.
+  void Block(std::function<void()> work) { end_ = Blocked{std::move(work)}; }
+  void Finish() { end_ = Finished{}; }
+
+ private:
+  friend class RobotAgent;
+
+  struct Waiting {
+    base::SimTime until{0};
+  };
+  struct Blocked {
+    std::function<void()> work;
+  };
+  struct Finished {};
+
+  const Instant* instant_ = nullptr;
+  int body_ = -1;
+  std::optional<world::DriveCommand> command_;
+  std::uint64_t exchanges_ = 0;
+  std::variant<Finished, Waiting, Blocked> end_;
+};
+
+class LocalBehaviour : public BehaviourPort {
+ public:
+  LocalBehaviour* local() final { return this; }
+  bool IsDead() final { return false; }
+  bool time_managed() const final { return true; }
+
+  // Start() has opened the clock that the turns are counted on. Must come to its end: nothing can
+  // interrupt it.
+  virtual ClockId clock() const = 0;
+  virtual void TakeTurn(Turn& turn) = 0;
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,79 @@
+// A sensor on a robot: what is designed once for all robots of a model, and one robot's newest
+// reading of it.
+//
+// Threads  any. Sampling one sensor never holds up another.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gsv/sensing/registry.h"
+
+namespace gsv::simulation {
+
+struct SensorDesign {
+  model::SensorDescription description;
+  std::unique_ptr<const sensing::Sensor> sensor;  // null: cannot be made, see `refusal`
+  base::Error refusal;
+  base::SimTime period{0};  // between samples; 0: a sample at every step
+};
+
+using SensorDesignPtr = std::shared_ptr<const SensorDesign>;
+
+// `where` is for the sentence of an error: "robot_3/front".
+base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription description,
+                                               const sensing::SensorRegistry& types,
+                                               const std::string& where);
+
+// The sensors of each model, designed when its first robot comes.
+class SensorDesigns {
+ public:
+  explicit SensorDesigns(std::shared_ptr<const sensing::SensorRegistry> types)
+      : types_(std::move(types)) {}
+
+  using List = std::vector<SensorDesignPtr>;  // by name
+
+  // A sensor of a type that is not registered, or whose parameters are refused, is in the list with
+  // its refusal.
+  std::shared_ptr<const List> Of(const std::shared_ptr<const model::Model>& model);
+  const sensing::SensorRegistry& types() const { return *types_; }
+
+ private:
+  const std::shared_ptr<const sensing::SensorRegistry> types_;
+  std::mutex mutex_;
+  std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>>
+      known_;  // looked up only
+};
+
+class MountedSensor {
+ public:
+  explicit MountedSensor(SensorDesignPtr design) : design_(std::move(design)) {}
+
+  const SensorDesign& design() const { return *design_; }
+  const std::string& name() const { return design_->description.name; }
+
+  // The sample of `sampling`'s instant: taken now if nobody has asked for it before.
+  base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
+
+  // Readings that the behaviour was given.
+  void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
+  std::uint64_t readings() const { return readings_.load(std::memory_order_relaxed); }
+
+  // Back to the start.
+  void Forget();
+
+ private:
+  const SensorDesignPtr design_;
+  std::atomic<std::uint64_t> readings_{0};
+
+  std::mutex mutex_;                // guards what follows
+  std::int64_t sampled_step_ = -1;  // -1: never
+  std::uint32_t sampled_layout_ = 0;
+  sensing::Reading newest_;
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,46 @@
+// Snapshots that nobody reads any more, to be filled anew: a crowd's step needs no fresh memory.
+//
+// Threads  any. Snapshots may outlive the pool.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "gsv/world/snapshot.h"
+
+namespace gsv::simulation {
+
+class SnapshotPool {
+ public:
+  // A snapshot whose content is of the past or empty; it comes back when its last reader lets go.
+  std::shared_ptr<world::Snapshot> Take() {
+    std::unique_ptr<world::Snapshot> snapshot = shelf_->Take();
+    return {snapshot.release(), [shelf = shelf_](world::Snapshot* done) {
+              shelf->Return(std::unique_ptr<world::Snapshot>(done));
+            }};
+  }
+
+ private:
+  struct Shelf {
+    static constexpr std::size_t kMost = 4;
+
+    std::unique_ptr<world::Snapshot> Take() {
+      const std::lock_guard lock(mutex);
+      if (idle.empty()) return std::make_unique<world::Snapshot>();
+      std::unique_ptr<world::Snapshot> snapshot = std::move(idle.back());
+      idle.pop_back();
+      return snapshot;
+    }
+    void Return(std::unique_ptr<world::Snapshot> snapshot) {
+      const std::lock_guard lock(mutex);
+      if (idle.size() < kMost) idle.push_back(std::move(snapshot));
+    }
+
+    std::mutex mutex;
+    std::vector<std::unique_ptr<world::Snapshot>> idle;
+  };
+  const std::shared_ptr<Shelf> shelf_ = std::make_shared<Shelf>();
+};
+
+}  // namespace gsv::simulation
