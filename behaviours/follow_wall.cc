@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "sdk/behaviour/module.h"
 #include "sdk/behaviour/sonar_ring.h"
-#include "sdk/serve.h"
 
 namespace {
 
@@ -45,7 +45,4 @@ class FollowWall final : public Behaviour {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return gsv::ServeBehaviour(argc, argv, {"follow-wall", "Follows the wall on its right."},
-                             [] { return std::make_unique<FollowWall>(); });
-}
+GSV_BEHAVIOUR("follow-wall", "Follows the wall on its right.", FollowWall)

@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "sdk/behaviour/module.h"
 #include "sdk/behaviour/sonar_ring.h"
-#include "sdk/serve.h"
 
 namespace {
 
@@ -76,15 +76,19 @@ class GoTo final : public Behaviour {
   double last_ = 0;  // rad: the direction taken in the last cycle
 };
 
+gsv::BehaviourModule Module() {
+  const auto goal = std::make_shared<Goal>();
+  gsv::BehaviourModule module;
+  module.program = {"goto", "Drives to a point, around obstacles."};
+  module.program.add_options = [goal](CLI::App& app) {
+    app.add_option("--goal-x", goal->x, "metres, in the world")->capture_default_str();
+    app.add_option("--goal-y", goal->y, "metres, in the world")->capture_default_str();
+    app.add_option("--tolerance", goal->tolerance, "metres")->capture_default_str();
+  };
+  module.factory = [goal] { return std::make_unique<GoTo>(*goal); };
+  return module;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  Goal goal;
-  gsv::BehaviourProgram program{"goto", "Drives to a point, around obstacles."};
-  program.add_options = [&](CLI::App& app) {
-    app.add_option("--goal-x", goal.x, "metres, in the world")->capture_default_str();
-    app.add_option("--goal-y", goal.y, "metres, in the world")->capture_default_str();
-    app.add_option("--tolerance", goal.tolerance, "metres")->capture_default_str();
-  };
-  return gsv::ServeBehaviour(argc, argv, program, [&] { return std::make_unique<GoTo>(goal); });
-}
+GSV_BEHAVIOUR_MODULE(Module())

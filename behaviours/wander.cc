@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "sdk/behaviour/module.h"
 #include "sdk/behaviour/sonar_ring.h"
-#include "sdk/serve.h"
 
 namespace {
 
@@ -84,7 +84,4 @@ class Wander final : public Behaviour {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return gsv::ServeBehaviour(argc, argv, {"wander", "Wanders about without hitting anything."},
-                             [] { return std::make_unique<Wander>(); });
-}
+GSV_BEHAVIOUR("wander", "Wanders about without hitting anything.", Wander)

@@ -1,9 +1,8 @@
 // A first behaviour: goes forward, and turns where a wall comes near.
 //
-//   example-first-behaviour --broker REF &
-//   gsv run --broker REF --robot pebble --behaviour first
+//   gsv run --robot pebble --behaviour first
+#include "sdk/behaviour/module.h"
 #include "sdk/behaviour/sonar_ring.h"
-#include "sdk/serve.h"
 
 namespace {
 
@@ -30,7 +29,4 @@ class First final : public gsv::Behaviour {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return gsv::ServeBehaviour(argc, argv, {"first", "Goes forward, and turns before walls."},
-                             [] { return std::make_unique<First>(); });
-}
+GSV_BEHAVIOUR("first", "Goes forward, and turns before walls.", First)

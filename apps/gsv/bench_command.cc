@@ -76,6 +76,7 @@ class TimedSensor final : public sensing::Sensor {
     times_->Add(Clock::now() - start);
     return reading;
   }
+  bool takes_long() const override { return sensor_->takes_long(); }
 
  private:
   const std::unique_ptr<sensing::Sensor> sensor_;

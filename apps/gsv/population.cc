@@ -4,6 +4,8 @@
 #include <map>
 #include <numbers>
 
+#include "apps/gsv/in_process.h"
+
 namespace gsv::app {
 namespace {
 
@@ -38,7 +40,9 @@ class Population {
   base::Status Add() {
     for (const auto& robot : simulation_.status().robots)
       wanted_[robot.name] = BehaviourOf(options_, robot.name, "");
+    if (auto ok = PlaceThoseWithAPlace(); !ok) return ok;
     for (const scenario::RobotEntry& robot : options_.scenario.robots) {
+      if (robot.start) continue;
       auto name = Place(robot, false);
       if (!name) return base::Fail(name.error());
       wanted_[*name] = BehaviourOf(options_, *name, robot.behaviour);
@@ -56,7 +60,7 @@ class Population {
   }
 
  private:
-  base::Result<std::string> Place(const scenario::RobotEntry& entry, bool is_avatar) {
+  base::Result<RobotSpecification> Specify(const scenario::RobotEntry& entry, bool is_avatar) {
     auto model = runtime_.host().library().ReadModel(entry.model, problems_,
                                                      simulation_.specification().world->source);
     if (!model) return base::Fail(model.error());
@@ -64,20 +68,44 @@ class Population {
     robot.name = entry.name;
     robot.model = *model;
     robot.is_avatar = is_avatar;
-    if (entry.start) {
-      robot.world_from_robot = *entry.start;
-      return simulation_.AddRobot(std::move(robot));
+    if (entry.start) robot.world_from_robot = *entry.start;
+    return robot;
+  }
+
+  // All at once: a crowd is not put together robot by robot.
+  base::Status PlaceThoseWithAPlace() {
+    std::vector<RobotSpecification> robots;
+    std::vector<std::string> behaviours;
+    for (const scenario::RobotEntry& entry : options_.scenario.robots) {
+      if (!entry.start) continue;
+      auto robot = Specify(entry, false);
+      if (!robot) return base::Fail(robot.error());
+      robots.push_back(*std::move(robot));
+      behaviours.push_back(entry.behaviour);
     }
+    const auto names = simulation_.AddRobots(std::move(robots));
+    if (!names) return base::Fail(names.error());
+    for (std::size_t i = 0; i < names->size(); ++i) {
+      wanted_[(*names)[i]] = BehaviourOf(options_, (*names)[i], behaviours[i]);
+    }
+    return {};
+  }
+
+  base::Result<std::string> Place(const scenario::RobotEntry& entry, bool is_avatar) {
+    auto robot = Specify(entry, is_avatar);
+    if (!robot) return base::Fail(robot.error());
+    if (entry.start) return simulation_.AddRobot(*std::move(robot));
     base::Result<std::string> name;
     for (int n = 0; n < kPlacesTried; ++n) {
-      robot.world_from_robot = SpiralPlace(n);
-      name = simulation_.AddRobot(robot);
+      robot->world_from_robot = SpiralPlace(n);
+      name = simulation_.AddRobot(*robot);
       if (name) break;
     }
     return name;
   }
 
   base::Status GiveBehaviours() {
+    if (options_.in_process) return HostBehaviours();
     std::map<std::string, int> programs;
     for (const auto& [robot, behaviour] : wanted_) {
       if (!behaviour.empty()) ++programs[behaviour];
@@ -88,6 +116,16 @@ class Population {
     for (const auto& [robot, behaviour] : wanted_) {
       if (behaviour.empty()) continue;
       auto port = runtime_.behaviours().Get(services::ConstraintForName(behaviour));
+      if (!port) return base::Fail(port.error());
+      if (auto ok = simulation_.SetBehaviour(robot, *std::move(port)); !ok) return ok;
+    }
+    return {};
+  }
+
+  base::Status HostBehaviours() {
+    for (const auto& [robot, behaviour] : wanted_) {
+      if (behaviour.empty()) continue;
+      auto port = InProcessBehaviour(behaviour);
       if (!port) return base::Fail(port.error());
       if (auto ok = simulation_.SetBehaviour(robot, *std::move(port)); !ok) return ok;
     }

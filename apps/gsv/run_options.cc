@@ -19,6 +19,15 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--behaviour", a.behaviours,
                      "NAME for all robots, or ROBOT=NAME for one: a behaviour that is offered, or "
                      "a program gsv-NAME to start");
+  command.add_flag("--in-process", a.in_process,
+                   "run the behaviours inside gsv, from their plug-ins gsv-NAME.so: the same "
+                   "outcome, and many more robots");
+  command
+      .add_option("--threads", a.threads,
+                  "threads that move bodies and run behaviours in process; 0: as many as there "
+                  "are processors. The outcome is the same")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
   command.add_option("--avatar", a.avatars,
                      "MODEL[@x,y[,yaw]]: a person in the world, steered from the viewer");
   command.add_flag("--lockstep", a.lockstep,
@@ -123,7 +132,9 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   specification.step = *step;
   specification.deadline = std::chrono::duration_cast<std::chrono::milliseconds>(*deadline);
   specification.keep = true;
+  specification.threads = a.threads;
 
+  options.in_process = a.in_process;
   options.runtime.broker = a.broker;
   options.runtime.model_path.assign(a.model_path.begin(), a.model_path.end());
   options.runtime.viewer = !a.headless;

@@ -21,6 +21,7 @@ struct RunOptions {
   std::vector<scenario::RobotEntry> avatars;
   std::string behaviour;                            // of all robots that have none of their own
   std::map<std::string, std::string> behaviour_of;  // by robot
+  bool in_process = false;                          // behaviours are plug-ins, not programs
   simulation::Specification specification;
   std::string record;       // a file; empty: no recording
   double wall_timeout = 0;  // s; 0: none
@@ -35,8 +36,8 @@ struct RunArguments {
   std::string broker, mode_on_failure = "go_on", record;
   double duration = 0, step = 0, factor = 1, deadline = 10, wall_timeout = 0;
   std::uint64_t seed = 0;
-  int port = -1;
-  bool lockstep = false, headless = false, json = false, open = false;
+  int port = -1, threads = 0;
+  bool lockstep = false, headless = false, json = false, open = false, in_process = false;
 };
 
 void AddRunOptions(CLI::App& command, RunArguments& arguments);

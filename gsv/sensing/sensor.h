@@ -62,6 +62,8 @@ class Sensor {
   // May take long (a picture) and must not be called from the stepping thread. Fails only where the
   // means are missing: a camera without a renderer.
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
+  // Sample() waits for something outside of the caller's thread, such as a renderer.
+  virtual bool takes_long() const { return false; }
 
  private:
   model::SensorDescription description_;

@@ -1,5 +1,5 @@
 // What moves a robot: write one of these, and it runs as a program of its own anywhere on the
-// network.
+// network, or inside gsv (see module.h).
 #pragma once
 
 #include <functional>
@@ -30,6 +30,7 @@ class Controller : public Behaviour {
   explicit Controller(SimTime period) : period_(period) {}
 
   virtual DriveCommand Control(const std::vector<Reading>& readings) = 0;
+  SimTime period() const { return period_; }
 
   void Run(Robot& robot) final {
     std::vector<Reading> readings;

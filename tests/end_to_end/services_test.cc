@@ -271,7 +271,7 @@ TEST_F(Services, AnApplicationFailsItsVerdictWhenNobodyGetsFarEnough) {
 }
 
 TEST_F(Services, AFirstBehaviourDrivesARobot) {
-  Running first("example-first-behaviour", {"--broker", broker_->reference()});
+  Running first("gsv-first", {"--broker", broker_->reference()});
   first.AwaitLine("offered at");
   const Outcome outcome = RunProgram(
       "gsv", {"run", "playground", "--broker", broker_->reference(), "--robot", "pebble@0,0",

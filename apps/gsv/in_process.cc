@@ -1,0 +1,43 @@
+#include "apps/gsv/in_process.h"
+
+#include <cstdlib>
+#include <sstream>
+#include <vector>
+
+#include "apps/gsv/installation.h"
+#include "gsv/hosting/hosted_behaviour.h"
+#include "gsv/hosting/plugin.h"
+
+namespace gsv::app {
+namespace {
+
+std::vector<std::string> PluginFolders() {
+  std::vector<std::string> folders;
+  if (const char* path = std::getenv("GSV_PLUGIN_PATH"); path != nullptr) {
+    std::istringstream stream(path);
+    for (std::string folder; std::getline(stream, folder, ':');) folders.push_back(folder);
+  }
+  folders.push_back(ProgramFolder() / "../lib/gsv");
+  return folders;
+}
+
+}  // namespace
+
+base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
+    const std::string& name) {
+  const std::vector<std::string> folders = PluginFolders();
+  const std::string file = hosting::FindPlugin(name, folders);
+  if (file.empty()) {
+    std::string looked_in;
+    for (const std::string& folder : folders) looked_in += (looked_in.empty() ? "" : ", ") + folder;
+    return base::Fail(base::ErrorCode::kBehaviour,
+                      "there is no plug-in gsv-" + name + ".so in " + looked_in +
+                          "; name its folder in GSV_PLUGIN_PATH, or leave out --in-process",
+                      name);
+  }
+  const auto module = hosting::LoadPlugin(file);
+  if (!module) return base::Fail(module.error());
+  return std::make_shared<hosting::HostedBehaviour>(name, (*module)->factory);
+}
+
+}  // namespace gsv::app

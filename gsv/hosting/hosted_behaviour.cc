@@ -1,0 +1,145 @@
+#include "gsv/hosting/hosted_behaviour.h"
+
+#include <exception>
+
+#include "gsv/base/log.h"
+
+namespace gsv::hosting {
+
+HostedBehaviour::HostedBehaviour(std::string name, BehaviourFactory factory)
+    : name_(std::move(name)), place_("this process"), factory_(std::move(factory)) {}
+
+HostedBehaviour::~HostedBehaviour() {
+  const std::lock_guard lock(mutex_);
+  EndRun();
+}
+
+base::Status HostedBehaviour::Guarded(const char* what, const std::function<base::Status()>& call) {
+  try {
+    return call();
+  } catch (const std::exception& exception) {
+    return base::Fail(base::ErrorCode::kBehaviour,
+                      std::string("the behaviour threw in ") + what + ": " + exception.what(),
+                      name_);
+  }
+}
+
+base::Status HostedBehaviour::Init(const std::shared_ptr<simulation::Agent>& agent) {
+  const std::lock_guard lock(mutex_);
+  EndRun();
+  behaviour_.reset();
+  agent_ = agent;
+  robot_ = std::make_unique<LocalRobot>(agent);
+  return Guarded("Init", [this] {
+    behaviour_ = factory_();
+    auto ok = behaviour_->Init(*robot_);
+    if (!ok) behaviour_.reset();
+    return ok;
+  });
+}
+
+base::Status HostedBehaviour::Start() {
+  const std::lock_guard lock(mutex_);
+  if (behaviour_ == nullptr) {
+    return base::Fail(base::ErrorCode::kBehaviour, "start comes after init", name_);
+  }
+  const auto clock = agent_->OpenClock();
+  if (!clock) return base::Fail(clock.error());
+  clock_ = *clock;
+  controller_ = dynamic_cast<Controller*>(behaviour_.get());
+  if (!robot_->HasOnlyQuickSensors()) controller_ = nullptr;
+  next_.reset();
+  if (controller_ != nullptr) return {};
+  fibre_ = std::make_unique<Fibre>([this] { Run(); });
+  robot_->SetSuspend([this] { fibre_->Suspend(); });
+  return {};
+}
+
+// Whatever the behaviour throws ends its run, not the simulation.
+void HostedBehaviour::Run() {
+  try {
+    behaviour_->Run(*robot_);
+  } catch (const std::exception& exception) {
+    spdlog::error("{}: the behaviour threw: {}", robot_->name(), exception.what());
+  }
+  if (const std::string error = robot_->error(); !error.empty()) spdlog::error("{}", error);
+}
+
+void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
+  const std::lock_guard lock(mutex_);
+  if (robot_ == nullptr || !robot_->IsRunning()) return turn.Finish();
+  robot_->SetTurn(&turn);
+  if (controller_ != nullptr) {
+    Control(turn);
+  } else if (fibre_ != nullptr) {
+    fibre_->Resume();
+    if (fibre_->has_ended()) {
+      fibre_.reset();
+      robot_->End();
+      turn.Finish();
+    }
+  }
+  robot_->SetTurn(nullptr);
+}
+
+// What Controller::Run() does between two waits.
+void HostedBehaviour::Control(simulation::Turn& turn) {
+  DriveCommand command;
+  if (!next_) {
+    next_ = turn.now() + controller_->period();
+  } else {
+    robot_->ReadOpenSensors(readings_);
+    const auto status = Guarded("Control", [&]() -> base::Status {
+      if (robot_->IsRunning()) command = controller_->Control(readings_);
+      return {};
+    });
+    if (!status) robot_->Note(status.error());
+    *next_ += controller_->period();
+  }
+  robot_->Drive(command.linear, command.angular);
+  if (!robot_->IsRunning()) {
+    if (const std::string error = robot_->error(); !error.empty()) spdlog::error("{}", error);
+    return turn.Finish();
+  }
+  turn.CountExchange();
+  turn.WaitUntil(*next_);
+}
+
+void HostedBehaviour::EndRun() {
+  if (robot_ != nullptr) robot_->End();
+  while (fibre_ != nullptr && !fibre_->has_ended()) fibre_->Resume();
+  fibre_.reset();
+  controller_ = nullptr;
+}
+
+base::Status HostedBehaviour::Stop() {
+  const std::lock_guard lock(mutex_);
+  EndRun();
+  return {};
+}
+
+base::Status HostedBehaviour::Pause() {
+  const std::lock_guard lock(mutex_);
+  return Guarded("Paused", [this]() -> base::Status {
+    if (behaviour_ != nullptr) behaviour_->Paused();
+    return {};
+  });
+}
+
+base::Status HostedBehaviour::Resume() {
+  const std::lock_guard lock(mutex_);
+  return Guarded("Resumed", [this]() -> base::Status {
+    if (behaviour_ != nullptr) behaviour_->Resumed();
+    return {};
+  });
+}
+
+void HostedBehaviour::Destroy() {
+  const std::lock_guard lock(mutex_);
+  EndRun();
+  behaviour_.reset();
+  robot_.reset();
+  agent_.reset();
+}
+
+}  // namespace gsv::hosting

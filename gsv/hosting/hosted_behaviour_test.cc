@@ -1,0 +1,251 @@
+#include "gsv/hosting/hosted_behaviour.h"
+
+#include <stdexcept>
+
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::hosting {
+namespace {
+
+using simulation::kPatience;
+using simulation::Lockstep;
+using simulation::Phase;
+using simulation::RunToEnd;
+using simulation::Simulation;
+using simulation::StatusOf;
+
+// A behaviour made of a function.
+class Scripted final : public Behaviour {
+ public:
+  using Body = std::function<void(gsv::Robot&, Sonar&)>;
+  explicit Scripted(Body body) : body_(std::move(body)) {}
+
+  base::Status Init(gsv::Robot& robot) override {
+    auto sonar = robot.OpenSonar("front");
+    if (!sonar) return base::Fail(sonar.error());
+    sonar_ = *std::move(sonar);
+    return {};
+  }
+  void Run(gsv::Robot& robot) override { body_(robot, *sonar_); }
+
+ private:
+  const Body body_;
+  std::unique_ptr<Sonar> sonar_;
+};
+
+std::shared_ptr<HostedBehaviour> Hosted(Scripted::Body body) {
+  return std::make_shared<HostedBehaviour>("scripted",
+                                           [body] { return std::make_unique<Scripted>(body); });
+}
+
+// Drives towards the wall, the slower the nearer.
+class Approach final : public Controller {
+ public:
+  Approach() : Controller(50ms) {}
+  base::Status Init(gsv::Robot& robot) override { return robot.OpenSensor("front"); }
+  DriveCommand Control(const std::vector<Reading>& readings) override {
+    return {0.5 * readings.at(0).values.at(0), 0.1};
+  }
+};
+
+// The same with its waits written out, on a fibre.
+void ApproachInALoop(gsv::Robot& robot, Sonar&) {
+  std::vector<Reading> readings;
+  DriveCommand command;
+  for (SimTime next = robot.Now() + 50ms; robot.Exchange(command, next, readings); next += 50ms) {
+    command = {0.5 * readings.at(0).values.at(0), 0.1};
+  }
+}
+
+std::string HashOfACrowd(
+    int robots, int threads,
+    const std::function<std::shared_ptr<HostedBehaviour>(int robot)>& behaviour) {
+  auto specification = Lockstep(2s);
+  specification.threads = threads;
+  auto crowd = simulation::Make(specification);
+  for (int i = 0; i < robots; ++i) {
+    EXPECT_TRUE(crowd->AddRobot(
+        simulation::Robot("robot_" + std::to_string(i), -i % 10, 0.5 * (i / 10), behaviour(i))));
+  }
+  EXPECT_EQ(RunToEnd(*crowd), Phase::kFinished);
+  EXPECT_GT(StatusOf(*crowd, "robot_0").distance, 0.5);
+  return crowd->state_hash();
+}
+
+TEST(HostedBehaviour, ReadsAtTheInstantsAtWhichItIsWoken) {
+  auto simulation = simulation::Make(Lockstep(200ms));
+  std::vector<double> ranges;
+  ASSERT_TRUE(simulation->AddRobot(
+      simulation::Robot("robot", 0, 0, Hosted([&](gsv::Robot& robot, Sonar& sonar) {
+                          do {
+                            ranges.push_back(sonar.Range());
+                            robot.Drive(1.0, 0);
+                          } while (robot.SleepFor(50ms));
+                        }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  // The wall's face is at x = 2.9; at 1 m/s the range falls by 0.05 m each 50 ms.
+  ASSERT_EQ(ranges.size(), 4u);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(ranges[i], 2.9 - 0.05 * i, 1e-9);
+  EXPECT_EQ(StatusOf(*simulation, "robot").readings["sonar"], 4u);
+}
+
+TEST(HostedBehaviour, AControllerDoesWhatItsLoopDoesOnAFibre) {
+  const auto as_controller = [](int) {
+    return std::make_shared<HostedBehaviour>("approach",
+                                             [] { return std::make_unique<Approach>(); });
+  };
+  const auto as_loop = [](int) { return Hosted(ApproachInALoop); };
+  EXPECT_EQ(HashOfACrowd(3, 1, as_controller), HashOfACrowd(3, 1, as_loop));
+}
+
+// The same on a thread of its own, through the calls that a remote behaviour's servants make.
+TEST(HostedBehaviour, HasTheHashOfABehaviourThatIsCalledFromOutside) {
+  auto outside = simulation::Make(Lockstep(2s));
+  auto behaviour = std::make_shared<simulation::ThreadBehaviour>(
+      [](simulation::Agent& agent, simulation::ClockId clock) {
+        ASSERT_TRUE(agent.OpenSensor("front"));
+        world::DriveCommand command;
+        for (std::uint64_t cycle = 1;; ++cycle) {
+          const SimTime until = static_cast<std::int64_t>(cycle) * 50ms;
+          base::Result<simulation::Exchanged> exchanged = simulation::Exchanged{};
+          while (exchanged && exchanged->wait == simulation::Wait::kNotYet) {
+            exchanged = agent.Exchange(clock, cycle, command, until, 100ms);
+          }
+          if (!exchanged) return;
+          command = {0.5 * exchanged->readings.at(0).reading.values.at(0), 0, 0.1};
+        }
+      });
+  ASSERT_TRUE(outside->AddRobot(simulation::Robot("robot_0", 0, 0, behaviour)));
+  ASSERT_EQ(RunToEnd(*outside), Phase::kFinished);
+  EXPECT_EQ(outside->state_hash(), HashOfACrowd(1, 1, [](int) { return Hosted(ApproachInALoop); }));
+}
+
+TEST(HostedBehaviour, TheNumberOfThreadsLeavesNoTrace) {
+  const auto mixed = [](int robot) {
+    return robot % 2 == 0 ? Hosted(ApproachInALoop)
+                          : std::make_shared<HostedBehaviour>(
+                                "approach", [] { return std::make_unique<Approach>(); });
+  };
+  const std::string hash = HashOfACrowd(60, 1, mixed);
+  EXPECT_EQ(HashOfACrowd(60, 2, mixed), hash);
+  EXPECT_EQ(HashOfACrowd(60, 7, mixed), hash);
+}
+
+TEST(HostedBehaviour, OneThatThrowsEndsAndTheOthersGoOn) {
+  auto simulation = simulation::Make(Lockstep(500ms));
+  ASSERT_TRUE(
+      simulation->AddRobot(simulation::Robot("bad", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) {
+                                               robot.SleepFor(100ms);
+                                               throw std::runtime_error("out of ideas");
+                                             }))));
+  ASSERT_TRUE(
+      simulation->AddRobot(simulation::Robot("good", 0, 1, Hosted([](gsv::Robot& robot, Sonar&) {
+                                               robot.Drive(1.0, 0);
+                                               while (robot.SleepFor(50ms)) {
+                                               }
+                                             }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_NEAR(StatusOf(*simulation, "good").distance, 0.5, 1e-9);
+}
+
+TEST(HostedBehaviour, OneWhoseWorkIsDoneHasFinished) {
+  auto simulation = simulation::Make(Lockstep(500ms));
+  ASSERT_TRUE(simulation->AddRobot(simulation::Robot(
+      "robot", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) { robot.SleepFor(100ms); }))));
+  ASSERT_TRUE(simulation->RunUntil(300ms));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  EXPECT_EQ(StatusOf(*simulation, "robot").phase, simulation::AgentPhase::kFinished);
+}
+
+TEST(HostedBehaviour, AfterAResetARunIsAsAfterAFreshStart) {
+  auto simulation = simulation::Make(Lockstep(300ms));
+  ASSERT_TRUE(simulation->AddRobot(simulation::Robot("robot", 0, 0, Hosted(ApproachInALoop))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  const std::string first = simulation->state_hash();
+  ASSERT_TRUE(simulation->Reset());
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_EQ(simulation->state_hash(), first);
+}
+
+TEST(HostedBehaviour, AStopInTheMiddleLetsItReturn) {
+  std::atomic<bool> has_returned = false;
+  auto simulation = simulation::Make(Lockstep(0s));
+  ASSERT_TRUE(
+      simulation->AddRobot(simulation::Robot("robot", 0, 0, Hosted([&](gsv::Robot& robot, Sonar&) {
+                                               while (robot.SleepFor(50ms)) {
+                                               }
+                                               has_returned = true;
+                                               has_returned.notify_all();
+                                             }))));
+  ASSERT_TRUE(simulation->Start());
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
+  ASSERT_TRUE(simulation->Stop());
+  has_returned.wait(false);
+}
+
+TEST(HostedBehaviour, OneThatWaitsForThePastAgainAndAgainIsGivenUp) {
+  auto specification = Lockstep(100ms);
+  specification.deadline = 50ms;
+  auto simulation = simulation::Make(specification);
+  ASSERT_TRUE(
+      simulation->AddRobot(simulation::Robot("robot", 0, 0, Hosted([](gsv::Robot& robot, Sonar&) {
+                                               while (robot.SleepUntil(SimTime(0))) {
+                                               }
+                                             }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_EQ(StatusOf(*simulation, "robot").phase, simulation::AgentPhase::kUnresponsive);
+}
+
+// A sensor that takes its time, as a camera does: gives the simulated milliseconds.
+class Slow final : public sensing::Sensor {
+ public:
+  using Sensor::Sensor;
+  base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
+    sensing::Reading reading = sampling.Stamped();
+    reading.values = {static_cast<double>(reading.time / 1ms)};
+    return reading;
+  }
+  bool takes_long() const override { return true; }
+};
+
+TEST(HostedBehaviour, ASensorThatTakesItsTimeIsReadAtTheInstantItWasAskedFor) {
+  auto sensors = std::make_shared<sensing::SensorRegistry>();
+  sensing::AddBuiltInSensors(*sensors);
+  sensing::SensorType slow;
+  slow.name = "positioning_by_post";
+  slow.create = [](const model::SensorDescription& description)
+      -> base::Result<std::unique_ptr<sensing::Sensor>> {
+    return std::make_unique<Slow>(description);
+  };
+  ASSERT_TRUE(sensors->Add(std::move(slow)));
+  auto simulation = Simulation::Create(Lockstep(200ms), sensors);
+  ASSERT_TRUE(simulation);
+
+  auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
+  model->sensors.push_back({.name = "slow", .type = "positioning_by_post"});
+  auto robot = simulation::Robot("robot", 0, 0);
+  robot.model = model;
+  std::vector<double> instants;
+  class Reader final : public Behaviour {
+   public:
+    explicit Reader(std::vector<double>& instants) : instants_(instants) {}
+    base::Status Init(gsv::Robot& robot) override { return robot.OpenSensor("slow"); }
+    void Run(gsv::Robot& robot) override {
+      std::vector<Reading> readings;
+      for (SimTime next = 50ms; robot.Exchange({}, next, readings); next += 50ms) {
+        instants_.push_back(readings.at(0).values.at(0));
+      }
+    }
+
+   private:
+    std::vector<double>& instants_;
+  };
+  robot.behaviour = std::make_shared<HostedBehaviour>(
+      "reader", [&] { return std::make_unique<Reader>(instants); });
+  ASSERT_TRUE((*simulation)->AddRobot(robot));
+  ASSERT_EQ(RunToEnd(**simulation), Phase::kFinished);
+  EXPECT_EQ(instants, (std::vector{50.0, 100.0, 150.0}));
+}
+
+}  // namespace
+}  // namespace gsv::hosting

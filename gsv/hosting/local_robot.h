@@ -1,0 +1,82 @@
+// The Robot that a behaviour inside this process drives. In a turn it acts on the turn; before the
+// first one (in Init) on the agent.
+//
+// Threads  the thread that takes the behaviour's turn.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/simulation/local_behaviour.h"
+#include "sdk/behaviour/robot.h"
+
+namespace gsv::hosting {
+
+class LocalRobot final : public Robot {
+ public:
+  // Goes back to the simulation from within a turn; returns when the next turn has begun.
+  using Suspend = std::function<void()>;
+
+  explicit LocalRobot(std::shared_ptr<simulation::Agent> agent) : agent_(std::move(agent)) {}
+
+  // Null between turns.
+  void SetTurn(simulation::Turn* turn) { turn_ = turn; }
+  void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
+  // The run is over for the behaviour: waits and calls return from now on.
+  void End() { is_running_ = false; }
+  void Note(const base::Error& error);
+
+  // What is read in an exchange, by name; true if all of it is there at once.
+  bool HasOnlyQuickSensors() const;
+  void ReadOpenSensors(std::vector<Reading>& readings);
+
+  // Robot.
+  const std::string& name() const override { return agent_->robot(); }
+  double footprint_radius() const override { return agent_->footprint_radius(); }
+  std::vector<SensorTraits> Sensors() override;
+  base::Result<std::unique_ptr<Sonar>> OpenSonar(const std::string& sensor) override;
+  base::Result<std::unique_ptr<Camera>> OpenCamera(const std::string& sensor) override;
+  base::Status OpenSensor(const std::string& sensor) override;
+  base::Result<std::unique_ptr<Sonar>> CreateSonar(const std::string& sensor,
+                                                   const Placement& robot_from_sonar,
+                                                   double min_range, double max_range) override;
+  base::Result<std::unique_ptr<Camera>> CreateCamera(const std::string& sensor,
+                                                     const Placement& robot_from_camera, int width,
+                                                     int height, double horizontal_fov) override;
+  base::Result<std::unique_ptr<PositioningSystem>> CreatePositioningSystem(
+      const std::string& sensor) override;
+  void Drive(double linear, double angular) override;
+  SimTime Now() override;
+  bool SleepUntil(SimTime instant) override;
+  bool Exchange(const DriveCommand& command, SimTime instant,
+                std::vector<Reading>& readings) override;
+  bool IsRunning() const override { return is_running_; }
+  std::string error() const override { return error_; }
+
+  // Empty when the run is over or the sensor fails, which ends the run.
+  std::optional<sensing::Reading> Read(simulation::MountedSensor& sensor);
+
+ private:
+  using SensorPtr = std::shared_ptr<simulation::MountedSensor>;
+
+  // Opens it; fails when it is of another type.
+  base::Result<SensorPtr> Open(const std::string& sensor, const std::string& type);
+  base::Result<SensorPtr> Create(const std::string& type, const std::string& sensor,
+                                 const Placement& robot_from_sensor, model::Parameters parameters);
+  base::Status Enter(const std::string& sensor);  // into open_
+  void Command(const DriveCommand& command);
+  base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
+
+  const std::shared_ptr<simulation::Agent> agent_;
+  simulation::Turn* turn_ = nullptr;
+  Suspend suspend_;
+  std::vector<SensorPtr> open_;  // by name
+  std::atomic<bool> is_running_{true};
+  std::string error_;
+};
+
+}  // namespace gsv::hosting
