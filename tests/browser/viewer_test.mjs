@@ -159,15 +159,19 @@ test("robots are drawn at their projected places, and leave them when they move"
   const robots = (await robotsInView()).filter(({ at }) => isWithin(clip, at, MIDDLE_PX));
   assert.ok(robots.length > 0, "no robot is in the picture");
   const here = await Promise.all(robots.map(({ at }) => picture(page, around(at, MIDDLE_PX))));
-  await ask("/step", { count: STEPS_TO_MOVE });
-  await page.waitForFunction(
-    (places) =>
-      places.some(({ name, at }) => {
-        const now = window.gsv.robotScreenPosition(name);
-        return now && Math.hypot(now.x - at.x, now.y - at.y) > 20;
-      }),
-    robots,
-  );
+  const hasLeft = (places) =>
+    places.some(({ name, at }) => {
+      const now = window.gsv.robotScreenPosition(name);
+      return now && Math.hypot(now.x - at.x, now.y - at.y) > 20;
+    });
+  // A wanderer may spend some seconds on turning.
+  for (let tries = 0; tries < 20 && !(await page.evaluate(hasLeft, robots)); tries++) {
+    const { step } = await ask("");
+    await ask("/step", { count: STEPS_TO_MOVE });
+    await until(async () => (await ask("")).step >= step + STEPS_TO_MOVE, "the steps");
+    await phaseIs("paused");
+    await settled();
+  }
   await phaseIs("paused");
   await settled();
   const now = (await robotsInView()).map(({ at }) => at);
@@ -223,6 +227,8 @@ test("a click on a robot selects it and shows where it is", async () => {
 });
 
 test("keys work: views, help, space", async () => {
+  await page.keyboard.press("r");
+  await settled();
   const robot = (await robotsInView())[0].name;
   const place = () => page.evaluate((name) => window.gsv.robotScreenPosition(name), robot);
   const first = await place();
