@@ -1,8 +1,9 @@
 // The solids of a world at one instant, to cast rays against.
 //
-// Exactness    Embree only finds which primitive a ray meets; the distance is computed again in
-//              double precision from the triangle or the analytic shape, so that it is the same on
-//              every machine and for every thread count.
+// Exactness    a grid or Embree only finds which primitives a ray may meet; the distance is
+// computed
+//              in double precision from the triangle or the analytic shape, so that it is the same
+//              on every machine and for every thread count.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <optional>
 #include <span>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::sensing {
@@ -49,8 +51,10 @@ class RaySceneCache {
   RaySceneCache(const RaySceneCache&) = delete;
   RaySceneCache& operator=(const RaySceneCache&) = delete;
 
-  // Any thread; callers with the same snapshot get the same scene.
-  std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot);
+  // Any thread; callers with the same snapshot get the same scene. A scene that has to be built is
+  // shared out over `team`, if there is one.
+  std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
+                                     base::ThreadTeam* team = nullptr);
 
  private:
   class Impl;

@@ -1,8 +1,8 @@
 // Many shapes that keep their places to each other, to cast rays against.
 //
-// Exactness    BoxTree only finds candidates, with padded boxes; which of them is nearest, and how
+// Exactness    BoxIndex only finds candidates, with padded boxes; which of them is nearest, and how
 //              far, is decided here in double precision, and ties by order of addition. So results
-//              depend neither on how the tree is built nor on its instruction set.
+//              depend neither on how the boxes are arranged nor on the instruction set.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "gsv/geometry/shape.h"
+#include "gsv/sensing/box_index.h"
 #include "gsv/sensing/ray_scene.h"
 
 namespace gsv::sensing {
-
-class BoxTree;
 
 // The nearest surface found so far.
 struct Nearest {
@@ -36,13 +35,14 @@ struct Nearest {
   }
 };
 
+// A ball around something.
+struct Ball {
+  geometry::Vector3 centre;
+  double radius = 0;
+};
+
 class SolidSet {
  public:
-  SolidSet();
-  ~SolidSet();
-  SolidSet(SolidSet&&) noexcept;
-  SolidSet& operator=(SolidSet&&) noexcept;
-
   // Adds a shape of a body, before Commit().
   void Add(const geometry::Shape& shape, const geometry::Pose& set_from_shape, int body);
 
@@ -54,6 +54,8 @@ class SolidSet {
   bool endless() const { return !planes_.empty(); }
   // Around all but the planes.
   const geometry::Bounds& bounds() const { return bounds_; }
+  // The same.
+  Ball ball() const;
 
   // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`. With
   // `body` at least 0 it stands for the bodies given to Add().
@@ -68,24 +70,31 @@ class SolidSet {
   struct SolidShape {
     geometry::Shape shape;
     geometry::Pose shape_from_set;
-    geometry::Bounds bounds;  // in the set's frame
     std::uint32_t primitive;
     int body;
   };
+  struct SolidPlane {
+    SolidShape solid;
+    geometry::Vector3 normal;  // in the set's frame
+    double offset;             // along it
+  };
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
   void Include(const geometry::Bounds& bounds);
-  // The candidate numbered as in the tree: shapes, then triangles.
-  void CastAt(std::uint32_t candidate, const Ray& ray, int ignored_body, int body,
-              Nearest& nearest) const;
-  geometry::Bounds BoundsOf(std::uint32_t candidate) const;
+  static void CastAt(const SolidShape& solid, const Ray& ray, int ignored_body, Nearest& nearest,
+                     int body);
+  void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, int body) const;
+  void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest, int body) const;
+  void CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest, int body) const;
 
   std::vector<SolidTriangle> triangles_;
+  std::unique_ptr<BoxTree> triangle_tree_;  // null for a handful
   std::vector<SolidShape> shapes_;
-  std::vector<SolidShape> planes_;
+  std::vector<geometry::Bounds> shape_bounds_;  // padded, in the set's frame
+  BoxIndex shape_index_;
+  std::vector<SolidPlane> planes_;
   std::uint32_t primitives_ = 0;
   geometry::Bounds bounds_;
-  bool bounded_ = false;           // bounds_ holds something
-  std::unique_ptr<BoxTree> tree_;  // null for a handful of candidates
+  bool bounded_ = false;  // bounds_ holds something
 };
 
 }  // namespace gsv::sensing
