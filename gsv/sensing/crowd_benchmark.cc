@@ -13,7 +13,8 @@
 #include <numbers>
 
 #include "gsv/base/random.h"
-#include "gsv/sensing/ray_scene.h"
+#include "gsv/sensing/sample_all.h"
+#include "gsv/sensing/sonar.h"
 #include "gsv/sensing/test_snapshot.h"
 
 namespace gsv::sensing {
@@ -144,6 +145,28 @@ void CrowdRays(benchmark::State& bench) {
 BENCHMARK(CrowdRays)
     ->ArgNames({"robots", "box"})
     ->ArgsProduct({{5, 100, 1000, 5000, 10000}, {0, 1}})
+    ->Unit(benchmark::kMicrosecond)
+    ->UseManualTime();
+
+void CrowdSonars(benchmark::State& bench) {
+  Crowd crowd(static_cast<int>(bench.range(0)), RobotShape(0));
+  std::vector<std::unique_ptr<Sensor>> sonars;
+  for (const model::SensorDescription& description : crowd.model().sensors) {
+    sonars.push_back(*SonarType().create(description));
+  }
+  std::vector<SensorAt> sensors;
+  for (const int robot : crowd.robots()) {
+    for (const auto& sonar : sonars) sensors.push_back({sonar.get(), robot});
+  }
+  base::ThreadTeam team(static_cast<int>(bench.range(1)));
+  RaySceneCache cache;
+  cache.At(crowd.snapshot());
+  std::vector<base::Result<Reading>> readings(sensors.size());
+  RunCrowd(bench, crowd, [&] { SampleAll(crowd.snapshot(), 1, cache, sensors, team, readings); });
+}
+BENCHMARK(CrowdSonars)
+    ->ArgNames({"robots", "threads"})
+    ->ArgsProduct({{5, 100, 1000, 5000, 10000}, {1, 2}})
     ->Unit(benchmark::kMicrosecond)
     ->UseManualTime();
 

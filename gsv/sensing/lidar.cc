@@ -105,13 +105,15 @@ class Lidar final : public Sensor {
                   settings_.max};
     }
     std::vector<std::optional<Hit>> hits(beams.size());
-    sampling.Rays()->Cast(beams, sampling.body(), hits);
+    sampling.Rays().Cast(beams, sampling.body(), hits);
     Reading reading = sampling.Stamped();
     reading.values.reserve(hits.size());
     base::Noise noise = sampling.NoiseOf(description());
     for (const std::optional<Hit>& hit : hits) reading.values.push_back(RangeOf(hit, noise));
     return reading;
   }
+
+  bool CastsRays() const override { return true; }
 
  private:
   double RangeOf(const std::optional<Hit>& hit, base::Noise& noise) const {
