@@ -60,7 +60,37 @@ class ColumnGrid {
     }
   }
 
+  // Calls visit(box) once for every box that comes within `reach` of the place, and for some
+  // others. False, and none is visited, if more than kMostNear columns lie there.
+  template <class Visit>
+  bool Near(const geometry::Vector3& place, double reach, const Visit& visit) const {
+    const auto index = [&](double from_low, int count) {
+      return static_cast<int>(std::clamp(from_low * per_metre_ + 1, 0.0, double(count + 1)));
+    };
+    const int left = index(place.x - reach - low_x_, columns_);
+    const int right = index(place.x + reach - low_x_, columns_);
+    const int front = index(place.y - reach - low_y_, rows_);
+    const int back = index(place.y + reach - low_y_, rows_);
+    if (std::int64_t{right - left + 1} * (back - front + 1) > kMostNear) return false;
+    for (int row = front; row <= back; ++row) {
+      const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
+      for (int column = left; column <= right; ++column) {
+        for (std::uint32_t i = starts[column]; i < starts[column + 1]; ++i) {
+          // In the first of its columns only.
+          const Range& range = ranges_[entries_[i]];
+          if (column == std::max<int>(range.first_column, left) &&
+              row == std::max<int>(range.first_row, front)) {
+            visit(entries_[i]);
+          }
+        }
+      }
+    }
+    return true;
+  }
+
  private:
+  static constexpr std::int64_t kMostNear = 400;
+
   struct Range {
     std::uint16_t first_column, last_column, first_row, last_row;
   };

@@ -1,18 +1,37 @@
 #include "gsv/sensing/placed_solids.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "gsv/base/check.h"
+#include "gsv/sensing/surroundings.h"
 
 namespace gsv::sensing {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using geometry::Pose;
 using geometry::Vector3;
 
 // So many parts are placed in one go by a thread.
 constexpr std::size_t kPartsAtOnce = 512;
+
+// Among surroundings the standing shapes are told from moving parts by this bit of their number.
+constexpr std::uint32_t kStanding = 1u << 31;
+
+bool IsSound(const Ray& ray) {
+  return ray.max_distance >= 0 && IsFinite(ray.origin) && IsFinite(ray.direction);
+}
+
+double DistanceOf(const Nearest& nearest) {
+  return nearest.body < 0 ? kInfinity : nearest.distance;
+}
+
+Ray Moved(const Pose& to_from, const Ray& ray, double length) {
+  return {to_from * ray.origin, to_from.orientation * ray.direction, length};
+}
 
 // Whether the ray comes within the ball.
 bool Passes(const Ray& ray, double length, const Vector3& centre, double radius) {
@@ -58,41 +77,85 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
 
 void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const {
   const auto& [part_from_world, part] = parts_[index];
-  const int body = solids_->moving[index].body;
-  const Ray local{part_from_world * ray.origin, part_from_world.orientation * ray.direction,
-                  nearest.distance};
-  Nearest found;
-  found.distance = nearest.distance;
-  part->solids.Cast(local, -1, found, body);
-  if (found.body < 0) return;
   // Parts of one body are numbered above their primitives.
-  const std::uint32_t primitive =
-      (static_cast<std::uint32_t>(part->number) << 24) + found.primitive;
-  nearest.Offer(found.distance, body, primitive,
-                Inverse(part_from_world.orientation) * found.normal);
+  part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest,
+                    {solids_->moving[index].body, static_cast<int>(index),
+                     static_cast<std::uint32_t>(part->number) << 24});
 }
 
-std::optional<Hit> PlacedSolids::Cast(const Ray& ray, int ignored_body) const {
-  if (!(ray.max_distance >= 0) || !IsFinite(ray.origin) || !IsFinite(ray.direction)) return {};
-  Nearest nearest;
-  nearest.distance = ray.max_distance;
-  solids_->standing.Cast(ray, ignored_body, nearest);
+void PlacedSolids::CastAtEndless(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
   }
+}
+
+Nearest PlacedSolids::Find(const Ray& ray, int ignored_body) const {
+  Nearest nearest;
+  nearest.distance = ray.max_distance;
+  if (!IsSound(ray)) return nearest;
+  solids_->standing.Cast(ray, ignored_body, nearest);
+  CastAtEndless(ray, ignored_body, nearest);
   index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
     const PlacedBall& ball = balls_[i];
     if (ball.body == ignored_body) return;
     if (Passes(ray, nearest.distance, ball.centre, ball.radius)) CastAtPart(i, ray, nearest);
   });
+  return nearest;
+}
+
+Vector3 PlacedSolids::NormalAt(const Nearest& nearest, const Ray& ray) const {
+  if (nearest.part < 0) return solids_->standing.NormalAt(nearest.solid, ray);
+  const auto& [part_from_world, part] = parts_[nearest.part];
+  return Inverse(part_from_world.orientation) *
+         part->solids.NormalAt(nearest.solid, Moved(part_from_world, ray, ray.max_distance));
+}
+
+std::optional<Hit> PlacedSolids::Cast(const Ray& ray, int ignored_body) const {
+  const Nearest nearest = Find(ray, ignored_body);
   if (nearest.body < 0) return {};
-  return Hit{nearest.distance, nearest.normal, nearest.body};
+  return Hit{nearest.distance, NormalAt(nearest, ray), nearest.body};
 }
 
 void PlacedSolids::Cast(std::span<const Ray> rays, int ignored_body,
                         std::span<std::optional<Hit>> hits) const {
   GSV_CHECK(rays.size() == hits.size());
   for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = Cast(rays[i], ignored_body);
+}
+
+double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
+  return DistanceOf(Find(ray, ignored_body));
+}
+
+bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
+                          Surroundings& surroundings) const {
+  if (!IsFinite(place) || !(reach >= 0)) return false;
+  surroundings.Clear(place, reach);
+  const bool has_all = solids_->standing.ShapesNear(place, reach, [&](std::uint32_t i) {
+    const Ball& ball = solids_->standing.BallOf(i);
+    surroundings.Add(ball.centre, ball.radius, kStanding | i);
+  }) && index_.Near(place, reach, [&](std::uint32_t i) {
+    const PlacedBall& ball = balls_[i];
+    if (ball.body == ignored_body || !Reaches(place, reach, boxes_[i])) return;
+    surroundings.Add(ball.centre, ball.radius, i);
+  });
+  return has_all && !surroundings.is_overfull();
+}
+
+double PlacedSolids::Range(const Ray& ray, int ignored_body,
+                           const Surroundings& surroundings) const {
+  Nearest nearest;
+  nearest.distance = ray.max_distance;
+  if (!IsSound(ray)) return kInfinity;
+  surroundings.Find(ray, nearest.distance, [&](std::uint32_t i) {
+    if ((i & kStanding) != 0) {
+      solids_->standing.CastAtShape(i & ~kStanding, ray, ignored_body, nearest);
+    } else {
+      CastAtPart(i, ray, nearest);
+    }
+  });
+  solids_->standing.CastAtOthers(ray, ignored_body, nearest);
+  CastAtEndless(ray, ignored_body, nearest);
+  return DistanceOf(nearest);
 }
 
 }  // namespace gsv::sensing

@@ -23,6 +23,10 @@ class PlacedSolids final : public RayScene {
   std::optional<Hit> Cast(const Ray& ray, int ignored_body) const override;
   void Cast(std::span<const Ray> rays, int ignored_body,
             std::span<std::optional<Hit>> hits) const override;
+  double Range(const Ray& ray, int ignored_body) const override;
+  bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
+              Surroundings& surroundings) const override;
+  double Range(const Ray& ray, int ignored_body, const Surroundings& surroundings) const override;
 
  private:
   struct PlacedPart {
@@ -36,7 +40,10 @@ class PlacedSolids final : public RayScene {
   };
 
   void Place(std::size_t index, const world::Snapshot& snapshot);
+  Nearest Find(const Ray& ray, int ignored_body) const;
+  geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
+  void CastAtEndless(const Ray& ray, int ignored_body, Nearest& nearest) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
   // As LayoutSolids::moving; the latter two of bounded parts only.

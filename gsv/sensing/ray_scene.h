@@ -29,6 +29,8 @@ struct Hit {
   int body = -1;             // index in the layout
 };
 
+class Surroundings;
+
 class RayScene {
  public:
   virtual ~RayScene() = default;
@@ -40,6 +42,18 @@ class RayScene {
   // The same for many rays; hits[i] is rays[i]'s.
   virtual void Cast(std::span<const Ray> rays, int ignored_body,
                     std::span<std::optional<Hit>> hits) const = 0;
+
+  // The distance alone, which is found quicker: infinite where Cast() finds nothing.
+  virtual double Range(const Ray& ray, int ignored_body) const = 0;
+
+  // Gathers the solids within `reach` of `place`, but not those of `ignored_body`: for several rays
+  // from there it is quicker to look for them once. False if they are too many for that.
+  virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
+                      Surroundings& surroundings) const = 0;
+
+  // The same as the other one, for rays that Surroundings::Hold() and their ignored body.
+  virtual double Range(const Ray& ray, int ignored_body,
+                       const Surroundings& surroundings) const = 0;
 };
 
 // Ray scenes for snapshots, built when asked for. The static part is built once a layout, and a

@@ -84,10 +84,10 @@ std::optional<Hit> BruteForce(const world::Snapshot& snapshot, const Ray& ray, i
         }
         const Pose shape_from_world = Inverse(world_from_shape);
         const auto hit =
-            CastAtShape({shape_from_world * ray.origin,
-                         shape_from_world.orientation * ray.direction, ray.max_distance},
-                        collision.shape);
-        if (hit) offer(hit->distance, body);
+            DistanceToShape({shape_from_world * ray.origin,
+                             shape_from_world.orientation * ray.direction, ray.max_distance},
+                            collision.shape);
+        if (hit) offer(*hit, body);
       }
     }
   }

@@ -24,9 +24,14 @@ void SampleAll(const std::shared_ptr<const world::Snapshot>& snapshot, std::uint
   }
   team.Share(sensors.size(), kSensorsAtOnce, [&](std::size_t begin, std::size_t end) {
     Sampling sampling(snapshot, sensors[begin].body, seed, rays);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (sensors[i].body != sampling.body()) sampling.MoveTo(sensors[i].body);
-      readings[i] = sensors[i].sensor->Sample(sampling);
+    for (std::size_t i = begin; i < end;) {
+      const int body = sensors[i].body;
+      const auto last = std::find_if(sensors.begin() + i, sensors.begin() + end,
+                                     [&](const SensorAt& at) { return at.body != body; });
+      const auto run_end = static_cast<std::size_t>(last - sensors.begin());
+      sampling.MoveTo(body);
+      sampling.ExpectRays(run_end - i);
+      for (; i < run_end; ++i) readings[i] = sensors[i].sensor->Sample(sampling);
     }
   });
 }

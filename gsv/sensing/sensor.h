@@ -5,6 +5,7 @@
 // Determinism  Sample() is a function of the sampling's snapshot, robot and seed alone.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "gsv/base/random.h"
 #include "gsv/sensing/ray_scene.h"
 #include "gsv/sensing/reading.h"
+#include "gsv/sensing/surroundings.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::sensing {
@@ -26,10 +28,7 @@ class Sampling {
       : snapshot_(std::move(snapshot)), body_(body), seed_(seed), rays_(rays) {}
 
   // On to another robot at the same instant.
-  void MoveTo(int body) {
-    body_ = body;
-    link_ = -1;
-  }
+  void MoveTo(int body);
 
   const std::shared_ptr<const world::Snapshot>& snapshot() const { return snapshot_; }
   int body() const { return body_; }
@@ -41,6 +40,13 @@ class Sampling {
     if (scene_ == nullptr) scene_ = rays_.At(snapshot_);
     return *scene_;
   }
+
+  // The distance along a ray to the nearest surface that is not the robot's; infinite if there is
+  // none within the ray's length.
+  double Range(const Ray& ray) const;
+
+  // So many rays more are about to be cast from about the robot: it may pay to look around first.
+  void ExpectRays(std::size_t count) const { expected_rays_ += count; }
 
   geometry::Pose WorldFromSensor(const model::SensorDescription& description) const {
     if (link_ != description.link) {
@@ -65,7 +71,10 @@ class Sampling {
   std::uint64_t seed_;
   RaySceneCache& rays_;
   mutable std::shared_ptr<const RayScene> scene_;  // null until it is asked for
-  mutable int link_ = -1;                          // whose pose is known
+  mutable std::size_t expected_rays_ = 0;
+  mutable bool has_gathered_ = false;  // surroundings_ are those of the body
+  mutable std::unique_ptr<Surroundings> surroundings_;
+  mutable int link_ = -1;  // whose pose is known
   mutable geometry::Pose world_from_link_;
 };
 

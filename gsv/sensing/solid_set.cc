@@ -54,6 +54,10 @@ Bounds Padded(const Bounds& b) {
   return {b.min - Vector3{by, by, by}, b.max + Vector3{by, by, by}};
 }
 
+Ball Padded(const Ball& ball) {
+  return {ball.centre, ball.radius + kPadding * (1 + ball.radius + Norm(ball.centre))};
+}
+
 // How far from its origin a shape reaches.
 struct Reach {
   double operator()(const geometry::Box& box) const { return 0.5 * Norm(box.size); }
@@ -110,6 +114,7 @@ void SolidSet::Add(const Shape& shape, const Pose& set_from_shape, int body) {
   const Bounds bounds = BoundsOfShape(shape, set_from_shape);
   Include(bounds);
   shape_bounds_.push_back(Padded(bounds));
+  shape_balls_.push_back(Padded(Ball{set_from_shape.position, std::visit(Reach{}, shape)}));
   shapes_.push_back(std::move(solid));
 }
 
@@ -137,17 +142,15 @@ void SolidSet::Include(const Bounds& b) {
 Ball SolidSet::ball() const {
   const Vector3 centre = 0.5 * (bounds_.min + bounds_.max);
   double furthest = 0;
-  for (const SolidShape& solid : shapes_) {
-    const Vector3 place = Inverse(solid.shape_from_set).position;
-    furthest = std::max(furthest, Norm(place - centre) + std::visit(Reach{}, solid.shape));
+  for (const Ball& ball : shape_balls_) {
+    furthest = std::max(furthest, Norm(ball.centre - centre) + ball.radius);
   }
   for (const SolidTriangle& t : triangles_) {
     for (const Vector3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
       furthest = std::max(furthest, Norm(corner - centre));
     }
   }
-  const double radius = std::min(furthest, 0.5 * Norm(bounds_.max - bounds_.min));
-  return {centre, radius * (1 + 1e-9) + 1e-9};
+  return Padded(Ball{centre, std::min(furthest, 0.5 * Norm(bounds_.max - bounds_.min))});
 }
 
 void SolidSet::Commit() {
@@ -162,57 +165,83 @@ void SolidSet::Commit() {
   triangle_tree_->Build(boxes, /*often=*/false);
 }
 
-void SolidSet::CastAt(const SolidShape& solid, const Ray& ray, int ignored_body, Nearest& nearest,
-                      int body) {
-  const int whose = body >= 0 ? body : solid.body;
-  if (whose == ignored_body) return;
-  const auto hit = CastAtShape(Moved(solid.shape_from_set, ray, nearest.distance), solid.shape);
-  if (!hit) return;
-  nearest.Offer(hit->distance, whose, solid.primitive,
-                Inverse(solid.shape_from_set.orientation) * hit->normal);
+void SolidSet::CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray,
+                      int ignored_body, Nearest& nearest, const Bearer& bearer) {
+  const int body = bearer.body >= 0 ? bearer.body : shape.body;
+  if (body == ignored_body) return;
+  const auto distance =
+      DistanceToShape(Moved(shape.shape_from_set, ray, nearest.distance), shape.shape);
+  if (!distance) return;
+  nearest.Offer(*distance, body, bearer.first_primitive + shape.primitive, bearer.part, solid);
 }
 
-void SolidSet::CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, int body) const {
-  for (const SolidPlane& plane : planes_) {
-    const double height = std::abs(Dot(plane.normal, ray.origin) - plane.offset);
-    const double climb = std::abs(Dot(plane.normal, ray.direction)) * nearest.distance;
-    if (climb + kPadding + kPadding * height < height) continue;
-    CastAt(plane.solid, ray, ignored_body, nearest, body);
-  }
+void SolidSet::CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
+                           const Bearer& bearer) const {
+  CastAt(shapes_[shape], shape, ray, ignored_body, nearest, bearer);
 }
 
-void SolidSet::CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest, int body) const {
-  if (shapes_.size() == 1) {
-    CastAt(shapes_[0], ray, ignored_body, nearest, body);
-    return;
-  }
+void SolidSet::CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
+                            const Bearer& bearer) const {
+  if (shapes_.size() == 1) return CastAtShape(0, ray, ignored_body, nearest, bearer);
   const BoxTest passes(ray);
   shape_index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
     if (!passes(shape_bounds_[i], nearest.distance)) return;
-    CastAt(shapes_[i], ray, ignored_body, nearest, body);
+    CastAtShape(i, ray, ignored_body, nearest, bearer);
   });
 }
 
-void SolidSet::CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest, int body) const {
-  const auto cast_at = [&](const SolidTriangle& solid) {
-    const int whose = body >= 0 ? body : solid.body;
-    if (whose == ignored_body) return;
-    const auto hit = CastAtTriangle({ray.origin, ray.direction, nearest.distance},
-                                    {solid.corner, solid.edge1, solid.edge2});
-    if (hit) nearest.Offer(hit->distance, whose, solid.primitive, hit->normal);
-  };
-  if (triangle_tree_ == nullptr) {
-    for (const SolidTriangle& solid : triangles_) cast_at(solid);
-    return;
+void SolidSet::CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest,
+                            const Bearer& bearer) const {
+  for (std::uint32_t i = 0; i < planes_.size(); ++i) {
+    const SolidPlane& plane = planes_[i];
+    const double height = std::abs(Dot(plane.normal, ray.origin) - plane.offset);
+    const double climb = std::abs(Dot(plane.normal, ray.direction)) * nearest.distance;
+    if (climb + kPadding + kPadding * height < height) continue;
+    CastAt(plane.solid, static_cast<std::uint32_t>(shapes_.size()) + i, ray, ignored_body, nearest,
+           bearer);
   }
-  triangle_tree_->Find({ray.origin, ray.direction, nearest.distance}, nearest.distance,
-                       [&](std::uint32_t i) { cast_at(triangles_[i]); });
 }
 
-void SolidSet::Cast(const Ray& ray, int ignored_body, Nearest& nearest, int body) const {
-  if (!planes_.empty()) CastAtPlanes(ray, ignored_body, nearest, body);
-  if (!shapes_.empty()) CastAtShapes(ray, ignored_body, nearest, body);
-  if (!triangles_.empty()) CastAtTriangles(ray, ignored_body, nearest, body);
+void SolidSet::CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest,
+                               const Bearer& bearer) const {
+  const auto first = static_cast<std::uint32_t>(shapes_.size() + planes_.size());
+  const auto cast_at = [&](std::uint32_t i) {
+    const SolidTriangle& t = triangles_[i];
+    const int body = bearer.body >= 0 ? bearer.body : t.body;
+    if (body == ignored_body) return;
+    const auto distance = DistanceToTriangle({ray.origin, ray.direction, nearest.distance},
+                                             {t.corner, t.edge1, t.edge2});
+    if (!distance) return;
+    nearest.Offer(*distance, body, bearer.first_primitive + t.primitive, bearer.part, first + i);
+  };
+  if (triangle_tree_ == nullptr) {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) cast_at(i);
+  } else {
+    triangle_tree_->Find(ray, nearest.distance, cast_at);
+  }
+}
+
+void SolidSet::CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
+                            const Bearer& bearer) const {
+  if (!planes_.empty()) CastAtPlanes(ray, ignored_body, nearest, bearer);
+  if (!triangles_.empty()) CastAtTriangles(ray, ignored_body, nearest, bearer);
+}
+
+void SolidSet::Cast(const Ray& ray, int ignored_body, Nearest& nearest,
+                    const Bearer& bearer) const {
+  if (!shapes_.empty()) CastAtShapes(ray, ignored_body, nearest, bearer);
+  CastAtOthers(ray, ignored_body, nearest, bearer);
+}
+
+Vector3 SolidSet::NormalAt(std::uint32_t solid, const Ray& ray) const {
+  if (solid >= shapes_.size() + planes_.size()) {
+    const SolidTriangle& t = triangles_[solid - shapes_.size() - planes_.size()];
+    return NormalOfTriangle(ray, {t.corner, t.edge1, t.edge2});
+  }
+  const SolidShape& at =
+      solid < shapes_.size() ? shapes_[solid] : planes_[solid - shapes_.size()].solid;
+  return Inverse(at.shape_from_set.orientation) *
+         NormalOfShape(Moved(at.shape_from_set, ray, ray.max_distance), at.shape);
 }
 
 }  // namespace gsv::sensing

@@ -16,22 +16,28 @@
 
 namespace gsv::sensing {
 
+// Whose solids a set holds, when it stands for one part of a moving body.
+struct Bearer {
+  int body = -1;  // -1: those given to Add()
+  int part = -1;  // in the scene
+  std::uint32_t first_primitive = 0;
+};
+
 // The nearest surface found so far.
 struct Nearest {
   double distance = 0;  // at first the ray's length
   int body = -1;        // -1: none yet
   std::uint32_t primitive = 0;
-  geometry::Vector3 normal;  // in the frame of whoever found it, see `part`
-  int part = -1;             // for callers that search several sets
+  int part = -1;            // the bearer's
+  std::uint32_t solid = 0;  // in its set, see SolidSet::NormalAt()
 
   // Takes the hit if it is nearer; at one distance the lower body, then the lower primitive stays.
-  bool Offer(double at, int whose, std::uint32_t which, const geometry::Vector3& n) {
-    if (at > distance) return false;
+  void Offer(double at, int whose, std::uint32_t which, int of_part, std::uint32_t in_set) {
+    if (at > distance) return;
     if (at == distance && body >= 0 && (whose > body || (whose == body && which >= primitive))) {
-      return false;
+      return;
     }
-    distance = at, body = whose, primitive = which, normal = n;
-    return true;
+    *this = {at, whose, which, of_part, in_set};
   }
 };
 
@@ -57,9 +63,26 @@ class SolidSet {
   // The same.
   Ball ball() const;
 
-  // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`. With
-  // `body` at least 0 it stands for the bodies given to Add().
-  void Cast(const Ray& ray, int ignored_body, Nearest& nearest, int body = -1) const;
+  // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`.
+  void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
+
+  // The same in pieces: the shapes one by one, and the rest.
+  void CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
+                   const Bearer& bearer = {}) const;
+  void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
+                    const Bearer& bearer = {}) const;
+  // Around a shape of that number.
+  const Ball& BallOf(std::uint32_t shape) const { return shape_balls_[shape]; }
+  // See BoxIndex::Near().
+  template <class Visit>
+  bool ShapesNear(const geometry::Vector3& place, double reach, const Visit& visit) const {
+    return shape_index_.Near(place, reach, [&](std::uint32_t i) {
+      if (Reaches(place, reach, shape_bounds_[i])) visit(i);
+    });
+  }
+
+  // The normal, against the ray, where the ray meets the solid that Nearest names.
+  geometry::Vector3 NormalAt(std::uint32_t solid, const Ray& ray) const;
 
  private:
   struct SolidTriangle {
@@ -80,16 +103,19 @@ class SolidSet {
   };
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
   void Include(const geometry::Bounds& bounds);
-  static void CastAt(const SolidShape& solid, const Ray& ray, int ignored_body, Nearest& nearest,
-                     int body);
-  void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, int body) const;
-  void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest, int body) const;
-  void CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest, int body) const;
+  // Of the solid of that number: the shapes, then the planes, then the triangles.
+  static void CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray, int ignored_body,
+                     Nearest& nearest, const Bearer& bearer);
+  void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;
+  void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;
+  void CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest,
+                       const Bearer& bearer) const;
 
   std::vector<SolidTriangle> triangles_;
   std::unique_ptr<BoxTree> triangle_tree_;  // null for a handful
   std::vector<SolidShape> shapes_;
   std::vector<geometry::Bounds> shape_bounds_;  // padded, in the set's frame
+  std::vector<Ball> shape_balls_;               // padded, in the set's frame
   BoxIndex shape_index_;
   std::vector<SolidPlane> planes_;
   std::uint32_t primitives_ = 0;
