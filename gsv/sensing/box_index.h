@@ -6,7 +6,6 @@
 // Threads    const members may run concurrently.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -15,17 +14,6 @@
 #include "gsv/sensing/column_grid.h"
 
 namespace gsv::sensing {
-
-// Whether some of the box lies within `reach` of the place.
-inline bool Reaches(const geometry::Vector3& place, double reach, const geometry::Bounds& box) {
-  const auto gap = [](double low, double x, double high) {
-    return std::max({low - x, x - high, 0.0});
-  };
-  const geometry::Vector3 gaps{gap(box.min.x, place.x, box.max.x),
-                               gap(box.min.y, place.y, box.max.y),
-                               gap(box.min.z, place.z, box.max.z)};
-  return Dot(gaps, gaps) <= reach * reach;
-}
 
 class BoxIndex {
  public:
@@ -49,13 +37,12 @@ class BoxIndex {
     }
   }
 
-  // Calls visit(box) once for every box that comes within `reach` of the place, and for some
-  // others. False, and not all are visited, if that is no quick way to find them.
-  template <class Visit>
-  bool Near(const geometry::Vector3& place, double reach, const Visit& visit) const {
-    if (kind_ == Kind::kGrid) return grid_.Near(place, reach, visit);
-    if (kind_ == Kind::kTree) return false;
-    for (std::uint32_t i = 0; i < count_; ++i) visit(i);
+  // Adds to `found`, once, every box that comes within `reach` of the place, and some others.
+  // False, and not all are added, if there is no room or no quick way to find them.
+  bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
+    if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
+    if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMost) return false;
+    for (std::uint32_t i = 0; i < count_; ++i) found.boxes[found.count++] = i;
     return true;
   }
 

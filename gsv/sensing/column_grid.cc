@@ -45,7 +45,7 @@ bool ColumnGrid::Count(std::span<const Bounds> boxes, std::size_t most) {
 }
 
 void ColumnGrid::Build(std::span<const Bounds> boxes) {
-  GSV_CHECK(!boxes.empty());
+  GSV_CHECK(!boxes.empty() && boxes.size() <= kBox);
   double high_x = boxes[0].max.x, high_y = boxes[0].max.y;
   low_x_ = boxes[0].min.x, low_y_ = boxes[0].min.y;
   for (const Bounds& b : boxes) {
@@ -78,10 +78,38 @@ void ColumnGrid::Build(std::span<const Bounds> boxes) {
     const Range& r = ranges_[i];
     for (std::size_t row = r.first_row; row <= r.last_row; ++row) {
       for (std::size_t c = r.first_column; c <= r.last_column; ++c) {
-        entries_[--starts_[row * stride + c]] = static_cast<std::uint32_t>(i);
+        entries_[--starts_[row * stride + c]] = static_cast<std::uint32_t>(i) |
+                                                (c == r.first_column ? kFirstColumn : 0) |
+                                                (row == r.first_row ? kFirstRow : 0);
       }
     }
   }
+}
+
+bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
+  const auto index = [&](double from_low, int count) {
+    return static_cast<int>(std::clamp(from_low * per_metre_ + 1, 0.0, double(count + 1)));
+  };
+  const int left = index(place.x - reach - low_x_, columns_);
+  const int right = index(place.x + reach - low_x_, columns_);
+  const int front = index(place.y - reach - low_y_, rows_);
+  const int back = index(place.y + reach - low_y_, rows_);
+  // Of a box's entries that one counts which is the first in the square of columns.
+  std::uint32_t row_mark = 0;
+  std::size_t count = found.count;
+  for (int row = front; row <= back; ++row, row_mark = kFirstRow) {
+    const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
+    const std::uint32_t begin = starts[left], second = starts[left + 1], end = starts[right + 1];
+    if (count + (end - begin) > FoundBoxes::kMost) return false;
+    // Which of them count is hard to foresee: they are written without a branch.
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::uint32_t mark = row_mark | (i < second ? 0 : kFirstColumn);
+      found.boxes[count] = entries_[i] & kBox;
+      count += (entries_[i] & mark) == mark;
+    }
+  }
+  found.count = count;
+  return true;
 }
 
 }  // namespace gsv::sensing

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,13 @@
 #include "gsv/sensing/ray_scene.h"
 
 namespace gsv::sensing {
+
+// Numbers of boxes, found near a place.
+struct FoundBoxes {
+  static constexpr std::size_t kMost = 256;
+  std::array<std::uint32_t, kMost> boxes;
+  std::size_t count = 0;
+};
 
 class ColumnGrid {
  public:
@@ -50,7 +58,7 @@ class ColumnGrid {
     const std::ptrdiff_t stride = columns_ + 2;
     const std::ptrdiff_t across = x.is_falling ? -1 : 1, along = y.is_falling ? -stride : stride;
     for (const std::uint32_t* at = &starts_[row * stride + column];;) {
-      for (std::uint32_t i = at[0]; i < at[1]; ++i) visit(entries_[i]);
+      for (std::uint32_t i = at[0]; i < at[1]; ++i) visit(entries_[i] & kBox);
       const double next = std::min(next_x, next_y);
       if (next > std::min(end, length)) return;
       const bool is_across = next_x < next_y;
@@ -60,36 +68,14 @@ class ColumnGrid {
     }
   }
 
-  // Calls visit(box) once for every box that comes within `reach` of the place, and for some
-  // others. False, and none is visited, if more than kMostNear columns lie there.
-  template <class Visit>
-  bool Near(const geometry::Vector3& place, double reach, const Visit& visit) const {
-    const auto index = [&](double from_low, int count) {
-      return static_cast<int>(std::clamp(from_low * per_metre_ + 1, 0.0, double(count + 1)));
-    };
-    const int left = index(place.x - reach - low_x_, columns_);
-    const int right = index(place.x + reach - low_x_, columns_);
-    const int front = index(place.y - reach - low_y_, rows_);
-    const int back = index(place.y + reach - low_y_, rows_);
-    if (std::int64_t{right - left + 1} * (back - front + 1) > kMostNear) return false;
-    for (int row = front; row <= back; ++row) {
-      const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
-      for (int column = left; column <= right; ++column) {
-        for (std::uint32_t i = starts[column]; i < starts[column + 1]; ++i) {
-          // In the first of its columns only.
-          const Range& range = ranges_[entries_[i]];
-          if (column == std::max<int>(range.first_column, left) &&
-              row == std::max<int>(range.first_row, front)) {
-            visit(entries_[i]);
-          }
-        }
-      }
-    }
-    return true;
-  }
+  // Adds to `found`, once, every box that comes within `reach` of the place, and some others.
+  // False, and not all are added, if there is no room for that.
+  bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const;
 
  private:
-  static constexpr std::int64_t kMostNear = 400;
+  // An entry is a box's number and whether it is the one in the box's first column and first row.
+  static constexpr std::uint32_t kFirstColumn = 1u << 31, kFirstRow = 1u << 30;
+  static constexpr std::uint32_t kBox = kFirstRow - 1;
 
   struct Range {
     std::uint16_t first_column, last_column, first_row, last_row;

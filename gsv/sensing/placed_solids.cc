@@ -34,11 +34,11 @@ Ray Moved(const Pose& to_from, const Ray& ray, double length) {
 }
 
 // Whether the ray comes within the ball.
-bool Passes(const Ray& ray, double length, const Vector3& centre, double radius) {
-  const Vector3 to_centre = centre - ray.origin;
+bool Passes(const Ray& ray, double length, const Ball& ball) {
+  const Vector3 to_centre = ball.centre - ray.origin;
   const double along = std::clamp(Dot(to_centre, ray.direction), 0.0, length);
   const Vector3 gap = to_centre - along * ray.direction;
-  return Dot(gap, gap) <= radius * radius;
+  return Dot(gap, gap) <= ball.radius * ball.radius;
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ void PlacedSolids::Place(std::size_t index, const world::Snapshot& snapshot) {
   const Vector3 centre = world_from_part * part->ball.centre;
   const double radius = part->ball.radius;
   const Vector3 reach{radius, radius, radius};
-  balls_[index] = {centre, radius, body};
+  balls_[index] = {{centre, radius}, body};
   boxes_[index] = {centre - reach, centre + reach};
 }
 
@@ -96,9 +96,8 @@ Nearest PlacedSolids::Find(const Ray& ray, int ignored_body) const {
   solids_->standing.Cast(ray, ignored_body, nearest);
   CastAtEndless(ray, ignored_body, nearest);
   index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
-    const PlacedBall& ball = balls_[i];
-    if (ball.body == ignored_body) return;
-    if (Passes(ray, nearest.distance, ball.centre, ball.radius)) CastAtPart(i, ray, nearest);
+    const auto& [ball, body] = balls_[i];
+    if (body != ignored_body && Passes(ray, nearest.distance, ball)) CastAtPart(i, ray, nearest);
   });
   return nearest;
 }
@@ -129,16 +128,17 @@ double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
 bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
                           Surroundings& surroundings) const {
   if (!IsFinite(place) || !(reach >= 0)) return false;
-  surroundings.Clear(place, reach);
-  const bool has_all = solids_->standing.ShapesNear(place, reach, [&](std::uint32_t i) {
-    const Ball& ball = solids_->standing.BallOf(i);
-    surroundings.Add(ball.centre, ball.radius, kStanding | i);
-  }) && index_.Near(place, reach, [&](std::uint32_t i) {
-    const PlacedBall& ball = balls_[i];
-    if (ball.body == ignored_body || !Reaches(place, reach, boxes_[i])) return;
-    surroundings.Add(ball.centre, ball.radius, i);
-  });
-  return has_all && !surroundings.is_overfull();
+  surroundings.Begin(place, reach);
+  FoundBoxes found;
+  if (!index_.Near(place, reach, found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const auto& [ball, body] = balls_[found.boxes[i]];
+    const Vector3 gap = ball.centre - place;
+    const double furthest = reach + ball.radius;
+    surroundings.Add(ball, found.boxes[i],
+                     (body != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
+  }
+  return solids_->standing.Gather(surroundings, kStanding) && surroundings.Finish();
 }
 
 double PlacedSolids::Range(const Ray& ray, int ignored_body,

@@ -34,8 +34,7 @@ class PlacedSolids final : public RayScene {
     const Part* part;
   };
   struct PlacedBall {
-    geometry::Vector3 centre;
-    double radius;
+    Ball ball;
     int body;
   };
 

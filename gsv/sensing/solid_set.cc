@@ -58,6 +58,17 @@ Ball Padded(const Ball& ball) {
   return {ball.centre, ball.radius + kPadding * (1 + ball.radius + Norm(ball.centre))};
 }
 
+// Whether some of the box lies within.
+bool Reaches(const Surroundings& surroundings, const Bounds& box) {
+  const Vector3& place = surroundings.place();
+  const auto gap = [](double low, double x, double high) {
+    return std::max(std::max(low - x, x - high), 0.0);
+  };
+  const Vector3 gaps{gap(box.min.x, place.x, box.max.x), gap(box.min.y, place.y, box.max.y),
+                     gap(box.min.z, place.z, box.max.z)};
+  return Dot(gaps, gaps) <= surroundings.reach() * surroundings.reach();
+}
+
 // How far from its origin a shape reaches.
 struct Reach {
   double operator()(const geometry::Box& box) const { return 0.5 * Norm(box.size); }
@@ -231,6 +242,17 @@ void SolidSet::Cast(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer) const {
   if (!shapes_.empty()) CastAtShapes(ray, ignored_body, nearest, bearer);
   CastAtOthers(ray, ignored_body, nearest, bearer);
+}
+
+bool SolidSet::Gather(Surroundings& surroundings, std::uint32_t mark) const {
+  FoundBoxes found;
+  if (!shape_index_.Near(surroundings.place(), surroundings.reach(), found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const std::uint32_t shape = found.boxes[i];
+    surroundings.Add(shape_balls_[shape], mark | shape,
+                     Reaches(surroundings, shape_bounds_[shape]));
+  }
+  return true;
 }
 
 Vector3 SolidSet::NormalAt(std::uint32_t solid, const Ray& ray) const {

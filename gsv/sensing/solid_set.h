@@ -13,6 +13,7 @@
 #include "gsv/geometry/shape.h"
 #include "gsv/sensing/box_index.h"
 #include "gsv/sensing/ray_scene.h"
+#include "gsv/sensing/surroundings.h"
 
 namespace gsv::sensing {
 
@@ -41,12 +42,6 @@ struct Nearest {
   }
 };
 
-// A ball around something.
-struct Ball {
-  geometry::Vector3 centre;
-  double radius = 0;
-};
-
 class SolidSet {
  public:
   // Adds a shape of a body, before Commit().
@@ -71,15 +66,9 @@ class SolidSet {
                    const Bearer& bearer = {}) const;
   void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
-  // Around a shape of that number.
-  const Ball& BallOf(std::uint32_t shape) const { return shape_balls_[shape]; }
-  // See BoxIndex::Near().
-  template <class Visit>
-  bool ShapesNear(const geometry::Vector3& place, double reach, const Visit& visit) const {
-    return shape_index_.Near(place, reach, [&](std::uint32_t i) {
-      if (Reaches(place, reach, shape_bounds_[i])) visit(i);
-    });
-  }
+  // Adds the shapes within `surroundings`, their numbers marked by `mark`; false if that cannot be
+  // done quickly.
+  bool Gather(Surroundings& surroundings, std::uint32_t mark) const;
 
   // The normal, against the ray, where the ray meets the solid that Nearest names.
   geometry::Vector3 NormalAt(std::uint32_t solid, const Ray& ray) const;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,21 +18,43 @@
 
 namespace gsv::sensing {
 
+// A ball around something.
+struct Ball {
+  geometry::Vector3 centre;
+  double radius = 0;
+};
+
 class Surroundings {
  public:
   // More than so many are not worth to be gone through for every ray.
   static constexpr std::size_t kMost = 64;
 
-  void Clear(const geometry::Vector3& place, double reach) {
-    place_ = place;
-    reach_ = reach;
-    count_ = 0;
-    is_overfull_ = false;
+  // Empties it, for what is within `reach` of `place`.
+  void Begin(const geometry::Vector3& place, double reach);
+
+  const geometry::Vector3& place() const { return place_; }
+  double reach() const { return reach_; }
+
+  // A solid that is within a ball, unless it `counts` not; `number` is the scene's.
+  void Add(const Ball& ball, std::uint32_t number, bool counts) {
+    if (count_ == kMost) {
+      is_overfull_ = is_overfull_ || counts;
+      return;
+    }
+    const geometry::Vector3 centre = ball.centre - place_;
+    const double grown = ball.radius + kRounding * (std::abs(centre.x) + std::abs(centre.y) +
+                                                    std::abs(centre.z) + ball.radius + reach_);
+    x_[count_] = static_cast<float>(centre.x);
+    y_[count_] = static_cast<float>(centre.y);
+    z_[count_] = static_cast<float>(centre.z);
+    squared_radius_[count_] = static_cast<float>(grown * grown);
+    numbers_[count_] = number;
+    // Which of them count is hard to foresee: no branch.
+    count_ += counts;
   }
 
-  // A solid that is within a ball; `number` is the scene's.
-  void Add(const geometry::Vector3& centre, double radius, std::uint32_t number);
-  bool is_overfull() const { return is_overfull_; }
+  // After the last was added: false if there were too many.
+  bool Finish();
 
   // Whether all that the ray may meet was gathered.
   bool Hold(const Ray& ray) const { return Norm(ray.origin - place_) + ray.max_distance <= reach_; }
@@ -58,14 +81,18 @@ class Surroundings {
   }
 
  private:
+  // Single precision errs by 6e-8 of a coordinate, and the gap between ray and centre takes a dozen
+  // operations.
+  static constexpr double kRounding = 4e-6;
+
   static __m128 Four(double x) { return _mm_set1_ps(static_cast<float>(x)); }
 
   geometry::Vector3 place_;
   double reach_ = -1;
-  std::size_t count_ = 0;  // the four that the last belongs to are filled with what no ray touches
+  std::size_t count_ = 0;  // after them up to three that no ray touches
   bool is_overfull_ = false;
   // Centres from place_.
-  alignas(16) std::array<float, kMost> x_, y_, z_, squared_radius_;
+  alignas(16) std::array<float, kMost + 4> x_, y_, z_, squared_radius_;
   std::array<std::uint32_t, kMost> numbers_;
 };
 
