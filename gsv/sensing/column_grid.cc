@@ -8,7 +8,7 @@ namespace {
 using geometry::Bounds;
 
 // So many columns are made for each box, and in so many may boxes be listed on average.
-constexpr double kColumnsPerBox = 4;
+constexpr double kColumnsPerBox = 2;
 constexpr std::size_t kMostEntriesPerBox = 8;
 // In one direction: an index fits 16 bits.
 constexpr double kMostColumns = 30'000;

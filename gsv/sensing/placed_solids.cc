@@ -83,22 +83,24 @@ void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& neares
                      static_cast<std::uint32_t>(part->number) << 24});
 }
 
-void PlacedSolids::CastAtEndless(const Ray& ray, int ignored_body, Nearest& nearest) const {
+// Last, since triangles are many and what was hit before shortens the ray.
+void PlacedSolids::CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
   }
+  solids_->standing.CastAtOthers(ray, ignored_body, nearest);
 }
 
 Nearest PlacedSolids::Find(const Ray& ray, int ignored_body) const {
   Nearest nearest;
   nearest.distance = ray.max_distance;
   if (!IsSound(ray)) return nearest;
-  solids_->standing.Cast(ray, ignored_body, nearest);
-  CastAtEndless(ray, ignored_body, nearest);
+  solids_->standing.CastAtShapes(ray, ignored_body, nearest);
   index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
     const auto& [ball, body] = balls_[i];
     if (body != ignored_body && Passes(ray, nearest.distance, ball)) CastAtPart(i, ray, nearest);
   });
+  CastAtRest(ray, ignored_body, nearest);
   return nearest;
 }
 
@@ -153,8 +155,7 @@ double PlacedSolids::Range(const Ray& ray, int ignored_body,
       CastAtPart(i, ray, nearest);
     }
   });
-  solids_->standing.CastAtOthers(ray, ignored_body, nearest);
-  CastAtEndless(ray, ignored_body, nearest);
+  CastAtRest(ray, ignored_body, nearest);
   return DistanceOf(nearest);
 }
 

@@ -42,7 +42,7 @@ class PlacedSolids final : public RayScene {
   Nearest Find(const Ray& ray, int ignored_body) const;
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
-  void CastAtEndless(const Ray& ray, int ignored_body, Nearest& nearest) const;
+  void CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
   // As LayoutSolids::moving; the latter two of bounded parts only.

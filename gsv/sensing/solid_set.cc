@@ -193,6 +193,7 @@ void SolidSet::CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body
 
 void SolidSet::CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
                             const Bearer& bearer) const {
+  if (shapes_.empty()) return;
   if (shapes_.size() == 1) return CastAtShape(0, ray, ignored_body, nearest, bearer);
   const BoxTest passes(ray);
   shape_index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
@@ -240,7 +241,7 @@ void SolidSet::CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
 
 void SolidSet::Cast(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer) const {
-  if (!shapes_.empty()) CastAtShapes(ray, ignored_body, nearest, bearer);
+  CastAtShapes(ray, ignored_body, nearest, bearer);
   CastAtOthers(ray, ignored_body, nearest, bearer);
 }
 

@@ -61,7 +61,9 @@ class SolidSet {
   // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`.
   void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
 
-  // The same in pieces: the shapes one by one, and the rest.
+  // The same in pieces: the shapes, at once or one by one, and the rest.
+  void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
+                    const Bearer& bearer = {}) const;
   void CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
                    const Bearer& bearer = {}) const;
   void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
@@ -95,7 +97,6 @@ class SolidSet {
   // Of the solid of that number: the shapes, then the planes, then the triangles.
   static void CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray, int ignored_body,
                      Nearest& nearest, const Bearer& bearer);
-  void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;
   void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;
   void CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest,
                        const Bearer& bearer) const;

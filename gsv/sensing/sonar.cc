@@ -46,8 +46,9 @@ class Sonar final : public Sensor {
     const Ray beam{world_from_sonar.position, world_from_sonar.orientation * Vector3{1, 0, 0},
                    settings_.max};
     const double echo = sampling.Range(beam);  // infinite: none
-    Reading reading = sampling.Stamped();
-    reading.values.push_back(echo >= settings_.min ? std::min(echo, settings_.max) : settings_.max);
+    base::Result<Reading> reading = sampling.Stamped();
+    reading->values.push_back(echo >= settings_.min ? std::min(echo, settings_.max)
+                                                    : settings_.max);
     return reading;
   }
 
