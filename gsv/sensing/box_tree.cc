@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <embree3/rtcore.h>
 
@@ -89,10 +90,10 @@ BoxTree::~BoxTree() {
   if (impl_->scene != nullptr) rtcReleaseScene(impl_->scene);
 }
 
-void BoxTree::Build(std::vector<Bounds> boxes, bool often) {
+void BoxTree::Build(std::span<const Bounds> boxes, bool often) {
   Impl& self = *impl_;
   const bool same_count = self.scene != nullptr && self.boxes.size() == boxes.size();
-  self.boxes = std::move(boxes);
+  self.boxes.assign(boxes.begin(), boxes.end());
   self.padding = PaddingFor(self.boxes);
   if (self.scene == nullptr) {
     self.scene = rtcNewScene(Device());

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <span>
 
 #include "gsv/geometry/triangle_mesh.h"
 #include "gsv/sensing/ray_scene.h"
@@ -25,7 +25,7 @@ class BoxTree {
   BoxTree& operator=(const BoxTree&) = delete;
 
   // Replaces all boxes. `often` favours a quick build over quick rays.
-  void Build(std::vector<geometry::Bounds> boxes, bool often);
+  void Build(std::span<const geometry::Bounds> boxes, bool often);
 
   class Visitor {
    public:
@@ -36,7 +36,25 @@ class BoxTree {
   };
   void Cast(const Ray& ray, Visitor& visitor) const;
 
+  // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
+  // shorten.
+  template <class Visit>
+  void Find(const Ray& ray, const double& length, const Visit& visit) const {
+    Caller<Visit> caller(length, visit);
+    Cast({ray.origin, ray.direction, length}, caller);
+  }
+
  private:
+  template <class Call>
+  struct Caller final : Visitor {
+    const double& length;
+    const Call& call;
+    Caller(const double& l, const Call& c) : length(l), call(c) {}
+    double Visit(std::uint32_t box) override {
+      call(box);
+      return length;
+    }
+  };
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -99,29 +99,29 @@ class Lidar final : public Sensor {
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const geometry::Pose world_from_lidar = sampling.WorldFromSensor(description());
-    std::vector<Ray> beams(directions_.size());
-    for (std::size_t i = 0; i < beams.size(); ++i) {
-      beams[i] = {world_from_lidar.position, world_from_lidar.orientation * directions_[i],
-                  settings_.max};
-    }
-    std::vector<std::optional<Hit>> hits(beams.size());
-    sampling.Rays()->Cast(beams, sampling.body(), hits);
     Reading reading = sampling.Stamped();
-    reading.values.reserve(hits.size());
+    reading.values.reserve(directions_.size());
     base::Noise noise = sampling.NoiseOf(description());
-    for (const std::optional<Hit>& hit : hits) reading.values.push_back(RangeOf(hit, noise));
+    sampling.ExpectRays(directions_.size());
+    for (const Vector3& direction : directions_) {
+      const Ray beam{world_from_lidar.position, world_from_lidar.orientation * direction,
+                     settings_.max};
+      reading.values.push_back(Measured(sampling.Range(beam), noise));
+    }
     return reading;
   }
 
+  bool CastsRays() const override { return true; }
+
  private:
-  double RangeOf(const std::optional<Hit>& hit, base::Noise& noise) const {
+  double Measured(double distance, base::Noise& noise) const {
     // Every beam draws, so that one beam's noise does not hang on what another hits.
     const double error = settings_.noise_stddev > 0
                              ? settings_.noise_mean + settings_.noise_stddev * noise.Gaussian()
                              : settings_.noise_mean;
-    if (!hit) return kInfinity;
-    if (hit->distance < settings_.min) return -kInfinity;
-    return std::clamp(hit->distance + error, settings_.min, settings_.max);
+    if (distance == kInfinity) return kInfinity;
+    if (distance < settings_.min) return -kInfinity;
+    return std::clamp(distance + error, settings_.min, settings_.max);
   }
 
   LidarSettings settings_;

@@ -34,6 +34,7 @@ class Positioning final : public Sensor {
     Reading reading = sampling.Stamped();
     reading.values = {pose.position.x, pose.position.y, pose.position.z,
                       angles.roll,     angles.pitch,    angles.yaw};
+    if (settings_.position_stddev == 0 && settings_.orientation_stddev == 0) return reading;
     base::Noise noise = sampling.NoiseOf(description());
     if (settings_.position_stddev > 0) {
       for (int i = 0; i < 3; ++i) reading.values[i] += settings_.position_stddev * noise.Gaussian();

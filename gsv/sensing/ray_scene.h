@@ -1,8 +1,9 @@
 // The solids of a world at one instant, to cast rays against.
 //
-// Exactness    Embree only finds which primitive a ray meets; the distance is computed again in
-//              double precision from the triangle or the analytic shape, so that it is the same on
-//              every machine and for every thread count.
+// Exactness    a grid or Embree only finds which primitives a ray may meet; the distance is
+// computed
+//              in double precision from the triangle or the analytic shape, so that it is the same
+//              on every machine and for every thread count.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <optional>
 #include <span>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::sensing {
@@ -27,6 +29,8 @@ struct Hit {
   int body = -1;             // index in the layout
 };
 
+class Surroundings;
+
 class RayScene {
  public:
   virtual ~RayScene() = default;
@@ -38,6 +42,18 @@ class RayScene {
   // The same for many rays; hits[i] is rays[i]'s.
   virtual void Cast(std::span<const Ray> rays, int ignored_body,
                     std::span<std::optional<Hit>> hits) const = 0;
+
+  // The distance alone, which is found quicker: infinite where Cast() finds nothing.
+  virtual double Range(const Ray& ray, int ignored_body) const = 0;
+
+  // Gathers the solids within `reach` of `place`, but not those of `ignored_body`: for several rays
+  // from there it is quicker to look for them once. False if they are too many for that.
+  virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
+                      Surroundings& surroundings) const = 0;
+
+  // The same as the other one, for rays that Surroundings::Hold() and their ignored body.
+  virtual double Range(const Ray& ray, int ignored_body,
+                       const Surroundings& surroundings) const = 0;
 };
 
 // Ray scenes for snapshots, built when asked for. The static part is built once a layout, and a
@@ -49,8 +65,10 @@ class RaySceneCache {
   RaySceneCache(const RaySceneCache&) = delete;
   RaySceneCache& operator=(const RaySceneCache&) = delete;
 
-  // Any thread; callers with the same snapshot get the same scene.
-  std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot);
+  // Any thread; callers with the same snapshot get the same scene. A scene that has to be built is
+  // shared out over `team`, if there is one.
+  std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
+                                     base::ThreadTeam* team = nullptr);
 
  private:
   class Impl;

@@ -1,13 +1,12 @@
 #include "gsv/sensing/ray_scene.h"
 
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <thread>
 
 #include <gtest/gtest.h>
 
-#include "gsv/base/random.h"
-#include "gsv/sensing/ray_shape.h"
+#include "gsv/sensing/test_rays.h"
 #include "gsv/sensing/test_snapshot.h"
 
 namespace gsv::sensing {
@@ -15,84 +14,12 @@ namespace {
 
 using geometry::Pose;
 using geometry::Vector3;
+using testing::BruteForce;
 using testing::MakeSnapshot;
 using testing::ModelOf;
 using testing::Placed;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : noise_(seed, 0, 0) {}
-  double Uniform(double low, double high) { return low + (high - low) * noise_.Uniform(); }
-  Vector3 Point(double extent) {
-    return {Uniform(-extent, extent), Uniform(-extent, extent), Uniform(-extent, extent)};
-  }
-  Pose AnyPose(double extent) {
-    return {Point(extent),
-            geometry::FromRollPitchYaw({Uniform(-3, 3), Uniform(-1.5, 1.5), Uniform(-3, 3)})};
-  }
-
- private:
-  base::Noise noise_;
-};
-
-geometry::Mesh RandomMesh(Random& random, int triangles, double size) {
-  auto mesh = std::make_shared<geometry::TriangleMesh>();
-  for (int i = 0; i < triangles; ++i) {
-    const Vector3 middle = random.Point(1);
-    for (int k = 0; k < 3; ++k) mesh->positions.push_back(middle + random.Point(size));
-    const auto first = static_cast<std::uint32_t>(3 * i);
-    mesh->triangles.push_back({first, first + 1, first + 2});
-  }
-  return {mesh, {1.5, 1, 0.5}};
-}
-
-// Whether p, in the plane of the triangle, lies in it: by areas, with no ray in sight.
-double ByAreas(const Ray& ray, const Vector3& a, const Vector3& b, const Vector3& c) {
-  const Vector3 normal = Cross(b - a, c - a);
-  const double approach = Dot(normal, ray.direction);
-  if (approach == 0) return -1;
-  const double distance = Dot(normal, a - ray.origin) / approach;
-  if (distance < 0 || distance > ray.max_distance) return -1;
-  const Vector3 p = ray.origin + distance * ray.direction;
-  const double whole = Norm(normal);
-  const double parts =
-      Norm(Cross(b - p, c - p)) + Norm(Cross(c - p, a - p)) + Norm(Cross(a - p, b - p));
-  return parts <= whole * (1 + 1e-9) ? distance : -1;
-}
-
-// Every collision of every body, one by one.
-std::optional<Hit> BruteForce(const world::Snapshot& snapshot, const Ray& ray, int ignored_body) {
-  std::optional<Hit> best;
-  const auto offer = [&](double distance, int body) {
-    if (distance >= 0 && (!best || distance < best->distance)) best = Hit{distance, {}, body};
-  };
-  for (int body = 0; body < static_cast<int>(snapshot.layout->bodies.size()); ++body) {
-    if (body == ignored_body) continue;
-    const std::vector<Pose> world_from_link = world::LinkPoses(snapshot, body);
-    const model::Model& model = *snapshot.layout->bodies[body].model;
-    for (std::size_t link = 0; link < model.links.size(); ++link) {
-      for (const model::Collision& collision : model.links[link].collisions) {
-        const Pose world_from_shape = world_from_link[link] * collision.link_from_collision;
-        if (const auto* mesh = std::get_if<geometry::Mesh>(&collision.shape)) {
-          for (const auto& t : mesh->triangles->triangles) {
-            const auto corner = [&](int i) {
-              return world_from_shape * Scaled(mesh->triangles->positions[t[i]], mesh->scale);
-            };
-            offer(ByAreas(ray, corner(0), corner(1), corner(2)), body);
-          }
-          continue;
-        }
-        const Pose shape_from_world = Inverse(world_from_shape);
-        const auto hit =
-            CastAtShape({shape_from_world * ray.origin,
-                         shape_from_world.orientation * ray.direction, ray.max_distance},
-                        collision.shape);
-        if (hit) offer(hit->distance, body);
-      }
-    }
-  }
-  return best;
-}
+using testing::Random;
+using testing::RandomMesh;
 
 // A base with a wheel on a hinge, and a mast on a slider.
 std::shared_ptr<model::Model> Vehicle(Random& random) {
@@ -160,6 +87,76 @@ TEST(RayScene, AgreesWithLookingAtEverything) {
     }
   }
   EXPECT_GT(hits, 1000);
+}
+
+// However the boxes are arranged: a grid does not suit those that are stacked, or that stand far
+// from all others.
+TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
+  Random random(14);
+  std::vector<Placed> bodies;
+  for (int i = 0; i < 120; ++i) {
+    bodies.push_back({"floor" + std::to_string(i),
+                      ModelOf(geometry::Box{{1, 1, 0.1}}),
+                      {{random.Uniform(-1, 1), random.Uniform(-1, 1), 0.2 * i}, {}},
+                      i % 2 == 0});
+  }
+  for (int i = 0; i < 3; ++i) {
+    bodies.push_back({"far" + std::to_string(i),
+                      ModelOf(geometry::Sphere{2}),
+                      {{i * 3e4, -2e4, 5}, {}},
+                      i == 1});
+  }
+  const auto snapshot = MakeSnapshot(bodies);
+  RaySceneCache cache;
+  const auto scene = cache.At(snapshot);
+  int hits = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3 origin{random.Uniform(-4, 4), random.Uniform(-4, 4), random.Uniform(-1, 25)};
+    const Ray ray{origin, Normalized(random.Point(1)), 20};
+    const auto expected = BruteForce(*snapshot, ray, -1);
+    const auto found = scene->Cast(ray, -1);
+    ASSERT_EQ(found.has_value(), expected.has_value()) << i;
+    if (!found) continue;
+    ++hits;
+    ASSERT_NEAR(found->distance, expected->distance, 1e-9) << i;
+    ASSERT_EQ(found->body, expected->body) << i;
+  }
+  EXPECT_GT(hits, 100);
+  EXPECT_NEAR(scene->Range({{0, -2e4, 9}, {0, 0, -1}, 5}, -1), 2, 1e-9);
+}
+
+TEST(RayScene, OfTwoBodiesAtOneDistanceTheFirstIsHit) {
+  // Side by side, some of them standing; rays run along their common faces.
+  std::vector<Placed> bodies;
+  for (int i = 0; i < 20; ++i) {
+    bodies.push_back({"box" + std::to_string(10 + (7 * i) % 20),
+                      ModelOf(geometry::Box{{1, 1, 1}}),
+                      {{i + 0.5, 0, 0}, {}},
+                      i % 3 == 0});
+  }
+  const auto snapshot = MakeSnapshot(bodies);
+  RaySceneCache cache;
+  const auto scene = cache.At(snapshot);
+  for (int i = 1; i < 20; ++i) {
+    const auto hit = scene->Cast({{i + 0.0, 0, 5}, {0, 0, -1}, 10}, -1);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->distance, 4.5);
+    const int left = snapshot->layout->Find("box" + std::to_string(10 + 7 * (i - 1) % 20));
+    const int right = snapshot->layout->Find("box" + std::to_string(10 + 7 * i % 20));
+    EXPECT_EQ(hit->body, std::min(left, right)) << i;
+  }
+}
+
+TEST(RayScene, RangeIsTheDistanceOfTheHit) {
+  Random random(15);
+  RaySceneCache cache;
+  const auto scene = cache.At(RandomWorld(random));
+  for (int i = 0; i < 1000; ++i) {
+    const Ray ray{random.Point(16), Normalized(random.Point(1)), random.Uniform(1, 60)};
+    const auto hit = scene->Cast(ray, i % 50);
+    ASSERT_EQ(scene->Range(ray, i % 50),
+              hit ? hit->distance : std::numeric_limits<double>::infinity());
+  }
 }
 
 TEST(RayScene, ManyRaysAtOnceAreTheSameAsOneByOne) {

@@ -1,9 +1,10 @@
 // Rays against single shapes, in closed form and double precision.
 //
 // Frames   ray and result are in the shape's frame; distances are along the unit direction.
-// Result   the first crossing of the surface, from outside or inside, at a distance in
-//          [0, ray.max_distance]; the normal has unit length and points against the ray. A touch
-//          counts as a crossing. Without a crossing nothing.
+// Result   the distance to the first crossing of the surface, from outside or inside, within
+//          [0, ray.max_distance]; a touch counts as a crossing. Without a crossing nothing. The
+//          normal is that of the surface there, of unit length and against the ray, for a ray that
+//          was found to cross it.
 #pragma once
 
 #include <optional>
@@ -13,19 +14,16 @@
 
 namespace gsv::sensing {
 
-struct SurfaceHit {
-  double distance = 0;
-  geometry::Vector3 normal;
-};
-
 // A corner and the two edges that leave it.
 struct Triangle {
   geometry::Vector3 corner, edge1, edge2;
 };
 
-std::optional<SurfaceHit> CastAtTriangle(const Ray& ray, const Triangle& triangle);
+std::optional<double> DistanceToTriangle(const Ray& ray, const Triangle& triangle);
+geometry::Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle);
 
-// A Plane is a half-space's surface, without end; a Mesh is not for this function.
-std::optional<SurfaceHit> CastAtShape(const Ray& ray, const geometry::Shape& shape);
+// A Plane is a half-space's surface, without end; a Mesh is not for these functions.
+std::optional<double> DistanceToShape(const Ray& ray, const geometry::Shape& shape);
+geometry::Vector3 NormalOfShape(const Ray& ray, const geometry::Shape& shape);
 
 }  // namespace gsv::sensing

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+
+#include <boost/container/small_vector.hpp>
 
 #include "gsv/base/sim_time.h"
 #include "gsv/model/image.h"
@@ -13,8 +14,8 @@ namespace gsv::sensing {
 // null for all but cameras.
 struct Reading {
   std::int64_t step = 0;
-  base::SimTime time{0};  // the sampling instant
-  std::vector<double> values;
+  base::SimTime time{0};                             // the sampling instant
+  boost::container::small_vector<double, 1> values;  // a single one costs no memory of its own
   std::shared_ptr<const model::Image> picture;
 };
 

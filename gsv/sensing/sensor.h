@@ -1,9 +1,11 @@
-// One sensor on one robot.
+// A sensor as a model has it. It holds its description and nothing of a robot: one Sensor serves
+// all robots of the model.
 //
-// Threads      const members may run concurrently.
+// Threads      a Sensor's const members may run concurrently; a Sampling belongs to one thread.
 // Determinism  Sample() is a function of the sampling's snapshot, robot and seed alone.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -11,11 +13,13 @@
 #include "gsv/base/random.h"
 #include "gsv/sensing/ray_scene.h"
 #include "gsv/sensing/reading.h"
+#include "gsv/sensing/surroundings.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::sensing {
 
-// All that a reading may depend on.
+// All that a reading may depend on. What the sensors of a robot have in common is found once, so
+// that they had better share a sampling.
 class Sampling {
  public:
   // `body` is the robot's index in the snapshot's layout. `rays` outlives the sampling.
@@ -23,15 +27,33 @@ class Sampling {
            RaySceneCache& rays)
       : snapshot_(std::move(snapshot)), body_(body), seed_(seed), rays_(rays) {}
 
+  // On to another robot at the same instant.
+  void MoveTo(int body);
+
   const std::shared_ptr<const world::Snapshot>& snapshot() const { return snapshot_; }
   int body() const { return body_; }
   const world::Body& robot() const { return snapshot_->layout->bodies[body_]; }
 
-  // The solids of the world at this instant; built on first use, shared by all who sample it.
-  std::shared_ptr<const RayScene> Rays() const { return rays_.At(snapshot_); }
+  // The solids of the world at this instant; built on first use, shared by all who sample it. Valid
+  // as long as the sampling.
+  const RayScene& Rays() const {
+    if (scene_ == nullptr) scene_ = rays_.At(snapshot_);
+    return *scene_;
+  }
+
+  // The distance along a ray to the nearest surface that is not the robot's; infinite if there is
+  // none within the ray's length.
+  double Range(const Ray& ray) const;
+
+  // So many rays more are about to be cast from about the robot: it may pay to look around first.
+  void ExpectRays(std::size_t count) const { expected_rays_ += count; }
 
   geometry::Pose WorldFromSensor(const model::SensorDescription& description) const {
-    return world::LinkPose(*snapshot_, body_, description.link) * description.link_from_sensor;
+    if (link_ != description.link) {
+      link_ = description.link;
+      world_from_link_ = world::LinkPose(*snapshot_, body_, link_);
+    }
+    return world_from_link_ * description.link_from_sensor;
   }
 
   // The noise of this sensor at this instant, keyed by (seed, robot, sensor, step).
@@ -48,6 +70,12 @@ class Sampling {
   int body_;
   std::uint64_t seed_;
   RaySceneCache& rays_;
+  mutable std::shared_ptr<const RayScene> scene_;  // null until it is asked for
+  mutable std::size_t expected_rays_ = 0;
+  mutable bool has_gathered_ = false;  // surroundings_ are those of the body
+  mutable std::unique_ptr<Surroundings> surroundings_;
+  mutable int link_ = -1;  // whose pose is known
+  mutable geometry::Pose world_from_link_;
 };
 
 class Sensor {
@@ -64,6 +92,9 @@ class Sensor {
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
   // Sample() waits for something outside of the caller's thread, such as a renderer.
   virtual bool takes_long() const { return false; }
+
+  // Whether Sample() uses Sampling::Rays(), so that who samples many can have them made ready.
+  virtual bool CastsRays() const { return false; }
 
  private:
   model::SensorDescription description_;

@@ -1,21 +1,27 @@
 #include "gsv/sensing/solid_set.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "gsv/base/check.h"
-#include "gsv/sensing/box_tree.h"
+#include "gsv/sensing/ray_axis.h"
 #include "gsv/sensing/ray_shape.h"
 
 namespace gsv::sensing {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using geometry::Bounds;
 using geometry::Pose;
 using geometry::Shape;
 using geometry::Vector3;
 
-// So few are looked at one by one.
+// So few triangles are looked at one by one.
 constexpr std::size_t kHandful = 6;
+
+// What rounding may add to a box or a height by far: part of the length, and metres.
+constexpr double kPadding = 1e-9;
 
 Bounds BoundsOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
@@ -39,29 +45,87 @@ Bounds BoundsOfShape(const Shape& shape, const Pose& set_from_shape) {
   return bounds;
 }
 
+Bounds Padded(const Bounds& b) {
+  double furthest = 1;
+  for (const double x : {b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z}) {
+    furthest = std::max(furthest, std::abs(x));
+  }
+  const double by = kPadding * furthest;
+  return {b.min - Vector3{by, by, by}, b.max + Vector3{by, by, by}};
+}
+
+Ball Padded(const Ball& ball) {
+  return {ball.centre, ball.radius + kPadding * (1 + ball.radius + Norm(ball.centre))};
+}
+
+// Whether some of the box lies within.
+bool Reaches(const Surroundings& surroundings, const Bounds& box) {
+  const Vector3& place = surroundings.place();
+  const auto gap = [](double low, double x, double high) {
+    return std::max(std::max(low - x, x - high), 0.0);
+  };
+  const Vector3 gaps{gap(box.min.x, place.x, box.max.x), gap(box.min.y, place.y, box.max.y),
+                     gap(box.min.z, place.z, box.max.z)};
+  return Dot(gaps, gaps) <= surroundings.reach() * surroundings.reach();
+}
+
+// How far from its origin a shape reaches.
+struct Reach {
+  double operator()(const geometry::Box& box) const { return 0.5 * Norm(box.size); }
+  double operator()(const geometry::Sphere& sphere) const { return sphere.radius; }
+  double operator()(const geometry::Capsule& c) const { return c.radius + c.length / 2; }
+  double operator()(const geometry::Ellipsoid& e) const {
+    return std::max({e.radii.x, e.radii.y, e.radii.z});
+  }
+  template <class Round>
+  double operator()(const Round& round) const {  // cylinder, cone
+    return std::hypot(round.radius, round.length / 2);
+  }
+  double operator()(const geometry::Plane&) const { return kInfinity; }
+  double operator()(const geometry::Mesh&) const { return kInfinity; }
+};
+
+// Whether a ray comes through a box; says so also when it passes within rounding.
+class BoxTest {
+ public:
+  explicit BoxTest(const Ray& ray)
+      : x_(ray.origin.x, ray.direction.x),
+        y_(ray.origin.y, ray.direction.y),
+        z_(ray.origin.z, ray.direction.z) {}
+
+  bool operator()(const Bounds& box, double length) const {
+    double begin = 0, end = length;
+    x_.Clip(box.min.x, box.max.x, begin, end);
+    y_.Clip(box.min.y, box.max.y, begin, end);
+    z_.Clip(box.min.z, box.max.z, begin, end);
+    return begin <= end;
+  }
+
+ private:
+  RayAxis x_, y_, z_;
+};
+
 Ray Moved(const Pose& to_from, const Ray& ray, double length) {
   return {to_from * ray.origin, to_from.orientation * ray.direction, length};
 }
 
 }  // namespace
 
-SolidSet::SolidSet() = default;
-SolidSet::~SolidSet() = default;
-SolidSet::SolidSet(SolidSet&&) noexcept = default;
-SolidSet& SolidSet::operator=(SolidSet&&) noexcept = default;
-
 void SolidSet::Add(const Shape& shape, const Pose& set_from_shape, int body) {
   if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) {
     AddMesh(*mesh, set_from_shape, body);
     return;
   }
-  SolidShape solid{shape, Inverse(set_from_shape), {}, primitives_++, body};
-  if (std::holds_alternative<geometry::Plane>(shape)) {
-    planes_.push_back(std::move(solid));
+  SolidShape solid{shape, Inverse(set_from_shape), primitives_++, body};
+  if (const auto* plane = std::get_if<geometry::Plane>(&shape)) {
+    const Vector3 normal = set_from_shape.orientation * plane->normal;
+    planes_.push_back({std::move(solid), normal, Dot(normal, set_from_shape.position)});
     return;
   }
-  solid.bounds = BoundsOfShape(shape, set_from_shape);
-  Include(solid.bounds);
+  const Bounds bounds = BoundsOfShape(shape, set_from_shape);
+  Include(bounds);
+  shape_bounds_.push_back(Padded(bounds));
+  shape_balls_.push_back(Padded(Ball{set_from_shape.position, std::visit(Reach{}, shape)}));
   shapes_.push_back(std::move(solid));
 }
 
@@ -86,70 +150,121 @@ void SolidSet::Include(const Bounds& b) {
                  std::max(bounds_.max.z, b.max.z)};
 }
 
-Bounds SolidSet::BoundsOf(std::uint32_t candidate) const {
-  if (candidate < shapes_.size()) return shapes_[candidate].bounds;
-  const SolidTriangle& t = triangles_[candidate - shapes_.size()];
-  return BoundsOfTriangle(t.corner, t.corner + t.edge1, t.corner + t.edge2);
+Ball SolidSet::ball() const {
+  const Vector3 centre = 0.5 * (bounds_.min + bounds_.max);
+  double furthest = 0;
+  for (const Ball& ball : shape_balls_) {
+    furthest = std::max(furthest, Norm(ball.centre - centre) + ball.radius);
+  }
+  for (const SolidTriangle& t : triangles_) {
+    for (const Vector3& corner : {t.corner, t.corner + t.edge1, t.corner + t.edge2}) {
+      furthest = std::max(furthest, Norm(corner - centre));
+    }
+  }
+  return Padded(Ball{centre, std::min(furthest, 0.5 * Norm(bounds_.max - bounds_.min))});
 }
 
 void SolidSet::Commit() {
-  const std::size_t count = shapes_.size() + triangles_.size();
-  if (count <= kHandful) return;
+  shape_index_.Build(shape_bounds_, /*often=*/false);
+  if (triangles_.size() <= kHandful) return;
   std::vector<Bounds> boxes;
-  boxes.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i) boxes.push_back(BoundsOf(i));
-  tree_ = std::make_unique<BoxTree>();
-  tree_->Build(std::move(boxes), /*often=*/false);
+  boxes.reserve(triangles_.size());
+  for (const SolidTriangle& t : triangles_) {
+    boxes.push_back(BoundsOfTriangle(t.corner, t.corner + t.edge1, t.corner + t.edge2));
+  }
+  triangle_tree_ = std::make_unique<BoxTree>();
+  triangle_tree_->Build(boxes, /*often=*/false);
 }
 
-void SolidSet::CastAt(std::uint32_t candidate, const Ray& ray, int ignored_body, int body,
-                      Nearest& nearest) const {
-  if (candidate < shapes_.size()) {
-    const SolidShape& solid = shapes_[candidate];
-    const int whose = body >= 0 ? body : solid.body;
-    if (whose == ignored_body) return;
-    const auto hit = CastAtShape(Moved(solid.shape_from_set, ray, nearest.distance), solid.shape);
-    if (!hit) return;
-    nearest.Offer(hit->distance, whose, solid.primitive,
-                  Inverse(solid.shape_from_set.orientation) * hit->normal);
-    return;
-  }
-  const SolidTriangle& solid = triangles_[candidate - shapes_.size()];
-  const int whose = body >= 0 ? body : solid.body;
-  if (whose == ignored_body) return;
-  const auto hit = CastAtTriangle({ray.origin, ray.direction, nearest.distance},
-                                  {solid.corner, solid.edge1, solid.edge2});
-  if (hit) nearest.Offer(hit->distance, whose, solid.primitive, hit->normal);
+void SolidSet::CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray,
+                      int ignored_body, Nearest& nearest, const Bearer& bearer) {
+  const int body = bearer.body >= 0 ? bearer.body : shape.body;
+  if (body == ignored_body) return;
+  const auto distance =
+      DistanceToShape(Moved(shape.shape_from_set, ray, nearest.distance), shape.shape);
+  if (!distance) return;
+  nearest.Offer(*distance, body, bearer.first_primitive + shape.primitive, bearer.part, solid);
 }
 
-void SolidSet::Cast(const Ray& ray, int ignored_body, Nearest& nearest, int body) const {
-  for (const SolidShape& plane : planes_) {
-    const int whose = body >= 0 ? body : plane.body;
-    if (whose == ignored_body) continue;
-    const auto hit = CastAtShape(Moved(plane.shape_from_set, ray, nearest.distance), plane.shape);
-    if (!hit) continue;
-    nearest.Offer(hit->distance, whose, plane.primitive,
-                  Inverse(plane.shape_from_set.orientation) * hit->normal);
+void SolidSet::CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
+                           const Bearer& bearer) const {
+  CastAt(shapes_[shape], shape, ray, ignored_body, nearest, bearer);
+}
+
+void SolidSet::CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
+                            const Bearer& bearer) const {
+  if (shapes_.empty()) return;
+  if (shapes_.size() == 1) return CastAtShape(0, ray, ignored_body, nearest, bearer);
+  const BoxTest passes(ray);
+  shape_index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
+    if (!passes(shape_bounds_[i], nearest.distance)) return;
+    CastAtShape(i, ray, ignored_body, nearest, bearer);
+  });
+}
+
+void SolidSet::CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest,
+                            const Bearer& bearer) const {
+  for (std::uint32_t i = 0; i < planes_.size(); ++i) {
+    const SolidPlane& plane = planes_[i];
+    const double height = std::abs(Dot(plane.normal, ray.origin) - plane.offset);
+    const double climb = std::abs(Dot(plane.normal, ray.direction)) * nearest.distance;
+    if (climb + kPadding + kPadding * height < height) continue;
+    CastAt(plane.solid, static_cast<std::uint32_t>(shapes_.size()) + i, ray, ignored_body, nearest,
+           bearer);
   }
-  if (tree_ == nullptr) {
-    const auto count = static_cast<std::uint32_t>(shapes_.size() + triangles_.size());
-    for (std::uint32_t i = 0; i < count; ++i) CastAt(i, ray, ignored_body, body, nearest);
-    return;
-  }
-  struct Visitor final : BoxTree::Visitor {
-    const SolidSet& set;
-    const Ray& ray;
-    int ignored_body, body;
-    Nearest& nearest;
-    Visitor(const SolidSet& s, const Ray& r, int ignored, int b, Nearest& n)
-        : set(s), ray(r), ignored_body(ignored), body(b), nearest(n) {}
-    double Visit(std::uint32_t candidate) override {
-      set.CastAt(candidate, ray, ignored_body, body, nearest);
-      return nearest.distance;
-    }
+}
+
+void SolidSet::CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest,
+                               const Bearer& bearer) const {
+  const auto first = static_cast<std::uint32_t>(shapes_.size() + planes_.size());
+  const auto cast_at = [&](std::uint32_t i) {
+    const SolidTriangle& t = triangles_[i];
+    const int body = bearer.body >= 0 ? bearer.body : t.body;
+    if (body == ignored_body) return;
+    const auto distance = DistanceToTriangle({ray.origin, ray.direction, nearest.distance},
+                                             {t.corner, t.edge1, t.edge2});
+    if (!distance) return;
+    nearest.Offer(*distance, body, bearer.first_primitive + t.primitive, bearer.part, first + i);
   };
-  Visitor visitor(*this, ray, ignored_body, body, nearest);
-  tree_->Cast({ray.origin, ray.direction, nearest.distance}, visitor);
+  if (triangle_tree_ == nullptr) {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) cast_at(i);
+  } else {
+    triangle_tree_->Find(ray, nearest.distance, cast_at);
+  }
+}
+
+void SolidSet::CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
+                            const Bearer& bearer) const {
+  if (!planes_.empty()) CastAtPlanes(ray, ignored_body, nearest, bearer);
+  if (!triangles_.empty()) CastAtTriangles(ray, ignored_body, nearest, bearer);
+}
+
+void SolidSet::Cast(const Ray& ray, int ignored_body, Nearest& nearest,
+                    const Bearer& bearer) const {
+  CastAtShapes(ray, ignored_body, nearest, bearer);
+  CastAtOthers(ray, ignored_body, nearest, bearer);
+}
+
+bool SolidSet::Gather(Surroundings& surroundings, std::uint32_t mark) const {
+  FoundBoxes found;
+  if (!shape_index_.Near(surroundings.place(), surroundings.reach(), found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const std::uint32_t shape = found.boxes[i];
+    surroundings.Add(shape_balls_[shape], mark | shape,
+                     Reaches(surroundings, shape_bounds_[shape]));
+  }
+  return true;
+}
+
+Vector3 SolidSet::NormalAt(std::uint32_t solid, const Ray& ray) const {
+  if (solid >= shapes_.size() + planes_.size()) {
+    const SolidTriangle& t = triangles_[solid - shapes_.size() - planes_.size()];
+    return NormalOfTriangle(ray, {t.corner, t.edge1, t.edge2});
+  }
+  const SolidShape& at =
+      solid < shapes_.size() ? shapes_[solid] : planes_[solid - shapes_.size()].solid;
+  return Inverse(at.shape_from_set.orientation) *
+         NormalOfShape(Moved(at.shape_from_set, ray, ray.max_distance), at.shape);
 }
 
 }  // namespace gsv::sensing

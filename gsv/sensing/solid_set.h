@@ -1,8 +1,8 @@
 // Many shapes that keep their places to each other, to cast rays against.
 //
-// Exactness    BoxTree only finds candidates, with padded boxes; which of them is nearest, and how
+// Exactness    BoxIndex only finds candidates, with padded boxes; which of them is nearest, and how
 //              far, is decided here in double precision, and ties by order of addition. So results
-//              depend neither on how the tree is built nor on its instruction set.
+//              depend neither on how the boxes are arranged nor on the instruction set.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -11,38 +11,39 @@
 #include <vector>
 
 #include "gsv/geometry/shape.h"
+#include "gsv/sensing/box_index.h"
 #include "gsv/sensing/ray_scene.h"
+#include "gsv/sensing/surroundings.h"
 
 namespace gsv::sensing {
 
-class BoxTree;
+// Whose solids a set holds, when it stands for one part of a moving body.
+struct Bearer {
+  int body = -1;  // -1: those given to Add()
+  int part = -1;  // in the scene
+  std::uint32_t first_primitive = 0;
+};
 
 // The nearest surface found so far.
 struct Nearest {
   double distance = 0;  // at first the ray's length
   int body = -1;        // -1: none yet
   std::uint32_t primitive = 0;
-  geometry::Vector3 normal;  // in the frame of whoever found it, see `part`
-  int part = -1;             // for callers that search several sets
+  int part = -1;            // the bearer's
+  std::uint32_t solid = 0;  // in its set, see SolidSet::NormalAt()
 
   // Takes the hit if it is nearer; at one distance the lower body, then the lower primitive stays.
-  bool Offer(double at, int whose, std::uint32_t which, const geometry::Vector3& n) {
-    if (at > distance) return false;
+  void Offer(double at, int whose, std::uint32_t which, int of_part, std::uint32_t in_set) {
+    if (at > distance) return;
     if (at == distance && body >= 0 && (whose > body || (whose == body && which >= primitive))) {
-      return false;
+      return;
     }
-    distance = at, body = whose, primitive = which, normal = n;
-    return true;
+    *this = {at, whose, which, of_part, in_set};
   }
 };
 
 class SolidSet {
  public:
-  SolidSet();
-  ~SolidSet();
-  SolidSet(SolidSet&&) noexcept;
-  SolidSet& operator=(SolidSet&&) noexcept;
-
   // Adds a shape of a body, before Commit().
   void Add(const geometry::Shape& shape, const geometry::Pose& set_from_shape, int body);
 
@@ -54,10 +55,25 @@ class SolidSet {
   bool endless() const { return !planes_.empty(); }
   // Around all but the planes.
   const geometry::Bounds& bounds() const { return bounds_; }
+  // The same.
+  Ball ball() const;
 
-  // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`. With
-  // `body` at least 0 it stands for the bodies given to Add().
-  void Cast(const Ray& ray, int ignored_body, Nearest& nearest, int body = -1) const;
+  // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`.
+  void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
+
+  // The same in pieces: the shapes, at once or one by one, and the rest.
+  void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
+                    const Bearer& bearer = {}) const;
+  void CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
+                   const Bearer& bearer = {}) const;
+  void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
+                    const Bearer& bearer = {}) const;
+  // Adds the shapes within `surroundings`, their numbers marked by `mark`; false if that cannot be
+  // done quickly.
+  bool Gather(Surroundings& surroundings, std::uint32_t mark) const;
+
+  // The normal, against the ray, where the ray meets the solid that Nearest names.
+  geometry::Vector3 NormalAt(std::uint32_t solid, const Ray& ray) const;
 
  private:
   struct SolidTriangle {
@@ -68,24 +84,33 @@ class SolidSet {
   struct SolidShape {
     geometry::Shape shape;
     geometry::Pose shape_from_set;
-    geometry::Bounds bounds;  // in the set's frame
     std::uint32_t primitive;
     int body;
   };
+  struct SolidPlane {
+    SolidShape solid;
+    geometry::Vector3 normal;  // in the set's frame
+    double offset;             // along it
+  };
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
   void Include(const geometry::Bounds& bounds);
-  // The candidate numbered as in the tree: shapes, then triangles.
-  void CastAt(std::uint32_t candidate, const Ray& ray, int ignored_body, int body,
-              Nearest& nearest) const;
-  geometry::Bounds BoundsOf(std::uint32_t candidate) const;
+  // Of the solid of that number: the shapes, then the planes, then the triangles.
+  static void CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray, int ignored_body,
+                     Nearest& nearest, const Bearer& bearer);
+  void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;
+  void CastAtTriangles(const Ray& ray, int ignored_body, Nearest& nearest,
+                       const Bearer& bearer) const;
 
   std::vector<SolidTriangle> triangles_;
+  std::unique_ptr<BoxTree> triangle_tree_;  // null for a handful
   std::vector<SolidShape> shapes_;
-  std::vector<SolidShape> planes_;
+  std::vector<geometry::Bounds> shape_bounds_;  // padded, in the set's frame
+  std::vector<Ball> shape_balls_;               // padded, in the set's frame
+  BoxIndex shape_index_;
+  std::vector<SolidPlane> planes_;
   std::uint32_t primitives_ = 0;
   geometry::Bounds bounds_;
-  bool bounded_ = false;           // bounds_ holds something
-  std::unique_ptr<BoxTree> tree_;  // null for a handful of candidates
+  bool bounded_ = false;  // bounds_ holds something
 };
 
 }  // namespace gsv::sensing

@@ -1,5 +1,6 @@
 #include "gsv/sensing/sonar.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,11 +45,14 @@ class Sonar final : public Sensor {
     const geometry::Pose world_from_sonar = sampling.WorldFromSensor(description());
     const Ray beam{world_from_sonar.position, world_from_sonar.orientation * Vector3{1, 0, 0},
                    settings_.max};
-    const std::optional<Hit> echo = sampling.Rays()->Cast(beam, sampling.body());
-    Reading reading = sampling.Stamped();
-    reading.values = {echo && echo->distance >= settings_.min ? echo->distance : settings_.max};
+    const double echo = sampling.Range(beam);  // infinite: none
+    base::Result<Reading> reading = sampling.Stamped();
+    reading->values.push_back(echo >= settings_.min ? std::min(echo, settings_.max)
+                                                    : settings_.max);
     return reading;
   }
+
+  bool CastsRays() const override { return true; }
 
  private:
   SonarSettings settings_;

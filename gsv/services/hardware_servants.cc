@@ -88,7 +88,7 @@ class PositioningServant final : public SensorServant<POA_sba::PositioningSystem
  public:
   using SensorServant::SensorServant;
   sba::Placement locate() override {
-    const std::vector<double> values = Read().values;
+    const auto values = Read().values;
     return {values.at(0), values.at(1), values.at(2), values.at(3), values.at(4), values.at(5)};
   }
 };

@@ -33,15 +33,25 @@ Pose Displacement(const model::Joint& joint, double position) {
   return joint.model_from_joint * motion * Inverse(joint.model_from_joint);
 }
 
-Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions,
-                      const std::vector<int>& parent_joint, int link) {
+// The joint that one link hangs from, or -1.
+int ParentJoint(const model::Model& model, int link) {
+  for (std::size_t j = model.joints.size(); j-- > 0;) {
+    if (model.joints[j].child == link) return static_cast<int>(j);
+  }
+  return -1;
+}
+
+// `parent_joint` tells the joint that a link hangs from, or -1.
+template <class Parent>
+Pose LinkDisplacement(const model::Model& model, std::span<const double> joint_positions, int link,
+                      const Parent& parent_joint) {
   Pose displacement;
   // From the link up to the root; a forest has at most links.size() levels.
-  for (std::size_t level = 0; link >= 0 && parent_joint[link] >= 0; ++level) {
-    GSV_CHECK(level < model.links.size());
-    const model::Joint& joint = model.joints[parent_joint[link]];
-    displacement = Displacement(joint, joint_positions[parent_joint[link]]) * displacement;
-    link = joint.parent;
+  std::size_t level = 0;
+  for (int j = parent_joint(link); j >= 0; j = link >= 0 ? parent_joint(link) : -1) {
+    GSV_CHECK(level++ < model.links.size());
+    displacement = Displacement(model.joints[j], joint_positions[j]) * displacement;
+    link = model.joints[j].parent;
   }
   return displacement;
 }
@@ -59,9 +69,9 @@ std::vector<Pose> LinkPoses(const model::Model& model, std::span<const double> j
   std::vector<Pose> model_from_link;
   model_from_link.reserve(model.links.size());
   for (std::size_t i = 0; i < model.links.size(); ++i) {
-    model_from_link.push_back(
-        LinkDisplacement(model, joint_positions, parent_joint, static_cast<int>(i)) *
-        model.links[i].model_from_link);
+    model_from_link.push_back(LinkDisplacement(model, joint_positions, static_cast<int>(i),
+                                               [&](int link) { return parent_joint[link]; }) *
+                              model.links[i].model_from_link);
   }
   return model_from_link;
 }
@@ -76,7 +86,15 @@ std::vector<Pose> LinkPoses(const Snapshot& snapshot, int body) {
 Pose LinkPose(const Snapshot& snapshot, int body, int link) {
   const model::Model& model = *snapshot.layout->bodies[body].model;
   return snapshot.state.bodies[body].world_from_model *
-         LinkDisplacement(model, JointPositions(snapshot, body), ParentJoints(model), link) *
+         LinkDisplacement(model, JointPositions(snapshot, body), link,
+                          [&](int of) { return ParentJoint(model, of); }) *
+         model.links[link].model_from_link;
+}
+
+Pose ModelFromLink(const Snapshot& snapshot, int body, int link) {
+  const model::Model& model = *snapshot.layout->bodies[body].model;
+  return LinkDisplacement(model, JointPositions(snapshot, body), link,
+                          [&](int of) { return ParentJoint(model, of); }) *
          model.links[link].model_from_link;
 }
 

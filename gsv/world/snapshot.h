@@ -38,6 +38,9 @@ std::vector<geometry::Pose> LinkPoses(const Snapshot& snapshot, int body);
 // world_from_link for one link of one body.
 geometry::Pose LinkPose(const Snapshot& snapshot, int body, int link);
 
+// model_from_link for one link of one body, as LinkPoses() has it.
+geometry::Pose ModelFromLink(const Snapshot& snapshot, int body, int link);
+
 // Indices of the links of a body that move against the model's frame: those below a joint that is
 // not fixed.
 std::vector<int> MovingLinks(const model::Model& model);

@@ -1,0 +1,162 @@
+#include "gsv/sensing/placed_solids.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "gsv/base/check.h"
+#include "gsv/sensing/surroundings.h"
+
+namespace gsv::sensing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using geometry::Pose;
+using geometry::Vector3;
+
+// So many parts are placed in one go by a thread.
+constexpr std::size_t kPartsAtOnce = 512;
+
+// Among surroundings the standing shapes are told from moving parts by this bit of their number.
+constexpr std::uint32_t kStanding = 1u << 31;
+
+bool IsSound(const Ray& ray) {
+  return ray.max_distance >= 0 && IsFinite(ray.origin) && IsFinite(ray.direction);
+}
+
+double DistanceOf(const Nearest& nearest) {
+  return nearest.body < 0 ? kInfinity : nearest.distance;
+}
+
+Ray Moved(const Pose& to_from, const Ray& ray, double length) {
+  return {to_from * ray.origin, to_from.orientation * ray.direction, length};
+}
+
+// Whether the ray comes within the ball.
+bool Passes(const Ray& ray, double length, const Ball& ball) {
+  const Vector3 to_centre = ball.centre - ray.origin;
+  const double along = std::clamp(Dot(to_centre, ray.direction), 0.0, length);
+  const Vector3 gap = to_centre - along * ray.direction;
+  return Dot(gap, gap) <= ball.radius * ball.radius;
+}
+
+}  // namespace
+
+void PlacedSolids::Place(std::size_t index, const world::Snapshot& snapshot) {
+  const auto& [part, body] = solids_->moving[index];
+  Pose world_from_part = snapshot.state.bodies[body].world_from_model;
+  if (part->link >= 0) {
+    world_from_part = world_from_part * world::ModelFromLink(snapshot, body, part->link);
+  }
+  parts_[index] = {Inverse(world_from_part), part};
+  if (index >= solids_->bounded) return;
+  const Vector3 centre = world_from_part * part->ball.centre;
+  const double radius = part->ball.radius;
+  const Vector3 reach{radius, radius, radius};
+  balls_[index] = {{centre, radius}, body};
+  boxes_[index] = {centre - reach, centre + reach};
+}
+
+void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
+                          const world::Snapshot& snapshot, base::ThreadTeam* team) {
+  solids_ = std::move(solids);
+  parts_.resize(solids_->moving.size());
+  balls_.resize(solids_->bounded);
+  boxes_.resize(solids_->bounded);
+  const auto place = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) Place(i, snapshot);
+  };
+  if (team != nullptr) {
+    team->Share(parts_.size(), kPartsAtOnce, place);
+  } else {
+    place(0, parts_.size());
+  }
+  index_.Build(boxes_, /*often=*/true);
+}
+
+void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const {
+  const auto& [part_from_world, part] = parts_[index];
+  // Parts of one body are numbered above their primitives.
+  part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest,
+                    {solids_->moving[index].body, static_cast<int>(index),
+                     static_cast<std::uint32_t>(part->number) << 24});
+}
+
+// Last, since triangles are many and what was hit before shortens the ray.
+void PlacedSolids::CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const {
+  for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
+    if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
+  }
+  solids_->standing.CastAtOthers(ray, ignored_body, nearest);
+}
+
+Nearest PlacedSolids::Find(const Ray& ray, int ignored_body) const {
+  Nearest nearest;
+  nearest.distance = ray.max_distance;
+  if (!IsSound(ray)) return nearest;
+  solids_->standing.CastAtShapes(ray, ignored_body, nearest);
+  index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
+    const auto& [ball, body] = balls_[i];
+    if (body != ignored_body && Passes(ray, nearest.distance, ball)) CastAtPart(i, ray, nearest);
+  });
+  CastAtRest(ray, ignored_body, nearest);
+  return nearest;
+}
+
+Vector3 PlacedSolids::NormalAt(const Nearest& nearest, const Ray& ray) const {
+  if (nearest.part < 0) return solids_->standing.NormalAt(nearest.solid, ray);
+  const auto& [part_from_world, part] = parts_[nearest.part];
+  return Inverse(part_from_world.orientation) *
+         part->solids.NormalAt(nearest.solid, Moved(part_from_world, ray, ray.max_distance));
+}
+
+std::optional<Hit> PlacedSolids::Cast(const Ray& ray, int ignored_body) const {
+  const Nearest nearest = Find(ray, ignored_body);
+  if (nearest.body < 0) return {};
+  return Hit{nearest.distance, NormalAt(nearest, ray), nearest.body};
+}
+
+void PlacedSolids::Cast(std::span<const Ray> rays, int ignored_body,
+                        std::span<std::optional<Hit>> hits) const {
+  GSV_CHECK(rays.size() == hits.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = Cast(rays[i], ignored_body);
+}
+
+double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
+  return DistanceOf(Find(ray, ignored_body));
+}
+
+bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
+                          Surroundings& surroundings) const {
+  if (!IsFinite(place) || !(reach >= 0)) return false;
+  surroundings.Begin(place, reach);
+  FoundBoxes found;
+  if (!index_.Near(place, reach, found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const auto& [ball, body] = balls_[found.boxes[i]];
+    const Vector3 gap = ball.centre - place;
+    const double furthest = reach + ball.radius;
+    surroundings.Add(ball, found.boxes[i],
+                     (body != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
+  }
+  return solids_->standing.Gather(surroundings, kStanding) && surroundings.Finish();
+}
+
+double PlacedSolids::Range(const Ray& ray, int ignored_body,
+                           const Surroundings& surroundings) const {
+  Nearest nearest;
+  nearest.distance = ray.max_distance;
+  if (!IsSound(ray)) return kInfinity;
+  surroundings.Find(ray, nearest.distance, [&](std::uint32_t i) {
+    if ((i & kStanding) != 0) {
+      solids_->standing.CastAtShape(i & ~kStanding, ray, ignored_body, nearest);
+    } else {
+      CastAtPart(i, ray, nearest);
+    }
+  });
+  CastAtRest(ray, ignored_body, nearest);
+  return DistanceOf(nearest);
+}
+
+}  // namespace gsv::sensing

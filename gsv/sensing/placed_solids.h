@@ -1,0 +1,55 @@
+// The ray scene of one snapshot: the standing solids and the moving ones at their places.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/sensing/box_index.h"
+#include "gsv/sensing/layout_solids.h"
+
+namespace gsv::sensing {
+
+class PlacedSolids final : public RayScene {
+ public:
+  // Takes the places of `snapshot`, which has the layout of `solids`. Memory is kept for the next
+  // time. Not while rays are cast.
+  void MoveTo(std::shared_ptr<const LayoutSolids> solids, const world::Snapshot& snapshot,
+              base::ThreadTeam* team);
+
+  std::optional<Hit> Cast(const Ray& ray, int ignored_body) const override;
+  void Cast(std::span<const Ray> rays, int ignored_body,
+            std::span<std::optional<Hit>> hits) const override;
+  double Range(const Ray& ray, int ignored_body) const override;
+  bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
+              Surroundings& surroundings) const override;
+  double Range(const Ray& ray, int ignored_body, const Surroundings& surroundings) const override;
+
+ private:
+  struct PlacedPart {
+    geometry::Pose part_from_world;
+    const Part* part;
+  };
+  struct PlacedBall {
+    Ball ball;
+    int body;
+  };
+
+  void Place(std::size_t index, const world::Snapshot& snapshot);
+  Nearest Find(const Ray& ray, int ignored_body) const;
+  geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
+  void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
+  void CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const;
+
+  std::shared_ptr<const LayoutSolids> solids_;
+  // As LayoutSolids::moving; the latter two of bounded parts only.
+  std::vector<PlacedPart> parts_;
+  std::vector<PlacedBall> balls_;
+  std::vector<geometry::Bounds> boxes_;
+  BoxIndex index_;  // of boxes_
+};
+
+}  // namespace gsv::sensing

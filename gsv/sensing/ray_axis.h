@@ -1,0 +1,31 @@
+// One coordinate of a ray, to clip it between two planes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace gsv::sensing {
+
+struct RayAxis {
+  double origin, direction;
+  double inverse;  // of the direction; kept finite, so that no product with zero is undefined
+  bool is_falling;
+
+  RayAxis(double o, double d)
+      : origin(o),
+        direction(d),
+        inverse(std::abs(d) > 1e-100 ? 1 / d : std::copysign(1e100, d)),
+        is_falling(std::signbit(d)) {}
+
+  double At(double distance) const { return origin + distance * direction; }
+  // The distance at which the coordinate is reached: huge, of either sign, if it hardly changes.
+  double Reaches(double coordinate) const { return (coordinate - origin) * inverse; }
+  // Narrows [begin, end], distances along the ray, to what lies between two coordinates.
+  void Clip(double low, double high, double& begin, double& end) const {
+    const double to_low = Reaches(low), to_high = Reaches(high);
+    begin = std::max(begin, std::min(to_low, to_high));
+    end = std::min(end, std::max(to_low, to_high));
+  }
+};
+
+}  // namespace gsv::sensing

@@ -1,0 +1,34 @@
+#include "gsv/sensing/sensor.h"
+
+namespace gsv::sensing {
+namespace {
+
+// For fewer rays it does not pay to gather what is around.
+constexpr std::size_t kFewRays = 3;
+
+// Sensors of a robot stand about so far apart.
+constexpr double kSpread = 0.1;  // m
+
+}  // namespace
+
+void Sampling::MoveTo(int body) {
+  body_ = body;
+  expected_rays_ = 0;
+  has_gathered_ = false;
+  link_ = -1;
+}
+
+double Sampling::Range(const Ray& ray) const {
+  const RayScene& scene = Rays();
+  if (has_gathered_ && surroundings_->Hold(ray)) return scene.Range(ray, body_, *surroundings_);
+  if (expected_rays_ < kFewRays) return scene.Range(ray, body_);
+  if (surroundings_ == nullptr) surroundings_ = std::make_unique<Surroundings>();
+  const geometry::Vector3& place = snapshot_->state.bodies[body_].world_from_model.position;
+  const double reach = Norm(ray.origin - place) + ray.max_distance + kSpread;
+  has_gathered_ = scene.Gather(place, reach, body_, *surroundings_);
+  // Where that did not work it is not tried again for each ray.
+  if (!has_gathered_) expected_rays_ = 0;
+  return has_gathered_ ? scene.Range(ray, body_, *surroundings_) : scene.Range(ray, body_);
+}
+
+}  // namespace gsv::sensing
