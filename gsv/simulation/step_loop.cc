@@ -98,7 +98,8 @@ void SteppingSimulation::TakeStep() {
 }
 
 std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
-  std::vector<world::Contact> contacts = engine_->Step(step_, state_);
+  std::vector<world::Contact> contacts;
+  engine_->Step(step_, state_, contacts);
   ++state_.step;
   state_.time = state_.step * step_;
   auto snapshot = std::make_shared<world::Snapshot>();
