@@ -22,14 +22,19 @@ class Engine {
 
   // Takes `state`, which fits the layout, from its time t to t + step: drives follow their
   // commands within their limits, bodies do not enter each other, joints of wheels turn.
-  // state.step and state.time are the caller's. Returns the contacts at t + step, in the order of
-  // (first, second), with `began` set by comparing with BodyState::in_contact and the contacts of
-  // the step before.
-  virtual std::vector<world::Contact> Step(base::SimTime step, world::State& state) = 0;
+  // state.step and state.time are the caller's. `contacts` becomes those at t + step, in the order
+  // of (first, second), with `began` set by comparing with BodyState::in_contact and the contacts
+  // of the step before; given the same vector again, it keeps its memory.
+  virtual void Step(base::SimTime step, world::State& state,
+                    std::vector<world::Contact>& contacts) = 0;
 
   // Pairs of bodies, at least one of them a robot, that overlap in `state` (by more than
   // `tolerance` metres): two robots at one place, a robot inside a wall.
   virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
+
+  // Those of them that one body has part in: much cheaper than all.
+  virtual std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
+                                                 double tolerance) = 0;
 };
 
 }  // namespace gsv::dynamics

@@ -19,6 +19,12 @@ struct PlanarPosition {
   double cosine = 1, sine = 0;
 };
 
+// Where a point given in the base's frame is.
+inline geometry::Vector2 PointAt(geometry::Vector2 point, const PlanarPosition& at) {
+  return {at.x + (at.cosine * point.x - at.sine * point.y),
+          at.y + (at.sine * point.x + at.cosine * point.y)};
+}
+
 // Of a point of the base, in the base's frame.
 struct Twist {
   double x = 0, y = 0;  // m/s forward, to the left

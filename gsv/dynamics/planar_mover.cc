@@ -4,14 +4,20 @@
 #include <cmath>
 
 #include "gsv/base/check.h"
+#include "gsv/dynamics/near_obstacles.h"
+#include "gsv/dynamics/near_pairs.h"
 #include "gsv/dynamics/obstacles.h"
 #include "gsv/dynamics/planar_scene.h"
-#include "gsv/dynamics/planar_solver.h"
 
 namespace gsv::dynamics {
 namespace {
 
 using geometry::Quaternion;
+
+// Movers are taken in chunks, each with lists of its own, so that no outcome depends on threads.
+constexpr std::size_t kChunk = 128;
+// So many chunks pay for another thread.
+constexpr std::size_t kChunksAtOnce = 2;
 
 // Where a body stands and how it heads, without a detour through angles.
 PlanarPosition PositionOf(const geometry::Pose& pose) {
@@ -24,221 +30,375 @@ PlanarPosition PositionOf(const geometry::Pose& pose) {
 
 double SpeedOf(const Twist& twist) { return std::sqrt(twist.x * twist.x + twist.y * twist.y); }
 
+bool Moves(const Twist& twist) { return twist.x != 0 || twist.y != 0 || twist.angular != 0; }
+
+// What a mover has covered in a step.
+struct Journey {
+  Travel travel;
+  double distance = 0;  // of the model's origin
+};
+
 // A step has up to three legs: the commanded arc; for what ran into something, a slide along it;
 // then a turn on the spot.
 class PlanarMover final : public Engine {
  public:
-  PlanarMover() : solver_(scene_) {}
+  explicit PlanarMover(std::shared_ptr<base::ThreadTeam> team)
+      : team_(std::move(team)), obstacles_(scene_), pairs_(scene_) {}
 
-  base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {
-    return scene_.SetLayout(std::move(layout));
-  }
-  std::vector<world::Contact> Step(base::SimTime step, world::State& state) override;
+  base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override;
+  void Step(base::SimTime step, world::State& state,
+            std::vector<world::Contact>& contacts) override;
   std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override;
+  std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
+                                         double tolerance) override;
 
  private:
+  struct Stopped {
+    std::uint32_t mover;
+    double remaining;  // s of this step
+    Journey journey;
+  };
+  struct alignas(64) Chunk {  // of its own cache line, since threads write next to each other
+    bool is_as_sliced, has_room;
+    std::vector<std::uint32_t> in_contact;  // before the step
+    std::vector<Stopped> stopped;
+  };
+
   std::size_t count() const { return scene_.movers().size(); }
-  void Load(const world::State& state);
-  void FollowCommands(const world::State& state, double seconds);
-  void RunArcs(double seconds);
+  const DriveKinematics& kinematics(std::size_t mover) const {
+    return scene_.kind(scene_.movers()[mover]).kinematics;
+  }
+  template <typename Work>
+  void ForEachChunk(const Work& work);
+
+  void Slice(const world::State& state);
+  void Begin(const world::State& state, double seconds);
+  void BeginChunk(std::size_t index, const world::State& state, double seconds);
+  void EndChunk(std::size_t index, double seconds, world::State& state);
+  void FollowCommand(std::uint32_t m, const world::State& state, double seconds);
+  void ListTouching();
+  void SetLeg(std::uint32_t m, const Twist& twist, double seconds);
+  void RunLeg(std::uint32_t m, Journey& journey);
+  void RunStopped();
   void SlideAlong(double seconds);
   void TurnOnTheSpot();
-  void RunLeg();
-  void TurnJoints(double seconds, world::State& state) const;
-  void Store(world::State& state) const;
+  void Store(std::uint32_t m, const Journey& journey, double seconds, world::State& state) const;
+  void CollectContacts(double gap, std::vector<world::Contact>& contacts);
   void CountContacts(std::vector<world::Contact>& contacts, world::State& state) const;
+  bool FindNeighbours(std::uint32_t mover, const world::State& state);
 
+  const std::shared_ptr<base::ThreadTeam> team_;
   PlanarScene scene_;
-  PlanarSolver solver_;
+  NearObstacles obstacles_;
+  NearPairs pairs_;
+  std::vector<Chunk> chunks_;
+  std::vector<BodyPair> touching_;         // at the step's start, ascending
+  std::vector<Stopped> stopped_;           // in this step, ascending
+  std::vector<std::uint32_t> neighbours_;  // for OverlapsOf()
 
   // One entry for each of the scene's movers.
   std::vector<PlanarPosition> positions_;
   std::vector<world::DriveCommand> motions_;  // of the drive: while it moves, and then at the end
-  std::vector<Travel> travels_;               // so far in this step
-  std::vector<double> distances_;             // of the model's origin, so far in this step
-  std::vector<double> remaining_;             // s of this step that a stopped base has left
   std::vector<Twist> twists_;                 // in this leg
   std::vector<double> times_;                 // in this leg
-  std::vector<double> reaches_;
-  std::vector<Vector2> normals_;
-  std::vector<std::uint32_t> stopped_;  // movers that ran into something
+  std::vector<double> reaches_;               // how far any part may get in this step
+  std::vector<Vector2> normals_;              // of those stopped: to what is in the way
 };
 
-void PlanarMover::Load(const world::State& state) {
-  scene_.Prepare(state);
+base::Status PlanarMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
+  if (auto ok = scene_.SetLayout(std::move(layout)); !ok) return ok;
+  chunks_.resize((count() + kChunk - 1) / kChunk);
   positions_.resize(count());
-  for (std::size_t m = 0; m < count(); ++m) {
-    positions_[m] = PositionOf(state.bodies[scene_.movers()[m].body].world_from_model);
-  }
-}
-
-void PlanarMover::FollowCommands(const world::State& state, double seconds) {
   motions_.resize(count());
   twists_.resize(count());
+  times_.resize(count());
   reaches_.resize(count());
-  for (std::size_t m = 0; m < count(); ++m) {
-    const Mover& mover = scene_.movers()[m];
-    motions_[m] = mover.kinematics->Next(state.bodies[mover.body].drive, state.time, seconds);
-    twists_[m] = mover.kinematics->OriginTwist(motions_[m]);
-    reaches_[m] =
-        (SpeedOf(twists_[m]) + std::abs(twists_[m].angular) * mover.spin_radius) * seconds;
-  }
-}
-
-void PlanarMover::RunLeg() {
-  solver_.Run(positions_, twists_, times_, normals_);
-  for (std::size_t m = 0; m < count(); ++m) {
-    if (times_[m] <= 0) continue;
-    positions_[m] = Advance(positions_[m], twists_[m], times_[m]);
-    distances_[m] += SpeedOf(twists_[m]) * times_[m];
-    const double reference_x = scene_.movers()[m].kinematics->reference_x();
-    travels_[m].forward += twists_[m].x * times_[m];
-    travels_[m].left += (twists_[m].y + twists_[m].angular * reference_x) * times_[m];
-    travels_[m].angle += twists_[m].angular * times_[m];
-  }
-}
-
-void PlanarMover::RunArcs(double seconds) {
-  travels_.assign(count(), Travel{});
-  distances_.assign(count(), 0.0);
-  remaining_.assign(count(), 0.0);
-  times_.assign(count(), seconds);
   normals_.resize(count());
-  stopped_.clear();
-  RunLeg();
-  for (std::size_t m = 0; m < count(); ++m) {
-    if (times_[m] >= seconds || twists_[m] == Twist{}) continue;
-    remaining_[m] = seconds - times_[m];
-    stopped_.push_back(static_cast<std::uint32_t>(m));
+  return {};
+}
+
+template <typename Work>
+void PlanarMover::ForEachChunk(const Work& work) {
+  const auto some = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i);
+  };
+  if (team_ == nullptr) return some(0, chunks_.size());
+  team_->Share(chunks_.size(), kChunksAtOnce, some);
+}
+
+void PlanarMover::Slice(const world::State& state) {
+  scene_.Slice(state);
+  obstacles_.Reset(chunks_.size());
+  pairs_.Reset();
+}
+
+// For a step of 0 s everybody stays.
+void PlanarMover::Begin(const world::State& state, double seconds) {
+  if (!scene_.StandsAsSliced(state)) Slice(state);
+  const auto all = [&](bool Chunk::*is) {
+    return std::all_of(chunks_.begin(), chunks_.end(), [&](const Chunk& c) { return c.*is; });
+  };
+  const auto begin_chunk = [&](std::size_t i) { BeginChunk(i, state, seconds); };
+  ForEachChunk(begin_chunk);
+  if (!all(&Chunk::is_as_sliced)) {
+    Slice(state);
+    ForEachChunk(begin_chunk);
   }
+  if (!all(&Chunk::has_room)) pairs_.FindCandidates(positions_, reaches_);
+  pairs_.Find(positions_, reaches_);
+  ListTouching();
+}
+
+void PlanarMover::BeginChunk(std::size_t index, const world::State& state, double seconds) {
+  Chunk& chunk = chunks_[index];
+  chunk.is_as_sliced = chunk.has_room = true;
+  chunk.in_contact.clear();
+  chunk.stopped.clear();
+  obstacles_.Clear(index);
+  const std::size_t end = std::min(count(), (index + 1) * kChunk);
+  for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
+    const world::BodyState& body = state.bodies[scene_.movers()[m].body];
+    positions_[m] = PositionOf(body.world_from_model);
+    FollowCommand(m, state, seconds);
+    if (body.in_contact) chunk.in_contact.push_back(m);
+    if (!scene_.IsAsSliced(m, body.world_from_model.position.z)) chunk.is_as_sliced = false;
+    if (!pairs_.HasRoom(m, positions_[m], reaches_[m])) chunk.has_room = false;
+    obstacles_.Find(index, m, positions_[m], reaches_[m]);
+  }
+  obstacles_.Stop(index, positions_, twists_, times_, normals_);
+}
+
+void PlanarMover::FollowCommand(std::uint32_t m, const world::State& state, double seconds) {
+  const Mover& mover = scene_.movers()[m];
+  const MoverKind& kind = scene_.kind(mover);
+  motions_[m] = seconds > 0
+                    ? kind.kinematics.Next(state.bodies[mover.body].drive, state.time, seconds)
+                    : world::DriveCommand{};
+  SetLeg(m, kind.kinematics.OriginTwist(motions_[m]), seconds);
+  reaches_[m] = (SpeedOf(twists_[m]) + std::abs(twists_[m].angular) * kind.spin_radius) * seconds;
+}
+
+void PlanarMover::ListTouching() {
+  touching_.clear();
+  obstacles_.AddTouching(touching_);
+  pairs_.AddTouching(touching_);
+  std::sort(touching_.begin(), touching_.end());
+}
+
+void PlanarMover::SetLeg(std::uint32_t m, const Twist& twist, double seconds) {
+  twists_[m] = twist;
+  times_[m] = Moves(twist) ? seconds : 0;
+}
+
+void PlanarMover::RunLeg(std::uint32_t m, Journey& journey) {
+  const double time = times_[m];
+  if (time <= 0) return;
+  const Twist& twist = twists_[m];
+  positions_[m] = Advance(positions_[m], twist, time);
+  journey.distance += SpeedOf(twist) * time;
+  journey.travel.forward += twist.x * time;
+  journey.travel.left += (twist.y + twist.angular * kinematics(m).reference_x()) * time;
+  journey.travel.angle += twist.angular * time;
+}
+
+void PlanarMover::EndChunk(std::size_t index, double seconds, world::State& state) {
+  const std::size_t end = std::min(count(), (index + 1) * kChunk);
+  for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
+    Journey journey;
+    RunLeg(m, journey);
+    if (times_[m] < seconds && Moves(twists_[m])) {
+      chunks_[index].stopped.push_back({m, seconds - times_[m], journey});
+    } else {
+      Store(m, journey, seconds, state);
+    }
+    SetLeg(m, Twist{}, 0);
+  }
+}
+
+void PlanarMover::RunStopped() {
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    obstacles_.Stop(i, positions_, twists_, times_, normals_);
+  }
+  pairs_.Stop(positions_, twists_, times_, normals_);
+  for (Stopped& stopped : stopped_) RunLeg(stopped.mover, stopped.journey);
 }
 
 void PlanarMover::SlideAlong(double seconds) {
-  twists_.assign(count(), Twist{});
-  times_.assign(count(), 0.0);
   bool any = false;
-  for (const std::uint32_t m : stopped_) {
+  for (const Stopped& stopped : stopped_) {
+    const std::uint32_t m = stopped.mover;
     world::DriveCommand& motion = motions_[m];
     const Vector2 into = {
         positions_[m].cosine * normals_[m].x + positions_[m].sine * normals_[m].y,
         positions_[m].cosine * normals_[m].y - positions_[m].sine * normals_[m].x};
     const double blocked = std::max(0.0, into.x * motion.linear + into.y * motion.lateral);
-    const bool slides = scene_.movers()[m].kinematics->can_move_sideways();
+    const bool slides = kinematics(m).can_move_sideways();
     motion.linear = slides ? motion.linear - blocked * into.x : 0;
     motion.lateral = slides ? motion.lateral - blocked * into.y : 0;
     if (!slides || std::hypot(motion.linear, motion.lateral) * seconds < kStopGap) {
       motion.linear = motion.lateral = 0;
       continue;
     }
-    twists_[m] = {motion.linear, motion.lateral, 0};
-    times_[m] = remaining_[m];
+    SetLeg(m, {motion.linear, motion.lateral, 0}, stopped.remaining);
     any = true;
   }
   if (!any) return;
-  RunLeg();
-  for (const std::uint32_t m : stopped_) {
-    if (times_[m] < remaining_[m]) motions_[m].linear = motions_[m].lateral = 0;
+  RunStopped();
+  for (const Stopped& stopped : stopped_) {
+    if (times_[stopped.mover] >= stopped.remaining) continue;
+    motions_[stopped.mover].linear = motions_[stopped.mover].lateral = 0;
   }
 }
 
 void PlanarMover::TurnOnTheSpot() {
-  twists_.assign(count(), Twist{});
-  times_.assign(count(), 0.0);
-  for (const std::uint32_t m : stopped_) {
-    const DriveKinematics& kinematics = *scene_.movers()[m].kinematics;
-    if (!kinematics.can_turn_on_the_spot()) motions_[m].angular = 0;
-    twists_[m] = kinematics.OriginTwist({0, 0, motions_[m].angular});
-    times_[m] = remaining_[m];
+  for (const Stopped& stopped : stopped_) {
+    const std::uint32_t m = stopped.mover;
+    if (!kinematics(m).can_turn_on_the_spot()) motions_[m].angular = 0;
+    SetLeg(m, kinematics(m).OriginTwist({0, 0, motions_[m].angular}), stopped.remaining);
   }
-  RunLeg();
-  for (const std::uint32_t m : stopped_) {
-    world::DriveCommand& motion = motions_[m];
+  RunStopped();
+  for (const Stopped& stopped : stopped_) {
+    world::DriveCommand& motion = motions_[stopped.mover];
+    const double time = times_[stopped.mover];
     // A slide goes on in its direction in the world, which the base has turned against.
-    const double angle = motion.angular * times_[m];
+    const double angle = motion.angular * time;
     motion = {motion.linear * std::cos(angle) + motion.lateral * std::sin(angle),
               motion.lateral * std::cos(angle) - motion.linear * std::sin(angle), motion.angular};
-    if (times_[m] < remaining_[m]) motion.angular = 0;
+    if (time < stopped.remaining) motion.angular = 0;
   }
 }
 
-void PlanarMover::TurnJoints(double seconds, world::State& state) const {
-  for (std::size_t m = 0; m < count(); ++m) {
-    const Mover& mover = scene_.movers()[m];
-    const world::Body& body = scene_.layout().bodies[mover.body];
-    const std::size_t joints = body.model->joints.size();
-    mover.kinematics->TurnJoints(
-        travels_[m], motions_[m], seconds,
-        std::span(state.joint_positions).subspan(body.first_joint, joints),
-        std::span(state.joint_velocities).subspan(body.first_joint, joints));
+void PlanarMover::Store(std::uint32_t m, const Journey& journey, double seconds,
+                        world::State& state) const {
+  const Mover& mover = scene_.movers()[m];
+  world::BodyState& body = state.bodies[mover.body];
+  const PlanarPosition& at = positions_[m];
+  body.world_from_model.position.x = at.x;
+  body.world_from_model.position.y = at.y;
+  if (journey.travel.angle != 0) {
+    body.world_from_model.orientation =
+        Normalized(geometry::FromAxisAngle({0, 0, 1}, journey.travel.angle) *
+                   body.world_from_model.orientation);
   }
+  const Twist twist = kinematics(m).OriginTwist(motions_[m]);
+  body.linear_velocity = {at.cosine * twist.x - at.sine * twist.y,
+                          at.sine * twist.x + at.cosine * twist.y, 0};
+  body.angular_velocity = {0, 0, twist.angular};
+  body.drive.actual = motions_[m];
+  body.distance += journey.distance;
+  kinematics(m).TurnJoints(
+      journey.travel, motions_[m], seconds,
+      std::span(state.joint_positions).subspan(mover.first_joint, mover.joint_count),
+      std::span(state.joint_velocities).subspan(mover.first_joint, mover.joint_count));
 }
 
-void PlanarMover::Store(world::State& state) const {
-  for (std::size_t m = 0; m < count(); ++m) {
-    world::BodyState& body = state.bodies[scene_.movers()[m].body];
-    const PlanarPosition& at = positions_[m];
-    body.world_from_model.position.x = at.x;
-    body.world_from_model.position.y = at.y;
-    if (travels_[m].angle != 0) {
-      body.world_from_model.orientation =
-          Normalized(geometry::FromAxisAngle({0, 0, 1}, travels_[m].angle) *
-                     body.world_from_model.orientation);
-    }
-    const Twist twist = scene_.movers()[m].kinematics->OriginTwist(motions_[m]);
-    body.linear_velocity = {at.cosine * twist.x - at.sine * twist.y,
-                            at.sine * twist.x + at.cosine * twist.y, 0};
-    body.angular_velocity = {0, 0, twist.angular};
-    body.drive.actual = motions_[m];
-    body.distance += distances_[m];
-  }
+void PlanarMover::CollectContacts(double gap, std::vector<world::Contact>& contacts) {
+  ContactCollector collector(contacts, gap);
+  obstacles_.Collect(positions_, collector);
+  pairs_.Collect(positions_, collector);
+  collector.Finish(touching_);
 }
 
 void PlanarMover::CountContacts(std::vector<world::Contact>& contacts, world::State& state) const {
-  std::vector<int> touching;
-  const auto count_for = [&](int body, bool began) {
-    if (!IsDriven(scene_.layout().bodies[body])) return;
-    if (began) ++state.bodies[body].collisions;
-    touching.push_back(body);
-  };
   for (world::Contact& contact : contacts) {
+    world::BodyState& first = state.bodies[contact.first];
+    world::BodyState& second = state.bodies[contact.second];
+    const bool both_driven = IsDriven(scene_.layout().bodies[contact.second]);
     // Where the caller says that a base touched nothing, the contact begins.
-    contact.began = contact.began || !state.bodies[contact.first].in_contact ||
-                    (IsDriven(scene_.layout().bodies[contact.second]) &&
-                     !state.bodies[contact.second].in_contact);
-    count_for(contact.first, contact.began);
-    count_for(contact.second, contact.began);
+    contact.began = contact.began || !first.in_contact || (both_driven && !second.in_contact);
+    if (!contact.began) continue;
+    ++first.collisions;
+    if (both_driven) ++second.collisions;
   }
-  for (const Mover& mover : scene_.movers()) state.bodies[mover.body].in_contact = false;
-  for (const int body : touching) state.bodies[body].in_contact = true;
+  for (const Chunk& chunk : chunks_) {
+    for (const std::uint32_t m : chunk.in_contact) {
+      state.bodies[scene_.movers()[m].body].in_contact = false;
+    }
+  }
+  for (const world::Contact& contact : contacts) {
+    state.bodies[contact.first].in_contact = true;
+    if (IsDriven(scene_.layout().bodies[contact.second])) {
+      state.bodies[contact.second].in_contact = true;
+    }
+  }
 }
 
-std::vector<world::Contact> PlanarMover::Step(base::SimTime step, world::State& state) {
+void PlanarMover::Step(base::SimTime step, world::State& state,
+                       std::vector<world::Contact>& contacts) {
   GSV_CHECK(step > base::SimTime(0));
   const double seconds = base::ToSeconds(step);
-  Load(state);
-  FollowCommands(state, seconds);
-  solver_.Begin(positions_, reaches_);
-  RunArcs(seconds);
+  Begin(state, seconds);
+  pairs_.Stop(positions_, twists_, times_, normals_);
+  ForEachChunk([&](std::size_t i) { EndChunk(i, seconds, state); });
+  stopped_.clear();
+  for (const Chunk& chunk : chunks_) {
+    stopped_.insert(stopped_.end(), chunk.stopped.begin(), chunk.stopped.end());
+  }
   if (!stopped_.empty()) {
     SlideAlong(seconds);
     TurnOnTheSpot();
+    for (const Stopped& stopped : stopped_) Store(stopped.mover, stopped.journey, seconds, state);
   }
-  TurnJoints(seconds, state);
-  Store(state);
-  std::vector<world::Contact> contacts = solver_.FindContacts(positions_, kTouchGap);
+  CollectContacts(kTouchGap, contacts);
   CountContacts(contacts, state);
-  return contacts;
 }
 
 std::vector<world::Contact> PlanarMover::Overlaps(const world::State& state, double tolerance) {
-  Load(state);
-  reaches_.assign(count(), 0.0);
-  solver_.Begin(positions_, reaches_);
-  return solver_.FindContacts(positions_, -tolerance);
+  std::vector<world::Contact> contacts;
+  Begin(state, 0);
+  CollectContacts(-tolerance, contacts);
+  return contacts;
+}
+
+// Lists the movers whose discs overlap that of one; false if not all stand as they were sliced.
+bool PlanarMover::FindNeighbours(std::uint32_t mover, const world::State& state) {
+  neighbours_.clear();
+  const auto& movers = scene_.movers();
+  const geometry::Vector3& at = state.bodies[movers[mover].body].world_from_model.position;
+  bool is_as_sliced = true;
+  for (std::uint32_t m = 0; m < movers.size(); ++m) {
+    const geometry::Pose& pose = state.bodies[movers[m].body].world_from_model;
+    is_as_sliced = is_as_sliced && scene_.IsAsSliced(m, pose.position.z);
+    const Vector2 apart{pose.position.x - at.x, pose.position.y - at.y};
+    const double reach =
+        scene_.footprint(m).radius + scene_.footprint(mover).radius + 2 * kTouchGap;
+    if (m == mover || Dot(apart, apart) > reach * reach) continue;
+    positions_[m] = PositionOf(pose);
+    neighbours_.push_back(m);
+  }
+  return is_as_sliced;
+}
+
+std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, int body,
+                                                    double tolerance) {
+  const auto& movers = scene_.movers();
+  const auto found =
+      std::lower_bound(movers.begin(), movers.end(), body,
+                       [](const Mover& mover, int index) { return mover.body < index; });
+  if (found == movers.end() || found->body != body) {
+    auto contacts = Overlaps(state, tolerance);
+    std::erase_if(contacts, [&](const world::Contact& c) { return c.second != body; });
+    return contacts;
+  }
+  const auto mover = static_cast<std::uint32_t>(found - movers.begin());
+  if (!scene_.StandsAsSliced(state) || !FindNeighbours(mover, state)) {
+    Slice(state);
+    FindNeighbours(mover, state);
+  }
+  for (std::size_t i = 0; i < chunks_.size(); ++i) obstacles_.Clear(i);
+  positions_[mover] = PositionOf(state.bodies[body].world_from_model);
+  obstacles_.Find(mover / kChunk, mover, positions_[mover], 0);
+  pairs_.FindOf(mover, neighbours_, positions_);
+  ListTouching();
+  std::vector<world::Contact> contacts;
+  CollectContacts(-tolerance, contacts);
+  return contacts;
 }
 
 }  // namespace
 
-std::unique_ptr<Engine> MakePlanarMover() { return std::make_unique<PlanarMover>(); }
+std::unique_ptr<Engine> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team) {
+  return std::make_unique<PlanarMover>(std::move(team));
+}
 
 }  // namespace gsv::dynamics

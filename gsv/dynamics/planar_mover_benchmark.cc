@@ -8,6 +8,7 @@
 #include "gsv/base/check.h"
 #include "gsv/base/random.h"
 #include "gsv/dynamics/planar_mover.h"
+#include "gsv/dynamics/test_crowd.h"
 #include "gsv/dynamics/test_world.h"
 
 namespace gsv::dynamics {
@@ -68,6 +69,26 @@ void Step(benchmark::State& bench) {
   bench.counters["contacts"] = static_cast<double>(contacts) / static_cast<double>(steps);
 }
 BENCHMARK(Step)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+
+// The crowd of test_crowd.h, its commands included.
+void Run(benchmark::State& bench, std::shared_ptr<const model::Model> robot) {
+  testing::Crowd crowd(static_cast<int>(bench.range(0)), std::move(robot), MakePlanarMover());
+  GSV_CHECK(crowd.Start());
+  for (int i = 0; i < 500; ++i) crowd.Step();
+  double in_contact = 0;
+  std::size_t steps = 0;
+  for (auto _ : bench) {
+    crowd.Step();
+    if (++steps % 64 == 0) in_contact += 64 * crowd.InContact();
+  }
+  bench.counters["in_contact"] = in_contact / static_cast<double>(steps);
+}
+
+void CrowdOfDiscs(benchmark::State& bench) { Run(bench, testing::DiscRobot(0.175)); }
+BENCHMARK(CrowdOfDiscs)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+
+void CrowdOfBoxes(benchmark::State& bench) { Run(bench, testing::BoxRobot(0.3, 0.2)); }
+BENCHMARK(CrowdOfBoxes)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace gsv::dynamics

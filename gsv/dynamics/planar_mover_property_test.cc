@@ -312,7 +312,8 @@ TEST(PlanarMoverProperty, KeepsNothingThatChangesTheOutcome) {
     world::State copy = world.state();
     const auto fresh = MakePlanarMover();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(world.layout())));
-    const auto expected = fresh->Step(base::FromSeconds(0.05), copy);
+    std::vector<world::Contact> expected;
+    fresh->Step(base::FromSeconds(0.05), copy, expected);
     const base::SimTime time = world.state().time;
     const auto contacts = world.Step(0.05);
     copy.time = world.state().time;

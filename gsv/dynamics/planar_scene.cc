@@ -14,8 +14,6 @@ using geometry::Quaternion;
 
 // Pieces thinner than this above the climbing height run into nothing.
 constexpr double kThinnest = 1e-9;
-// How far a base is expected to move in a step, for the size of grid cells.
-constexpr double kUsualTravel = 0.05;
 
 // The part of a pose's rotation that is not about the vertical.
 Quaternion TiltOf(const Quaternion& orientation) {
@@ -53,13 +51,25 @@ std::vector<Interval> Distinct(std::vector<Interval> intervals) {
   return intervals;
 }
 
+base::Result<MoverKind> MakeKind(const model::Model& model, const Quaternion& tilt) {
+  auto kinematics = model.drive ? DriveKinematics::Create(model)
+                                : base::Result<DriveKinematics>(DriveKinematics::Free());
+  if (!kinematics) return base::Fail(kinematics.error());
+  MoverKind kind{*std::move(kinematics), MakeFootprint(model, tilt)};
+  kind.climb = ClimbHeight(model, kind.footprint);
+  kind.spin_radius = SpinRadius(kind.footprint, kind.kinematics.reference_x());
+  return kind;
+}
+
 }  // namespace
 
 base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout) {
   GSV_CHECK(layout != nullptr);
+  std::vector<MoverKind> kinds;
   std::vector<Mover> movers;
   std::vector<int> standing;
-  std::map<const model::Model*, Mover> prototypes;  // looked up only, never walked through
+  std::map<const model::Model*, std::uint32_t> known;  // upright ones; never walked through
+  std::uint32_t pieces = 0;
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
     const world::Body& body = layout->bodies[i];
     if (!IsFinite(body.initial_pose)) {
@@ -71,33 +81,32 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
       continue;
     }
     const Quaternion tilt = TiltOf(body.initial_pose.orientation);
-    const auto known = prototypes.find(body.model.get());
-    Mover mover;
-    if (known != prototypes.end() && tilt == Quaternion{}) {
-      mover = known->second;
+    const bool is_upright = tilt == Quaternion{};
+    const auto found = is_upright ? known.find(body.model.get()) : known.end();
+    auto kind = static_cast<std::uint32_t>(kinds.size());
+    if (found != known.end()) {
+      kind = found->second;
     } else {
-      auto kinematics = body.model->drive ? DriveKinematics::Create(*body.model)
-                                          : base::Result<DriveKinematics>(DriveKinematics::Free());
-      if (!kinematics) return base::Fail(kinematics.error());
-      mover.kinematics = std::make_shared<const DriveKinematics>(*std::move(kinematics));
-      mover.footprint = std::make_shared<const Footprint>(MakeFootprint(*body.model, tilt));
-      mover.climb = ClimbHeight(*body.model, *mover.footprint);
-      mover.spin_radius = SpinRadius(*mover.footprint, mover.kinematics->reference_x());
-      if (tilt == Quaternion{}) prototypes.emplace(body.model.get(), mover);
+      auto made = MakeKind(*body.model, tilt);
+      if (!made) return base::Fail(made.error());
+      kinds.push_back(*std::move(made));
+      if (is_upright) known.emplace(body.model.get(), kind);
     }
-    mover.body = static_cast<int>(i);
-    movers.push_back(std::move(mover));
+    movers.push_back({static_cast<int>(i), kind, pieces, body.first_joint,
+                      static_cast<int>(body.model->joints.size())});
+    pieces += static_cast<std::uint32_t>(kinds[kind].footprint.pieces.size());
   }
   layout_ = std::move(layout);
+  kinds_ = std::move(kinds);
   movers_ = std::move(movers);
   standing_ = std::move(standing);
-  sliced_ = false;
+  levels_.assign(pieces, -1);
+  is_sliced_ = false;
   return {};
 }
 
-void PlanarScene::Prepare(const world::State& state) {
+void PlanarScene::Slice(const world::State& state) {
   GSV_CHECK(layout_ != nullptr && state.bodies.size() == layout_->bodies.size());
-  if (IsCurrent(state)) return;
   heights_.clear();
   for (const Mover& mover : movers_) {
     heights_.push_back(state.bodies[mover.body].world_from_model.position.z);
@@ -105,14 +114,12 @@ void PlanarScene::Prepare(const world::State& state) {
   standing_poses_.clear();
   for (const int body : standing_) standing_poses_.push_back(state.bodies[body].world_from_model);
   SliceLevels(AssignLevels(), state);
-  sliced_ = true;
+  is_sliced_ = true;
 }
 
-bool PlanarScene::IsCurrent(const world::State& state) const {
-  if (!sliced_) return false;
-  for (std::size_t m = 0; m < movers_.size(); ++m) {
-    if (state.bodies[movers_[m].body].world_from_model.position.z != heights_[m]) return false;
-  }
+bool PlanarScene::StandsAsSliced(const world::State& state) const {
+  GSV_CHECK(layout_ != nullptr && state.bodies.size() == layout_->bodies.size());
+  if (!is_sliced_) return false;
   for (std::size_t i = 0; i < standing_.size(); ++i) {
     if (state.bodies[standing_[i]].world_from_model != standing_poses_[i]) return false;
   }
@@ -125,14 +132,15 @@ std::vector<Interval> PlanarScene::AssignLevels() {
     Interval heights;
   };
   std::vector<Wanted> wanted;
+  std::fill(levels_.begin(), levels_.end(), -1);
   for (std::size_t m = 0; m < movers_.size(); ++m) {
-    Mover& mover = movers_[m];
-    const Footprint& footprint = *mover.footprint;
-    mover.levels.assign(footprint.pieces.size(), -1);
+    const MoverKind& mover_kind = kind(movers_[m]);
+    const Footprint& footprint = mover_kind.footprint;
     for (std::size_t p = 0; p < footprint.pieces.size(); ++p) {
       const Interval piece = footprint.pieces[p].heights;
-      const Interval heights{heights_[m] + std::max(piece.low, footprint.heights.low + mover.climb),
-                             heights_[m] + piece.high};
+      const Interval heights{
+          heights_[m] + std::max(piece.low, footprint.heights.low + mover_kind.climb),
+          heights_[m] + piece.high};
       if (heights.high - heights.low > kThinnest) wanted.push_back({m, p, heights});
     }
   }
@@ -152,7 +160,8 @@ std::vector<Interval> PlanarScene::AssignLevels() {
   const std::vector<Interval> of_wanted = intervals(quantum);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto level = std::lower_bound(levels.begin(), levels.end(), of_wanted[i], Below);
-    movers_[wanted[i].mover].levels[wanted[i].piece] = static_cast<int>(level - levels.begin());
+    levels_[movers_[wanted[i].mover].first_level + wanted[i].piece] =
+        static_cast<int>(level - levels.begin());
   }
   return levels;
 }
@@ -160,15 +169,16 @@ std::vector<Interval> PlanarScene::AssignLevels() {
 void PlanarScene::SliceLevels(const std::vector<Interval>& levels, const world::State& state) {
   std::vector<double> widest(levels.size(), 0.0);
   for (const Mover& mover : movers_) {
-    for (std::size_t p = 0; p < mover.levels.size(); ++p) {
-      if (mover.levels[p] < 0) continue;
-      double& radius = widest[mover.levels[p]];
-      radius = std::max(radius, mover.footprint->pieces[p].radius);
+    const Footprint& footprint = kind(mover).footprint;
+    for (std::size_t p = 0; p < footprint.pieces.size(); ++p) {
+      if (level(mover, p) < 0) continue;
+      double& radius = widest[level(mover, p)];
+      radius = std::max(radius, footprint.radius);
     }
   }
   fields_.clear();
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    fields_.emplace_back(CollectObstacles(*layout_, state, levels[i]), widest[i] + kUsualTravel);
+    fields_.emplace_back(CollectObstacles(*layout_, state, levels[i]), widest[i] + kLookAround);
   }
 }
 

@@ -11,6 +11,7 @@
 //          depends on whether they were kept.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -22,13 +23,22 @@
 
 namespace gsv::dynamics {
 
+// Fields are laid out for looking so far beyond a footprint, in metres.
+inline constexpr double kLookAround = 0.25;
+
+// What movers of one model have in common.
+struct MoverKind {
+  DriveKinematics kinematics;
+  Footprint footprint;
+  double climb = 0;
+  double spin_radius = 0;  // no part moves faster than speed + spin_radius * turning rate
+};
+
 struct Mover {
   int body = 0;  // index in the layout; movers are in the order of bodies
-  std::shared_ptr<const DriveKinematics> kinematics;
-  std::shared_ptr<const Footprint> footprint;
-  double climb = 0;
-  double spin_radius = 0;   // no part moves faster than speed + spin_radius * turning rate
-  std::vector<int> levels;  // of each piece; -1: too low to run into obstacles
+  std::uint32_t kind = 0;
+  std::uint32_t first_level = 0;  // of its pieces, see PlanarScene::level()
+  int first_joint = 0, joint_count = 0;
 };
 
 class PlanarScene {
@@ -38,27 +48,40 @@ class PlanarScene {
   // Refuses drives that make no sense and poses that are not finite.
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
 
-  // Slices anew what has moved since the last call.
-  void Prepare(const world::State& state);
+  // Slices the obstacles of `state` for movers at their heights.
+  void Slice(const world::State& state);
+  // Whether anything was sliced, and all that is no mover stands as it was then.
+  bool StandsAsSliced(const world::State& state) const;
+  // Whether a mover at height z is where it was as sliced last.
+  bool IsAsSliced(std::size_t mover, double z) const { return heights_[mover] == z; }
 
   const world::Layout& layout() const { return *layout_; }
   const std::vector<Mover>& movers() const { return movers_; }
+  const MoverKind& kind(const Mover& mover) const { return kinds_[mover.kind]; }
+  const Footprint& footprint(std::size_t mover) const {
+    return kinds_[movers_[mover].kind].footprint;
+  }
+  // Of a piece of the mover's footprint; -1: too low to run into obstacles.
+  int level(const Mover& mover, std::size_t piece) const {
+    return levels_[mover.first_level + piece];
+  }
   const ObstacleField& field(int level) const { return fields_[level]; }
-  // The height of a mover's origin, as last prepared.
+  // The height of a mover's origin, as last sliced.
   double height(std::size_t mover) const { return heights_[mover]; }
 
  private:
-  bool IsCurrent(const world::State& state) const;
   std::vector<Interval> AssignLevels();
   void SliceLevels(const std::vector<Interval>& levels, const world::State& state);
 
   std::shared_ptr<const world::Layout> layout_;
+  std::vector<MoverKind> kinds_;
   std::vector<Mover> movers_;
+  std::vector<int> levels_;
   std::vector<int> standing_;                   // bodies that are no movers
   std::vector<geometry::Pose> standing_poses_;  // as sliced
   std::vector<double> heights_;                 // of movers, as sliced
   std::vector<ObstacleField> fields_;
-  bool sliced_ = false;
+  bool is_sliced_ = false;
 };
 
 }  // namespace gsv::dynamics

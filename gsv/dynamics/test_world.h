@@ -80,10 +80,14 @@ class TestWorld {
 
   std::vector<world::Contact> Step(double seconds) {
     const base::SimTime step = base::FromSeconds(seconds);
-    auto contacts = engine_->Step(step, state_);
+    std::vector<world::Contact> contacts;
+    Step(step, contacts);
+    return contacts;
+  }
+  void Step(base::SimTime step, std::vector<world::Contact>& contacts) {
+    engine_->Step(step, state_, contacts);
     ++state_.step;
     state_.time += step;
-    return contacts;
   }
   void Run(double seconds, double step) {
     for (int i = 0; i < static_cast<int>(seconds / step + 0.5); ++i) Step(step);

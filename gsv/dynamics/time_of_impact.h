@@ -28,6 +28,10 @@ struct MovingPiece {
   Twist twist;           // from then on
 };
 
+inline void Place(const ConvexPiece& piece, const PlanarPosition& at, ConvexPiece& placed) {
+  Place(piece, at.x, at.y, at.cosine, at.sine, placed);
+}
+
 struct Impact {
   double time = 0;
   Vector2 normal;                 // from the first to the second

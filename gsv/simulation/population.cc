@@ -150,8 +150,7 @@ world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {
 
 int SteppingSimulation::Intruded(const world::Layout& layout, const world::State& state, int body) {
   int found = -1;
-  for (const world::Contact& overlap : engine_->Overlaps(state, kPlacingTolerance)) {
-    if (overlap.first != body && overlap.second != body) continue;
+  for (const world::Contact& overlap : engine_->OverlapsOf(state, body, kPlacingTolerance)) {
     found = overlap.first == body ? overlap.second : overlap.first;
     if (layout.bodies[found].is_robot) return found;  // that is the harder case: say it first
   }

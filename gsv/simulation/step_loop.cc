@@ -154,7 +154,7 @@ void SteppingSimulation::TakeStep() {
 
 std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
   auto snapshot = snapshots_.Take();
-  snapshot->contacts = engine_->Step(step_, state_);
+  engine_->Step(step_, state_, snapshot->contacts);
   ++state_.step;
   state_.time = state_.step * step_;
   snapshot->layout = layout_;

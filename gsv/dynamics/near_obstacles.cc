@@ -1,0 +1,101 @@
+#include "gsv/dynamics/near_obstacles.h"
+
+#include <algorithm>
+
+#include "gsv/dynamics/time_of_impact.h"
+
+namespace gsv::dynamics {
+namespace {
+
+// Far above what rounding makes of a distance, far below what matters.
+constexpr double kRounding = 1e-6;
+
+}  // namespace
+
+void NearObstacles::Reset(std::size_t chunks) {
+  clearances_.assign(scene_.movers().size(), {});
+  chunks_.resize(chunks);
+}
+
+void NearObstacles::Clear(std::size_t chunk) {
+  chunks_[chunk].near.clear();
+  chunks_[chunk].touching.clear();
+}
+
+void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const PlanarPosition& at,
+                         double travel) {
+  const double within = travel + kTouchGap;
+  const Clearance& clearance = clearances_[mover];
+  const Vector2 moved = Vector2{at.x, at.y} - clearance.centre;
+  const double room = clearance.radius - within;
+  if (room > 0 && Dot(moved, moved) < room * room) return;
+  Search(chunks_[chunk], mover, at, within);
+}
+
+void NearObstacles::Search(Chunk& chunk, std::uint32_t m, const PlanarPosition& at, double within) {
+  const Mover& mover = scene_.movers()[m];
+  const Footprint& footprint = scene_.kind(mover).footprint;
+  const Vector2 origin{at.x, at.y};
+  const double reach = footprint.radius + std::max(within, kLookAround);
+  double nearest = reach;
+  ConvexPiece placed;
+  for (std::uint32_t p = 0; p < footprint.pieces.size(); ++p) {
+    const int level = scene_.level(mover, p);
+    if (level < 0) continue;
+    const Footprint::Piece& piece = footprint.pieces[p];
+    const Vector2 centre = PointAt(piece.centre, at);
+    const ObstacleField& field = scene_.field(level);
+    bool is_placed = false;
+    field.ForEachNear(origin, reach, [&](std::uint32_t index) {
+      const Obstacle& obstacle = field[index];
+      const double from_origin = DistanceTo(obstacle.shape, origin);
+      nearest = std::min(nearest, from_origin);
+      if (from_origin > footprint.radius + within + kRounding) return;
+      if (DistanceTo(obstacle.shape, centre) > piece.radius + within) return;
+      if (!is_placed) Place(piece.shape, at, placed);
+      is_placed = true;
+      const double distance = Separate(placed, obstacle.shape).distance;
+      if (distance <= within) chunk.near.push_back({m, p, index, level});
+      if (distance <= kTouchGap) chunk.touching.push_back({mover.body, obstacle.body});
+    });
+  }
+  clearances_[m] = {origin, nearest - footprint.radius - kRounding};
+}
+
+void NearObstacles::Stop(std::size_t chunk, std::span<const PlanarPosition> starts,
+                         std::span<const Twist> twists, std::span<double> times,
+                         std::span<Vector2> normals) const {
+  for (const Near& near : chunks_[chunk].near) {
+    double& time = times[near.mover];
+    if (time <= 0) continue;
+    const ConvexPiece& piece = scene_.footprint(near.mover).pieces[near.piece].shape;
+    const auto impact = FindImpact(MovingPiece{&piece, starts[near.mover], twists[near.mover]},
+                                   scene_.field(near.level)[near.obstacle].shape, time);
+    if (!impact) continue;
+    time = impact->time;
+    normals[near.mover] = impact->normal;
+  }
+}
+
+void NearObstacles::AddTouching(std::vector<BodyPair>& touching) const {
+  for (const Chunk& chunk : chunks_) {
+    touching.insert(touching.end(), chunk.touching.begin(), chunk.touching.end());
+  }
+}
+
+void NearObstacles::Collect(std::span<const PlanarPosition> positions,
+                            ContactCollector& contacts) const {
+  ConvexPiece placed;
+  for (const Chunk& chunk : chunks_) {
+    for (const Near& near : chunk.near) {
+      const Footprint::Piece& piece = scene_.footprint(near.mover).pieces[near.piece];
+      const Obstacle& obstacle = scene_.field(near.level)[near.obstacle];
+      Place(piece.shape, positions[near.mover], placed);
+      contacts.Offer({scene_.movers()[near.mover].body, obstacle.body},
+                     Separate(placed, obstacle.shape),
+                     scene_.height(near.mover) + (piece.heights.low + piece.heights.high) / 2);
+    }
+  }
+}
+
+}  // namespace gsv::dynamics
