@@ -18,14 +18,19 @@ namespace {
 
 using simulation::Phase;
 
-// The object that the viewer gets too, with the server in front.
-std::string Json(const RemoteServer& server, const simulation::SimulationStatus& status) {
+// The object that the viewer gets too, with the server in front and the state's hash at the end.
+std::string Json(const RemoteSimulation& simulation) {
+  const RemoteServer& server = simulation.server;
   nlohmann::ordered_json json = {{"server",
                                   {{"name", server.name},
                                    {"place", server.place},
                                    {"broker", server.broker},
                                    {"viewer_url", server.viewer_url}}}};
-  json.update(nlohmann::ordered_json::parse(gateway::StatusJson(status)));
+  json.update(nlohmann::ordered_json::parse(gateway::StatusJson(simulation.status)));
+  const auto hash = orb::Call(server.Describe(), [&] {
+    return std::string(CORBA::String_var(simulation.reference->state_hash()));
+  });
+  json["state_hash"] = hash.value_or("");  // it may have ended since
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -35,12 +40,13 @@ void PrintRobot(const simulation::RobotStatus& robot) {
               ToString(robot.phase), robot.detail.empty() ? "" : ": ", robot.detail.c_str());
 }
 
-void Print(const RemoteServer& server, const simulation::SimulationStatus& status) {
+void Print(const RemoteSimulation& simulation) {
+  const simulation::SimulationStatus& status = simulation.status;
   const std::string target = status.mode == simulation::Mode::kLockstep
                                  ? std::string("as fast as possible")
                                  : "target " + nlohmann::json(status.target_factor).dump();
   std::printf("%s on %s: %s at %.3f s, %s, real-time factor %.2f (%s), %" PRIu64 " late steps\n",
-              status.name.c_str(), server.Describe().c_str(), ToString(status.phase),
+              status.name.c_str(), simulation.server.Describe().c_str(), ToString(status.phase),
               base::ToSeconds(status.time), ToString(status.mode), status.real_time_factor,
               target.c_str(), status.late_steps);
   for (const auto& robot : status.robots) PrintRobot(robot);
@@ -62,9 +68,9 @@ int List(const Arguments& arguments) {
     std::fprintf(stderr, "gsv: warning: %s\n", sentence.c_str());
   for (const RemoteSimulation& simulation : *simulations) {
     if (arguments.json) {
-      std::puts(Json(simulation.server, simulation.status).c_str());
+      std::puts(Json(simulation).c_str());
     } else {
-      Print(simulation.server, simulation.status);
+      Print(simulation);
     }
   }
   if (simulations->empty() && !arguments.json) std::fprintf(stderr, "gsv: no simulation runs\n");
@@ -105,9 +111,9 @@ int Steer(const Arguments& arguments, const Call& call, bool takes_steps, Signal
     simulation->status.phase = Phase::kStopped;
   }
   if (arguments.json) {
-    std::puts(Json(simulation->server, simulation->status).c_str());
+    std::puts(Json(*simulation).c_str());
   } else {
-    Print(simulation->server, simulation->status);
+    Print(*simulation);
   }
   return kOk;
 }
