@@ -1,18 +1,24 @@
 # `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
 # (tools/setup) and build.
+# `make soak` repeats the determinism matrix many times and compares a debug build (an hour or so).
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
 #   PRESET=dev    another preset of CMakePresets.json
 PRESET ?= release
 JOBS ?= $(shell nproc)
 BUILD := build/$(PRESET)
 
-.PHONY: run test build setup asan tsan format clean
+.PHONY: run test soak build setup asan tsan format clean
 
 run: build
 	$(BUILD)/bin/gsv run $(ARGS)
 
 test: build
 	tools/run_tests $(BUILD)
+
+soak: build
+	cmake --preset dev
+	cmake --build build/dev --target gsv --parallel $(JOBS)
+	tools/soak $(BUILD) build/dev
 
 build: setup
 	cmake --preset $(PRESET)

@@ -15,6 +15,7 @@
 #include "gsv/broker/gsv_service_types.h"
 #include "gsv/orb/orb.h"
 #include "sdk/behaviour_servant.h"
+#include "sdk/fault_delay.h"
 
 namespace gsv {
 namespace {
@@ -35,7 +36,7 @@ std::string HostName() {
 
 int Complain(const base::Error& error) {
   std::fprintf(stderr, "%s\n", error.Sentence().c_str());
-  return kInfrastructure;
+  return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
 // SIGINT and SIGTERM are blocked from here on, in this and all later threads, for sigwait().
@@ -64,6 +65,7 @@ int Serve(const Arguments& arguments, const BehaviourProgram& program, Behaviour
           const sigset_t& signals) {
   auto orb = StartOrb(arguments.broker);
   if (!orb) return Complain(orb.error());
+  if (auto ok = sdk::DelayCallsAsEnvironmentSays(); !ok) return Complain(ok.error());
   auto broker = broker::BrokerClient::Connect(*orb, arguments.broker);
   if (!broker) return Complain(broker.error());
   if (auto ok = broker->EnsureServiceType(broker::AgentBehaviourFactoryType()); !ok)

@@ -76,7 +76,8 @@ class TimedSensor final : public sensing::Sensor {
     times_->Add(Clock::now() - start);
     return reading;
   }
-  bool takes_long() const override { return sensor_->takes_long(); }
+  bool TakesLong() const override { return sensor_->TakesLong(); }
+  bool CastsRays() const override { return sensor_->CastsRays(); }
 
  private:
   const std::unique_ptr<sensing::Sensor> sensor_;

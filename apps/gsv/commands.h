@@ -20,6 +20,7 @@ void AddServeCommand(const CommandLine& line);
 void AddBrokerCommands(const CommandLine& line);     // broker, offers, types
 void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
+void AddControlCommands(const CommandLine& line);    // ps, pause, resume, step, stop, reset
 void AddBenchCommands(const CommandLine& line);      // bench
 void AddViewCommand(const CommandLine& line);
 

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   AddBrokerCommands(line);
   AddCheckCommands(line);
   AddRecordingCommands(line);
+  AddControlCommands(line);
   AddBenchCommands(line);
   AddViewCommand(line);
   try {

@@ -40,6 +40,15 @@ void OpenBrowser(const std::string& url) {
   }
 }
 
+// Stopped for good: a reset stops it on its way back to the start.
+bool WasStopped(const Simulation& simulation) {
+  const auto events = simulation.events(0);
+  const auto last = std::find_if(events.rbegin(), events.rend(), [](const auto& event) {
+    return event.kind == "started" || event.kind == "stopped" || event.kind == "reset";
+  });
+  return last != events.rend() && last->kind == "stopped";
+}
+
 // Until the run is over or somebody interrupts it; gives the exit code so far.
 int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
   using Clock = std::chrono::steady_clock;
@@ -52,7 +61,7 @@ int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
         simulation.WaitForPhase({Phase::kFinished, Phase::kFailed}, std::chrono::milliseconds(50));
     if (phase == Phase::kFinished) return kOk;
     if (phase == Phase::kFailed) return kBehaviourFailed;
-    if (phase == Phase::kStopped && ends_when_stopped) return kOk;
+    if (phase == Phase::kStopped && ends_when_stopped && WasStopped(simulation)) return kOk;
     if (signals.WaitFor(0) != 0) {
       (void)simulation.Stop();
       return kInterrupted;
@@ -105,11 +114,13 @@ base::Result<int> Run(const RunOptions& options, Signals& signals) {
   }
 
   if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
+  std::FILE* const notes = options.json ? stderr : stdout;
+  std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
   if (const std::string& url = (*runtime)->viewer_url(); !url.empty()) {
-    std::fprintf(options.json ? stderr : stdout, "viewer: %s\n", url.c_str());
-    std::fflush(stdout);
+    std::fprintf(notes, "viewer: %s\n", url.c_str());
     if (options.open_browser) OpenBrowser(url);
   }
+  std::fflush(notes);
   if (!options.record.empty()) {
     if (auto ok = (*runtime)->recordings().Start(*simulation, options.record); !ok)
       return base::Fail(ok.error());

@@ -147,6 +147,7 @@ services::ServiceHooks Runtime::Hooks() {
 base::Status Runtime::OfferService(const std::string& name) {
   const PortableServer::POA_var poa = orb::RootPoa(orb_);
   service_ = new services::SimulationServiceServant(poa, *host_, behaviours_.get(), Hooks());
+  for (const auto& simulation : host_->List()) service_->Publish(simulation);
   const PortableServer::ObjectId_var id = poa->activate_object(service_);
   const CORBA::Object_var reference = poa->id_to_reference(id);
   if (auto ok = broker_->EnsureServiceType(broker::SimulationServiceType()); !ok) return ok;
@@ -160,16 +161,23 @@ base::Status Runtime::OfferService(const std::string& name) {
       broker_->Export(broker::SimulationServiceType().name, reference, PropertiesOf(offer));
   if (!exported) return base::Fail(exported.error());
   service_offer_ = *exported;
+  if (auto record = InstanceRecord::Write(broker_->reference())) {
+    record_ = *std::move(record);
+  } else {
+    spdlog::warn("`gsv ps` will need --broker: {}", record.error().Sentence());
+  }
   return {};
 }
 
 Runtime::~Runtime() {
+  record_.reset();
   if (!service_offer_.empty()) (void)broker_->Withdraw(service_offer_);  // the broker may be gone
   gateway_.reset();
   if (host_ != nullptr) {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();
   }
   if (recordings_ != nullptr) recordings_->StopAll();
+  if (!service_offer_.empty()) service_->Close();
   if (host_ != nullptr) {
     // Ending a simulation tells its behaviours, so it comes before their programs end.
     for (const auto& simulation : host_->List())

@@ -12,6 +12,7 @@
 
 #include "apps/gsv/behaviour_launcher.h"
 #include "apps/gsv/child_process.h"
+#include "apps/gsv/running_instances.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
 #include "gsv/services/simulation_servant.h"
@@ -46,7 +47,8 @@ class Runtime {
   Recordings& recordings() { return *recordings_; }
   const std::string& viewer_url() const { return viewer_url_; }  // empty: none
 
-  // Registers sba::SimulationService with the broker until this ends.
+  // Registers sba::SimulationService, with the simulations that are there, with the broker until
+  // this ends, and notes for this user's other commands where it is.
   base::Status OfferService(const std::string& name);
 
  private:
@@ -66,6 +68,7 @@ class Runtime {
   std::string viewer_url_;
   PortableServer::Servant_var<services::SimulationServiceServant> service_;
   std::string service_offer_;
+  std::unique_ptr<InstanceRecord> record_;
 };
 
 }  // namespace gsv::app

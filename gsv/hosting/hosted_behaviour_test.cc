@@ -205,7 +205,7 @@ class Slow final : public sensing::Sensor {
     reading.values = {static_cast<double>(reading.time / 1ms)};
     return reading;
   }
-  bool takes_long() const override { return true; }
+  bool TakesLong() const override { return true; }
 };
 
 TEST(HostedBehaviour, ASensorThatTakesItsTimeIsReadAtTheInstantItWasAskedFor) {

@@ -14,10 +14,6 @@ const model::SensorDescription& DescriptionOf(const MountedSensor& sensor) {
   return sensor.design().description;
 }
 
-bool TakesLong(const MountedSensor& sensor) {
-  return sensor.design().sensor != nullptr && sensor.design().sensor->takes_long();
-}
-
 Placement ToPlacement(const geometry::Pose& pose) {
   const auto angles = geometry::ToRollPitchYaw(pose.orientation);
   return {pose.position.x, pose.position.y, pose.position.z, angles.roll, angles.pitch, angles.yaw};
@@ -91,11 +87,16 @@ void LocalRobot::Note(const base::Error& error) {
   }
 }
 
+void LocalRobot::SetTurn(simulation::Turn* turn) {
+  turn_ = turn;
+  if (turn_ != nullptr) turn_->ExpectRays(ray_sensors_);
+}
+
 std::optional<sensing::Reading> LocalRobot::Read(MountedSensor& sensor) {
   if (!is_running_) return std::nullopt;
-  const auto reading = turn_ == nullptr    ? agent_->Read(sensor.name())
-                       : TakesLong(sensor) ? ReadBlocked(sensor)
-                                           : turn_->Read(sensor);
+  const auto reading = turn_ == nullptr      ? agent_->Read(sensor.name())
+                       : sensor.takes_long() ? ReadBlocked(sensor)
+                                             : turn_->Read(sensor);
   if (reading && is_running_) return *reading;
   if (!reading) Note(reading.error());
   return std::nullopt;
@@ -112,7 +113,7 @@ base::Result<sensing::Reading> LocalRobot::ReadBlocked(const MountedSensor& sens
 
 bool LocalRobot::HasOnlyQuickSensors() const {
   return std::none_of(open_.begin(), open_.end(),
-                      [](const SensorPtr& sensor) { return TakesLong(*sensor); });
+                      [](const SensorPtr& sensor) { return sensor->takes_long(); });
 }
 
 void LocalRobot::ReadOpenSensors(std::vector<Reading>& readings) {
@@ -142,7 +143,9 @@ base::Status LocalRobot::Enter(const std::string& sensor) {
   const auto place =
       std::lower_bound(open_.begin(), open_.end(), sensor,
                        [](const SensorPtr& a, const std::string& b) { return a->name() < b; });
-  if (place == open_.end() || (*place)->name() != sensor) open_.insert(place, *mounted);
+  if (place != open_.end() && (*place)->name() == sensor) return {};
+  open_.insert(place, *mounted);
+  if ((*mounted)->casts_rays()) ++ray_sensors_;
   return {};
 }
 

@@ -24,7 +24,7 @@ class LocalRobot final : public Robot {
   explicit LocalRobot(std::shared_ptr<simulation::Agent> agent) : agent_(std::move(agent)) {}
 
   // Null between turns.
-  void SetTurn(simulation::Turn* turn) { turn_ = turn; }
+  void SetTurn(simulation::Turn* turn);
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
   // The run is over for the behaviour: waits and calls return from now on.
   void End() { is_running_ = false; }
@@ -75,6 +75,7 @@ class LocalRobot final : public Robot {
   simulation::Turn* turn_ = nullptr;
   Suspend suspend_;
   std::vector<SensorPtr> open_;  // by name
+  std::size_t ray_sensors_ = 0;  // among them
   std::atomic<bool> is_running_{true};
   std::string error_;
 };

@@ -48,7 +48,7 @@ class Camera final : public sensing::Sensor {
     reading.picture = std::move(*picture);
     return reading;
   }
-  bool takes_long() const override { return true; }
+  bool TakesLong() const override { return true; }
 
  private:
   CameraParameters parameters_;

@@ -91,7 +91,7 @@ class Sensor {
   // means are missing: a camera without a renderer.
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
   // Sample() waits for something outside of the caller's thread, such as a renderer.
-  virtual bool takes_long() const { return false; }
+  virtual bool TakesLong() const { return false; }
 
   // Whether Sample() uses Sampling::Rays(), so that who samples many can have them made ready.
   virtual bool CastsRays() const { return false; }

@@ -46,6 +46,25 @@ sba::AgentPhase ToIdl(simulation::AgentPhase phase) {
   return sba::AGENT_NONE;
 }
 
+simulation::AgentPhase FromIdl(sba::AgentPhase phase) {
+  switch (phase) {
+    case sba::AGENT_NONE:
+      return simulation::AgentPhase::kNone;
+    case sba::AGENT_INITIALISED:
+      return simulation::AgentPhase::kInitialised;
+    case sba::AGENT_RUNNING:
+      return simulation::AgentPhase::kRunning;
+    case sba::AGENT_WAITING:
+      return simulation::AgentPhase::kWaiting;
+    case sba::AGENT_FINISHED:
+      return simulation::AgentPhase::kFinished;
+    case sba::AGENT_UNRESPONSIVE:
+      return simulation::AgentPhase::kUnresponsive;
+    default:
+      return simulation::AgentPhase::kDead;
+  }
+}
+
 }  // namespace
 
 sba::Placement ToIdl(const geometry::Pose& pose) {
@@ -171,6 +190,36 @@ sba::SimulationState ToIdl(const simulation::SimulationStatus& status) {
     out.collisions = robot.collisions;
   }
   return state;
+}
+
+simulation::SimulationStatus FromIdl(const sba::SimulationState& state) {
+  simulation::SimulationStatus status;
+  status.name = state.name;
+  status.phase = FromIdl(state.phase);
+  status.mode =
+      state.pacing == sba::LOCKSTEP ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
+  status.step = static_cast<std::int64_t>(state.step);
+  status.time = base::SimTime(state.time_ns);
+  status.step_size = base::SimTime(state.step_ns);
+  status.target_factor = state.target_factor;
+  status.real_time_factor = state.real_time_factor;
+  status.late_steps = state.late_steps;
+  status.waiting_for = state.waiting_for;
+  status.failure = state.failure;
+  for (CORBA::ULong i = 0; i < state.robots.length(); ++i) {
+    const sba::RobotState& in = state.robots[i];
+    simulation::RobotStatus robot;
+    robot.name = in.name;
+    robot.model = in.model;
+    robot.behaviour = in.behaviour;
+    robot.phase = FromIdl(in.phase);
+    robot.detail = in.detail;
+    robot.world_from_robot = FromIdl(in.place);
+    robot.distance = in.distance_m;
+    robot.collisions = in.collisions;
+    status.robots.push_back(std::move(robot));
+  }
+  return status;
 }
 
 }  // namespace gsv::services

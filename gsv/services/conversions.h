@@ -22,6 +22,8 @@ sba::NameValues ToIdl(const model::Parameters& parameters);
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
 
 sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
+// What the IDL does not carry (wall times, counts of readings, who is an avatar) keeps its default.
+simulation::SimulationStatus FromIdl(const sba::SimulationState& state);
 sba::SimulationPhase ToIdl(simulation::Phase phase);
 simulation::Phase FromIdl(sba::SimulationPhase phase);
 

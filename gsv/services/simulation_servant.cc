@@ -39,6 +39,19 @@ simulation::Specification FromIdl(const sba::SimulationSpecification& in) {
   return out;
 }
 
+sba::SimulationSpecification ToIdl(const simulation::Specification& in) {
+  sba::SimulationSpecification out;
+  out.name = in.name.c_str();
+  out.world = in.world->source.c_str();
+  out.pacing = in.mode == simulation::Mode::kLockstep ? sba::LOCKSTEP : sba::REAL_TIME;
+  out.factor = in.factor;
+  out.step_ns = in.step.count();
+  out.seed = in.seed;
+  out.duration_ns = in.duration.count();
+  out.keep = in.keep;
+  return out;
+}
+
 void Log(const std::string& simulation, const base::Problems& problems) {
   for (const base::Problem& problem : problems)
     spdlog::warn("{}: {}", simulation, problem.Sentence());
@@ -216,12 +229,36 @@ sba::Simulation_ptr SimulationServiceServant::create_simulation(
   described.name = name.c_str();
   described.world = world.c_str();
   described.step_ns = created->specification().step.count();
-  auto* servant = new SimulationServant(std::move(created), *this, described);
+  return Activate(std::move(created), described);
+}
+
+sba::Simulation_ptr SimulationServiceServant::Activate(
+    std::shared_ptr<simulation::Simulation> simulation,
+    sba::SimulationSpecification specification) {
+  const std::string name = simulation->specification().name;
+  auto* servant = new SimulationServant(std::move(simulation), *this, std::move(specification));
   const PortableServer::ServantBase_var owned(servant);
   const PortableServer::ObjectId_var id = poa_->activate_object(servant);
   const std::lock_guard lock(mutex_);
   servants_[name] = servant;
   return servant->_this();
+}
+
+void SimulationServiceServant::Publish(std::shared_ptr<simulation::Simulation> simulation) {
+  auto specification = ToIdl(simulation->specification());
+  const sba::Simulation_var reference = Activate(std::move(simulation), std::move(specification));
+}
+
+void SimulationServiceServant::Close() {
+  std::map<std::string, SimulationServant*> servants;
+  {
+    const std::lock_guard lock(mutex_);
+    servants.swap(servants_);
+  }
+  for (const auto& [name, servant] : servants) {
+    const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
+    poa_->deactivate_object(id);
+  }
 }
 
 sba::Simulations* SimulationServiceServant::list() {

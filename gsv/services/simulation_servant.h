@@ -78,6 +78,10 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   sba::Simulation_ptr create_simulation(const sba::SimulationSpecification& specification) override;
   sba::Simulations* list() override;
 
+  // Puts a simulation that was not created through this service into its list.
+  void Publish(std::shared_ptr<simulation::Simulation> simulation);
+  // Lets go of every simulation; calls on their references find nothing any more.
+  void Close();
   void Destroy(SimulationServant& servant);
   SimulationHost& host() { return host_; }
   BehaviourSource* behaviours() { return behaviours_; }
@@ -85,6 +89,8 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   PortableServer::POA_ptr poa() { return poa_; }
 
  private:
+  sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
+                               sba::SimulationSpecification specification);
   void StopAbandoned();
 
   PortableServer::POA_var poa_;

@@ -40,10 +40,13 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
     bodies.push_back(std::move(body));
   }
   auto layout = world::MakeLayout(1, std::move(bodies), specification.world);
-  auto engine = dynamics::MakePlanarMover();
+  auto team = std::make_shared<base::ThreadTeam>(
+      specification.threads > 0 ? specification.threads : base::ThreadTeam::DefaultThreads());
+  auto engine = dynamics::MakePlanarMover(team);
   if (auto ok = engine->SetLayout(layout); !ok) return base::Fail(ok.error());
   return std::make_shared<SteppingSimulation>(std::move(specification), std::move(sensors),
-                                              std::move(engine), std::move(layout));
+                                              std::move(team), std::move(engine),
+                                              std::move(layout));
 }
 
 base::Result<std::string> Simulation::AddRobot(RobotSpecification robot) {
@@ -56,6 +59,7 @@ base::Result<std::string> Simulation::AddRobot(RobotSpecification robot) {
 
 SteppingSimulation::SteppingSimulation(Specification specification,
                                        std::shared_ptr<const sensing::SensorRegistry> sensors,
+                                       std::shared_ptr<base::ThreadTeam> team,
                                        std::unique_ptr<dynamics::Engine> engine,
                                        std::shared_ptr<const world::Layout> layout)
     : specification_(std::move(specification)),
@@ -64,11 +68,10 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       shared_(std::make_shared<SharedState>(std::make_shared<world::Snapshot>(world::Snapshot{
                                                 layout, world::InitialState(*layout), {}}),
                                             specification_.mode, specification_.seed, sensors_)),
+      team_(std::move(team)),
       engine_(std::move(engine)),
       layout_(std::move(layout)),
       state_(world::InitialState(*layout_)),
-      team_(specification_.threads > 0 ? specification_.threads
-                                       : base::ThreadTeam::DefaultThreads()),
       pacer_(step_, specification_.factor),
       caller_(kCallingThreads) {
   for (const world::Body& body : layout_->bodies) {

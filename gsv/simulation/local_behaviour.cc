@@ -2,9 +2,23 @@
 
 namespace gsv::simulation {
 
+void Turn::Instant::Prepare(base::ThreadTeam& team) {
+  scene = casts_rays ? rays->At(snapshots.latest(), &team) : nullptr;
+  casts_rays = false;
+}
+
+sensing::Sampling Turn::Instant::MakeSampling() const {
+  return {snapshots.latest(), -1, seed, *rays};
+}
+
 base::Result<sensing::Reading> Turn::Read(MountedSensor& sensor) const {
+  if (sensor.casts_rays() && !instant_->casts_rays.load(std::memory_order_relaxed)) {
+    instant_->casts_rays.store(true, std::memory_order_relaxed);
+  }
   const SnapshotHistory::SnapshotPtr& snapshot = instant_->snapshots.At(sensor.design().period);
-  auto reading = sensor.Read({snapshot, body_, instant_->seed, *instant_->rays});
+  auto reading = snapshot == sampling_->snapshot()
+                     ? sensor.Read(*sampling_)
+                     : sensor.Read({snapshot, sampling_->body(), instant_->seed, *instant_->rays});
   if (reading) sensor.CountReading();
   return reading;
 }

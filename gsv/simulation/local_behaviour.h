@@ -6,10 +6,14 @@
 // Determinism  a turn may depend on the readings it takes and on what the behaviour remembers.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <variant>
 
+#include "gsv/base/thread_team.h"
+#include "gsv/sensing/sensor.h"
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/behaviour_port.h"
 #include "gsv/simulation/mounted_sensor.h"
@@ -27,15 +31,26 @@ class Turn {
     SnapshotHistory::Frame snapshots;
     sensing::RaySceneCache* rays = nullptr;
     std::uint64_t seed = 0;
+
+    // Has the team make ready what readings need, if the last instant's did.
+    void Prepare(base::ThreadTeam& team);
+    sensing::Sampling MakeSampling() const;
+
+    mutable std::atomic<bool> casts_rays{false};
+    std::shared_ptr<const sensing::RayScene> scene;  // held while the turns are taken
   };
 
   Turn() = default;
-  Turn(const Instant& instant, int body) : instant_(&instant), body_(body) {}
+  // `sampling` is that of the behaviour's robot, now.
+  Turn(const Instant& instant, const sensing::Sampling& sampling)
+      : instant_(&instant), sampling_(&sampling) {}
 
   base::SimTime now() const { return instant_->now; }
 
   // A reading at this instant; for sensors that answer at once, see Block().
   base::Result<sensing::Reading> Read(MountedSensor& sensor) const;
+  // So many sensors that cast rays are about to be read.
+  void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
 
   // Acts from this step on; a later command replaces it.
   void Command(const world::DriveCommand& command) { command_ = command; }
@@ -61,7 +76,7 @@ class Turn {
   struct Finished {};
 
   const Instant* instant_ = nullptr;
-  int body_ = -1;
+  const sensing::Sampling* sampling_ = nullptr;
   std::optional<world::DriveCommand> command_;
   std::uint64_t exchanges_ = 0;
   std::variant<Finished, Waiting, Blocked> end_;

@@ -55,6 +55,8 @@ class MountedSensor {
 
   const SensorDesign& design() const { return *design_; }
   const std::string& name() const { return design_->description.name; }
+  bool casts_rays() const { return design_->sensor != nullptr && design_->sensor->CastsRays(); }
+  bool takes_long() const { return design_->sensor != nullptr && design_->sensor->TakesLong(); }
 
   // The sample of `sampling`'s instant: taken now if nobody has asked for it before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);

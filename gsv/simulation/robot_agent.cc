@@ -275,8 +275,9 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-void RobotAgent::TakeTurn(const Turn::Instant& instant) {
-  turn_ = Turn(instant, body_);
+void RobotAgent::TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling) {
+  sampling.MoveTo(body_);
+  turn_ = Turn(instant, sampling);
   in_turn_ = true;
   behaviour_->local()->TakeTurn(turn_);
   in_turn_ = false;

@@ -79,7 +79,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
 
   // A local behaviour's turn. TakeTurn() needs no lock; Settle() enters what came of it, and gives
   // the work that the behaviour is blocked on, if it is.
-  void TakeTurn(const Turn::Instant& instant);
+  void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
   std::function<void()> Settle();
   // The turn of its local behaviour has come.
   void MakeReady();

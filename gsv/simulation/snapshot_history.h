@@ -24,6 +24,7 @@ class SnapshotHistory {
   // What At() gives at one instant, for many who ask without a lock.
   class Frame {
    public:
+    const SnapshotPtr& latest() const { return latest_; }
     // The latest where the period was not in use when the frame was made.
     const SnapshotPtr& At(base::SimTime period) const {
       for (const auto& [known, snapshot] : at_instant_) {

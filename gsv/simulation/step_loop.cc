@@ -63,8 +63,10 @@ void SteppingSimulation::TakeTurns() {
     instant_.now = shared_->now;
     shared_->history.MakeFrame(instant_.snapshots);
   }
-  team_.Share(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_);
+  instant_.Prepare(*team_);
+  team_->Share(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
+    sensing::Sampling sampling = instant_.MakeSampling();
+    for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
   const std::lock_guard lock(shared_->mutex);
   const WallTime deadline = WallNow() - specification_.deadline;

@@ -26,6 +26,7 @@ class SteppingSimulation final : public Simulation {
  public:
   SteppingSimulation(Specification specification,
                      std::shared_ptr<const sensing::SensorRegistry> sensors,
+                     std::shared_ptr<base::ThreadTeam> team,
                      std::unique_ptr<dynamics::Engine> engine,
                      std::shared_ptr<const world::Layout> layout);
   ~SteppingSimulation() override;
@@ -120,11 +121,11 @@ class SteppingSimulation final : public Simulation {
   std::mutex control_mutex_;
 
   mutable std::mutex world_mutex_;
+  const std::shared_ptr<base::ThreadTeam> team_;  // works for whoever holds world_mutex_
   std::unique_ptr<dynamics::Engine> engine_;
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;
   SnapshotPool snapshots_;
-  base::ThreadTeam team_;
   Turn::Instant instant_;           // of the turns being taken
   std::vector<RobotAgent*> turns_;  // being taken
 

@@ -59,9 +59,12 @@ nlohmann::json Outcome::LastLine() const {
                                false);
 }
 
-Running::Running(const std::string& program, std::vector<std::string> arguments) {
+Running::Running(const std::string& program, std::vector<std::string> arguments,
+                 const std::vector<std::string>& wrapper) {
   std::vector<std::string> command{"/bin/sh", "-c", "exec \"$@\" 2>\"$0\"",
-                                   (folder_.path() / "stderr").string(), Program(program).string()};
+                                   (folder_.path() / "stderr").string()};
+  command.insert(command.end(), wrapper.begin(), wrapper.end());
+  command.push_back(Program(program).string());
   command.insert(command.end(), arguments.begin(), arguments.end());
   auto process = app::ChildProcess::Start(std::move(command), false);
   if (!process) throw std::runtime_error(process.error().Sentence());
@@ -117,7 +120,8 @@ std::string HttpGet(const std::string& url) {
   return body == std::string::npos ? "" : answer.substr(body + 4);
 }
 
-BrokerProcess::BrokerProcess() : process_("gsv", {"broker", "--port", "0", "--memory"}) {
+BrokerProcess::BrokerProcess(const std::string& address)
+    : process_("gsv", {"broker", "--listen", address, "--port", "0", "--memory"}) {
   reference_ = process_.AwaitLine("corbaloc");
 }
 

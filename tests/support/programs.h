@@ -15,7 +15,7 @@ namespace gsv::testing {
 // Wall time after which a program that should have answered has hung.
 inline constexpr std::chrono::seconds kPatience{90};
 
-std::filesystem::path Program(const std::string& name);   // in the build's bin
+std::filesystem::path Program(const std::string& name);   // in the build's bin, or a whole path
 std::filesystem::path RealFile(const std::string& path);  // of GSV_REAL_DIR; may not be there
 
 // A folder for one test, removed at its end.
@@ -40,7 +40,9 @@ struct Outcome {
 // A program in the background, its stderr kept in a file.
 class Running {
  public:
-  Running(const std::string& program, std::vector<std::string> arguments);
+  // `wrapper`: a command line that ends in becoming the program, as nice, taskset and env do.
+  Running(const std::string& program, std::vector<std::string> arguments,
+          const std::vector<std::string>& wrapper = {});
   // The first line on stdout that contains `text`, which is waited for.
   std::string AwaitLine(const std::string& text);
   Outcome AwaitEnd();
@@ -58,10 +60,10 @@ Outcome RunProgram(const std::string& program, std::vector<std::string> argument
 // The body of the answer from a server on this machine; empty when there is none.
 std::string HttpGet(const std::string& url);
 
-// A broker on loopback.
+// A broker, on loopback unless told otherwise.
 class BrokerProcess {
  public:
-  BrokerProcess();
+  explicit BrokerProcess(const std::string& address = "127.0.0.1");
   const std::string& reference() const { return reference_; }
 
  private:

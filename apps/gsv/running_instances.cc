@@ -1,0 +1,114 @@
+#include "apps/gsv/running_instances.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+namespace gsv::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::streamsize kMaxFile = 16 * 1024;
+
+fs::path Folder() {
+  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/')
+    return fs::path(runtime) / "gsv";
+  return "/tmp/gsv-" + std::to_string(geteuid());
+}
+
+// Anybody may make a folder in /tmp: only one that nobody else can write to is believed.
+base::Status CheckIsOurs(const fs::path& folder) {
+  struct stat status {};
+  if (lstat(folder.c_str(), &status) != 0)
+    return base::Fail(base::ErrorCode::kUnavailable, std::strerror(errno), folder);
+  if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid() || (status.st_mode & 022) != 0) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "expected a folder that only this user can write to; remove it", folder);
+  }
+  return {};
+}
+
+// Field 22 of /proc/PID/stat, see proc(5); nothing when there is no such process.
+std::optional<std::uint64_t> StartOf(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  if (!std::getline(file, text)) return std::nullopt;
+  // The second field is the program's name in parentheses, and may hold anything.
+  const std::size_t name_end = text.rfind(')');
+  if (name_end == std::string::npos) return std::nullopt;
+  std::istringstream fields(text.substr(name_end + 1));
+  std::string skipped;
+  for (int field = 3; field < 22; ++field) fields >> skipped;
+  std::uint64_t start = 0;
+  if (!(fields >> start)) return std::nullopt;
+  return start;
+}
+
+std::optional<Instance> ReadInstance(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string text(kMaxFile, '\0');
+  stream.read(text.data(), kMaxFile);
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("pid") || !json["pid"].is_number_integer() ||
+      !json.contains("started") || !json["started"].is_number_unsigned() ||
+      !json.contains("broker") || !json["broker"].is_string()) {
+    return std::nullopt;
+  }
+  return Instance{json["pid"], json["started"], json["broker"]};
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<InstanceRecord>> InstanceRecord::Write(const std::string& broker) {
+  const fs::path folder = Folder();
+  mkdir(folder.c_str(), 0700);  // it may be there already; the check tells
+  if (auto ok = CheckIsOurs(folder); !ok) return base::Fail(ok.error());
+  const fs::path file = folder / (std::to_string(getpid()) + ".json");
+  const fs::path draft = folder / (std::to_string(getpid()) + ".draft");
+  const nlohmann::json json = {
+      {"pid", getpid()}, {"started", StartOf(getpid()).value_or(0)}, {"broker", broker}};
+  // Renamed into place, so that nobody reads half of it.
+  std::ofstream(draft) << json.dump() << '\n';
+  std::error_code error;
+  fs::rename(draft, file, error);
+  if (error) return base::Fail(base::ErrorCode::kUnavailable, error.message(), file);
+  return std::unique_ptr<InstanceRecord>(new InstanceRecord(file));
+}
+
+InstanceRecord::~InstanceRecord() {
+  std::error_code ignored;
+  fs::remove(file_, ignored);
+}
+
+std::vector<Instance> RunningInstances() {
+  std::vector<Instance> instances;
+  const fs::path folder = Folder();
+  if (!CheckIsOurs(folder)) return instances;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".json") continue;
+    const auto instance = ReadInstance(entry.path());
+    if (instance && StartOf(instance->pid) == instance->started) {
+      instances.push_back(*instance);
+    } else {
+      fs::remove(entry.path(), error);
+    }
+  }
+  std::sort(instances.begin(), instances.end(), [](const Instance& a, const Instance& b) {
+    return a.started != b.started ? a.started > b.started : a.pid > b.pid;
+  });
+  return instances;
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,165 @@
+// gsv ps, pause, resume, step, stop and reset against simulations in other processes.
+#include <csignal>
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Strings = std::vector<std::string>;
+
+// Runs that note themselves where no other test's runs do.
+class Control : public ::testing::Test {
+ protected:
+  Control() {
+    setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+    unsetenv("GSV_BROKER");
+  }
+
+  // In lockstep and without end.
+  static std::unique_ptr<Running> StartRun(Strings more = {}) {
+    Strings arguments{"run",     "playground", "--headless", "--lockstep",
+                      "--robot", "pebble@0,0", "--seed",     "3"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    auto run = std::make_unique<Running>("gsv", arguments);
+    run->AwaitLine("broker: ");
+    return run;
+  }
+  static Outcome Gsv(Strings arguments) { return RunProgram("gsv", std::move(arguments)); }
+  static nlohmann::json Json(Strings arguments) {
+    arguments.push_back("--json");
+    const Outcome outcome = Gsv(std::move(arguments));
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    return outcome.LastLine();
+  }
+  static void ExpectComplaint(Strings arguments, int code, const std::string& sentence) {
+    const Outcome outcome = Gsv(std::move(arguments));
+    EXPECT_EQ(outcome.ending, "exit code " + std::to_string(code));
+    EXPECT_THAT(outcome.err, HasSubstr(sentence));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  static std::string Pid(Running& run) { return std::to_string(run.process().pid()); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Control, PsListsSimulationsWithTheirRobots) {
+  const auto run = StartRun({"--behaviour", "wander"});
+  const auto simulation = Json({"ps"});
+  EXPECT_EQ(simulation["server"]["name"], "gsv run");
+  EXPECT_THAT(simulation["server"]["place"].get<std::string>(), HasSubstr(":" + Pid(*run)));
+  EXPECT_EQ(simulation["name"], "simulation");
+  EXPECT_EQ(simulation["phase"], "running");
+  EXPECT_EQ(simulation["mode"], "lockstep");
+  EXPECT_GE(simulation["time_s"], 0.0);
+  EXPECT_EQ(simulation["target_factor"], 1.0);
+  EXPECT_TRUE(simulation["real_time_factor"].is_number());
+  EXPECT_EQ(simulation["late_steps"], 0);
+  ASSERT_EQ(simulation["robots"].size(), 1u);
+  EXPECT_EQ(simulation["robots"][0]["behaviour"], "wander");
+  EXPECT_THAT(Gsv({"ps"}).out, HasSubstr("simulation on gsv run ("));
+  EXPECT_EQ(Gsv({"ps", "another"}).out, "");
+}
+
+TEST_F(Control, PausesStepsResumesAndStops) {
+  const auto run = StartRun();
+  EXPECT_EQ(Json({"pause"})["phase"], "paused");
+  const int step = Json({"step"})["step"];  // the step that was under way when the pause came
+  EXPECT_EQ(Json({"step", "7"})["step"], step + 7);
+  EXPECT_EQ(Json({"ps"})["step"], step + 7);
+  EXPECT_EQ(Json({"resume"})["phase"], "running");
+  const Outcome stopped = Gsv({"stop"});
+  EXPECT_EQ(stopped.ending, "exit code 0");
+  EXPECT_THAT(stopped.out, HasSubstr(": stopped"));
+  EXPECT_EQ(run->AwaitEnd().ending, "exit code 0");
+}
+
+TEST_F(Control, ResetGoesBackToTheStartAndTheSameComesOutAgain) {
+  const auto run = StartRun({"--behaviour", "wander"});
+  EXPECT_EQ(Json({"pause"})["phase"], "paused");
+  EXPECT_EQ(Json({"reset"})["time_s"], 0.0);
+  const auto first = Json({"step", "40"});
+  EXPECT_EQ(first["step"], 40);
+  EXPECT_EQ(Json({"reset"})["phase"], "created");
+  EXPECT_EQ(Json({"step", "40"})["state_hash"], first["state_hash"]);
+  EXPECT_EQ(Json({"reset"})["phase"], "created");
+  EXPECT_EQ(Json({"resume"})["phase"], "running");
+}
+
+TEST_F(Control, WithoutABrokerTheNewestRunIsMeant) {
+  const auto older = StartRun();
+  const auto newer = StartRun();
+  EXPECT_THAT(Json({"pause"})["server"]["place"].get<std::string>(), HasSubstr(":" + Pid(*newer)));
+  EXPECT_EQ(Json({"ps", "--server", Pid(*older)})["phase"], "running");
+  EXPECT_EQ(Json({"ps", "--server", Pid(*newer)})["phase"], "paused");
+  const Outcome all = Gsv({"ps"});
+  EXPECT_THAT(all.out, HasSubstr(":" + Pid(*older)));
+  EXPECT_THAT(all.out, HasSubstr(":" + Pid(*newer)));
+  ExpectComplaint({"pause", "simulation"}, 2, "several simulations fit");
+  EXPECT_EQ(Json({"pause", "--server", Pid(*older)})["phase"], "paused");
+}
+
+TEST_F(Control, ARunThatWasKilledIsForgotten) {
+  {
+    const auto run = StartRun();
+    run->process().Signal(SIGKILL);
+    EXPECT_EQ(run->AwaitEnd().ending, "signal 9");
+  }
+  EXPECT_FALSE(std::filesystem::is_empty(folder_.path() / "gsv"));
+  const Outcome outcome = Gsv({"ps"});
+  EXPECT_EQ(outcome.ending, "exit code 0");
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "gsv"));
+}
+
+TEST_F(Control, ARunThatEndsLeavesNoFile) {
+  const auto run = StartRun();
+  EXPECT_EQ(Gsv({"stop"}).ending, "exit code 0");
+  run->AwaitEnd();
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "gsv"));
+}
+
+TEST_F(Control, AFolderThatOthersCanWriteToIsNotBelieved) {
+  std::filesystem::create_directory(folder_.path() / "gsv");
+  std::filesystem::permissions(folder_.path() / "gsv", std::filesystem::perms::all);
+  folder_.Write("gsv/1.json", R"({"pid":1,"started":0,"broker":"corbaloc::127.0.0.1:1/Trap"})");
+  const auto run = StartRun();
+  EXPECT_EQ(Gsv({"ps"}).out, "");
+  run->process().Signal(SIGINT);
+  EXPECT_THAT(run->AwaitEnd().err, HasSubstr("only this user can write to"));
+}
+
+TEST_F(Control, AServersSimulationsAreFoundThroughItsBroker) {
+  const BrokerProcess broker;
+  Running serve("gsv", {"serve", "--broker", broker.reference(), "--headless"});
+  serve.AwaitLine("broker: ");
+  const Outcome none = Gsv({"ps", "--broker", broker.reference()});
+  EXPECT_EQ(none.ending, "exit code 0");
+  EXPECT_EQ(none.out, "");
+  ExpectComplaint({"stop", "--broker", broker.reference()}, 5, "no simulation is offered there");
+  const auto run = StartRun({"--broker", broker.reference()});
+  EXPECT_EQ(Json({"pause", "--broker", broker.reference(), "simulation"})["phase"], "paused");
+}
+
+TEST_F(Control, ComplaintsAreOneSentenceWithAnExitCode) {
+  ExpectComplaint({"pause"}, 5, "no simulation of yours runs on this machine");
+  ExpectComplaint({"ps", "--broker", "corbaloc::127.0.0.1:1/TradingService"}, 5,
+                  "no broker answers");
+  ExpectComplaint({"ps", "--broker", "nonsense"}, 2, "nonsense");
+  const auto run = StartRun();
+  ExpectComplaint({"pause", "another"}, 2, "there are: simulation on gsv run (");
+  ExpectComplaint({"step", "3"}, 5, "to step it must be created or paused, and it is running");
+  EXPECT_EQ(Gsv({"step", "0"}).ending, "exit code 2");
+  EXPECT_EQ(Gsv({"ps", "--nothing"}).ending, "exit code 2");
+  EXPECT_THAT(Gsv({"pause", "--help"}).out, HasSubstr("--broker"));
+}
+
+}  // namespace
+}  // namespace gsv::testing

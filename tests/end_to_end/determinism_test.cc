@@ -1,0 +1,157 @@
+// Same world, same seed, same behaviours: the same state_hash, whatever happens to the behaviours'
+// processes. See docs/determinism.md. GSV_SOAK says how often each case is run (once in make test,
+// 20 times in make soak); GSV_DEBUG_BUILD_DIR names a debug build to compare with.
+#include <cstdlib>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/end_to_end/fleet.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+int Rounds() {
+  const char* soak = std::getenv("GSV_SOAK");
+  return soak == nullptr ? 1 : std::max(1, std::atoi(soak));
+}
+
+nlohmann::json ReportOf(const std::string& broker, const std::string& gsv = "gsv") {
+  const Outcome outcome = RunProgram(gsv, FleetRun(broker));
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  return outcome.LastLine();
+}
+
+std::string HashOf(const nlohmann::json& report) { return report.value("state_hash", "none"); }
+
+// What every other run is compared with: nothing happens to the programs.
+std::string UndisturbedHash() {
+  const BrokerProcess broker;
+  const Fleet fleet(broker.reference());
+  const auto report = ReportOf(broker.reference());
+  for (const auto& robot : report["robots"]) EXPECT_GT(robot["distance_m"], 0.02) << robot;
+  return HashOf(report);
+}
+
+void ExpectSameHash(const Handicap& handicap) {
+  const std::string expected = UndisturbedHash();
+  ASSERT_EQ(expected.size(), 16u);
+  for (int round = 0; round < Rounds(); ++round) {
+    const BrokerProcess broker;
+    const Fleet fleet(broker.reference(), handicap);
+    ASSERT_EQ(HashOf(ReportOf(broker.reference())), expected) << "round " << round;
+  }
+}
+
+TEST(Determinism, ARunRepeatsToTheBit) {
+  const std::string expected = UndisturbedHash();
+  for (int run = 0; run < std::max(3, Rounds()); ++run) ASSERT_EQ(UndisturbedHash(), expected);
+}
+
+TEST(Determinism, RunsWithTheSameProgramsRepeatToTheBit) {
+  const BrokerProcess broker;
+  const Fleet fleet(broker.reference());
+  const std::string expected = HashOf(ReportOf(broker.reference()));
+  for (int run = 0; run < std::max(3, Rounds()); ++run)
+    ASSERT_EQ(HashOf(ReportOf(broker.reference())), expected);
+}
+
+TEST(Determinism, NiceBehavioursLeaveNoTrace) { ExpectSameHash({.wrapper = {"nice", "-n", "19"}}); }
+
+TEST(Determinism, BehavioursOnOneCoreLeaveNoTrace) {
+  ExpectSameHash({.wrapper = {"taskset", "-c", "0"}});
+}
+
+TEST(Determinism, BehavioursStartedInReverseOrderLeaveNoTrace) {
+  ExpectSameHash({.in_reverse_order = true});
+}
+
+TEST(Determinism, CallsDelayedAtRandomLeaveNoTrace) {
+  const std::string expected = UndisturbedHash();
+  for (int round = 0; round < Rounds(); ++round) {
+    const std::string fault = "GSV_FAULT_DELAY=seed=" + std::to_string(round + 1) + ",max_ms=4";
+    const BrokerProcess broker;
+    const Fleet fleet(broker.reference(), {.wrapper = {"env", fault}});
+    const auto report = ReportOf(broker.reference());
+    ASSERT_EQ(HashOf(report), expected) << fault;
+    // Twelve cycles of eight readings, two delays of 2 ms on average each: 384 ms for the readings
+    // alone, of which a tenth shows that the delays took place.
+    EXPECT_GT(report["wall_time_s"], 0.038);
+  }
+}
+
+// Another host: a network namespace, 20 ms further away with every round trip.
+TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
+  Running link(std::string(std::getenv("GSV_SOURCE_DIR")) + "/tests/end_to_end/slow_link.py",
+               {"20"});
+  const auto line = link.process().ReadLine(kPatience);
+  if (!line) {
+    const Outcome outcome = link.AwaitEnd();
+    ASSERT_EQ(outcome.ending, "exit code 77") << outcome.err;
+    GTEST_SKIP() << outcome.err;
+  }
+  std::istringstream words(*line);
+  std::string ready, network, here;
+  ASSERT_TRUE(words >> ready >> network >> here) << *line;
+  const std::string expected = UndisturbedHash();
+  for (int round = 0; round < Rounds(); ++round) {
+    const BrokerProcess broker(here);
+    const Fleet fleet(broker.reference(), {.wrapper = {"ip", "netns", "exec", network}});
+    const auto report = ReportOf(broker.reference());
+    ASSERT_EQ(HashOf(report), expected) << "round " << round;
+    // Twelve cycles of eight readings, each at least 20 ms away.
+    EXPECT_GT(report["wall_time_s"], 12 * 8 * 0.020);
+  }
+}
+
+TEST(Determinism, ADebugBuildGivesTheHashOfTheReleaseBuild) {
+  const char* debug = std::getenv("GSV_DEBUG_BUILD_DIR");
+  if (debug == nullptr)
+    GTEST_SKIP() << "GSV_DEBUG_BUILD_DIR names no debug build; `make soak` does";
+  const std::string expected = UndisturbedHash();
+  for (int round = 0; round < Rounds(); ++round) {
+    const BrokerProcess broker;
+    const Fleet fleet(broker.reference());
+    ASSERT_EQ(HashOf(ReportOf(broker.reference(), std::string(debug) + "/bin/gsv")), expected);
+  }
+}
+
+TEST(Determinism, DelayedBehavioursLeaveNoTraceInTheRecording) {
+  TemporaryFolder folder;
+  std::vector<std::string> contents;
+  for (const char* fault : {"", "seed=3,max_ms=3"}) {
+    const std::string file = (folder.path() / ("run" + std::to_string(contents.size()) + ".mcap"));
+    const BrokerProcess broker;
+    const Fleet fleet(broker.reference(),
+                      {.wrapper = {"env", std::string("GSV_FAULT_DELAY=") + fault}});
+    const Outcome run = RunProgram("gsv", FleetRun(broker.reference(), {"--record", file}));
+    ASSERT_EQ(run.ending, "exit code 0") << run.err;
+    contents.push_back(
+        RunProgram("gsv", {"rec", "info", file, "--json"}).LastLine().value("content_hash", ""));
+  }
+  EXPECT_EQ(contents[0].size(), 16u);
+  EXPECT_EQ(contents[0], contents[1]);
+}
+
+TEST(Determinism, AnotherStepIsAnotherHash) {
+  const BrokerProcess broker;
+  const Fleet fleet(broker.reference());
+  const std::string expected = HashOf(ReportOf(broker.reference()));
+  const Outcome longer = RunProgram("gsv", FleetRun(broker.reference(), {"--step", "0.02"}));
+  EXPECT_NE(HashOf(longer.LastLine()), expected);
+  EXPECT_EQ(HashOf(longer.LastLine()).size(), 16u);
+}
+
+TEST(FaultDelay, ABehaviourRefusesAFaultItDoesNotUnderstand) {
+  Running program("gsv-wander", {"--broker", "corbaloc::127.0.0.1:1/TradingService"},
+                  {"env", "GSV_FAULT_DELAY=often"});
+  const Outcome outcome = program.AwaitEnd();
+  EXPECT_EQ(outcome.ending, "exit code 2");
+  EXPECT_THAT(outcome.err, HasSubstr("GSV_FAULT_DELAY=often: expected seed="));
+}
+
+}  // namespace
+}  // namespace gsv::testing
