@@ -45,7 +45,7 @@ TEST(Camera, TakesAPictureFromWhereItIsMounted) {
   const auto reading = (*camera)->Sample(
       sensing::Sampling(snapshot, snapshot->layout->Find("robot"), 1, fixture.rays));
   ASSERT_TRUE(reading) << reading.error().Sentence();
-  EXPECT_EQ(reading->values, (std::vector<double>{64, 48}));
+  EXPECT_EQ(reading->values, (sensing::Reading::Values{64, 48}));
   ASSERT_NE(reading->picture, nullptr);
   const Blob target = FindBlob(*reading->picture, 0);
   EXPECT_GT(target.pixels, 10);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+using geometry::Bounds;
 using geometry::Pose;
 using geometry::Vector3;
 
@@ -31,6 +32,13 @@ double DistanceOf(const Nearest& nearest) {
 
 Ray Moved(const Pose& to_from, const Ray& ray, double length) {
   return {to_from * ray.origin, to_from.orientation * ray.direction, length};
+}
+
+Bounds Around(const Ray& ray) {
+  const Vector3& a = ray.origin;
+  const Vector3 b = ray.origin + ray.max_distance * ray.direction;
+  return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+          {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
 // Whether the ray comes within the ball.
@@ -148,12 +156,12 @@ double PlacedSolids::Range(const Ray& ray, int ignored_body,
   Nearest nearest;
   nearest.distance = ray.max_distance;
   if (!IsSound(ray)) return kInfinity;
+  const Bounds around = Around(ray);
   surroundings.Find(ray, nearest.distance, [&](std::uint32_t i) {
-    if ((i & kStanding) != 0) {
-      solids_->standing.CastAtShape(i & ~kStanding, ray, ignored_body, nearest);
-    } else {
-      CastAtPart(i, ray, nearest);
-    }
+    const std::uint32_t shape = i & ~kStanding;
+    if (shape == i) return CastAtPart(i, ray, nearest);
+    if (!solids_->standing.ShapeReaches(shape, around)) return;
+    solids_->standing.CastAtShape(shape, ray, ignored_body, nearest);
   });
   CastAtRest(ray, ignored_body, nearest);
   return DistanceOf(nearest);

@@ -13,9 +13,11 @@ namespace gsv::sensing {
 // `values` has the shape its sensor type documents (a sonar: one range in metres). `picture` is
 // null for all but cameras.
 struct Reading {
+  using Values = boost::container::small_vector<double, 1>;  // a single one takes no allocation
+
   std::int64_t step = 0;
-  base::SimTime time{0};                             // the sampling instant
-  boost::container::small_vector<double, 1> values;  // a single one costs no memory of its own
+  base::SimTime time{0};  // the sampling instant
+  Values values;
   std::shared_ptr<const model::Image> picture;
 };
 

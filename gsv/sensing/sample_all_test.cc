@@ -27,7 +27,8 @@ model::SensorDescription SensorOf(const std::string& type, double angle) {
   return description;
 }
 
-// Robots and boxes on a ground with one wall, `room` square metres for each robot.
+// Robots, boxes and a lorry that moves too, on a ground with one wall, `room` square metres for
+// each robot.
 std::shared_ptr<world::Snapshot> MakeCrowd(int robots, double room) {
   Random random(41);
   const double half = std::sqrt(room * robots) / 2;
@@ -41,6 +42,8 @@ std::shared_ptr<world::Snapshot> MakeCrowd(int robots, double room) {
   bodies.push_back({"ground", testing::ModelOf(geometry::Plane{}), {}, true});
   bodies.push_back({"wall", testing::ModelOf(geometry::Box{{0.1, 2 * half, 1}}),
                     geometry::PlanarPose(half, 0, 0.5, 0.1), true});
+  bodies.push_back(
+      {"lorry", testing::ModelOf(geometry::Box{{12, 2.5, 3}}), {{0, 0, 1.6}, {}}, false});
   for (int i = 0; i < robots / 4; ++i) {
     bodies.push_back(
         {"box" + std::to_string(i), testing::ModelOf(geometry::Box{{1, 1, 1}}), place(0.5), true});

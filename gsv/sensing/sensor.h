@@ -93,7 +93,7 @@ class Sensor {
   // Sample() waits for something outside of the caller's thread, such as a renderer.
   virtual bool TakesLong() const { return false; }
 
-  // Whether Sample() uses Sampling::Rays(), so that who samples many can have them made ready.
+  // Whether Sample() casts rays: then who samples many has the scene made ready for all beforehand.
   virtual bool CastsRays() const { return false; }
 
  private:

@@ -68,6 +68,13 @@ class SolidSet {
                    const Bearer& bearer = {}) const;
   void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
+  // Whether a shape may reach into a box: of one that is long and thin its ball says little.
+  bool ShapeReaches(std::uint32_t shape, const geometry::Bounds& into) const {
+    const geometry::Bounds& b = shape_bounds_[shape];
+    return b.min.x <= into.max.x && into.min.x <= b.max.x && b.min.y <= into.max.y &&
+           into.min.y <= b.max.y && b.min.z <= into.max.z && into.min.z <= b.max.z;
+  }
+
   // Adds the shapes within `surroundings`, their numbers marked by `mark`; false if that cannot be
   // done quickly.
   bool Gather(Surroundings& surroundings, std::uint32_t mark) const;

@@ -22,16 +22,17 @@ TEST(Surroundings, FindEveryBallThatARayTouchesAndFewOthers) {
   Random random(51);
   for (int round = 0; round < 300; ++round) {
     const Vector3 place = random.Point(5000);
+    const Ray ray{place + random.Point(2), Normalized(random.Point(1)), 5};
     Surroundings surroundings;
     surroundings.Begin(place, 10);
     std::vector<Ball> balls;
     const auto count = static_cast<std::size_t>(random.Uniform(0, Surroundings::kMost));
     for (std::uint32_t i = 0; i < count; ++i) {
       balls.push_back({place + random.Point(9), random.Uniform(0.01, i % 9 == 0 ? 300 : 1)});
-      surroundings.Add(balls.back(), i, i % 3 != 0);
+      if (i % 4 == 0) balls[i].radius = Gap(ray, balls[i].centre) + 1e-9;  // hardly touched
+      surroundings.Add(balls[i], i, i % 3 != 0);
     }
     ASSERT_TRUE(surroundings.Finish());
-    const Ray ray{place + random.Point(2), Normalized(random.Point(1)), 5};
     ASSERT_TRUE(surroundings.Hold(ray));
     std::set<std::uint32_t> found;
     surroundings.Find(ray, ray.max_distance, [&](std::uint32_t i) { found.insert(i); });
