@@ -15,11 +15,24 @@ struct Quaternion {
   friend bool operator==(const Quaternion&, const Quaternion&) = default;
 };
 
-Quaternion operator*(const Quaternion& a, const Quaternion& b);
-Vector3 operator*(const Quaternion& rotation, const Vector3& vector);
+inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+inline Vector3 operator*(const Quaternion& rotation, const Vector3& vector) {
+  // v' = v + 2 u × (u × v + w v), with u the vector part and w the scalar part.
+  const Vector3 u{rotation.x, rotation.y, rotation.z};
+  return vector + 2.0 * Cross(u, Cross(u, vector) + rotation.w * vector);
+}
 inline Quaternion Inverse(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
 // Of a quaternion of length zero: the identity.
-Quaternion Normalized(const Quaternion& q);
+inline Quaternion Normalized(const Quaternion& q) {
+  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  if (!(length > 0)) return {};
+  const double s = 1.0 / length;
+  return {q.w * s, q.x * s, q.y * s, q.z * s};
+}
 
 // Fixed-axis roll, pitch, yaw as in URDF and SDFormat: R = Rz(yaw) Ry(pitch) Rx(roll).
 struct RollPitchYaw {
