@@ -14,6 +14,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Hulls drop corners that stand out from their neighbours by less than this.
 constexpr double kFlat = 1e-9;
 
+// More than rounding may be wrong by, where squared distances are compared.
+constexpr double kClearly = 1 + 1e-6;
+
 // The closest pair of points of two sets of vertices and edges that do not overlap.
 struct ClosestPoints {
   double squared = kInfinity;
@@ -30,6 +33,9 @@ void CompareVerticesWithEdges(std::span<const Vector2> vertices, std::span<const
     const Vector2 edge = polygon[k + 1 == polygon.size() ? 0 : k + 1] - from;
     const double squared_length = Dot(edge, edge);
     for (const Vector2 vertex : vertices) {
+      // Most are further from the edge's line than what was found is; this tells without dividing.
+      const double across = Cross(edge, vertex - from);
+      if (across * across > kClearly * best.squared * squared_length) continue;
       const double along = Dot(vertex - from, edge);
       const double t = along <= 0 ? 0 : along >= squared_length ? 1 : along / squared_length;
       const Vector2 foot = from + t * edge;

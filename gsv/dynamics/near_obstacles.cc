@@ -51,15 +51,25 @@ void NearObstacles::Search(Chunk& chunk, std::uint32_t m, const PlanarPosition& 
       const double from_origin = DistanceTo(obstacle.shape, origin);
       nearest = std::min(nearest, from_origin);
       if (from_origin > footprint.radius + within + kRounding) return;
-      if (DistanceTo(obstacle.shape, centre) > piece.radius + within) return;
+      const double from_centre =
+          centre == origin ? from_origin : DistanceTo(obstacle.shape, centre);
+      if (from_centre > piece.radius + within) return;
       if (!is_placed) Place(piece.shape, at, placed);
       is_placed = true;
-      const double distance = Separate(placed, obstacle.shape).distance;
-      if (distance <= within) chunk.near.push_back({m, p, index, level});
-      if (distance <= kTouchGap) chunk.touching.push_back({mover.body, obstacle.body});
+      const Separation separation = Separate(placed, obstacle.shape);
+      if (separation.distance > within) return;
+      chunk.near.push_back({m, p, index, level, at, separation});
+      if (separation.distance <= kTouchGap) chunk.touching.push_back({mover.body, obstacle.body});
     });
   }
   clearances_[m] = {origin, nearest - footprint.radius - kRounding};
+}
+
+Separation NearObstacles::SeparationAt(const Near& near, const PlanarPosition& at) const {
+  if (at == near.found_at) return near.separation;
+  ConvexPiece placed;
+  Place(PieceOf(near).shape, at, placed);
+  return Separate(placed, ObstacleOf(near).shape);
 }
 
 void NearObstacles::Stop(std::size_t chunk, std::span<const PlanarPosition> starts,
@@ -68,9 +78,9 @@ void NearObstacles::Stop(std::size_t chunk, std::span<const PlanarPosition> star
   for (const Near& near : chunks_[chunk].near) {
     double& time = times[near.mover];
     if (time <= 0) continue;
-    const ConvexPiece& piece = scene_.footprint(near.mover).pieces[near.piece].shape;
-    const auto impact = FindImpact(MovingPiece{&piece, starts[near.mover], twists[near.mover]},
-                                   scene_.field(near.level)[near.obstacle].shape, time);
+    const PlanarPosition& start = starts[near.mover];
+    const auto impact = FindImpact(MovingPiece{&PieceOf(near).shape, start, twists[near.mover]},
+                                   ObstacleOf(near).shape, time, SeparationAt(near, start).normal);
     if (!impact) continue;
     time = impact->time;
     normals[near.mover] = impact->normal;
@@ -85,15 +95,12 @@ void NearObstacles::AddTouching(std::vector<BodyPair>& touching) const {
 
 void NearObstacles::Collect(std::span<const PlanarPosition> positions,
                             ContactCollector& contacts) const {
-  ConvexPiece placed;
   for (const Chunk& chunk : chunks_) {
     for (const Near& near : chunk.near) {
-      const Footprint::Piece& piece = scene_.footprint(near.mover).pieces[near.piece];
-      const Obstacle& obstacle = scene_.field(near.level)[near.obstacle];
-      Place(piece.shape, positions[near.mover], placed);
-      contacts.Offer({scene_.movers()[near.mover].body, obstacle.body},
-                     Separate(placed, obstacle.shape),
-                     scene_.height(near.mover) + (piece.heights.low + piece.heights.high) / 2);
+      const Interval heights = PieceOf(near).heights;
+      contacts.Offer({scene_.movers()[near.mover].body, ObstacleOf(near).body},
+                     SeparationAt(near, positions[near.mover]),
+                     scene_.height(near.mover) + (heights.low + heights.high) / 2);
     }
   }
 }

@@ -44,6 +44,8 @@ class NearObstacles {
   struct Near {
     std::uint32_t mover, piece, obstacle;
     int level;
+    PlanarPosition found_at;
+    Separation separation;  // there
   };
   // Every obstacle is further than `radius` from any part of the mover, however it is turned, with
   // its origin at `centre`.
@@ -56,6 +58,13 @@ class NearObstacles {
     std::vector<BodyPair> touching;
   };
 
+  const Footprint::Piece& PieceOf(const Near& near) const {
+    return scene_.footprint(near.mover).pieces[near.piece];
+  }
+  const Obstacle& ObstacleOf(const Near& near) const {
+    return scene_.field(near.level)[near.obstacle];
+  }
+  Separation SeparationAt(const Near& near, const PlanarPosition& at) const;
   void Search(Chunk& chunk, std::uint32_t mover, const PlanarPosition& at, double within);
 
   const PlanarScene& scene_;

@@ -88,9 +88,10 @@ void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
       Place(piece_q.shape, start_b, placed_q);
       if (DistanceTo(placed_q, centre_p) > piece_p.radius + within) continue;
       Place(piece_p.shape, start_a, placed_p);
-      const double distance = Separate(placed_p, placed_q).distance;
-      if (distance <= within) pieces_.push_back({p, q});
-      touches = touches || distance <= kTouchGap;
+      const Separation separation = Separate(placed_p, placed_q);
+      if (separation.distance > within) continue;
+      pieces_.push_back({p, q, start_a, start_b, separation});
+      touches = touches || separation.distance <= kTouchGap;
     }
   }
   const auto end = static_cast<std::uint32_t>(pieces_.size());
@@ -149,13 +150,27 @@ std::optional<Impact> NearPairs::PairImpact(const Motions& motions, const NearPa
   return impact;
 }
 
+Separation NearPairs::SeparationAt(const NearPair& pair, const PiecePair& pieces,
+                                   const PlanarPosition& first_at,
+                                   const PlanarPosition& second_at) const {
+  if (first_at == pieces.first_found_at && second_at == pieces.second_found_at) {
+    return pieces.separation;
+  }
+  ConvexPiece first, second;
+  Place(scene_.footprint(pair.first).pieces[pieces.first].shape, first_at, first);
+  Place(scene_.footprint(pair.second).pieces[pieces.second].shape, second_at, second);
+  return Separate(first, second);
+}
+
 std::optional<Impact> NearPairs::FirstImpact(const NearPair& pair, MovingPiece a, MovingPiece b,
                                              double end) const {
   std::optional<Impact> first;
   for (std::uint32_t i = pair.begin_piece; i < pair.end_piece; ++i) {
-    a.piece = &scene_.footprint(pair.first).pieces[pieces_[i].first].shape;
-    b.piece = &scene_.footprint(pair.second).pieces[pieces_[i].second].shape;
-    if (const auto impact = FindImpact(a, b, end)) {
+    const PiecePair& pieces = pieces_[i];
+    a.piece = &scene_.footprint(pair.first).pieces[pieces.first].shape;
+    b.piece = &scene_.footprint(pair.second).pieces[pieces.second].shape;
+    const Vector2 normal = SeparationAt(pair, pieces, a.start, b.start).normal;
+    if (const auto impact = FindImpact(a, b, end, normal)) {
       first = impact;
       end = impact->time;
     }
@@ -169,17 +184,15 @@ void NearPairs::AddTouching(std::vector<BodyPair>& touching) const {
 
 void NearPairs::Collect(std::span<const PlanarPosition> positions,
                         ContactCollector& contacts) const {
-  ConvexPiece placed_p, placed_q;
   for (const NearPair& pair : pairs_) {
     const BodyPair bodies{scene_.movers()[pair.first].body, scene_.movers()[pair.second].body};
     for (std::uint32_t i = pair.begin_piece; i < pair.end_piece; ++i) {
-      const Footprint::Piece& p = scene_.footprint(pair.first).pieces[pieces_[i].first];
-      const Footprint::Piece& q = scene_.footprint(pair.second).pieces[pieces_[i].second];
-      Place(p.shape, positions[pair.first], placed_p);
-      Place(q.shape, positions[pair.second], placed_q);
-      const Interval shared =
-          SharedHeights(p, scene_.height(pair.first), q, scene_.height(pair.second));
-      contacts.Offer(bodies, Separate(placed_p, placed_q), (shared.low + shared.high) / 2);
+      const Interval shared = SharedHeights(
+          scene_.footprint(pair.first).pieces[pieces_[i].first], scene_.height(pair.first),
+          scene_.footprint(pair.second).pieces[pieces_[i].second], scene_.height(pair.second));
+      contacts.Offer(bodies,
+                     SeparationAt(pair, pieces_[i], positions[pair.first], positions[pair.second]),
+                     (shared.low + shared.high) / 2);
     }
   }
 }

@@ -62,6 +62,8 @@ class NearPairs {
 
   struct PiecePair {
     std::uint32_t first, second;  // pieces of the two footprints
+    PlanarPosition first_found_at, second_found_at;
+    Separation separation;  // there
   };
   struct NearPair {
     std::uint32_t first, second;           // movers
@@ -85,6 +87,8 @@ class NearPairs {
   void Clear();
   void AddIfNear(std::uint32_t first, std::uint32_t second, std::span<const PlanarPosition> starts,
                  double within);
+  Separation SeparationAt(const NearPair& pair, const PiecePair& pieces,
+                          const PlanarPosition& first_at, const PlanarPosition& second_at) const;
   std::optional<Impact> PairImpact(const Motions& motions, const NearPair& pair) const;
   std::optional<Impact> FirstImpact(const NearPair& pair, MovingPiece a, MovingPiece b,
                                     double end) const;

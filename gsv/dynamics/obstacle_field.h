@@ -52,13 +52,10 @@ class ObstacleField {
   }
 
  private:
-  struct Cells {
-    int first_column, last_column, first_row, last_row;
-  };
-
   void LayOutGrid();
   void FillGrid();
-  Cells CellsNear(const Obstacle& obstacle) const;
+  template <typename Visit>
+  void ForEachCellNear(const Obstacle& obstacle, Visit visit) const;
 
   // The cell of a coordinate in cells; those outside belong to the edge.
   static int Clamped(double coordinate, int count) {

@@ -17,6 +17,7 @@ namespace gsv::dynamics {
 struct PlanarPosition {
   double x = 0, y = 0;
   double cosine = 1, sine = 0;
+  friend bool operator==(const PlanarPosition&, const PlanarPosition&) = default;
 };
 
 // Where a point given in the base's frame is.

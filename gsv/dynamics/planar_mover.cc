@@ -28,7 +28,9 @@ PlanarPosition PositionOf(const geometry::Pose& pose) {
   return {pose.position.x, pose.position.y, cosine / length, sine / length};
 }
 
-double SpeedOf(const Twist& twist) { return std::sqrt(twist.x * twist.x + twist.y * twist.y); }
+double SpeedOf(const Twist& twist) {
+  return twist.y == 0 ? std::abs(twist.x) : std::sqrt(twist.x * twist.x + twist.y * twist.y);
+}
 
 bool Moves(const Twist& twist) { return twist.x != 0 || twist.y != 0 || twist.angular != 0; }
 

@@ -113,19 +113,18 @@ bool IsStill(const MovingPiece& moving) {
 }
 
 // `place_second(t)` places the second piece at time t, `project_second(axis, corners)` projects it
-// as placed last.
+// as placed last. `normal` is that at the start.
 template <typename PlaceSecond, typename ProjectSecond>
-std::optional<Impact> Find(const MovingPiece& first, double end, PlaceSecond place_second,
-                           ProjectSecond project_second) {
+std::optional<Impact> Find(const MovingPiece& first, double end, Vector2 normal,
+                           PlaceSecond place_second, ProjectSecond project_second) {
   double time = 0;
   ConvexPiece placed;
   Corners a, b;
-  Vector2 normal;
   for (int advance = 0; advance < kMaxAdvances; ++advance) {
     const PlanarPosition at = advance == 0 ? first.start : Advance(first.start, first.twist, time);
-    Place(*first.piece, at.x, at.y, at.cosine, at.sine, placed);
+    Place(*first.piece, at, placed);
     const ConvexPiece& second = place_second(time);
-    normal = Separate(placed, second).normal;
+    if (advance > 0) normal = Separate(placed, second).normal;
     Project(placed, at, first.twist, normal, a);
     project_second(normal, b);
     const double radii = placed.radius + second.radius;
@@ -144,25 +143,26 @@ std::optional<Impact> Find(const MovingPiece& first, double end, PlaceSecond pla
 
 }  // namespace
 
-std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end) {
+std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end,
+                                 Vector2 normal) {
   if (IsStill(first) && IsStill(second)) return std::nullopt;
   ConvexPiece placed;
   PlanarPosition at;
   return Find(
-      first, end,
+      first, end, normal,
       [&](double time) -> const ConvexPiece& {
         at = time == 0 ? second.start : Advance(second.start, second.twist, time);
-        Place(*second.piece, at.x, at.y, at.cosine, at.sine, placed);
+        Place(*second.piece, at, placed);
         return placed;
       },
       [&](Vector2 axis, Corners& corners) { Project(placed, at, second.twist, axis, corners); });
 }
 
-std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing,
-                                 double end) {
+std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end,
+                                 Vector2 normal) {
   if (IsStill(first)) return std::nullopt;
   return Find(
-      first, end, [&](double) -> const ConvexPiece& { return standing; },
+      first, end, normal, [&](double) -> const ConvexPiece& { return standing; },
       [&](Vector2 axis, Corners& corners) { ProjectStanding(standing, axis, corners); });
 }
 

@@ -39,10 +39,13 @@ struct Impact {
   bool second_approaches = false;
 };
 
-// The first contact in [0, end) that the motions would turn into an overlap.
-std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end);
+// The first contact in [0, end) that the motions would turn into an overlap. `normal` is that of
+// Separate() for the pieces where they start.
+std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end,
+                                 Vector2 normal);
 
 // The same against a piece that stands still, given in the world.
-std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end);
+std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end,
+                                 Vector2 normal);
 
 }  // namespace gsv::dynamics

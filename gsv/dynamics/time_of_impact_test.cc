@@ -37,23 +37,37 @@ TEST(Advance, MovesSidewaysToo) {
   EXPECT_NEAR(end.y, 0, 1e-12);
 }
 
+ConvexPiece AtStart(const MovingPiece& moving) {
+  ConvexPiece placed;
+  Place(*moving.piece, moving.start, placed);
+  return placed;
+}
+
+std::optional<Impact> Find(const MovingPiece& a, const MovingPiece& b, double end) {
+  return FindImpact(a, b, end, Separate(AtStart(a), AtStart(b)).normal);
+}
+
+std::optional<Impact> Find(const MovingPiece& a, const ConvexPiece& standing, double end) {
+  return FindImpact(a, standing, end, Separate(AtStart(a), standing).normal);
+}
+
 TEST(FindImpact, OfADiscAndAWallIsWhenTheGapIsUsedUp) {
   const ConvexPiece disc = Disc({}, 0.5), wall = Hull({{3, -5}, {3, 5}});
-  const auto impact = FindImpact({&disc, {}, {2, 0, 0}}, wall, 10);
+  const auto impact = Find({&disc, {}, {2, 0, 0}}, wall, 10);
   ASSERT_TRUE(impact);
   EXPECT_NEAR(impact->time, (2.5 - kStopGap) / 2, 1e-9);
   EXPECT_NEAR(impact->normal.x, 1, 1e-12);
   EXPECT_TRUE(impact->first_approaches);
   EXPECT_FALSE(impact->second_approaches);
-  EXPECT_FALSE(FindImpact({&disc, {}, {2, 0, 0}}, wall, 1.24));
-  EXPECT_FALSE(FindImpact({&disc, {}, {-2, 0, 0}}, wall, 10));
+  EXPECT_FALSE(Find({&disc, {}, {2, 0, 0}}, wall, 1.24));
+  EXPECT_FALSE(Find({&disc, {}, {-2, 0, 0}}, wall, 10));
 }
 
 TEST(FindImpact, SlidingAlongAWallIsNone) {
   const ConvexPiece disc = Disc({}, 0.5), wall = Hull({{-100, 0.5 + 0.6e-6}, {100, 0.5 + 0.6e-6}});
-  EXPECT_FALSE(FindImpact({&disc, {}, {5, 0, 0}}, wall, 10));
-  EXPECT_FALSE(FindImpact({&disc, {}, {5, 0, -1}}, wall, 1));  // turning away
-  const auto into = FindImpact({&disc, {}, {5, 0, 1}}, wall, 1);
+  EXPECT_FALSE(Find({&disc, {}, {5, 0, 0}}, wall, 10));
+  EXPECT_FALSE(Find({&disc, {}, {5, 0, -1}}, wall, 1));  // turning away
+  const auto into = Find({&disc, {}, {5, 0, 1}}, wall, 1);
   ASSERT_TRUE(into);
   EXPECT_LT(into->time, 1e-3);
 }
@@ -61,13 +75,12 @@ TEST(FindImpact, SlidingAlongAWallIsNone) {
 TEST(FindImpact, SaysWhoseMotionClosesTheGap) {
   const ConvexPiece disc = Disc({}, 0.5);
   const MovingPiece slow{&disc, {2, 0, 1, 0}, {0.5, 0, 0}};
-  const auto behind = FindImpact({&disc, {}, {1.5, 0, 0}}, slow, 10);
+  const auto behind = Find({&disc, {}, {1.5, 0, 0}}, slow, 10);
   ASSERT_TRUE(behind);
   EXPECT_NEAR(behind->time, 1, 1e-5);
   EXPECT_TRUE(behind->first_approaches);
   EXPECT_FALSE(behind->second_approaches);
-  const auto head_on =
-      FindImpact({&disc, {}, {1.5, 0, 0}}, {&disc, {2, 0, -1, 0}, {0.5, 0, 0}}, 10);
+  const auto head_on = Find({&disc, {}, {1.5, 0, 0}}, {&disc, {2, 0, -1, 0}, {0.5, 0, 0}}, 10);
   ASSERT_TRUE(head_on);
   EXPECT_NEAR(head_on->time, 0.5, 1e-5);
   EXPECT_TRUE(head_on->first_approaches);
@@ -78,8 +91,8 @@ double GapAt(const MovingPiece& a, const MovingPiece& b, double time) {
   ConvexPiece placed_a, placed_b;
   const PlanarPosition at_a = Advance(a.start, a.twist, time),
                        at_b = Advance(b.start, b.twist, time);
-  Place(*a.piece, at_a.x, at_a.y, at_a.cosine, at_a.sine, placed_a);
-  Place(*b.piece, at_b.x, at_b.y, at_b.cosine, at_b.sine, placed_b);
+  Place(*a.piece, at_a, placed_a);
+  Place(*b.piece, at_b, placed_b);
   return Separate(placed_a, placed_b).distance;
 }
 
@@ -100,7 +113,7 @@ TEST(FindImpact, AgreesWithLookingAtEveryMoment) {
     };
     const MovingPiece a = moving(-0.9), b = moving(0.9);
     if (GapAt(a, b, 0) <= kTouchGap) continue;
-    const auto impact = FindImpact(a, b, 1);
+    const auto impact = Find(a, b, 1);
     const double until = impact ? impact->time : 1;
     for (int k = 0; k <= 1000; ++k) {
       ASSERT_GT(GapAt(a, b, until * k / 1000), 0) << i << " at " << until * k / 1000;

@@ -5,13 +5,6 @@
 
 namespace gsv::geometry {
 
-Quaternion Normalized(const Quaternion& q) {
-  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  if (!(length > 0)) return {};
-  const double s = 1.0 / length;
-  return {q.w * s, q.x * s, q.y * s, q.z * s};
-}
-
 Quaternion FromAxisAngle(const Vector3& axis, double angle) {
   const double s = std::sin(angle / 2);
   return {std::cos(angle / 2), axis.x * s, axis.y * s, axis.z * s};

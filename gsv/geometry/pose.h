@@ -27,7 +27,12 @@ inline Vector3 operator*(const Quaternion& rotation, const Vector3& vector) {
 }
 inline Quaternion Inverse(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
 // Of a quaternion of length zero: the identity.
-Quaternion Normalized(const Quaternion& q);
+inline Quaternion Normalized(const Quaternion& q) {
+  const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  if (!(length > 0)) return {};
+  const double s = 1.0 / length;
+  return {q.w * s, q.x * s, q.y * s, q.z * s};
+}
 
 // Fixed-axis roll, pitch, yaw as in URDF and SDFormat: R = Rz(yaw) Ry(pitch) Rx(roll).
 struct RollPitchYaw {

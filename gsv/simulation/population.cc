@@ -160,8 +160,14 @@ int SteppingSimulation::Intruded(const world::Layout& layout, const world::State
 base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
                                           const std::vector<std::string>& added,
                                           world::State& state) {
+  // Most of a crowd stand free, and who steps aside steps into nobody.
+  std::vector<bool> stands_free(layout.bodies.size(), true);
+  for (const world::Contact& overlap : engine_->Overlaps(state, kPlacingTolerance)) {
+    stands_free[overlap.first] = stands_free[overlap.second] = false;
+  }
   for (const std::string& name : added) {
     const int body = layout.Find(name);
+    if (stands_free[body]) continue;
     const geometry::Pose wanted = layout.bodies[body].initial_pose;
     const int intruded = Intruded(layout, state, body);
     if (intruded < 0) continue;
