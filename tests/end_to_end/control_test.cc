@@ -10,8 +10,8 @@
 namespace gsv::testing {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using Strings = std::vector<std::string>;
 
 // Runs that note themselves where no other test's runs do.
@@ -90,7 +90,7 @@ TEST_F(Control, ResetGoesBackToTheStartAndTheSameComesOutAgain) {
   EXPECT_EQ(Json({"reset"})["phase"], "created");
   EXPECT_EQ(Json({"step", "40"})["state_hash"], first["state_hash"]);
   EXPECT_EQ(Json({"reset"})["phase"], "created");
-  EXPECT_EQ(Json({"resume"})["phase"], "running");
+  EXPECT_THAT(Json({"resume"})["phase"].get<std::string>(), AnyOf("starting", "running"));
 }
 
 TEST_F(Control, WithoutABrokerTheNewestRunIsMeant) {

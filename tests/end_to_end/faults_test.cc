@@ -180,7 +180,7 @@ TEST_F(Faults, ABehaviourStoppedAndContinuedBeforeTheDeadlineLeavesNoTrace) {
 TEST_F(Faults, OneThatNeitherWaitsNorAnswersIsLeftBehindAtTheDeadline) {
   std::vector<std::string> hashes;
   for (int round = 0; round < 1 + Rounds(); ++round) {
-    sba::Simulation_var simulation = Create("deadline_s", "1");
+    sba::Simulation_var simulation = Create("deadline_s", "3");
     RunTo(simulation, kHalfway);
     StopFirstProgram();
     RunTo(simulation, kFleetSeconds);

@@ -1,0 +1,191 @@
+// What may become of a simulation when it is asked to start, pause, resume, step, run until an
+// instant, stop or reset. The run goes on by itself meanwhile, so the model holds every state that
+// the simulation may be in; what is answered and seen must fit one of them. For tests.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "gsv/simulation/types.h"
+
+namespace gsv::simulation::life_cycle {
+
+enum class Action { kStart, kPause, kResume, kStep, kRunUntil, kStop, kReset };
+
+struct Request {
+  Action action;
+  std::int64_t argument = 0;  // kStep: how many; kRunUntil: the step that its instant falls on
+};
+
+// What was seen: kStarting counts as running.
+struct Sight {
+  Phase phase;
+  std::int64_t step;
+};
+
+inline constexpr std::int64_t kUnbounded = std::numeric_limits<std::int64_t>::max();
+
+struct Interval {
+  std::int64_t low = 0, high = 0;
+};
+
+// One state that the simulation may be in.
+struct State {
+  Phase phase = Phase::kCreated;
+  Interval step;                    // of the latest snapshot
+  std::optional<Interval> counted;  // running: where the steps asked for end
+  std::optional<std::int64_t> run_until;
+
+  // Where a run ends by itself in a pause.
+  std::optional<Interval> Goal() const {
+    if (!run_until) return counted;
+    if (!counted) return Interval{*run_until, *run_until};
+    return Interval{std::min(counted->low, *run_until), std::min(counted->high, *run_until)};
+  }
+};
+
+inline State Frozen(Phase phase, Interval step) {
+  return {.phase = phase, .step = step, .counted = {}, .run_until = {}};
+}
+
+class LifeCycle {
+ public:
+  explicit LifeCycle(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}
+
+  // `seen` was seen just before the request, `ok` was its answer. False: no state allows that.
+  bool Requested(const Request& request, const Sight& seen, bool ok) {
+    std::vector<State> next;
+    for (const State& state : WithWhatComesByItself()) {
+      if (ok) {
+        if (const auto after = After(state, request, seen)) next.push_back(*after);
+      } else if (MayBeRefused(state, request)) {
+        next.push_back(state);
+      }
+    }
+    states_ = std::move(next);
+    return !states_.empty();
+  }
+
+  bool Seen(const Sight& seen) {
+    std::vector<State> next;
+    for (State state : WithWhatComesByItself()) {
+      if (state.phase != seen.phase || seen.step < state.step.low || seen.step > state.step.high)
+        continue;
+      state.step.low = seen.step;
+      // The step that was under way when a pause or stop came is the last one.
+      if (state.phase != Phase::kRunning)
+        state.step.high = std::min(state.step.high, seen.step + 1);
+      next.push_back(state);
+    }
+    states_ = std::move(next);
+    return !states_.empty();
+  }
+
+  // Whether it comes to rest by itself, whatever it does now.
+  bool Settles() const {
+    return std::all_of(states_.begin(), states_.end(), [this](const State& state) {
+      return state.phase != Phase::kRunning || state.Goal() || end_ != kUnbounded;
+    });
+  }
+  void HasSettled() {
+    std::vector<State> settled;
+    for (const State& state : WithWhatComesByItself()) {
+      if (state.phase != Phase::kRunning) settled.push_back(state);
+    }
+    states_ = std::move(settled);
+  }
+
+ private:
+  std::vector<State> WithWhatComesByItself() const {
+    std::vector<State> all = states_;
+    for (const State& state : states_) {
+      if (state.phase != Phase::kRunning) continue;
+      const auto goal = state.Goal();
+      if (goal && goal->low < end_) {
+        const std::int64_t last = std::min(goal->high, end_ - 1);
+        all.push_back(Frozen(Phase::kPaused, {std::max(goal->low, state.step.low), last}));
+      }
+      if (end_ != kUnbounded && (!goal || goal->high >= end_))
+        all.push_back(Frozen(Phase::kFinished, {end_, end_}));
+    }
+    return all;
+  }
+
+  State Running(Interval from, std::optional<Interval> counted,
+                std::optional<std::int64_t> run_until) const {
+    return {Phase::kRunning, {from.low, end_}, counted, run_until};
+  }
+
+  static bool IsAtRest(const State& state) {
+    return state.phase == Phase::kCreated || state.phase == Phase::kPaused;
+  }
+
+  static bool MayBeRefused(const State& state, const Request& request) {
+    const bool is_running = state.phase == Phase::kRunning;
+    switch (request.action) {
+      case Action::kStart:
+        return state.phase != Phase::kCreated;
+      case Action::kPause:
+      case Action::kResume:
+        return !is_running && state.phase != Phase::kPaused;
+      case Action::kStep:
+        return request.argument < 1 || !IsAtRest(state);
+      case Action::kRunUntil:
+        // Refused when the clock has passed that instant; a running one may have.
+        return request.argument <= state.step.high || !(is_running || IsAtRest(state));
+      case Action::kStop:
+      case Action::kReset:
+        return false;
+    }
+    return false;
+  }
+
+  // What becomes of a state when the request is accepted; nothing when it cannot be.
+  std::optional<State> After(State state, const Request& request, const Sight& seen) const {
+    const bool is_running = state.phase == Phase::kRunning;
+    state.step.low = std::max(state.step.low, seen.step);
+    switch (request.action) {
+      case Action::kStart:
+        if (state.phase != Phase::kCreated) return std::nullopt;
+        return Running(state.step, {}, {});
+      case Action::kPause:
+        if (state.phase == Phase::kPaused) return state;
+        if (!is_running) return std::nullopt;
+        return Frozen(Phase::kPaused, state.step);
+      case Action::kResume:
+        if (state.phase == Phase::kPaused) return Running(state.step, {}, {});
+        if (!is_running) return std::nullopt;
+        state.counted.reset();
+        return state;
+      case Action::kStep:
+        if (request.argument < 1 || !IsAtRest(state)) return std::nullopt;
+        return Running(state.step,
+                       Interval{state.step.low - kUnderWay + request.argument,
+                                state.step.high + request.argument},
+                       {});
+      case Action::kRunUntil:
+        if (request.argument <= state.step.low - kUnderWay) return std::nullopt;
+        if (IsAtRest(state)) return Running(state.step, {}, request.argument);
+        if (!is_running) return std::nullopt;
+        state.run_until = request.argument;
+        return state;
+      case Action::kStop:
+        if (!IsAtRest(state) && !is_running) return state;
+        return Frozen(Phase::kStopped, state.step);
+      case Action::kReset:
+        return State();
+    }
+    return std::nullopt;
+  }
+
+  // A step whose snapshot can be seen may still be under way for the clock, and then counts.
+  static constexpr std::int64_t kUnderWay = 1;
+
+  const std::int64_t end_;
+  std::vector<State> states_{State()};
+};
+
+}  // namespace gsv::simulation::life_cycle
