@@ -91,7 +91,7 @@ class Sensor {
   // means are missing: a camera without a renderer.
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
 
-  // Whether Sample() uses Sampling::Rays(), so that who samples many can have them made ready.
+  // Whether Sample() casts rays: then who samples many has the scene made ready for all beforehand.
   virtual bool CastsRays() const { return false; }
 
  private:

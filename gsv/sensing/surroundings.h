@@ -1,8 +1,7 @@
 // The solids near one place, gathered once for many rays from there.
 //
-// Exactness  they are told apart by balls in single precision, grown by more than it errs: none
-// that
-//            a ray touches is left out.
+// Exactness  they are told apart by balls in single precision, grown by more than it errs, so that
+//            none that a ray touches is left out.
 // Threads    const members may run concurrently.
 #pragma once
 
