@@ -159,7 +159,7 @@ BENCHMARK(CrowdRays)
     ->UseManualTime();
 
 void CrowdSonars(benchmark::State& bench) {
-  Crowd crowd(static_cast<int>(bench.range(0)), RobotShape(0));
+  Crowd crowd(static_cast<int>(bench.range(0)), RobotShape(static_cast<int>(bench.range(1))));
   std::vector<std::unique_ptr<Sensor>> sonars;
   for (const model::SensorDescription& description : crowd.model().sensors) {
     sonars.push_back(*SonarType().create(description));
@@ -168,15 +168,15 @@ void CrowdSonars(benchmark::State& bench) {
   for (const int robot : crowd.robots()) {
     for (const auto& sonar : sonars) sensors.push_back({sonar.get(), robot});
   }
-  base::ThreadTeam team(static_cast<int>(bench.range(1)));
+  base::ThreadTeam team(static_cast<int>(bench.range(2)));
   RaySceneCache cache;
   cache.At(crowd.snapshot());
   std::vector<base::Result<Reading>> readings(sensors.size());
   RunCrowd(bench, crowd, [&] { SampleAll(crowd.snapshot(), 1, cache, sensors, team, readings); });
 }
 BENCHMARK(CrowdSonars)
-    ->ArgNames({"robots", "threads"})
-    ->ArgsProduct({{5, 100, 1000, 5000, 10000}, {1, 2}})
+    ->ArgNames({"robots", "box", "threads"})
+    ->ArgsProduct({{5, 100, 1000, 5000, 10000}, {0, 1}, {1, 2}})
     ->Unit(benchmark::kMicrosecond)
     ->UseManualTime();
 

@@ -1,9 +1,8 @@
 // The solids of a world at one instant, to cast rays against.
 //
-// Exactness    a grid or Embree only finds which primitives a ray may meet; the distance is
-// computed
-//              in double precision from the triangle or the analytic shape, the same on every
-//              machine and for every thread count.
+// Exactness    a grid or Embree only finds which primitives a ray may meet; the distance is then
+//              computed in double precision from the triangle or the analytic shape, the same on
+//              every machine and for every thread count.
 // Threads      const members may run concurrently.
 #pragma once
 
