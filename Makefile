@@ -1,6 +1,6 @@
 # `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
 # (tools/setup) and build.
-# `make soak` repeats the determinism matrix many times and compares a debug build (an hour or so).
+# `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build).
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
 #   PRESET=dev    another preset of CMakePresets.json
 PRESET ?= release
