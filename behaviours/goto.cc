@@ -76,19 +76,15 @@ class GoTo final : public Behaviour {
   double last_ = 0;  // rad: the direction taken in the last cycle
 };
 
-gsv::BehaviourModule Module() {
+BehaviourFactory Configure(CLI::App& app) {
   const auto goal = std::make_shared<Goal>();
-  gsv::BehaviourModule module;
-  module.program = {"goto", "Drives to a point, around obstacles."};
-  module.program.add_options = [goal](CLI::App& app) {
-    app.add_option("--goal-x", goal->x, "metres, in the world")->capture_default_str();
-    app.add_option("--goal-y", goal->y, "metres, in the world")->capture_default_str();
-    app.add_option("--tolerance", goal->tolerance, "metres")->capture_default_str();
-  };
-  module.factory = [goal] { return std::make_unique<GoTo>(*goal); };
-  return module;
+  app.add_option("--goal-x", goal->x, "metres, in the world")->capture_default_str();
+  app.add_option("--goal-y", goal->y, "metres, in the world")->capture_default_str();
+  app.add_option("--tolerance", goal->tolerance, "metres")->capture_default_str();
+  return [goal] { return std::make_unique<GoTo>(*goal); };
 }
 
 }  // namespace
 
-GSV_BEHAVIOUR_MODULE(Module())
+GSV_BEHAVIOUR_MODULE((gsv::BehaviourModule{gsv::kBehaviourInterface, "goto",
+                                           "Drives to a point, around obstacles.", Configure}))

@@ -1,7 +1,4 @@
 // The program of a behaviour that is made known by GSV_BEHAVIOUR.
 #include "sdk/serve.h"
 
-int main(int argc, char** argv) {
-  const gsv::BehaviourModule& module = *gsv_behaviour_module();
-  return gsv::ServeBehaviour(argc, argv, module.program, module.factory);
-}
+int main(int argc, char** argv) { return gsv::ServeBehaviour(argc, argv, *gsv_behaviour_module()); }

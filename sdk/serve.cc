@@ -61,7 +61,7 @@ base::Result<CORBA::ORB_var> StartOrb(const std::string& broker) {
   return orb::StartOrb(options);
 }
 
-int Serve(const Arguments& arguments, const BehaviourProgram& program, BehaviourFactory factory,
+int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFactory factory,
           const sigset_t& signals) {
   auto orb = StartOrb(arguments.broker);
   if (!orb) return Complain(orb.error());
@@ -76,8 +76,8 @@ int Serve(const Arguments& arguments, const BehaviourProgram& program, Behaviour
       new sdk::BehaviourFactoryServant(poa, std::move(factory)));
   const PortableServer::ObjectId_var id = poa->activate_object(servant);
   const CORBA::Object_var reference = poa->id_to_reference(id);
-  const broker::BehaviourOffer offer{arguments.name, program.description, HostName(),
-                                     static_cast<std::int32_t>(getpid()), program.time_managed};
+  const broker::BehaviourOffer offer{arguments.name, module.description, HostName(),
+                                     static_cast<std::int32_t>(getpid()), module.time_managed};
   auto offer_id =
       broker->Export(broker::AgentBehaviourFactoryType().name, reference, PropertiesOf(offer));
   if (!offer_id) return Complain(offer_id.error());
@@ -98,18 +98,17 @@ int Serve(const Arguments& arguments, const BehaviourProgram& program, Behaviour
 
 }  // namespace
 
-int ServeBehaviour(int argc, char** argv, const BehaviourProgram& program,
-                   BehaviourFactory factory) {
+int ServeBehaviour(int argc, char** argv, const BehaviourModule& module) {
   Arguments arguments;
-  arguments.name = program.name;
-  CLI::App app(program.description);
+  arguments.name = module.name;
+  CLI::App app(module.description);
   app.add_option("--broker", arguments.broker, "the broker to offer the behaviour at")
       ->envname("GSV_BROKER")
       ->required();
   app.add_option("--name", arguments.name, "the name to offer it under")->capture_default_str();
   app.add_flag("--exit-with-parent", arguments.exit_with_parent,
                "end when the program that started this one ends");
-  if (program.add_options) program.add_options(app);
+  BehaviourFactory factory = module.configure(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -118,7 +117,7 @@ int ServeBehaviour(int argc, char** argv, const BehaviourProgram& program,
   base::InitLogging(spdlog::level::info);
   if (arguments.exit_with_parent) prctl(PR_SET_PDEATHSIG, SIGTERM);
   const sigset_t signals = BlockSignals();
-  return Serve(arguments, program, std::move(factory), signals);
+  return Serve(arguments, module, std::move(factory), signals);
 }
 
 }  // namespace gsv

@@ -36,12 +36,14 @@ std::string FindProgram(const std::string& name) {
 
 }  // namespace
 
-base::Status BehaviourLauncher::Ensure(const std::string& name, int programs) {
+base::Status BehaviourLauncher::Ensure(const std::string& behaviour, int programs) {
   if (auto ok = broker_.EnsureServiceType(broker::AgentBehaviourFactoryType()); !ok) return ok;
   auto offers = broker_.Query(broker::AgentBehaviourFactoryType().name,
-                              services::ConstraintForName(name), "first", 1);
+                              services::ConstraintForName(behaviour), "first", 1);
   if (!offers) return base::Fail(offers.error());
   if (!offers->empty()) return {};
+  const std::vector<std::string> words = SplitWords(behaviour);
+  const std::string name = words.empty() ? "" : words.front();
   const std::string program = FindProgram(name);
   if (program.empty()) {
     return base::Fail(base::ErrorCode::kBehaviour,
@@ -49,12 +51,14 @@ base::Status BehaviourLauncher::Ensure(const std::string& name, int programs) {
                           ", and there is no program gsv-" + name +
                           " to start; see `gsv offers`, or start your program with --broker " +
                           broker_.reference(),
-                      name);
+                      behaviour);
   }
+  std::vector<std::string> command{program,  "--broker", broker_.reference(),
+                                   "--name", behaviour,  "--exit-with-parent"};
+  command.insert(command.end(), words.begin() + 1, words.end());
   std::vector<ChildProcess*> started;
   for (int i = 0; i < std::min(programs, kMaxPrograms); ++i) {
-    auto child = ChildProcess::Start(
-        {program, "--broker", broker_.reference(), "--name", name, "--exit-with-parent"}, false);
+    auto child = ChildProcess::Start(command, false);
     if (!child) return base::Fail(child.error());
     started.push_back(child->get());
     children_.push_back(*std::move(child));

@@ -18,8 +18,9 @@ class BehaviourLauncher {
   explicit BehaviourLauncher(broker::BrokerClient& broker) : broker_(broker) {}
 
   // Sees to it that the behaviour is offered. If it is not, starts `programs` of the program
-  // gsv-NAME, which lies beside this one or on PATH, and waits until they offer it.
-  base::Status Ensure(const std::string& name, int programs);
+  // gsv-NAME, which lies beside this one or on PATH, and waits until they offer it. `behaviour` is
+  // a name and, after blanks, options for the program: it is offered under the whole of that.
+  base::Status Ensure(const std::string& behaviour, int programs);
 
  private:
   broker::BrokerClient& broker_;

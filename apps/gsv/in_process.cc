@@ -4,6 +4,8 @@
 #include <sstream>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "apps/gsv/installation.h"
 #include "gsv/hosting/hosted_behaviour.h"
 #include "gsv/hosting/plugin.h"
@@ -24,20 +26,32 @@ std::vector<std::string> PluginFolders() {
 }  // namespace
 
 base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
-    const std::string& name) {
+    const std::string& behaviour) {
+  std::vector<std::string> words = SplitWords(behaviour);
+  if (words.empty()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "a behaviour has a name", "--behaviour");
+  }
   const std::vector<std::string> folders = PluginFolders();
-  const std::string file = hosting::FindPlugin(name, folders);
+  const std::string file = hosting::FindPlugin(words.front(), folders);
   if (file.empty()) {
     std::string looked_in;
     for (const std::string& folder : folders) looked_in += (looked_in.empty() ? "" : ", ") + folder;
     return base::Fail(base::ErrorCode::kBehaviour,
-                      "there is no plug-in gsv-" + name + ".so in " + looked_in +
+                      "there is no plug-in gsv-" + words.front() + ".so in " + looked_in +
                           "; name its folder in GSV_PLUGIN_PATH, or leave out --in-process",
-                      name);
+                      behaviour);
   }
   const auto module = hosting::LoadPlugin(file);
   if (!module) return base::Fail(module.error());
-  return std::make_shared<hosting::HostedBehaviour>(name, (*module)->factory);
+  CLI::App app;
+  BehaviourFactory factory = (*module)->configure(app);
+  try {
+    app.parse(
+        std::vector<std::string>(words.rbegin(), words.rend() - 1));  // it takes them reversed
+  } catch (const CLI::ParseError& error) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, error.what(), "--behaviour " + behaviour);
+  }
+  return std::make_shared<hosting::HostedBehaviour>(behaviour, std::move(factory));
 }
 
 }  // namespace gsv::app

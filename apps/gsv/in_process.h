@@ -10,8 +10,9 @@
 namespace gsv::app {
 
 // From the plug-in gsv-NAME.so in ../lib/gsv beside this program's folder, or in a folder of
-// GSV_PLUGIN_PATH (separated by colons). One instance: for one robot.
+// GSV_PLUGIN_PATH (separated by colons). `behaviour` is a name and, after blanks, its options. One
+// instance: for one robot.
 base::Result<std::shared_ptr<simulation::BehaviourPort>> InProcessBehaviour(
-    const std::string& name);
+    const std::string& behaviour);
 
 }  // namespace gsv::app

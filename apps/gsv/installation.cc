@@ -1,5 +1,8 @@
 #include "apps/gsv/installation.h"
 
+#include <iterator>
+#include <sstream>
+
 namespace gsv::app {
 
 namespace fs = std::filesystem;
@@ -21,6 +24,11 @@ std::string ResolveWorld(const std::string& world) {
     if (fs::is_regular_file(ours, ignored)) return ours;
   }
   return world;
+}
+
+std::vector<std::string> SplitWords(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 }  // namespace gsv::app

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace gsv::app {
 
@@ -12,5 +13,8 @@ std::filesystem::path ShareFolder();  // worlds, models, the viewer
 
 // A world as given: a path, or the name of one of ours ("office").
 std::string ResolveWorld(const std::string& world);
+
+// "wander --no-pictures" as its words, cut at blanks.
+std::vector<std::string> SplitWords(const std::string& text);
 
 }  // namespace gsv::app

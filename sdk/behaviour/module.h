@@ -16,23 +16,19 @@ class App;
 
 namespace gsv {
 
-struct BehaviourProgram {
-  std::string name;         // the offer's: "wander"
-  std::string description;  // one line for --help
-  // Adds the program's own options; may be empty.
-  std::function<void(CLI::App&)> add_options;
-  // It tells the time by the robot's clock only, so that a simulation may wait for it.
-  bool time_managed = true;
-};
-
 // Grows with every change of Robot, Behaviour or BehaviourModule.
 inline constexpr int kBehaviourInterface = 1;
 inline constexpr const char* kBehaviourModuleSymbol = "gsv_behaviour_module";
 
 struct BehaviourModule {
   int interface_version = kBehaviourInterface;
-  BehaviourProgram program;
-  BehaviourFactory factory;
+  std::string name;         // the offer's: "wander"
+  std::string description;  // one line for --help
+  // Adds the behaviour's own options, if it has any, and gives what makes instances with the values
+  // that are then read into them.
+  std::function<BehaviourFactory(CLI::App&)> configure;
+  // It tells the time by the robot's clock only, so that a simulation may wait for it.
+  bool time_managed = true;
 };
 
 }  // namespace gsv
@@ -47,7 +43,7 @@ extern "C" const gsv::BehaviourModule* gsv_behaviour_module();
   }
 
 // The behaviour is a class with a default constructor.
-#define GSV_BEHAVIOUR(name, description, Class)                                  \
-  GSV_BEHAVIOUR_MODULE((gsv::BehaviourModule{gsv::kBehaviourInterface,           \
-                                             {name, description, nullptr, true}, \
-                                             [] { return std::make_unique<Class>(); }}))
+#define GSV_BEHAVIOUR(name, description, Class)    \
+  GSV_BEHAVIOUR_MODULE((gsv::BehaviourModule{      \
+      gsv::kBehaviourInterface, name, description, \
+      [](CLI::App&) { return gsv::BehaviourFactory([] { return std::make_unique<Class>(); }); }}))

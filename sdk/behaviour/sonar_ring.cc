@@ -27,10 +27,10 @@ base::Result<SonarRing> SonarRing::Open(Robot& robot, int count) {
       Placement mounting;
       mounting.z = kMountedHeight;
       mounting.yaw = bearing;
-      auto sonar =
-          robot.CreateSonar("ring_" + std::to_string(i), mounting, kMountedMin, kMountedMax);
+      const std::string name = "ring_" + std::to_string(i);
+      auto sonar = robot.CreateSonar(name, mounting, kMountedMin, kMountedMax);
       if (!sonar) return base::Fail(sonar.error());
-      ring.sonars_.push_back({*std::move(sonar), bearing, 0.0});
+      ring.sonars_.push_back({name, *std::move(sonar), bearing, 0.0});
       continue;
     }
     const auto nearest = std::min_element(sonars.begin(), sonars.end(),
@@ -41,7 +41,8 @@ base::Result<SonarRing> SonarRing::Open(Robot& robot, int count) {
     const Placement& mounting = nearest->robot_from_sensor;
     auto sonar = robot.OpenSonar(nearest->name);
     if (!sonar) return base::Fail(sonar.error());
-    ring.sonars_.push_back({*std::move(sonar), mounting.yaw, std::hypot(mounting.x, mounting.y)});
+    ring.sonars_.push_back(
+        {nearest->name, *std::move(sonar), mounting.yaw, std::hypot(mounting.x, mounting.y)});
   }
   return ring;
 }
@@ -50,6 +51,19 @@ std::vector<SonarRing::Echo> SonarRing::Read() {
   std::vector<Echo> echoes;
   for (const Mounted& mounted : sonars_) {
     const double range = mounted.sonar->Range();
+    echoes.push_back({mounted.bearing, mounted.offset + range, range < mounted.sonar->max_range()});
+  }
+  return echoes;
+}
+
+std::vector<SonarRing::Echo> SonarRing::From(const std::vector<Reading>& readings) const {
+  std::vector<Echo> echoes;
+  for (const Mounted& mounted : sonars_) {
+    const auto reading = std::find_if(readings.begin(), readings.end(), [&](const Reading& each) {
+      return each.sensor == mounted.name && !each.values.empty();
+    });
+    if (reading == readings.end()) continue;
+    const double range = reading->values.front();
     echoes.push_back({mounted.bearing, mounted.offset + range, range < mounted.sonar->max_range()});
   }
   return echoes;

@@ -22,9 +22,12 @@ class SonarRing {
   };
   // Reads them one after the other.
   std::vector<Echo> Read();
+  // Those of an exchange's readings that are the ring's.
+  std::vector<Echo> From(const std::vector<Reading>& readings) const;
 
  private:
   struct Mounted {
+    std::string name;
     std::unique_ptr<Sonar> sonar;
     double bearing;
     double offset;  // m from the robot's origin to the sonar

@@ -34,12 +34,15 @@ class BadBehaviour final : public Behaviour {
   const std::string fault_;
 };
 
+BehaviourFactory Configure(CLI::App& app) {
+  const auto fault = std::make_shared<std::string>();
+  app.add_option("--fault", *fault)->required();
+  return [fault] { return std::make_unique<BadBehaviour>(*fault); };
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string fault;
-  gsv::BehaviourProgram program{"bad", "Goes wrong."};
-  program.add_options = [&](CLI::App& app) { app.add_option("--fault", fault)->required(); };
-  return gsv::ServeBehaviour(argc, argv, program,
-                             [&] { return std::make_unique<BadBehaviour>(fault); });
+  return gsv::ServeBehaviour(argc, argv,
+                             {gsv::kBehaviourInterface, "bad", "Goes wrong.", Configure});
 }

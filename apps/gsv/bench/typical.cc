@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/commands.h"
+#include "apps/gsv/bench/bench.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/population.h"
@@ -17,12 +17,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kSeparateCalls = "wander --no-pictures";
+constexpr const char* kExchange = "cruise";
+
+double Milliseconds(Clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
 // Durations in milliseconds, from any thread.
 class Durations {
  public:
   void Add(Clock::duration duration) {
     const std::lock_guard lock(mutex_);
-    values_.push_back(std::chrono::duration<double, std::milli>(duration).count());
+    values_.push_back(Milliseconds(duration));
   }
   void Clear() {
     const std::lock_guard lock(mutex_);
@@ -88,12 +95,15 @@ struct TypicalArguments {
   std::vector<int> robots{1, 2, 3, 4, 5};
   std::string world = "office", model = "b21r", behaviour = "wander";
   double duration = 20;
-  bool json = false;
+  simulation::Mode mode = simulation::Mode::kRealTime;
+  bool exchange = false, json = false;
 };
 
 struct Row {
   int robots = 0;
+  std::string behaviour;
   simulation::SimulationStatus status;
+  std::string state_hash;
   std::shared_ptr<UpdateTimer> updates = std::make_shared<UpdateTimer>();
   std::shared_ptr<Durations> pictures = std::make_shared<Durations>();
 };
@@ -101,6 +111,7 @@ struct Row {
 base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   Row row;
   row.robots = robots;
+  row.behaviour = arguments.behaviour;
   RunOptions options;
   options.runtime.viewer = false;
   options.runtime.adapt_camera = [times = row.pictures](sensing::SensorType& camera) {
@@ -115,6 +126,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   for (int i = 0; i < robots; ++i)
     options.scenario.robots.push_back({arguments.model, "", std::nullopt, ""});
   options.behaviour = arguments.behaviour;
+  options.specification.mode = arguments.mode;
   options.specification.duration = base::FromSeconds(arguments.duration);
   options.specification.keep = true;
 
@@ -135,17 +147,19 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
     return base::Fail(base::ErrorCode::kTimeout, "the run did not finish in time");
   }
   row.status = (*simulation)->status();
+  row.state_hash = (*simulation)->state_hash();
   return row;
 }
 
 nlohmann::ordered_json ToJson(const Row& row) {
   return {{"robots", row.robots},
+          {"behaviour", row.behaviour},
           {"real_time_factor", row.status.real_time_factor},
           {"update_interval_ms",
            {{"mean", row.updates->intervals.mean()},
             {"median", row.updates->intervals.quantile(0.5)},
             {"p99", row.updates->intervals.quantile(0.99)}}},
-          {"step_ms", std::chrono::duration<double, std::milli>(row.status.mean_step_time).count()},
+          {"step_ms", Milliseconds(row.status.mean_step_time)},
           {"camera_ms", {{"mean", row.pictures->mean()}, {"p99", row.pictures->quantile(0.99)}}},
           {"late_steps", row.status.late_steps}};
 }
@@ -173,28 +187,75 @@ int Typical(const TypicalArguments& arguments) {
   return kOk;
 }
 
-}  // namespace
+int Lockstep(const TypicalArguments& arguments) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  if (!arguments.json) std::printf("robots  behaviour               real time  hash\n");
+  for (const int robots : arguments.robots) {
+    for (const char* behaviour : {kSeparateCalls, kExchange}) {
+      TypicalArguments one = arguments;
+      one.behaviour = behaviour;
+      const auto row = RunTypical(one, robots);
+      if (!row) return Complain(row.error());
+      rows.push_back({{"robots", robots},
+                      {"behaviour", behaviour},
+                      {"real_time_factor", row->status.real_time_factor},
+                      {"steps", row->status.step},
+                      {"step_ms", Milliseconds(row->status.mean_step_time)},
+                      {"state_hash", row->state_hash}});
+      if (arguments.json) continue;
+      std::printf("%6d  %-22s  %9.1f  %s\n", robots, behaviour, row->status.real_time_factor,
+                  row->state_hash.c_str());
+      std::fflush(stdout);
+    }
+  }
+  if (arguments.json) std::printf("%s\n", nlohmann::ordered_json{{"rows", rows}}.dump().c_str());
+  return kOk;
+}
 
-void AddBenchCommands(const CommandLine& line) {
-  CLI::App* bench = line.app.add_subcommand("bench", "Measure this machine");
-  bench->require_subcommand(1);
-  CLI::App* command =
-      bench->add_subcommand("typical",
-                            "The original experiment: robots with the typical behaviour, each in "
-                            "a process of its own, in real time");
+std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> robots) {
   auto arguments = std::make_shared<TypicalArguments>();
-  command->add_option("--robots", arguments->robots, "numbers of robots, one row each")
+  arguments->robots = std::move(robots);
+  command.add_option("--robots", arguments->robots, "numbers of robots, one row each")
       ->delimiter(',')
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  command->add_option("--duration", arguments->duration, "simulated seconds a row")
+  command.add_option("--duration", arguments->duration, "simulated seconds a row")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 3600.0));
-  command->add_option("--world", arguments->world)->capture_default_str();
-  command->add_option("--model", arguments->model)->capture_default_str();
-  command->add_option("--behaviour", arguments->behaviour)->capture_default_str();
-  command->add_flag("--json", arguments->json, "one JSON object");
-  command->callback([arguments, line] { line.exit_code = Typical(*arguments); });
+  command.add_option("--world", arguments->world, "small numbers fit into the office")
+      ->capture_default_str();
+  command.add_option("--model", arguments->model)->capture_default_str();
+  command.add_flag("--json", arguments->json, "one JSON object");
+  return arguments;
+}
+
+}  // namespace
+
+void AddTypicalBench(const CommandLine& bench) {
+  CLI::App* command = bench.app.add_subcommand(
+      "typical",
+      "The original experiment: robots with the typical behaviour, in other processes, in real "
+      "time");
+  auto arguments = AddCommon(*command, {1, 2, 3, 4, 5});
+  auto* behaviour = command->add_option("--behaviour", arguments->behaviour)->capture_default_str();
+  command
+      ->add_flag("--exchange", arguments->exchange,
+                 "behaviours that need one round trip a cycle, and no pictures")
+      ->excludes(behaviour);
+  command->callback([arguments, bench] {
+    if (arguments->exchange) arguments->behaviour = kExchange;
+    bench.exit_code = Typical(*arguments);
+  });
+}
+
+void AddLockstepBench(const CommandLine& bench) {
+  CLI::App* command = bench.app.add_subcommand(
+      "lockstep",
+      "As fast as possible with behaviours in other processes, without pictures: with separate "
+      "calls, and with one exchange a cycle");
+  auto arguments = AddCommon(*command, {5});
+  arguments->mode = simulation::Mode::kLockstep;
+  command->callback([arguments, bench] { bench.exit_code = Lockstep(*arguments); });
 }
 
 }  // namespace gsv::app

@@ -1,0 +1,12 @@
+// The benches of `gsv bench`: each adds its subcommand. All run the step loop of `gsv run`.
+#pragma once
+
+#include "apps/gsv/commands.h"
+
+namespace gsv::app {
+
+void AddTypicalBench(const CommandLine& bench);
+void AddLockstepBench(const CommandLine& bench);
+void AddCrowdBench(const CommandLine& bench);
+
+}  // namespace gsv::app

@@ -1,0 +1,16 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/bench/bench.h"
+
+namespace gsv::app {
+
+void AddBenchCommands(const CommandLine& line) {
+  CLI::App* bench = line.app.add_subcommand("bench", "Measure this machine");
+  bench->require_subcommand(1);
+  const CommandLine inner{*bench, line.signals, line.exit_code};
+  AddTypicalBench(inner);
+  AddLockstepBench(inner);
+  AddCrowdBench(inner);
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,39 @@
+// Holds a crowd's run against brute force: every overlap after each step, and one reading in a
+// hundred, both from the definitions of shapes, with none of the code that the run uses.
+//
+// Threads  readings: any; overlaps: the stepping thread's.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::app {
+
+class CrowdCheck final : public simulation::Observer {
+ public:
+  // `readings` of the robot's eight rays at the snapshot.
+  void TakeReadings(const world::Snapshot& snapshot, const std::string& robot,
+                    const std::vector<double>& readings);
+
+  // Pairs that overlap.
+  void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
+  void OnEvent(const simulation::Event&) override {}
+
+  std::uint64_t readings_checked() const { return readings_checked_; }
+  std::uint64_t pairs_checked() const { return pairs_checked_; }
+  std::uint64_t mismatches() const { return mismatches_; }
+  std::string first_mismatch() const;  // a sentence; empty if there is none
+
+ private:
+  void Report(std::string sentence);
+
+  std::atomic<std::uint64_t> readings_checked_{0}, pairs_checked_{0}, mismatches_{0};
+  mutable std::mutex mutex_;
+  std::string first_mismatch_;
+};
+
+}  // namespace gsv::app

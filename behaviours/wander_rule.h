@@ -1,0 +1,53 @@
+// Where a wanderer goes next: forward where its sonars leave room, else it turns to the freer side.
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "sdk/behaviour/sonar_ring.h"
+
+namespace gsv {
+
+// Asked once a control cycle.
+class WanderRule {
+ public:
+  DriveCommand Decide(double radius, const std::vector<SonarRing::Echo>& echoes) {
+    if (reconsidering_ > 0) return Reconsider(radius, echoes);
+    const double ahead = Nearest(echoes, 0.0, 0.9);
+    const double left = Nearest(echoes, 0.9, 0.9);
+    const double right = Nearest(echoes, -0.9, 0.9);
+    // Starts to turn a good length before an obstacle, and turns until there is more room.
+    const double enough = radius + (turn_ != 0 ? 0.7 : 0.4);
+    if (ahead < enough) {
+      if (turn_ == 0) turn_ = left >= right ? 1 : -1;
+      return {0.0, 0.9 * turn_};
+    }
+    turn_ = 0;
+    // Drifts to one side and then to the other: straight lines see little of a room. After a while
+    // it tries another way: something between the beams may hold it.
+    forward_ = (forward_ + 1) % kReconsiderAfter;
+    if (forward_ == 0) reconsidering_ = kReconsiderFor;
+    const double speed = std::clamp(0.5 * (ahead - radius), 0.1, 0.4);
+    return {speed, forward_ < kReconsiderAfter / 2 ? 0.1 : -0.1};
+  }
+
+ private:
+  // Backs out where there is room behind, then turns.
+  DriveCommand Reconsider(double radius, const std::vector<SonarRing::Echo>& echoes) {
+    --reconsidering_;
+    const bool room_behind = Nearest(echoes, std::numbers::pi, 0.9) > radius + 0.25;
+    if (reconsidering_ > kReconsiderFor / 2 && room_behind) return {-0.2, 0.0};
+    return {0.0, 0.9};
+  }
+
+  // In control cycles.
+  static constexpr int kReconsiderAfter = 200;
+  static constexpr int kReconsiderFor = 40;
+
+  int turn_ = 0;           // +1: to the left, -1: to the right, 0: going forward
+  int forward_ = 0;        // control cycles spent going forward
+  int reconsidering_ = 0;  // control cycles of it that are left
+};
+
+}  // namespace gsv
