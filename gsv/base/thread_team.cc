@@ -19,9 +19,9 @@ int ThreadTeam::DefaultThreads() {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostByDefault);
 }
 
-ThreadTeam::ThreadTeam(int threads) {
+ThreadTeam::ThreadTeam(int threads) : parts_(static_cast<std::size_t>(std::max(threads, 1))) {
   GSV_CHECK(threads >= 1);
-  for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { Work(); });
+  for (std::size_t i = 1; i < parts_.size(); ++i) workers_.emplace_back([this, i] { Work(i); });
 }
 
 ThreadTeam::~ThreadTeam() {
@@ -36,22 +36,29 @@ ThreadTeam::~ThreadTeam() {
 void ThreadTeam::Run(const Job& job) {
   GSV_CHECK(job.grain > 0);
   job_ = job;
-  next_.store(0, std::memory_order_relaxed);
+  const std::size_t pieces = (job.count + job.grain - 1) / job.grain;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    parts_[i].next.store(pieces * i / parts_.size() * job.grain, std::memory_order_relaxed);
+    parts_[i].end = std::min(pieces * (i + 1) / parts_.size() * job.grain, job.count);
+  }
   {
     const std::lock_guard lock(mutex_);
     state_.store(kOpen, std::memory_order_release);
   }
   called_.notify_all();
-  TakePieces();
+  TakePieces(0);
   state_.fetch_and(~kOpen, std::memory_order_relaxed);
   while (state_.load(std::memory_order_acquire) != 0) std::this_thread::yield();
 }
 
-void ThreadTeam::TakePieces() {
-  for (;;) {
-    const std::size_t begin = next_.fetch_add(job_.grain, std::memory_order_relaxed);
-    if (begin >= job_.count) return;
-    job_.call(job_.work, begin, std::min(begin + job_.grain, job_.count));
+void ThreadTeam::TakePieces(std::size_t self) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    Part& part = parts_[(self + i) % parts_.size()];
+    for (;;) {
+      const std::size_t begin = part.next.fetch_add(job_.grain, std::memory_order_relaxed);
+      if (begin >= part.end) break;
+      job_.call(job_.work, begin, std::min(begin + job_.grain, part.end));
+    }
   }
 }
 
@@ -74,9 +81,9 @@ bool ThreadTeam::Join() {
   return has_joined;
 }
 
-void ThreadTeam::Work() {
+void ThreadTeam::Work(std::size_t self) {
   while (Join()) {
-    TakePieces();
+    TakePieces(self);
     state_.fetch_sub(1, std::memory_order_release);
   }
 }

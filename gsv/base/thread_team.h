@@ -51,8 +51,8 @@ class ThreadTeam {
   };
 
   void Run(const Job& job);
-  void Work();
-  void TakePieces();
+  void Work(std::size_t self);
+  void TakePieces(std::size_t self);
   // Waits for a job that is open and takes part in it; false at the end.
   bool Join();
   bool TryJoin();
@@ -61,8 +61,14 @@ class ThreadTeam {
   // for those who did. A worker that wakes too late is not waited for.
   static constexpr unsigned kOpen = 1u << 31;
   Job job_;
-  std::atomic<std::size_t> next_{0};  // where the next piece begins
-  std::atomic<unsigned> state_{0};    // kOpen, and how many workers have joined
+  // A thread's own part of the range. It begins there, so that from one job to the next it tends to
+  // find what it works on in its own cache; then it helps the others.
+  struct alignas(64) Part {
+    std::atomic<std::size_t> next{0};  // where the next piece begins
+    std::size_t end = 0;
+  };
+  std::vector<Part> parts_;         // of each thread, the caller's first
+  std::atomic<unsigned> state_{0};  // kOpen, and how many workers have joined
   std::atomic<bool> is_stopping_{false};
   std::mutex mutex_;
   std::condition_variable called_;

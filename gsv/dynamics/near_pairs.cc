@@ -9,6 +9,9 @@ namespace {
 // candidates to look at in each step.
 constexpr double kRoom = 0.25;
 
+// So many pairs pay for another thread.
+constexpr std::size_t kPairsAtOnce = 32;
+
 // Pieces that share no more than this do not meet.
 constexpr double kSameHeight = 1e-9;
 
@@ -108,6 +111,7 @@ void NearPairs::Stop(std::span<const PlanarPosition> starts, std::span<const Twi
   const Motions motions{starts, twists, times};
   bool any = !pairs_.empty();
   for (int round = 0; any; ++round) {
+    FindImpacts(motions, round);
     any = false;
     const auto stop = [&](std::uint32_t m, double time, Vector2 normal) {
       if (round >= kRounds) time = 0;
@@ -117,12 +121,11 @@ void NearPairs::Stop(std::span<const PlanarPosition> starts, std::span<const Twi
       normals[m] = normal;
       any = true;
     };
-    for (const NearPair& pair : pairs_) {
-      if (outcomes_[pair.first].since != round && outcomes_[pair.second].since != round) continue;
-      const std::optional<Impact> impact = PairImpact(motions, pair);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const std::optional<Impact>& impact = impacts_[i];
       if (!impact) continue;
-      if (impact->first_approaches) stop(pair.first, impact->time, impact->normal);
-      if (impact->second_approaches) stop(pair.second, impact->time, -1.0 * impact->normal);
+      if (impact->first_approaches) stop(pairs_[i].first, impact->time, impact->normal);
+      if (impact->second_approaches) stop(pairs_[i].second, impact->time, -1.0 * impact->normal);
     }
     for (const NearPair& pair : pairs_) {
       for (const std::uint32_t m : {pair.first, pair.second}) {
@@ -131,6 +134,19 @@ void NearPairs::Stop(std::span<const PlanarPosition> starts, std::span<const Twi
       }
     }
   }
+}
+
+// Of the pairs of which one has a new outcome in this round.
+void NearPairs::FindImpacts(const Motions& motions, int round) {
+  impacts_.resize(pairs_.size());
+  team_.Share(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const NearPair& pair = pairs_[i];
+      const bool is_new =
+          outcomes_[pair.first].since == round || outcomes_[pair.second].since == round;
+      impacts_[i] = is_new ? PairImpact(motions, pair) : std::nullopt;
+    }
+  });
 }
 
 std::optional<Impact> NearPairs::PairImpact(const Motions& motions, const NearPair& pair) const {

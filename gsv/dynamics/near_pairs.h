@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/dynamics/contact_collector.h"
 #include "gsv/dynamics/pair_finder.h"
 #include "gsv/dynamics/planar_scene.h"
@@ -25,7 +26,7 @@ namespace gsv::dynamics {
 
 class NearPairs {
  public:
-  explicit NearPairs(const PlanarScene& scene) : scene_(scene) {}
+  NearPairs(const PlanarScene& scene, base::ThreadTeam& team) : scene_(scene), team_(team) {}
 
   // Forgets all; to be called when the scene has been sliced anew.
   void Reset();
@@ -89,11 +90,13 @@ class NearPairs {
                  double within);
   Separation SeparationAt(const NearPair& pair, const PiecePair& pieces,
                           const PlanarPosition& first_at, const PlanarPosition& second_at) const;
+  void FindImpacts(const Motions& motions, int round);
   std::optional<Impact> PairImpact(const Motions& motions, const NearPair& pair) const;
   std::optional<Impact> FirstImpact(const NearPair& pair, MovingPiece a, MovingPiece b,
                                     double end) const;
 
   const PlanarScene& scene_;
+  base::ThreadTeam& team_;
   std::vector<Room> rooms_;
   PairFinder finder_;
   std::vector<Vector2> centres_;
@@ -104,7 +107,8 @@ class NearPairs {
   std::vector<PiecePair> pieces_;
   std::vector<BodyPair> touching_;
 
-  std::vector<Outcome> outcomes_;  // of those in pairs_
+  std::vector<Outcome> outcomes_;               // of the movers in pairs_
+  std::vector<std::optional<Impact>> impacts_;  // of pairs_, in this round
 };
 
 }  // namespace gsv::dynamics

@@ -33,6 +33,8 @@ struct Twist {
   friend bool operator==(const Twist&, const Twist&) = default;
 };
 
+inline bool Moves(const Twist& twist) { return twist.x != 0 || twist.y != 0 || twist.angular != 0; }
+
 // Where a base that starts at `from` is after `seconds`.
 inline PlanarPosition Advance(const PlanarPosition& from, const Twist& twist, double seconds) {
   double forward = twist.x * seconds, left = twist.y * seconds;

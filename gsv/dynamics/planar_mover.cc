@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gsv/base/check.h"
+#include "gsv/dynamics/mover_motions.h"
 #include "gsv/dynamics/near_obstacles.h"
 #include "gsv/dynamics/near_pairs.h"
 #include "gsv/dynamics/obstacles.h"
@@ -12,40 +13,17 @@
 namespace gsv::dynamics {
 namespace {
 
-using geometry::Quaternion;
-
 // Movers are taken in chunks, each with lists of its own, so that no outcome depends on threads.
 constexpr std::size_t kChunk = 128;
 // So many chunks pay for another thread.
-constexpr std::size_t kChunksAtOnce = 2;
-
-// Where a body stands and how it heads, without a detour through angles.
-PlanarPosition PositionOf(const geometry::Pose& pose) {
-  const Quaternion& q = pose.orientation;
-  const double cosine = 1 - 2 * (q.y * q.y + q.z * q.z), sine = 2 * (q.w * q.z + q.x * q.y);
-  const double length = std::sqrt(cosine * cosine + sine * sine);
-  if (!(length > 0)) return {pose.position.x, pose.position.y, 1, 0};
-  return {pose.position.x, pose.position.y, cosine / length, sine / length};
-}
-
-double SpeedOf(const Twist& twist) {
-  return twist.y == 0 ? std::abs(twist.x) : std::sqrt(twist.x * twist.x + twist.y * twist.y);
-}
-
-bool Moves(const Twist& twist) { return twist.x != 0 || twist.y != 0 || twist.angular != 0; }
-
-// What a mover has covered in a step.
-struct Journey {
-  Travel travel;
-  double distance = 0;  // of the model's origin
-};
+constexpr std::size_t kChunksAtOnce = 4;
 
 // A step has up to three legs: the commanded arc; for what ran into something, a slide along it;
 // then a turn on the spot.
 class PlanarMover final : public Engine {
  public:
   explicit PlanarMover(std::shared_ptr<base::ThreadTeam> team)
-      : team_(std::move(team)), obstacles_(scene_), pairs_(scene_) {}
+      : team_(std::move(team)), motions_(scene_), obstacles_(scene_), pairs_(scene_, *team_) {}
 
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override;
   void Step(base::SimTime step, world::State& state,
@@ -67,9 +45,6 @@ class PlanarMover final : public Engine {
   };
 
   std::size_t count() const { return scene_.movers().size(); }
-  const DriveKinematics& kinematics(std::size_t mover) const {
-    return scene_.kind(scene_.movers()[mover]).kinematics;
-  }
   template <typename Work>
   void ForEachChunk(const Work& work);
 
@@ -77,55 +52,37 @@ class PlanarMover final : public Engine {
   void Begin(const world::State& state, double seconds);
   void BeginChunk(std::size_t index, const world::State& state, double seconds);
   void EndChunk(std::size_t index, double seconds, world::State& state);
-  void FollowCommand(std::uint32_t m, const world::State& state, double seconds);
   void ListTouching();
-  void SetLeg(std::uint32_t m, const Twist& twist, double seconds);
-  void RunLeg(std::uint32_t m, Journey& journey);
   void RunStopped();
   void SlideAlong(double seconds);
   void TurnOnTheSpot();
-  void Store(std::uint32_t m, const Journey& journey, double seconds, world::State& state) const;
   void CollectContacts(double gap, std::vector<world::Contact>& contacts);
   void CountContacts(std::vector<world::Contact>& contacts, world::State& state) const;
   bool FindNeighbours(std::uint32_t mover, const world::State& state);
 
   const std::shared_ptr<base::ThreadTeam> team_;
   PlanarScene scene_;
+  MoverMotions motions_;
   NearObstacles obstacles_;
   NearPairs pairs_;
   std::vector<Chunk> chunks_;
   std::vector<BodyPair> touching_;         // at the step's start, ascending
   std::vector<Stopped> stopped_;           // in this step, ascending
   std::vector<std::uint32_t> neighbours_;  // for OverlapsOf()
-
-  // One entry for each of the scene's movers.
-  std::vector<PlanarPosition> positions_;
-  std::vector<world::DriveCommand> motions_;  // of the drive: while it moves, and then at the end
-  std::vector<Twist> twists_;                 // in this leg
-  std::vector<double> times_;                 // in this leg
-  std::vector<double> reaches_;               // how far any part may get in this step
-  std::vector<Vector2> normals_;              // of those stopped: to what is in the way
 };
 
 base::Status PlanarMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
   if (auto ok = scene_.SetLayout(std::move(layout)); !ok) return ok;
   chunks_.resize((count() + kChunk - 1) / kChunk);
-  positions_.resize(count());
-  motions_.resize(count());
-  twists_.resize(count());
-  times_.resize(count());
-  reaches_.resize(count());
-  normals_.resize(count());
+  motions_.Resize();
   return {};
 }
 
 template <typename Work>
 void PlanarMover::ForEachChunk(const Work& work) {
-  const auto some = [&](std::size_t begin, std::size_t end) {
+  team_->Share(chunks_.size(), kChunksAtOnce, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
-  };
-  if (team_ == nullptr) return some(0, chunks_.size());
-  team_->Share(chunks_.size(), kChunksAtOnce, some);
+  });
 }
 
 void PlanarMover::Slice(const world::State& state) {
@@ -146,8 +103,8 @@ void PlanarMover::Begin(const world::State& state, double seconds) {
     Slice(state);
     ForEachChunk(begin_chunk);
   }
-  if (!all(&Chunk::has_room)) pairs_.FindCandidates(positions_, reaches_);
-  pairs_.Find(positions_, reaches_);
+  if (!all(&Chunk::has_room)) pairs_.FindCandidates(motions_.positions, motions_.reaches);
+  pairs_.Find(motions_.positions, motions_.reaches);
   ListTouching();
 }
 
@@ -160,24 +117,14 @@ void PlanarMover::BeginChunk(std::size_t index, const world::State& state, doubl
   const std::size_t end = std::min(count(), (index + 1) * kChunk);
   for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
     const world::BodyState& body = state.bodies[scene_.movers()[m].body];
-    positions_[m] = PositionOf(body.world_from_model);
-    FollowCommand(m, state, seconds);
+    motions_.Load(m, state);
+    motions_.FollowCommand(m, state, seconds);
     if (body.in_contact) chunk.in_contact.push_back(m);
     if (!scene_.IsAsSliced(m, body.world_from_model.position.z)) chunk.is_as_sliced = false;
-    if (!pairs_.HasRoom(m, positions_[m], reaches_[m])) chunk.has_room = false;
-    obstacles_.Find(index, m, positions_[m], reaches_[m]);
+    if (!pairs_.HasRoom(m, motions_.positions[m], motions_.reaches[m])) chunk.has_room = false;
+    obstacles_.Find(index, m, motions_.positions[m], motions_.reaches[m]);
   }
-  obstacles_.Stop(index, positions_, twists_, times_, normals_);
-}
-
-void PlanarMover::FollowCommand(std::uint32_t m, const world::State& state, double seconds) {
-  const Mover& mover = scene_.movers()[m];
-  const MoverKind& kind = scene_.kind(mover);
-  motions_[m] = seconds > 0
-                    ? kind.kinematics.Next(state.bodies[mover.body].drive, state.time, seconds)
-                    : world::DriveCommand{};
-  SetLeg(m, kind.kinematics.OriginTwist(motions_[m]), seconds);
-  reaches_[m] = (SpeedOf(twists_[m]) + std::abs(twists_[m].angular) * kind.spin_radius) * seconds;
+  obstacles_.Stop(index, motions_.positions, motions_.twists, motions_.times, motions_.normals);
 }
 
 void PlanarMover::ListTouching() {
@@ -187,81 +134,67 @@ void PlanarMover::ListTouching() {
   std::sort(touching_.begin(), touching_.end());
 }
 
-void PlanarMover::SetLeg(std::uint32_t m, const Twist& twist, double seconds) {
-  twists_[m] = twist;
-  times_[m] = Moves(twist) ? seconds : 0;
-}
-
-void PlanarMover::RunLeg(std::uint32_t m, Journey& journey) {
-  const double time = times_[m];
-  if (time <= 0) return;
-  const Twist& twist = twists_[m];
-  positions_[m] = Advance(positions_[m], twist, time);
-  journey.distance += SpeedOf(twist) * time;
-  journey.travel.forward += twist.x * time;
-  journey.travel.left += (twist.y + twist.angular * kinematics(m).reference_x()) * time;
-  journey.travel.angle += twist.angular * time;
-}
-
 void PlanarMover::EndChunk(std::size_t index, double seconds, world::State& state) {
   const std::size_t end = std::min(count(), (index + 1) * kChunk);
   for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
     Journey journey;
-    RunLeg(m, journey);
-    if (times_[m] < seconds && Moves(twists_[m])) {
-      chunks_[index].stopped.push_back({m, seconds - times_[m], journey});
+    motions_.RunLeg(m, journey);
+    if (motions_.times[m] < seconds && Moves(motions_.twists[m])) {
+      chunks_[index].stopped.push_back({m, seconds - motions_.times[m], journey});
     } else {
-      Store(m, journey, seconds, state);
+      motions_.Store(m, journey, seconds, state);
     }
-    SetLeg(m, Twist{}, 0);
+    motions_.SetLeg(m, Twist{}, 0);
   }
 }
 
 void PlanarMover::RunStopped() {
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
-    obstacles_.Stop(i, positions_, twists_, times_, normals_);
+    obstacles_.Stop(i, motions_.positions, motions_.twists, motions_.times, motions_.normals);
   }
-  pairs_.Stop(positions_, twists_, times_, normals_);
-  for (Stopped& stopped : stopped_) RunLeg(stopped.mover, stopped.journey);
+  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  for (Stopped& stopped : stopped_) motions_.RunLeg(stopped.mover, stopped.journey);
 }
 
 void PlanarMover::SlideAlong(double seconds) {
   bool any = false;
   for (const Stopped& stopped : stopped_) {
     const std::uint32_t m = stopped.mover;
-    world::DriveCommand& motion = motions_[m];
-    const Vector2 into = {
-        positions_[m].cosine * normals_[m].x + positions_[m].sine * normals_[m].y,
-        positions_[m].cosine * normals_[m].y - positions_[m].sine * normals_[m].x};
+    world::DriveCommand& motion = motions_.drives[m];
+    const PlanarPosition& at = motions_.positions[m];
+    const Vector2 normal = motions_.normals[m];
+    const Vector2 into{at.cosine * normal.x + at.sine * normal.y,
+                       at.cosine * normal.y - at.sine * normal.x};
     const double blocked = std::max(0.0, into.x * motion.linear + into.y * motion.lateral);
-    const bool slides = kinematics(m).can_move_sideways();
+    const bool slides = motions_.kinematics(m).can_move_sideways();
     motion.linear = slides ? motion.linear - blocked * into.x : 0;
     motion.lateral = slides ? motion.lateral - blocked * into.y : 0;
     if (!slides || std::hypot(motion.linear, motion.lateral) * seconds < kStopGap) {
       motion.linear = motion.lateral = 0;
       continue;
     }
-    SetLeg(m, {motion.linear, motion.lateral, 0}, stopped.remaining);
+    motions_.SetLeg(m, {motion.linear, motion.lateral, 0}, stopped.remaining);
     any = true;
   }
   if (!any) return;
   RunStopped();
   for (const Stopped& stopped : stopped_) {
-    if (times_[stopped.mover] >= stopped.remaining) continue;
-    motions_[stopped.mover].linear = motions_[stopped.mover].lateral = 0;
+    if (motions_.times[stopped.mover] >= stopped.remaining) continue;
+    motions_.drives[stopped.mover].linear = motions_.drives[stopped.mover].lateral = 0;
   }
 }
 
 void PlanarMover::TurnOnTheSpot() {
   for (const Stopped& stopped : stopped_) {
     const std::uint32_t m = stopped.mover;
-    if (!kinematics(m).can_turn_on_the_spot()) motions_[m].angular = 0;
-    SetLeg(m, kinematics(m).OriginTwist({0, 0, motions_[m].angular}), stopped.remaining);
+    if (!motions_.kinematics(m).can_turn_on_the_spot()) motions_.drives[m].angular = 0;
+    motions_.SetLeg(m, motions_.kinematics(m).OriginTwist({0, 0, motions_.drives[m].angular}),
+                    stopped.remaining);
   }
   RunStopped();
   for (const Stopped& stopped : stopped_) {
-    world::DriveCommand& motion = motions_[stopped.mover];
-    const double time = times_[stopped.mover];
+    world::DriveCommand& motion = motions_.drives[stopped.mover];
+    const double time = motions_.times[stopped.mover];
     // A slide goes on in its direction in the world, which the base has turned against.
     const double angle = motion.angular * time;
     motion = {motion.linear * std::cos(angle) + motion.lateral * std::sin(angle),
@@ -270,34 +203,10 @@ void PlanarMover::TurnOnTheSpot() {
   }
 }
 
-void PlanarMover::Store(std::uint32_t m, const Journey& journey, double seconds,
-                        world::State& state) const {
-  const Mover& mover = scene_.movers()[m];
-  world::BodyState& body = state.bodies[mover.body];
-  const PlanarPosition& at = positions_[m];
-  body.world_from_model.position.x = at.x;
-  body.world_from_model.position.y = at.y;
-  if (journey.travel.angle != 0) {
-    body.world_from_model.orientation =
-        Normalized(geometry::FromAxisAngle({0, 0, 1}, journey.travel.angle) *
-                   body.world_from_model.orientation);
-  }
-  const Twist twist = kinematics(m).OriginTwist(motions_[m]);
-  body.linear_velocity = {at.cosine * twist.x - at.sine * twist.y,
-                          at.sine * twist.x + at.cosine * twist.y, 0};
-  body.angular_velocity = {0, 0, twist.angular};
-  body.drive.actual = motions_[m];
-  body.distance += journey.distance;
-  kinematics(m).TurnJoints(
-      journey.travel, motions_[m], seconds,
-      std::span(state.joint_positions).subspan(mover.first_joint, mover.joint_count),
-      std::span(state.joint_velocities).subspan(mover.first_joint, mover.joint_count));
-}
-
 void PlanarMover::CollectContacts(double gap, std::vector<world::Contact>& contacts) {
   ContactCollector collector(contacts, gap);
-  obstacles_.Collect(positions_, collector);
-  pairs_.Collect(positions_, collector);
+  obstacles_.Collect(motions_.positions, collector);
+  pairs_.Collect(motions_.positions, collector);
   collector.Finish(touching_);
 }
 
@@ -330,7 +239,7 @@ void PlanarMover::Step(base::SimTime step, world::State& state,
   GSV_CHECK(step > base::SimTime(0));
   const double seconds = base::ToSeconds(step);
   Begin(state, seconds);
-  pairs_.Stop(positions_, twists_, times_, normals_);
+  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
   ForEachChunk([&](std::size_t i) { EndChunk(i, seconds, state); });
   stopped_.clear();
   for (const Chunk& chunk : chunks_) {
@@ -339,7 +248,8 @@ void PlanarMover::Step(base::SimTime step, world::State& state,
   if (!stopped_.empty()) {
     SlideAlong(seconds);
     TurnOnTheSpot();
-    for (const Stopped& stopped : stopped_) Store(stopped.mover, stopped.journey, seconds, state);
+    for (const Stopped& stopped : stopped_)
+      motions_.Store(stopped.mover, stopped.journey, seconds, state);
   }
   CollectContacts(kTouchGap, contacts);
   CountContacts(contacts, state);
@@ -365,7 +275,7 @@ bool PlanarMover::FindNeighbours(std::uint32_t mover, const world::State& state)
     const double reach =
         scene_.footprint(m).radius + scene_.footprint(mover).radius + 2 * kTouchGap;
     if (m == mover || Dot(apart, apart) > reach * reach) continue;
-    positions_[m] = PositionOf(pose);
+    motions_.Load(m, state);
     neighbours_.push_back(m);
   }
   return is_as_sliced;
@@ -388,9 +298,9 @@ std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, i
     FindNeighbours(mover, state);
   }
   for (std::size_t i = 0; i < chunks_.size(); ++i) obstacles_.Clear(i);
-  positions_[mover] = PositionOf(state.bodies[body].world_from_model);
-  obstacles_.Find(mover / kChunk, mover, positions_[mover], 0);
-  pairs_.FindOf(mover, neighbours_, positions_);
+  motions_.Load(mover, state);
+  obstacles_.Find(mover / kChunk, mover, motions_.positions[mover], 0);
+  pairs_.FindOf(mover, neighbours_, motions_.positions);
   ListTouching();
   std::vector<world::Contact> contacts;
   CollectContacts(-tolerance, contacts);
@@ -400,6 +310,7 @@ std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, i
 }  // namespace
 
 std::unique_ptr<Engine> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team) {
+  if (team == nullptr) team = std::make_shared<base::ThreadTeam>(1);
   return std::make_unique<PlanarMover>(std::move(team));
 }
 

@@ -1,7 +1,8 @@
 // How long a step of the planar mover takes: run in a release build.
 //
-// Robots wander over a square of 4 m² each, half of them round, half of them boxes with two wheels,
-// among one wall for every four robots.
+// Step: robots wander over a square of 4 m² each, half of them round, half of them boxes with two
+// wheels, among one wall for every four robots; many of them push against something. Crowd: see
+// test_crowd.h, a few per cent touch something.
 
 #include <benchmark/benchmark.h>
 
@@ -70,9 +71,10 @@ void Step(benchmark::State& bench) {
 }
 BENCHMARK(Step)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
-// The crowd of test_crowd.h, its commands included.
+// The crowd of test_crowd.h, its decisions included.
 void Run(benchmark::State& bench, std::shared_ptr<const model::Model> robot) {
-  testing::Crowd crowd(static_cast<int>(bench.range(0)), std::move(robot), MakePlanarMover());
+  const auto team = std::make_shared<base::ThreadTeam>(static_cast<int>(bench.range(1)));
+  testing::Crowd crowd(static_cast<int>(bench.range(0)), std::move(robot), MakePlanarMover(team));
   GSV_CHECK(crowd.Start());
   for (int i = 0; i < 500; ++i) crowd.Step();
   double in_contact = 0;
@@ -84,11 +86,16 @@ void Run(benchmark::State& bench, std::shared_ptr<const model::Model> robot) {
   bench.counters["in_contact"] = in_contact / static_cast<double>(steps);
 }
 
+void InAllSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"robots", "threads"})->ArgsProduct({{5, 100, 1000, 10000}, {1, 2}});
+  benchmark->UseRealTime()->Unit(benchmark::kMicrosecond);
+}
+
 void CrowdOfDiscs(benchmark::State& bench) { Run(bench, testing::DiscRobot(0.175)); }
-BENCHMARK(CrowdOfDiscs)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(CrowdOfDiscs)->Apply(InAllSizes);
 
 void CrowdOfBoxes(benchmark::State& bench) { Run(bench, testing::BoxRobot(0.3, 0.2)); }
-BENCHMARK(CrowdOfBoxes)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(CrowdOfBoxes)->Apply(InAllSizes);
 
 }  // namespace
 }  // namespace gsv::dynamics
