@@ -35,9 +35,11 @@ base::Result<std::string> SimulationHost::FreeName(std::string wanted) const {
 
 base::Result<std::shared_ptr<Simulation>> SimulationHost::Create(
     simulation::Specification specification, const std::string& world, base::Problems& problems) {
-  auto description = library_->ReadWorld(world, problems);
-  if (!description) return base::Fail(description.error());
-  specification.world = std::make_shared<const model::WorldDescription>(*std::move(description));
+  if (specification.world == nullptr) {
+    auto read = library_->ReadWorld(world, problems);
+    if (!read) return base::Fail(read.error());
+    specification.world = std::make_shared<const model::WorldDescription>(*std::move(read));
+  }
   const std::lock_guard lock(mutex_);
   auto name = FreeName(specification.name);
   if (!name) return base::Fail(name.error());

@@ -24,8 +24,8 @@ class SimulationHost {
                  std::shared_ptr<formats::ModelLibrary> library)
       : sensors_(std::move(sensors)), library_(std::move(library)) {}
 
-  // Reads the world and creates a simulation of it. `specification.world` is filled in; an empty
-  // name is chosen, a taken one is an error. What the files lack is added to `problems`.
+  // Reads the world, unless `specification.world` is given, and creates a simulation of it. An
+  // empty name is chosen, a taken one is an error. What the files lack is added to `problems`.
   base::Result<std::shared_ptr<simulation::Simulation>> Create(
       simulation::Specification specification, const std::string& world, base::Problems& problems);
   // Removes it from the list; it ends when nobody holds it any more.

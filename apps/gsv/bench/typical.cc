@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/bench/bench.h"
+#include "apps/gsv/bench/crowd_scenario.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/population.h"
@@ -19,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSeparateCalls = "wander --no-pictures";
 constexpr const char* kExchange = "cruise";
+constexpr int kMostInTheOffice = 20;  // robots
 
 double Milliseconds(Clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
@@ -31,9 +33,9 @@ class Durations {
     const std::lock_guard lock(mutex_);
     values_.push_back(Milliseconds(duration));
   }
-  void Clear() {
+  std::size_t count() const {
     const std::lock_guard lock(mutex_);
-    values_.clear();
+    return values_.size();
   }
   double mean() const {
     const std::lock_guard lock(mutex_);
@@ -93,7 +95,7 @@ class TimedSensor final : public sensing::Sensor {
 
 struct TypicalArguments {
   std::vector<int> robots{1, 2, 3, 4, 5};
-  std::string world = "office", model = "b21r", behaviour = "wander";
+  std::string world, model = "b21r", behaviour = "wander";
   double duration = 20;
   simulation::Mode mode = simulation::Mode::kRealTime;
   bool exchange = false, json = false;
@@ -107,6 +109,22 @@ struct Row {
   std::shared_ptr<UpdateTimer> updates = std::make_shared<UpdateTimer>();
   std::shared_ptr<Durations> pictures = std::make_shared<Durations>();
 };
+
+// A few in the office, many on the square of `gsv bench crowd`, unless a world is given.
+void PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& options) {
+  const bool on_the_square = arguments.world.empty() && robots > kMostInTheOffice;
+  if (on_the_square) {
+    options.specification.world = CrowdWorld(robots, 1);
+  } else {
+    options.scenario.world = ResolveWorld(arguments.world.empty() ? "office" : arguments.world);
+  }
+  const auto places = CrowdRobots(robots, 1);
+  for (int i = 0; i < robots; ++i) {
+    std::optional<geometry::Pose> start;
+    if (on_the_square) start = places[static_cast<std::size_t>(i)].world_from_robot;
+    options.scenario.robots.push_back({arguments.model, "", start, ""});
+  }
+}
 
 base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   Row row;
@@ -122,9 +140,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
       return std::make_unique<TimedSensor>(*std::move(sensor), times);
     };
   };
-  options.scenario.world = ResolveWorld(arguments.world);
-  for (int i = 0; i < robots; ++i)
-    options.scenario.robots.push_back({arguments.model, "", std::nullopt, ""});
+  PlaceRobots(arguments, robots, options);
   options.behaviour = arguments.behaviour;
   options.specification.mode = arguments.mode;
   options.specification.duration = base::FromSeconds(arguments.duration);
@@ -151,6 +167,16 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   return row;
 }
 
+// Control cycles of eight sonars: what the behaviours got done, beside the simulation's own pace.
+double CyclesPerRobotSecond(const Row& row) {
+  double sonars = 0;
+  for (const simulation::RobotStatus& robot : row.status.robots) {
+    const auto readings = robot.readings.find("sonar");
+    if (readings != robot.readings.end()) sonars += static_cast<double>(readings->second);
+  }
+  return sonars / 8 / row.robots / base::ToSeconds(row.status.time);
+}
+
 nlohmann::ordered_json ToJson(const Row& row) {
   return {{"robots", row.robots},
           {"behaviour", row.behaviour},
@@ -161,14 +187,21 @@ nlohmann::ordered_json ToJson(const Row& row) {
             {"p99", row.updates->intervals.quantile(0.99)}}},
           {"step_ms", Milliseconds(row.status.mean_step_time)},
           {"camera_ms", {{"mean", row.pictures->mean()}, {"p99", row.pictures->quantile(0.99)}}},
+          {"pictures_per_s",
+           static_cast<double>(row.pictures->count()) / base::ToSeconds(row.status.time)},
+          {"cycles_per_robot_s", CyclesPerRobotSecond(row)},
           {"late_steps", row.status.late_steps}};
 }
 
 int Typical(const TypicalArguments& arguments) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!arguments.json) {
-    std::printf("robots  real time   update interval (ms)       step    camera (ms)    late\n");
-    std::printf("             x      mean  median     p99       (ms)    mean    p99   steps\n");
+    std::printf(
+        "robots  real time   update interval (ms)       step    camera (ms)   pictures  cycles   "
+        "late\n");
+    std::printf(
+        "             x      mean  median     p99       (ms)    mean    p99   a second  /robot s "
+        "steps\n");
   }
   for (const int robots : arguments.robots) {
     const auto row = RunTypical(arguments, robots);
@@ -176,10 +209,11 @@ int Typical(const TypicalArguments& arguments) {
     const auto json = ToJson(*row);
     rows.push_back(json);
     if (arguments.json) continue;
-    std::printf("%6d  %9.3f  %8.2f %7.2f %7.2f  %9.4f %7.2f %6.2f  %6llu\n", robots,
+    std::printf("%6d  %9.3f  %8.2f %7.2f %7.2f  %9.4f %7.2f %6.2f  %9.1f %7.1f  %6llu\n", robots,
                 row->status.real_time_factor, row->updates->intervals.mean(),
                 row->updates->intervals.quantile(0.5), row->updates->intervals.quantile(0.99),
                 json["step_ms"].get<double>(), row->pictures->mean(), row->pictures->quantile(0.99),
+                json["pictures_per_s"].get<double>(), CyclesPerRobotSecond(*row),
                 static_cast<unsigned long long>(row->status.late_steps));
     std::fflush(stdout);
   }
@@ -222,8 +256,8 @@ std::shared_ptr<TypicalArguments> AddCommon(CLI::App& command, std::vector<int> 
   command.add_option("--duration", arguments->duration, "simulated seconds a row")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 3600.0));
-  command.add_option("--world", arguments->world, "small numbers fit into the office")
-      ->capture_default_str();
+  command.add_option("--world", arguments->world,
+                     "without one: the office for up to 20 robots, else the square of bench crowd");
   command.add_option("--model", arguments->model)->capture_default_str();
   command.add_flag("--json", arguments->json, "one JSON object");
   return arguments;

@@ -66,6 +66,10 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
   base::Result<sensing::Reading> Read(const std::string&) override {
     return base::Fail(Refused().error());
   }
+  base::Result<std::shared_ptr<simulation::MountedSensor>> Mounted(
+      const std::string&) const override {
+    return base::Fail(Refused().error());
+  }
 
   world::DriveCommand command() const {
     const std::lock_guard lock(mutex_);
