@@ -134,6 +134,7 @@ base::Status SteppingSimulation::Start() {
 }
 
 base::Status SteppingSimulation::Go(SimTime until, std::int64_t steps) {
+  ++run_;
   run_until_ = until;
   steps_left_ = steps;
   if (shared_->phase == Phase::kPaused) {
@@ -332,7 +333,6 @@ void SteppingSimulation::WatchForDeaths() {
 }
 
 SimulationStatus SteppingSimulation::status() const {
-  const auto snapshot = shared_->history.latest();
   SimulationStatus status;
   status.name = specification_.name;
   status.mode = specification_.mode;
@@ -343,6 +343,7 @@ SimulationStatus SteppingSimulation::status() const {
     status.events = events_dropped_ + events_.size();
   }
   const std::lock_guard lock(shared_->mutex);
+  const auto snapshot = shared_->history.latest();
   status.phase = shared_->phase;
   status.step = snapshot->state.step;
   status.time = snapshot->state.time;

@@ -162,12 +162,11 @@ class LifeCycle {
         return state;
       case Action::kStep:
         if (request.argument < 1 || !IsAtRest(state)) return std::nullopt;
-        return Running(state.step,
-                       Interval{state.step.low - kUnderWay + request.argument,
-                                state.step.high + request.argument},
-                       {});
+        return Running(
+            state.step,
+            Interval{state.step.low + request.argument, state.step.high + request.argument}, {});
       case Action::kRunUntil:
-        if (request.argument <= state.step.low - kUnderWay) return std::nullopt;
+        if (request.argument <= state.step.low) return std::nullopt;
         if (IsAtRest(state)) return Running(state.step, {}, request.argument);
         if (!is_running) return std::nullopt;
         state.run_until = request.argument;
@@ -180,9 +179,6 @@ class LifeCycle {
     }
     return std::nullopt;
   }
-
-  // A step whose snapshot can be seen may still be under way for the clock, and then counts.
-  static constexpr std::int64_t kUnderWay = 1;
 
   const std::int64_t end_;
   std::vector<State> states_{State()};

@@ -165,12 +165,16 @@ base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
   for (const world::Contact& overlap : engine_->Overlaps(state, kPlacingTolerance)) {
     stands_free[overlap.first] = stands_free[overlap.second] = false;
   }
-  for (const std::string& name : added) {
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const std::string& name = added[i];
     const int body = layout.Find(name);
     if (stands_free[body]) continue;
     const geometry::Pose wanted = layout.bodies[body].initial_pose;
     const int intruded = Intruded(layout, state, body);
     if (intruded < 0) continue;
+    // Of two newcomers at one place the second is the one too many.
+    const auto rest = added.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    if (std::find(rest, added.end(), layout.bodies[intruded].name) != added.end()) continue;
     // What stands more outside of a wall than in it is put before it.
     if (!layout.bodies[intruded].is_robot && StepAside(layout, body, state)) {
       AddEvent("robot_moved", name,

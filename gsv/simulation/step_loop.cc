@@ -140,6 +140,7 @@ void SteppingSimulation::TakeStep() {
         drive.command_time = state_.time;
       }
       shared_->commanded.clear();
+      stepped_run_ = run_;
       if (shared_->mode == Mode::kRealTime) pacer_.StepStarts(start);
     }
     snapshot = MoveWorld();
@@ -166,12 +167,13 @@ std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
 
 void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot,
                                    WallTime start) {
-  shared_->history.Publish(snapshot);
   const WallTime end = WallNow();
   const std::lock_guard lock(shared_->mutex);
+  shared_->history.Publish(snapshot);  // with the phase that comes of it: see status()
   shared_->now = snapshot->state.time;
   statistics_.Stepped(end, shared_->now, end - start);
-  if (steps_left_ > 0) --steps_left_;
+  // A step that was under way when somebody paused and asked for steps is none of these.
+  if (steps_left_ > 0 && stepped_run_ == run_) --steps_left_;
   if (specification_.duration.count() > 0 && shared_->now >= specification_.duration)
     return Finish();
   const bool arrived = run_until_.count() > 0 && shared_->now >= run_until_;

@@ -136,8 +136,10 @@ class SteppingSimulation final : public Simulation {
   std::set<std::string> watched_now_;  // robots whose behaviour is being asked for a sign of life
   bool restart_pacing_ = false;
   int starts_pending_ = 0;
-  SimTime run_until_{0};          // 0: none
-  std::int64_t steps_left_ = -1;  // -1: no limit
+  SimTime run_until_{0};           // 0: none
+  std::int64_t steps_left_ = -1;   // -1: no limit
+  std::uint64_t run_ = 0;          // grows whenever it is told to go
+  std::uint64_t stepped_run_ = 0;  // in which the present step began
   std::string failure_;
   std::string final_hash_;  // of a run that finished
   Pacer pacer_;

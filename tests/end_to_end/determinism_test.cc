@@ -107,6 +107,41 @@ TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
   }
 }
 
+TEST(Determinism, BehavioursInProcessOnAnyNumberOfThreadsLeaveNoTrace) {
+  const std::string expected = UndisturbedHash();
+  const BrokerProcess broker;
+  for (const char* threads : {"1", "2", "7"}) {
+    const Outcome outcome =
+        RunProgram("gsv", FleetRun(broker.reference(), {"--in-process", "--threads", threads}));
+    ASSERT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    ASSERT_EQ(HashOf(outcome.LastLine()), expected) << threads << " threads";
+  }
+}
+
+TEST(Determinism, ThreadsLeaveNoTraceInACrowd) {
+  // Enough robots for the mover, the rays and the behaviours to be shared out.
+  std::vector<std::string> hashes;
+  for (const char* threads : {"1", "2", "5"}) {
+    const Outcome outcome = RunProgram("gsv", {"bench", "crowd", "--robots", "800", "--duration",
+                                               "1", "--threads", threads, "--json"});
+    ASSERT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    hashes.push_back(outcome.LastLine()["rows"][0]["state_hash"]);
+  }
+  EXPECT_EQ(hashes[0].size(), 16u);
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_EQ(hashes[2], hashes[0]);
+}
+
+TEST(Bench, ACrowdStandsUpToBruteForce) {
+  const Outcome outcome = RunProgram(
+      "gsv", {"bench", "crowd", "--robots", "60", "--duration", "5", "--verify", "--json"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  const auto row = outcome.LastLine()["rows"][0];
+  EXPECT_EQ(row["verified"]["mismatches"], 0);
+  EXPECT_GT(row["verified"]["readings"], 100);
+  EXPECT_GT(row["collisions"], 0);
+}
+
 TEST(Determinism, ADebugBuildGivesTheHashOfTheReleaseBuild) {
   const char* debug = std::getenv("GSV_DEBUG_BUILD_DIR");
   if (debug == nullptr)
