@@ -134,7 +134,7 @@ TEST(Determinism, ThreadsLeaveNoTraceInACrowd) {
 
 TEST(Bench, ACrowdStandsUpToBruteForce) {
   const Outcome outcome = RunProgram(
-      "gsv", {"bench", "crowd", "--robots", "60", "--duration", "5", "--verify", "--json"});
+      "gsv", {"bench", "crowd", "--robots", "60", "--duration", "60", "--verify", "--json"});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
   const auto row = outcome.LastLine()["rows"][0];
   EXPECT_EQ(row["verified"]["mismatches"], 0);
