@@ -18,7 +18,7 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
       "MODEL[@x,y[,yaw]]: a robot and where it starts; metres, yaw in radians or as 90deg");
   command.add_option("--behaviour", a.behaviours,
                      "NAME for all robots, or ROBOT=NAME for one: a behaviour that is offered, or "
-                     "a program gsv-NAME to start");
+                     "a program gsv-NAME to start; its options may follow: 'goto --goal-x 3'");
   command.add_flag("--in-process", a.in_process,
                    "run the behaviours inside gsv, from their plug-ins gsv-NAME.so: the same "
                    "outcome, and many more robots");
@@ -75,7 +75,8 @@ base::Result<base::SimTime> Time(double seconds, const char* option) {
 
 base::Status UnderstandBehaviours(const std::vector<std::string>& texts, RunOptions& options) {
   for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
+    // What comes after a blank is the behaviour's own.
+    const std::size_t equals = text.substr(0, text.find(' ')).find('=');
     if (equals == std::string::npos) {
       options.behaviour = text;
     } else if (equals == 0 || equals + 1 == text.size()) {

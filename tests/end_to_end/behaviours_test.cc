@@ -51,5 +51,34 @@ TEST(Behaviours, GotoReachesItsGoal) {
   EXPECT_EQ(robot["agent"], "finished");
 }
 
+TEST(Behaviours, OptionsFollowTheNameInEveryForm) {
+  std::vector<std::string> hashes;
+  for (const bool in_process : {false, true}) {
+    Strings arguments{"run",         "playground",        "--robot",    "pebble@0,0",
+                      "--behaviour", "goto --goal-x=1.5", "--lockstep", "--duration",
+                      "20",          "--headless",        "--json"};
+    if (in_process) arguments.push_back("--in-process");
+    const Outcome outcome = RunProgram("gsv", arguments);
+    ASSERT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    EXPECT_NEAR(outcome.LastLine()["robots"][0]["pose"]["x_m"].get<double>(), 1.5, 0.2);
+    hashes.push_back(outcome.LastLine()["state_hash"]);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(Behaviours, APlugInThatIsNotThereOrDoesNotKnowAnOptionIsNamed) {
+  const auto run = [](const char* behaviour) {
+    return RunProgram("gsv", {"run", "playground", "--robot", "pebble@0,0", "--behaviour",
+                              behaviour, "--in-process", "--headless", "--duration", "1"});
+  };
+  const Outcome absent = run("dance");
+  EXPECT_EQ(absent.ending, "exit code 4");
+  EXPECT_NE(absent.err.find("there is no plug-in gsv-dance.so in"), std::string::npos)
+      << absent.err;
+  const Outcome unknown = run("goto --goal-w 3");
+  EXPECT_EQ(unknown.ending, "exit code 2");
+  EXPECT_NE(unknown.err.find("goal-w"), std::string::npos) << unknown.err;
+}
+
 }  // namespace
 }  // namespace gsv::testing
