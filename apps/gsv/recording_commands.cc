@@ -1,5 +1,9 @@
 #include <cstdio>
+#include <fstream>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -9,6 +13,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "gsv/gateway/replay_gateway.h"
+#include "gsv/recording/decoded_messages.h"
 #include "gsv/recording/recording_info.h"
 #include "gsv/recording/recover.h"
 #include "gsv/recording/scene_attachments.h"
@@ -17,8 +22,14 @@ namespace gsv::app {
 namespace {
 
 struct RecordingArguments {
-  std::string file, output;
+  std::string file, other, output;
+  std::vector<std::string> topics;
+  double from = -1e9, to = 1e9;  // s
   bool json = false;
+
+  recording::Selection Selection() const {
+    return {topics, base::FromSeconds(from), base::FromSeconds(to)};
+  }
 };
 
 // A recording that is not there is no bad model.
@@ -43,6 +54,70 @@ int Recover(const RecordingArguments& arguments) {
       arguments.json ? recording::ToJson(*recovery) + "\n" : recording::ToText(*recovery);
   std::fputs(text.c_str(), stdout);
   return kOk;
+}
+
+int Filter(const RecordingArguments& arguments) {
+  const auto filtered = recording::Recover(arguments.file, arguments.output, arguments.Selection());
+  if (!filtered) return Refuse(filtered.error());
+  std::fputs((recording::ToJson(*filtered) + "\n").c_str(), stdout);
+  return kOk;
+}
+
+// One JSON object a line.
+int Cat(const RecordingArguments& arguments) {
+  const auto reader = recording::McapReader::Open(arguments.file);
+  if (!reader) return Refuse(reader.error());
+  auto messages = recording::DecodedMessages::Open(**reader, arguments.Selection());
+  if (!messages) return Refuse(messages.error());
+  for (;;) {
+    auto message = messages->Next();
+    if (!message) return Refuse(message.error());
+    if (!*message) return kOk;
+    const nlohmann::ordered_json line{{"time_s", base::ToSeconds((*message)->time)},
+                                      {"topic", (*message)->topic},
+                                      {"type", (*message)->type},
+                                      {"message", std::move((*message)->content)}};
+    std::puts(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    if (std::ferror(stdout) != 0) return kInfrastructure;  // nobody reads on
+  }
+}
+
+int Export(const RecordingArguments& arguments) {
+  const auto reader = recording::McapReader::Open(arguments.file);
+  if (!reader) return Refuse(reader.error());
+  const auto csv = recording::ToCsv(**reader, arguments.Selection());
+  if (!csv) return Refuse(csv.error());
+  if (arguments.output.empty()) {
+    std::fputs(csv->c_str(), stdout);
+    return kOk;
+  }
+  std::ofstream file(arguments.output, std::ios::binary);
+  file << *csv << std::flush;
+  if (file) return kOk;
+  return Complain({base::ErrorCode::kUnavailable, "cannot write the file", arguments.output});
+}
+
+int Diff(const RecordingArguments& arguments) {
+  const auto first = recording::McapReader::Open(arguments.file);
+  if (!first) return Refuse(first.error());
+  const auto second = recording::McapReader::Open(arguments.other);
+  if (!second) return Refuse(second.error());
+  const auto difference = recording::FirstDifference(**first, **second);
+  if (!difference) return Refuse(difference.error());
+  if (arguments.json) {
+    nlohmann::ordered_json json{{"equal", !difference->has_value()}};
+    if (*difference) {
+      json["time_s"] = base::ToSeconds((*difference)->time);
+      json["topic"] = (*difference)->topic;
+      json["field"] = (*difference)->field;
+      json["first"] = (*difference)->in_first;
+      json["second"] = (*difference)->in_second;
+    }
+    std::puts(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else {
+    std::puts(*difference ? (*difference)->Sentence().c_str() : "they tell the same");
+  }
+  return *difference ? kAssertionFailed : kOk;
 }
 
 struct ReplayArguments {
@@ -158,6 +233,41 @@ void AddRecordingCommands(const CommandLine& line) {
   const auto recover_arguments = AddArguments(*recover);
   recover->add_option("-o,--output", recover_arguments->output, "the file to write")->required();
   recover->callback([recover_arguments, line] { line.exit_code = Recover(*recover_arguments); });
+
+  const auto add_selection = [](CLI::App& command, RecordingArguments& arguments) {
+    command.add_option("--topic", arguments.topics,
+                       "a topic, or with a slash at its end all below it; repeats");
+    command.add_option("--from", arguments.from, "seconds of simulated time");
+    command.add_option("--to", arguments.to, "seconds of simulated time");
+  };
+  const auto add = [&](const char* name, const char* what, auto run) {
+    CLI::App* command = rec->add_subcommand(name, what);
+    auto arguments = std::make_shared<RecordingArguments>();
+    command->add_option("file", arguments->file, "the recording")->required();
+    command->callback([arguments, line, run] { line.exit_code = run(*arguments); });
+    return std::pair(command, arguments);
+  };
+  {
+    const auto [command, arguments] = add("cat", "Print messages, one JSON object a line", Cat);
+    add_selection(*command, *arguments);
+  }
+  {
+    const auto [command, arguments] = add("export", "Write a topic as a table (CSV)", Export);
+    add_selection(*command, *arguments);
+    command->get_option("--topic")->required()->expected(1);
+    command->add_option("-o,--output", arguments->output, "the file; without it: stdout");
+  }
+  {
+    const auto [command, arguments] = add("filter", "Make a recording of part of one", Filter);
+    add_selection(*command, *arguments);
+    command->add_option("-o,--output", arguments->output, "the file to write")->required();
+  }
+  {
+    const auto [command, arguments] =
+        add("diff", "Say where two recordings first differ; exit code 1 if they do", Diff);
+    command->add_option("other", arguments->other, "another recording")->required();
+    command->add_flag("--json", arguments->json, "one JSON object");
+  }
 
   AddReplayCommand(line);
 }

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -16,15 +17,19 @@ using base::Fail;
 
 class Copier {
  public:
-  Copier(const McapReader& reader, ByteSink& sink)
-      : reader_(reader), file_(sink, {.profile = reader.summary().profile}) {
+  Copier(const McapReader& reader, ByteSink& sink, const Selection& selection)
+      : reader_(reader), selection_(selection), file_(sink, {.profile = reader.summary().profile}) {
     recovery_.problems = reader.summary().problems;
   }
 
   base::Result<Recovery> Run() {
     const Summary& summary = reader_.summary();
     for (const auto& [id, schema] : summary.schemas) file_.AddSchema(schema);
-    for (const auto& [id, channel] : summary.channels) file_.AddChannel(channel);
+    for (const auto& [id, channel] : summary.channels) {
+      if (!selection_.Has(channel.topic)) continue;
+      file_.AddChannel(channel);
+      selected_.insert(id);
+    }
     for (const MetadataIndexRecord& index : summary.metadata) CopyMetadata(index);
     for (const AttachmentIndexRecord& index : summary.attachments) CopyAttachment(index);
     for (const MessageBlock& block : summary.blocks) CopyMessages(block);
@@ -51,8 +56,11 @@ class Copier {
   void CopyMessages(const MessageBlock& block) {
     const auto content = reader_.Messages(block);
     if (!content) return Lost(content.error());
-    for (const MessageRecord& message : content->messages) file_.Write(message);
-    recovery_.messages += content->messages.size();
+    for (const MessageRecord& message : content->messages) {
+      if (!selected_.contains(message.channel_id) || !selection_.Has(message.log_time)) continue;
+      file_.Write(message);
+      ++recovery_.messages;
+    }
   }
 
   void Lost(const base::Error& error) {
@@ -60,6 +68,8 @@ class Copier {
   }
 
   const McapReader& reader_;
+  const Selection& selection_;
+  std::set<std::uint16_t> selected_;  // channels
   McapFileWriter file_;
   Recovery recovery_;
 };
@@ -83,29 +93,29 @@ class PartialFile {
 
 }  // namespace
 
-base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink) {
-  return Copier(reader, sink).Run();
+base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink,
+                               const Selection& selection) {
+  return Copier(reader, sink, selection).Run();
 }
 
 base::Result<Recovery> Recover(const std::string& input, const std::string& output,
-                               const Limits& limits) {
+                               const Selection& selection, const Limits& limits) {
   const auto reader = McapReader::Open(input, limits);
   if (!reader) return Fail(reader.error());
   std::error_code ignored;
   if (std::filesystem::exists(output, ignored)) {
     return Fail(ErrorCode::kInvalidArgument,
-                "the file exists already; give the recovered recording another name", output);
+                "the file exists already; give the new recording another name", output);
   }
   const PartialFile partial(output + ".partial");
   auto sink = FileSink::Create(partial.path(), true);
   if (!sink) return Fail(std::move(sink.error()));
-  base::Result<Recovery> recovery = Recover(**reader, **sink);
+  base::Result<Recovery> recovery = Recover(**reader, **sink, selection);
   if (!recovery) return recovery;
   std::error_code error;
   std::filesystem::rename(partial.path(), output, error);
   if (error) {
-    return Fail(ErrorCode::kUnavailable, "cannot name the recovered file: " + error.message(),
-                output);
+    return Fail(ErrorCode::kUnavailable, "cannot name the new file: " + error.message(), output);
   }
   return recovery;
 }

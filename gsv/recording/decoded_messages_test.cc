@@ -1,0 +1,107 @@
+#include "gsv/recording/decoded_messages.h"
+
+#include <gtest/gtest.h>
+
+#include "gsv/recording/recover.h"
+#include "gsv/recording/test_recording.h"
+
+namespace gsv::recording {
+namespace {
+
+// Two topics of ten clocks each, 10 ms apart; the fifth message of /b can be another.
+Bytes TwoTopics(base::SimTime fifth, bool is_reproducible = true) {
+  Bytes bytes;
+  MemorySink sink(bytes);
+  McapFileWriter writer(sink, {});
+  (void)writer.AddSchema(SchemaOfClock());
+  (void)writer.AddChannel(ChannelOf(0, "/a"));
+  ChannelRecord b = ChannelOf(1, "/b");
+  if (!is_reproducible) b.metadata["reproducible"] = "false";
+  (void)writer.AddChannel(b);
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    const base::SimTime time = i * 10ms;
+    for (const std::uint16_t channel : {0, 1}) {
+      const Bytes data = ClockMessage(channel == 1 && i == 5 ? fifth : time);
+      (void)writer.Write({channel, i, time, time, data});
+    }
+  }
+  (void)writer.Close();
+  return bytes;
+}
+
+std::optional<Difference> DifferenceOf(const Bytes& a, const Bytes& b) {
+  const auto first = Open(a), second = Open(b);
+  const auto difference = FirstDifference(**first, **second);
+  EXPECT_TRUE(difference) << difference.error().Sentence();
+  return *difference;
+}
+
+TEST(FirstDifference, NamesTimeTopicAndField) {
+  const auto difference = DifferenceOf(TwoTopics(50ms), TwoTopics(51ms));
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->time, base::SimTime(50ms));
+  EXPECT_EQ(difference->topic, "/b");
+  EXPECT_EQ(difference->field, "clock.nanosec");
+  EXPECT_EQ(difference->in_first, "50000000");
+  EXPECT_EQ(difference->in_second, "51000000");
+  EXPECT_EQ(difference->Sentence(),
+            "0.050000 s, /b, clock.nanosec: 50000000 in the first, 51000000 in the second");
+}
+
+TEST(FirstDifference, IsNotInWhatTellsOfTheWallClock) {
+  EXPECT_FALSE(DifferenceOf(TwoTopics(50ms, false), TwoTopics(51ms, false)));
+}
+
+TEST(FirstDifference, OfARecordingAndItselfThereIsNone) {
+  EXPECT_FALSE(DifferenceOf(ThreeChunks(), ThreeChunks()));
+}
+
+TEST(FirstDifference, AMessageThatIsMissingIsOne) {
+  const Bytes whole = TwoTopics(50ms);
+  Bytes part;
+  MemorySink sink(part);
+  const auto reader = Open(whole);
+  ASSERT_TRUE(Recover(**reader, sink, {.topics = {}, .to = 60ms}));
+  const auto difference = DifferenceOf(whole, part);
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->time, base::SimTime(70ms));
+  EXPECT_EQ(difference->topic, "/a");
+  EXPECT_EQ(difference->in_first, "there");
+  EXPECT_EQ(difference->in_second, "missing");
+}
+
+TEST(DecodedMessages, AreThoseOfTheSelection) {
+  const Bytes bytes = TwoTopics(50ms);
+  const auto reader = Open(bytes);
+  auto messages = DecodedMessages::Open(**reader, {{"/b"}, 30ms, 50ms});
+  ASSERT_TRUE(messages);
+  std::vector<std::int64_t> nanoseconds;
+  for (auto message = messages->Next(); message && *message; message = messages->Next()) {
+    EXPECT_EQ((*message)->topic, "/b");
+    EXPECT_EQ((*message)->type, "rosgraph_msgs/msg/Clock");
+    nanoseconds.push_back((*message)->content["clock"]["nanosec"]);
+  }
+  EXPECT_EQ(nanoseconds, (std::vector<std::int64_t>{30'000'000, 40'000'000, 50'000'000}));
+}
+
+TEST(DecodedMessages, ATopicThatIsNotThereIsAnError) {
+  const Bytes bytes = ThreeChunks();
+  const auto reader = Open(bytes);
+  const auto messages = DecodedMessages::Open(**reader, {{"/nowhere"}});
+  ASSERT_FALSE(messages);
+  EXPECT_EQ(messages.error().where, "/nowhere");
+}
+
+TEST(ToCsv, HasARowForEachMessageAndAColumnForEachValue) {
+  const Bytes bytes = TwoTopics(50ms);
+  const auto reader = Open(bytes);
+  const auto csv = ToCsv(**reader, {{"/a"}, 0ms, 10ms});
+  ASSERT_TRUE(csv);
+  EXPECT_EQ(*csv,
+            "time_s,clock.sec,clock.nanosec\r\n"
+            "0.000000000,0,0\r\n"
+            "0.010000000,0,10000000\r\n");
+}
+
+}  // namespace
+}  // namespace gsv::recording

@@ -1,0 +1,26 @@
+// Some of a recording's messages.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "gsv/base/sim_time.h"
+
+namespace gsv::recording {
+
+struct Selection {
+  std::vector<std::string> topics;  // empty: all; one that ends in "/" stands for all below it
+  base::SimTime from = base::SimTime::min();
+  base::SimTime to = base::SimTime::max();
+
+  bool Has(base::SimTime time) const { return time >= from && time <= to; }
+  bool Has(const std::string& topic) const {
+    return topics.empty() ||
+           std::any_of(topics.begin(), topics.end(), [&](const std::string& each) {
+             return each == topic || (each.ends_with('/') && topic.starts_with(each));
+           });
+  }
+};
+
+}  // namespace gsv::recording
