@@ -131,6 +131,14 @@ TEST(HostedBehaviour, TheNumberOfThreadsLeavesNoTrace) {
   EXPECT_EQ(HashOfACrowd(60, 7, mixed), hash);
 }
 
+TEST(HostedBehaviour, ACrowdOfControllersIsTheSameOnAnyNumberOfThreads) {
+  const auto controller = [](int) {
+    return std::make_shared<HostedBehaviour>("approach",
+                                             [] { return std::make_unique<Approach>(); });
+  };
+  EXPECT_EQ(HashOfACrowd(60, 7, controller), HashOfACrowd(60, 1, controller));
+}
+
 TEST(HostedBehaviour, OneThatThrowsEndsAndTheOthersGoOn) {
   auto simulation = simulation::Make(Lockstep(500ms));
   ASSERT_TRUE(
