@@ -9,6 +9,7 @@
 
 #include "gsv/base/log.h"
 #include "gsv/formats/gltf_writer.h"
+#include "gsv/recording/bag_folder.h"
 #include "gsv/recording/simulation_recorder.h"
 
 namespace gsv::app {
@@ -54,12 +55,25 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
                         "it is being recorded to " + found->second.path + "; stop that first",
                         name);
     }
+    if (const auto ok = Finish(found->second); !ok) spdlog::error("{}", ok.error().Sentence());
     recordings_.erase(found);
   }
-  auto recorder = recording::SimulationRecorder::Start(simulation, path, Options());
+  std::string bag;
+  if (!path.ends_with(".mcap")) {
+    auto file = recording::MakeBagFolder(path);
+    if (!file) return base::Fail(file.error());
+    bag = *std::move(file);
+  }
+  auto recorder =
+      recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag, Options());
   if (!recorder) return base::Fail(recorder.error());
-  recordings_.emplace(name, Recording{simulation, path, *std::move(recorder)});
+  recordings_.emplace(name, Recording{simulation, path, std::move(bag), *std::move(recorder)});
   return {};
+}
+
+base::Status Recordings::Finish(Recording& recording) {
+  if (auto stopped = recording.recorder->Stop(); !stopped) return stopped;
+  return recording.bag.empty() ? base::Status() : recording::WriteBagMetadata(recording.bag);
 }
 
 base::Status Recordings::Stop(const std::string& simulation) {
@@ -69,7 +83,7 @@ base::Status Recordings::Stop(const std::string& simulation) {
   if (node.empty()) {
     return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
   }
-  return node.mapped().recorder->Stop();
+  return Finish(node.mapped());
 }
 
 base::Status Recordings::StopAll() {
@@ -78,7 +92,7 @@ base::Status Recordings::StopAll() {
   lock.unlock();
   base::Status first;
   for (auto& [name, recording] : recordings) {
-    const base::Status stopped = recording.recorder->Stop();
+    const base::Status stopped = Finish(recording);
     if (stopped) continue;
     if (first) {
       first = stopped;

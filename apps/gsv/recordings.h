@@ -24,7 +24,8 @@ class Recordings {
   Recordings();
   ~Recordings();
 
-  // kInvalidArgument when the simulation is being recorded, or the file is there already.
+  // `path` ends in ".mcap": a bare file; else a folder that rosbag2 opens. kInvalidArgument when
+  // the simulation is being recorded, or something of that name is there already.
   base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path);
   // kNotFound when that simulation is not recorded. Another error is why the recording ended early.
   base::Status Stop(const std::string& simulation);
@@ -35,8 +36,10 @@ class Recordings {
   struct Recording {
     std::weak_ptr<simulation::Simulation> simulation;
     std::string path;
+    std::string bag;  // the file in a rosbag2 folder; empty: a bare file
     std::unique_ptr<recording::SimulationRecorder> recorder;
   };
+  static base::Status Finish(Recording& recording);
 
   std::mutex mutex_;
   std::map<std::string, Recording> recordings_;  // by the simulation's name

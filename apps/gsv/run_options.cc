@@ -48,7 +48,9 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
       ->capture_default_str();
   command.add_option("--wall-timeout", a.wall_timeout,
                      "wall seconds after which the run is given up with exit code 124");
-  command.add_option("--record", a.record, "write a recording (MCAP) to this file");
+  command.add_option(
+      "--record", a.record,
+      "write a recording: NAME.mcap is a bare file, NAME a folder that rosbag2 opens");
   command
       .add_option("--broker", a.broker,
                   "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")

@@ -1,9 +1,12 @@
 #include "gsv/recording/mcap_reader.h"
 
+#include "gsv/recording/bag_folder.h"
+
 namespace gsv::recording {
 
-base::Result<std::unique_ptr<McapReader>> McapReader::Open(const std::string& path,
+base::Result<std::unique_ptr<McapReader>> McapReader::Open(const std::string& name,
                                                            const Limits& limits) {
+  const std::string path = RecordingFile(name);
   auto source = FileSource::Open(path);
   if (!source) return base::Fail(std::move(source.error()));
   auto reader = Open(std::move(*source), limits);

@@ -24,7 +24,8 @@ struct Attachment {
 
 class McapReader {
  public:
-  // kNotFound, or kCorrupt if it is no recording at all.
+  // A file, or a folder that holds one (see bag_folder.h). kNotFound, or kCorrupt if it is no
+  // recording at all.
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(const std::string& path,
                                                                       const Limits& limits = {});
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(
