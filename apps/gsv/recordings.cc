@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <utility>
@@ -38,6 +39,13 @@ recording::RecorderOptions Options() {
   return options;
 }
 
+// What is there and no folder is a file, or a device.
+bool NamesAFile(const std::string& path) {
+  std::error_code ignored;
+  return path.ends_with(".mcap") ||
+         (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored));
+}
+
 }  // namespace
 
 Recordings::Recordings() = default;
@@ -59,7 +67,7 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
     recordings_.erase(found);
   }
   std::string bag;
-  if (!path.ends_with(".mcap")) {
+  if (!NamesAFile(path)) {
     auto file = recording::MakeBagFolder(path);
     if (!file) return base::Fail(file.error());
     bag = *std::move(file);

@@ -57,7 +57,16 @@ TEST_F(RecordingsTest, ANewSimulationOfTheNameCanBeRecordedWhenTheOldOneIsGone) 
   EXPECT_TRUE(recordings_.Start(simulation_, path_ + ".other"));
   EXPECT_TRUE(recordings_.StopAll());
   EXPECT_EQ(recording::ReadInfo(path_).value().indexed, true);
-  std::filesystem::remove(path_ + ".other");
+  std::filesystem::remove_all(path_ + ".other");
+}
+
+TEST_F(RecordingsTest, ANameWithoutMcapBecomesAFolderWithMetadata) {
+  const std::filesystem::path folder = path_ + ".folder";
+  ASSERT_TRUE(recordings_.Start(simulation_, folder));
+  ASSERT_TRUE(recordings_.StopAll());
+  EXPECT_EQ(recording::ReadInfo(folder).value().indexed, true);
+  EXPECT_TRUE(std::filesystem::exists(folder / "metadata.yaml"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST_F(RecordingsTest, WhatIsNotRecordedCannotBeStopped) {
