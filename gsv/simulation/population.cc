@@ -19,6 +19,15 @@ std::string PlaceText(const geometry::Pose& pose) {
   return text;
 }
 
+base::Status CheckBehaviour(const BehaviourPort& behaviour, Mode mode, const std::string& robot) {
+  if (mode != Mode::kLockstep || behaviour.time_managed()) return {};
+  return base::Fail(base::ErrorCode::kBehaviour,
+                    "the behaviour \"" + behaviour.name() +
+                        "\" tells the time by the wall clock, so lockstep would not wait for it; "
+                        "run in real time",
+                    robot);
+}
+
 base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
   const std::string where = robot.name.empty() ? robot.model->name : robot.name;
   if (!geometry::IsFinite(robot.world_from_robot)) {
@@ -32,16 +41,8 @@ base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
             "gz::sim::systems::DiffDrive to it",
         where);
   }
-  if (mode == Mode::kLockstep && robot.behaviour != nullptr && !robot.behaviour->time_managed() &&
-      !robot.allow_unmanaged) {
-    return base::Fail(
-        base::ErrorCode::kBehaviour,
-        "the behaviour \"" + robot.behaviour->name() +
-            "\" tells the time by the wall clock, so lockstep would not wait for it; run in "
-            "real time",
-        where);
-  }
-  return {};
+  if (robot.behaviour == nullptr || robot.allow_unmanaged) return {};
+  return CheckBehaviour(*robot.behaviour, mode, where);
 }
 
 }  // namespace
@@ -60,11 +61,13 @@ base::Status SteppingSimulation::NameRobots(std::vector<RobotSpecification>& rob
                         robot.name);
     }
   }
+  std::map<std::string, int> next_number;  // by model: a crowd need not count from two each time
   for (RobotSpecification& robot : robots) {
     if (!robot.name.empty()) continue;
     robot.name = robot.model->name;
-    for (int number = 2; taken.contains(robot.name); ++number) {
-      robot.name = robot.model->name + "_" + std::to_string(number);
+    int& number = next_number.try_emplace(robot.name, 2).first->second;
+    while (taken.contains(robot.name)) {
+      robot.name = robot.model->name + "_" + std::to_string(number++);
     }
     taken[robot.name] = 1;
   }
@@ -290,6 +293,7 @@ base::Status SteppingSimulation::SetBehaviour(const std::string& robot,
     return base::Fail(base::ErrorCode::kNotFound, "there is no robot \"" + robot + "\"",
                       specification_.name);
   }
+  if (auto ok = CheckBehaviour(*behaviour, specification_.mode, robot); !ok) return ok;
   {
     const std::lock_guard lock(shared_->mutex);
     if (auto ok = RefuseUnless({Phase::kCreated}, "change a behaviour"); !ok) return ok;

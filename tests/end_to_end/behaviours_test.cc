@@ -51,6 +51,23 @@ TEST(Behaviours, GotoReachesItsGoal) {
   EXPECT_EQ(robot["agent"], "finished");
 }
 
+TEST(Behaviours, OneThatSleepsByTheWallClockWorksInRealTimeAndIsRefusedInLockstep) {
+  const BrokerProcess broker;
+  Running program("../tests/wall_clock_behaviour", {"--broker", broker.reference()});
+  program.AwaitLine("offered at");
+  Strings arguments{"run",        "playground", "--broker",    broker.reference(),
+                    "--robot",    "pebble@0,0", "--behaviour", "old-style",
+                    "--duration", "3",          "--headless",  "--json"};
+  const Outcome real_time = RunProgram("gsv", arguments);
+  ASSERT_EQ(real_time.ending, "exit code 0") << real_time.err;
+  EXPECT_GT(real_time.LastLine()["robots"][0]["distance_m"], 0.3);
+  arguments.push_back("--lockstep");
+  const Outcome lockstep = RunProgram("gsv", arguments);
+  EXPECT_EQ(lockstep.ending, "exit code 4");
+  EXPECT_NE(lockstep.err.find("tells the time by the wall clock"), std::string::npos)
+      << lockstep.err;
+}
+
 TEST(Behaviours, OptionsFollowTheNameInEveryForm) {
   std::vector<std::string> hashes;
   for (const bool in_process : {false, true}) {
