@@ -50,12 +50,14 @@ base::Result<std::shared_ptr<Simulation>> SimulationHost::Create(
 }
 
 base::Status SimulationHost::Remove(const std::string& name) {
+  std::shared_ptr<Simulation> removed;  // ends after the lock: that may take long
   const std::lock_guard lock(mutex_);
   const auto it = std::find_if(simulations_.begin(), simulations_.end(),
                                [&](const auto& s) { return s->specification().name == name; });
   if (it == simulations_.end()) {
     return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of that name", name);
   }
+  removed = std::move(*it);
   simulations_.erase(it);
   return {};
 }
