@@ -48,7 +48,18 @@ void ThreadTeam::Run(const Job& job) {
   called_.notify_all();
   TakePieces(0);
   state_.fetch_and(~kOpen, std::memory_order_relaxed);
-  while (state_.load(std::memory_order_acquire) != 0) std::this_thread::yield();
+  AwaitWorkers();
+}
+
+// They are mostly about to be done; but one whose piece lasts must not cost a second processor.
+void ThreadTeam::AwaitWorkers() {
+  for (int i = 0; i < kLooks; ++i) {
+    if (state_.load(std::memory_order_acquire) == 0) return;
+    std::this_thread::yield();
+  }
+  while (const unsigned working = state_.load(std::memory_order_acquire)) {
+    state_.wait(working, std::memory_order_acquire);
+  }
 }
 
 void ThreadTeam::TakePieces(std::size_t self) {
@@ -85,6 +96,7 @@ void ThreadTeam::Work(std::size_t self) {
   while (Join()) {
     TakePieces(self);
     state_.fetch_sub(1, std::memory_order_release);
+    state_.notify_one();
   }
 }
 

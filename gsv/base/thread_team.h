@@ -52,6 +52,7 @@ class ThreadTeam {
 
   void Run(const Job& job);
   void Work(std::size_t self);
+  void AwaitWorkers();
   void TakePieces(std::size_t self);
   // Waits for a job that is open and takes part in it; false at the end.
   bool Join();
