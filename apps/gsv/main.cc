@@ -1,3 +1,5 @@
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include <CLI/CLI.hpp>
@@ -5,6 +7,7 @@
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
 #include "gsv/base/log.h"
+#include "gsv/simulation/simulation.h"
 
 int main(int argc, char** argv) {
   using namespace gsv::app;
@@ -35,6 +38,11 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kOk : kUsage;
   } catch (const std::exception& exception) {
     return Complain({gsv::base::ErrorCode::kUnavailable, exception.what(), "unexpected"});
+  }
+  if (gsv::simulation::Simulation::LeftToThemselves() > 0) {
+    // A behaviour is still at work on what a return from here would destroy.
+    std::fflush(nullptr);
+    std::_Exit(exit_code);
   }
   return exit_code;
 }

@@ -65,7 +65,8 @@ std::string TextReport(const simulation::Simulation& simulation) {
                   static_cast<unsigned long long>(robot.collisions));
     text += line;
   }
-  return text + "state " + simulation.state_hash() + "\n";
+  const std::string hash = simulation.state_hash();
+  return hash.empty() ? text : text + "state " + hash + "\n";
 }
 
 }  // namespace gsv::app

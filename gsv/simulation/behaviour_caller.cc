@@ -24,9 +24,10 @@ void BehaviourCaller::Post(std::string key, std::function<void()> call) {
   changed_.notify_one();
 }
 
-void BehaviourCaller::WaitUntilIdle() {
+bool BehaviourCaller::WaitUntilIdle(std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return tasks_.empty() && in_progress_.empty(); });
+  return changed_.wait_for(lock, timeout,
+                           [this] { return tasks_.empty() && in_progress_.empty(); });
 }
 
 std::deque<BehaviourCaller::Task>::iterator BehaviourCaller::FindRunnable() {

@@ -2,6 +2,7 @@
 // run one after the other, in the order they were posted.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -22,8 +23,8 @@ class BehaviourCaller {
   BehaviourCaller& operator=(const BehaviourCaller&) = delete;
 
   void Post(std::string key, std::function<void()> call);
-  // Until every call that was posted has returned.
-  void WaitUntilIdle();
+  // Until every call that was posted has returned; false when `timeout` of wall time comes first.
+  bool WaitUntilIdle(std::chrono::milliseconds timeout);
 
  private:
   struct Task {

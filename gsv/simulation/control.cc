@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kCallingThreads = 8;
 constexpr std::size_t kMaxEvents = 10'000;
-constexpr auto kWatchPeriod = std::chrono::milliseconds(1000);
 
 }  // namespace
 
@@ -44,9 +43,12 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
       specification.threads > 0 ? specification.threads : base::ThreadTeam::DefaultThreads());
   auto engine = dynamics::MakePlanarMover(team);
   if (auto ok = engine->SetLayout(layout); !ok) return base::Fail(ok.error());
-  return std::make_shared<SteppingSimulation>(std::move(specification), std::move(sensors),
-                                              std::move(team), std::move(engine),
-                                              std::move(layout));
+  return std::shared_ptr<Simulation>(
+      new SteppingSimulation(std::move(specification), std::move(sensors), std::move(team),
+                             std::move(engine), std::move(layout)),
+      [](Simulation* simulation) {
+        SteppingSimulation::Dispose(static_cast<SteppingSimulation*>(simulation));
+      });
 }
 
 base::Result<std::string> Simulation::AddRobot(RobotSpecification robot) {
@@ -82,7 +84,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
   instant_.rays = &shared_->rays;
   instant_.seed = specification_.seed;
   stepping_ = std::jthread([this] { RunLoop(); });
-  watchdog_ = std::jthread([this] { WatchForDeaths(); });
+  watchdog_ = std::jthread([this] { KeepWatch(); });
 }
 
 SteppingSimulation::~SteppingSimulation() {
@@ -251,12 +253,14 @@ void SteppingSimulation::EndAgents(std::string reason) {
   shared_->end_reason = std::move(reason);
   for (const auto& [name, agent] : agents_) agent->Interrupt();
   for (const AgentPtr& agent : AgentsWithBehaviour()) {
+    if (is_stuck_ && agent->in_turn_since()) continue;  // the call would not return either
     caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { (void)behaviour->Stop(); });
   }
 }
 
 base::Status SteppingSimulation::Reset() {
   const std::lock_guard control(control_mutex_);
+  if (is_stuck_) return RefuseStuck();
   std::vector<AgentPtr> agents;
   {
     const std::lock_guard lock(shared_->mutex);
@@ -265,9 +269,10 @@ base::Status SteppingSimulation::Reset() {
     EndAgents("the simulation is being reset");
     agents = AgentsWithBehaviour();
   }
-  caller_.WaitUntilIdle();
+  if (auto ok = AwaitCalls(); !ok) return ok;
   {
-    const std::lock_guard world_lock(world_mutex_);
+    const auto world_lock = LockWorld();
+    if (!world_lock) return RefuseStuck();
     const std::lock_guard lock(shared_->mutex);
     state_ = world::InitialState(*layout_);
     shared_->sleepers.Clear();
@@ -308,30 +313,6 @@ void SteppingSimulation::TellBehaviours(const char* what, base::Status (Behaviou
   }
 }
 
-void SteppingSimulation::WatchForDeaths() {
-  Lock lock(shared_->mutex);
-  while (!quit_) {
-    watch_.wait_for(lock, kWatchPeriod, [this] { return quit_; });
-    const bool running = shared_->phase == Phase::kStarting || shared_->phase == Phase::kRunning ||
-                         shared_->phase == Phase::kPaused;
-    if (quit_ || !running) continue;
-    for (const auto& [name, agent] : agents_) {
-      if (!agent->is_watched() || watched_now_.contains(name)) continue;
-      watched_now_.insert(name);
-      caller_.Post("watch " + name, [this, held = agent] {
-        const bool dead = held->behaviour()->IsDead();
-        const std::lock_guard guard(shared_->mutex);
-        watched_now_.erase(held->robot());
-        if (!dead || !held->is_watched()) return;
-        held->ReportDeath("its process has ended or refuses connections");
-        AddEvent("agent_dead", held->robot(),
-                 held->Describe() + ": its process has ended or refuses connections");
-        shared_->changed.notify_all();
-      });
-    }
-  }
-}
-
 SimulationStatus SteppingSimulation::status() const {
   SimulationStatus status;
   status.name = specification_.name;
@@ -362,8 +343,9 @@ SimulationStatus SteppingSimulation::status() const {
       robot.collisions = state.collisions;
     }
     status.robots.push_back(std::move(robot));
-    if (status.waiting_for.empty() && shared_->phase == Phase::kRunning &&
-        shared_->mode == Mode::kLockstep && agent->IsAtWork()) {
+    const bool is_waited_for = shared_->mode == Mode::kLockstep || agent->in_turn_since();
+    if (status.waiting_for.empty() && shared_->phase == Phase::kRunning && is_waited_for &&
+        agent->IsAtWork()) {
       const double since =
           std::chrono::duration<double>(WallNow() - agent->running_since()).count();
       if (since > 0.1) {
@@ -377,7 +359,8 @@ SimulationStatus SteppingSimulation::status() const {
 }
 
 std::string SteppingSimulation::state_hash() const {
-  const std::lock_guard world_lock(world_mutex_);
+  const auto world_lock = LockWorld();
+  if (!world_lock) return {};
   const std::lock_guard lock(shared_->mutex);
   return final_hash_.empty() ? HashNow() : final_hash_;
 }

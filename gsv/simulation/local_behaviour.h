@@ -88,9 +88,11 @@ class LocalBehaviour : public BehaviourPort {
   bool IsDead() final { return false; }
   bool time_managed() const final { return true; }
 
-  // Start() has opened the clock that the turns are counted on. Must come to its end: nothing can
-  // interrupt it.
+  // Start() has opened the clock that the turns are counted on.
   virtual ClockId clock() const = 0;
+  // Must come to its end: nothing can interrupt it. When it has not after the deadline, the
+  // simulation fails; until it does come, nobody gets at the world, and all that needs it is
+  // refused.
   virtual void TakeTurn(Turn& turn) = 0;
 };
 

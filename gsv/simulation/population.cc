@@ -84,7 +84,8 @@ geometry::Pose SteppingSimulation::StandingPose(const RobotSpecification& robot)
 }
 
 base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& robots) {
-  const std::lock_guard world_lock(world_mutex_);
+  const auto world_lock = LockWorld();
+  if (!world_lock) return RefuseStuck();
   if (auto ok = NameRobots(robots); !ok) return ok;
   std::vector<world::Body> bodies = layout_->bodies;
   std::vector<std::string> added;
@@ -103,6 +104,7 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
   for (const RobotSpecification& robot : robots) {
     auto agent = std::make_shared<RobotAgent>(robot.name, robot.model, robot.is_avatar, shared_);
     agent->SetBehaviour(robot.behaviour);
+    if (robot.behaviour != nullptr && robot.behaviour->local() != nullptr) has_hosted_ = true;
     agents_.emplace(robot.name, std::move(agent));
   }
   IndexAgents();
@@ -237,7 +239,7 @@ base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
     if (robot.behaviour == nullptr) continue;
     const AgentPtr agent = FindAgent(robot.name);
     if (auto ok = robot.behaviour->Init(agent); !ok) {
-      RemoveFromWorld(names);
+      (void)RemoveFromWorld(names);  // what went wrong first is told
       return base::Fail(ok.error());
     }
     with_behaviour.push_back(agent);
@@ -248,8 +250,9 @@ base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
   return names;
 }
 
-void SteppingSimulation::RemoveFromWorld(const std::vector<std::string>& names) {
-  const std::lock_guard world_lock(world_mutex_);
+base::Status SteppingSimulation::RemoveFromWorld(const std::vector<std::string>& names) {
+  const auto world_lock = LockWorld();
+  if (!world_lock) return RefuseStuck();
   std::vector<world::Body> bodies = layout_->bodies;
   std::erase_if(bodies, [&](const world::Body& body) {
     return std::find(names.begin(), names.end(), body.name) != names.end();
@@ -272,6 +275,7 @@ void SteppingSimulation::RemoveFromWorld(const std::vector<std::string>& names) 
   (void)ChangeLayout(std::move(bodies), {});  // fewer bodies always fit
   IndexAgents();
   shared_->changed.notify_all();
+  return {};
 }
 
 base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
@@ -280,7 +284,7 @@ base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
     return base::Fail(base::ErrorCode::kNotFound, "there is no robot \"" + name + "\"",
                       specification_.name);
   }
-  RemoveFromWorld({name});
+  if (auto ok = RemoveFromWorld({name}); !ok) return ok;
   AddEvent("robot_removed", name);
   return {};
 }
@@ -298,6 +302,7 @@ base::Status SteppingSimulation::SetBehaviour(const std::string& robot,
     const std::lock_guard lock(shared_->mutex);
     if (auto ok = RefuseUnless({Phase::kCreated}, "change a behaviour"); !ok) return ok;
     found->SetBehaviour(behaviour);
+    if (behaviour->local() != nullptr) has_hosted_ = true;
   }
   const base::Status status = behaviour->Init(found);
   if (!status) {

@@ -234,7 +234,7 @@ bool RobotAgent::HoldsUp() const {
 }
 
 bool RobotAgent::IsAtWork() const {
-  return HoldsUp() && (behaviour_->local() == nullptr || in_turn_ || is_blocked_);
+  return HoldsUp() && (behaviour_->local() == nullptr || in_turn_since() || is_blocked_);
 }
 
 bool RobotAgent::Wake(SimTime now, WallTime wall_now) {
@@ -278,9 +278,14 @@ void RobotAgent::MakeReady() {
 void RobotAgent::TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling) {
   sampling.MoveTo(body_);
   turn_ = Turn(instant, sampling);
-  in_turn_ = true;
+  turn_began_ = WallNow();
   behaviour_->local()->TakeTurn(turn_);
-  in_turn_ = false;
+  turn_began_ = WallTime();
+}
+
+std::optional<WallTime> RobotAgent::in_turn_since() const {
+  const WallTime began = turn_began_;
+  return began == WallTime() ? std::nullopt : std::optional(began);
 }
 
 std::function<void()> RobotAgent::Settle() {

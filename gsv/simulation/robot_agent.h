@@ -80,6 +80,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // A local behaviour's turn. TakeTurn() needs no lock; Settle() enters what came of it, and gives
   // the work that the behaviour is blocked on, if it is.
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
+  // When the turn began that is under way; empty between turns. Any thread.
+  std::optional<WallTime> in_turn_since() const;
   std::function<void()> Settle();
   // The turn of its local behaviour has come.
   void MakeReady();
@@ -129,7 +131,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   WallTime running_since_{};
 
   Turn turn_;  // the stepping thread's, and during a turn the thread's that takes it
-  std::atomic<bool> in_turn_{false};
+  std::atomic<WallTime> turn_began_{WallTime()};  // WallTime(): no turn is under way
 };
 
 }  // namespace gsv::simulation

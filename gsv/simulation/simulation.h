@@ -49,8 +49,11 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   static base::Result<std::shared_ptr<Simulation>> Create(
       Specification specification, std::shared_ptr<const sensing::SensorRegistry> sensors);
 
-  // Stops, waits for the stepping thread and for calls to behaviours.
+  // Stops, waits for the stepping thread and for calls to behaviours. A simulation in which a
+  // behaviour in process does not return within the deadline is left to itself, with its threads.
   virtual ~Simulation() = default;
+  // How many were; with such threads about a process must end without destroying what they use.
+  static int LeftToThemselves();
 
   // Places a robot (beside a wall that it would touch, with an event "robot_moved") and initialises
   // its behaviour (blocks while that answers). Gives the name under which it stands. Fails when the
@@ -80,7 +83,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual const Specification& specification() const = 0;
   virtual SimulationStatus status() const = 0;
   virtual std::shared_ptr<const world::Snapshot> snapshot() const = 0;  // the latest; never null
-  virtual std::string state_hash() const = 0;  // of the latest snapshot and the agents' waits
+  // Of the latest snapshot and the agents' waits; empty when a behaviour in process holds the world
+  // for longer than the deadline, see local_behaviour.h.
+  virtual std::string state_hash() const = 0;
 
   // Blocks until the phase is one of `phases` or `timeout` of wall time has passed; gives the
   // phase.

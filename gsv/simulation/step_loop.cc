@@ -69,6 +69,7 @@ void SteppingSimulation::TakeTurns() {
     for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
   const std::lock_guard lock(shared_->mutex);
+  is_stuck_ = false;  // it came back after all
   const WallTime deadline = WallNow() - specification_.deadline;
   for (RobotAgent* agent : turns_) {
     if (auto work = agent->Settle()) PostBlocked(agent->shared_from_this(), std::move(work));

@@ -2,7 +2,8 @@
 //
 // Locks, in the order in which they are taken: control_mutex_ (one control action at a time),
 // world_mutex_ (the engine, the layout and the state), SharedState::mutex (phase and agents),
-// events_mutex_. No lock is held across a call to a behaviour, except control_mutex_.
+// events_mutex_. No lock is held across a call to a behaviour, except control_mutex_, and except
+// world_mutex_ during the turns of behaviours in process: others take that by LockWorld().
 #pragma once
 
 #include <deque>
@@ -30,6 +31,8 @@ class SteppingSimulation final : public Simulation {
                      std::unique_ptr<dynamics::Engine> engine,
                      std::shared_ptr<const world::Layout> layout);
   ~SteppingSimulation() override;
+  // Destroys it, or, where a behaviour in process does not return, leaves it to itself.
+  static void Dispose(SteppingSimulation* simulation);
 
   base::Result<std::vector<std::string>> AddRobots(std::vector<RobotSpecification> robots) override;
   base::Status RemoveRobot(const std::string& name) override;
@@ -74,7 +77,6 @@ class SteppingSimulation final : public Simulation {
   void EndAgents(std::string reason);
   void TellBehaviours(const char* what, base::Status (BehaviourPort::*call)());
   void ReportIfFailed(const AgentPtr& agent, const char* what, const base::Status& status);
-  void WatchForDeaths();
   void AddEvent(std::string kind, std::string robot = {}, std::string detail = {});
   AgentPtr FindAgent(const std::string& robot) const;
   std::vector<AgentPtr> AgentsWithBehaviour() const;
@@ -93,8 +95,18 @@ class SteppingSimulation final : public Simulation {
                         world::State& state);
   // Moves the body to the nearest free place, no farther than its own radius. False: none there.
   bool StepAside(const world::Layout& layout, int body, world::State& state);
-  void RemoveFromWorld(const std::vector<std::string>& names);
+  base::Status RemoveFromWorld(const std::vector<std::string>& names);
   void IndexAgents();
+
+  // watchdog.cc: who has died, and who never comes back.
+  void KeepWatch();
+  void LookForDeaths();
+  void LookForEndlessTurns();
+  // Empty when the simulation is stuck.
+  std::unique_lock<std::timed_mutex> LockWorld() const;
+  // Until no call to a behaviour is under way. Fails when one in process does not return.
+  base::Status AwaitCalls();
+  base::Status RefuseStuck() const;
 
   // step_loop.cc: the stepping thread.
   void RunLoop();
@@ -120,7 +132,7 @@ class SteppingSimulation final : public Simulation {
 
   std::mutex control_mutex_;
 
-  mutable std::mutex world_mutex_;
+  mutable std::timed_mutex world_mutex_;
   const std::shared_ptr<base::ThreadTeam> team_;  // works for whoever holds world_mutex_
   std::unique_ptr<dynamics::Engine> engine_;
   std::shared_ptr<const world::Layout> layout_;
@@ -128,6 +140,11 @@ class SteppingSimulation final : public Simulation {
   SnapshotPool snapshots_;
   Turn::Instant instant_;           // of the turns being taken
   std::vector<RobotAgent*> turns_;  // being taken
+
+  // A turn is under way that has lasted longer than the deadline, with world_mutex_ held. Changes
+  // under shared_->mutex.
+  std::atomic<bool> is_stuck_{false};
+  std::atomic<bool> has_hosted_{false};  // has had a behaviour in process
 
   // Guarded by shared_->mutex.
   std::map<std::string, AgentPtr> agents_;

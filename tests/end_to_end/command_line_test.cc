@@ -162,5 +162,29 @@ TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
   EXPECT_EQ(RunProgram("gsv", {"world", "check", "office"}).ending, "exit code 0");
 }
 
+// It cannot be interrupted, and must not hold up the end of the run.
+TEST(CommandLine, ABehaviourInProcessThatNeverReturnsFailsTheRun) {
+  TemporaryFolder folder;
+  const std::string recording = folder.path() / "run.mcap";
+  const Outcome outcome =
+      Running("gsv",
+              RunArguments({"--robot", "pebble", "--behaviour", "endless", "--in-process",
+                            "--deadline", "0.1", "--duration", "60", "--record", recording}),
+              {"env", "GSV_PLUGIN_PATH=" + Program("../tests").string()})
+          .AwaitEnd();
+  EXPECT_EQ(outcome.ending, "exit code 4");
+  EXPECT_THAT(outcome.err,
+              HasSubstr("the run failed: pebble (endless on this process) has not returned from "
+                        "its turn within 100 ms"));
+  EXPECT_THAT(outcome.err, HasSubstr("the simulation is left to itself"));
+  EXPECT_EQ(outcome.LastLine()["phase"], "failed");
+  EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 0.2);
+  // Closed, and not just cut off.
+  const Outcome info = RunProgram("gsv", {"rec", "info", recording, "--json"});
+  EXPECT_EQ(info.ending, "exit code 0") << info.err;
+  EXPECT_DOUBLE_EQ(info.LastLine()["end_s"], 0.2) << info.out;
+  EXPECT_EQ(info.LastLine().value("content_hash", "").size(), 16u) << info.out;
+}
+
 }  // namespace
 }  // namespace gsv::testing

@@ -1,0 +1,166 @@
+// A behaviour in process that does not return cannot be interrupted. Nobody may wait for it.
+#include <future>
+
+#include "gsv/hosting/hosted_behaviour.h"
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::hosting {
+namespace {
+
+using simulation::kPatience;
+using simulation::Mode;
+using simulation::Phase;
+using simulation::RunToEnd;
+using simulation::Simulation;
+using simulation::StatusOf;
+
+class Scripted final : public Behaviour {
+ public:
+  using Body = std::function<void(gsv::Robot&)>;
+  explicit Scripted(Body body) : body_(std::move(body)) {}
+  void Run(gsv::Robot& robot) override { body_(robot); }
+
+ private:
+  const Body body_;
+};
+
+std::shared_ptr<HostedBehaviour> Hosted(const std::string& name, Scripted::Body body) {
+  return std::make_shared<HostedBehaviour>(name,
+                                           [body] { return std::make_unique<Scripted>(body); });
+}
+
+void Wait(gsv::Robot& robot) {
+  while (robot.SleepFor(50ms)) {
+  }
+}
+
+// A simulation among whose robots one has a turn that ends when the test says so.
+class EndlessTurn : public ::testing::TestWithParam<Mode> {
+ protected:
+  EndlessTurn() {
+    auto specification = simulation::Lockstep(300ms);
+    specification.mode = GetParam();
+    specification.deadline = 300ms;
+    specification.threads = 2;
+    simulation_ = simulation::Make(specification);
+  }
+  ~EndlessTurn() override {
+    Release();
+    simulation_.reset();
+    const auto ended = end_.get_future();
+    token_.reset();
+    EXPECT_EQ(ended.wait_for(kPatience), std::future_status::ready) << "it was never destroyed";
+  }
+
+  void AddRobots(const Scripted::Body& body) {
+    for (int i = 0; i < 40; ++i) {  // enough for the turns to be shared out
+      const std::string name = "robot_" + std::to_string(i);
+      auto behaviour = Hosted("patient", Wait);
+      // Held by the simulation as long as it lives.
+      if (i == 20) behaviour = Hosted("endless", [body, held = token_](auto& r) { body(r); });
+      ASSERT_TRUE(simulation_->AddRobot(
+          simulation::Robot(name, -(i % 10), 0.5 * (i / 10), std::move(behaviour))));
+    }
+  }
+  void AwaitRelease() { released_.wait(false); }
+  void Release() {
+    released_ = true;
+    released_.notify_all();
+  }
+  // With robot_20 in a turn that does not end, and the simulation aware of it.
+  void GetStuck() {
+    AddRobots([this](gsv::Robot& robot) {
+      robot.SleepFor(100ms);
+      AwaitRelease();
+      Wait(robot);
+    });
+    ASSERT_EQ(RunToEnd(*simulation_), Phase::kFailed);
+  }
+
+  std::shared_ptr<Simulation> simulation_;
+
+ private:
+  std::atomic<bool> released_ = false;
+  std::promise<void> end_;
+  std::shared_ptr<void> token_{nullptr, [this](void*) { end_.set_value(); }};
+};
+
+INSTANTIATE_TEST_SUITE_P(Modes, EndlessTurn, ::testing::Values(Mode::kLockstep, Mode::kRealTime),
+                         [](const auto& mode) {
+                           return mode.param == Mode::kLockstep ? "Lockstep" : "RealTime";
+                         });
+
+TEST_P(EndlessTurn, FailsTheSimulationAndNamesTheBehaviour) {
+  GetStuck();
+  EXPECT_EQ(simulation_->status().failure,
+            "robot_20 (endless on this process) has not returned from its turn within 300 ms; a "
+            "behaviour in process cannot be interrupted, so run it as a program of its own, "
+            "without --in-process");
+  EXPECT_EQ(StatusOf(*simulation_, "robot_20").phase, simulation::AgentPhase::kUnresponsive);
+  EXPECT_NE(StatusOf(*simulation_, "robot_19").phase, simulation::AgentPhase::kUnresponsive);
+  int events = 0;
+  for (const simulation::Event& event : simulation_->events(0)) {
+    events += event.kind == "agent_unresponsive" && event.robot == "robot_20";
+  }
+  EXPECT_EQ(events, 1);
+}
+
+TEST_P(EndlessTurn, WhatNeedsTheWorldIsRefused) {
+  GetStuck();
+  EXPECT_EQ(simulation_->state_hash(), "");
+  const auto added = simulation_->AddRobot(simulation::Robot("late", 1, 3));
+  ASSERT_FALSE(added);
+  EXPECT_EQ(added.error().code, base::ErrorCode::kEnded);
+  EXPECT_FALSE(simulation_->RemoveRobot("robot_1"));
+  EXPECT_FALSE(simulation_->RemoveRobot("robot_20"));
+  EXPECT_FALSE(simulation_->Reset());
+  EXPECT_TRUE(simulation_->Stop());
+  EXPECT_EQ(simulation_->snapshot()->state.time, 100ms);
+}
+
+// Who began to wait before it was known gets an answer as well.
+TEST_P(EndlessTurn, AResetThatWaitsForItIsRefused) {
+  std::promise<void> entered;
+  AddRobots([&](gsv::Robot& robot) {
+    robot.SleepFor(100ms);
+    entered.set_value();
+    AwaitRelease();
+    Wait(robot);
+  });
+  ASSERT_TRUE(simulation_->Start());
+  entered.get_future().wait();
+  EXPECT_FALSE(simulation_->Reset());
+}
+
+TEST_P(EndlessTurn, ItsSimulationIsLeftToItself) {
+  GetStuck();
+  const int before = Simulation::LeftToThemselves();
+  simulation_.reset();
+  EXPECT_EQ(Simulation::LeftToThemselves(), before + 1);
+}
+
+TEST_P(EndlessTurn, OneThatEndsAfterAllLetsTheSimulationBeReset) {
+  GetStuck();
+  Release();
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (!simulation_->Reset() && std::chrono::steady_clock::now() < give_up) {
+  }
+  EXPECT_EQ(RunToEnd(*simulation_), Phase::kFinished);
+  EXPECT_EQ(simulation_->status().failure, "");
+}
+
+TEST_P(EndlessTurn, OneThatDoesNotHeedItsEndIsLeftBehind) {
+  AddRobots([this](gsv::Robot& robot) {
+    robot.SleepFor(1h);
+    AwaitRelease();
+  });
+  ASSERT_EQ(RunToEnd(*simulation_), Phase::kFinished);
+  EXPECT_EQ(simulation_->state_hash().size(), 16u);
+  EXPECT_FALSE(simulation_->Reset());
+  const int before = Simulation::LeftToThemselves();
+  simulation_.reset();
+  EXPECT_EQ(Simulation::LeftToThemselves(), before + 1);
+}
+
+}  // namespace
+}  // namespace gsv::hosting

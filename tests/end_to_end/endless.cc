@@ -1,0 +1,23 @@
+// A behaviour that goes wrong as only one in process can: after 200 ms it never returns from its
+// turn.
+#include <CLI/CLI.hpp>
+
+#include "sdk/behaviour/module.h"
+
+namespace {
+
+using namespace gsv;
+
+class Endless final : public Behaviour {
+ public:
+  void Run(Robot& robot) override {
+    robot.Drive(0.1, 0);
+    robot.SleepFor(200ms);
+    for (volatile bool goes_on = true; goes_on;) {
+    }
+  }
+};
+
+}  // namespace
+
+GSV_BEHAVIOUR("endless", "Never returns.", Endless)
