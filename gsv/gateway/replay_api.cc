@@ -19,7 +19,13 @@ constexpr double kLatest = 9e9;  // s: what nanoseconds can hold
 
 using Action = std::function<base::Status(ReplayPlayer& player, const std::string& body)>;
 
+// {"poses": N} steps over recorded poses, {"count": N} over steps of the simulation.
 base::Status StepBy(ReplayPlayer& player, const std::string& body) {
+  const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
+  if (json.is_object() && json.contains("poses")) {
+    const bool is_whole = json["poses"].is_number_integer();
+    return player.StepPoses(is_whole ? json["poses"].get<std::int64_t>() : 0);
+  }
   const base::Result<std::int64_t> count = ParseStepCount(body);
   if (!count) return base::Fail(count.error());
   return player.Step(*count);
@@ -64,6 +70,25 @@ Response JsonOr(const base::Result<SharedBytes>& json) {
 
 }  // namespace
 
+base::Result<ReplayChange> ParseReplayChange(std::string_view body) {
+  const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
+  const auto fail = [] {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "to change a replay, give {\"speed\": number, \"loop\": true or false}");
+  };
+  if (!json.is_object()) return fail();
+  ReplayChange change;
+  if (const auto speed = json.find("speed"); speed != json.end()) {
+    if (!speed->is_number()) return fail();
+    change.speed = speed->get<double>();
+  }
+  if (const auto loop = json.find("loop"); loop != json.end()) {
+    if (!loop->is_boolean()) return fail();
+    change.loop = loop->get<bool>();
+  }
+  return change;
+}
+
 base::Result<base::SimTime> ParseSeekTime(std::string_view body) {
   const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
   const auto time = json.is_object() ? json.find("time_s") : json.end();
@@ -95,13 +120,14 @@ Response ReplayApi::OfSimulation(const Request& request) {
   }
   const bool is_get = request.method == "GET";
   if (path.size() == 3) {
-    return is_get ? JsonResponse(200, StatusJson(player_.status())) : MethodNotAllowed("GET");
+    return is_get ? Status() : MethodNotAllowed("GET");
   }
   if (path.size() > 4) {
     return ErrorResponse(409, "this is a replay: what the robots did cannot be changed");
   }
   if (path[3] == "scene") return is_get ? JsonOr(player_.SceneNow()) : MethodNotAllowed("GET");
-  if (path[3] == "replay") return is_get ? Timeline() : MethodNotAllowed("GET");
+  if (path[3] == "replay") return Replay(request);
+  if (path[3] == "events") return is_get ? Events() : MethodNotAllowed("GET");
   if (!Actions().contains(path[3])) return NoSuchAddress();
   return is_get ? MethodNotAllowed("POST") : Act(path[3], request.body);
 }
@@ -109,17 +135,38 @@ Response ReplayApi::OfSimulation(const Request& request) {
 Response ReplayApi::Act(const std::string& action, const std::string& body) {
   const base::Status done = Actions().at(action)(player_, body);
   if (!done) return ErrorResponse(done.error());
-  return JsonResponse(200, StatusJson(player_.status()));
+  return Status();
 }
 
-Response ReplayApi::Timeline() const {
-  const ReplayClock clock = player_.clock();
-  const Json json{{"start_s", base::ToSeconds(clock.start())},
-                  {"end_s", base::ToSeconds(clock.end())},
-                  {"time_s", base::ToSeconds(clock.position())},
-                  {"speed", clock.speed()},
-                  {"loop", clock.loop()}};
-  return JsonResponse(200, json.dump());
+Response ReplayApi::Status() const {
+  return JsonResponse(200, StatusJson(player_.status(), player_.clock()));
+}
+
+Response ReplayApi::Replay(const Request& request) {
+  if (request.method == "POST") {
+    const base::Result<ReplayChange> change = ParseReplayChange(request.body);
+    if (!change) return ErrorResponse(change.error());
+    if (change->speed) {
+      if (const base::Status done = player_.SetSpeed(*change->speed); !done) {
+        return ErrorResponse(done.error());
+      }
+    }
+    if (change->loop) player_.SetLoop(*change->loop);
+  } else if (request.method != "GET") {
+    return MethodNotAllowed("GET, POST");
+  }
+  return JsonResponse(200, ReplayJson(player_.clock()));
+}
+
+Response ReplayApi::Events() const {
+  Json list = Json::array();
+  for (const RecordedEvent& event : player_.timeline().Events()) {
+    list.push_back({{"time_s", base::ToSeconds(event.time)},
+                    {"event", event.event},
+                    {"robot", event.robot},
+                    {"detail", event.detail}});
+  }
+  return JsonResponse(200, list.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 // /api/models/ID.glb

@@ -1,13 +1,18 @@
 // The HTTP API of a replay: the same addresses as a simulation's (docs/api.yaml), and
 //   POST /api/simulations/NAME/seek   {"time_s": T}
+//   POST /api/simulations/NAME/step   {"poses": N}, as well as {"count": N}
 //   GET  /api/simulations/NAME/replay {"start_s", "end_s", "time_s", "speed", "loop"}
+//   POST /api/simulations/NAME/replay {"speed": S, "loop": B}, both or one of them
+//   GET  /api/simulations/NAME/events [{"time_s", "event", "robot", "detail"}]
 //
-// `stop` and `reset` both go back to the start.
+// A status also holds what GET replay gives. `stop` and `reset` both go back to the start.
 //
 // Threads  any.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "gsv/gateway/http.h"
 #include "gsv/gateway/replay_player.h"
@@ -25,7 +30,9 @@ class ReplayApi {
  private:
   Response OfSimulation(const Request& request);
   Response Act(const std::string& action, const std::string& body);
-  Response Timeline() const;
+  Response Status() const;
+  Response Replay(const Request& request);
+  Response Events() const;
   Response Model(const Request& request) const;
 
   ReplayPlayer& player_;
@@ -33,5 +40,12 @@ class ReplayApi {
 
 // {"time_s": T}: a finite number, within the times there are.
 base::Result<base::SimTime> ParseSeekTime(std::string_view body);
+
+// {"speed": S, "loop": B}; what is absent stays as it is.
+struct ReplayChange {
+  std::optional<double> speed;
+  std::optional<bool> loop;
+};
+base::Result<ReplayChange> ParseReplayChange(std::string_view body);
 
 }  // namespace gsv::gateway

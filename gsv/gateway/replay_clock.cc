@@ -61,6 +61,11 @@ void ReplayClock::Seek(base::SimTime time) {
   if (phase_ != Phase::kRunning) phase_ = Phase::kPaused;
 }
 
+void ReplayClock::StandAt(base::SimTime time) {
+  position_ = std::clamp(time, start_, end_);
+  phase_ = Phase::kPaused;
+}
+
 bool ReplayClock::Advance(WallTime now) {
   if (phase_ != Phase::kRunning) return false;
   if (last_ == WallTime{}) last_ = now;

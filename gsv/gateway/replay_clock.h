@@ -37,6 +37,11 @@ class ReplayClock {
   void Rewind();  // to the start, where it waits
   // Within the recording; plays on if it played.
   void Seek(base::SimTime time);
+  // Within the recording, where it stands still.
+  void StandAt(base::SimTime time);
+  // > 0, from here on.
+  void SetSpeed(double speed) { speed_ = speed; }
+  void SetLoop(bool loop) { loop_ = loop; }
 
   // Moves with the wall clock. True when it went past the end and begins anew (with `loop`);
   // without it stays at the end, finished.
@@ -45,8 +50,8 @@ class ReplayClock {
  private:
   const base::SimTime start_;
   const base::SimTime end_;
-  const double speed_;
-  const bool loop_;
+  double speed_;
+  bool loop_;
   base::SimTime position_;
   simulation::Phase phase_ = simulation::Phase::kCreated;
   WallTime last_{};  // when it was advanced; {}: it has to begin

@@ -79,6 +79,24 @@ TEST(ReplayClock, SeeksWithinTheRecording) {
   EXPECT_EQ(clock.position(), 1s);
 }
 
+TEST(ReplayClock, AnotherSpeedHoldsFromHereOn) {
+  ReplayClock clock(0s, 10s, 1, false);
+  ASSERT_TRUE(clock.Start());
+  clock.Advance(kNow);
+  clock.Advance(kNow + 100ms);
+  clock.SetSpeed(5);
+  clock.Advance(kNow + 200ms);
+  EXPECT_EQ(clock.position(), 600ms);
+}
+
+TEST(ReplayClock, StandsStillAtAnInstant) {
+  ReplayClock clock(1s, 2s, 1, false);
+  ASSERT_TRUE(clock.Start());
+  clock.StandAt(3s);
+  EXPECT_EQ(clock.position(), 2s);
+  EXPECT_EQ(clock.phase(), Phase::kPaused);
+}
+
 TEST(ReplayClock, RefusesWhatThePhaseDoesNotAllow) {
   ReplayClock clock(0s, 1s, 1, false);
   EXPECT_FALSE(clock.Pause());

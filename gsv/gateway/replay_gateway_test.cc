@@ -192,6 +192,70 @@ TEST_F(ReplayGatewayTest, StepsAndPauses) {
   EXPECT_EQ(json::parse(Post("stop").body)["phase"], "created");
 }
 
+TEST_F(ReplayGatewayTest, StepsOverRecordedPoses) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  viewer.ReceiveData(1);
+  Post("seek", R"({"time_s":1})");
+  viewer.ReceiveData(1);
+  // 50 poses a second, two steps of the simulation each.
+  const auto step = [&](const char* body) {
+    return json::parse(Post("step", body).body)["time_s"].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(step(R"({"poses":10})"), 1.2);
+  EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 120u);
+  EXPECT_DOUBLE_EQ(step(R"({"poses":-1})"), 1.18);
+  EXPECT_EQ(Decoded<Poses>(viewer.ReceiveData(1)).step, 118u);
+  for (const char* body : {R"({"poses":0})", R"({"poses":1.5})", R"({"poses":1001})"}) {
+    EXPECT_EQ(Post("step", body).status, 400) << body;
+  }
+}
+
+TEST_F(ReplayGatewayTest, AStepOverPosesStopsWhatPlays) {
+  Post("start");
+  EXPECT_EQ(json::parse(Post("step", R"({"poses":1})").body)["phase"], "paused");
+}
+
+TEST_F(ReplayGatewayTest, SpeedAndLoopCanBeChanged) {
+  json replay = json::parse(Post("replay", R"({"speed":0.25})").body);
+  EXPECT_EQ(replay["speed"], 0.25);
+  EXPECT_EQ(replay["loop"], false);
+  EXPECT_EQ(json::parse(Post("replay", R"({"loop":true})").body)["loop"], true);
+  replay = json::parse(Get("/api/simulations/simulation").body)["replay"];
+  EXPECT_EQ(replay["speed"], 0.25);
+  EXPECT_EQ(replay["loop"], true);
+  EXPECT_EQ(replay["end_s"], 2.0);
+  for (const char* body : {"", "[]", R"({"speed":0})", R"({"speed":"1"})", R"({"loop":1})"}) {
+    EXPECT_EQ(Post("replay", body).status, 400) << body;
+  }
+}
+
+TEST_F(ReplayGatewayTest, TellsTheEventsOfTheRun) {
+  const json events = json::parse(Get("/api/simulations/simulation/events").body);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back()["event"], "finished");
+  EXPECT_EQ(events.back()["time_s"], 2.0);
+  EXPECT_EQ(Post("events").status, 405);
+}
+
+TEST_F(ReplayGatewayTest, AJumpTellsNoOldEventsAsNews) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/events");
+  viewer.Subscribe(2, "/gsv/poses");
+  ReceiveEach(viewer, {1, 2});  // how things stand
+  Post("seek", R"({"time_s":2})");
+  for (;;) {
+    const auto frame = viewer.Receive();
+    ASSERT_TRUE(frame);
+    if (frame->is_text || frame->data().opcode != 1) continue;
+    ASSERT_EQ(frame->data().subscription, 2u);
+    break;
+  }
+  Viewer late(port());
+  late.Subscribe(1, "/gsv/events");
+  EXPECT_EQ(Decoded<messages::gsv_msgs::LifecycleEvent>(late.ReceiveData(1)).event, "finished");
+}
+
 TEST_F(ReplayGatewayTest, ASeekWithoutATimeIsRefused) {
   for (const char* body : {"", "[]", "{}", R"({"time_s":"1"})", R"({"time_s":1e99})"}) {
     EXPECT_EQ(Post("seek", body).status, 400) << body;

@@ -10,6 +10,8 @@ namespace {
 using simulation::AgentPhase;
 
 constexpr std::chrono::nanoseconds kRound{1'000'000'000 / 30};
+constexpr std::int64_t kMostPoses = 1000;  // in one step
+constexpr double kSlowest = 0.001, kFastest = 1000;
 
 recording::StringMap Metadata(const recording::McapReader& reader, const std::string& name) {
   for (const recording::MetadataIndexRecord& index : reader.summary().metadata) {
@@ -65,6 +67,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
     : reader_(std::move(reader)),
       name_(NameOf(*reader_, path)),
       scene_(*reader_),
+      timeline_(*reader_),
       problems_(reader_->summary().problems),
       clock_(reader_->summary().start, reader_->summary().end, options.speed, options.loop),
       stream_(*reader_, name_, [this] { Wake(); }) {
@@ -124,6 +127,31 @@ void ReplayPlayer::Seek(base::SimTime time) {
     clock.Seek(time);
     has_jumped_ = true;
   });
+}
+
+base::Status ReplayPlayer::StepPoses(std::int64_t count) {
+  if (count == 0 || count < -kMostPoses || count > kMostPoses) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "a step over recorded poses is from 1 to 1000 of them, or from -1 to -1000");
+  }
+  const base::SimTime time = timeline_.PoseBeside(clock().position(), count);
+  Command([&](ReplayClock& clock) {
+    clock.StandAt(time);
+    has_jumped_ = true;
+  });
+  return {};
+}
+
+base::Status ReplayPlayer::SetSpeed(double speed) {
+  if (!(speed >= kSlowest && speed <= kFastest)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "'speed' must be from 0.001 to 1000");
+  }
+  Command([&](ReplayClock& clock) { clock.SetSpeed(speed); });
+  return {};
+}
+
+void ReplayPlayer::SetLoop(bool loop) {
+  Command([&](ReplayClock& clock) { clock.SetLoop(loop); });
 }
 
 void ReplayPlayer::Wake() {

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "gsv/gateway/recorded_scene.h"
+#include "gsv/gateway/recorded_timeline.h"
 #include "gsv/gateway/replay_clock.h"
 #include "gsv/gateway/replay_stream.h"
 
@@ -31,6 +32,7 @@ class ReplayPlayer {
   const std::string& name() const { return name_; }  // the recorded simulation's
   const std::shared_ptr<Hub>& hub() const { return stream_.hub(); }
   const RecordedScene& scene() const { return scene_; }
+  const RecordedTimeline& timeline() const { return timeline_; }
   // What the file lacks.
   const base::Problems& problems() const { return problems_; }
 
@@ -47,6 +49,11 @@ class ReplayPlayer {
   void Rewind();
   // To the instant, or the end that is nearer; plays on if it played.
   void Seek(base::SimTime time);
+  // Goes to the recorded pose so many after the present instant, or before it if negative, and
+  // stands still there.
+  base::Status StepPoses(std::int64_t count);
+  base::Status SetSpeed(double speed);
+  void SetLoop(bool loop);
 
   // Ends the thread and lets nobody in any more.
   void Stop();
@@ -66,6 +73,7 @@ class ReplayPlayer {
   simulation::Mode mode_ = simulation::Mode::kRealTime;
   base::SimTime step_ = std::chrono::milliseconds(10);
   const RecordedScene scene_;
+  const RecordedTimeline timeline_;
   base::Problems problems_;
 
   mutable std::mutex mutex_;

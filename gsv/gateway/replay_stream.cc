@@ -87,7 +87,7 @@ void ReplayStream::JumpTo(base::SimTime time) {
   }
   recording::NewestMessages newest = recording::FindNewestMessages(reader_, time);
   for (const base::Problem& problem : newest.problems) Warn(problem.Sentence());
-  for (auto& [id, message] : newest.by_channel) Take(id, message.log_time, std::move(message.data));
+  for (auto& [id, message] : newest.by_channel) Keep(id, message.log_time, std::move(message.data));
   cursor_.reset();
   cursor_.emplace(reader_.Messages(time + base::SimTime(1)));
   ReadNext();
@@ -95,8 +95,11 @@ void ReplayStream::JumpTo(base::SimTime time) {
 
 void ReplayStream::PlayTo(base::SimTime time) {
   while (next_ && next_->log_time <= time) {
-    Take(next_->channel_id, next_->log_time,
-         recording::Bytes(next_->data.begin(), next_->data.end()));
+    const Track* track = Keep(next_->channel_id, next_->log_time,
+                              recording::Bytes(next_->data.begin(), next_->data.end()));
+    if (track != nullptr && track->kind == Kind::kEvents) {
+      hub_->Publish(track->channel, *track->latest, Hub::Audience::kEstablished);
+    }
     ReadNext();
   }
 }
@@ -112,20 +115,18 @@ void ReplayStream::ReadNext() {
   }
 }
 
-void ReplayStream::Take(std::uint16_t id, base::SimTime time, recording::Bytes data) {
+const ReplayStream::Track* ReplayStream::Keep(std::uint16_t id, base::SimTime time,
+                                              recording::Bytes data) {
   const auto found = tracks_.find(id);
-  if (found == tracks_.end()) return;
+  if (found == tracks_.end()) return nullptr;
   Track& track = found->second;
   track.latest = Hub::Message{Nanoseconds(time), SharedBytes(std::move(data))};
-  track.is_fresh = true;
-  if (track.kind == Kind::kEvents) {
-    hub_->Publish(track.channel, *track.latest, Hub::Audience::kEstablished);
-    track.is_fresh = false;
+  track.is_fresh = track.kind != Kind::kEvents;
+  if (track.kind == Kind::kStatus || track.kind == Kind::kPoses) {
+    const std::lock_guard lock(mutex_);
+    (track.kind == Kind::kStatus ? status_ : poses_) = track.latest->payload;
   }
-  const bool is_kept = track.kind == Kind::kStatus || track.kind == Kind::kPoses;
-  if (!is_kept) return;
-  const std::lock_guard lock(mutex_);
-  (track.kind == Kind::kStatus ? status_ : poses_) = track.latest->payload;
+  return &track;
 }
 
 void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime now,

@@ -1,7 +1,7 @@
 // The messages of a recording, published to a hub as its time goes by.
 //
-// Of each topic a round publishes the newest message, of /gsv/events every one. /clock and
-// /gsv/status are the replay's own.
+// Of each topic a round publishes the newest message, of /gsv/events every one that it comes past:
+// a jump tells no old events as news. /clock and /gsv/status are the replay's own.
 //
 // Threads  JumpTo(), PlayTo() and Publish() come from one thread; the others from any.
 #pragma once
@@ -53,7 +53,8 @@ class ReplayStream {
   };
 
   void Advertise(const recording::Summary& summary);
-  void Take(std::uint16_t id, base::SimTime time, recording::Bytes data);
+  // The message's track, of which it is the latest now; null: a channel that is not replayed.
+  const Track* Keep(std::uint16_t id, base::SimTime time, recording::Bytes data);
   void ReadNext();
   void Publish(Track& track);
   void PublishOwn(foxglove::ChannelId channel, bool is_due, base::SimTime time,

@@ -29,24 +29,42 @@ Json RobotJson(const simulation::RobotStatus& robot) {
           {"collisions", robot.collisions}};
 }
 
-}  // namespace
-
-std::string StatusJson(const simulation::SimulationStatus& status) {
+Json ToJson(const simulation::SimulationStatus& status) {
   Json robots = Json::array();
   for (const simulation::RobotStatus& robot : status.robots) robots.push_back(RobotJson(robot));
-  return Dump({{"name", status.name},
-               {"phase", simulation::ToString(status.phase)},
-               {"mode", simulation::ToString(status.mode)},
-               {"step", status.step},
-               {"time_s", base::ToSeconds(status.time)},
-               {"step_size_s", base::ToSeconds(status.step_size)},
-               {"target_factor", status.target_factor},
-               {"real_time_factor", status.real_time_factor},
-               {"late_steps", status.late_steps},
-               {"waiting_for", status.waiting_for},
-               {"failure", status.failure},
-               {"robots", std::move(robots)}});
+  return {{"name", status.name},
+          {"phase", simulation::ToString(status.phase)},
+          {"mode", simulation::ToString(status.mode)},
+          {"step", status.step},
+          {"time_s", base::ToSeconds(status.time)},
+          {"step_size_s", base::ToSeconds(status.step_size)},
+          {"target_factor", status.target_factor},
+          {"real_time_factor", status.real_time_factor},
+          {"late_steps", status.late_steps},
+          {"waiting_for", status.waiting_for},
+          {"failure", status.failure},
+          {"robots", std::move(robots)}};
 }
+
+Json ToJson(const ReplayClock& clock) {
+  return {{"start_s", base::ToSeconds(clock.start())},
+          {"end_s", base::ToSeconds(clock.end())},
+          {"time_s", base::ToSeconds(clock.position())},
+          {"speed", clock.speed()},
+          {"loop", clock.loop()}};
+}
+
+}  // namespace
+
+std::string StatusJson(const simulation::SimulationStatus& status) { return Dump(ToJson(status)); }
+
+std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay) {
+  Json json = ToJson(status);
+  json["replay"] = ToJson(replay);
+  return Dump(json);
+}
+
+std::string ReplayJson(const ReplayClock& clock) { return Dump(ToJson(clock)); }
 
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations) {
   Json list = Json::array();

@@ -4,12 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "gsv/gateway/replay_clock.h"
 #include "gsv/simulation/types.h"
 
 namespace gsv::gateway {
 
-// All of it.
+// All of it; of a replay with "replay", which is ReplayJson().
 std::string StatusJson(const simulation::SimulationStatus& status);
+std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
+// {"start_s", "end_s", "time_s", "speed", "loop"}
+std::string ReplayJson(const ReplayClock& clock);
 // An array with a line for each simulation.
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations);
 

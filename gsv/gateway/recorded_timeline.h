@@ -1,0 +1,47 @@
+// What a recording's timeline shows beside its span: the instants of its poses, and what happened.
+//
+// Input    hostile: what cannot be read is left out.
+// Threads  const members may run concurrently.
+#pragma once
+
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gsv/base/sim_time.h"
+#include "gsv/recording/mcap_reader.h"
+
+namespace gsv::gateway {
+
+// A message of /gsv/events.
+struct RecordedEvent {
+  base::SimTime time{};
+  std::string event, robot, detail;
+};
+
+class RecordedTimeline {
+ public:
+  // `reader` must outlive this.
+  explicit RecordedTimeline(const recording::McapReader& reader);
+
+  // The instant of the `count`-th recorded pose after `time`, or before it if `count` is negative;
+  // the recording's end, or start, where there are not so many. Reads the blocks around `time`.
+  base::SimTime PoseBeside(base::SimTime time, std::int64_t count) const;
+
+  // By time; the first thousand. The first call reads the blocks that hold them.
+  const std::vector<RecordedEvent>& Events() const;
+
+ private:
+  using ChannelIds = std::set<std::uint16_t>;
+
+  ChannelIds ChannelsOf(const std::string& topic) const;
+  std::vector<RecordedEvent> ReadEvents() const;
+
+  const recording::McapReader& reader_;
+  const ChannelIds pose_channels_, event_channels_;
+  mutable std::once_flag events_once_;
+  mutable std::vector<RecordedEvent> events_;
+};
+
+}  // namespace gsv::gateway
