@@ -4,7 +4,7 @@ import "./style/panels.css";
 import { SimulationApi } from "./api/SimulationApi";
 import { robotsOf } from "./api/scene";
 import { App } from "./app/App";
-import { SelectedPose } from "./app/SelectedPose";
+import { SHORTEST_UPDATE_MS, SelectedPose } from "./app/SelectedPose";
 import { Session } from "./app/Session";
 import { notify } from "./app/notices";
 import { AvatarSteering } from "./input/AvatarSteering";
@@ -16,6 +16,7 @@ import { createNotices } from "./panels/Notices";
 import { createOverlay } from "./panels/Overlay";
 import { createSceneTree } from "./panels/SceneTree";
 import { createStatusBar } from "./panels/StatusBar";
+import { createTimeline } from "./panels/Timeline";
 import { createToolbar } from "./panels/Toolbar";
 import { World3D } from "./scene/World3D";
 import type { State } from "./state/State";
@@ -65,11 +66,17 @@ const session = new Session(
 );
 const app = new App(store, session, api, world);
 
+let nextPose: ReturnType<typeof setTimeout> | undefined;
+
 function showSelectedPose(): void {
+  clearTimeout(nextPose);
   const { selection } = store.get();
   const latest = selection === null ? null : world?.latestPose(selection);
-  const pose = selection !== null && latest ? selected.update(selection, latest, performance.now()) : null;
+  if (selection === null || !latest) return;
+  const pose = selected.update(selection, latest, performance.now());
   if (pose) store.set({ selectedPose: pose });
+  // Nothing may follow: it was paused, or a recording was moved to this instant.
+  else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 
 function connectWorld(world: World3D): void {
@@ -94,9 +101,10 @@ function connectWorld(world: World3D): void {
   );
 }
 
-// The selected avatar, or else the first one.
+// The selected avatar, or else the first one. What was recorded cannot be steered.
 function avatarToDrive(): string | null {
-  const { scene, selection } = store.get();
+  const { scene, selection, replay } = store.get();
+  if (replay) return null;
   const avatars = robotsOf(scene).filter(({ isAvatar }) => isAvatar);
   return (avatars.find(({ name }) => name === selection) ?? avatars[0])?.name ?? null;
 }
@@ -118,6 +126,7 @@ page.append(
   createToolbar(app, toggleSidebar),
   createSceneTree(app),
   view,
+  createTimeline(app),
   createStatusBar(app),
   createHelpSheet(app),
 );

@@ -16,6 +16,18 @@ test("an action is posted to its simulation, whose name may hold anything", asyn
   expect(init).toMatchObject({ method: "POST", body: '{"count":5}' });
 });
 
+test("a replay is moved and changed at its own addresses", async () => {
+  const { api, fetchPage } = answering({ ...STATUS, start_s: 0, end_s: 9, speed: 2, loop: false });
+  await api.seek("a b", 1.5);
+  await api.stepPoses("a b", -10);
+  expect(await api.changeReplay("a b", { speed: 2 })).toEqual({ start: 0, end: 9, speed: 2, loop: false });
+  expect(fetchPage.mock.calls.map(([url, init]) => [url, init?.body])).toEqual([
+    ["http://127.0.0.1:8080/api/simulations/a%20b/seek", '{"time_s":1.5}'],
+    ["http://127.0.0.1:8080/api/simulations/a%20b/step", '{"poses":-10}'],
+    ["http://127.0.0.1:8080/api/simulations/a%20b/replay", '{"speed":2}'],
+  ]);
+});
+
 test("a refusal carries the server's sentence", async () => {
   const { api } = answering({ error: "to pause it must be running, and it is stopped" }, 409);
   const refusal = await api.act("a", "pause").catch((error: unknown) => error);

@@ -1,6 +1,8 @@
 // The server's JSON API, relative to the page's own address. Every call ends: with an answer, the
 // server's sentence, or a timeout.
 import { textOr } from "./json";
+import type { RecordedEvent, Replay } from "./replay";
+import { parseEvents, parseReplay } from "./replay";
 import type { SceneDescription } from "./scene";
 import { parseScene } from "./scene";
 import type { SimulationStatus, SimulationSummary } from "./status";
@@ -49,6 +51,25 @@ export class SimulationApi {
   async act(name: string, action: Action, count = 1): Promise<SimulationStatus> {
     const body = action === "step" ? { count } : {};
     return parseStatus(await this.post(`${simulationPath(name)}/${action}`, body, ACTION_TIMEOUT_MS));
+  }
+
+  // The recorded instant, or the end that is nearer.
+  async seek(name: string, time: number): Promise<SimulationStatus> {
+    return parseStatus(await this.post(`${simulationPath(name)}/seek`, { time_s: time }, TIMEOUT_MS));
+  }
+
+  // Over so many recorded poses; then the replay stands still.
+  async stepPoses(name: string, poses: number): Promise<SimulationStatus> {
+    return parseStatus(await this.post(`${simulationPath(name)}/step`, { poses }, TIMEOUT_MS));
+  }
+
+  async changeReplay(name: string, change: Partial<Pick<Replay, "speed" | "loop">>): Promise<Replay> {
+    return parseReplay(await this.post(`${simulationPath(name)}/replay`, change, TIMEOUT_MS));
+  }
+
+  // What happened in a recording, by time.
+  async events(name: string): Promise<RecordedEvent[]> {
+    return parseEvents(await this.json(`${simulationPath(name)}/events`));
   }
 
   async drive(name: string, robot: string, drive: Drive): Promise<void> {

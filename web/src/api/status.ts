@@ -3,6 +3,8 @@ import type { SimulationStatusMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import type { JsonObject } from "./json";
 import { listAt, numberOr, objectAt, textAt, textOr } from "./json";
+import type { Replay } from "./replay";
+import { parseReplay } from "./replay";
 
 export const PHASES = ["created", "starting", "running", "paused", "stopped", "finished", "failed"] as const;
 export type Phase = (typeof PHASES)[number];
@@ -28,6 +30,7 @@ export interface SimulationStatus {
   waitingFor: string; // empty: nobody
   failure: string; // empty unless failed; the live stream does not carry it
   robots: RobotStatus[];
+  replay: Replay | null; // null unless it is a recording; the live stream does not carry it
 }
 
 export interface SimulationSummary {
@@ -51,6 +54,7 @@ export function parseStatus(json: unknown): SimulationStatus {
     robots: listAt(status.robots ?? [], "robots").map((robot, i) =>
       parseRobot(objectAt(robot, `robots[${i}]`)),
     ),
+    replay: status.replay === undefined ? null : parseReplay(status.replay),
   };
 }
 
@@ -74,6 +78,7 @@ export function statusFromMessage(message: SimulationStatusMessage): SimulationS
       distance: robot.distance_m,
       collisions: Number(robot.collisions),
     })),
+    replay: null,
   };
 }
 

@@ -30,6 +30,7 @@ function status(phase: Phase): SimulationStatus {
         collisions: 0,
       },
     ],
+    replay: null,
   };
 }
 

@@ -6,15 +6,20 @@ import { isAllowed, mainAction } from "../state/actions";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { dismiss, notify } from "./notices";
+import { ReplayControl } from "./ReplayControl";
 import type { Session } from "./Session";
 
 export class App {
+  readonly replay: ReplayControl;
+
   constructor(
     readonly store: Store<State>,
     readonly session: Session,
     private readonly api: SimulationApi,
     private readonly world: World3D | null, // null where the browser cannot draw in 3D
-  ) {}
+  ) {
+    this.replay = new ReplayControl(store, api, (action) => this.act(action));
+  }
 
   // Sends one action. What comes of it arrives with the stream: the answer may come later than what
   // happened after it. A refusal shows the server's sentence.
@@ -32,12 +37,14 @@ export class App {
   }
 
   startPauseOrResume(): void {
+    if (this.store.get().replay) return void this.replay.playOrPause();
     const phase = this.store.get().status?.phase;
     const action = mainAction(phase);
     if (isAllowed(phase, action)) void this.act(action);
   }
 
   stepOnce(): void {
+    if (this.store.get().replay) return this.replay.step(1);
     if (isAllowed(this.store.get().status?.phase, "step")) void this.act("step");
   }
 

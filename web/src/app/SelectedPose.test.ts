@@ -31,6 +31,12 @@ test("a reset does not count as speed", () => {
   expect(selected.update("a", at(0, 0), 200)?.speed).toBe(0);
 });
 
+test("a jump in a recording does not count as speed", () => {
+  const selected = new SelectedPose();
+  selected.update("a", at(0, 1), 0);
+  expect(selected.update("a", at(9, 31), 200)?.speed).toBe(0);
+});
+
 test("a heading of a tilted robot is that of its x axis", () => {
   const tilted = new Matrix4().makeRotationZ(-2).multiply(new Matrix4().makeRotationY(0.3));
   expect(yawOf(tilted)).toBeCloseTo(-2);

@@ -3,8 +3,9 @@ import { Quaternion, Vector3 } from "three";
 import type { Matrix4 } from "three";
 import type { RobotPose } from "../state/State";
 
-const SHORTEST_UPDATE_MS = 100;
+export const SHORTEST_UPDATE_MS = 100;
 const SPEED_WINDOW_S = 0.2; // simulated
+const LONGEST_WINDOW_S = 3; // longer than an update at ten times real time; beyond, it was a jump
 
 export interface StampedPose {
   pose: Matrix4;
@@ -35,7 +36,8 @@ export class SelectedPose {
   }
 
   private measureSpeed(position: Vector3, stamp: number): void {
-    if (!this.from || stamp < this.from.stamp) this.from = { position, stamp };
+    const isJump = this.from && (stamp < this.from.stamp || stamp - this.from.stamp > LONGEST_WINDOW_S);
+    if (!this.from || isJump) this.from = { position, stamp };
     const elapsed = stamp - this.from.stamp;
     if (elapsed === 0) this.speed = 0;
     if (elapsed < SPEED_WINDOW_S) return;

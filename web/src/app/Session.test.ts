@@ -1,6 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import type { SimulationApi } from "../api/SimulationApi";
 import { ApiError } from "../api/SimulationApi";
+import type { Replay } from "../api/replay";
 import type { Phase, SimulationStatus } from "../api/status";
 import type { ClientEvents } from "../protocol/FoxgloveClient";
 import { body, scene } from "../scene/testScene";
@@ -19,6 +20,7 @@ class Fixture {
   names = ["house"];
   layoutVersion = 1;
   failure = "";
+  replay: Replay | null = null;
   sceneRequests = 0;
   readonly session: Session;
 
@@ -27,8 +29,9 @@ class Fixture {
       simulations: async () => this.names.map((name) => ({ name, phase: "running", robots: 0 })),
       status: async (name: string) => {
         if (!this.names.includes(name)) throw new ApiError(404, "no such simulation");
-        return status(this.failure ? "failed" : "running", this.failure);
+        return { ...status(this.failure ? "failed" : "running", this.failure), replay: this.replay };
       },
+      events: async () => [{ time: 1, event: "started", robot: "", detail: "" }],
       scene: async (name: string) => {
         this.sceneRequests += 1;
         const camera = {
@@ -92,6 +95,22 @@ function status(phase: Phase, failure = ""): SimulationStatus {
     waitingFor: "",
     failure,
     robots: [],
+    replay: null,
+  };
+}
+
+function statusMessage(state: Phase, more: object = {}): object {
+  return {
+    stamp: { sec: 6, nsec: 0 },
+    step: 600n,
+    state,
+    mode: "real_time",
+    real_time_factor: 1,
+    target_factor: 1,
+    late_steps: 0n,
+    waiting_for: "",
+    robots: [],
+    ...more,
   };
 }
 
@@ -180,19 +199,25 @@ test("deaths of behaviours are told, those of before the page was opened are not
   expect(fixture.state.notices.map(({ sentence }) => sentence)).toEqual(["b (wander): killed"]);
 });
 
+test("a recording is known by its status, and brings its events", async () => {
+  const fixture = new Fixture();
+  fixture.replay = { start: 0, end: 9, speed: 1, loop: true };
+  await joined(fixture);
+  await vi.waitFor(() => expect(fixture.state.events).toHaveLength(1));
+  expect(fixture.state.replay).toEqual(fixture.replay);
+  fixture.send("/gsv/status", statusMessage("running", { target_factor: 5 }));
+  expect(fixture.state.replay).toEqual({ start: 0, end: 9, speed: 5, loop: true });
+});
+
+test("a live simulation is no recording", async () => {
+  const fixture = await joined(new Fixture());
+  fixture.send("/gsv/status", statusMessage("running"));
+  expect(fixture.state).toMatchObject({ replay: null, events: [] });
+});
+
 test("why a simulation failed is fetched when the stream says that it has", async () => {
   const fixture = await joined(new Fixture());
   fixture.failure = "a's behaviour was killed";
-  fixture.send("/gsv/status", {
-    stamp: { sec: 6, nsec: 0 },
-    step: 600n,
-    state: "failed",
-    mode: "real_time",
-    real_time_factor: 1,
-    target_factor: 1,
-    late_steps: 0n,
-    waiting_for: "",
-    robots: [],
-  });
+  fixture.send("/gsv/status", statusMessage("failed"));
   await vi.waitFor(() => expect(fixture.state.status?.failure).toBe("a's behaviour was killed"));
 });

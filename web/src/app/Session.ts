@@ -19,6 +19,7 @@ import type {
 import { seconds } from "../protocol/messages";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
+import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
 
 const EMPTY_POLL_MS = 2000;
@@ -71,6 +72,9 @@ export class Session {
       scene: null,
       status: null,
       time: 0,
+      replay: null,
+      events: [],
+      wishedTime: null,
       selection: null,
       selectedPose: null,
       following: false,
@@ -88,6 +92,14 @@ export class Session {
     const known = this.store.get().status;
     const failure = status.failure || (status.phase === "failed" ? (known?.failure ?? "") : "");
     this.store.set({ status: { ...status, failure }, time: status.time });
+    this.takeReplay(status);
+  }
+
+  // Only the API tells of a replay; the stream tells its speed.
+  private takeReplay({ replay: told, targetFactor }: SimulationStatus): void {
+    const known = this.store.get().replay;
+    const replay = told ?? (known && { ...known, speed: targetFactor });
+    if (!shallowEqual(replay, known)) this.store.set({ replay });
   }
 
   private async findSimulation(): Promise<void> {
@@ -158,7 +170,14 @@ export class Session {
       if (this.store.get().simulation !== name) return;
       this.client?.close();
       this.client = null;
-      this.store.set({ simulation: null, scene: null, status: null, selection: null, camera: null });
+      this.store.set({
+        simulation: null,
+        scene: null,
+        status: null,
+        selection: null,
+        camera: null,
+        replay: null,
+      });
       this.sceneText = "";
       void this.findSimulation();
     }
@@ -208,9 +227,15 @@ export class Session {
       if (this.store.get().simulation !== name) return;
       this.takeStatus(status);
       this.newsSince = Math.min(this.newsSince, status.time);
+      if (status.replay) void this.fetchEvents(name);
     } catch {
       // The stream carries the status as well, and says when it is lost.
     }
+  }
+
+  private async fetchEvents(name: string): Promise<void> {
+    const events = await this.api.events(name).catch(() => []); // a timeline is of use without them
+    if (this.store.get().simulation === name) this.store.set({ events });
   }
 
   // A new subscription brings the past events as well; only what happens from now on is news.

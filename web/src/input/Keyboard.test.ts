@@ -1,6 +1,7 @@
 // @vitest-environment jsdom
-import { expect, test } from "vitest";
-import { commandOf, isTyping } from "./Keyboard";
+import { expect, test, vi } from "vitest";
+import type { ReplayControl } from "../app/ReplayControl";
+import { commandOf, isTyping, replayCommandOf } from "./Keyboard";
 
 const plain = { ctrlKey: false, altKey: false, metaKey: false };
 
@@ -15,6 +16,29 @@ test("keys have their commands in either case", () => {
 test("the browser keeps its own shortcuts", () => {
   expect(commandOf({ ...plain, key: "r", ctrlKey: true })).toBeNull();
   expect(commandOf({ ...plain, key: "t", metaKey: true })).toBeNull();
+});
+
+test("a recording's keys step, jump and find events", () => {
+  const replay = { step: vi.fn(), toStart: vi.fn(), toEnd: vi.fn(), toEvent: vi.fn() };
+  const press = (key: string, shiftKey = false) =>
+    replayCommandOf({ ...plain, key, shiftKey })?.(replay as unknown as ReplayControl);
+  press("ArrowLeft");
+  press("ArrowRight");
+  press("ArrowLeft", true);
+  expect(replay.step.mock.calls).toEqual([[-1], [1], [-10]]);
+  press("Home");
+  expect(replay.toStart).toHaveBeenCalledOnce();
+  press("End");
+  expect(replay.toEnd).toHaveBeenCalledOnce();
+  press(",");
+  press(".");
+  expect(replay.toEvent.mock.calls).toEqual([[-1], [1]]);
+  expect(replayCommandOf({ ...plain, key: "ArrowLeft", altKey: true })).toBeNull();
+});
+
+test("the timeline's slider leaves keys to the page", () => {
+  document.body.innerHTML = '<input type="range">';
+  expect(isTyping(document.querySelector("input"))).toBe(false);
 });
 
 test("keys are left alone where somebody types or chooses", () => {

@@ -10,6 +10,7 @@ import { formatTime } from "../ui/format";
 import { icon } from "../ui/icons";
 
 const SEPARATOR = " · ";
+const SAME_INSTANT_S = 1e-6;
 
 export function createCameraPane(app: App): HTMLElement {
   const choice = element("select", { "aria-label": "Camera" });
@@ -35,10 +36,19 @@ export function createCameraPane(app: App): HTMLElement {
 
   let isOpen = true;
   let unsubscribe = () => {};
+  let shownTime = -Infinity; // s, of the picture
+  // A recording may have been moved to before its first picture.
+  const judgeAge = () => {
+    const { replay, time } = app.store.get();
+    picture.classList.toggle("of-later", replay !== null && shownTime > time + SAME_INSTANT_S);
+  };
   const painter = new PicturePainter(picture, (time) => {
     waiting.hidden = true;
     setText(caption, formatTime(time));
+    shownTime = time;
+    judgeAge();
   });
+  app.store.watch(({ time }) => time, judgeAge);
   const listen = (camera: CameraChoice | null) => {
     unsubscribe();
     unsubscribe = () => {};

@@ -5,12 +5,15 @@ import { icon } from "../ui/icons";
 
 const KEYS: [keys: string[], meaning: string][] = [
   [["Space"], "Start, pause, resume"],
-  [["N"], "One step while paused"],
+  [["N"], "One step while paused (recording: one pose on)"],
   [["T"], "Top view"],
   [["R"], "Reset view"],
   [["F"], "Follow the selected robot"],
   [["Esc"], "Deselect, close"],
   [["W", "A", "S", "D"], "Drive the avatar (or the arrow keys; Q and E sideways, Shift faster)"],
+  [["←", "→"], "Recording: one pose back or on (Shift: ten)"],
+  [["Home", "End"], "Recording: to the start or the end"],
+  [[",", "."], "Recording: to the last or next event"],
   [["?"], "This sheet"],
 ];
 

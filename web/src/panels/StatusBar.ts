@@ -7,15 +7,23 @@ import { shallowEqual } from "../state/Store";
 import { element, setText } from "../ui/element";
 import { count, formatFactor, formatTime } from "../ui/format";
 
+const PACE = "Real-time factor: actual / target";
+// Below this part of its target a simulation lags.
+const LAGGING_SHARE = 0.9;
+
 export function createStatusBar(app: App): HTMLElement {
   const phase = element("span", { class: "phase", role: "status", "data-testid": "phase" });
   const time = element("span", { class: "time number", "data-testid": "time", title: "Simulated time" });
   const factor = element("span", {
     class: "number",
     "data-testid": "factor",
-    title: "Real-time factor: actual / target",
+    title: PACE,
   });
-  const late = element("span", { class: "number late", "data-testid": "late" });
+  const late = element("span", {
+    class: "number late",
+    "data-testid": "late",
+    title: "Steps that were taken later than the pace asks for",
+  });
   const waiting = element("span", { class: "waiting", role: "status", "data-testid": "waiting" });
   const connection = element("span", { class: "connection", role: "status", "data-testid": "connection" });
   const frames = element("span", { class: "number dim frames", title: "Pictures drawn in the last second" });
@@ -36,6 +44,13 @@ export function createStatusBar(app: App): HTMLElement {
     (text) => setText(factor, text),
   );
   app.store.watch(
+    ({ status }) => (status ? lag(status) : ""),
+    (text) => {
+      factor.classList.toggle("lagging", text !== "");
+      factor.title = text || PACE;
+    },
+  );
+  app.store.watch(
     ({ status }) => status?.lateSteps ?? 0,
     (steps) => setText(late, steps > 0 ? count(steps, "late step") : ""),
   );
@@ -44,10 +59,7 @@ export function createStatusBar(app: App): HTMLElement {
     (text) => setText(waiting, text),
   );
   app.store.watch(
-    ({ connection: value, modelsMissing }) => ({
-      phase: value.phase,
-      text: connectionLabel(value, modelsMissing),
-    }),
+    (state) => ({ phase: state.connection.phase, text: connectionLabel(state) }),
     ({ phase: value, text }) => {
       connection.dataset.phase = value;
       setText(connection, text);
@@ -67,8 +79,16 @@ function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus): string 
   return mode === "lockstep" ? `${actual} · lockstep` : `${actual} / ${formatFactor(targetFactor)}`;
 }
 
-function connectionLabel(connection: State["connection"], modelsMissing: number): string {
+// A sentence when it runs slower than it was asked to; empty otherwise.
+function lag({ phase, mode, realTimeFactor, targetFactor }: SimulationStatus): string {
+  const isPaced = phase === "running" && mode === "real_time" && targetFactor > 0 && realTimeFactor > 0;
+  if (!isPaced || realTimeFactor >= LAGGING_SHARE * targetFactor) return "";
+  const share = Math.floor((100 * realTimeFactor) / targetFactor);
+  return `It lags: ${share} % of the pace that was asked for`;
+}
+
+function connectionLabel({ connection, modelsMissing, replay }: State): string {
   if (connection.phase === "connecting") return "Connecting…";
   if (connection.phase === "waiting") return "Connection lost";
-  return modelsMissing > 0 ? `Loading ${count(modelsMissing, "model")}…` : "Live";
+  return modelsMissing > 0 ? `Loading ${count(modelsMissing, "model")}…` : replay ? "Replay" : "Live";
 }

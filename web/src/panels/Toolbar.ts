@@ -19,14 +19,7 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
       element("span", { class: "wordmark" }, "GSV"),
       simulationChoice(app),
     ),
-    element(
-      "div",
-      { class: "toolbar-transport", role: "group", "aria-label": "Run" },
-      mainButton(app),
-      actionButton(app, "step", "step", "Step", "One step (paused)"),
-      actionButton(app, "stop", "stop", "Stop", "Stop for good"),
-      actionButton(app, "reset", "reset", "Reset", "Back to the start"),
-    ),
+    transport(app),
     element(
       "div",
       { class: "toolbar-views", role: "group", "aria-label": "View" },
@@ -41,6 +34,23 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
       viewButton("help", "Help", "?", () => app.openHelp(true)),
     ),
   );
+}
+
+// A recording has its own, in the timeline.
+function transport(app: App): HTMLElement {
+  const group = element(
+    "div",
+    { class: "toolbar-transport", role: "group", "aria-label": "Run" },
+    mainButton(app),
+    actionButton(app, "step", "step", "Step", "One step (paused)"),
+    actionButton(app, "stop", "stop", "Stop", "Stop for good"),
+    actionButton(app, "reset", "reset", "Reset", "Back to the start"),
+  );
+  app.store.watch(
+    ({ replay }) => replay !== null,
+    (isReplay) => (group.hidden = isReplay),
+  );
+  return group;
 }
 
 function sidebarButton(toggle: () => void): HTMLElement {

@@ -120,6 +120,17 @@ test("the status bar shows phase, time, pace, late steps and who is waited for",
   expect(text("connection")).toBe("Live");
 });
 
+test("a simulation that cannot keep its pace is said to lag", () => {
+  const { app, store } = testApp({ status: simulationStatus("running", { realTimeFactor: 0.955 }) });
+  const factor = createStatusBar(app).querySelector<HTMLElement>('[data-testid="factor"]')!;
+  expect(factor.classList.contains("lagging")).toBe(false);
+  store.set({ status: simulationStatus("running", { targetFactor: 2, realTimeFactor: 1.1 }) });
+  expect(factor.classList.contains("lagging")).toBe(true);
+  expect(factor.title).toBe("It lags: 55 % of the pace that was asked for");
+  store.set({ status: simulationStatus("paused", { targetFactor: 2, realTimeFactor: 0 }) });
+  expect(factor.classList.contains("lagging")).toBe(false);
+});
+
 test("in lockstep there is no pace to keep", () => {
   const { app } = testApp({
     status: simulationStatus("running", { mode: "lockstep", realTimeFactor: 12.3 }),

@@ -32,6 +32,7 @@ export function simulationStatus(phase: Phase, more: Partial<SimulationStatus> =
     waitingFor: "",
     failure: "",
     robots: [],
+    replay: null,
     ...more,
   };
 }

@@ -1,6 +1,7 @@
 // What the page knows and shows. Only Session, the commands of App and the panels' own controls
 // change it.
 import type { Action } from "../api/SimulationApi";
+import type { RecordedEvent, Replay } from "../api/replay";
 import type { CameraChoice, SceneDescription } from "../api/scene";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
@@ -27,6 +28,9 @@ export interface State {
   simulation: string | null;
   status: SimulationStatus | null;
   time: number; // s, simulated
+  replay: Replay | null; // null: it is no recording, or not known yet
+  events: RecordedEvent[]; // of the recording, by time
+  wishedTime: number | null; // s: the instant of the recording that was asked for and is not there yet
   scene: SceneDescription | null;
   modelsMissing: number; // shapes that are still being fetched
   selection: string | null; // a robot's name
@@ -46,6 +50,9 @@ export const initialState: State = {
   simulation: null,
   status: null,
   time: 0,
+  replay: null,
+  events: [],
+  wishedTime: null,
   scene: null,
   modelsMissing: 0,
   selection: null,

@@ -1,0 +1,21 @@
+import { expect, test } from "vitest";
+import { parseEvents, parseReplay } from "./replay";
+
+test("a replay has a span, a speed and may loop", () => {
+  expect(parseReplay({ start_s: 1, end_s: 9.5, time_s: 2, speed: 0.5, loop: true })).toEqual({
+    start: 1,
+    end: 9.5,
+    speed: 0.5,
+    loop: true,
+  });
+  expect(() => parseReplay({ start_s: 1, end_s: "9", speed: 1 })).toThrow(
+    "replay.end_s: expected a number, found a string",
+  );
+});
+
+test("events are read, and what is none says where it stands", () => {
+  expect(parseEvents([{ time_s: 3, event: "agent_dead", robot: "a", detail: "a: killed" }])).toEqual([
+    { time: 3, event: "agent_dead", robot: "a", detail: "a: killed" },
+  ]);
+  expect(() => parseEvents([{ time_s: 3, event: "started" }, {}])).toThrow("events[1].time_s");
+});

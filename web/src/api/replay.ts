@@ -1,0 +1,38 @@
+// A recording that is replayed: its span, how it plays, and what happened in it.
+import { listAt, numberAt, objectAt, textAt, textOr } from "./json";
+
+export interface Replay {
+  start: number; // s, simulated
+  end: number;
+  speed: number; // simulated seconds a second
+  loop: boolean;
+}
+
+export interface RecordedEvent {
+  time: number; // s, simulated
+  event: string; // started, paused, robot_added, agent_dead, …
+  robot: string; // empty: none
+  detail: string;
+}
+
+export function parseReplay(json: unknown): Replay {
+  const replay = objectAt(json, "replay");
+  return {
+    start: numberAt(replay.start_s, "replay.start_s"),
+    end: numberAt(replay.end_s, "replay.end_s"),
+    speed: numberAt(replay.speed, "replay.speed"),
+    loop: replay.loop === true,
+  };
+}
+
+export function parseEvents(json: unknown): RecordedEvent[] {
+  return listAt(json, "events").map((each, i) => {
+    const event = objectAt(each, `events[${i}]`);
+    return {
+      time: numberAt(event.time_s, `events[${i}].time_s`),
+      event: textAt(event.event, `events[${i}].event`),
+      robot: textOr(event.robot, ""),
+      detail: textOr(event.detail, ""),
+    };
+  });
+}

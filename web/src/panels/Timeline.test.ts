@@ -1,0 +1,134 @@
+// @vitest-environment jsdom
+import { expect, test, vi } from "vitest";
+import type { State } from "../state/State";
+import { createStatusBar } from "./StatusBar";
+import { simulationStatus, testApp } from "./testApp";
+import { createTimeline } from "./Timeline";
+import { createToolbar } from "./Toolbar";
+
+const REPLAY = { start: 0, end: 80, speed: 1, loop: false };
+
+function timeline(state: Partial<State> = {}) {
+  const { app, store } = testApp({ replay: REPLAY, status: simulationStatus("paused"), ...state });
+  const bar = createTimeline(app);
+  const named = (name: string) => bar.querySelector<HTMLButtonElement>(`[aria-label="${name}"]`)!;
+  return { app, store, bar, named, slider: bar.querySelector<HTMLInputElement>("input")! };
+}
+
+test("it is there for recordings only, and takes the buttons' place", () => {
+  const { app, store } = testApp({ status: simulationStatus("running") });
+  const bar = createTimeline(app);
+  const run = createToolbar(app, () => {}).querySelector<HTMLElement>(".toolbar-transport")!;
+  expect([bar.hidden, run.hidden]).toEqual([true, false]);
+  store.set({ replay: REPLAY });
+  expect([bar.hidden, run.hidden]).toEqual([false, true]);
+});
+
+test("the slider spans the recording and says in words where it stands", () => {
+  const { slider, store, bar } = timeline({ time: 12.5 });
+  expect([slider.min, slider.max, slider.value]).toEqual(["0", "80", "12.5"]);
+  expect(slider.getAttribute("aria-valuetext")).toBe("0:12.50 of 1:20.00");
+  store.set({ time: 40 });
+  expect(slider.value).toBe("40");
+  expect(bar.querySelector(".timeline-times")?.textContent).toBe("0:40.00 / 1:20.00");
+});
+
+test("a wish is shown until the server has answered, and a held slider stays where it is", () => {
+  const { slider, store, bar } = timeline({ time: 10 });
+  store.set({ wishedTime: 60 });
+  expect(slider.value).toBe("60");
+  expect(bar.querySelector('[data-testid="replay-time"]')?.textContent).toBe("1:00.00");
+  slider.dispatchEvent(new Event("pointerdown"));
+  store.set({ wishedTime: null, time: 61 });
+  expect(slider.value).toBe("60");
+  slider.dispatchEvent(new Event("pointerup"));
+  store.set({ time: 62 });
+  expect(slider.value).toBe("62");
+});
+
+test("what the slider is drawn to is sought", () => {
+  const { app, slider } = timeline();
+  const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
+  slider.value = "33";
+  slider.dispatchEvent(new Event("input"));
+  expect(seek).toHaveBeenCalledWith(33);
+});
+
+test("its buttons ask for what they say", () => {
+  const { app, named } = timeline();
+  const step = vi.spyOn(app.replay, "step").mockImplementation(() => {});
+  const toEnd = vi.spyOn(app.replay, "toEnd").mockImplementation(() => {});
+  const play = vi.spyOn(app.replay, "playOrPause").mockResolvedValue();
+  named("One pose back").click();
+  named("One pose on").click();
+  expect(step.mock.calls).toEqual([[-1], [1]]);
+  named("To the end").click();
+  expect(toEnd).toHaveBeenCalledOnce();
+  named("Play").click();
+  expect(play).toHaveBeenCalledOnce();
+});
+
+test("the main button follows the phase", () => {
+  const { named, store } = timeline();
+  expect(named("Play").disabled).toBe(false);
+  store.set({ status: simulationStatus("running") });
+  expect(named("Pause")).not.toBeNull();
+  store.set({ status: simulationStatus("finished") });
+  expect(named("Play").disabled).toBe(false);
+});
+
+test("without a connection nothing can be moved", () => {
+  const { bar, store, slider } = timeline();
+  store.set({ connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } });
+  expect(slider.disabled).toBe(true);
+  expect(bar.querySelectorAll(".timeline-transport button:not(:disabled)")).toHaveLength(0);
+});
+
+test("a mark stands at its instant, says what happened as it is, and goes there", () => {
+  const events = [
+    { time: 0, event: "started", robot: "", detail: "" },
+    { time: 20, event: "agent_dead", robot: "a", detail: "<b>a</b>: killed" },
+  ];
+  const { app, bar } = timeline({ events });
+  const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
+  const [, death] = bar.querySelectorAll<HTMLElement>(".mark");
+  expect(death?.style.getPropertyValue("--share")).toBe("0.25");
+  expect(death?.classList.contains("bad")).toBe(true);
+  expect(death?.textContent).toBe("0:20.00 agent dead · <b>a</b>: killed");
+  death?.click();
+  expect(seek).toHaveBeenCalledWith(20);
+});
+
+test("the speed is one of those there are, or the one it was started at", () => {
+  const { app, bar, store } = timeline();
+  const choice = bar.querySelector("select")!;
+  const setSpeed = vi.spyOn(app.replay, "setSpeed").mockResolvedValue();
+  expect([...choice.options].map(({ text }) => text)).toEqual([
+    "0.1×",
+    "0.25×",
+    "0.5×",
+    "1×",
+    "2×",
+    "5×",
+    "10×",
+  ]);
+  expect(choice.value).toBe("1");
+  choice.value = "5";
+  choice.dispatchEvent(new Event("change"));
+  expect(setSpeed).toHaveBeenCalledWith(5);
+  store.set({ replay: { ...REPLAY, speed: 3 } });
+  expect(choice.value).toBe("3");
+  expect(choice.options).toHaveLength(8);
+});
+
+test("loop shows whether it is on", () => {
+  const { named, store } = timeline();
+  expect(named("Loop").getAttribute("aria-pressed")).toBe("false");
+  store.set({ replay: { ...REPLAY, loop: true } });
+  expect(named("Loop").getAttribute("aria-pressed")).toBe("true");
+});
+
+test("the status bar calls it a replay", () => {
+  const { app } = timeline();
+  expect(createStatusBar(app).querySelector('[data-testid="connection"]')?.textContent).toBe("Replay");
+});
