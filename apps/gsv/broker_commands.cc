@@ -1,4 +1,8 @@
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -10,10 +14,30 @@
 namespace gsv::app {
 namespace {
 
+// Nobody finds a broker again whose port the system chose, so that only one with a port of its own
+// keeps a file unasked. Empty when there is no folder for it.
+std::string DefaultDataFile(int port) {
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  std::filesystem::path folder;
+  if (data != nullptr && *data == '/') {
+    folder = data;
+  } else if (home != nullptr && *home == '/') {
+    folder = std::filesystem::path(home) / ".local/share";
+  } else {
+    return {};
+  }
+  folder /= "gsv";
+  std::error_code ignored;  // opening the file says what is wrong
+  std::filesystem::create_directories(folder, ignored);
+  return folder / ("broker-" + std::to_string(port) + ".db");
+}
+
 void AddBrokerCommand(const CommandLine& line) {
   struct Arguments {
     broker::BrokerCommand command;
     int port = 0;
+    std::string file;
     bool memory = false;
   };
   CLI::App* command = line.app.add_subcommand("broker", "Run a broker: the OMG Trading Service");
@@ -23,13 +47,25 @@ void AddBrokerCommand(const CommandLine& line) {
       ->capture_default_str();
   command->add_option("--listen", arguments->command.broker.host, "the address to listen on")
       ->capture_default_str();
-  command->add_flag("--memory", arguments->memory, "keep nothing on disk (so far nothing ever is)");
+  CLI::Option* file =
+      command
+          ->add_option("--data", arguments->file,
+                       "the file that keeps offers and service types; without it, "
+                       "broker-PORT.db in the folder gsv of $XDG_DATA_HOME (~/.local/share), or "
+                       "none with --port 0")
+          ->type_name("FILE");
+  command->add_flag("--memory", arguments->memory, "keep nothing on disk")->excludes(file);
   command
       ->add_option("--exit-with-parent", arguments->command.parent,
                    "end when the process of this number ends")
       ->group("");
   command->callback([arguments, line] {
     arguments->command.broker.port = static_cast<std::uint16_t>(arguments->port);
+    std::string& kept = arguments->command.broker.data_file;
+    if (!arguments->memory) kept = arguments->file;
+    if (!arguments->memory && kept.empty() && arguments->port != 0) {
+      kept = DefaultDataFile(arguments->port);
+    }
     line.exit_code = broker::BrokerMain(arguments->command);
   });
 }

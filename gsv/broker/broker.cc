@@ -16,6 +16,7 @@
 
 #include "gsv/broker/admin_servant.h"
 #include "gsv/broker/lookup_servant.h"
+#include "gsv/broker/offer_file.h"
 #include "gsv/broker/register_servant.h"
 #include "gsv/broker/service_reference.h"
 #include "gsv/broker/trading_objects.h"
@@ -121,12 +122,6 @@ class Broker::Impl {
   explicit Impl(const BrokerOptions& options)
       : objects_(options.limits, std::random_device()(), std::random_device()()) {
     objects_.orb = StartOrb(options);
-    try {
-      Serve(options);
-    } catch (...) {
-      objects_.orb->destroy();
-      throw;
-    }
   }
 
   ~Impl() {
@@ -135,7 +130,7 @@ class Broker::Impl {
       ending_ = true;
     }
     changed_.notify_all();
-    reaper_.join();
+    if (reaper_.joinable()) reaper_.join();
     objects_.orb->destroy();
   }
 
@@ -144,7 +139,17 @@ class Broker::Impl {
   void Run() { objects_.orb->run(); }
   void Shutdown() { objects_.orb->shutdown(false); }
 
- private:
+  // Knows again what is in the file, and keeps in it what changes.
+  base::Status Remember(const std::string& path) {
+    auto file = OfferFile::Open(path, objects_.trader.stem());
+    if (!file) return base::Fail(file.error());
+    auto state = (*file)->Load();
+    if (!state) return base::Fail(state.error());
+    auto restored = objects_.trader.Restore(std::move(*state), std::move(*file));
+    if (!restored) return base::Fail(restored.error().code, restored.error().message, path);
+    return {};
+  }
+
   void Serve(const BrokerOptions& options) {
     CORBA::Object_var object = objects_.orb->resolve_initial_references("RootPOA");
     const PortableServer::POA_var root = PortableServer::POA::_narrow(object);
@@ -171,6 +176,7 @@ class Broker::Impl {
     reaper_ = std::thread([this, period = options.limits.iterator_lifetime] { Reap(period); });
   }
 
+ private:
   // Lets go of iterators that nobody uses, though nobody asks for others either.
   void Reap(std::chrono::seconds period) {
     std::unique_lock lock(mutex_);
@@ -191,7 +197,12 @@ class Broker::Impl {
 
 base::Result<std::unique_ptr<Broker>> Broker::Start(const BrokerOptions& options) {
   try {
-    return std::unique_ptr<Broker>(new Broker(std::make_unique<Impl>(options)));
+    auto impl = std::make_unique<Impl>(options);
+    if (!options.data_file.empty()) {
+      if (auto ok = impl->Remember(options.data_file); !ok) return base::Fail(ok.error());
+    }
+    impl->Serve(options);
+    return std::unique_ptr<Broker>(new Broker(std::move(impl)));
   } catch (const CORBA::Exception&) {
     return base::Fail(base::ErrorCode::kUnavailable, WhyNotListening(options),
                       fmt::format("broker at {}:{}", options.host, options.port));

@@ -4,7 +4,8 @@
 // One in a process, which should do nothing else with CORBA: what an `any` may hold bounds the
 // size of every message of its ORB (64 KiB), see docs/broker.md.
 //
-// Errors   kUnavailable: the port is in use, or the host is not this machine's.
+// Errors   kUnavailable: the port is in use, or the host is not this machine's; and those of
+//          OfferFile.
 // Threads  every member may be called at any time.
 #pragma once
 
@@ -21,6 +22,8 @@ struct BrokerOptions {
   std::string host = "127.0.0.1";  // the address to listen on
   std::uint16_t port = 0;          // 0: the system chooses
   TraderLimits limits;
+  // Keeps offers and service types from one start to the next; empty: in memory only.
+  std::string data_file{};
 };
 
 class Broker {

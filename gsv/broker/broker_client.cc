@@ -36,19 +36,6 @@ PropertyList ToList(const CosTrading::PropertySeq& properties) {
   return list;
 }
 
-ServiceType ToServiceType(const std::string& name, const Repository::TypeStruct& description) {
-  ServiceType type{.name = name, .interface_name = description.if_name.in()};
-  for (CORBA::ULong i = 0; i < description.props.length(); ++i) {
-    type.properties.push_back(ToDefinition(description.props[i]));
-  }
-  for (CORBA::ULong i = 0; i < description.super_types.length(); ++i) {
-    type.super_types.emplace_back(description.super_types[i]);
-  }
-  type.masked = description.masked;
-  type.incarnation = FromIncarnation(description.incarnation);
-  return type;
-}
-
 bool SameDefinition(ServiceType a, ServiceType b) {
   const auto by_name = [](const PropertyDefinition& x, const PropertyDefinition& y) {
     return x.name < y.name;
@@ -156,7 +143,7 @@ base::Status BrokerClient::EnsureServiceType(const ServiceType& type) {
       types_->add_type(type.name.c_str(), type.interface_name.c_str(), props, super_types);
     } catch (const Repository::ServiceTypeExists&) {
       const Repository::TypeStruct_var known = types_->describe_type(type.name.c_str());
-      if (!SameDefinition(type, ToServiceType(type.name, known))) throw;
+      if (!SameDefinition(type, ToServiceType(type.name, known.in()))) throw;
     }
     return {};
   });
@@ -236,7 +223,7 @@ base::Result<std::vector<std::string>> BrokerClient::ServiceTypeNames() {
 base::Result<ServiceType> BrokerClient::DescribeServiceType(const std::string& name) {
   return GuardedRepeatable(reference_, [&]() -> base::Result<ServiceType> {
     const Repository::TypeStruct_var description = types_->fully_describe_type(name.c_str());
-    return ToServiceType(name, description);
+    return ToServiceType(name, description.in());
   });
 }
 

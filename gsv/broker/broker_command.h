@@ -11,8 +11,6 @@ namespace gsv::broker {
 struct BrokerCommand {
   BrokerOptions broker;
   ProcessLimits process;
-  // Everything is kept in memory and ends with the process; nothing is read or written.
-  bool memory = true;
   // The process that this one must not outlive; 0 for none. The kernel watches the *thread* that
   // started this process, so it should live as long as its process.
   pid_t parent = 0;

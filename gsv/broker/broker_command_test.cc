@@ -49,7 +49,7 @@ TEST(Broker, SaysThatItsPortIsInUse) {
                                     " is in use; choose another, or 0 for one that is free\n");
 }
 
-TEST(Broker, RestartsOnItsPortAndForgetsEverythingWithItsProcess) {
+TEST(Broker, RestartsOnItsPortAndForgetsEverythingWithoutAFile) {
   const std::string port = FreePort();
   BrokerProcess first({port});
   ASSERT_EQ(first.port(), port);

@@ -7,7 +7,7 @@
 
 #include "gsv/broker/broker_command.h"
 
-// Arguments: port, then NAME=VALUE for limits.
+// Arguments: port, then NAME=VALUE for limits, data=FILE.
 int main(int argc, char** argv) {
   gsv::broker::BrokerCommand command;
   command.parent = getppid();
@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     const std::string argument = argv[i];
     const std::size_t equals = argument.find('=');
     const std::string name = argument.substr(0, equals);
+    if (name == "data") command.broker.data_file = argument.substr(equals + 1);
     const auto value = static_cast<std::size_t>(std::atoll(argument.c_str() + equals + 1));
     if (name == "iterators") command.broker.limits.iterators = value;
     if (name == "address_space_mib") command.process.address_space_bytes = value << 20;

@@ -3,20 +3,10 @@
 #include <optional>
 
 #include "gsv/base/check.h"
+#include "gsv/broker/encapsulation.h"
 
 namespace gsv::broker {
 namespace {
-
-std::string Bytes(cdrEncapsulationStream& stream) {
-  _CORBA_Unbounded_Sequence_Octet octets;
-  stream.setOctetSeq(octets);
-  return {reinterpret_cast<const char*>(octets.get_buffer()), octets.length()};
-}
-
-cdrEncapsulationStream StreamOf(const std::string& bytes) {
-  return {reinterpret_cast<const _CORBA_Octet*>(bytes.data()),
-          static_cast<_CORBA_ULong>(bytes.size())};
-}
 
 CORBA::TypeCode_var WithoutAlias(CORBA::TypeCode_ptr type) {
   CORBA::TypeCode_var plain = CORBA::TypeCode::_duplicate(type);
@@ -283,7 +273,7 @@ Value ToValue(const CORBA::Any& any) {
   if (kind.scalar == Scalar::kOther) {
     cdrEncapsulationStream stream;
     any >>= stream;
-    return Value::Other({kind.name, Bytes(stream)});
+    return Value::Other({kind.name, BytesOf(stream)});
   }
   cdrMemoryStream stream;
   any.NP_marshalDataOnly(stream);
@@ -319,7 +309,7 @@ PropertyType ToPropertyType(CORBA::TypeCode_ptr type) {
   if (simple && plain->equal(type)) return result;
   cdrEncapsulationStream stream;
   CORBA::TypeCode::marshalTypeCode(type, stream);
-  result.encoded = Bytes(stream);
+  result.encoded = BytesOf(stream);
   return result;
 }
 
@@ -358,6 +348,36 @@ CosTradingRepos::ServiceTypeRepository::PropStruct ToCorba(const PropertyDefinit
 
 PropertyDefinition ToDefinition(const CosTradingRepos::ServiceTypeRepository::PropStruct& prop) {
   return {prop.name.in(), ToPropertyType(prop.value_type), static_cast<PropertyMode>(prop.mode)};
+}
+
+CosTradingRepos::ServiceTypeRepository::TypeStruct ToCorba(const ServiceType& type) {
+  CosTradingRepos::ServiceTypeRepository::TypeStruct result;
+  result.if_name = type.interface_name.c_str();
+  result.props.length(static_cast<CORBA::ULong>(type.properties.size()));
+  for (CORBA::ULong i = 0; i < type.properties.size(); ++i) {
+    result.props[i] = ToCorba(type.properties[i]);
+  }
+  result.super_types.length(static_cast<CORBA::ULong>(type.super_types.size()));
+  for (CORBA::ULong i = 0; i < type.super_types.size(); ++i) {
+    result.super_types[i] = type.super_types[i].c_str();
+  }
+  result.masked = type.masked;
+  result.incarnation = ToIncarnation(type.incarnation);
+  return result;
+}
+
+ServiceType ToServiceType(std::string name,
+                          const CosTradingRepos::ServiceTypeRepository::TypeStruct& description) {
+  ServiceType type{.name = std::move(name), .interface_name = description.if_name.in()};
+  for (CORBA::ULong i = 0; i < description.props.length(); ++i) {
+    type.properties.push_back(ToDefinition(description.props[i]));
+  }
+  for (CORBA::ULong i = 0; i < description.super_types.length(); ++i) {
+    type.super_types.emplace_back(description.super_types[i]);
+  }
+  type.masked = description.masked;
+  type.incarnation = FromIncarnation(description.incarnation);
+  return type;
 }
 
 CosTradingRepos::ServiceTypeRepository::IncarnationNumber ToIncarnation(std::uint64_t number) {

@@ -28,6 +28,10 @@ CosTrading::Property ToCorba(const Property& property);
 CosTradingRepos::ServiceTypeRepository::PropStruct ToCorba(const PropertyDefinition& definition);
 PropertyDefinition ToDefinition(const CosTradingRepos::ServiceTypeRepository::PropStruct& prop);
 
+CosTradingRepos::ServiceTypeRepository::TypeStruct ToCorba(const ServiceType& type);
+ServiceType ToServiceType(std::string name,
+                          const CosTradingRepos::ServiceTypeRepository::TypeStruct& description);
+
 CosTradingRepos::ServiceTypeRepository::IncarnationNumber ToIncarnation(std::uint64_t number);
 std::uint64_t FromIncarnation(
     const CosTradingRepos::ServiceTypeRepository::IncarnationNumber& number);

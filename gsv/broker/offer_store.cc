@@ -8,12 +8,19 @@ namespace gsv::broker {
 
 std::uint64_t OfferStore::Add(Offer offer) {
   offer.number = next_number_++;
-  auto stored = std::make_shared<const Offer>(std::move(offer));
-  by_type_[stored->type].emplace(stored->number, stored);
-  const std::uint64_t number = stored->number;
-  offers_.emplace(number, std::move(stored));
+  const std::uint64_t number = offer.number;
+  Restore(std::make_shared<const Offer>(std::move(offer)));
   return number;
 }
+
+void OfferStore::Restore(OfferPtr offer) {
+  const std::uint64_t number = offer->number;
+  by_type_[offer->type].emplace(number, offer);
+  offers_.emplace(number, std::move(offer));
+  SkipTo(number + 1);
+}
+
+void OfferStore::SkipTo(std::uint64_t number) { next_number_ = std::max(next_number_, number); }
 
 void OfferStore::Replace(Offer offer) {
   auto stored = std::make_shared<const Offer>(std::move(offer));

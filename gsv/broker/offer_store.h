@@ -19,6 +19,10 @@ class OfferStore {
 
   // Gives the offer its number.
   std::uint64_t Add(Offer offer);
+  // Puts back an offer that has its number, which no other has.
+  void Restore(OfferPtr offer);
+  // The next offer added has at least this number.
+  void SkipTo(std::uint64_t number);
   // Puts `offer` in the place of the one with its number, which must be there, of the same type.
   void Replace(Offer offer);
   // False when there is none.

@@ -83,6 +83,8 @@ void Raise(const TradingError& error) {
       RaiseInterfaceMismatch(error);
     case Refusal::kNotImplemented:
       throw CosTrading::NotImplemented();
+    case Refusal::kNotStored:
+      throw CORBA::PERSIST_STORE(0, CORBA::COMPLETED_MAYBE);
     case Refusal::kLimit:
       break;
   }

@@ -8,10 +8,9 @@
 #include <fmt/format.h>
 
 #include "gsv/broker/evaluation.h"
-#include "gsv/broker/expression.h"
 #include "gsv/broker/offer_rules.h"
 #include "gsv/broker/preference_order.h"
-#include "gsv/broker/type_check.h"
+#include "gsv/broker/query_compilation.h"
 
 namespace gsv::broker {
 namespace {
@@ -25,41 +24,6 @@ template <typename Integer>
 bool ReadHex(std::string_view text, Integer& value) {
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value, 16);
   return read.ec == std::errc() && read.ptr == text.data() + text.size();
-}
-
-DeclaredTypes TypesOf(const ServiceType& type) {
-  return [&type](std::string_view name) -> std::optional<PropertyType> {
-    for (const PropertyDefinition& definition : type.properties) {
-      if (definition.name == name) return definition.type;
-    }
-    return std::nullopt;
-  };
-}
-
-Traded<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
-                                     const ExpressionLimits& limits) {
-  const auto refuse = [&](const base::Error& error) {
-    return Refuse(
-        {.refusal = Refusal::kIllegalConstraint, .name = text, .detail = error.Sentence()});
-  };
-  auto constraint = ParseConstraint(text, limits);
-  if (!constraint) return refuse(constraint.error());
-  const base::Status fits = CheckConstraintTypes(*constraint, TypesOf(type));
-  if (!fits) return refuse(fits.error());
-  return std::move(*constraint);
-}
-
-Traded<Preference> CompilePreference(const std::string& text, const ServiceType& type,
-                                     const ExpressionLimits& limits) {
-  const auto refuse = [&](const base::Error& error) {
-    return Refuse(
-        {.refusal = Refusal::kIllegalPreference, .name = text, .detail = error.Sentence()});
-  };
-  auto preference = ParsePreference(text, limits);
-  if (!preference) return refuse(preference.error());
-  const base::Status fits = CheckPreferenceTypes(*preference, TypesOf(type));
-  if (!fits) return refuse(fits.error());
-  return std::move(*preference);
 }
 
 bool IsReadonlyIn(const ServiceType& type, const Property& property) {
@@ -96,6 +60,43 @@ bool KeepMatching(const Expression& constraint, std::size_t limit, Offers& offer
 Trader::Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed)
     : limits_(limits), stem_(stem), seed_(seed), types_(limits) {}
 
+base::Status Trader::Restore(TraderState state, std::unique_ptr<Journal> journal) {
+  const WriteLock lock(mutex_);
+  if (auto restored = types_.Restore(std::move(state.types), state.next_incarnation); !restored) {
+    return restored;
+  }
+  for (OfferPtr& offer : state.offers) offers_.Restore(std::move(offer));
+  offers_.SkipTo(state.next_number);
+  stem_ = state.stem;
+  journal_ = std::move(journal);
+  return {};
+}
+
+// What is changed under the lock is durable when it is answered, yet nobody waits for the disk
+// with the lock held: the changes of many callers become one transaction.
+template <typename Apply>
+std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
+  const TradingError not_stored{.refusal = Refusal::kNotStored};
+  if (journal_ != nullptr && !journal_->works()) return Refuse(not_stored);
+  Journal::Ticket ticket = 0;
+  auto result = [&] {
+    const WriteLock lock(mutex_);
+    auto applied = apply();
+    ticket = last_ticket_;
+    return applied;
+  }();
+  if (journal_ != nullptr && result && !journal_->Wait(ticket)) return Refuse(not_stored);
+  return result;
+}
+
+void Trader::Record(StateChange change) {
+  if (journal_ != nullptr) last_ticket_ = journal_->Append(std::move(change));
+}
+
+void Trader::RecordType(const std::string& name) {
+  if (auto type = types_.Describe(name)) Record(TypeStored{std::move(*type)});
+}
+
 TraderAttributes Trader::attributes() const {
   const ReadLock lock(mutex_);
   return attributes_;
@@ -112,13 +113,20 @@ std::uint64_t Trader::NextIncarnation() const {
 }
 
 Traded<std::uint64_t> Trader::AddType(ServiceType type) {
-  const WriteLock lock(mutex_);
-  return types_.Add(std::move(type));
+  return Change([&]() -> Traded<std::uint64_t> {
+    const std::string name = type.name;
+    auto incarnation = types_.Add(std::move(type));
+    if (incarnation) RecordType(name);
+    return incarnation;
+  });
 }
 
 Traded<void> Trader::RemoveType(const std::string& name) {
-  const WriteLock lock(mutex_);
-  return types_.Remove(name);
+  return Change([&]() -> Traded<void> {
+    auto removed = types_.Remove(name);
+    if (removed) Record(TypeRemoved{name});
+    return removed;
+  });
 }
 
 std::vector<std::string> Trader::ListTypes(std::optional<std::uint64_t> since) const {
@@ -137,13 +145,19 @@ Traded<ServiceType> Trader::FullyDescribeType(const std::string& name) const {
 }
 
 Traded<void> Trader::MaskType(const std::string& name) {
-  const WriteLock lock(mutex_);
-  return types_.Mask(name);
+  return Change([&]() -> Traded<void> {
+    auto changed = types_.Mask(name);
+    if (changed) RecordType(name);
+    return changed;
+  });
 }
 
 Traded<void> Trader::UnmaskType(const std::string& name) {
-  const WriteLock lock(mutex_);
-  return types_.Unmask(name);
+  return Change([&]() -> Traded<void> {
+    auto changed = types_.Unmask(name);
+    if (changed) RecordType(name);
+    return changed;
+  });
 }
 
 Traded<ServiceType> Trader::TypeForExport(const std::string& type) const {
@@ -162,21 +176,26 @@ Traded<std::string> Trader::Export(const std::string& type, std::string referenc
   if (!checked) return Refuse(checked.error());
   if (auto fits = CheckSize(*checked, reference); !fits) return Refuse(fits.error());
 
-  const WriteLock lock(mutex_);
-  if (offers_.size() >= limits_.offers) {
-    return Refuse({.refusal = Refusal::kLimit,
-                   .detail = fmt::format("there are {} offers already", limits_.offers)});
-  }
-  return IdOf(offers_.Add(
-      {.type = type, .reference = std::move(reference), .properties = std::move(*checked)}));
+  return Change([&]() -> Traded<std::string> {
+    if (offers_.size() >= limits_.offers) {
+      return Refuse({.refusal = Refusal::kLimit,
+                     .detail = fmt::format("there are {} offers already", limits_.offers)});
+    }
+    const std::uint64_t number = offers_.Add(
+        {.type = type, .reference = std::move(reference), .properties = std::move(*checked)});
+    Record(OfferStored{offers_.Find(number)});
+    return IdOf(number);
+  });
 }
 
 Traded<void> Trader::Withdraw(const std::string& id) {
   const auto number = NumberOf(id);
   if (!number) return Refuse(number.error());
-  const WriteLock lock(mutex_);
-  if (offers_.Remove(*number)) return {};
-  return Refuse({.refusal = Refusal::kUnknownOfferId, .name = id});
+  return Change([&]() -> Traded<void> {
+    if (!offers_.Remove(*number)) return Refuse({.refusal = Refusal::kUnknownOfferId, .name = id});
+    Record(OffersRemoved{{*number}});
+    return {};
+  });
 }
 
 Traded<OfferPtr> Trader::Describe(const std::string& id) const {
@@ -185,23 +204,26 @@ Traded<OfferPtr> Trader::Describe(const std::string& id) const {
 }
 
 Traded<void> Trader::Modify(const std::string& id, Modification modification) {
-  const WriteLock lock(mutex_);
-  if (!attributes_.supports_modifiable_properties) {
-    return Refuse({.refusal = Refusal::kNotImplemented});
-  }
-  const auto offer = FindOffer(id);
-  if (!offer) return Refuse(offer.error());
-  // The type of a living offer may have been removed meanwhile; it then demands nothing.
-  const ServiceType type =
-      types_.FullyDescribe((*offer)->type).value_or(ServiceType{.name = (*offer)->type});
-  auto modified = CheckModification(type, (*offer)->properties, std::move(modification));
-  if (!modified) return Refuse(modified.error());
-  if (auto fits = CheckSize(*modified, (*offer)->reference); !fits) return fits;
-  offers_.Replace({.number = (*offer)->number,
-                   .type = (*offer)->type,
-                   .reference = (*offer)->reference,
-                   .properties = std::move(*modified)});
-  return {};
+  return Change([&]() -> Traded<void> {
+    if (!attributes_.supports_modifiable_properties) {
+      return Refuse({.refusal = Refusal::kNotImplemented});
+    }
+    const auto offer = FindOffer(id);
+    if (!offer) return Refuse(offer.error());
+    // The type of a living offer may have been removed meanwhile; it then demands nothing.
+    const ServiceType type =
+        types_.FullyDescribe((*offer)->type).value_or(ServiceType{.name = (*offer)->type});
+    auto modified = CheckModification(type, (*offer)->properties, std::move(modification));
+    if (!modified) return Refuse(modified.error());
+    if (auto fits = CheckSize(*modified, (*offer)->reference); !fits) return fits;
+    const std::uint64_t number = (*offer)->number;
+    offers_.Replace({.number = number,
+                     .type = (*offer)->type,
+                     .reference = (*offer)->reference,
+                     .properties = std::move(*modified)});
+    Record(OfferStored{offers_.Find(number)});
+    return {};
+  });
 }
 
 Traded<std::size_t> Trader::WithdrawMatching(const std::string& type,
@@ -211,16 +233,22 @@ Traded<std::size_t> Trader::WithdrawMatching(const std::string& type,
   const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
   if (!compiled) return Refuse(compiled.error());
 
-  const WriteLock lock(mutex_);
-  const auto types = types_.WithSubTypes(type);
-  if (!types) return Refuse(types.error());
-  Offers matching = offers_.OfTypes(*types, limits_.offers);
-  KeepMatching(*compiled, limits_.offers, matching);
-  for (const OfferPtr& offer : matching) offers_.Remove(offer->number);
-  if (matching.empty()) {
-    return Refuse({.refusal = Refusal::kNoMatchingOffers, .name = constraint});
-  }
-  return matching.size();
+  return Change([&]() -> Traded<std::size_t> {
+    const auto types = types_.WithSubTypes(type);
+    if (!types) return Refuse(types.error());
+    Offers matching = offers_.OfTypes(*types, limits_.offers);
+    KeepMatching(*compiled, limits_.offers, matching);
+    if (matching.empty()) {
+      return Refuse({.refusal = Refusal::kNoMatchingOffers, .name = constraint});
+    }
+    OffersRemoved removed;
+    for (const OfferPtr& offer : matching) {
+      offers_.Remove(offer->number);
+      removed.numbers.push_back(offer->number);
+    }
+    Record(std::move(removed));
+    return matching.size();
+  });
 }
 
 std::vector<std::string> Trader::OfferIds() const {

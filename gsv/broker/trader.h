@@ -8,12 +8,16 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <shared_mutex>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "gsv/base/error.h"
 #include "gsv/broker/import_policies.h"
+#include "gsv/broker/journal.h"
 #include "gsv/broker/limits.h"
 #include "gsv/broker/offer.h"
 #include "gsv/broker/offer_store.h"
@@ -43,10 +47,16 @@ struct Modification {
 
 class Trader {
  public:
-  // `stem` is part of every offer's id, so that an id of an earlier trader is unknown to this one;
+  // `stem` is part of every offer's id, so that an id of another trader is unknown to this one;
   // `seed` decides what the preference random does.
   Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
+  // Takes over what an earlier trader knew, its stem too, and has `journal` remember every change
+  // from now on. Before anything else, by one thread.
+  // Errors  kCorrupt: the state contradicts itself.
+  [[nodiscard]] base::Status Restore(TraderState state, std::unique_ptr<Journal> journal);
+
+  std::uint32_t stem() const { return stem_; }
   const TraderLimits& limits() const { return limits_; }
   TraderAttributes attributes() const;
   void set_attributes(const TraderAttributes& attributes);
@@ -79,6 +89,13 @@ class Trader {
   Traded<QueryResult> Find(const Query& query) const;
 
  private:
+  // Calls `apply` under the lock; returns when what it recorded is durable. kNotStored when it
+  // cannot become so: nothing is changed then, but for the very change that failed.
+  template <typename Apply>
+  std::invoke_result_t<Apply> Change(const Apply& apply);
+  void Record(StateChange change);
+  void RecordType(const std::string& name);
+
   // The offers to be searched, and the cardinalities that hold for the query.
   QueryResult Candidates(const Query& query, Cardinalities& cardinalities) const;
   Traded<std::uint64_t> NumberOf(const std::string& id) const;
@@ -87,12 +104,14 @@ class Trader {
   Traded<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
 
   const TraderLimits limits_;
-  const std::uint32_t stem_;
+  std::uint32_t stem_;
+  std::unique_ptr<Journal> journal_;  // null: everything is in memory
   mutable std::atomic<std::uint64_t> seed_;
   mutable std::shared_mutex mutex_;  // guards all that follows
   TraderAttributes attributes_;
   TypeRepository types_;
   OfferStore offers_;
+  Journal::Ticket last_ticket_ = 0;
 };
 
 }  // namespace gsv::broker

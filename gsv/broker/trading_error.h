@@ -14,8 +14,8 @@
 
 namespace gsv::broker {
 
-// The exceptions of CosTrading and CosTradingRepos, and kLimit for a request that goes beyond the
-// trader's limits (CORBA::IMP_LIMIT).
+// The exceptions of CosTrading and CosTradingRepos, kLimit for a request that goes beyond the
+// trader's limits (CORBA::IMP_LIMIT), and kNotStored when the disk fails (CORBA::PERSIST_STORE).
 enum class Refusal {
   // Members: type
   kIllegalServiceType,
@@ -50,6 +50,7 @@ enum class Refusal {
   // No members.
   kNotImplemented,
   kLimit,
+  kNotStored,
 };
 
 struct Redefinition {

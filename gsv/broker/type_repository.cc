@@ -55,6 +55,24 @@ TradingError RedefinitionError(const std::string& type_1, const PropertyDefiniti
 
 }  // namespace
 
+base::Status TypeRepository::Restore(std::vector<ServiceType> types,
+                                     std::uint64_t next_incarnation) {
+  std::sort(types.begin(), types.end(), [](const ServiceType& a, const ServiceType& b) {
+    return a.incarnation < b.incarnation;
+  });
+  for (ServiceType& type : types) {
+    for (const std::string& name : type.super_types) {
+      if (types_.contains(name)) continue;
+      return base::Fail(base::ErrorCode::kCorrupt,
+                        "the service type " + type.name + " lacks its super type " + name);
+    }
+    next_incarnation = std::max(next_incarnation, type.incarnation + 1);
+    types_.emplace(type.name, std::move(type));
+  }
+  next_incarnation_ = std::max(next_incarnation_, next_incarnation);
+  return {};
+}
+
 Traded<std::uint64_t> TypeRepository::Add(ServiceType type) {
   if (auto checked = CheckNew(type); !checked) return Refuse(checked.error());
   type.masked = false;

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gsv/base/error.h"
 #include "gsv/broker/limits.h"
 #include "gsv/broker/service_type.h"
 #include "gsv/broker/trading_error.h"
@@ -24,6 +25,11 @@ class TypeRepository {
 
   // The incarnation that the next type added will bear.
   std::uint64_t next_incarnation() const { return next_incarnation_; }
+
+  // Puts back the types of an earlier repository, in any order.
+  // Errors  kCorrupt: a super type is missing, or younger than its sub type.
+  [[nodiscard]] base::Status Restore(std::vector<ServiceType> types,
+                                     std::uint64_t next_incarnation);
 
   // `type` says name, interface, properties and super types; the rest is ignored. Returns its
   // incarnation.

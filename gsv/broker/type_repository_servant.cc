@@ -15,20 +15,6 @@ Repository::ServiceTypeNameSeq* ToCorba(const std::vector<std::string>& names) {
   return result._retn();
 }
 
-Repository::TypeStruct* ToCorba(const ServiceType& type) {
-  Repository::TypeStruct_var result = new Repository::TypeStruct;
-  result->if_name = type.interface_name.c_str();
-  result->props.length(static_cast<CORBA::ULong>(type.properties.size()));
-  for (CORBA::ULong i = 0; i < type.properties.size(); ++i) {
-    result->props[i] = ToCorba(type.properties[i]);
-  }
-  const Repository::ServiceTypeNameSeq_var super_types = ToCorba(type.super_types);
-  result->super_types = super_types.in();
-  result->masked = type.masked;
-  result->incarnation = ToIncarnation(type.incarnation);
-  return result._retn();
-}
-
 }  // namespace
 
 Repository::IncarnationNumber TypeRepositoryServant::incarnation() {
@@ -60,11 +46,11 @@ Repository::ServiceTypeNameSeq* TypeRepositoryServant::list_types(
 }
 
 Repository::TypeStruct* TypeRepositoryServant::describe_type(const char* name) {
-  return ToCorba(ValueOrRaise(trader_.DescribeType(name)));
+  return new Repository::TypeStruct(ToCorba(ValueOrRaise(trader_.DescribeType(name))));
 }
 
 Repository::TypeStruct* TypeRepositoryServant::fully_describe_type(const char* name) {
-  return ToCorba(ValueOrRaise(trader_.FullyDescribeType(name)));
+  return new Repository::TypeStruct(ToCorba(ValueOrRaise(trader_.FullyDescribeType(name))));
 }
 
 void TypeRepositoryServant::mask_type(const char* name) { ValueOrRaise(trader_.MaskType(name)); }

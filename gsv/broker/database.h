@@ -1,0 +1,62 @@
+// SQLite behind values that close themselves: a database file and its prepared statements.
+//
+// Errors   every failure carries SQLite's own words.
+// Threads  one at a time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <sqlite3.h>
+
+#include "gsv/base/error.h"
+
+namespace gsv::broker {
+
+class Statement {
+ public:
+  // Binds the arguments from the left; a string_view is text, see Blob for bytes.
+  Statement& Bind(int place, std::int64_t value);
+  Statement& Bind(int place, std::string_view text);
+  Statement& BindBlob(int place, std::string_view bytes);
+
+  // Runs a statement that returns no rows, and makes it ready for the next arguments.
+  [[nodiscard]] base::Status Run();
+  // Steps to the next row; false after the last.
+  [[nodiscard]] base::Result<bool> Next();
+  std::int64_t Integer(int column) const;
+  std::string Bytes(int column) const;
+
+ private:
+  friend class Database;
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  };
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+class Database {
+ public:
+  [[nodiscard]] static base::Result<Database> Open(const std::string& path);
+
+  [[nodiscard]] base::Result<Statement> Prepare(std::string_view sql);
+  // One or more statements; what they return is passed over.
+  [[nodiscard]] base::Status Run(const std::string& sql);
+  // The first column of the first row.
+  [[nodiscard]] base::Result<std::string> Ask(std::string_view sql);
+
+  // What SQLite said last: SQLITE_BUSY, SQLITE_NOTADB, …
+  int LastCode() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+  };
+  base::Error Failure() const;
+
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+}  // namespace gsv::broker

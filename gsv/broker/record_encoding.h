@@ -1,0 +1,26 @@
+// Offers' properties and service types as bytes that outlive the process.
+//
+// Format  CDR encapsulations of CosTrading::PropertySeq and of
+//         CosTradingRepos::ServiceTypeRepository::TypeStruct.
+// The process needs an ORB for them.
+//
+// Errors  kCorrupt for bytes that are neither.
+#pragma once
+
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/broker/property.h"
+#include "gsv/broker/service_type.h"
+
+namespace gsv::broker {
+
+std::string EncodeProperties(const PropertyList& properties);
+[[nodiscard]] base::Result<PropertyList> DecodeProperties(const std::string& bytes);
+
+// All but the name.
+std::string EncodeServiceType(const ServiceType& type);
+[[nodiscard]] base::Result<ServiceType> DecodeServiceType(const std::string& name,
+                                                          const std::string& bytes);
+
+}  // namespace gsv::broker
