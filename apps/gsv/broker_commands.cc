@@ -1,3 +1,5 @@
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -13,6 +15,12 @@
 
 namespace gsv::app {
 namespace {
+
+constexpr double kLongestSeconds = 1e6;
+
+std::chrono::milliseconds Milliseconds(double seconds) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+}
 
 // Nobody finds a broker again whose port the system chose, so that only one with a port of its own
 // keeps a file unasked. Empty when there is no folder for it.
@@ -39,6 +47,8 @@ void AddBrokerCommand(const CommandLine& line) {
     int port = 0;
     std::string file;
     bool memory = false;
+    double liveness_period_s = 60;
+    double liveness_patience_s = 600;
   };
   CLI::App* command = line.app.add_subcommand("broker", "Run a broker: the OMG Trading Service");
   auto arguments = std::make_shared<Arguments>();
@@ -56,6 +66,19 @@ void AddBrokerCommand(const CommandLine& line) {
           ->type_name("FILE");
   command->add_flag("--memory", arguments->memory, "keep nothing on disk")->excludes(file);
   command
+      ->add_option("--liveness-period", arguments->liveness_period_s,
+                   "how often each offered service is asked whether it lives; 0: never. The "
+                   "offer of a dead one is seen for two periods at most")
+      ->check(CLI::Range(0.0, kLongestSeconds))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  command
+      ->add_option("--liveness-patience", arguments->liveness_patience_s,
+                   "how long a service may be silent before its offers go")
+      ->check(CLI::Range(0.0, kLongestSeconds))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  command
       ->add_option("--exit-with-parent", arguments->command.parent,
                    "end when the process of this number ends")
       ->group("");
@@ -66,6 +89,8 @@ void AddBrokerCommand(const CommandLine& line) {
     if (!arguments->memory && kept.empty() && arguments->port != 0) {
       kept = DefaultDataFile(arguments->port);
     }
+    arguments->command.broker.liveness.period = Milliseconds(arguments->liveness_period_s);
+    arguments->command.broker.liveness.patience = Milliseconds(arguments->liveness_patience_s);
     line.exit_code = broker::BrokerMain(arguments->command);
   });
 }

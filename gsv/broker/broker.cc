@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -17,6 +18,7 @@
 #include "gsv/broker/admin_servant.h"
 #include "gsv/broker/lookup_servant.h"
 #include "gsv/broker/offer_file.h"
+#include "gsv/broker/pulse.h"
 #include "gsv/broker/register_servant.h"
 #include "gsv/broker/service_reference.h"
 #include "gsv/broker/trading_objects.h"
@@ -131,6 +133,7 @@ class Broker::Impl {
     }
     changed_.notify_all();
     if (reaper_.joinable()) reaper_.join();
+    liveness_.reset();
     objects_.orb->destroy();
   }
 
@@ -173,6 +176,10 @@ class Broker::Impl {
 
     PortableServer::POAManager_var(root->the_POAManager())->activate();
     PortableServer::POAManager_var(poa->the_POAManager())->activate();
+    liveness_.emplace(options.liveness, objects_.trader,
+                      [this](const std::string& reference, std::chrono::milliseconds timeout) {
+                        return FeelPulse(objects_.orb, reference, timeout);
+                      });
     reaper_ = std::thread([this, period = options.limits.iterator_lifetime] { Reap(period); });
   }
 
@@ -193,6 +200,7 @@ class Broker::Impl {
   std::condition_variable changed_;
   bool ending_ = false;
   std::thread reaper_;
+  std::optional<LivenessMonitor> liveness_;
 };
 
 base::Result<std::unique_ptr<Broker>> Broker::Start(const BrokerOptions& options) {

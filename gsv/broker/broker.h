@@ -15,6 +15,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/broker/limits.h"
+#include "gsv/broker/liveness_monitor.h"
 
 namespace gsv::broker {
 
@@ -24,6 +25,7 @@ struct BrokerOptions {
   TraderLimits limits;
   // Keeps offers and service types from one start to the next; empty: in memory only.
   std::string data_file{};
+  LivenessOptions liveness{};
 };
 
 class Broker {

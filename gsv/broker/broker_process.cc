@@ -21,10 +21,10 @@ std::string ReadUntil(int descriptor, char end) {
 
 }  // namespace
 
-BrokerProcess::BrokerProcess(std::vector<std::string> arguments) {
+TestProcess::TestProcess(const std::string& name, std::vector<std::string> arguments) {
   const char* build = std::getenv("GSV_BUILD_DIR");
   GSV_CHECK(build != nullptr);
-  std::string program = std::string(build) + "/tests/gsv_broker_test_server";
+  std::string program = std::string(build) + "/tests/" + name;
   std::vector<char*> argv = {program.data()};
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -41,11 +41,11 @@ BrokerProcess::BrokerProcess(std::vector<std::string> arguments) {
   close(out[1]);
   close(err[1]);
   complaint_ = err[0];
-  reference_ = ReadUntil(out[0], '\n');
+  first_line_ = ReadUntil(out[0], '\n');
   close(out[0]);
 }
 
-BrokerProcess::~BrokerProcess() {
+TestProcess::~TestProcess() {
   if (pid_ != 0) {
     Send(SIGKILL);
     Wait();
@@ -54,25 +54,25 @@ BrokerProcess::~BrokerProcess() {
 }
 
 std::string BrokerProcess::port() const {
-  const std::size_t colon = reference_.rfind(':');
-  return reference_.substr(colon + 1, reference_.find('/') - colon - 1);
+  const std::size_t colon = reference().rfind(':');
+  return reference().substr(colon + 1, reference().find('/') - colon - 1);
 }
 
-void BrokerProcess::Send(int signal) { kill(pid_, signal); }
+void TestProcess::Send(int signal) { kill(pid_, signal); }
 
-void BrokerProcess::Stop() {
+void TestProcess::Stop() {
   Send(SIGSTOP);
   int status = 0;
   GSV_CHECK(waitpid(pid_, &status, WUNTRACED) == pid_ && WIFSTOPPED(status));
 }
 
-int BrokerProcess::Wait() {
+int TestProcess::Wait() {
   int status = 0;
   GSV_CHECK(waitpid(pid_, &status, 0) == pid_);
   pid_ = 0;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-std::string BrokerProcess::Complaint() { return ReadUntil(complaint_, '\0'); }
+std::string TestProcess::Complaint() { return ReadUntil(complaint_, '\0'); }
 
 }  // namespace gsv::broker

@@ -1,26 +1,26 @@
-// A broker in a child process, for tests that go over TCP.
+// A broker, or the service of an offer, in a child process, for tests that go over TCP.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/types.h>
 
 namespace gsv::broker {
 
-class BrokerProcess {
+class TestProcess {
  public:
-  // Returns when it serves, or has ended.
-  explicit BrokerProcess(std::vector<std::string> arguments = {"0"});
+  // Returns when it has printed a line, or has ended. `program` lies beside the tests.
+  TestProcess(const std::string& program, std::vector<std::string> arguments);
   // Ends it.
-  ~BrokerProcess();
-  BrokerProcess(const BrokerProcess&) = delete;
-  BrokerProcess& operator=(const BrokerProcess&) = delete;
+  ~TestProcess();
+  TestProcess(const TestProcess&) = delete;
+  TestProcess& operator=(const TestProcess&) = delete;
 
-  // "corbaloc::1.2@127.0.0.1:…/TradingService"; empty when it ended without one.
-  const std::string& reference() const { return reference_; }
-  std::string port() const;
+  // Empty when it ended without one.
+  const std::string& first_line() const { return first_line_; }
   pid_t pid() const { return pid_; }
 
   void Send(int signal);
@@ -32,9 +32,29 @@ class BrokerProcess {
   std::string Complaint();
 
  private:
-  std::string reference_;
+  std::string first_line_;
   pid_t pid_ = 0;
   int complaint_ = -1;
+};
+
+class BrokerProcess : public TestProcess {
+ public:
+  // Returns when it serves, or has ended.
+  explicit BrokerProcess(std::vector<std::string> arguments = {"0"})
+      : TestProcess("gsv_broker_test_server", std::move(arguments)) {}
+
+  // "corbaloc::1.2@127.0.0.1:…/TradingService"; empty when it ended without one.
+  const std::string& reference() const { return first_line(); }
+  std::string port() const;
+};
+
+// Offers itself as a "Service" at a broker.
+class ServiceProcess : public TestProcess {
+ public:
+  explicit ServiceProcess(const std::string& broker)
+      : TestProcess("gsv_broker_test_service", {broker}) {}
+
+  const std::string& offer_id() const { return first_line(); }
 };
 
 }  // namespace gsv::broker

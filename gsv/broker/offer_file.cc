@@ -1,7 +1,8 @@
 #include "gsv/broker/offer_file.h"
 
-#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <new>
 #include <utility>
 
 #include "gsv/broker/offer_file_schema.h"
@@ -138,7 +139,7 @@ void OfferFile::Write() {
     const std::vector<StateChange> changes = std::exchange(waiting_, {});
     const Ticket last = last_appended_;
     lock.unlock();
-    const base::Status written = WriteAll(changes);
+    const base::Status written = WriteWithPatience(changes);
     lock.lock();
     if (written) {
       last_written_ = last;
@@ -151,6 +152,21 @@ void OfferFile::Write() {
                    path_.c_str(), written.error().message.c_str());
     }
     written_.notify_all();
+  }
+}
+
+// The address space is limited, and others may need it for a moment.
+base::Status OfferFile::WriteWithPatience(const std::vector<StateChange>& changes) {
+  constexpr int kTries = 50;
+  constexpr std::chrono::milliseconds kPause(100);
+  for (int tries = 1;; ++tries) {
+    try {
+      return WriteAll(changes);
+    } catch (const std::bad_alloc&) {
+      (void)database_.Run("ROLLBACK");
+      if (tries == kTries) return base::Fail(base::ErrorCode::kUnavailable, "out of memory");
+      std::this_thread::sleep_for(kPause);
+    }
   }
 }
 

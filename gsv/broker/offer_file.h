@@ -53,6 +53,7 @@ class OfferFile : public Journal {
   base::Status LoadOffers(TraderState& state);
 
   void Write();
+  base::Status WriteWithPatience(const std::vector<StateChange>& changes);
   base::Status WriteAll(const std::vector<StateChange>& changes);
   base::Status Apply(const OfferStored& change);
   base::Status Apply(const OffersRemoved& change);

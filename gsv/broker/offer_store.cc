@@ -67,12 +67,13 @@ std::size_t OfferStore::CountOfTypes(const std::vector<std::string>& types) cons
   return count;
 }
 
-std::vector<std::uint64_t> OfferStore::Numbers() const {
-  std::vector<std::uint64_t> numbers;
-  numbers.reserve(offers_.size());
-  for (const auto& [number, offer] : offers_) numbers.push_back(number);
-  std::sort(numbers.begin(), numbers.end());
-  return numbers;
+Offers OfferStore::All() const {
+  Offers all;
+  all.reserve(offers_.size());
+  for (const auto& [number, offer] : offers_) all.push_back(offer);
+  std::sort(all.begin(), all.end(),
+            [](const OfferPtr& a, const OfferPtr& b) { return a->number < b->number; });
+  return all;
 }
 
 }  // namespace gsv::broker

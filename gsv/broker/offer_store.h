@@ -33,7 +33,8 @@ class OfferStore {
   // At most `limit` offers of one of `types`, in the order of export within a type.
   Offers OfTypes(const std::vector<std::string>& types, std::size_t limit) const;
   std::size_t CountOfTypes(const std::vector<std::string>& types) const;
-  std::vector<std::uint64_t> Numbers() const;
+  // In the order of export.
+  Offers All() const;
 
  private:
   using Bucket = std::map<std::uint64_t, OfferPtr>;

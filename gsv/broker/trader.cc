@@ -251,11 +251,29 @@ Traded<std::size_t> Trader::WithdrawMatching(const std::string& type,
   });
 }
 
+std::size_t Trader::WithdrawAll(const std::vector<std::uint64_t>& numbers) {
+  const auto count = Change([&]() -> Traded<std::size_t> {
+    OffersRemoved removed;
+    for (const std::uint64_t number : numbers) {
+      if (offers_.Remove(number)) removed.numbers.push_back(number);
+    }
+    const std::size_t size = removed.numbers.size();
+    if (size > 0) Record(std::move(removed));
+    return size;
+  });
+  return count.value_or(0);
+}
+
 std::vector<std::string> Trader::OfferIds() const {
   const ReadLock lock(mutex_);
   std::vector<std::string> ids;
-  for (const std::uint64_t number : offers_.Numbers()) ids.push_back(IdOf(number));
+  for (const OfferPtr& offer : offers_.All()) ids.push_back(IdOf(offer->number));
   return ids;
+}
+
+Offers Trader::AllOffers() const {
+  const ReadLock lock(mutex_);
+  return offers_.All();
 }
 
 Traded<QueryResult> Trader::Find(const Query& query) const {

@@ -82,7 +82,11 @@ class Trader {
   Traded<void> Modify(const std::string& id, Modification modification);
   // Withdraws the offers that a query without policies would find; returns how many.
   Traded<std::size_t> WithdrawMatching(const std::string& type, const std::string& constraint);
+  // Withdraws those of the offers that are still there; returns how many.
+  std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
+  // In the order of export.
   std::vector<std::string> OfferIds() const;
+  Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
   // ---- Queries
