@@ -31,7 +31,6 @@ base::Status CheckCard() {
 BatchPainter::BatchPainter() {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
-  glEnable(GL_MULTISAMPLE);
   glDisable(GL_DITHER);
 }
 
@@ -91,7 +90,6 @@ base::Result<Pictures> BatchPainter::Draw(const world::Snapshot& snapshot,
       if (shadows) shadow_map_.Describe(view.world_from_camera.position, block);
       target.Begin();
       painter_.Paint(view, plan, block, shadows ? &shadow_map_ : nullptr, instances_);
-      target.End();
     }
     for (auto& picture : target.Read()) pictures[order[done++]] = std::move(picture);
   }

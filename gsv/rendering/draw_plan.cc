@@ -20,7 +20,8 @@ SurfaceFactors FactorsOf(const model::Material& material) {
   return {{linear(b.r), linear(b.g), linear(b.b), static_cast<float>(std::clamp(b.a, 0.0, 1.0))},
           {linear(e.r), linear(e.g), linear(e.b),
            static_cast<float>(std::clamp(material.metalness, 0.0, 1.0))},
-          static_cast<float>(std::clamp(material.roughness, 0.05, 1.0))};
+          static_cast<float>(std::clamp(material.roughness, 0.05, 1.0)),
+          0};
 }
 
 // A level rectangle as large as a landscape without a picture on it stands for the ground, which
@@ -43,9 +44,12 @@ class Builder {
   void Add(const model::Visual& visual, int body, int link) {
     const ShapeOnGpu shape = meshes_.Find(AsDrawn(visual));
     const bool plane = std::holds_alternative<geometry::Plane>(visual.shape);
+    const int first_surface = next_surface_;
+    next_surface_ += static_cast<int>(visual.materials.size());
     for (const MeshChunk& chunk : shape.mesh->chunks) {
-      const model::Material& material =
-          visual.materials[std::min<std::size_t>(chunk.material, visual.materials.size() - 1)];
+      const std::size_t material_index =
+          std::min<std::size_t>(chunk.material, visual.materials.size() - 1);
+      const model::Material& material = visual.materials[material_index];
       DrawGroup group = GroupOf(material);
       group.mesh = shape.mesh;
       group.first_index = 3 * chunk.first_triangle;
@@ -60,6 +64,9 @@ class Builder {
       item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
       item.radius = 0.5 * Norm(Scaled(chunk.bounds.max - chunk.bounds.min, shape.scale));
       item.factors = FactorsOf(material);
+      // Exact as a float, and more than eight bits' worth of different ones.
+      item.factors.surface =
+          static_cast<float>((first_surface + static_cast<int>(material_index)) % 4096);
       item.casts_shadow = visual.cast_shadows && !plane && group.blending != Blending::kSeeThrough;
       item.group = Index(std::move(group));
       items.push_back(item);
@@ -106,6 +113,7 @@ class Builder {
   GpuMeshes& meshes_;
   GpuTextures& textures_;
   std::map<Key, int> index_of_;
+  int next_surface_ = 0;
 };
 
 }  // namespace

@@ -35,6 +35,7 @@ struct SurfaceFactors {
   std::array<float, 4> base_colour;
   std::array<float, 4> emissive_metalness;
   float roughness;
+  float surface;  // tells surfaces of different visuals apart, for the edges between them
 };
 
 struct DrawItem {

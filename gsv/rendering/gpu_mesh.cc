@@ -4,6 +4,8 @@
 
 #include <epoxy/gl.h>
 
+#include "gsv/rendering/mesh_surfaces.h"
+
 namespace gsv::rendering {
 namespace {
 
@@ -69,12 +71,26 @@ GlBuffer Upload(const std::vector<T>& values) {
   return buffer;
 }
 
+// Adds the number of its surface to each vertex.
+std::vector<float> WithSurfaces(const Arrays& arrays) {
+  const std::vector<std::uint32_t> surfaces = NumberSurfaces(arrays.vertices, arrays.indices);
+  std::vector<float> vertices;
+  vertices.reserve(9 * surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const auto first = arrays.vertices.begin() + static_cast<std::ptrdiff_t>(8 * i);
+    vertices.insert(vertices.end(), first, first + 8);
+    // Exact as a float.
+    vertices.push_back(static_cast<float>(surfaces[i] % 4096));
+  }
+  return vertices;
+}
+
 std::shared_ptr<const GpuMesh> Upload(const TriangleMesh& mesh) {
   MeshChunks chunks = CutIntoChunks(mesh);
   const Arrays arrays =
       mesh.normals.empty() ? WithoutNormals(mesh, chunks.order) : WithNormals(mesh, chunks.order);
   return std::make_shared<GpuMesh>(
-      GpuMesh{Upload(arrays.vertices), Upload(arrays.indices), std::move(chunks.chunks)});
+      GpuMesh{Upload(WithSurfaces(arrays)), Upload(arrays.indices), std::move(chunks.chunks)});
 }
 
 }  // namespace

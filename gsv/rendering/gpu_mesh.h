@@ -15,14 +15,15 @@
 namespace gsv::rendering {
 
 // `vertices` holds, for each vertex, position and normal (3 floats each) and texture coordinates
-// (2 floats, (0, 0) at the picture's upper left corner); `indices` holds 32-bit triangles.
+// (2 floats, (0, 0) at the picture's upper left corner) and the number of its surface (a float);
+// `indices` holds 32-bit triangles.
 struct GpuMesh {
   GlBuffer vertices;
   GlBuffer indices;
   std::vector<MeshChunk> chunks;
 };
 
-inline constexpr int kVertexBytes = 8 * sizeof(float);
+inline constexpr int kVertexBytes = 9 * sizeof(float);
 
 // A shape as a mesh on the card and the stretch that makes it the shape's size: all boxes share
 // one mesh.

@@ -35,6 +35,7 @@ InstanceBuffer::InstanceBuffer() : arrays_(CreateVertexArray()), instances_(Crea
   AddAttribute(name, kPositionAttribute, 3, 0, kMeshBinding);
   AddAttribute(name, kNormalAttribute, 3, 3 * sizeof(float), kMeshBinding);
   AddAttribute(name, kUvAttribute, 2, 6 * sizeof(float), kMeshBinding);
+  AddAttribute(name, kSurfaceAttribute, 1, 8 * sizeof(float), kMeshBinding);
   unsigned attribute = kFirstInstanceAttribute;
   for (std::size_t row = 0; row < 3; ++row) {
     AddAttribute(name, attribute++, 4, row * 4 * sizeof(float), kInstanceBinding);
@@ -44,7 +45,7 @@ InstanceBuffer::InstanceBuffer() : arrays_(CreateVertexArray()), instances_(Crea
                kInstanceBinding);
   AddAttribute(name, attribute++, 4, factors + offsetof(SurfaceFactors, emissive_metalness),
                kInstanceBinding);
-  AddAttribute(name, attribute++, 1, factors + offsetof(SurfaceFactors, roughness),
+  AddAttribute(name, attribute++, 2, factors + offsetof(SurfaceFactors, roughness),
                kInstanceBinding);
   glVertexArrayBindingDivisor(name, kInstanceBinding, 1);
 }

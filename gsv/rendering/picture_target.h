@@ -1,5 +1,5 @@
-// Where pictures of one size are drawn, and from where they are read back: an anti-aliased picture
-// that is drawn over and over, and a column of finished ones.
+// Where pictures of one size are drawn, and from where they are read back: one layer for each of
+// several pictures, so that the first are read while the last are still being drawn.
 //
 // Threads  the render thread only.
 #pragma once
@@ -21,18 +21,23 @@ class PictureTarget {
   // How many pictures it holds at most before they must be read.
   int capacity() const { return capacity_; }
 
-  // Clears depth and makes it what is drawn to.
+  // Clears depth and makes it what is drawn to. All pixels must be drawn, with the number of the
+  // surface they show as alpha.
   void Begin();
-  // The picture is complete.
-  void End();
-  // The pictures since the last Read(), in the order of Begin(); waits for the card.
+  // The pictures since the last Read(), in the order of Begin(), with smooth edges; waits for the
+  // card.
   std::vector<std::shared_ptr<const model::Image>> Read();
 
  private:
+  struct Layer {
+    GlRenderbuffer colour;
+    GlFramebuffer frame;
+  };
+
   int width_, height_, capacity_;
-  int finished_count_ = 0;
-  GlRenderbuffer colour_, depth_, finished_;
-  GlFramebuffer drawing_, column_;
+  std::size_t begun_ = 0;
+  GlRenderbuffer depth_;
+  std::vector<Layer> layers_;  // as many as were ever needed
   std::vector<std::uint8_t> rgba_;
 };
 

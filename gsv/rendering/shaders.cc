@@ -71,13 +71,14 @@ layout(location = 5) in vec4 row2;
 const std::string kSurfaceVertexShader = kFrame + kVertexInputs + R"(
 layout(location = 6) in vec4 base_colour;
 layout(location = 7) in vec4 emissive_metalness;
-layout(location = 8) in float roughness;
+layout(location = 8) in vec2 roughness_surface;
+layout(location = 9) in float mesh_surface;
 out vec3 v_position;
 out vec3 v_normal;
 out vec2 v_uv;
 flat out vec4 v_base_colour;
 flat out vec4 v_emissive_metalness;
-flat out float v_roughness;
+flat out vec2 v_roughness_surface;
 invariant gl_Position;
 void main() {
   vec4 p = vec4(position, 1.0);
@@ -89,7 +90,9 @@ void main() {
   v_uv = uv;
   v_base_colour = base_colour;
   v_emissive_metalness = emissive_metalness;
-  v_roughness = roughness;
+  // Neighbouring surfaces, and the same one of two things, get different numbers of eight bits.
+  float surface = mod(97.0 * mesh_surface + 57.0 * roughness_surface.y, 255.0) + 1.0;
+  v_roughness_surface = vec2(roughness_surface.x, surface / 255.0);
   gl_Position = clip_from_relative * vec4(v_position, 1.0);
 }
 )";
@@ -105,7 +108,7 @@ in vec3 v_normal;
 in vec2 v_uv;
 flat in vec4 v_base_colour;
 flat in vec4 v_emissive_metalness;
-flat in float v_roughness;
+flat in vec2 v_roughness_surface;
 layout(location = 0) out vec4 colour;
 
 struct Surface {
@@ -197,7 +200,7 @@ void main() {
 #ifdef CUT_OUT
   if (base.a < 0.5) discard;
 #endif
-  float metalness = v_emissive_metalness.w, roughness = v_roughness;
+  float metalness = v_emissive_metalness.w, roughness = v_roughness_surface.x;
 #ifdef METALLIC_ROUGHNESS_MAP
   vec4 mr = texture(metallic_roughness_map, v_uv);
   metalness *= mr.b;
@@ -230,7 +233,11 @@ void main() {
 #ifdef LAMPS
   for (int i = 0; i < light_count.x; ++i) light += Lamp(lights[i], surface, to_view);
 #endif
+#ifdef SEE_THROUGH
   colour = vec4(Encode(ToneMap(light)), base.a);
+#else
+  colour = vec4(Encode(ToneMap(light)), v_roughness_surface.y);
+#endif
 }
 )";
 
@@ -267,7 +274,7 @@ void main() {
 const std::string kSkyFragmentShader = kFrame + kSky + kEncoding + R"(
 in vec3 v_direction;
 layout(location = 0) out vec4 colour;
-void main() { colour = vec4(Encode(Sky(normalize(v_direction).z)), 1.0); }
+void main() { colour = vec4(Encode(Sky(normalize(v_direction).z)), 0.0); }
 )";
 
 }  // namespace gsv::rendering

@@ -13,7 +13,8 @@
 namespace gsv::rendering {
 
 // Compile with a selection of these defined: BASE_COLOUR_MAP, NORMAL_MAP, METALLIC_ROUGHNESS_MAP,
-// EMISSIVE_MAP, CUT_OUT, SHADOWS, LAMPS.
+// EMISSIVE_MAP, CUT_OUT, SEE_THROUGH, SHADOWS, LAMPS. Alpha is the opacity with SEE_THROUGH, else
+// the number of the surface (0: the sky) as SmoothEdges() takes it.
 extern const std::string kSurfaceVertexShader;
 extern const std::string kSurfaceFragmentShader;
 
@@ -31,6 +32,6 @@ inline constexpr unsigned kBaseColourUnit = 0, kNormalUnit = 1, kMetallicRoughne
 
 // Vertex attributes: those of GpuMesh's vertices, then those of an InstanceData.
 inline constexpr unsigned kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2,
-                          kFirstInstanceAttribute = 3;
+                          kSurfaceAttribute = 9, kFirstInstanceAttribute = 3;
 
 }  // namespace gsv::rendering

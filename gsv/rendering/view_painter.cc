@@ -22,6 +22,7 @@ enum Feature : unsigned {
   kCutOutFeature = 16,
   kShadows = 32,
   kLamps = 64,
+  kSeeThroughFeature = 128,
 };
 
 constexpr std::pair<unsigned, const char*> kFeatureNames[] = {
@@ -32,13 +33,15 @@ constexpr std::pair<unsigned, const char*> kFeatureNames[] = {
     {kCutOutFeature, "CUT_OUT"},
     {kShadows, "SHADOWS"},
     {kLamps, "LAMPS"},
+    {kSeeThroughFeature, "SEE_THROUGH"},
 };
 
 unsigned FeaturesOf(const DrawGroup& group) {
   return (group.base_colour ? kBaseColourMap : 0u) | (group.normal ? kNormalMap : 0u) |
          (group.metallic_roughness ? kMetallicRoughnessMap : 0u) |
          (group.emissive ? kEmissiveMap : 0u) |
-         (group.blending == Blending::kCutOut ? kCutOutFeature : 0u);
+         (group.blending == Blending::kCutOut ? kCutOutFeature : 0u) |
+         (group.blending == Blending::kSeeThrough ? kSeeThroughFeature : 0u);
 }
 
 void BindMaps(const DrawGroup& group) {
@@ -169,7 +172,8 @@ void ViewPainter::Paint(const CameraView& view, const DrawPlan& plan, const Fram
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
   glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  // Alpha stays the number of the surface behind.
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   Draw(see_through_calls_, plan, lamps, instances);
   glDisable(GL_BLEND);
   glDisable(GL_POLYGON_OFFSET_FILL);
