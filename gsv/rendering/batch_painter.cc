@@ -67,7 +67,7 @@ base::Result<Pictures> BatchPainter::Draw(const world::Snapshot& snapshot,
   planned.plan->Pose(snapshot);
   const bool shadows = lighting.sun_casts_shadows();
   if (shadows) {
-    shadow_map_.Draw(plan, planned.id, lighting.to_sun(), instances_);
+    shadow_map_.Draw(plan, planned.id, lighting.to_sun(), views, instances_);
     shadow_map_.Bind();
   }
   // Pictures of one size one after another, so that they are read back together.

@@ -49,6 +49,16 @@ struct Frustum {
     }
     return true;
   }
+  // The same for a sphere that moves from `centre` by `offset`: may be true where it never meets,
+  // never the other way round.
+  bool MeetsMovingSphere(const geometry::Vector3& centre, const geometry::Vector3& offset,
+                         double radius) const {
+    for (const Plane& plane : planes) {
+      const double start = geometry::Dot(plane.normal, centre) + plane.offset;
+      if (start < -radius && start + geometry::Dot(plane.normal, offset) < -radius) return false;
+    }
+    return true;
+  }
 };
 
 Frustum FrustumOf(const CameraView& view);

@@ -102,9 +102,10 @@ void Lighting::AddLamp(const model::Light& light) {
   const double inner = spot ? std::max(std::cos(0.5 * light.inner_angle), outer + 1e-3) : -1;
   lamp.block = {{0, 0, 0, 0},
                 AsFloat4(direction, outer),
-                AsFloat4(LightColour(light), 1, inner),
+                AsFloat4(LightColour(light), 1, 1 / (inner - outer)),
                 AsFloat4(Vector3{light.constant_attenuation, light.linear_attenuation,
-                                 light.quadratic_attenuation})};
+                                 light.quadratic_attenuation},
+                         1 / (lamp.range * lamp.range))};
   lamps_.push_back(lamp);
 }
 

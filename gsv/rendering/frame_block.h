@@ -19,8 +19,8 @@ using Float4 = std::array<float, 4>;
 struct LightBlock {
   Float4 position_range;   // metres; range 0: directional
   Float4 direction_outer;  // from the light, unit; cosine of the outer half angle, -2: no cone
-  Float4 colour_inner;     // cosine of the inner half angle
-  Float4 attenuation;      // constant, linear, quadratic
+  Float4 colour_inner;     // 1 / (cosine of the inner half angle - that of the outer one)
+  Float4 attenuation;      // constant, linear, quadratic; 1 / range², 0: directional
 };
 
 struct FrameBlock {

@@ -318,5 +318,38 @@ TEST_F(Picture, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
   EXPECT_NE((*batch)[0]->pixels, (*batch)[1]->pixels);
 }
 
+// A camera sees the shadows of things that move, whatever cameras were drawn with it.
+TEST_F(Picture, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
+  model::Light sun;
+  sun.direction = geometry::Normalized(Vector3{-1, 0.3, -0.5});
+  scene_.description().lights = {sun};
+  scene_.Add("floor", Box{{40, 40, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
+  for (int i = 0; i < 30; ++i) {
+    scene_.Add("robot" + std::to_string(i), Box{{0.4, 0.4, 1}}, {}, Matt(0.2, 0.5, 0.9));
+  }
+  const auto start = scene_.Snapshot();
+  ASSERT_TRUE(renderer_->Draw(start, CameraView{}, std::chrono::seconds(30)));
+  const auto moved = std::make_shared<world::Snapshot>(*start);
+  for (int i = 0; i < 30; ++i) {
+    const int body = start->layout->Find("robot" + std::to_string(i));
+    moved->state.bodies[body].world_from_model =
+        PlanarPose(8 * std::cos(i), 8 * std::sin(2.3 * i), 0.5, i);
+  }
+  std::vector<CameraView> views;
+  for (int i = 0; i < 8; ++i) {
+    views.push_back({PlanarPose(i % 3 - 1, i / 3 - 1, 0.8, kPi / 4 * i), {120, 90, 1, 0.1, 50}});
+  }
+  const auto together = renderer_->Draw(moved, views, std::chrono::seconds(30));
+  const auto reversed = renderer_->Draw(
+      moved, std::vector<CameraView>(views.rbegin(), views.rend()), std::chrono::seconds(30));
+  ASSERT_TRUE(together && reversed);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto alone = renderer_->Draw(moved, views[i], std::chrono::seconds(30));
+    ASSERT_TRUE(alone);
+    EXPECT_EQ((*alone)->pixels, (*together)[i]->pixels) << i;
+    EXPECT_EQ((*alone)->pixels, (*reversed)[views.size() - 1 - i]->pixels) << i;
+  }
+}
+
 }  // namespace
 }  // namespace gsv::rendering

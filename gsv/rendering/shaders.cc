@@ -113,7 +113,7 @@ layout(location = 0) out vec4 colour;
 
 struct Surface {
   vec3 normal, diffuse, specular;  // specular: reflectance at normal incidence
-  float alpha2;                    // the square of GGX's alpha, which is roughness squared
+  float alpha, alpha2;             // GGX's alpha, which is roughness squared, and its square
   float n_dot_v;
 };
 
@@ -125,10 +125,10 @@ vec3 Reflect(Surface surface, vec3 to_light, vec3 to_view, float n_dot_l) {
   float m = 1.0 - v_dot_h, m2 = m * m;
   vec3 fresnel = surface.specular + (1.0 - surface.specular) * (m2 * m2 * m);
   float d = n_dot_h * n_dot_h * (surface.alpha2 - 1.0) + 1.0;
-  float distribution = surface.alpha2 / (d * d);  // times pi
-  float alpha = sqrt(surface.alpha2);
-  float visibility = 0.5 / max(mix(2.0 * n_dot_l * surface.n_dot_v, n_dot_l + surface.n_dot_v, alpha), 1e-4);
-  return (surface.diffuse * (1.0 - fresnel) + fresnel * min(distribution * visibility, 8.0)) * n_dot_l;
+  // The distribution times pi, alpha2 / d², and the visibility, 0.5 / v.
+  float v = max(mix(2.0 * n_dot_l * surface.n_dot_v, n_dot_l + surface.n_dot_v, surface.alpha), 1e-4);
+  float gloss = 0.5 * surface.alpha2 / (d * d * v);
+  return (surface.diffuse * (1.0 - fresnel) + fresnel * min(gloss, 8.0)) * n_dot_l;
 }
 
 vec3 Ambient(Surface surface, vec3 to_view, float roughness) {
@@ -160,15 +160,15 @@ vec3 Lamp(Light light, Surface surface, vec3 to_view) {
   float strength = 1.0;
   if (light.position_range.w > 0.0) {
     vec3 offset = light.position_range.xyz - v_position;
-    float distance = length(offset);
-    to_light = offset / max(distance, 1e-4);
-    float x = distance / light.position_range.w, x2 = x * x;
+    float distance2 = max(dot(offset, offset), 1e-8), near = inversesqrt(distance2);
+    float distance = distance2 * near;
+    to_light = offset * near;
+    float x2 = distance2 * light.attenuation.w;
     float window = clamp(1.0 - x2 * x2, 0.0, 1.0);
     strength = window * window /
         max(light.attenuation.x + distance * (light.attenuation.y + distance * light.attenuation.z), 0.05);
     float cone = dot(-to_light, light.direction_outer.xyz);
-    strength *= clamp((cone - light.direction_outer.w) /
-                      (light.colour_inner.w - light.direction_outer.w), 0.0, 1.0);
+    strength *= clamp((cone - light.direction_outer.w) * light.colour_inner.w, 0.0, 1.0);
   }
   float n_dot_l = clamp(dot(surface.normal, to_light), 0.0, 1.0);
   return light.colour_inner.rgb * strength * Reflect(surface, to_light, to_view, n_dot_l);
@@ -221,7 +221,8 @@ void main() {
   surface.normal = n;
   surface.diffuse = base.rgb * (1.0 - metalness);
   surface.specular = mix(vec3(0.04), base.rgb, metalness);
-  surface.alpha2 = roughness * roughness * roughness * roughness;
+  surface.alpha = roughness * roughness;
+  surface.alpha2 = surface.alpha * surface.alpha;
   surface.n_dot_v = clamp(dot(n, to_view), 1e-3, 1.0);
 
   float n_dot_l = clamp(dot(n, to_sun.xyz), 0.0, 1.0);

@@ -91,7 +91,7 @@ ShadowMap::Region ShadowMap::RegionOf(const DrawPlan& plan, const Vector3& to_su
 }
 
 void ShadowMap::Draw(const DrawPlan& plan, std::uint64_t plan_id, const Vector3& to_sun,
-                     InstanceBuffer& instances) {
+                     const std::vector<CameraView>& views, InstanceBuffer& instances) {
   region_ = RegionOf(plan, to_sun);
   if (IsEmpty()) return;
   glViewport(0, 0, kSide, kSide);
@@ -106,27 +106,61 @@ void ShadowMap::Draw(const DrawPlan& plan, std::uint64_t plan_id, const Vector3&
     glBindFramebuffer(GL_FRAMEBUFFER, still_frame_.name());
     const float nothing_there = 0;
     glClearBufferfv(GL_DEPTH, 0, &nothing_there);
-    DrawCasters(plan, true, instances);
+    DrawCasters(plan, StillCasters(plan), instances);
     drawn_ = wanted;
     moved_ = {{0, 0, kSide, kSide}};
   }
   for (const Rectangle& part : moved_) CopyStill(part);
-  moved_ = MovingParts(plan);
+  const std::vector<std::size_t> moving = MovingCasters(plan, views);
+  moved_ = PartsOf(plan, moving);
   if (!moved_.empty()) {
     glBindFramebuffer(GL_FRAMEBUFFER, moving_frame_.name());
-    DrawCasters(plan, false, instances);
+    DrawCasters(plan, moving, instances);
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-std::vector<ShadowMap::Rectangle> ShadowMap::MovingParts(const DrawPlan& plan) const {
-  // Past this many a copy of everything is cheaper.
-  constexpr std::size_t kMostParts = 64;
-  std::vector<Rectangle> parts;
-  int last_body = -1;
+std::vector<std::size_t> ShadowMap::StillCasters(const DrawPlan& plan) {
+  std::vector<std::size_t> casters;
+  for (std::size_t i = 0; i < plan.items().size(); ++i) {
+    const DrawItem& item = plan.items()[i];
+    if (item.casts_shadow && plan.IsStill(item.body)) casters.push_back(i);
+  }
+  return casters;
+}
+
+std::vector<std::size_t> ShadowMap::MovingCasters(const DrawPlan& plan,
+                                                  const std::vector<CameraView>& views) const {
+  // How far beside itself a surface is looked up: along its normal and by the filter.
+  const double beside = 4 * TexelSize();
+  // A shadow has no end; this is beyond all that any camera sees.
+  const Vector3 shade = -1e7 * region_.axes[2];
+  std::vector<std::pair<Vector3, Frustum>> seen;
+  for (const CameraView& view : views) {
+    seen.emplace_back(view.world_from_camera.position, FrustumOf(view));
+  }
+  std::vector<std::size_t> casters;
   for (std::size_t i = 0; i < plan.items().size(); ++i) {
     const DrawItem& item = plan.items()[i];
     if (!item.casts_shadow || plan.IsStill(item.body)) continue;
+    const double radius = item.radius + beside;
+    const Vector3 centre = plan.placed()[i].centre;
+    const bool is_seen = std::any_of(seen.begin(), seen.end(), [&](const auto& camera) {
+      return camera.second.MeetsMovingSphere(centre - camera.first, shade, radius);
+    });
+    if (is_seen) casters.push_back(i);
+  }
+  return casters;
+}
+
+std::vector<ShadowMap::Rectangle> ShadowMap::PartsOf(const DrawPlan& plan,
+                                                     const std::vector<std::size_t>& items) const {
+  // Past this many a copy of everything is cheaper.
+  constexpr std::size_t kMostParts = 256;
+  std::vector<Rectangle> parts;
+  int last_body = -1;
+  for (const std::size_t i : items) {
+    const DrawItem& item = plan.items()[i];
     const auto texels = [&](int axis, double min, double max, double offset) {
       const double at = Dot(region_.axes[axis], plan.placed()[i].centre) + offset;
       return std::clamp((at - min) / (max - min), 0.0, 1.0) * kSide;
@@ -156,11 +190,13 @@ void ShadowMap::CopyStill(const Rectangle& part) {
                      part.max_y - part.min_y, 1);
 }
 
-void ShadowMap::DrawCasters(const DrawPlan& plan, bool still, InstanceBuffer& instances) {
+void ShadowMap::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+                            InstanceBuffer& instances) {
   std::vector<std::vector<std::size_t>> members(plan.groups().size());
-  for (std::size_t i = 0; i < plan.items().size(); ++i) {
+  for (const std::size_t i : casters) {
     const DrawItem& item = plan.items()[i];
-    if (item.casts_shadow && plan.IsStill(item.body) == still) members[item.group].push_back(i);
+    // What is smaller than a texel hides none.
+    if (item.radius > 0.5 * TexelSize()) members[item.group].push_back(i);
   }
   staged_.clear();
   for (const auto& items : members) {
@@ -195,6 +231,10 @@ void ShadowMap::DrawCasters(const DrawPlan& plan, bool still, InstanceBuffer& in
   }
 }
 
+double ShadowMap::TexelSize() const {
+  return std::max(region_.max.x - region_.min.x, region_.max.y - region_.min.y) / kSide;
+}
+
 bool ShadowMap::MayFallOn(const Vector3& centre, double radius) const {
   if (IsEmpty()) return false;
   const Vector3 at{Dot(region_.axes[0], centre), Dot(region_.axes[1], centre),
@@ -223,7 +263,7 @@ void ShadowMap::Describe(const Vector3& origin, FrameBlock& block) const {
   for (int column = 0; column < 4; ++column) {
     block.shadow_from_relative[4 * column + 3] = column == 3 ? 1.0f : 0.0f;
   }
-  block.to_sun[3] = static_cast<float>(std::max(max[0] - min[0], max[1] - min[1]) / kSide);
+  block.to_sun[3] = static_cast<float>(TexelSize());
 }
 
 }  // namespace gsv::rendering

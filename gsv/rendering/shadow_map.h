@@ -1,7 +1,8 @@
 // The depth of the world as the sun sees it: one for each snapshot, whatever cameras look.
 //
 // What casts shadows and has not moved is drawn once. A second map has what moves as well; for each
-// snapshot it is mended from the first where something moved and gets its new place.
+// snapshot it is mended from the first where something moved and gets its new place, as far as the
+// pictures' cameras may see the shadow of what moves.
 // Covers all that casts shadows. Its edges are rounded, so that they stay where they are while
 // robots drive about and shadows do not shimmer.
 // Threads  the render thread only.
@@ -17,9 +18,9 @@ class ShadowMap {
  public:
   ShadowMap();
 
-  // Draws the shadows of a posed plan. `plan_id` tells plans apart.
+  // Draws the shadows of a posed plan for some cameras. `plan_id` tells plans apart.
   void Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry::Vector3& to_sun,
-            InstanceBuffer& instances);
+            const std::vector<CameraView>& views, InstanceBuffer& instances);
 
   // Whether some shadow may fall on a thing in this sphere; where none does, its lookup is saved.
   bool MayFallOn(const geometry::Vector3& centre, double radius) const;
@@ -38,6 +39,8 @@ class ShadowMap {
   };
   bool IsEmpty() const { return !(region_.min.x < region_.max.x); }
 
+  double TexelSize() const;  // the longer side, m
+
   struct Drawn {
     std::uint64_t plan_id = 0;
     int moved_count = -1;
@@ -51,10 +54,16 @@ class ShadowMap {
 
   // A region without an inside if nothing casts shadows.
   static Region RegionOf(const DrawPlan& plan, const geometry::Vector3& to_sun);
-  // Around each body that moves.
-  std::vector<Rectangle> MovingParts(const DrawPlan& plan) const;
+  // Indices of the still items that cast shadows.
+  static std::vector<std::size_t> StillCasters(const DrawPlan& plan);
+  // Of the items that move and cast shadows, those whose shadow one of the cameras may see.
+  std::vector<std::size_t> MovingCasters(const DrawPlan& plan,
+                                         const std::vector<CameraView>& views) const;
+  // Around each body of some items.
+  std::vector<Rectangle> PartsOf(const DrawPlan& plan, const std::vector<std::size_t>& items) const;
   void CopyStill(const Rectangle& part);
-  void DrawCasters(const DrawPlan& plan, bool still, InstanceBuffer& instances);
+  void DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+                   InstanceBuffer& instances);
 
   GlTexture still_, moving_;
   GlFramebuffer still_frame_, moving_frame_;
