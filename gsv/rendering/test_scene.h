@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@ class TestScene {
     model->links[0].visuals.resize(1);
     model->links[0].visuals[0].shape = std::move(shape);
     model->links[0].visuals[0].materials = {std::move(material)};
+    models_.emplace_back(name, model);
     world::Body body;
     body.name = name;
     body.model = std::move(model);
@@ -32,8 +34,17 @@ class TestScene {
     bodies_.push_back(std::move(body));
   }
 
+  // The only link of a body, to add to.
+  model::Link& LinkOf(const std::string& name) {
+    for (auto& [body, model] : models_) {
+      if (body == name) return model->links[0];
+    }
+    std::abort();
+  }
+
   void Remove(const std::string& name) {
     std::erase_if(bodies_, [&](const world::Body& body) { return body.name == name; });
+    std::erase_if(models_, [&](const auto& model) { return model.first == name; });
   }
 
   std::shared_ptr<const world::Snapshot> Snapshot() {
@@ -47,6 +58,7 @@ class TestScene {
  private:
   model::WorldDescription description_;
   std::vector<world::Body> bodies_;
+  std::vector<std::pair<std::string, std::shared_ptr<model::Model>>> models_;
   std::uint32_t version_ = 0;
 };
 
