@@ -112,7 +112,7 @@ class Office {
     for (int i = 0; i < 24; ++i) {
       const double a = 2 * std::numbers::pi * i / 24;
       model::Visual bolt;
-      bolt.shape = geometry::Sphere{0.02};
+      bolt.shape = Box{{0.04, 0.04, 0.04}};
       bolt.materials = {Matt(0.8, 0.65, 0.3)};
       bolt.link_from_visual = PlanarPose(0.26 * std::cos(a), 0.26 * std::sin(a), 0.4, 0);
       link.visuals.push_back(bolt);
