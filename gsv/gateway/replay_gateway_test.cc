@@ -192,6 +192,20 @@ TEST_F(ReplayGatewayTest, StepsAndPauses) {
   EXPECT_EQ(json::parse(Post("stop").body)["phase"], "created");
 }
 
+TEST_F(ReplayGatewayTest, TheStatusOfEveryStandstillComes) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/status");
+  for (const double time : {1.5, 0.25, 1.0, 0.5}) {  // sooner than statuses follow each other
+    Post("seek", json{{"time_s", time}}.dump());
+    SimulationStatus status;
+    do {
+      status = Decoded<SimulationStatus>(viewer.ReceiveData(1));
+    } while (messages::ToSimTime(status.stamp) != base::FromSeconds(time));
+    ASSERT_EQ(status.robots.size(), 1u);
+    EXPECT_NEAR(status.robots[0].distance_m, 0.5 * time, 0.5 * 0.2);  // recorded at 5 Hz
+  }
+}
+
 TEST_F(ReplayGatewayTest, StepsOverRecordedPoses) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/poses");

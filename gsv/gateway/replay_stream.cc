@@ -132,7 +132,10 @@ const ReplayStream::Track* ReplayStream::Keep(std::uint16_t id, base::SimTime ti
 void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime now,
                            const std::function<simulation::SimulationStatus()>& status) {
   const bool has_moved = published_time_ != time;
-  const bool is_due = published_phase_ != phase || (has_moved && status_pacing_.IsDue(now));
+  // Only while it plays does another status follow one that came too soon.
+  const bool is_paced = phase == simulation::Phase::kRunning;
+  const bool is_due =
+      published_phase_ != phase || (has_moved && (!is_paced || status_pacing_.IsDue(now)));
   if (has_moved) hub_->PublishTime(Nanoseconds(time));
   PublishOwn(clock_channel_, has_moved, time,
              [&] { return Encoded(messages::rosgraph_msgs::Clock{messages::ToMessage(time)}); });
