@@ -1,7 +1,9 @@
-// The server under test: the real `gsv run` of this build, on a port that the system chooses.
+// The server under test: the real `gsv run` or `gsv replay` of this build, on a port that the system
+// chooses.
 //
 // GSV_BUILD_DIR     the build whose bin/gsv is started
-// GSV_RUN_COMMAND   another command, as a shell would take it, that prints the viewer's address
+// GSV_RUN_COMMAND   another command than `gsv run`, as a shell would take it, that prints the viewer's
+//                   address
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import path from "node:path";
@@ -9,19 +11,52 @@ import process from "node:process";
 import { withTimeout } from "./browser.mjs";
 
 const START_TIMEOUT_MS = 90_000;
+const RECORD_TIMEOUT_MS = 120_000;
 const STOP_TIMEOUT_MS = 30_000;
 const ADDRESS = /http:\/\/127\.0\.0\.1:(\d+)\//;
 
 // Starts it with these arguments after `run`; `url` is the viewer's address.
 export async function startServer(args = []) {
-  const server = new Server(args);
+  return start(["run", ...args]);
+}
+
+// Starts `gsv replay` with these arguments.
+export async function startReplay(args) {
+  return start(["replay", ...args]);
+}
+
+// Runs a simulation without a viewer to its end, and records it.
+export async function record(file, args) {
+  const child = spawn(gsv(), ["run", ...args, "--headless", "--record", file], {
+    stdio: ["ignore", "ignore", "pipe"],
+    detached: true,
+  });
+  let complaints = "";
+  child.stderr.setEncoding("utf8").on("data", (chunk) => (complaints += chunk));
+  try {
+    const [code] = await withTimeout(once(child, "exit"), RECORD_TIMEOUT_MS, "the recorded run's end");
+    if (code !== 0) throw new Error(`the recorded run ended with ${code}:\n${complaints}`);
+  } catch (error) {
+    if (child.exitCode === null) process.kill(-child.pid, "SIGKILL");
+    throw error;
+  }
+}
+
+async function start(command) {
+  const server = new Server(command);
   await server.start(0);
   return server;
 }
 
+function gsv() {
+  const build = process.env.GSV_BUILD_DIR;
+  if (!build) throw new Error("GSV_BUILD_DIR must name the build whose bin/gsv is tested");
+  return path.join(build, "bin", "gsv");
+}
+
 class Server {
-  constructor(args) {
-    this.args = args;
+  constructor(command) {
+    this.command = command;
   }
 
   // The port stays the same over a restart, as it would for an open page.
@@ -66,9 +101,7 @@ class Server {
 
   commandLine(port) {
     const other = process.env.GSV_RUN_COMMAND;
-    if (other) return [...other.split(" "), "--port", String(port)];
-    const build = process.env.GSV_BUILD_DIR;
-    if (!build) throw new Error("GSV_BUILD_DIR must name the build whose bin/gsv is tested");
-    return [path.join(build, "bin", "gsv"), "run", ...this.args, "--port", String(port)];
+    if (other && this.command[0] === "run") return [...other.split(" "), "--port", String(port)];
+    return [gsv(), ...this.command, "--port", String(port)];
   }
 }

@@ -4,8 +4,9 @@ import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { around, changedPixels, isBlank, isRed, isYellow, picture } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
+import * as viewing from "./viewing.mjs";
+import { until } from "./viewing.mjs";
 
-const CARDS_WIDTH_PX = 300; // the inspector and the camera lie at the view's right
 const MIDDLE_PX = 4; // lies within the smallest robot, seen from above
 const ROBOT_PX = 28; // no robot is wider
 const SIMULATION = [
@@ -35,15 +36,7 @@ after(async () => {
   await server?.stop();
 });
 
-// The 3D view without the cards over it.
-async function viewClip(of = page) {
-  const box = await of.locator("main.view").boundingBox();
-  return { ...box, width: box.width - CARDS_WIDTH_PX };
-}
-
-async function phaseIs(phase, of = page) {
-  await of.waitForFunction((wanted) => window.gsv.phase === wanted, phase);
-}
+const phaseIs = (phase, of = page) => viewing.phaseIs(of, phase);
 
 async function press(name, of = page) {
   await of.getByRole("button", { name, exact: true }).click();
@@ -54,38 +47,10 @@ async function show(part, shown) {
   if ((await button.getAttribute("aria-pressed")) !== String(shown)) await button.click();
 }
 
-// Waits until the picture has stopped changing: poses settled and everything drawn.
-async function settled(of = page) {
-  await of.evaluate(async () => {
-    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
-    let still = 0;
-    let frames = window.gsv.frames;
-    while (still < 20) {
-      await frame();
-      still = window.gsv.frames === frames ? still + 1 : 0;
-      frames = window.gsv.frames;
-    }
-  });
-}
-
-async function until(isTrue, what) {
-  const end = Date.now() + 20_000;
-  while (!(await isTrue())) assert.ok(Date.now() < end, `${what} did not come`);
-}
-
 // What the page's server says, past the page's own code.
-async function ask(path, body) {
-  return page.evaluate(
-    async ([path, body]) => {
-      const [{ name }] = await (await fetch("api/simulations")).json();
-      const request = body
-        ? { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) }
-        : {};
-      return (await fetch(`api/simulations/${encodeURIComponent(name)}${path}`, request)).json();
-    },
-    [path, body],
-  );
-}
+const ask = (path, body) => viewing.ask(page, path, body);
+const settled = (of = page) => viewing.settled(of);
+const viewClip = (of = page) => viewing.viewClip(of);
 
 async function pause() {
   const phase = await page.evaluate(() => window.gsv.phase);
@@ -128,6 +93,11 @@ test("a lost canvas is found blank, and the picture comes back", async () => {
   await page.evaluate(() => window.testContext.restoreContext());
   await until(async () => !isBlank(await picture(page, clip)), "the picture after the loss");
   await show("Names", true);
+});
+
+test("what runs has buttons, and no timeline", async () => {
+  await page.getByRole("button", { name: "Step", exact: true }).waitFor();
+  assert.equal(await page.getByRole("slider").count(), 0);
 });
 
 test("every control has a name", async () => {

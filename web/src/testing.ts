@@ -14,6 +14,8 @@ export interface PageHandle {
   readonly phase: string | null;
   // The names of the robots.
   readonly robots: string[];
+  // Where the robot was last reported, in metres, and at which simulated second; null while unknown.
+  robotPosition(name: string): { x: number; y: number; z: number; time: number } | null;
   // Where the robot's middle is drawn, in CSS pixels of the page; null outside of the picture.
   robotScreenPosition(name: string): { x: number; y: number } | null;
 }
@@ -38,6 +40,12 @@ export function exposeForTests(store: Store<State>, world: World3D | null): void
     },
     get robots() {
       return store.get().status?.robots.map(({ name }) => name) ?? [];
+    },
+    robotPosition: (name) => {
+      const latest = world?.latestPose(name);
+      if (!latest) return null;
+      const [x, y, z] = latest.pose.elements.slice(12) as [number, number, number];
+      return { x, y, z, time: latest.stamp };
     },
     robotScreenPosition: (name) => world?.screenPosition(name) ?? null,
   };

@@ -1,5 +1,6 @@
 // The line at the bottom: phase, time, pace, who is waited for, and the connection.
 import type { App } from "../app/App";
+import type { Replay } from "../api/replay";
 import type { SimulationStatus } from "../api/status";
 import type { State } from "../state/State";
 import { phaseLabel } from "../state/actions";
@@ -40,7 +41,7 @@ export function createStatusBar(app: App): HTMLElement {
     (text) => setText(time, text),
   );
   app.store.watch(
-    ({ status }) => (status ? pace(status) : ""),
+    ({ status, replay }) => (status ? pace(status, replay) : ""),
     (text) => setText(factor, text),
   );
   app.store.watch(
@@ -73,8 +74,9 @@ export function createStatusBar(app: App): HTMLElement {
   return element("footer", { class: "status-bar" }, phase, time, factor, late, waiting, frames, connection);
 }
 
-// In lockstep there is no pace to keep, only the one that is reached.
-function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus): string {
+// In lockstep there is no pace to keep, only the one that is reached; a replay keeps its speed.
+function pace({ mode, realTimeFactor, targetFactor }: SimulationStatus, replay: Replay | null): string {
+  if (replay) return formatFactor(replay.speed);
   const actual = formatFactor(realTimeFactor);
   return mode === "lockstep" ? `${actual} · lockstep` : `${actual} / ${formatFactor(targetFactor)}`;
 }

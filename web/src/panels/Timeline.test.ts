@@ -128,7 +128,9 @@ test("loop shows whether it is on", () => {
   expect(named("Loop").getAttribute("aria-pressed")).toBe("true");
 });
 
-test("the status bar calls it a replay", () => {
-  const { app } = timeline();
-  expect(createStatusBar(app).querySelector('[data-testid="connection"]')?.textContent).toBe("Replay");
+test("the status bar calls it a replay, and tells its speed", () => {
+  const status = simulationStatus("paused", { mode: "lockstep", realTimeFactor: 0 });
+  const bar = createStatusBar(timeline({ status, replay: { ...REPLAY, speed: 0.25 } }).app);
+  expect(bar.querySelector('[data-testid="connection"]')?.textContent).toBe("Replay");
+  expect(bar.querySelector('[data-testid="factor"]')?.textContent).toBe("0.25×");
 });

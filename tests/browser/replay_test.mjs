@@ -1,0 +1,275 @@
+// A recording in a real browser: recorded by a real run, moved by mouse and keys, played to its end.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { changedPixels, isBlank, picture } from "./pixels.mjs";
+import { posesAt, readPoses } from "./recorded_poses.mjs";
+import { record, startReplay } from "./server.mjs";
+import { ask, phaseIs, settled, until, viewClip } from "./viewing.mjs";
+
+const DURATION_S = 6;
+const RUN = [
+  "office",
+  ...["b21r@-5,-1.5,0", "pebble@-2,0"].flatMap((robot) => ["--robot", robot]),
+  ...["--behaviour", "wander", "--lockstep", "--seed", "3", "--duration", String(DURATION_S)],
+];
+const MOVER = "pebble";
+const SAME_INSTANT_S = 1e-6;
+const SAME_PLACE_M = 1e-9;
+const THUMB_PX = 16;
+
+let folder;
+let recorded;
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-replay-"));
+  const file = path.join(folder, "run.mcap");
+  await record(file, RUN);
+  recorded = await readPoses(file);
+  server = await startReplay([file, "--paused"]);
+  browser = await openBrowser({ width: 1024, height: 680 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+  await slider().waitFor();
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  if (folder) fs.rmSync(folder, { recursive: true, force: true });
+});
+
+const slider = () => page.getByRole("slider", { name: "Time in the recording" });
+const replay = () => ask(page, "/replay");
+const pageTime = () => page.evaluate(() => window.gsv.time);
+
+// Waits until page and server stand at one instant; gives it.
+async function agreedTime() {
+  let time;
+  await until(async () => {
+    ({ time_s: time } = await replay());
+    return Math.abs((await pageTime()) - time) < SAME_INSTANT_S;
+  }, "one time on the page and the server");
+  return time;
+}
+
+async function standsAt(wanted, tolerance = SAME_INSTANT_S) {
+  await until(async () => Math.abs((await replay()).time_s - wanted) <= tolerance, `the instant ${wanted}`);
+  return agreedTime();
+}
+
+async function placeOnSlider(time) {
+  const box = await slider().boundingBox();
+  const share = time / DURATION_S;
+  return { x: box.x + THUMB_PX / 2 + share * (box.width - THUMB_PX), y: box.y + box.height / 2 };
+}
+
+// A pixel of the slider, and what its thumb may be off.
+async function sliderTolerance() {
+  return (4 * DURATION_S) / (await slider().boundingBox()).width;
+}
+
+async function clickAt(time) {
+  const { x, y } = await placeOnSlider(time);
+  await page.mouse.click(x, y);
+  return standsAt(time, await sliderTolerance());
+}
+
+// Page, server and recording say the same of where the robots are at this instant.
+async function robotsAreRight(time) {
+  const expected = posesAt(recorded, time);
+  await page.waitForFunction(
+    ([robot, wanted]) => Math.abs((window.gsv.robotPosition(robot)?.time ?? -1) - wanted) < 1e-6,
+    [MOVER, expected.time],
+  );
+  const { bodies, poses } = await ask(page, "/scene");
+  const { robots } = await ask(page, "");
+  assert.equal(robots.length, 2);
+  for (const { name, pose } of robots) {
+    const entry = poses.findIndex(({ body, link }) => bodies[body].name === name && link === null);
+    const [x, y] = expected.poses.subarray(7 * entry, 7 * entry + 2);
+    const shown = await page.evaluate((robot) => window.gsv.robotPosition(robot), name);
+    assert.ok(Math.hypot(shown.x - x, shown.y - y) < SAME_PLACE_M, `the page's ${name} at ${time} s`);
+    assert.ok(Math.hypot(pose.x_m - x, pose.y_m - y) < SAME_PLACE_M, `the server's ${name} at ${time} s`);
+  }
+}
+
+async function press(name) {
+  await page.getByRole("button", { name, exact: true }).click();
+}
+
+test("a recording is shown with a timeline, and without the buttons of what runs", async () => {
+  assert.equal(isBlank(await picture(page, await viewClip(page))), false);
+  assert.equal(await page.getByTestId("replay-end").textContent(), " / 0:06.00");
+  assert.equal(await slider().getAttribute("aria-valuetext"), "0:00.00 of 0:06.00");
+  assert.equal(await page.getByRole("group", { name: "Run" }).count(), 0);
+  assert.equal(await page.getByTestId("connection").textContent(), "Replay");
+});
+
+test("what happened is marked where it happened, and can be gone to", async () => {
+  const events = await ask(page, "/events");
+  assert.deepEqual(
+    events.map(({ event, time_s }) => [event, time_s]),
+    [
+      ["started", 0],
+      ["finished", DURATION_S],
+    ],
+  );
+  const mark = page.getByRole("button", { name: "0:06.00 finished" });
+  await mark.hover();
+  await mark.locator(".mark-text").waitFor();
+  await mark.click();
+  await robotsAreRight(await standsAt(DURATION_S));
+});
+
+test("a click on the slider goes to that instant, forwards and back", async () => {
+  const seen = [];
+  for (const time of [1.5, 4.5, 1.5]) {
+    const stood = await clickAt(time);
+    await robotsAreRight(stood);
+    seen.push(await page.evaluate((robot) => window.gsv.robotPosition(robot), MOVER));
+  }
+  assert.ok(Math.hypot(seen[1].x - seen[0].x, seen[1].y - seen[0].y) > 0.2, "the robot did not move");
+  assert.deepEqual(seen[2], seen[0]);
+});
+
+test("the picture of an instant is the same whichever way one came", async () => {
+  const clip = await viewClip(page);
+  const pictures = [];
+  for (const time of [1, 5, 1]) {
+    await ask(page, "/seek", { time_s: time });
+    await robotsAreRight(await standsAt(time));
+    await settled(page);
+    pictures.push(await picture(page, clip));
+  }
+  assert.equal(isBlank(pictures[0]), false);
+  const other = changedPixels(pictures[0], pictures[1]);
+  const same = changedPixels(pictures[0], pictures[2]);
+  assert.ok(other > 100, `only ${other} pixels changed over four seconds`);
+  assert.ok(same < 0.1 * other, `${same} pixels differ between two pictures of one instant`);
+});
+
+test("status and camera picture are of that instant too", async () => {
+  for (const time of [4.1, 2.1]) {
+    await ask(page, "/seek", { time_s: time });
+    await standsAt(time);
+    const { distance_m } = (await ask(page, "")).robots.find(({ name }) => name === MOVER);
+    const row = page.locator(`[data-robot="${MOVER}"]`);
+    await row.getByText(`${distance_m.toFixed(2)} m`, { exact: true }).waitFor();
+    // A picture each second.
+    await page
+      .locator(".picture-time")
+      .getByText(`0:0${Math.floor(time)}.00`, { exact: true })
+      .waitFor();
+  }
+});
+
+test("dragging seeks one instant at a time and ends where it was let go", async () => {
+  await page.evaluate(() => {
+    const { fetch } = window;
+    const seeks = (window.testSeeks = { underWay: 0, most: 0 });
+    window.fetch = async (input, init) => {
+      if (!String(input).endsWith("/seek")) return fetch(input, init);
+      seeks.most = Math.max(seeks.most, ++seeks.underWay);
+      return fetch(input, init).finally(() => (seeks.underWay -= 1));
+    };
+  });
+  const from = await placeOnSlider(1);
+  const to = await placeOnSlider(5);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(to.x, to.y, { steps: 12 });
+  await page.mouse.up();
+  await robotsAreRight(await standsAt(5, await sliderTolerance()));
+  assert.equal(await page.evaluate(() => window.testSeeks.most), 1);
+});
+
+test("keys step over recorded poses, ten with Shift, and go to the ends", async () => {
+  const times = recorded.map(({ time }) => time);
+  await slider().focus();
+  await page.keyboard.press("Home");
+  await standsAt(0);
+  await page.keyboard.press("Shift+ArrowRight");
+  await robotsAreRight(await standsAt(times[10]));
+  for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowRight");
+  await robotsAreRight(await standsAt(times[13]));
+  await page.keyboard.press("ArrowLeft");
+  await standsAt(times[12]);
+  await page.keyboard.press("Shift+ArrowLeft");
+  await robotsAreRight(await standsAt(times[2]));
+  await page.keyboard.press("End");
+  await robotsAreRight(await standsAt(DURATION_S));
+  assert.equal(await slider().getAttribute("aria-valuetext"), "0:06.00 of 0:06.00");
+});
+
+test("it plays at another speed to the end, and then from the start", async () => {
+  await ask(page, "/seek", { time_s: 0 });
+  await standsAt(0);
+  await page.getByRole("combobox", { name: "Speed" }).selectOption("5");
+  await until(async () => (await replay()).speed === 5, "the speed");
+  await press("Play");
+  await phaseIs(page, "finished");
+  await robotsAreRight(await standsAt(DURATION_S));
+  assert.equal((await ask(page, "")).target_factor, 5);
+  await page.getByRole("combobox", { name: "Speed" }).selectOption("0.1");
+  await until(async () => (await replay()).speed === 0.1, "the speed");
+  await page.evaluate(() => document.activeElement?.blur());
+  await page.keyboard.press("Space");
+  await phaseIs(page, "running");
+  assert.ok((await replay()).time_s < DURATION_S);
+  await page.keyboard.press("Space");
+  await phaseIs(page, "paused");
+  await robotsAreRight(await agreedTime());
+});
+
+test("with loop it begins anew at the end", async () => {
+  await press("Loop");
+  await until(async () => (await replay()).loop, "the loop");
+  await page.getByRole("combobox", { name: "Speed" }).selectOption("10");
+  await until(async () => (await replay()).speed === 10, "the speed");
+  await ask(page, "/seek", { time_s: DURATION_S - 1 });
+  await standsAt(DURATION_S - 1);
+  await press("Play");
+  await page.waitForFunction((end) => window.gsv.time < end - 1, DURATION_S);
+  await press("Pause");
+  await phaseIs(page, "paused");
+  await press("Loop");
+  await until(async () => !(await replay()).loop, "the loop's end");
+});
+
+test("it works on a phone's screen, in the dark, and both pages show one instant", async () => {
+  const phone = await openBrowser({ width: 390, height: 760, colorScheme: "dark" });
+  try {
+    const small = await openPage(phone, server.url);
+    await waitUntilDrawn(small.page);
+    const button = small.page.getByRole("button", { name: "To the end", exact: true });
+    await button.click();
+    await small.page.waitForFunction((end) => window.gsv.time === end, DURATION_S);
+    await robotsAreRight(await standsAt(DURATION_S));
+    const overflow = await small.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.equal(overflow, 0);
+    const outside = await small.page.evaluate(() =>
+      [...document.querySelectorAll(".timeline button:not(.mark), .timeline select, .timeline input")]
+        .filter((each) => {
+          const { left, right, bottom } = each.getBoundingClientRect();
+          return left < 0 || right > innerWidth || bottom > innerHeight;
+        })
+        .map((each) => each.getAttribute("aria-label")),
+    );
+    assert.deepEqual(outside, []);
+    assert.deepEqual(small.faults, []);
+  } finally {
+    await phone.close();
+  }
+});
+
+test("all this needed no other host and raised no error", () => {
+  assert.deepEqual(faults, []);
+});

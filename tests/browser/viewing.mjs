@@ -1,0 +1,48 @@
+// What several tests ask of a page on the viewer.
+import assert from "node:assert/strict";
+
+const CARDS_WIDTH_PX = 300; // the inspector and the camera lie at the view's right
+const LONGEST_WAIT_MS = 20_000;
+
+// The 3D view without the cards over it.
+export async function viewClip(page) {
+  const box = await page.locator("main.view").boundingBox();
+  return { ...box, width: box.width - CARDS_WIDTH_PX };
+}
+
+export async function phaseIs(page, phase) {
+  await page.waitForFunction((wanted) => window.gsv.phase === wanted, phase);
+}
+
+// Waits until the picture has stopped changing: poses settled and everything drawn.
+export async function settled(page) {
+  await page.evaluate(async () => {
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    let still = 0;
+    let frames = window.gsv.frames;
+    while (still < 20) {
+      await frame();
+      still = window.gsv.frames === frames ? still + 1 : 0;
+      frames = window.gsv.frames;
+    }
+  });
+}
+
+export async function until(isTrue, what) {
+  const end = Date.now() + LONGEST_WAIT_MS;
+  while (!(await isTrue())) assert.ok(Date.now() < end, `${what} did not come`);
+}
+
+// What the page's server says of its first simulation, past the page's own code.
+export async function ask(page, path, body) {
+  return page.evaluate(
+    async ([path, body]) => {
+      const [{ name }] = await (await fetch("api/simulations")).json();
+      const request = body
+        ? { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) }
+        : {};
+      return (await fetch(`api/simulations/${encodeURIComponent(name)}${path}`, request)).json();
+    },
+    [path, body],
+  );
+}
