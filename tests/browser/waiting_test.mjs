@@ -1,0 +1,56 @@
+// Who holds up a simulation in lockstep is told where people look.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import process from "node:process";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+
+const SIMULATION = ["playground", "--lockstep", "--robot", "pebble", "--behaviour", "wander", "--deadline", "600"];
+
+let server;
+let browser;
+let page;
+
+before(async () => {
+  server = await startServer(SIMULATION);
+  browser = await openBrowser({ width: 1024, height: 680 });
+  ({ page } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+// A process that the server has started.
+function childCalled(name) {
+  const { pid } = server.child;
+  const children = fs.readFileSync(`/proc/${pid}/task/${pid}/children`, "utf8").trim().split(" ").map(Number);
+  const found = children.find((child) => fs.readFileSync(`/proc/${child}/comm`, "utf8").trim() === name);
+  assert.ok(found, `the server has not started ${name}`);
+  return found;
+}
+
+test("a behaviour that is stopped is named, and no longer when it goes on", async () => {
+  const waiting = page.getByTestId("waiting");
+  const behaviour = childCalled("gsv-wander");
+  process.kill(behaviour, "SIGSTOP");
+  try {
+    await page.waitForFunction(() => document.querySelector("[data-testid=waiting]").textContent !== "");
+    const sentence = await waiting.textContent();
+    assert.match(sentence, new RegExp(`^waiting for pebble \\(wander on .+:${behaviour}\\) since \\d+\\.\\d s$`));
+    // It goes on counting although nothing moves.
+    await page.waitForFunction(
+      (then) => document.querySelector("[data-testid=waiting]").textContent !== then,
+      sentence,
+    );
+    assert.equal(await waiting.isVisible(), true);
+  } finally {
+    process.kill(behaviour, "SIGCONT");
+  }
+  await page.waitForFunction(() => document.querySelector("[data-testid=waiting]").textContent === "");
+  const then = await page.evaluate(() => window.gsv.time);
+  await page.waitForFunction((time) => window.gsv.time > time, then);
+});
