@@ -112,8 +112,7 @@ CORBA::Boolean AdminServant::set_supports_modifiable_properties(CORBA::Boolean v
 }
 
 CORBA::Boolean AdminServant::set_supports_dynamic_properties(CORBA::Boolean value) {
-  if (value) throw CORBA::NO_IMPLEMENT(0, CORBA::COMPLETED_NO);
-  return false;
+  return Exchange(&TraderAttributes::supports_dynamic_properties, bool{value});
 }
 
 CORBA::Boolean AdminServant::set_supports_proxy_offers(CORBA::Boolean value) {

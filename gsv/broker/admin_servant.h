@@ -36,9 +36,9 @@ class AdminServant : public POA_CosTrading::Admin,
   CosTrading::Admin::OctetSeq* set_request_id_stem(
       const CosTrading::Admin::OctetSeq& stem) override;
   CORBA::Boolean set_supports_modifiable_properties(CORBA::Boolean value) override;
+  CORBA::Boolean set_supports_dynamic_properties(CORBA::Boolean value) override;
 
   // What this trader cannot do is refused with CORBA::NO_IMPLEMENT.
-  CORBA::Boolean set_supports_dynamic_properties(CORBA::Boolean value) override;
   CORBA::Boolean set_supports_proxy_offers(CORBA::Boolean value) override;
   CORBA::Object_ptr set_type_repos(CORBA::Object_ptr repository) override;
 

@@ -22,7 +22,9 @@ CORBA::Boolean SupportServant::supports_modifiable_properties() {
   return trading_.trader.attributes().supports_modifiable_properties;
 }
 
-CORBA::Boolean SupportServant::supports_dynamic_properties() { return false; }
+CORBA::Boolean SupportServant::supports_dynamic_properties() {
+  return trading_.trader.attributes().supports_dynamic_properties;
+}
 
 CORBA::Boolean SupportServant::supports_proxy_offers() { return false; }
 

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include <COS/CosTradingDynamic.hh>
+
 #include "gsv/base/check.h"
 #include "gsv/broker/encapsulation.h"
 
@@ -267,13 +269,24 @@ CORBA::TypeCode_ptr SequenceTypeCode(Scalar element) {
 
 }  // namespace
 
+namespace {
+
+// Null for a value that is no dynamic property.
+std::shared_ptr<const PropertyType> PromisedType(const CORBA::Any& any) {
+  const CosTradingDynamic::DynamicProp* dynamic = nullptr;
+  if (!(any >>= dynamic)) return nullptr;
+  return std::make_shared<const PropertyType>(ToPropertyType(dynamic->returned_type));
+}
+
+}  // namespace
+
 Value ToValue(const CORBA::Any& any) {
   const CORBA::TypeCode_var type = any.type();
   const PropertyType kind = Classify(type);
   if (kind.scalar == Scalar::kOther) {
     cdrEncapsulationStream stream;
     any >>= stream;
-    return Value::Other({kind.name, BytesOf(stream)});
+    return Value::Other({kind.name, BytesOf(stream), PromisedType(any)});
   }
   cdrMemoryStream stream;
   any.NP_marshalDataOnly(stream);

@@ -28,6 +28,7 @@ struct TraderAttributes {
   FollowOption max_follow_policy = FollowOption::kAlways;
   FollowOption max_link_follow_policy = FollowOption::kAlways;
   bool supports_modifiable_properties = true;
+  bool supports_dynamic_properties = true;
 };
 
 // The policies of one query; what is absent takes the trader's default.
@@ -37,6 +38,7 @@ struct ImportPolicies {
   std::optional<std::uint32_t> return_card{};
   bool exact_type_match = false;
   bool use_modifiable_properties = true;
+  bool use_dynamic_properties = true;
 };
 
 // How many offers are looked at, ordered, and returned.

@@ -14,9 +14,20 @@ struct ExpressionLimits {
   std::size_t nodes = 1000;   // operators, properties and literals
 };
 
+// Of dynamic properties.
+struct DynamicLimits {
+  std::chrono::milliseconds call_timeout{500};   // of one evaluation
+  std::chrono::milliseconds query_budget{2000};  // of all that one query waits for
+  std::chrono::milliseconds lifetime{1000};      // of a value, and of its absence
+  std::size_t value_bytes = 2048;                // a larger value counts as none
+  std::size_t per_offer = 8;
+  std::size_t answers = 10'000;  // remembered
+};
+
 // Of what the trader holds.
 struct TraderLimits {
   ExpressionLimits expression;
+  DynamicLimits dynamic{};
   std::size_t offers = 200'000;
   std::size_t properties_per_offer = 128;
   std::size_t offer_bytes = 32 * 1024;       // encoded properties and reference

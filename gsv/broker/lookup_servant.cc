@@ -32,33 +32,42 @@ bool IsDesired(const DesiredProperties& desired, const std::string& name) {
          std::find(desired.names.begin(), desired.names.end(), name) != desired.names.end();
 }
 
-std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired) {
+// Before dynamic properties are evaluated: no value is larger than `dynamic_bytes`.
+std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired,
+                        std::size_t dynamic_bytes) {
   constexpr std::size_t kOverhead = 32;
   std::size_t size = kOverhead + offer->reference.size() / 2;
-  if (desired.all || !desired.names.empty()) size += offer->properties.EncodedSize();
+  if (!desired.all && desired.names.empty()) return size;
+  size += offer->properties.EncodedSize();
+  for (const Property& property : offer->properties.all()) {
+    if (IsDynamic(property.value)) size += dynamic_bytes;
+  }
   return size;
 }
 
-CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer,
-                          const DesiredProperties& desired) {
+// A dynamic property whose value cannot be had is left out.
+CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer, const DesiredProperties& desired,
+                          DynamicValues& values) {
   CosTrading::Offer result;
   result.reference = orb->string_to_object(offer.reference.c_str());
   for (const Property& property : offer.properties.all()) {
     if (!IsDesired(desired, property.name)) continue;
+    const Value* value = values.Find(offer, property.name);
+    if (value == nullptr) continue;
     const CORBA::ULong count = result.properties.length();
     result.properties.length(count + 1);
-    result.properties[count] = ToCorba(property);
+    result.properties[count] = ToCorba(Property{property.name, *value});
   }
   return result;
 }
 
 template <typename Iterator>
 CosTrading::OfferSeq* ToCorba(CORBA::ORB_ptr orb, Iterator first, Iterator last,
-                              const DesiredProperties& desired) {
+                              const DesiredProperties& desired, DynamicValues& values) {
   CosTrading::OfferSeq_var offers = new CosTrading::OfferSeq;
   offers->length(static_cast<CORBA::ULong>(last - first));
   for (CORBA::ULong i = 0; first != last; ++first, ++i) {
-    offers[i] = ToCorba(orb, **first, desired);
+    offers[i] = ToCorba(orb, **first, desired, values);
   }
   return offers._retn();
 }
@@ -82,16 +91,19 @@ void LookupServant::query(const char* type, const char* constr, const char* pref
                           CosTrading::OfferIterator_out offer_itr,
                           CosTrading::PolicyNameSeq_out limits_applied) {
   const DesiredProperties desired = ToDesired(desired_props);
+  const DynamicLimits& dynamic = objects_.trader.limits().dynamic;
+  DynamicValues values(&objects_.dynamic, dynamic.query_budget);
   QueryResult result =
-      ValueOrRaise(objects_.trader.Find({type, constr, pref, ToImportPolicies(policies)}));
+      ValueOrRaise(objects_.trader.Find({type, constr, pref, ToImportPolicies(policies)}, values));
 
   const std::size_t count = std::min(how_many, objects_.trader.attributes().max_list);
-  const auto end = result.offers.begin() +
-                   static_cast<std::ptrdiff_t>(CountFitting(
-                       result.offers, 0, count, kReplyBytes,
-                       [&](const OfferPtr& offer) { return EncodedSize(offer, desired); }));
+  const auto end =
+      result.offers.begin() + static_cast<std::ptrdiff_t>(CountFitting(
+                                  result.offers, 0, count, kReplyBytes, [&](const OfferPtr& offer) {
+                                    return EncodedSize(offer, desired, dynamic.value_bytes);
+                                  }));
   CosTrading::OfferSeq_var first_offers =
-      ToCorba(objects_.orb, result.offers.begin(), end, desired);
+      ToCorba(objects_.orb, result.offers.begin(), end, desired, values);
   CosTrading::OfferIterator_var rest;
   if (end != result.offers.end()) {
     result.offers.erase(result.offers.begin(), end);
@@ -113,10 +125,16 @@ CORBA::ULong OfferIteratorServant::max_left() {
 
 CORBA::Boolean OfferIteratorServant::next_n(CORBA::ULong n, CosTrading::OfferSeq_out offers) {
   const std::size_t count = std::min(n, objects_.trader.attributes().max_list);
+  const DynamicLimits& dynamic = objects_.trader.limits().dynamic;
   const auto batch =
-      objects_.offer_cursors.Take(CurrentIterator(objects_.orb), count, kReplyBytes, EncodedSize);
+      objects_.offer_cursors.Take(CurrentIterator(objects_.orb), count, kReplyBytes,
+                                  [&](const OfferPtr& offer, const DesiredProperties& desired) {
+                                    return EncodedSize(offer, desired, dynamic.value_bytes);
+                                  });
   if (!batch) throw CORBA::OBJECT_NOT_EXIST(0, CORBA::COMPLETED_NO);
-  offers = ToCorba(objects_.orb, batch->entries.begin(), batch->entries.end(), batch->context);
+  DynamicValues values(&objects_.dynamic, dynamic.query_budget);
+  offers =
+      ToCorba(objects_.orb, batch->entries.begin(), batch->entries.end(), batch->context, values);
   return batch->more;
 }
 

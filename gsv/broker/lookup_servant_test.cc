@@ -235,7 +235,7 @@ TEST_F(LookupServantTest, KnowsItsComponentsAndItsAttributes) {
   EXPECT_TRUE(CORBA::is_nil(CosTrading::Proxy_var(lookup_->proxy_if())));
   EXPECT_FALSE(CORBA::is_nil(CosTrading::Admin_var(register_->admin_if())));
   EXPECT_TRUE(lookup_->supports_modifiable_properties());
-  EXPECT_FALSE(lookup_->supports_dynamic_properties());
+  EXPECT_TRUE(lookup_->supports_dynamic_properties());
   EXPECT_FALSE(register_->supports_proxy_offers());
   admin_->set_def_search_card(1);
   admin_->set_max_search_card(2);
@@ -296,10 +296,8 @@ TEST_F(LookupServantTest, ListsTheIdsOfAllOffers) {
 }
 
 TEST_F(LookupServantTest, RefusesToPromiseWhatItCannotDo) {
-  Raised<CORBA::NO_IMPLEMENT>([&] { admin_->set_supports_dynamic_properties(true); });
   Raised<CORBA::NO_IMPLEMENT>([&] { admin_->set_supports_proxy_offers(true); });
   Raised<CORBA::NO_IMPLEMENT>([&] { admin_->set_type_repos(TestService()); });
-  EXPECT_FALSE(admin_->set_supports_dynamic_properties(false));
   const CORBA::Object_var same = admin_->set_type_repos(types_);
   EXPECT_TRUE(same->_is_equivalent(types_));
 }

@@ -4,25 +4,17 @@
 #include <set>
 #include <string_view>
 
+#include "gsv/broker/dynamic_values.h"
 #include "gsv/broker/names.h"
 
 namespace gsv::broker {
 namespace {
-
-// The IDL spelling of a dynamic property, which this trader does not evaluate.
-constexpr std::string_view kDynamicProperty =
-    "struct IDL:omg.org/CosTradingDynamic/DynamicProp:1.0";
 
 const PropertyDefinition* FindDefinition(const ServiceType& type, std::string_view name) {
   const auto found =
       std::find_if(type.properties.begin(), type.properties.end(),
                    [&](const PropertyDefinition& definition) { return definition.name == name; });
   return found != type.properties.end() ? &*found : nullptr;
-}
-
-bool IsDynamic(const Value& value) {
-  const OtherValue* other = value.AsOther();
-  return other != nullptr && other->type_name == kDynamicProperty;
 }
 
 Traded<void> CheckNames(const std::vector<std::string_view>& names) {
@@ -38,15 +30,20 @@ Traded<void> CheckNames(const std::vector<std::string_view>& names) {
   return {};
 }
 
-// A property that the type does not declare may have any value but a dynamic one.
-Traded<void> CheckValue(const ServiceType& type, const Property& property) {
+// A property that the type does not declare may have any value.
+Traded<void> CheckValue(const ServiceType& type, const Property& property, bool dynamic_allowed) {
   const PropertyDefinition* definition = FindDefinition(type, property.name);
   const bool dynamic = IsDynamic(property.value);
   if (dynamic && definition != nullptr && IsReadonly(definition->mode)) {
     return Refuse(
         {.refusal = Refusal::kReadonlyDynamicProperty, .type = type.name, .name = property.name});
   }
-  if (!dynamic && (definition == nullptr || property.value.Is(definition->type))) return {};
+  bool fits = !dynamic || dynamic_allowed;
+  if (definition != nullptr) {
+    fits = fits && (dynamic ? *property.value.AsOther()->promised_type == definition->type
+                            : property.value.Is(definition->type));
+  }
+  if (fits) return {};
   return Refuse(
       {.refusal = Refusal::kPropertyTypeMismatch, .type = type.name, .property = property});
 }
@@ -65,24 +62,26 @@ Traded<void> CheckRemoval(const ServiceType& type, const PropertyList& current,
 
 // A read-only property that the offer does not have yet may be given.
 Traded<void> CheckChange(const ServiceType& type, const PropertyList& current,
-                         const Property& property) {
+                         const Property& property, bool dynamic_allowed) {
   const PropertyDefinition* definition = FindDefinition(type, property.name);
   if (definition != nullptr && IsReadonly(definition->mode) &&
       current.Find(property.name) != nullptr) {
     return Refuse(
         {.refusal = Refusal::kReadonlyProperty, .type = type.name, .name = property.name});
   }
-  return CheckValue(type, property);
+  return CheckValue(type, property, dynamic_allowed);
 }
 
 }  // namespace
 
-Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties) {
+Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
+                                 bool dynamic_allowed) {
   std::vector<std::string_view> names;
   for (const Property& property : properties) names.emplace_back(property.name);
   if (auto checked = CheckNames(names); !checked) return Refuse(checked.error());
   for (const Property& property : properties) {
-    if (auto checked = CheckValue(type, property); !checked) return Refuse(checked.error());
+    if (auto checked = CheckValue(type, property, dynamic_allowed); !checked)
+      return Refuse(checked.error());
   }
   PropertyList list(std::move(properties));
   for (const PropertyDefinition& definition : type.properties) {
@@ -96,7 +95,7 @@ Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> 
 }
 
 Traded<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
-                                       Modification modification) {
+                                       Modification modification, bool dynamic_allowed) {
   std::vector<std::string_view> names(modification.remove.begin(), modification.remove.end());
   for (const Property& property : modification.set) names.emplace_back(property.name);
   if (auto checked = CheckNames(names); !checked) return Refuse(checked.error());
@@ -104,7 +103,7 @@ Traded<PropertyList> CheckModification(const ServiceType& type, PropertyList cur
     if (auto checked = CheckRemoval(type, current, name); !checked) return Refuse(checked.error());
   }
   for (const Property& property : modification.set) {
-    if (auto checked = CheckChange(type, current, property); !checked) {
+    if (auto checked = CheckChange(type, current, property, dynamic_allowed); !checked) {
       return Refuse(checked.error());
     }
   }

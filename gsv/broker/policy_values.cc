@@ -48,7 +48,9 @@ void Apply(const CosTrading::Policy& policy, ImportPolicies& policies) {
     policies.exact_type_match = ExtractBoolean(policy);
   } else if (name == "use_modifiable_properties") {
     policies.use_modifiable_properties = ExtractBoolean(policy);
-  } else if (name == "use_dynamic_properties" || name == "use_proxy_offers") {
+  } else if (name == "use_dynamic_properties") {
+    policies.use_dynamic_properties = ExtractBoolean(policy);
+  } else if (name == "use_proxy_offers") {
     ExtractBoolean(policy);  // there are none to leave out
   } else if (name == "hop_count") {
     Extract<CORBA::ULong>(policy);  // there are no links to follow

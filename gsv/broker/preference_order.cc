@@ -14,8 +14,8 @@ struct Ranked {
   OfferPtr offer;
 };
 
-Ranked RankOf(const Preference& preference, OfferPtr offer) {
-  const PropertyList& properties = offer->properties;
+Ranked RankOf(const Preference& preference, OfferPtr offer, DynamicValues& values) {
+  const EvaluatedOffer properties(*offer, values);
   if (preference.kind == Preference::Kind::kWith) {
     const bool matches = Matches(preference.expression, properties);
     return {!matches, 0, std::move(offer)};
@@ -25,10 +25,12 @@ Ranked RankOf(const Preference& preference, OfferPtr offer) {
   return {!number.has_value(), sign * number.value_or(0), std::move(offer)};
 }
 
-void OrderByRank(const Preference& preference, Offers& offers) {
+void OrderByRank(const Preference& preference, DynamicValues& values, Offers& offers) {
   std::vector<Ranked> ranked;
   ranked.reserve(offers.size());
-  for (OfferPtr& offer : offers) ranked.push_back(RankOf(preference, std::move(offer)));
+  for (OfferPtr& offer : offers) {
+    ranked.push_back(RankOf(preference, std::move(offer), values));
+  }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return a.last != b.last ? b.last : a.rank < b.rank;
   });
@@ -38,7 +40,8 @@ void OrderByRank(const Preference& preference, Offers& offers) {
 
 }  // namespace
 
-void OrderBy(const Preference& preference, std::uint64_t seed, Offers& offers) {
+void OrderBy(const Preference& preference, std::uint64_t seed, DynamicValues& values,
+             Offers& offers) {
   switch (preference.kind) {
     case Preference::Kind::kFirst:
       return;
@@ -46,7 +49,7 @@ void OrderBy(const Preference& preference, std::uint64_t seed, Offers& offers) {
       std::shuffle(offers.begin(), offers.end(), std::mt19937_64(seed));
       return;
     default:
-      OrderByRank(preference, offers);
+      OrderByRank(preference, values, offers);
   }
 }
 

@@ -8,12 +8,14 @@
 
 #include <cstdint>
 
+#include "gsv/broker/dynamic_values.h"
 #include "gsv/broker/expression.h"
 #include "gsv/broker/offer.h"
 
 namespace gsv::broker {
 
 // `seed` decides what random does.
-void OrderBy(const Preference& preference, std::uint64_t seed, Offers& offers);
+void OrderBy(const Preference& preference, std::uint64_t seed, DynamicValues& values,
+             Offers& offers);
 
 }  // namespace gsv::broker

@@ -63,7 +63,7 @@ void RegisterServant::modify(const char* id, const CosTrading::PropertyNameSeq& 
 }
 
 void RegisterServant::withdraw_using_constraint(const char* type, const char* constr) {
-  ValueOrRaise(objects_.trader.WithdrawMatching(type, constr));
+  ValueOrRaise(objects_.trader.WithdrawMatching(type, constr, &objects_.dynamic));
 }
 
 // This trader has no links, so that no name leads to another register.

@@ -40,10 +40,11 @@ bool HasModifiableProperties(const ServiceType& type, const Offer& offer) {
 }
 
 // Keeps the offers that match, up to `limit`; true when there were more.
-bool KeepMatching(const Expression& constraint, std::size_t limit, Offers& offers) {
+bool KeepMatching(const Expression& constraint, std::size_t limit, DynamicValues& values,
+                  Offers& offers) {
   std::size_t kept = 0;
   for (OfferPtr& offer : offers) {
-    if (!Matches(constraint, offer->properties)) continue;
+    if (!Matches(constraint, EvaluatedOffer(*offer, values))) continue;
     if (kept == limit) {
       offers.resize(kept);
       return true;
@@ -172,7 +173,8 @@ Traded<std::string> Trader::Export(const std::string& type, std::string referenc
                                    std::vector<Property> properties) {
   const auto described = TypeForExport(type);
   if (!described) return Refuse(described.error());
-  auto checked = CheckExport(*described, std::move(properties));
+  auto checked =
+      CheckExport(*described, std::move(properties), attributes().supports_dynamic_properties);
   if (!checked) return Refuse(checked.error());
   if (auto fits = CheckSize(*checked, reference); !fits) return Refuse(fits.error());
 
@@ -213,7 +215,8 @@ Traded<void> Trader::Modify(const std::string& id, Modification modification) {
     // The type of a living offer may have been removed meanwhile; it then demands nothing.
     const ServiceType type =
         types_.FullyDescribe((*offer)->type).value_or(ServiceType{.name = (*offer)->type});
-    auto modified = CheckModification(type, (*offer)->properties, std::move(modification));
+    auto modified = CheckModification(type, (*offer)->properties, std::move(modification),
+                                      attributes_.supports_dynamic_properties);
     if (!modified) return Refuse(modified.error());
     if (auto fits = CheckSize(*modified, (*offer)->reference); !fits) return fits;
     const std::uint64_t number = (*offer)->number;
@@ -226,28 +229,34 @@ Traded<void> Trader::Modify(const std::string& id, Modification modification) {
   });
 }
 
-Traded<std::size_t> Trader::WithdrawMatching(const std::string& type,
-                                             const std::string& constraint) {
+Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std::string& constraint,
+                                             DynamicEvaluator* evaluator) {
   const auto described = FullyDescribeType(type);
   if (!described) return Refuse(described.error());
   const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
   if (!compiled) return Refuse(compiled.error());
 
+  // Services are asked for dynamic properties without the lock.
+  Offers matching = [&] {
+    const ReadLock lock(mutex_);
+    return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}),
+                           limits_.offers);
+  }();
+  DynamicValues values(evaluator, limits_.dynamic.query_budget);
+  KeepMatching(*compiled, limits_.offers, values, matching);
+
   return Change([&]() -> Traded<std::size_t> {
-    const auto types = types_.WithSubTypes(type);
-    if (!types) return Refuse(types.error());
-    Offers matching = offers_.OfTypes(*types, limits_.offers);
-    KeepMatching(*compiled, limits_.offers, matching);
-    if (matching.empty()) {
-      return Refuse({.refusal = Refusal::kNoMatchingOffers, .name = constraint});
-    }
     OffersRemoved removed;
     for (const OfferPtr& offer : matching) {
+      // One that was modified meanwhile may not match any more.
+      if (offers_.Find(offer->number) != offer) continue;
       offers_.Remove(offer->number);
       removed.numbers.push_back(offer->number);
     }
+    const std::size_t count = removed.numbers.size();
+    if (count == 0) return Refuse({.refusal = Refusal::kNoMatchingOffers, .name = constraint});
     Record(std::move(removed));
-    return matching.size();
+    return count;
   });
 }
 
@@ -277,6 +286,11 @@ Offers Trader::AllOffers() const {
 }
 
 Traded<QueryResult> Trader::Find(const Query& query) const {
+  DynamicValues none(nullptr, {});
+  return Find(query, none);
+}
+
+Traded<QueryResult> Trader::Find(const Query& query, DynamicValues& values) const {
   const auto type = FullyDescribeType(query.type);
   if (!type) return Refuse(type.error());
   const auto constraint = CompileConstraint(query.constraint, *type, limits_.expression);
@@ -286,10 +300,10 @@ Traded<QueryResult> Trader::Find(const Query& query) const {
 
   Cardinalities cardinalities;
   QueryResult result = Candidates(query, cardinalities);
-  if (KeepMatching(*constraint, cardinalities.match, result.offers)) {
+  if (KeepMatching(*constraint, cardinalities.match, values, result.offers)) {
     result.limits_applied.emplace_back("match_card");
   }
-  OrderBy(*preference, seed_++, result.offers);
+  OrderBy(*preference, seed_++, values, result.offers);
   if (result.offers.size() > cardinalities.returned) {
     result.offers.resize(cardinalities.returned);
     result.limits_applied.emplace_back("return_card");
@@ -307,6 +321,10 @@ QueryResult Trader::Candidates(const Query& query, Cardinalities& cardinalities)
   QueryResult candidates{.offers = offers_.OfTypes(types, cardinalities.search)};
   if (offers_.CountOfTypes(types) > cardinalities.search) {
     candidates.limits_applied.emplace_back("search_card");
+  }
+  if (!query.policies.use_dynamic_properties || !attributes_.supports_dynamic_properties) {
+    std::erase_if(candidates.offers,
+                  [](const OfferPtr& offer) { return HasDynamicProperties(*offer); });
   }
   if (!query.policies.use_modifiable_properties && attributes_.supports_modifiable_properties) {
     std::map<std::string_view, ServiceType> described;
@@ -349,6 +367,14 @@ Traded<void> Trader::CheckSize(const PropertyList& properties, const std::string
     return Refuse({.refusal = Refusal::kLimit,
                    .detail = fmt::format("an offer has more than {} properties",
                                          limits_.properties_per_offer)});
+  }
+  const auto& all = properties.all();
+  if (std::count_if(all.begin(), all.end(), [](const Property& property) {
+        return IsDynamic(property.value);
+      }) > static_cast<std::ptrdiff_t>(limits_.dynamic.per_offer)) {
+    return Refuse({.refusal = Refusal::kLimit,
+                   .detail = fmt::format("an offer has more than {} dynamic properties",
+                                         limits_.dynamic.per_offer)});
   }
   if (properties.EncodedSize() + reference.size() / 2 > limits_.offer_bytes) {
     return Refuse(

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/broker/dynamic_values.h"
 #include "gsv/broker/import_policies.h"
 #include "gsv/broker/journal.h"
 #include "gsv/broker/limits.h"
@@ -81,7 +82,8 @@ class Trader {
   Traded<OfferPtr> Describe(const std::string& id) const;
   Traded<void> Modify(const std::string& id, Modification modification);
   // Withdraws the offers that a query without policies would find; returns how many.
-  Traded<std::size_t> WithdrawMatching(const std::string& type, const std::string& constraint);
+  Traded<std::size_t> WithdrawMatching(const std::string& type, const std::string& constraint,
+                                       DynamicEvaluator* evaluator = nullptr);
   // Withdraws those of the offers that are still there; returns how many.
   std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
   // In the order of export.
@@ -90,6 +92,8 @@ class Trader {
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
   // ---- Queries
+  Traded<QueryResult> Find(const Query& query, DynamicValues& values) const;
+  // Without dynamic properties.
   Traded<QueryResult> Find(const Query& query) const;
 
  private:

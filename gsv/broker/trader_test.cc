@@ -162,7 +162,8 @@ TEST_F(TraderTest, ChecksWhatIsExported) {
   EXPECT_EQ(refused("Printer", {name, ppm, ppm}).refusal, Refusal::kDuplicatePropertyName);
   EXPECT_EQ(refused("Printer", {name, ppm, {"<x", Value::Long(1)}}).refusal,
             Refusal::kIllegalPropertyName);
-  const Value dynamic = Value::Other({"struct IDL:omg.org/CosTradingDynamic/DynamicProp:1.0", ""});
+  const Value dynamic = Value::Other({"struct IDL:omg.org/CosTradingDynamic/DynamicProp:1.0", "",
+                                      std::make_shared<PropertyType>()});
   EXPECT_EQ(refused("Printer", {{"name", dynamic}, ppm}).refusal,
             Refusal::kReadonlyDynamicProperty);
   EXPECT_EQ(refused("Printer", {name, ppm, {"cost", dynamic}}).refusal,

@@ -13,6 +13,7 @@ CursorLimits LimitsOfCursors(const TraderLimits& limits) {
 
 TradingObjects::TradingObjects(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed)
     : trader(limits, stem, seed),
+      dynamic(limits.dynamic),
       offer_cursors(LimitsOfCursors(limits)),
       id_cursors(LimitsOfCursors(limits)) {}
 

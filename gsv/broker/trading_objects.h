@@ -9,6 +9,7 @@
 #include <COS/CosTradingRepos.hh>
 
 #include "gsv/broker/cursor_table.h"
+#include "gsv/broker/dynamic_property_evaluator.h"
 #include "gsv/broker/trader.h"
 
 namespace gsv::broker {
@@ -30,6 +31,7 @@ struct TradingObjects {
   explicit TradingObjects(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
 
   Trader trader;
+  DynamicPropertyEvaluator dynamic;
   OfferCursors offer_cursors;
   OfferIdCursors id_cursors;
 

@@ -52,6 +52,8 @@ struct PropertyType {
 struct OtherValue {
   std::string type_name;
   std::string encoded;
+  // Of a dynamic property: the type that its value will have. Null for every other.
+  std::shared_ptr<const PropertyType> promised_type{};
 };
 
 // An immutable value, cheap to copy.

@@ -1,0 +1,34 @@
+#include "gsv/broker/dynamic_values.h"
+
+#include <algorithm>
+
+namespace gsv::broker {
+
+DynamicValues::DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget)
+    : evaluator_(evaluator), budget_(budget) {}
+
+const Value* DynamicValues::Find(const Offer& offer, std::string_view name) {
+  const Value* value = offer.properties.Find(name);
+  if (value == nullptr || !IsDynamic(*value)) return value;
+  if (evaluator_ == nullptr) return nullptr;
+  const auto [place, is_new] = known_.try_emplace(Key(offer.number, name));
+  std::optional<Value>& known = place->second;
+  if (is_new) {
+    if (!deadline_) deadline_ = DynamicEvaluator::Clock::now() + budget_;
+    known = evaluator_->Evaluate(place->first.second, *value->AsOther(), *deadline_);
+  }
+  return known ? &*known : nullptr;
+}
+
+bool IsDynamic(const Value& value) {
+  const OtherValue* other = value.AsOther();
+  return other != nullptr && other->promised_type != nullptr;
+}
+
+bool HasDynamicProperties(const Offer& offer) {
+  const std::vector<Property>& properties = offer.properties.all();
+  return std::any_of(properties.begin(), properties.end(),
+                     [](const Property& property) { return IsDynamic(property.value); });
+}
+
+}  // namespace gsv::broker
