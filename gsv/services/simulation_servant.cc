@@ -286,14 +286,22 @@ void SimulationServiceServant::StopAbandoned() {
   std::unique_lock lock(mutex_);
   while (!closing_) {
     closing_changed_.wait_for(lock, std::chrono::seconds(1), [this] { return closing_; });
+    std::vector<std::shared_ptr<simulation::Simulation>> abandoned;
     for (const auto& [name, servant] : servants_) {
-      if (!servant->IsAbandoned()) continue;
-      const Phase phase = servant->simulation()->status().phase;
+      if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());
+    }
+    // Stopping one may take long, as when it is being reset: nobody else waits for that.
+    lock.unlock();
+    for (const auto& simulation : abandoned) {
+      const Phase phase = simulation->status().phase;
       if (phase == Phase::kStopped || phase == Phase::kFinished || phase == Phase::kFailed)
         continue;
-      spdlog::warn("{}: stopped, since its creator has not called for too long", name);
-      (void)servant->simulation()->Stop();
+      spdlog::warn("{}: stopped, since its creator has not called for too long",
+                   simulation->specification().name);
+      (void)simulation->Stop();
     }
+    abandoned.clear();
+    lock.lock();
   }
 }
 
