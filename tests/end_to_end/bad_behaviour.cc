@@ -1,6 +1,8 @@
 // A behaviour that goes wrong in the way it is told to, for tests.
 #include <csignal>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include <unistd.h>
 
@@ -16,8 +18,13 @@ class BadBehaviour final : public Behaviour {
  public:
   explicit BadBehaviour(std::string fault) : fault_(std::move(fault)) {}
 
-  base::Status Init(Robot&) override {
+  base::Status Init(Robot& robot) override {
     if (fault_ == "throw-in-init") throw std::runtime_error("no thank you");
+    if (fault_ == "flood") {
+      auto sonar = robot.OpenSonar("sonar_00");
+      if (!sonar) return base::Fail(sonar.error());
+      sonar_ = *std::move(sonar);
+    }
     return {};
   }
   void Run(Robot& robot) override {
@@ -25,13 +32,24 @@ class BadBehaviour final : public Behaviour {
     if (fault_ == "never-wait") {
       while (robot.IsRunning()) usleep(1000);  // busy with itself: it never tells the simulation
     }
+    if (fault_ == "flood") return Flood(robot);
     if (robot.SleepFor(200ms) && fault_ == "die") raise(SIGKILL);
     while (robot.SleepFor(50ms)) {
     }
   }
 
  private:
+  void Flood(Robot& robot) {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 4; ++i) {
+      threads.emplace_back([&] {
+        while (robot.IsRunning()) (void)sonar_->Range();
+      });
+    }
+  }
+
   const std::string fault_;
+  std::unique_ptr<Sonar> sonar_;
 };
 
 BehaviourFactory Configure(CLI::App& app) {

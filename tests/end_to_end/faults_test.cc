@@ -4,105 +4,32 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <iostream>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/gsv_service_types.h"
-#include "gsv/orb/orb.h"
-#include "idl/simulation.hh"
 #include "tests/end_to_end/fleet.h"
+#include "tests/end_to_end/served.h"
 
 namespace gsv::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-int Rounds() {
-  const char* soak = std::getenv("GSV_SOAK");
-  return soak == nullptr ? 1 : std::max(1, std::atoi(soak));
-}
-
 // A server, and a fleet for each test.
-class Faults : public ::testing::Test {
+class Faults : public Served {
  protected:
-  static void SetUpTestSuite() {
-    auto orb = orb::StartOrb({});
-    ASSERT_TRUE(orb);
-    orb_ = *orb;
-  }
-  static void TearDownTestSuite() { orb_->destroy(); }
-
-  Faults() {
-    server_.AwaitLine("broker: ");
-    auto client = broker::BrokerClient::Connect(orb_, broker_.reference());
-    const auto offers = client->Query(broker::SimulationServiceType().name, "", "first", 1);
-    service_ = sba::SimulationService::_narrow(offers->front().object);
-  }
-
   // The simulation of FleetRun(). The programs of earlier ones are replaced.
   sba::Simulation_ptr Create(const char* option = "on_failure", const char* value = "go_on") {
     fleet_.reset();
     fleet_.emplace(broker_.reference());
-    sba::SimulationSpecification specification;
-    specification.world = "playground";
-    specification.pacing = sba::LOCKSTEP;
-    specification.factor = 1;
-    specification.step_ns = 0;
-    specification.seed = 7;
-    specification.duration_ns = 0;
-    specification.keep = true;
-    specification.options.length(2);
-    specification.options[0].name = "deadline_s";
-    specification.options[0].value = "60";
-    specification.options[1].name = option;
-    specification.options[1].value = value;
+    auto specification = Playground(sba::LOCKSTEP);
+    SetOption(specification, option, value);
     sba::Simulation_var simulation = service_->create_simulation(specification);
-    const char* behaviours[] = {"wander", "wander", "follow-wall"};
-    for (int i = 0; i < 3; ++i) {
-      sba::RobotSpecification robot;
-      robot.model = "pebble";
-      robot.start = {-1.2 + 1.2 * i, 0, 0, 0, 0, 0};
-      robot.behaviour_constraint = (std::string("name == '") + behaviours[i] + "'").c_str();
-      const CORBA::String_var name(simulation->add_robot(robot));
-    }
+    AddFleet(simulation);
     return simulation._retn();
-  }
-
-  static void RunTo(sba::Simulation_ptr simulation, double seconds) {
-    simulation->run_until(static_cast<CORBA::LongLong>(seconds * 1e9));
-    ASSERT_EQ(AwaitRest(simulation), sba::PHASE_PAUSED);
-  }
-  static sba::SimulationPhase AwaitRest(sba::Simulation_ptr simulation) {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
-    auto phase = sba::PHASE_RUNNING;
-    while ((phase == sba::PHASE_RUNNING || phase == sba::PHASE_STARTING) &&
-           std::chrono::steady_clock::now() < give_up) {
-      phase = simulation->await_change(phase);
-    }
-    return phase;
-  }
-  // Asks until `holds` does.
-  template <typename Condition>
-  static void AwaitState(sba::Simulation_ptr simulation, Condition holds) {
-    const auto give_up = std::chrono::steady_clock::now() + kPatience;
-    while (std::chrono::steady_clock::now() < give_up) {
-      const sba::SimulationState_var state = simulation->state();
-      if (holds(state.in())) return;
-    }
-    FAIL() << "it never came to that";
-  }
-  static std::string HashOf(sba::Simulation_ptr simulation) {
-    return std::string(CORBA::String_var(simulation->state_hash()));
-  }
-  static int CountOf(const sba::SimulationState& state, sba::AgentPhase phase) {
-    int count = 0;
-    for (CORBA::ULong i = 0; i < state.robots.length(); ++i)
-      count += state.robots[i].phase == phase;
-    return count;
   }
   // The robot whose behaviour is in that phase.
   static const sba::RobotState& RobotIn(sba::AgentPhase phase, const sba::SimulationState& state) {
@@ -131,10 +58,6 @@ class Faults : public ::testing::Test {
     ASSERT_EQ(FirstProgram().AwaitEnd(kPatience), "signal 9");
   }
 
-  static inline CORBA::ORB_var orb_;
-  const BrokerProcess broker_;
-  Running server_{"gsv", {"serve", "--broker", broker_.reference(), "--headless"}};
-  sba::SimulationService_var service_;
   std::optional<Fleet> fleet_;
 };
 

@@ -1,0 +1,247 @@
+// Several simulations in one server: whatever happens in one of them, the others do not notice.
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <iostream>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "gsv/orb/orb.h"
+#include "sdk/behaviour_servant.h"
+#include "tests/end_to_end/fleet.h"
+#include "tests/end_to_end/served.h"
+
+namespace gsv::testing {
+namespace {
+
+constexpr double kSeconds = 2;  // 40 control cycles of each robot
+
+// Calls `work` again and again on threads of its own.
+class Repeatedly {
+ public:
+  Repeatedly(int threads, const std::function<void()>& work) {
+    for (int i = 0; i < threads; ++i) {
+      threads_.emplace_back([this, work](const std::stop_token& stop) {
+        for (; !stop.stop_requested(); ++count_) work();
+      });
+    }
+  }
+  int count() const { return count_; }
+
+ private:
+  std::atomic<int> count_ = 0;
+  std::vector<std::jthread> threads_;
+};
+
+class Isolation : public Served {
+ protected:
+  static std::unique_ptr<Running> StartBad(const std::string& broker, const char* fault) {
+    auto bad = std::make_unique<Running>(
+        "../tests/bad_behaviour", std::vector<std::string>{"--broker", broker, "--fault", fault});
+    bad->AwaitLine("offered at");
+    return bad;
+  }
+  // A real-time simulation whose robots' behaviours read their sonars as fast as they can.
+  sba::Simulation_ptr Flood() {
+    bad_ = StartBad(broker_.reference(), "flood");
+    sba::Simulation_var flooded = service_->create_simulation(Playground(sba::REAL_TIME));
+    for (const double x : {-1.0, 0.0, 1.0}) AddPebble(flooded, x, "bad");
+    flooded->start();
+    return flooded._retn();
+  }
+  // Lockstep at full speed.
+  sba::Simulation_ptr Rush() {
+    sba::Simulation_var rushing = service_->create_simulation(Playground(sba::LOCKSTEP));
+    for (const double x : {-1.0, 0.0, 1.0}) AddPebble(rushing, x, "");
+    rushing->start();
+    return rushing._retn();
+  }
+
+  const Fleet fleet_{broker_.reference()};
+  std::unique_ptr<Running> bad_;
+};
+
+// One simulation whose hash is known from its running alone.
+class OthersHash : public Isolation {
+ protected:
+  OthersHash() {
+    AddFleet(simulation_);
+    expected_ = RunOnce();
+  }
+  std::string RunOnce() {
+    RunTo(simulation_, kSeconds);
+    const std::string hash = HashOf(simulation_);
+    simulation_->reset();
+    return hash;
+  }
+  // Three times at least, and then until `holds`.
+  void ExpectUndisturbedUntil(const std::function<bool()>& holds) {
+    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    for (int run = 0; run < 3 * Rounds() || !holds(); ++run) {
+      ASSERT_EQ(RunOnce(), expected_) << "run " << run;
+      ASSERT_LT(std::chrono::steady_clock::now(), give_up) << "it never came to that";
+    }
+  }
+  static std::function<bool()> Comes(sba::Simulation_ptr simulation, sba::AgentPhase phase) {
+    return [simulation, phase] {
+      return CountOf(sba::SimulationState_var(simulation->state()).in(), phase) > 0;
+    };
+  }
+
+  const sba::Simulation_var simulation_ = service_->create_simulation(Playground(sba::LOCKSTEP));
+  std::string expected_;
+};
+
+TEST_F(OthersHash, IsTheSameWhenABehaviourIsKilled) {
+  ASSERT_EQ(expected_.size(), 16u);
+  bad_ = StartBad(broker_.reference(), "die");
+  sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
+  AddPebble(other, -1, "bad");
+  AddPebble(other, 1, "wander");
+  other->start();
+  ExpectUndisturbedUntil(Comes(other, sba::AGENT_DEAD));
+  EXPECT_EQ(bad_->AwaitEnd().ending, "signal 9");
+}
+
+TEST_F(OthersHash, IsTheSameWhenABehaviourNeverWaits) {
+  bad_ = StartBad(broker_.reference(), "never-wait");
+  auto specification = Playground(sba::LOCKSTEP);
+  SetOption(specification, "deadline_s", "1");
+  sba::Simulation_var other = service_->create_simulation(specification);
+  AddPebble(other, -1, "bad");
+  AddPebble(other, 1, "wander");
+  other->start();
+  ExpectUndisturbedUntil(Comes(other, sba::AGENT_UNRESPONSIVE));
+}
+
+TEST_F(OthersHash, IsTheSameInAFloodOfCalls) {
+  const sba::Simulation_var flooded = Flood();
+  const Repeatedly asking(4, [&] {
+    const sba::SimulationState_var state = flooded->state();
+    const sba::Simulations_var all = service_->list();
+  });
+  ExpectUndisturbedUntil([&] { return asking.count() > 100; });
+  // The behaviours' flood has gone on as well.
+  EXPECT_EQ(CountOf(sba::SimulationState_var(flooded->state()).in(), sba::AGENT_RUNNING), 3);
+}
+
+TEST_F(OthersHash, IsTheSameWhenSimulationsAreDestroyedInMidStep) {
+  // They have behaviours of the same programs.
+  const Repeatedly destroying(2, [&] {
+    sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
+    AddPebble(other, -1, "wander");
+    AddPebble(other, 0, "");
+    AddPebble(other, 1, "follow-wall");
+    other->start();
+    AwaitState(other, [](const auto& state) { return state.step > 10; });
+    other->destroy();
+  });
+  ExpectUndisturbedUntil([&] { return destroying.count() > 10; });
+}
+
+// Sleeps for 50 ms again and again and notes how long that takes on the wall.
+class Meter final : public Behaviour {
+ public:
+  explicit Meter(std::vector<double>& intervals) : intervals_(intervals) {}
+  void Run(Robot& robot) override {
+    using Clock = std::chrono::steady_clock;
+    SimTime next = robot.Now();
+    for (Clock::time_point then = Clock::now(); robot.SleepUntil(next += 50ms);) {
+      const Clock::time_point now = Clock::now();
+      intervals_.push_back(std::chrono::duration<double>(now - then).count());
+      then = now;
+    }
+  }
+
+ private:
+  std::vector<double>& intervals_;  // s
+};
+
+// A simulation in real time, and what disturbs it. How late it is depends on the machine and is
+// only told; that it gets to its end does not.
+class OthersTime : public Isolation {
+ protected:
+  void RunAndTell(const char* beside) {
+    const sba::Simulation_var simulation = service_->create_simulation(Playground(sba::REAL_TIME));
+    AddFleet(simulation);
+    AddMeter(simulation);
+    const double seconds = kSeconds * Rounds();
+    RunTo(simulation, seconds);
+    const sba::SimulationState_var state = simulation->state();
+    EXPECT_EQ(state->time_ns, static_cast<CORBA::LongLong>(seconds * 1e9));
+    simulation->destroy();  // the meter's run has ended
+    ASSERT_GE(intervals_.size(), 2u);
+    intervals_.erase(intervals_.begin());  // the start's
+    std::sort(intervals_.begin(), intervals_.end());
+    double sum = 0;
+    for (const double interval : intervals_) sum += interval;
+    std::cout << "beside " << beside << ": " << state->late_steps << " of " << state->step
+              << " steps late; 50 ms took " << 1e3 * sum / intervals_.size() << " ms on average, "
+              << 1e3 * intervals_[intervals_.size() * 99 / 100] << " ms (99 %), "
+              << 1e3 * intervals_.back() << " ms at most; " << state->real_time_factor
+              << " x real time\n";
+  }
+
+ private:
+  void AddMeter(sba::Simulation_ptr simulation) {
+    const PortableServer::POA_var poa = orb::RootPoa(orb_);
+    const PortableServer::Servant_var<sdk::BehaviourServant> servant(
+        new sdk::BehaviourServant(poa, [this] { return std::make_unique<Meter>(intervals_); }));
+    const PortableServer::ObjectId_var id = poa->activate_object(servant);
+    const CORBA::Object_var reference = poa->id_to_reference(id);
+    sba::RobotSpecification robot;
+    robot.model = "pebble";
+    robot.start = {0, 1.2, 0, 0, 0, 0};
+    robot.behaviour = sba::AgentBehaviour::_narrow(reference);
+    const CORBA::String_var name(simulation->add_robot(robot));
+  }
+
+  std::vector<double> intervals_;  // s
+};
+
+TEST_F(OthersTime, GoesOnAlone) { RunAndTell("nothing"); }
+
+TEST_F(OthersTime, GoesOnBesideLockstepAtFullSpeed) {
+  // As many as leave no processor idle.
+  std::vector<sba::Simulation_var> rushing(std::thread::hardware_concurrency());
+  for (sba::Simulation_var& each : rushing) each = Rush();
+  RunAndTell("lockstep at full speed");
+  for (const sba::Simulation_var& each : rushing) {
+    const sba::SimulationState_var state = each->state();
+    EXPECT_EQ(state->phase, sba::PHASE_RUNNING);
+    std::cout << "which went at " << state->real_time_factor << " x real time\n";
+  }
+}
+
+TEST_F(OthersTime, GoesOnBesideAFloodOfCalls) {
+  const sba::Simulation_var flooded = Flood();
+  const Repeatedly asking(4, [&] { const sba::SimulationState_var state = flooded->state(); });
+  RunAndTell("a flood of calls");
+  std::cout << "of which " << asking.count() << " asked for the state\n";
+}
+
+TEST_F(OthersTime, GoesOnBesideABehaviourThatNeverWaits) {
+  bad_ = StartBad(broker_.reference(), "never-wait");
+  auto specification = Playground(sba::LOCKSTEP);
+  SetOption(specification, "deadline_s", "1");
+  const sba::Simulation_var other = service_->create_simulation(specification);
+  AddPebble(other, -1, "bad");
+  other->start();
+  RunAndTell("a behaviour that never waits");
+}
+
+TEST_F(OthersTime, GoesOnBesideSimulationsThatAreDestroyed) {
+  const Repeatedly destroying(2, [&] {
+    sba::Simulation_var other = service_->create_simulation(Playground(sba::LOCKSTEP));
+    AddPebble(other, 0, "wander");
+    other->start();
+    AwaitState(other, [](const auto& state) { return state.step > 10; });
+    other->destroy();
+  });
+  RunAndTell("simulations that are destroyed");
+  std::cout << "of which there were " << destroying.count() << "\n";
+}
+
+}  // namespace
+}  // namespace gsv::testing
