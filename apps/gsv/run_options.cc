@@ -24,8 +24,8 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
                    "outcome, and many more robots");
   command
       .add_option("--threads", a.threads,
-                  "threads that move bodies and run behaviours in process; 0: as many as there "
-                  "are processors. The outcome is the same")
+                  "threads that move bodies and run behaviours in process; 0: in lockstep as many "
+                  "as there are processors, else one. The outcome is the same")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command.add_option("--avatar", a.avatars,

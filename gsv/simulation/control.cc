@@ -12,6 +12,13 @@ namespace {
 constexpr int kCallingThreads = 8;
 constexpr std::size_t kMaxEvents = 10'000;
 
+// In real time the behaviours' processes want the other processors: a team one of whose threads has
+// to wait for its turn among them is slower than a single thread.
+int ThreadsFor(const Specification& specification) {
+  if (specification.threads > 0) return specification.threads;
+  return specification.mode == Mode::kRealTime ? 1 : base::ThreadTeam::DefaultThreads();
+}
+
 }  // namespace
 
 base::Result<std::shared_ptr<Simulation>> Simulation::Create(
@@ -39,8 +46,7 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
     bodies.push_back(std::move(body));
   }
   auto layout = world::MakeLayout(1, std::move(bodies), specification.world);
-  auto team = std::make_shared<base::ThreadTeam>(
-      specification.threads > 0 ? specification.threads : base::ThreadTeam::DefaultThreads());
+  auto team = std::make_shared<base::ThreadTeam>(ThreadsFor(specification));
   auto engine = dynamics::MakePlanarMover(team);
   if (auto ok = engine->SetLayout(layout); !ok) return base::Fail(ok.error());
   return std::shared_ptr<Simulation>(

@@ -43,7 +43,8 @@ struct Specification {
   // Wall time that an agent may run before it must wait; then it is unresponsive.
   std::chrono::milliseconds deadline{10'000};
   bool keep = false;  // survives its creator
-  int threads = 0;    // that move bodies and run local behaviours; 0: as many as processors
+  // That move bodies and run local behaviours; 0: as many as processors in lockstep, else one.
+  int threads = 0;
 };
 
 enum class AgentPhase { kNone, kInitialised, kRunning, kWaiting, kFinished, kUnresponsive, kDead };
