@@ -21,7 +21,7 @@ const ARGUMENTS = [
   "--disable-component-update",
   "--disable-sync",
 ];
-const ACTION_TIMEOUT_MS = 20_000;
+const ACTION_TIMEOUT_MS = 60_000; // two browsers may share two busy cores
 
 // Opens a browser; close() ends it and removes its profile.
 export async function openBrowser({ width = 1280, height = 800, colorScheme = "light" } = {}) {
