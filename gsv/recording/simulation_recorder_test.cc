@@ -154,7 +154,7 @@ TEST_F(SimulationRecorderTest, TheSceneSaysWhatThePosesMean) {
 
 TEST_F(SimulationRecorderTest, EachModelIsAttachedOnce) {
   Record(0.5);
-  for (const auto& model : {Disc(), Wall()}) {
+  for (const auto& model : {simulation::Disc(0.2), simulation::Wall()}) {
     const auto files = Attachments(ModelAttachment(presentation::ModelIdentity(*model)));
     ASSERT_EQ(files.size(), 1u) << model->name;
     EXPECT_EQ(
