@@ -129,25 +129,23 @@ test("robots are drawn at their projected places, and leave them when they move"
   const robots = (await robotsInView()).filter(({ at }) => isWithin(clip, at, MIDDLE_PX));
   assert.ok(robots.length > 0, "no robot is in the picture");
   const here = await Promise.all(robots.map(({ at }) => picture(page, around(at, MIDDLE_PX))));
-  const hasLeft = (places) =>
-    places.some(({ name, at }) => {
-      const now = window.gsv.robotScreenPosition(name);
-      return now && Math.hypot(now.x - at.x, now.y - at.y) > 20;
-    });
+  // Which robots' places no robot covers any more.
+  const deserted = async () => {
+    const now = (await robotsInView()).map(({ at }) => at);
+    return robots.map(({ at }) =>
+      now.every((other) => Math.hypot(other.x - at.x, other.y - at.y) > ROBOT_PX),
+    );
+  };
   // A wanderer may spend some seconds on turning.
-  for (let tries = 0; tries < 20 && !(await page.evaluate(hasLeft, robots)); tries++) {
+  let left = await deserted();
+  for (let tries = 0; tries < 20 && !left.includes(true); tries++) {
     const { step } = await ask("");
     await ask("/step", { count: STEPS_TO_MOVE });
     await until(async () => (await ask("")).step >= step + STEPS_TO_MOVE, "the steps");
     await phaseIs("paused");
     await settled();
+    left = await deserted();
   }
-  await phaseIs("paused");
-  await settled();
-  const now = (await robotsInView()).map(({ at }) => at);
-  const left = robots.map(({ at }) =>
-    now.every((other) => Math.hypot(other.x - at.x, other.y - at.y) > ROBOT_PX),
-  );
   const verdicts = await Promise.all(
     robots.map(async ({ name, at }, i) => {
       if (!left[i]) return null;
