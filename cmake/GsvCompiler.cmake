@@ -21,10 +21,12 @@ if(GSV_SANITIZE)
   add_link_options(-fsanitize=${GSV_SANITIZE})
 endif()
 
-find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM)
+option(GSV_CCACHE "Compile by ccache, without precompiled headers: for who builds from nothing again and again")
+if(GSV_CCACHE)
+  find_program(CCACHE_PROGRAM ccache REQUIRED)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)  # ccache cannot tell whether one has changed
 endif()
 
 find_program(LLD_PROGRAM ld.lld)
