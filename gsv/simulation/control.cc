@@ -132,6 +132,7 @@ void SteppingSimulation::SetPhase(Phase phase) {
     statistics_.Stopped(WallNow(), shared_->now);
   }
   shared_->changed.notify_all();
+  phase_changed_.notify_all();
 }
 
 base::Status SteppingSimulation::Start() {
@@ -257,7 +258,7 @@ base::Status SteppingSimulation::Stop() {
 
 void SteppingSimulation::EndAgents(std::string reason) {
   shared_->end_reason = std::move(reason);
-  for (const auto& [name, agent] : agents_) agent->Interrupt();
+  for (const auto& [name, agent] : agents_) agent->gate()->Open();
   for (const AgentPtr& agent : AgentsWithBehaviour()) {
     if (is_stuck_ && agent->in_turn_since()) continue;  // the call would not return either
     caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { (void)behaviour->Stop(); });
@@ -374,7 +375,7 @@ std::string SteppingSimulation::state_hash() const {
 Phase SteppingSimulation::WaitForPhase(const std::vector<Phase>& phases,
                                        std::chrono::milliseconds timeout) const {
   Lock lock(shared_->mutex);
-  shared_->changed.wait_for(lock, timeout, [&] {
+  phase_changed_.wait_for(lock, timeout, [&] {
     return std::find(phases.begin(), phases.end(), shared_->phase) != phases.end();
   });
   return shared_->phase;

@@ -37,7 +37,8 @@ void RobotAgent::Recount() {
   if (holds_up == is_counted_) return;
   is_counted_ = holds_up;
   shared_->running += holds_up ? 1 : -1;
-  if (shared_->running == 0) shared_->changed.notify_all();
+  const bool is_waited_for = shared_->mode == Mode::kLockstep;
+  if (shared_->running == 0 && is_waited_for) shared_->changed.notify_all();
 }
 
 void RobotAgent::Pend(const PendingCommand& command) {
@@ -68,7 +69,7 @@ base::Status RobotAgent::CheckClock(ClockId clock) const {
 }
 
 base::Result<ClockId> RobotAgent::OpenClock() {
-  std::unique_lock lock(shared_->mutex);
+  std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
   const ClockId clock = clocks_.Open();
   if (clocks_.count() > kMaxClocks) {
@@ -81,22 +82,22 @@ base::Result<ClockId> RobotAgent::OpenClock() {
 }
 
 base::Status RobotAgent::CloseClock(ClockId clock) {
-  std::unique_lock lock(shared_->mutex);
+  std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckClock(clock); !ok) return ok;
   clocks_.Close(clock);
-  woken_.notify_all();
+  gate_.Open();
   Recount();
   return {};
 }
 
 SimTime RobotAgent::Now() const {
-  const std::lock_guard lock(shared_->mutex);
+  const std::unique_lock lock = shared_->LockForAgent();
   return shared_->now;
 }
 
 base::Result<Wait> RobotAgent::SleepUntil(ClockId clock, SimTime until,
                                           std::chrono::milliseconds lease) {
-  std::unique_lock lock(shared_->mutex);
+  std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
   if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
   return WaitOn(lock, clock, until, lease);
@@ -115,11 +116,14 @@ base::Result<Wait> RobotAgent::WaitOn(std::unique_lock<std::mutex>& lock, ClockI
   if (!BeginWait(clock, until)) return Wait::kReached;
   const WallTime lease_ends = WallNow() + lease;
   for (;;) {
-    const std::cv_status status = woken_.wait_until(lock, lease_ends);
+    const std::uint64_t openings = gate_.openings();
+    lock.unlock();
+    const bool was_opened = gate_.WaitBeyond(openings, lease_ends);
+    lock = shared_->LockForAgent();
     if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
     if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
     if (!clocks_.IsWaiting(clock)) return Wait::kReached;
-    if (status == std::cv_status::timeout) return Wait::kNotYet;
+    if (!was_opened) return Wait::kNotYet;
   }
 }
 
@@ -128,7 +132,7 @@ base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
                                              SimTime until, std::chrono::milliseconds lease) {
   Exchanged exchanged;
   {
-    std::unique_lock lock(shared_->mutex);
+    std::unique_lock lock = shared_->LockForAgent();
     if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
     if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
     const std::uint64_t last = clocks_.last_cycle(clock);
@@ -173,20 +177,20 @@ base::Status RobotAgent::Command(const world::DriveCommand& command) {
   if (!world::IsFinite(command)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
   }
-  std::unique_lock lock(shared_->mutex);
+  std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
   if (!pending_ || pending_->clock == 0) Pend({0, command});
   return {};
 }
 
 base::Status RobotAgent::OpenSensor(const std::string& name) {
-  std::unique_lock lock(shared_->mutex);
+  std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
   return rack_.Open(name);
 }
 
 base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
-  std::unique_lock lock(shared_->mutex);
+  std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
   const std::string name = description.name;
   auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
@@ -206,7 +210,7 @@ base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
 
 base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {
   {
-    std::unique_lock lock(shared_->mutex);
+    std::unique_lock lock = shared_->LockForAgent();
     if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
   }
   const auto mounted = rack_.Find(sensor);
@@ -234,10 +238,10 @@ bool RobotAgent::HoldsUp() const {
 }
 
 bool RobotAgent::IsAtWork() const {
-  return HoldsUp() && (behaviour_->local() == nullptr || in_turn_since() || is_blocked_);
+  return HoldsUp() && (!is_hosted() || in_turn_since() || is_blocked_);
 }
 
-bool RobotAgent::Wake(SimTime now, WallTime wall_now) {
+RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
   const bool woke = clocks_.Wake(now);
   const bool dies = death_reported_ && fate_ == Fate::kAlive && (woke || clocks_.IsRunning());
   if (dies) {
@@ -246,20 +250,17 @@ bool RobotAgent::Wake(SimTime now, WallTime wall_now) {
   }
   if (woke) {
     running_since_ = wall_now;
-    if (!dies && behaviour_ != nullptr && behaviour_->local() != nullptr) MakeReady();
+    if (!dies && is_hosted()) MakeReady();
   }
-  if (woke || dies) {
-    woken_.notify_all();
-    Recount();
-  }
-  return dies;
+  if (woke || dies) Recount();
+  return {woke || dies, dies};
 }
 
 void RobotAgent::MarkUnresponsive(std::string detail) {
   fate_ = Fate::kUnresponsive;
   detail_ = std::move(detail);
   StopDriving();
-  woken_.notify_all();
+  gate_.Open();
   Recount();
 }
 
@@ -316,7 +317,7 @@ std::optional<world::DriveCommand> RobotAgent::TakeCommand() {
 
 void RobotAgent::MarkGone() {
   is_gone_ = true;
-  woken_.notify_all();
+  gate_.Open();
   Recount();
 }
 

@@ -9,6 +9,7 @@
 #include "gsv/simulation/agent_clocks.h"
 #include "gsv/simulation/local_behaviour.h"
 #include "gsv/simulation/shared_state.h"
+#include "gsv/simulation/wait_gate.h"
 #include "gsv/simulation/wall_clock.h"
 
 namespace gsv::simulation {
@@ -52,14 +53,22 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   int body() const { return body_; }
   void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour);
   const std::shared_ptr<BehaviourPort>& behaviour() const { return behaviour_; }
+  // Its behaviour is in this process: it takes turns, and no thread waits for it.
+  bool is_hosted() const { return behaviour_ != nullptr && behaviour_->local() != nullptr; }
   void MarkStarted();
   // The simulation must not step: the agent is waited for and runs.
   bool HoldsUp() const;
   // It holds up the simulation, and not only because others have their turn before it.
   bool IsAtWork() const;
   WallTime running_since() const { return running_since_; }
-  // Ends waits up to `now`. True when a reported death has taken effect with that.
-  bool Wake(SimTime now, WallTime wall_now);
+  struct Woken {
+    bool has_passed = false;  // its gate is to be opened, best outside of all locks
+    bool has_died = false;    // a reported death has taken effect
+  };
+  // Ends waits up to `now`.
+  Woken Wake(SimTime now, WallTime wall_now);
+  // Where its waiting calls stand; once it is open they look whether their wait is over.
+  std::shared_ptr<WaitGate> gate() { return {shared_from_this(), &gate_}; }
   // It runs and will never wait: takes effect at once.
   void MarkUnresponsive(std::string detail);
   // Its end is known; takes effect at its next wake, at once if it runs.
@@ -68,7 +77,6 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool is_watched() const { return behaviour_ != nullptr && is_alive() && !is_gone_; }
   // What is to act from this step on, once.
   std::optional<world::DriveCommand> TakeCommand();
-  void Interrupt() { woken_.notify_all(); }
   void MarkGone();
   bool is_gone() const { return is_gone_; }
   void ResetClocks();
@@ -114,8 +122,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const std::shared_ptr<SharedState> shared_;
   SensorRack rack_;
 
+  WaitGate gate_;
+
   // Guarded by shared_->mutex.
-  std::condition_variable woken_;
   std::shared_ptr<BehaviourPort> behaviour_;
   AgentClocks clocks_;
   std::optional<PendingCommand> pending_;

@@ -28,9 +28,17 @@ struct SharedState {
   const Mode mode;
   const std::uint64_t seed;
 
+  // For agents' calls, of which there may be a thousand at once: they queue up before the mutex, so
+  // that the stepping thread, which takes it directly, finds one of them before it at most.
+  std::unique_lock<std::mutex> LockForAgent() {
+    const std::lock_guard first_in_line(line);
+    return std::unique_lock(mutex);
+  }
+
+  std::mutex line;
   std::mutex mutex;
-  // The phase changed, the last agent that was waited for has begun to wait, or a local behaviour
-  // can go on.
+  // For the stepping thread: the phase changed, the last agent that it waited for has begun to
+  // wait, or a local behaviour can go on.
   std::condition_variable changed;
   Phase phase = Phase::kCreated;
   std::string end_reason;  // not empty: agents' calls end with it

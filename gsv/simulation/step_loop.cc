@@ -14,6 +14,7 @@ constexpr std::size_t kTurnsAPiece = 16;
 }  // namespace
 
 void SteppingSimulation::RunLoop() {
+  pthread_setname_np(pthread_self(), "stepping");
   Lock lock(shared_->mutex);
   while (!quit_) {
     if (shared_->phase != Phase::kRunning) {
@@ -25,6 +26,11 @@ void SteppingSimulation::RunLoop() {
       pacer_.Restart(WallNow());
     }
     WakeAgents();
+    if (!woken_.empty()) {
+      lock.unlock();
+      gate_opener_.Open(woken_);
+      lock.lock();
+    }
     if (shared_->phase != Phase::kRunning) continue;
     if (!shared_->ready.empty()) {
       lock.unlock();
@@ -44,7 +50,9 @@ void SteppingSimulation::WakeAgents() {
   if (!has_reported_deaths && !shared_->sleepers.HasDue(shared_->now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
-    if (agent.Wake(shared_->now, wall_now) && specification_.on_failure == FailurePolicy::kFail &&
+    const RobotAgent::Woken woken = agent.Wake(shared_->now, wall_now);
+    if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.gate());
+    if (woken.has_died && specification_.on_failure == FailurePolicy::kFail &&
         shared_->phase == Phase::kRunning) {
       Fail("the behaviour of " + agent.Describe() + " died");
     }

@@ -15,6 +15,7 @@
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/engine.h"
 #include "gsv/simulation/behaviour_caller.h"
+#include "gsv/simulation/gate_opener.h"
 #include "gsv/simulation/pacer.h"
 #include "gsv/simulation/robot_agent.h"
 #include "gsv/simulation/run_statistics.h"
@@ -140,6 +141,8 @@ class SteppingSimulation final : public Simulation {
   SnapshotPool snapshots_;
   Turn::Instant instant_;           // of the turns being taken
   std::vector<RobotAgent*> turns_;  // being taken
+  GateOpener gate_opener_;
+  GateOpener::Gates woken_;  // of those who have just been woken; stepping thread only
 
   // A turn is under way that has lasted longer than the deadline, with world_mutex_ held. Changes
   // under shared_->mutex.
@@ -149,7 +152,8 @@ class SteppingSimulation final : public Simulation {
   // Guarded by shared_->mutex.
   std::map<std::string, AgentPtr> agents_;
   bool quit_ = false;
-  std::condition_variable watch_;      // wakes the watchdog to quit
+  mutable std::condition_variable phase_changed_;  // for those who watch
+  std::condition_variable watch_;                  // wakes the watchdog to quit
   std::set<std::string> watched_now_;  // robots whose behaviour is being asked for a sign of life
   bool restart_pacing_ = false;
   int starts_pending_ = 0;
