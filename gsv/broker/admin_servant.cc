@@ -1,8 +1,10 @@
 #include "gsv/broker/admin_servant.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gsv/broker/iterator_keys.h"
+#include "gsv/broker/raise.h"
 
 namespace gsv::broker {
 namespace {
@@ -15,6 +17,13 @@ FollowOption FromCorba(CosTrading::FollowOption option) {
 
 CosTrading::FollowOption ToCorba(FollowOption option) {
   return static_cast<CosTrading::FollowOption>(option);
+}
+
+CosTrading::Admin::OctetSeq* ToCorba(const std::string& octets) {
+  CosTrading::Admin::OctetSeq_var result = new CosTrading::Admin::OctetSeq;
+  result->length(static_cast<CORBA::ULong>(octets.size()));
+  std::copy(octets.begin(), octets.end(), result->get_buffer());
+  return result._retn();
 }
 
 template <typename Iterator>
@@ -34,11 +43,9 @@ AdminServant::AdminServant(TradingObjects& objects)
 
 template <typename T>
 T AdminServant::Exchange(T TraderAttributes::*attribute, T value) {
-  const std::lock_guard lock(mutex_);
-  TraderAttributes attributes = objects_.trader.attributes();
-  const T before = std::exchange(attributes.*attribute, value);
-  objects_.trader.set_attributes(attributes);
-  return before;
+  ValueOrRaise(objects_.trader.ChangeAttributes(
+      [&](TraderAttributes& attributes) { std::swap(attributes.*attribute, value); }));
+  return value;
 }
 
 CosTrading::FollowOption AdminServant::max_link_follow_policy() {
@@ -46,17 +53,14 @@ CosTrading::FollowOption AdminServant::max_link_follow_policy() {
 }
 
 CosTrading::Admin::OctetSeq* AdminServant::request_id_stem() {
-  const std::lock_guard lock(mutex_);
-  return new CosTrading::Admin::OctetSeq(stem_);
+  return ToCorba(objects_.trader.attributes().request_id_stem);
 }
 
 CosTrading::Admin::OctetSeq* AdminServant::set_request_id_stem(
     const CosTrading::Admin::OctetSeq& stem) {
   if (stem.length() > kLongestStem) throw CORBA::IMP_LIMIT(0, CORBA::COMPLETED_NO);
-  const std::lock_guard lock(mutex_);
-  CosTrading::Admin::OctetSeq_var before = new CosTrading::Admin::OctetSeq(stem_);
-  stem_ = stem;
-  return before._retn();
+  const std::string octets(reinterpret_cast<const char*>(stem.get_buffer()), stem.length());
+  return ToCorba(Exchange(&TraderAttributes::request_id_stem, octets));
 }
 
 CORBA::ULong AdminServant::set_def_search_card(CORBA::ULong value) {

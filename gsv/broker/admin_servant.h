@@ -1,9 +1,6 @@
 // CosTrading::Admin: the trader's attributes, and the ids of all offers.
 #pragma once
 
-#include <mutex>
-#include <string>
-
 #include <COS/CosTrading.hh>
 
 #include "gsv/broker/attribute_servants.h"
@@ -50,9 +47,6 @@ class AdminServant : public POA_CosTrading::Admin,
  private:
   template <typename T>
   T Exchange(T TraderAttributes::*attribute, T value);
-
-  std::mutex mutex_;  // one change at a time
-  CosTrading::Admin::OctetSeq stem_;
 };
 
 class OfferIdIteratorServant : public POA_CosTrading::OfferIdIterator {

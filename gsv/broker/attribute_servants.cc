@@ -10,7 +10,9 @@ CosTrading::Register_ptr ComponentsServant::register_if() {
   return CosTrading::Register::_duplicate(objects_.registry);
 }
 
-CosTrading::Link_ptr ComponentsServant::link_if() { return CosTrading::Link::_nil(); }
+CosTrading::Link_ptr ComponentsServant::link_if() {
+  return CosTrading::Link::_duplicate(objects_.link);
+}
 
 CosTrading::Proxy_ptr ComponentsServant::proxy_if() { return CosTrading::Proxy::_nil(); }
 

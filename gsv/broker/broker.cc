@@ -12,10 +12,12 @@
 #include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <pthread.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include "gsv/broker/admin_servant.h"
+#include "gsv/broker/link_servant.h"
 #include "gsv/broker/lookup_servant.h"
 #include "gsv/broker/offer_file.h"
 #include "gsv/broker/pulse.h"
@@ -54,13 +56,22 @@ CORBA::ORB_ptr StartOrb(const BrokerOptions& options) {
       {"scanGranularity", "5"},
       {"serverCallTimeOutPeriod", "10000"},
       {"clientCallTimeOutPeriod", "2000"},
-      {"clientConnectTimeOutPeriod", "1000"},
+      // A time of its own for connecting would be in the place of the call's time-out.
+      {"clientConnectTimeOutPeriod", "0"},
       {"supportPerThreadTimeOut", "1"},
+      {"verifyObjectExistsAndType", "0"},
+      {"maxGIOPConnectionPerServer", "16"},
       {"strictIIOP", "1"},
       {"traceLevel", "0"},
       {nullptr, nullptr},
   };
   omni_thread::stacksize(kThreadStackBytes);
+  // Those that ask other traders read what these answer.
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, kThreadStackBytes);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
   int no_arguments = 0;
   return CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
 }
@@ -164,6 +175,7 @@ class Broker::Impl {
     objects_.types = Activate<CosTradingRepos::ServiceTypeRepository>(
         poa, "TradingTypes", new TypeRepositoryServant(objects_.trader));
     objects_.admin = Activate<CosTrading::Admin>(poa, "TradingAdmin", new AdminServant(objects_));
+    objects_.link = Activate<CosTrading::Link>(poa, "TradingLink", new LinkServant(objects_));
     objects_.registry =
         Activate<CosTrading::Register>(poa, "TradingRegister", new RegisterServant(objects_));
     objects_.lookup = Activate<CosTrading::Lookup>(poa, kKey, new LookupServant(objects_));

@@ -1,4 +1,4 @@
-// The Trading Service as a server on TCP: CosTrading Lookup, Register and Admin, and the
+// The Trading Service as a server on TCP: CosTrading Lookup, Register, Link and Admin, and the
 // ServiceTypeRepository, at "corbaloc::1.2@HOST:PORT/TradingService".
 //
 // One in a process, which should do nothing else with CORBA: what an `any` may hold bounds the

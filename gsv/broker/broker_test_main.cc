@@ -20,6 +20,9 @@ int main(int argc, char** argv) {
     const auto value = static_cast<std::size_t>(std::atoll(argument.c_str() + equals + 1));
     if (name == "liveness_ms") command.broker.liveness.period = std::chrono::milliseconds(value);
     if (name == "patience_ms") command.broker.liveness.patience = std::chrono::milliseconds(value);
+    if (name == "per_hop_ms") {
+      command.broker.limits.federation.per_hop = std::chrono::milliseconds(value);
+    }
     if (name == "iterators") command.broker.limits.iterators = value;
     if (name == "address_space_mib") command.process.address_space_bytes = value << 20;
   }

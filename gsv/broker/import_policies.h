@@ -13,6 +13,9 @@ namespace gsv::broker {
 // As CosTrading::FollowOption.
 enum class FollowOption : std::uint8_t { kLocalOnly, kIfNoLocal, kAlways };
 
+// The names of links that lead to another trader, from the first on.
+using TraderName = std::vector<std::string>;
+
 // The trader's attributes: what it does by default, and at most.
 struct TraderAttributes {
   std::uint32_t def_search_card = 200'000;
@@ -29,6 +32,7 @@ struct TraderAttributes {
   FollowOption max_link_follow_policy = FollowOption::kAlways;
   bool supports_modifiable_properties = true;
   bool supports_dynamic_properties = true;
+  std::string request_id_stem{};  // octets; no other trader's are the same
 };
 
 // The policies of one query; what is absent takes the trader's default.
@@ -39,6 +43,11 @@ struct ImportPolicies {
   bool exact_type_match = false;
   bool use_modifiable_properties = true;
   bool use_dynamic_properties = true;
+  std::optional<std::uint32_t> hop_count{};
+  std::optional<FollowOption> link_follow_rule{};
+  TraderName starting_trader{};
+  // Of a query that comes from another trader: octets that tell it from every other.
+  std::optional<std::string> request_id{};
 };
 
 // How many offers are looked at, ordered, and returned.

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "gsv/broker/import_policies.h"
+#include "gsv/broker/link_table.h"
 #include "gsv/broker/offer.h"
 #include "gsv/broker/service_type.h"
 
@@ -25,7 +27,18 @@ struct TypeStored {
 struct TypeRemoved {
   std::string name;
 };
-using StateChange = std::variant<OfferStored, OffersRemoved, TypeStored, TypeRemoved>;
+// A new link, or one in the place of that with its name.
+struct LinkStored {
+  TraderLink link;
+};
+struct LinkRemoved {
+  std::string name;
+};
+struct AttributesStored {
+  TraderAttributes attributes;
+};
+using StateChange = std::variant<OfferStored, OffersRemoved, TypeStored, TypeRemoved, LinkStored,
+                                 LinkRemoved, AttributesStored>;
 
 // All that a trader knows.
 struct TraderState {
@@ -34,6 +47,8 @@ struct TraderState {
   std::uint64_t next_incarnation = 1;  // above that of every type there ever was
   std::vector<ServiceType> types{};
   Offers offers{};
+  std::vector<TraderLink> links{};
+  TraderAttributes attributes{};
 };
 
 // Threads  any; the order is that of the calls to Append.

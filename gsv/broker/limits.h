@@ -24,10 +24,25 @@ struct DynamicLimits {
   std::size_t answers = 10'000;  // remembered
 };
 
+// Of what other traders are asked.
+struct FederationLimits {
+  // What one more hop may take: with H hops left a trader waits for H times this, so that each
+  // trader on the way still has time to answer when those behind it do not.
+  std::chrono::milliseconds per_hop{500};
+  std::size_t links = 100;
+  std::size_t trader_name = 32;            // links named in one starting_trader or resolve
+  std::size_t calls = 32;                  // underway, of all queries
+  std::size_t offers_per_answer = 20'000;  // of one trader
+  std::size_t bytes_per_answer = 16u << 20;
+  std::size_t requests = 10'000;  // remembered, so that none is answered twice
+  std::chrono::seconds request_lifetime{60};
+};
+
 // Of what the trader holds.
 struct TraderLimits {
   ExpressionLimits expression;
   DynamicLimits dynamic{};
+  FederationLimits federation{};
   std::size_t offers = 200'000;
   std::size_t properties_per_offer = 128;
   std::size_t offer_bytes = 32 * 1024;       // encoded properties and reference

@@ -1,9 +1,11 @@
 #include "gsv/broker/lookup_servant.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 
 #include "gsv/broker/corba_values.h"
+#include "gsv/broker/federated_query.h"
 #include "gsv/broker/iterator_keys.h"
 #include "gsv/broker/names.h"
 #include "gsv/broker/policy_values.h"
@@ -79,6 +81,25 @@ CosTrading::PolicyNameSeq* ToCorba(const std::vector<std::string>& names) {
   return result._retn();
 }
 
+// A trader that waits for this one's answer must not do so for long.
+std::chrono::milliseconds DynamicBudget(const TraderLimits& limits, const ImportPolicies& import) {
+  if (!import.request_id) return limits.dynamic.query_budget;
+  return std::min(limits.dynamic.query_budget, limits.federation.per_hop / 2);
+}
+
+// Runs `query`, which asks the trader that the importer named. That it cannot be reached must not
+// look as if this one could not: an ORB would try again.
+template <typename Call>
+void AskInstead(const Call& query) {
+  try {
+    query();
+  } catch (const CORBA::TRANSIENT&) {
+    throw CORBA::TIMEOUT(0, CORBA::COMPLETED_NO);
+  } catch (const CORBA::COMM_FAILURE&) {
+    throw CORBA::TIMEOUT(0, CORBA::COMPLETED_MAYBE);
+  }
+}
+
 }  // namespace
 
 LookupServant::LookupServant(TradingObjects& objects)
@@ -91,10 +112,29 @@ void LookupServant::query(const char* type, const char* constr, const char* pref
                           CosTrading::OfferIterator_out offer_itr,
                           CosTrading::PolicyNameSeq_out limits_applied) {
   const DesiredProperties desired = ToDesired(desired_props);
+  const ImportPolicies import = ToImportPolicies(policies);
+  if (!import.starting_trader.empty()) {
+    const CosTrading::Lookup_var next = StartingTrader(objects_, import, policies);
+    const TraderName rest(import.starting_trader.begin() + 1, import.starting_trader.end());
+    const CosTrading::PolicySeq passed = PoliciesToPassOn(policies, {.starting_trader = rest});
+    AskInstead([&] {
+      next->query(type, constr, pref, passed, desired_props, how_many, offers, offer_itr,
+                  limits_applied);
+    });
+    return;
+  }
   const DynamicLimits& dynamic = objects_.trader.limits().dynamic;
-  DynamicValues values(&objects_.dynamic, dynamic.query_budget);
-  QueryResult result =
-      ValueOrRaise(objects_.trader.Find({type, constr, pref, ToImportPolicies(policies)}, values));
+  DynamicValues values(&objects_.dynamic, DynamicBudget(objects_.trader.limits(), import));
+  FederatedQuery query{.query = {type, constr, pref, import},
+                       .policies = policies,
+                       .desired = desired,
+                       .request_id = import.request_id.value_or(objects_.NewRequestId())};
+  QueryResult result;
+  if (objects_.requests.Remember(query.request_id)) {
+    MatchingOffers matches = ValueOrRaise(objects_.trader.FindMatching(query.query, values));
+    AddAnswersOfLinks(objects_, query, matches);
+    result = objects_.trader.Rank(std::move(matches), values);
+  }
 
   const std::size_t count = std::min(how_many, objects_.trader.attributes().max_list);
   const auto end =

@@ -231,7 +231,7 @@ TEST_F(LookupServantTest, ObeysMaxList) {
 
 TEST_F(LookupServantTest, KnowsItsComponentsAndItsAttributes) {
   EXPECT_TRUE(lookup_->_is_equivalent(CosTrading::Lookup_var(register_->lookup_if())));
-  EXPECT_TRUE(CORBA::is_nil(CosTrading::Link_var(lookup_->link_if())));
+  EXPECT_FALSE(CORBA::is_nil(CosTrading::Link_var(lookup_->link_if())));
   EXPECT_TRUE(CORBA::is_nil(CosTrading::Proxy_var(lookup_->proxy_if())));
   EXPECT_FALSE(CORBA::is_nil(CosTrading::Admin_var(register_->admin_if())));
   EXPECT_TRUE(lookup_->supports_modifiable_properties());

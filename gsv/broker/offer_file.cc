@@ -1,14 +1,24 @@
 #include "gsv/broker/offer_file.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <new>
 #include <utility>
 
+#include "gsv/broker/attribute_texts.h"
 #include "gsv/broker/offer_file_schema.h"
 #include "gsv/broker/record_encoding.h"
 
 namespace gsv::broker {
+
+namespace {
+
+FollowOption ToFollowOption(std::int64_t value) {
+  return static_cast<FollowOption>(std::clamp<std::int64_t>(value, 0, 2));
+}
+
+}  // namespace
 
 base::Result<std::unique_ptr<OfferFile>> OfferFile::Open(const std::string& path,
                                                          std::uint32_t stem) {
@@ -20,6 +30,9 @@ base::Result<std::unique_ptr<OfferFile>> OfferFile::Open(const std::string& path
       {&statements.remove_offer, "DELETE FROM offer WHERE number = ?"},
       {&statements.put_type, "INSERT OR REPLACE INTO service_type VALUES (?, ?)"},
       {&statements.remove_type, "DELETE FROM service_type WHERE name = ?"},
+      {&statements.put_link, "INSERT OR REPLACE INTO link VALUES (?, ?, ?, ?)"},
+      {&statements.remove_link, "DELETE FROM link WHERE name = ?"},
+      {&statements.put_attribute, "INSERT OR REPLACE INTO attribute VALUES (?, ?)"},
       {&statements.put_number, "UPDATE broker SET value = max(value, ?2) WHERE name = ?1"},
       {&statements.begin, "BEGIN"},
       {&statements.commit, "COMMIT"}};
@@ -52,7 +65,8 @@ OfferFile::~OfferFile() {
 
 base::Result<TraderState> OfferFile::Load() {
   TraderState state;
-  for (const auto load : {&OfferFile::LoadNumbers, &OfferFile::LoadTypes, &OfferFile::LoadOffers}) {
+  for (const auto load : {&OfferFile::LoadNumbers, &OfferFile::LoadTypes, &OfferFile::LoadOffers,
+                          &OfferFile::LoadLinks, &OfferFile::LoadAttributes}) {
     if (auto loaded = (this->*load)(state); !loaded) {
       return base::Fail(base::ErrorCode::kCorrupt, loaded.error().message, path_);
     }
@@ -102,6 +116,31 @@ base::Status OfferFile::LoadOffers(TraderState& state) {
                                             .type = rows->Bytes(1),
                                             .reference = rows->Bytes(2),
                                             .properties = std::move(*properties)}));
+  }
+}
+
+base::Status OfferFile::LoadLinks(TraderState& state) {
+  auto rows = database_.Prepare("SELECT name, target, def_pass_on, limiting FROM link");
+  if (!rows) return base::Fail(rows.error());
+  while (true) {
+    const auto row = rows->Next();
+    if (!row) return base::Fail(row.error());
+    if (!*row) return {};
+    state.links.push_back({.name = rows->Bytes(0),
+                           .target = rows->Bytes(1),
+                           .def_pass_on = ToFollowOption(rows->Integer(2)),
+                           .limiting = ToFollowOption(rows->Integer(3))});
+  }
+}
+
+base::Status OfferFile::LoadAttributes(TraderState& state) {
+  auto rows = database_.Prepare("SELECT name, value FROM attribute");
+  if (!rows) return base::Fail(rows.error());
+  while (true) {
+    const auto row = rows->Next();
+    if (!row) return base::Fail(row.error());
+    if (!*row) return {};
+    SetAttribute(rows->Bytes(0), rows->Bytes(1), state.attributes);
   }
 }
 
@@ -207,6 +246,26 @@ base::Status OfferFile::Apply(const TypeStored& change) {
 
 base::Status OfferFile::Apply(const TypeRemoved& change) {
   return statements_.remove_type.Bind(1, change.name).Run();
+}
+
+base::Status OfferFile::Apply(const LinkStored& change) {
+  return statements_.put_link.Bind(1, change.link.name)
+      .Bind(2, change.link.target)
+      .Bind(3, static_cast<std::int64_t>(change.link.def_pass_on))
+      .Bind(4, static_cast<std::int64_t>(change.link.limiting))
+      .Run();
+}
+
+base::Status OfferFile::Apply(const LinkRemoved& change) {
+  return statements_.remove_link.Bind(1, change.name).Run();
+}
+
+base::Status OfferFile::Apply(const AttributesStored& change) {
+  for (const auto& [name, value] : AttributeTexts(change.attributes)) {
+    statements_.put_attribute.Bind(1, name).BindBlob(2, value);
+    if (auto ok = statements_.put_attribute.Run(); !ok) return ok;
+  }
+  return {};
 }
 
 base::Status OfferFile::PutNumber(std::string_view name, std::uint64_t value) {

@@ -44,13 +44,16 @@ class OfferFile : public Journal {
 
  private:
   struct Statements {
-    Statement put_offer, remove_offer, put_type, remove_type, put_number, begin, commit;
+    Statement put_offer, remove_offer, put_type, remove_type, put_link, remove_link, put_attribute,
+        put_number, begin, commit;
   };
 
   OfferFile(std::string path, Database database, Statements statements);
   base::Status LoadNumbers(TraderState& state);
   base::Status LoadTypes(TraderState& state);
   base::Status LoadOffers(TraderState& state);
+  base::Status LoadLinks(TraderState& state);
+  base::Status LoadAttributes(TraderState& state);
 
   void Write();
   base::Status WriteWithPatience(const std::vector<StateChange>& changes);
@@ -59,6 +62,9 @@ class OfferFile : public Journal {
   base::Status Apply(const OffersRemoved& change);
   base::Status Apply(const TypeStored& change);
   base::Status Apply(const TypeRemoved& change);
+  base::Status Apply(const LinkStored& change);
+  base::Status Apply(const LinkRemoved& change);
+  base::Status Apply(const AttributesStored& change);
   base::Status PutNumber(std::string_view name, std::uint64_t value);
 
   const std::string path_;

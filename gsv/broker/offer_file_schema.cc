@@ -1,6 +1,7 @@
 #include "gsv/broker/offer_file_schema.h"
 
 #include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,14 @@ namespace {
 
 // "GSVB": tells a broker's file from every other database.
 constexpr int kApplication = 0x47535642;
-constexpr int kVersion = 1;
+// Version 1 kept neither links nor attributes.
+constexpr int kVersion = 2;
+
+constexpr std::string_view kAddedInVersion2 =
+    "CREATE TABLE IF NOT EXISTS link (name TEXT PRIMARY KEY, target TEXT NOT NULL,"
+    "    def_pass_on INTEGER NOT NULL, limiting INTEGER NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE IF NOT EXISTS attribute (name TEXT PRIMARY KEY, value BLOB NOT NULL)"
+    "    WITHOUT ROWID;";
 
 base::Error Unusable(Database& database, const std::string& path) {
   switch (database.LastCode()) {
@@ -44,11 +52,20 @@ base::Status Create(Database& database, const std::string& path, std::uint32_t s
       "CREATE TABLE offer (number INTEGER PRIMARY KEY, type TEXT NOT NULL,"
       "                    reference TEXT NOT NULL, properties BLOB NOT NULL);"
       "CREATE TABLE service_type (name TEXT PRIMARY KEY, description BLOB NOT NULL) WITHOUT ROWID;"
+      "{}"
       "INSERT INTO broker VALUES ('{}', {}), ('{}', 1), ('{}', 1);"
       "PRAGMA application_id = {};"
       "PRAGMA user_version = {};"
       "COMMIT",
-      kStem, stem, kNextNumber, kNextIncarnation, kApplication, kVersion);
+      kAddedInVersion2, kStem, stem, kNextNumber, kNextIncarnation, kApplication, kVersion);
+  if (!database.Run(sql)) return base::Fail(Unusable(database, path));
+  return {};
+}
+
+// A file that an earlier gsv wrote.
+base::Status BringUpToDate(Database& database, const std::string& path) {
+  const std::string sql =
+      fmt::format("BEGIN; {} PRAGMA user_version = {}; COMMIT", kAddedInVersion2, kVersion);
   if (!database.Run(sql)) return base::Fail(Unusable(database, path));
   return {};
 }
@@ -62,7 +79,7 @@ base::Status CheckIdentity(Database& database, const std::string& path) {
   }
   const auto version = AskNumber(database, path, "PRAGMA user_version");
   if (!version) return base::Fail(version.error());
-  if (*version == kVersion) return {};
+  if (*version >= 1 && *version <= kVersion) return {};
   return base::Fail(base::ErrorCode::kCorrupt,
                     fmt::format("the file has format {}, this gsv reads format {}; use the gsv "
                                 "that wrote it, or name another file with --data",
@@ -104,8 +121,12 @@ base::Result<Database> OpenOfferDatabase(const std::string& path, std::uint32_t 
                      "BEGIN IMMEDIATE; COMMIT")) {
     return base::Fail(Unusable(*database, path));
   }
-  const base::Status ok = is_new ? Create(*database, path, stem) : CheckSoundness(*database, path);
-  if (!ok) return base::Fail(ok.error());
+  if (is_new) {
+    if (auto ok = Create(*database, path, stem); !ok) return base::Fail(ok.error());
+  } else {
+    if (auto ok = CheckSoundness(*database, path); !ok) return base::Fail(ok.error());
+    if (auto ok = BringUpToDate(*database, path); !ok) return base::Fail(ok.error());
+  }
   return std::move(*database);
 }
 

@@ -123,6 +123,47 @@ TEST_F(OfferFileTest, KeepsWhatWasModifiedAndForgetsWhatWasWithdrawn) {
   EXPECT_EQ(next.substr(0, 9), kept.substr(0, 9)) << "the stem is that of the file";
 }
 
+TEST_F(OfferFileTest, KeepsLinksAndAttributes) {
+  auto trader = Reopen();
+  const TraderLink kept{.name = "kept",
+                        .target = "IOR:00",
+                        .def_pass_on = FollowOption::kLocalOnly,
+                        .limiting = FollowOption::kIfNoLocal};
+  ASSERT_TRUE(trader->AddLink(kept));
+  ASSERT_TRUE(trader->AddLink({.name = "removed", .target = "IOR:01"}));
+  ASSERT_TRUE(trader->ModifyLink("kept", FollowOption::kIfNoLocal, FollowOption::kAlways));
+  ASSERT_TRUE(trader->RemoveLink("removed"));
+  ASSERT_TRUE(trader->ChangeAttributes([](TraderAttributes& attributes) {
+    attributes.max_list = 9;
+    attributes.request_id_stem = std::string("a\0b", 3);
+  }));
+  trader = nullptr;
+  trader = Reopen();
+  ASSERT_EQ(trader->links().size(), 1u);
+  const TraderLink link = trader->links()[0];
+  EXPECT_EQ(link.name, "kept");
+  EXPECT_EQ(link.target, "IOR:00");
+  EXPECT_EQ(link.def_pass_on, FollowOption::kIfNoLocal);
+  EXPECT_EQ(link.limiting, FollowOption::kAlways);
+  EXPECT_EQ(trader->attributes().max_list, 9u);
+  EXPECT_EQ(trader->attributes().request_id_stem, std::string("a\0b", 3));
+}
+
+// A file of format 1, which knew neither links nor attributes.
+TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
+  auto trader = Reopen();
+  ASSERT_TRUE(trader->AddType({.name = "Robot"}));
+  const std::string id = *trader->Export("Robot", "IOR:00", {});
+  trader = nullptr;
+  ASSERT_TRUE(Database::Open(Path())->Run(
+      "DROP TABLE link; DROP TABLE attribute; PRAGMA user_version = 1"));
+  trader = Reopen();
+  EXPECT_TRUE(trader->Describe(id));
+  ASSERT_TRUE(trader->AddLink({.name = "kept", .target = "IOR:00"}));
+  trader = nullptr;
+  EXPECT_EQ(Reopen()->links().size(), 1u);
+}
+
 TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
   const auto first = OfferFile::Open(Path(), kOwnStem);
   ASSERT_TRUE(first);
@@ -145,7 +186,7 @@ TEST_F(OfferFileTest, RefusesWhatIsNotItsOwn) {
   ASSERT_TRUE(OfferFile::Open(Path(), kOwnStem));
   ASSERT_TRUE(Database::Open(Path())->Run("PRAGMA user_version = 99"));
   EXPECT_EQ(Complaint().message,
-            "the file has format 99, this gsv reads format 1; use the gsv that wrote it, or name "
+            "the file has format 99, this gsv reads format 2; use the gsv that wrote it, or name "
             "another file with --data");
 
   EXPECT_FALSE(OfferFile::Open(folder_ / "absent" / "broker.db", kOwnStem));

@@ -1,5 +1,6 @@
 #include "gsv/broker/policy_values.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <string_view>
@@ -24,16 +25,21 @@ bool ExtractBoolean(const CosTrading::Policy& policy) {
   return value;
 }
 
-// This trader has no links: only the empty name, which is this trader, leads anywhere.
-void CheckStartingTrader(const CosTrading::Policy& policy) {
+constexpr CORBA::ULong kLongestRequestId = 1024;
+
+TraderName ExtractTraderName(const CosTrading::Policy& policy) {
   const CosTrading::TraderName* name = nullptr;
   if (!(policy.value >>= name)) throw Lookup::PolicyTypeMismatch(policy);
-  if (name->length() > 0) throw Lookup::InvalidPolicyValue(policy);
+  TraderName result;
+  for (CORBA::ULong i = 0; i < name->length(); ++i) result.emplace_back((*name)[i]);
+  return result;
 }
 
-void CheckRequestId(const CosTrading::Policy& policy) {
+std::string ExtractRequestId(const CosTrading::Policy& policy) {
   const CosTrading::Admin::OctetSeq* id = nullptr;
   if (!(policy.value >>= id)) throw Lookup::PolicyTypeMismatch(policy);
+  if (id->length() > kLongestRequestId) throw Lookup::InvalidPolicyValue(policy);
+  return {reinterpret_cast<const char*>(id->get_buffer()), id->length()};
 }
 
 void Apply(const CosTrading::Policy& policy, ImportPolicies& policies) {
@@ -53,13 +59,14 @@ void Apply(const CosTrading::Policy& policy, ImportPolicies& policies) {
   } else if (name == "use_proxy_offers") {
     ExtractBoolean(policy);  // there are none to leave out
   } else if (name == "hop_count") {
-    Extract<CORBA::ULong>(policy);  // there are no links to follow
+    policies.hop_count = Extract<CORBA::ULong>(policy);
   } else if (name == "link_follow_rule") {
-    Extract<CosTrading::FollowOption>(policy);
+    policies.link_follow_rule =
+        static_cast<FollowOption>(Extract<CosTrading::FollowOption>(policy));
   } else if (name == "starting_trader") {
-    CheckStartingTrader(policy);
+    policies.starting_trader = ExtractTraderName(policy);
   } else if (name == "request_id") {
-    CheckRequestId(policy);
+    policies.request_id = ExtractRequestId(policy);
   }
 }
 
@@ -73,6 +80,52 @@ ImportPolicies ToImportPolicies(const CosTrading::PolicySeq& policies) {
     if (!IsIdentifier(name)) throw Lookup::IllegalPolicyName(name);
     if (!seen.insert(name).second) throw CosTrading::DuplicatePolicyName(name);
     Apply(policies[i], result);
+  }
+  return result;
+}
+
+CosTrading::PolicySeq PoliciesToPassOn(const CosTrading::PolicySeq& policies,
+                                       const PassedPolicies& passed) {
+  CosTrading::PolicySeq result;
+  const auto add = [&](const char* name, const CORBA::Any& value) {
+    const CORBA::ULong count = result.length();
+    result.length(count + 1);
+    result[count].name = name;
+    result[count].value = value;
+  };
+  if (!passed.starting_trader.empty()) {
+    CosTrading::TraderName name;
+    name.length(static_cast<CORBA::ULong>(passed.starting_trader.size()));
+    for (CORBA::ULong i = 0; i < name.length(); ++i) name[i] = passed.starting_trader[i].c_str();
+    CORBA::Any value;
+    value <<= name;
+    add("starting_trader", value);
+  }
+  if (passed.hop_count) {
+    CORBA::Any value;
+    value <<= CORBA::ULong{*passed.hop_count};
+    add("hop_count", value);
+  }
+  if (passed.link_follow_rule) {
+    CORBA::Any value;
+    value <<= static_cast<CosTrading::FollowOption>(*passed.link_follow_rule);
+    add("link_follow_rule", value);
+  }
+  if (passed.request_id) {
+    CosTrading::Admin::OctetSeq id;
+    id.length(static_cast<CORBA::ULong>(passed.request_id->size()));
+    std::copy(passed.request_id->begin(), passed.request_id->end(), id.get_buffer());
+    CORBA::Any value;
+    value <<= id;
+    add("request_id", value);
+  }
+  for (CORBA::ULong i = 0; i < policies.length(); ++i) {
+    const std::string_view name = policies[i].name.in();
+    const bool replaced = name == "starting_trader" ||
+                          (name == "hop_count" && passed.hop_count.has_value()) ||
+                          (name == "link_follow_rule" && passed.link_follow_rule.has_value()) ||
+                          (name == "request_id" && passed.request_id.has_value());
+    if (!replaced) add(policies[i].name, policies[i].value);
   }
   return result;
 }

@@ -31,6 +31,16 @@ using Register = CosTrading::Register;
                                           m.derived_service.c_str(), m.derived_interface.c_str());
 }
 
+[[noreturn]] void RaiseTooPermissive(const TradingError& error) {
+  GSV_CHECK(error.follow.has_value());
+  const auto rule = static_cast<CosTrading::FollowOption>(error.follow->rule);
+  const auto bound = static_cast<CosTrading::FollowOption>(error.follow->bound);
+  if (error.refusal == Refusal::kDefaultFollowTooPermissive) {
+    throw CosTrading::Link::DefaultFollowTooPermissive(rule, bound);
+  }
+  throw CosTrading::Link::LimitingFollowTooPermissive(rule, bound);
+}
+
 }  // namespace
 
 void Raise(const TradingError& error) {
@@ -77,6 +87,15 @@ void Raise(const TradingError& error) {
       throw CosTrading::Lookup::IllegalPreference(name);
     case Refusal::kNoMatchingOffers:
       throw Register::NoMatchingOffers(name);
+    case Refusal::kIllegalLinkName:
+      throw CosTrading::Link::IllegalLinkName(name);
+    case Refusal::kUnknownLinkName:
+      throw CosTrading::Link::UnknownLinkName(name);
+    case Refusal::kDuplicateLinkName:
+      throw CosTrading::Link::DuplicateLinkName(name);
+    case Refusal::kDefaultFollowTooPermissive:
+    case Refusal::kLimitingFollowTooPermissive:
+      RaiseTooPermissive(error);
     case Refusal::kValueTypeRedefinition:
       RaiseRedefinition(error);
     case Refusal::kInterfaceTypeMismatch:

@@ -2,6 +2,7 @@
 
 #include "gsv/broker/corba_values.h"
 #include "gsv/broker/interface_check.h"
+#include "gsv/broker/link_servant.h"
 #include "gsv/broker/names.h"
 #include "gsv/broker/raise.h"
 #include "gsv/broker/service_reference.h"
@@ -66,14 +67,32 @@ void RegisterServant::withdraw_using_constraint(const char* type, const char* co
   ValueOrRaise(objects_.trader.WithdrawMatching(type, constr, &objects_.dynamic));
 }
 
-// This trader has no links, so that no name leads to another register.
+// The first name leads to a trader of ours, the others from there on.
 CosTrading::Register_ptr RegisterServant::resolve(const CosTrading::TraderName& name) {
   bool legal = name.length() > 0;
   for (CORBA::ULong i = 0; i < name.length(); ++i) {
     legal = legal && IsIdentifier(static_cast<const char*>(name[i]));
   }
-  if (!legal) throw CosTrading::Register::IllegalTraderName(name);
-  throw CosTrading::Register::UnknownTraderName(name);
+  const FederationLimits& limits = objects_.trader.limits().federation;
+  if (!legal || name.length() > limits.trader_name) {
+    throw CosTrading::Register::IllegalTraderName(name);
+  }
+  const auto link = objects_.trader.DescribeLink(static_cast<const char*>(name[0]));
+  if (!link) throw CosTrading::Register::UnknownTraderName(name);
+  const CosTrading::Register_var next = RegisterOf(objects_.orb, link->target);
+  if (CORBA::is_nil(next)) throw CosTrading::Register::RegisterNotSupported(name);
+  if (name.length() == 1) return CosTrading::Register::_duplicate(next);
+  CosTrading::TraderName rest;
+  rest.length(name.length() - 1);
+  for (CORBA::ULong i = 1; i < name.length(); ++i) rest[i - 1] = name[i];
+  try {
+    // Each trader on the way has less time than the one before it.
+    omniORB::setClientCallTimeout(
+        next, static_cast<unsigned long>((2 * limits.per_hop * rest.length()).count()));
+    return next->resolve(rest);
+  } catch (const CORBA::SystemException&) {
+    throw CosTrading::Register::RegisterNotSupported(name);
+  }
 }
 
 }  // namespace gsv::broker

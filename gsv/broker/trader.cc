@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <mutex>
 
 #include <fmt/format.h>
 
@@ -19,6 +18,8 @@ using ReadLock = std::shared_lock<std::shared_mutex>;
 using WriteLock = std::unique_lock<std::shared_mutex>;
 
 constexpr std::size_t kIdLength = 8 + 1 + 16;  // stem-number, in hexadecimal
+
+std::string StemText(std::uint32_t stem) { return fmt::format("{:08x}", stem); }
 
 template <typename Integer>
 bool ReadHex(std::string_view text, Integer& value) {
@@ -59,7 +60,9 @@ bool KeepMatching(const Expression& constraint, std::size_t limit, DynamicValues
 }  // namespace
 
 Trader::Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed)
-    : limits_(limits), stem_(stem), seed_(seed), types_(limits) {}
+    : limits_(limits), stem_(stem), seed_(seed), types_(limits), links_(limits.federation.links) {
+  attributes_.request_id_stem = StemText(stem);
+}
 
 base::Status Trader::Restore(TraderState state, std::unique_ptr<Journal> journal) {
   const WriteLock lock(mutex_);
@@ -68,30 +71,12 @@ base::Status Trader::Restore(TraderState state, std::unique_ptr<Journal> journal
   }
   for (OfferPtr& offer : state.offers) offers_.Restore(std::move(offer));
   offers_.SkipTo(state.next_number);
+  for (TraderLink& link : state.links) links_.Restore(std::move(link));
+  attributes_ = std::move(state.attributes);
+  if (attributes_.request_id_stem.empty()) attributes_.request_id_stem = StemText(state.stem);
   stem_ = state.stem;
   journal_ = std::move(journal);
   return {};
-}
-
-// What is changed under the lock is durable when it is answered, yet nobody waits for the disk
-// with the lock held: the changes of many callers become one transaction.
-template <typename Apply>
-std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
-  const TradingError not_stored{.refusal = Refusal::kNotStored};
-  if (journal_ != nullptr && !journal_->works()) return Refuse(not_stored);
-  Journal::Ticket ticket = 0;
-  auto result = [&] {
-    const WriteLock lock(mutex_);
-    auto applied = apply();
-    ticket = last_ticket_;
-    return applied;
-  }();
-  if (journal_ != nullptr && result && !journal_->Wait(ticket)) return Refuse(not_stored);
-  return result;
-}
-
-void Trader::Record(StateChange change) {
-  if (journal_ != nullptr) last_ticket_ = journal_->Append(std::move(change));
 }
 
 void Trader::RecordType(const std::string& name) {
@@ -103,9 +88,12 @@ TraderAttributes Trader::attributes() const {
   return attributes_;
 }
 
-void Trader::set_attributes(const TraderAttributes& attributes) {
-  const WriteLock lock(mutex_);
-  attributes_ = attributes;
+Traded<void> Trader::ChangeAttributes(const std::function<void(TraderAttributes&)>& change) {
+  return Change([&]() -> Traded<void> {
+    change(attributes_);
+    Record(AttributesStored{attributes_});
+    return {};
+  });
 }
 
 std::uint64_t Trader::NextIncarnation() const {
@@ -291,35 +279,46 @@ Traded<QueryResult> Trader::Find(const Query& query) const {
 }
 
 Traded<QueryResult> Trader::Find(const Query& query, DynamicValues& values) const {
+  auto matches = FindMatching(query, values);
+  if (!matches) return Refuse(matches.error());
+  return Rank(std::move(*matches), values);
+}
+
+Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& values) const {
   const auto type = FullyDescribeType(query.type);
   if (!type) return Refuse(type.error());
   const auto constraint = CompileConstraint(query.constraint, *type, limits_.expression);
   if (!constraint) return Refuse(constraint.error());
-  const auto preference = CompilePreference(query.preference, *type, limits_.expression);
+  auto preference = CompilePreference(query.preference, *type, limits_.expression);
   if (!preference) return Refuse(preference.error());
 
-  Cardinalities cardinalities;
-  QueryResult result = Candidates(query, cardinalities);
-  if (KeepMatching(*constraint, cardinalities.match, values, result.offers)) {
-    result.limits_applied.emplace_back("match_card");
+  MatchingOffers matches = Candidates(query);
+  matches.preference = std::move(*preference);
+  if (KeepMatching(*constraint, matches.cardinalities.match, values, matches.offers)) {
+    matches.limits_applied.emplace_back("match_card");
   }
-  OrderBy(*preference, seed_++, values, result.offers);
-  if (result.offers.size() > cardinalities.returned) {
-    result.offers.resize(cardinalities.returned);
-    result.limits_applied.emplace_back("return_card");
-  }
-  return result;
+  return matches;
 }
 
-QueryResult Trader::Candidates(const Query& query, Cardinalities& cardinalities) const {
+QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
+  OrderBy(matches.preference, seed_++, values, matches.offers);
+  if (matches.offers.size() > matches.cardinalities.returned) {
+    matches.offers.resize(matches.cardinalities.returned);
+    matches.limits_applied.emplace_back("return_card");
+  }
+  return {std::move(matches.offers), std::move(matches.limits_applied)};
+}
+
+MatchingOffers Trader::Candidates(const Query& query) const {
   const ReadLock lock(mutex_);
-  cardinalities = EffectiveCardinalities(query.policies, attributes_);
+  MatchingOffers candidates{.cardinalities = EffectiveCardinalities(query.policies, attributes_)};
+  const std::size_t search_card = candidates.cardinalities.search;
   std::vector<std::string> types = {query.type};
   if (!query.policies.exact_type_match) {
     types = types_.WithSubTypes(query.type).value_or(types);
   }
-  QueryResult candidates{.offers = offers_.OfTypes(types, cardinalities.search)};
-  if (offers_.CountOfTypes(types) > cardinalities.search) {
+  candidates.offers = offers_.OfTypes(types, search_card);
+  if (offers_.CountOfTypes(types) > search_card) {
     candidates.limits_applied.emplace_back("search_card");
   }
   if (!query.policies.use_dynamic_properties || !attributes_.supports_dynamic_properties) {

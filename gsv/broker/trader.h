@@ -8,7 +8,9 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <shared_mutex>
 #include <string>
@@ -17,9 +19,11 @@
 
 #include "gsv/base/error.h"
 #include "gsv/broker/dynamic_values.h"
+#include "gsv/broker/expression.h"
 #include "gsv/broker/import_policies.h"
 #include "gsv/broker/journal.h"
 #include "gsv/broker/limits.h"
+#include "gsv/broker/link_table.h"
 #include "gsv/broker/offer.h"
 #include "gsv/broker/offer_store.h"
 #include "gsv/broker/trading_error.h"
@@ -32,6 +36,14 @@ struct Query {
   std::string constraint{};
   std::string preference{};
   ImportPolicies policies{};
+};
+
+// What a query found before it is ordered and cut.
+struct MatchingOffers {
+  Offers offers{};
+  Preference preference{};
+  Cardinalities cardinalities{};
+  std::vector<std::string> limits_applied{};
 };
 
 struct QueryResult {
@@ -60,7 +72,8 @@ class Trader {
   std::uint32_t stem() const { return stem_; }
   const TraderLimits& limits() const { return limits_; }
   TraderAttributes attributes() const;
-  void set_attributes(const TraderAttributes& attributes);
+  // `change` is called once, under the lock.
+  Traded<void> ChangeAttributes(const std::function<void(TraderAttributes&)>& change);
 
   // ---- Service types, see TypeRepository
   std::uint64_t NextIncarnation() const;
@@ -91,7 +104,18 @@ class Trader {
   Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
 
+  // ---- Links, see LinkTable
+  Traded<void> AddLink(TraderLink link);
+  Traded<void> RemoveLink(const std::string& name);
+  Traded<TraderLink> DescribeLink(const std::string& name) const;
+  Traded<void> ModifyLink(const std::string& name, FollowOption def_pass_on, FollowOption limiting);
+  // In the order of their names.
+  std::vector<TraderLink> links() const;
+
   // ---- Queries
+  // Those of this trader alone. Find() is both steps; other traders' offers may be added between.
+  Traded<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
+  QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
   Traded<QueryResult> Find(const Query& query, DynamicValues& values) const;
   // Without dynamic properties.
   Traded<QueryResult> Find(const Query& query) const;
@@ -101,11 +125,13 @@ class Trader {
   // cannot become so: nothing is changed then, but for the very change that failed.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
-  void Record(StateChange change);
+  void Record(StateChange change) {
+    if (journal_ != nullptr) last_ticket_ = journal_->Append(std::move(change));
+  }
   void RecordType(const std::string& name);
 
   // The offers to be searched, and the cardinalities that hold for the query.
-  QueryResult Candidates(const Query& query, Cardinalities& cardinalities) const;
+  MatchingOffers Candidates(const Query& query) const;
   Traded<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
   Traded<OfferPtr> FindOffer(const std::string& id) const;
@@ -119,7 +145,25 @@ class Trader {
   TraderAttributes attributes_;
   TypeRepository types_;
   OfferStore offers_;
+  LinkTable links_;
   Journal::Ticket last_ticket_ = 0;
 };
+
+// What is changed under the lock is durable when it is answered, yet nobody waits for the disk
+// with the lock held: the changes of many callers become one transaction.
+template <typename Apply>
+std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
+  const TradingError not_stored{.refusal = Refusal::kNotStored};
+  if (journal_ != nullptr && !journal_->works()) return Refuse(not_stored);
+  Journal::Ticket ticket = 0;
+  auto result = [&] {
+    const std::unique_lock lock(mutex_);
+    auto applied = apply();
+    ticket = last_ticket_;
+    return applied;
+  }();
+  if (journal_ != nullptr && result && !journal_->Wait(ticket)) return Refuse(not_stored);
+  return result;
+}
 
 }  // namespace gsv::broker

@@ -108,10 +108,10 @@ TEST_F(TraderTest, AppliesCardinalitiesAndSaysWhich) {
 
 TEST_F(TraderTest, TakesDefaultsAndMaximaFromItsAttributes) {
   for (int i = 0; i < 10; ++i) Export("Printer", std::to_string(i), i);
-  TraderAttributes attributes;
-  attributes.def_return_card = 3;
-  attributes.max_return_card = 5;
-  trader_.set_attributes(attributes);
+  ASSERT_TRUE(trader_.ChangeAttributes([](TraderAttributes& attributes) {
+    attributes.def_return_card = 3;
+    attributes.max_return_card = 5;
+  }));
   EXPECT_EQ(Find("").offers.size(), 3u);
   EXPECT_EQ(Find("", "", {.return_card = 4}).offers.size(), 4u);
   EXPECT_EQ(Find("", "", {.return_card = 8}).offers.size(), 5u);
@@ -200,9 +200,8 @@ TEST_F(TraderTest, ModifiesAllOrNothing) {
             Refusal::kDuplicatePropertyName);
   EXPECT_EQ(refused({.remove = {"1"}, .set = {}}).refusal, Refusal::kIllegalPropertyName);
 
-  TraderAttributes attributes;
-  attributes.supports_modifiable_properties = false;
-  trader_.set_attributes(attributes);
+  ASSERT_TRUE(trader_.ChangeAttributes(
+      [](TraderAttributes& attributes) { attributes.supports_modifiable_properties = false; }));
   EXPECT_EQ(refused({}).refusal, Refusal::kNotImplemented);
 }
 

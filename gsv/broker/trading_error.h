@@ -9,6 +9,7 @@
 
 #include <tl/expected.hpp>
 
+#include "gsv/broker/import_policies.h"
 #include "gsv/broker/property.h"
 #include "gsv/broker/service_type.h"
 
@@ -43,6 +44,12 @@ enum class Refusal {
   kIllegalConstraint,
   kIllegalPreference,
   kNoMatchingOffers,
+  kIllegalLinkName,
+  kUnknownLinkName,
+  kDuplicateLinkName,
+  // Members: follow
+  kDefaultFollowTooPermissive,
+  kLimitingFollowTooPermissive,
   // Members: redefinition
   kValueTypeRedefinition,
   // Members: interfaces
@@ -67,6 +74,12 @@ struct InterfaceMismatch {
   std::string derived_interface;
 };
 
+// A follow rule that goes beyond what bounds it.
+struct FollowConflict {
+  FollowOption rule;
+  FollowOption bound;
+};
+
 struct TradingError {
   Refusal refusal = Refusal::kLimit;
   std::string type{};
@@ -75,6 +88,7 @@ struct TradingError {
   std::optional<Property> property{};
   std::optional<Redefinition> redefinition{};
   std::optional<InterfaceMismatch> interfaces{};
+  std::optional<FollowConflict> follow{};
 };
 
 template <typename T>

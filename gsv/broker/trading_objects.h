@@ -2,6 +2,8 @@
 // other's references.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,18 +12,14 @@
 
 #include "gsv/broker/cursor_table.h"
 #include "gsv/broker/dynamic_property_evaluator.h"
+#include "gsv/broker/query_forwarder.h"
+#include "gsv/broker/request_history.h"
 #include "gsv/broker/trader.h"
 
 namespace gsv::broker {
 
 // A reply fits a GIOP message of 64 KiB with this many bytes of offers or names.
 constexpr std::size_t kReplyBytes = 48 * 1024;
-
-// Which properties of an offer an importer wants to see.
-struct DesiredProperties {
-  bool all = false;
-  std::vector<std::string> names;
-};
 
 using OfferCursors = CursorTable<OfferPtr, DesiredProperties>;
 struct NoContext {};
@@ -32,8 +30,13 @@ struct TradingObjects {
 
   Trader trader;
   DynamicPropertyEvaluator dynamic;
+  QueryForwarder forwarder;
+  RequestHistory requests;
   OfferCursors offer_cursors;
   OfferIdCursors id_cursors;
+
+  // No other query of any trader has the same.
+  std::string NewRequestId();
 
   // Set before the first request is served.
   CORBA::ORB_var orb;
@@ -41,8 +44,13 @@ struct TradingObjects {
   PortableServer::POA_var id_iterators;
   CosTrading::Lookup_var lookup;
   CosTrading::Register_var registry;
+  CosTrading::Link_var link;
   CosTrading::Admin_var admin;
   CosTradingRepos::ServiceTypeRepository_var types;
+
+ private:
+  const std::string process_;  // another each time that the trader starts
+  std::atomic<std::uint64_t> next_request_ = 0;
 };
 
 }  // namespace gsv::broker
