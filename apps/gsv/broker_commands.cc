@@ -2,16 +2,14 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "apps/gsv/broker_listing_commands.h"
 #include "apps/gsv/commands.h"
-#include "apps/gsv/exit_code.h"
 #include "gsv/broker/broker_command.h"
-#include "gsv/broker/offer_listing.h"
 
 namespace gsv::app {
 namespace {
@@ -95,58 +93,13 @@ void AddBrokerCommand(const CommandLine& line) {
   });
 }
 
-struct ListArguments {
-  std::string broker;
-  bool json = false;
-};
-
-std::shared_ptr<ListArguments> AddListOptions(CLI::App& command) {
-  auto arguments = std::make_shared<ListArguments>();
-  command
-      .add_option("--broker", arguments->broker,
-                  "the broker, corbaloc::1.2@HOST:PORT/TradingService")
-      ->envname("GSV_BROKER")
-      ->required();
-  command.add_flag("--json", arguments->json, "one JSON object a line");
-  return arguments;
-}
-
-void AddOffersCommand(const CommandLine& line) {
-  CLI::App* command = line.app.add_subcommand("offers", "List what is offered at a broker");
-  auto arguments = AddListOptions(*command);
-  command->callback([arguments, line] {
-    const auto offers = broker::ListOffers(arguments->broker);
-    if (!offers) {
-      line.exit_code = Complain(offers.error());
-    } else if (arguments->json) {
-      broker::PrintOffersJson(*offers, std::cout);
-    } else {
-      broker::PrintOffers(*offers, std::cout);
-    }
-  });
-}
-
-void AddTypesCommand(const CommandLine& line) {
-  CLI::App* command = line.app.add_subcommand("types", "List the service types of a broker");
-  auto arguments = AddListOptions(*command);
-  command->callback([arguments, line] {
-    const auto types = broker::ListServiceTypes(arguments->broker);
-    if (!types) {
-      line.exit_code = Complain(types.error());
-    } else if (arguments->json) {
-      broker::PrintServiceTypesJson(*types, std::cout);
-    } else {
-      broker::PrintServiceTypes(*types, std::cout);
-    }
-  });
-}
-
 }  // namespace
 
 void AddBrokerCommands(const CommandLine& line) {
   AddBrokerCommand(line);
   AddOffersCommand(line);
   AddTypesCommand(line);
+  AddLinksCommand(line);
 }
 
 }  // namespace gsv::app

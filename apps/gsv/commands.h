@@ -17,7 +17,7 @@ struct CommandLine {
 
 void AddRunCommand(const CommandLine& line);
 void AddServeCommand(const CommandLine& line);
-void AddBrokerCommands(const CommandLine& line);     // broker, offers, types
+void AddBrokerCommands(const CommandLine& line);     // broker, offers, types, links
 void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddControlCommands(const CommandLine& line);    // ps, pause, resume, step, stop, reset

@@ -96,6 +96,26 @@ Error OfOffer(const std::string& where) {
   }
 }
 
+Error OfLink(const std::string& where) {
+  try {
+    throw;
+  } catch (const CosTrading::Link::IllegalLinkName& e) {
+    return {kWrong, fmt::format("\"{}\" cannot be a link's name", e.name.in()), where};
+  } catch (const CosTrading::Link::DuplicateLinkName& e) {
+    return {kWrong, fmt::format("there is a link {} already", e.name.in()), where};
+  } catch (const CosTrading::Link::UnknownLinkName& e) {
+    return {kMissing, fmt::format("the broker has no link {}", e.name.in()), where};
+  } catch (const CosTrading::Link::DefaultFollowTooPermissive&) {
+    return {kWrong, "a link cannot pass on more than it may follow itself", where};
+  } catch (const CosTrading::Link::LimitingFollowTooPermissive&) {
+    return {kWrong, "a link cannot follow more than the broker's max_link_follow_policy", where};
+  } catch (const CosTrading::InvalidLookupRef&) {
+    return {kWrong, "the link's target is no broker, or does not answer this one", where};
+  } catch (const CORBA::UserException&) {
+    return OfOffer(where);
+  }
+}
+
 Error OfType(const std::string& where) {
   try {
     throw;
@@ -116,8 +136,13 @@ Error OfType(const std::string& where) {
             where};
   } catch (const Repository::DuplicateServiceTypeName& e) {
     return {kWrong, fmt::format("the super type {} is named twice", e.name.in()), where};
+  } catch (const Repository::HasSubTypes& e) {
+    return {kWrong,
+            fmt::format("the service type {} has a sub type, {}; remove that first",
+                        e.the_type.in(), e.sub_type.in()),
+            where};
   } catch (const CORBA::UserException&) {
-    return OfOffer(where);
+    return OfLink(where);
   }
 }
 

@@ -99,6 +99,26 @@ TEST(CommandLine, ServeWithdrawsItsOfferOnSigterm) {
   EXPECT_EQ(RunProgram("gsv", {"offers", "--broker", broker.reference(), "--json"}).out, "");
 }
 
+TEST(CommandLine, ListsAddsAndRemovesLinks) {
+  const BrokerProcess broker;
+  const BrokerProcess other;
+  const auto links = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "links");
+    words.insert(words.end(), {"--broker", broker.reference(), "--json"});
+    return RunProgram("gsv", words);
+  };
+  EXPECT_EQ(links({"add", "north", other.reference(), "--limit", "if_no_local"}).ending,
+            "exit code 0");
+  const Outcome listed = links({});
+  EXPECT_EQ(listed.ending, "exit code 0");
+  EXPECT_EQ(listed.LastLine()["name"], "north");
+  EXPECT_EQ(listed.LastLine()["limiting_follow_rule"], "if_no_local");
+  EXPECT_EQ(listed.LastLine()["answers"], true);
+  EXPECT_EQ(links({"add", "north", other.reference()}).ending, "exit code 2");
+  EXPECT_EQ(links({"remove", "north"}).ending, "exit code 0");
+  EXPECT_EQ(links({"list"}).out, "");
+}
+
 TEST(CommandLine, RecordsAndReplays) {
   TemporaryFolder folder;
   const auto file = (folder.path() / "run.mcap").string();

@@ -1,0 +1,105 @@
+#include "gsv/broker/broker_administration.h"
+
+#include <csignal>
+#include <sstream>
+
+#include "gsv/broker/broker_node.h"
+#include "gsv/broker/offer_listing.h"
+
+namespace gsv::broker {
+namespace {
+
+TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
+  TestOrb();
+  BrokerProcess broker;
+  BrokerProcess other;
+  const BrokerAdministration administration(broker.reference());
+  ASSERT_TRUE(administration.AddLink("north",
+                                     "corbaloc::127.0.0.1:" + other.port() + "/TradingService",
+                                     FollowOption::kLocalOnly, FollowOption::kIfNoLocal));
+  std::ostringstream json;
+  PrintLinksJson(*administration.ListLinks(), json);
+  EXPECT_EQ(json.str(), R"({"name":"north","address":"127.0.0.1:)" + other.port() +
+                            R"(","def_pass_on_follow_rule":"local_only",)" +
+                            R"("limiting_follow_rule":"if_no_local","answers":true})" + "\n");
+  other.Send(SIGKILL);
+  other.Wait();
+  std::ostringstream text;
+  PrintLinks(*administration.ListLinks(), text);
+  EXPECT_EQ(text.str(), "north  127.0.0.1:" + other.port() +
+                            "  local_only, at most if_no_local  (does not answer)\n");
+  ASSERT_TRUE(administration.RemoveLink("north"));
+  EXPECT_TRUE(administration.ListLinks()->empty());
+}
+
+TEST(BrokerAdministration, SaysWhatIsWrongWithALink) {
+  TestOrb();
+  BrokerProcess broker;
+  const BrokerAdministration administration(broker.reference());
+  const auto add = [&](const char* name, FollowOption pass_on, FollowOption limiting) {
+    const auto added = administration.AddLink(name, broker.reference(), pass_on, limiting);
+    return added ? std::string() : added.error().message;
+  };
+  EXPECT_EQ(add("1st", FollowOption::kAlways, FollowOption::kAlways),
+            "\"1st\" cannot be a link's name");
+  EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kLocalOnly),
+            "a link cannot pass on more than it may follow itself");
+  EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways), "");
+  EXPECT_EQ(add("north", FollowOption::kAlways, FollowOption::kAlways),
+            "there is a link north already");
+  EXPECT_EQ(administration.RemoveLink("west").error().message, "the broker has no link west");
+  EXPECT_EQ(administration.AddLink("west", "nonsense", {}, {}).error().code,
+            base::ErrorCode::kInvalidArgument);
+}
+
+TEST(BrokerAdministration, AddsAndRemovesTypesAndOffers) {
+  BrokerNode node;
+  const BrokerAdministration administration(node.broker_.reference());
+  ServiceType type{.name = "Robot"};
+  for (const char* text :
+       {"mandatory readonly string name", "unsigned short wheels", "sequence<double> sizes"}) {
+    type.properties.push_back(*ParsePropertyDefinition(text));
+  }
+  ASSERT_TRUE(administration.AddServiceType(type));
+  std::ostringstream types;
+  PrintServiceTypes(*ListServiceTypes(node.broker_.reference()), types);
+  EXPECT_EQ(types.str(),
+            "Robot  \n  mandatory readonly string name\n  unsigned short wheels\n"
+            "  sequence<double> sizes\n");
+
+  const CORBA::String_var ior = TestOrb()->object_to_string(TestService());
+  const auto id = administration.AddOffer("Robot", ior.in(),
+                                          {"name=42", "wheels=4", "sizes=[1, 2.5]", "spare=true"});
+  ASSERT_TRUE(id) << id.error().Sentence();
+  EXPECT_EQ(node.Query("Robot", "name == '42' and wheels == 4 and 2.5 in sizes and spare == TRUE")
+                .offers->length(),
+            1u);
+  ASSERT_TRUE(administration.RemoveOffer(*id));
+  EXPECT_EQ(administration.RemoveOffer(*id).error().code, base::ErrorCode::kNotFound);
+  ASSERT_TRUE(administration.RemoveServiceType("Robot"));
+  EXPECT_EQ(administration.RemoveServiceType("Robot").error().code, base::ErrorCode::kNotFound);
+}
+
+TEST(PropertyTexts, RefuseWhatDoesNotFit) {
+  const ServiceType type{.name = "T",
+                         .properties = {*ParsePropertyDefinition("short a"),
+                                        *ParsePropertyDefinition("unsigned long b"),
+                                        *ParsePropertyDefinition("char c"),
+                                        *ParsePropertyDefinition("sequence<long> d")}};
+  for (const char* good : {"a=-32768", "b=4294967295", "c=x", "c=7", "d=[]", "e=[true]", "f=text",
+                           "g=1.5", "h=", "i=[\"a\"]"}) {
+    EXPECT_TRUE(ParseProperty(good, type)) << good;
+  }
+  for (const char* bad :
+       {"a=-32769", "a=1.5", "a=x", "b=-1", "b=4294967296", "c=xy", "c=", "d=1", "d=[1.5]",
+        "d=[9999999999]", "e=[1,true]", "f={}", "g", "h=99999999999"}) {
+    EXPECT_FALSE(ParseProperty(bad, type)) << bad;
+  }
+  for (const char* bad : {"", "name", "text name", "mandatory", "long  name", "mandatory long "}) {
+    const auto parsed = ParsePropertyDefinition(bad);
+    EXPECT_TRUE(!parsed || parsed->name.empty()) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace gsv::broker
