@@ -120,8 +120,7 @@ CORBA::Boolean AdminServant::set_supports_dynamic_properties(CORBA::Boolean valu
 }
 
 CORBA::Boolean AdminServant::set_supports_proxy_offers(CORBA::Boolean value) {
-  if (value) throw CORBA::NO_IMPLEMENT(0, CORBA::COMPLETED_NO);
-  return false;
+  return Exchange(&TraderAttributes::supports_proxy_offers, bool{value});
 }
 
 CORBA::Object_ptr AdminServant::set_type_repos(CORBA::Object_ptr repository) {
@@ -133,7 +132,16 @@ CORBA::Object_ptr AdminServant::set_type_repos(CORBA::Object_ptr repository) {
 
 void AdminServant::list_offers(CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,
                                CosTrading::OfferIdIterator_out id_itr) {
-  std::vector<std::string> all = objects_.trader.OfferIds();
+  HandOut(objects_.trader.OfferIds(), how_many, ids, id_itr);
+}
+
+void AdminServant::list_proxies(CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,
+                                CosTrading::OfferIdIterator_out id_itr) {
+  HandOut(objects_.trader.ProxyIds(), how_many, ids, id_itr);
+}
+
+void AdminServant::HandOut(std::vector<std::string> all, CORBA::ULong how_many,
+                           CosTrading::OfferIdSeq_out ids, CosTrading::OfferIdIterator_out id_itr) {
   const std::size_t count = std::min(how_many, objects_.trader.attributes().max_list);
   const auto end = all.begin() + static_cast<std::ptrdiff_t>(CountFitting(
                                      all, 0, count, kReplyBytes,
@@ -149,13 +157,6 @@ void AdminServant::list_offers(CORBA::ULong how_many, CosTrading::OfferIdSeq_out
   }
   ids = first_ids._retn();
   id_itr = rest._retn();
-}
-
-// This trader takes no proxy offers.
-void AdminServant::list_proxies(CORBA::ULong, CosTrading::OfferIdSeq_out ids,
-                                CosTrading::OfferIdIterator_out id_itr) {
-  ids = new CosTrading::OfferIdSeq;
-  id_itr = CosTrading::OfferIdIterator::_nil();
 }
 
 CORBA::ULong OfferIdIteratorServant::max_left() {

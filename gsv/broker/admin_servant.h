@@ -1,6 +1,9 @@
 // CosTrading::Admin: the trader's attributes, and the ids of all offers.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <COS/CosTrading.hh>
 
 #include "gsv/broker/attribute_servants.h"
@@ -35,8 +38,9 @@ class AdminServant : public POA_CosTrading::Admin,
   CORBA::Boolean set_supports_modifiable_properties(CORBA::Boolean value) override;
   CORBA::Boolean set_supports_dynamic_properties(CORBA::Boolean value) override;
 
-  // What this trader cannot do is refused with CORBA::NO_IMPLEMENT.
   CORBA::Boolean set_supports_proxy_offers(CORBA::Boolean value) override;
+
+  // Another repository than its own is refused with CORBA::NO_IMPLEMENT.
   CORBA::Object_ptr set_type_repos(CORBA::Object_ptr repository) override;
 
   void list_offers(CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,
@@ -47,6 +51,8 @@ class AdminServant : public POA_CosTrading::Admin,
  private:
   template <typename T>
   T Exchange(T TraderAttributes::*attribute, T value);
+  void HandOut(std::vector<std::string> all, CORBA::ULong how_many, CosTrading::OfferIdSeq_out ids,
+               CosTrading::OfferIdIterator_out id_itr);
 };
 
 class OfferIdIteratorServant : public POA_CosTrading::OfferIdIterator {

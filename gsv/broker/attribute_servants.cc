@@ -14,7 +14,9 @@ CosTrading::Link_ptr ComponentsServant::link_if() {
   return CosTrading::Link::_duplicate(objects_.link);
 }
 
-CosTrading::Proxy_ptr ComponentsServant::proxy_if() { return CosTrading::Proxy::_nil(); }
+CosTrading::Proxy_ptr ComponentsServant::proxy_if() {
+  return CosTrading::Proxy::_duplicate(objects_.proxy);
+}
 
 CosTrading::Admin_ptr ComponentsServant::admin_if() {
   return CosTrading::Admin::_duplicate(objects_.admin);
@@ -28,7 +30,9 @@ CORBA::Boolean SupportServant::supports_dynamic_properties() {
   return trading_.trader.attributes().supports_dynamic_properties;
 }
 
-CORBA::Boolean SupportServant::supports_proxy_offers() { return false; }
+CORBA::Boolean SupportServant::supports_proxy_offers() {
+  return trading_.trader.attributes().supports_proxy_offers;
+}
 
 CORBA::Object_ptr SupportServant::type_repos() { return CORBA::Object::_duplicate(trading_.types); }
 

@@ -7,7 +7,6 @@
 
 namespace gsv::broker {
 
-// An interface that this trader does not have is a nil reference, as the standard says.
 class ComponentsServant : public virtual POA_CosTrading::TraderComponents {
  public:
   CosTrading::Lookup_ptr lookup_if() override;

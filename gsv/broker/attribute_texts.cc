@@ -31,6 +31,7 @@ constexpr Attribute kAttributes[] = {
     {"max_link_follow_policy", &TraderAttributes::max_link_follow_policy},
     {"supports_modifiable_properties", &TraderAttributes::supports_modifiable_properties},
     {"supports_dynamic_properties", &TraderAttributes::supports_dynamic_properties},
+    {"supports_proxy_offers", &TraderAttributes::supports_proxy_offers},
     {"request_id_stem", &TraderAttributes::request_id_stem},
 };
 

@@ -20,6 +20,7 @@
 #include "gsv/broker/link_servant.h"
 #include "gsv/broker/lookup_servant.h"
 #include "gsv/broker/offer_file.h"
+#include "gsv/broker/proxy_servant.h"
 #include "gsv/broker/pulse.h"
 #include "gsv/broker/register_servant.h"
 #include "gsv/broker/service_reference.h"
@@ -176,6 +177,7 @@ class Broker::Impl {
         poa, "TradingTypes", new TypeRepositoryServant(objects_.trader));
     objects_.admin = Activate<CosTrading::Admin>(poa, "TradingAdmin", new AdminServant(objects_));
     objects_.link = Activate<CosTrading::Link>(poa, "TradingLink", new LinkServant(objects_));
+    objects_.proxy = Activate<CosTrading::Proxy>(poa, "TradingProxy", new ProxyServant(objects_));
     objects_.registry =
         Activate<CosTrading::Register>(poa, "TradingRegister", new RegisterServant(objects_));
     objects_.lookup = Activate<CosTrading::Lookup>(poa, kKey, new LookupServant(objects_));

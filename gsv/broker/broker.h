@@ -1,5 +1,5 @@
-// The Trading Service as a server on TCP: CosTrading Lookup, Register, Link and Admin, and the
-// ServiceTypeRepository, at "corbaloc::1.2@HOST:PORT/TradingService".
+// The Trading Service as a server on TCP: CosTrading Lookup, Register, Link, Proxy and Admin, and
+// the ServiceTypeRepository, at "corbaloc::1.2@HOST:PORT/TradingService".
 //
 // One in a process, which should do nothing else with CORBA: what an `any` may hold bounds the
 // size of every message of its ORB (64 KiB), see docs/broker.md.

@@ -6,6 +6,8 @@
 #include "gsv/broker/federation.h"
 #include "gsv/broker/names.h"
 #include "gsv/broker/policy_values.h"
+#include "gsv/broker/recipe.h"
+#include "gsv/broker/record_encoding.h"
 
 namespace gsv::broker {
 namespace {
@@ -30,46 +32,79 @@ void AddLimit(std::string_view name, MatchingOffers& matches) {
   limits.emplace_back(name);
 }
 
-std::vector<QueryDestination> Destinations(const std::vector<TraderLink>& links,
-                                           const FederatedQuery& query,
-                                           const TraderAttributes& attributes, std::uint32_t hops) {
-  std::vector<QueryDestination> destinations;
-  for (const TraderLink& link : links) {
-    const PassedPolicies passed{
-        .hop_count = hops - 1,
-        .link_follow_rule = PassOnRule(link, query.query.policies, attributes),
-        .request_id = query.request_id};
-    destinations.push_back({.name = "link " + link.name,
-                            .target = link.target,
-                            .constraint = query.query.constraint,
-                            .policies = PoliciesToPassOn(query.policies, passed)});
+struct Destinations {
+  std::vector<QueryDestination> all{};
+  std::vector<std::string_view> policies{};  // which of them each one's silence concerns
+
+  void Add(QueryDestination destination, std::string_view policy) {
+    all.push_back(std::move(destination));
+    policies.push_back(policy);
   }
-  return destinations;
+};
+
+void AddLinks(TradingObjects& objects, const FederatedQuery& query,
+              const TraderAttributes& attributes, std::uint32_t hops, MatchingOffers& matches,
+              Destinations& destinations) {
+  const ImportPolicies& import = query.query.policies;
+  const bool found_local = !matches.offers.empty() || !matches.proxies.empty();
+  const auto links = LinksToFollow(objects.trader.links(), import, attributes, found_local);
+  if (hops == 0 && !links.empty()) return AddLimit("hop_count", matches);
+  for (const TraderLink& link : links) {
+    const PassedPolicies passed{.hop_count = hops - 1,
+                                .link_follow_rule = PassOnRule(link, import, attributes),
+                                .request_id = query.request_id};
+    destinations.Add({.name = "link " + link.name,
+                      .target = link.target,
+                      .constraint = query.query.constraint,
+                      .policies = PoliciesToPassOn(query.policies, passed)},
+                     "link_follow_rule");
+  }
+}
+
+// A proxy is no hop of the query's, but its target must not take more time than there is.
+void AddProxies(TradingObjects& objects, const FederatedQuery& query, std::uint32_t hops,
+                MatchingOffers& matches, DynamicValues& values, Destinations& destinations) {
+  const std::size_t most = objects.trader.limits().federation.proxies;
+  for (const OfferPtr& proxy : matches.proxies) {
+    const auto constraint =
+        FollowRecipe(proxy->proxy->recipe, EvaluatedOffer(*proxy, values), query.query.constraint);
+    const auto policies = DecodePolicies(proxy->proxy->policies);
+    if (!constraint || !policies) continue;
+    if (destinations.all.size() == most) return AddLimit("use_proxy_offers", matches);
+    const PassedPolicies passed{
+        .hop_count = hops == 0 ? 0 : hops - 1, .request_id = query.request_id, .fixed = *policies};
+    destinations.Add({.name = "proxy " + objects.trader.IdOf(*proxy),
+                      .target = proxy->reference,
+                      .constraint = *constraint,
+                      .policies = PoliciesToPassOn(query.policies, passed)},
+                     "use_proxy_offers");
+  }
 }
 
 }  // namespace
 
-void AddAnswersOfLinks(TradingObjects& objects, const FederatedQuery& query,
-                       MatchingOffers& matches) {
+void AddAnswersOfOthers(TradingObjects& objects, const FederatedQuery& query,
+                        MatchingOffers& matches, DynamicValues& values) {
   const TraderAttributes attributes = objects.trader.attributes();
-  const ImportPolicies& import = query.query.policies;
-  const std::vector<TraderLink> links =
-      LinksToFollow(objects.trader.links(), import, attributes, !matches.offers.empty());
-  if (links.empty()) return;
-  const std::uint32_t hops = EffectiveHopCount(import, attributes);
-  if (hops == 0) return AddLimit("hop_count", matches);
+  const std::uint32_t hops = EffectiveHopCount(query.query.policies, attributes);
+  Destinations destinations;
+  AddProxies(objects, query, hops, matches, values, destinations);
+  AddLinks(objects, query, attributes, hops, matches, destinations);
+  if (destinations.all.empty()) return;
 
-  const ForwardedQuery forwarded{.type = query.query.type,
-                                 .preference = query.query.preference,
-                                 .desired = WithThoseOf(matches.preference, query.desired),
-                                 .at_most = matches.cardinalities.returned,
-                                 .deadline = std::chrono::steady_clock::now() +
-                                             hops * objects.trader.limits().federation.per_hop};
-  for (ForwardedAnswer& answer : objects.forwarder.Ask(
-           objects.orb, forwarded, Destinations(links, query, attributes, hops))) {
-    std::move(answer.offers.begin(), answer.offers.end(), std::back_inserter(matches.offers));
-    for (const std::string& name : answer.limits_applied) AddLimit(name, matches);
-    if (!answer.complete) AddLimit("link_follow_rule", matches);
+  const ForwardedQuery forwarded{
+      .type = query.query.type,
+      .preference = query.query.preference,
+      .desired = WithThoseOf(matches.preference, query.desired),
+      .at_most = matches.cardinalities.returned,
+      .deadline = std::chrono::steady_clock::now() +
+                  std::max(hops, 1u) * objects.trader.limits().federation.per_hop};
+  auto answers = objects.forwarder.Ask(objects.orb, forwarded, destinations.all);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    std::move(answers[i].offers.begin(), answers[i].offers.end(),
+              std::back_inserter(matches.offers));
+    for (const std::string& name : answers[i].limits_applied) AddLimit(name, matches);
+    if (!answers[i].complete) AddLimit(destinations.policies[i], matches);
   }
 }
 

@@ -1,4 +1,4 @@
-// A query's way through the links of this trader.
+// A query's way to other traders: through links, and through proxy offers that match it.
 #pragma once
 
 #include <string>
@@ -16,12 +16,12 @@ struct FederatedQuery {
   std::string request_id;
 };
 
-// Adds to what was found here what the traders behind the links find, and the names of the
-// policies that limited them. A trader that does not answer counts as one whose link was not
-// followed: link_follow_rule is among the names.
+// Adds to what was found here what other traders find, and the names of the policies that limited
+// them. A trader that does not answer counts as one whose link was not followed, or whose proxy
+// was not used: link_follow_rule or use_proxy_offers is among the names.
 // Threads  any; waits for other traders.
-void AddAnswersOfLinks(TradingObjects& objects, const FederatedQuery& query,
-                       MatchingOffers& matches);
+void AddAnswersOfOthers(TradingObjects& objects, const FederatedQuery& query,
+                        MatchingOffers& matches, DynamicValues& values);
 
 // The Lookup that the first name of the policy starting_trader leads to, with what the query to it
 // may take as its time-out.

@@ -32,6 +32,7 @@ struct TraderAttributes {
   FollowOption max_link_follow_policy = FollowOption::kAlways;
   bool supports_modifiable_properties = true;
   bool supports_dynamic_properties = true;
+  bool supports_proxy_offers = true;
   std::string request_id_stem{};  // octets; no other trader's are the same
 };
 
@@ -43,6 +44,7 @@ struct ImportPolicies {
   bool exact_type_match = false;
   bool use_modifiable_properties = true;
   bool use_dynamic_properties = true;
+  bool use_proxy_offers = true;
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   TraderName starting_trader{};

@@ -30,6 +30,7 @@ struct FederationLimits {
   // trader on the way still has time to answer when those behind it do not.
   std::chrono::milliseconds per_hop{500};
   std::size_t links = 100;
+  std::size_t proxies = 16;                // asked by one query
   std::size_t trader_name = 32;            // links named in one starting_trader or resolve
   std::size_t calls = 32;                  // underway, of all queries
   std::size_t offers_per_answer = 20'000;  // of one trader

@@ -28,6 +28,8 @@ base::Result<std::unique_ptr<OfferFile>> OfferFile::Open(const std::string& path
   const std::pair<Statement*, std::string_view> texts[] = {
       {&statements.put_offer, "INSERT OR REPLACE INTO offer VALUES (?, ?, ?, ?)"},
       {&statements.remove_offer, "DELETE FROM offer WHERE number = ?"},
+      {&statements.put_proxy, "INSERT OR REPLACE INTO proxy VALUES (?, ?, ?, ?, ?, ?, ?)"},
+      {&statements.remove_proxy, "DELETE FROM proxy WHERE number = ?"},
       {&statements.put_type, "INSERT OR REPLACE INTO service_type VALUES (?, ?)"},
       {&statements.remove_type, "DELETE FROM service_type WHERE name = ?"},
       {&statements.put_link, "INSERT OR REPLACE INTO link VALUES (?, ?, ?, ?)"},
@@ -65,8 +67,9 @@ OfferFile::~OfferFile() {
 
 base::Result<TraderState> OfferFile::Load() {
   TraderState state;
-  for (const auto load : {&OfferFile::LoadNumbers, &OfferFile::LoadTypes, &OfferFile::LoadOffers,
-                          &OfferFile::LoadLinks, &OfferFile::LoadAttributes}) {
+  for (const auto load :
+       {&OfferFile::LoadNumbers, &OfferFile::LoadTypes, &OfferFile::LoadOffers,
+        &OfferFile::LoadProxies, &OfferFile::LoadLinks, &OfferFile::LoadAttributes}) {
     if (auto loaded = (this->*load)(state); !loaded) {
       return base::Fail(base::ErrorCode::kCorrupt, loaded.error().message, path_);
     }
@@ -116,6 +119,30 @@ base::Status OfferFile::LoadOffers(TraderState& state) {
                                             .type = rows->Bytes(1),
                                             .reference = rows->Bytes(2),
                                             .properties = std::move(*properties)}));
+  }
+}
+
+base::Status OfferFile::LoadProxies(TraderState& state) {
+  auto rows = database_.Prepare(
+      "SELECT number, type, target, properties, if_match_all, recipe, policies FROM proxy");
+  if (!rows) return base::Fail(rows.error());
+  while (true) {
+    const auto row = rows->Next();
+    if (!row) return base::Fail(row.error());
+    if (!*row) return {};
+    auto properties = DecodeProperties(rows->Bytes(3));
+    if (!properties) return base::Fail(properties.error());
+    if (auto policies = DecodePolicies(rows->Bytes(6)); !policies) {
+      return base::Fail(policies.error());
+    }
+    state.offers.push_back(std::make_shared<const Offer>(Offer{
+        .number = static_cast<std::uint64_t>(rows->Integer(0)),
+        .type = rows->Bytes(1),
+        .reference = rows->Bytes(2),
+        .properties = std::move(*properties),
+        .proxy = std::make_shared<const ProxyPart>(ProxyPart{.if_match_all = rows->Integer(4) != 0,
+                                                             .recipe = rows->Bytes(5),
+                                                             .policies = rows->Bytes(6)})}));
   }
 }
 
@@ -222,6 +249,7 @@ base::Status OfferFile::WriteAll(const std::vector<StateChange>& changes) {
 
 base::Status OfferFile::Apply(const OfferStored& change) {
   const Offer& offer = *change.offer;
+  if (offer.proxy != nullptr) return PutProxy(offer);
   statements_.put_offer.Bind(1, static_cast<std::int64_t>(offer.number))
       .Bind(2, offer.type)
       .Bind(3, offer.reference)
@@ -230,10 +258,23 @@ base::Status OfferFile::Apply(const OfferStored& change) {
   return PutNumber(kNextNumber, offer.number + 1);
 }
 
+base::Status OfferFile::PutProxy(const Offer& offer) {
+  statements_.put_proxy.Bind(1, static_cast<std::int64_t>(offer.number))
+      .Bind(2, offer.type)
+      .Bind(3, offer.reference)
+      .BindBlob(4, EncodeProperties(offer.properties))
+      .Bind(5, std::int64_t{offer.proxy->if_match_all})
+      .Bind(6, offer.proxy->recipe)
+      .BindBlob(7, offer.proxy->policies);
+  if (auto ok = statements_.put_proxy.Run(); !ok) return ok;
+  return PutNumber(kNextNumber, offer.number + 1);
+}
+
 base::Status OfferFile::Apply(const OffersRemoved& change) {
   for (const std::uint64_t number : change.numbers) {
-    statements_.remove_offer.Bind(1, static_cast<std::int64_t>(number));
-    if (auto ok = statements_.remove_offer.Run(); !ok) return ok;
+    for (Statement* remove : {&statements_.remove_offer, &statements_.remove_proxy}) {
+      if (auto ok = remove->Bind(1, static_cast<std::int64_t>(number)).Run(); !ok) return ok;
+    }
   }
   return {};
 }

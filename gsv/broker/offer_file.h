@@ -44,14 +44,15 @@ class OfferFile : public Journal {
 
  private:
   struct Statements {
-    Statement put_offer, remove_offer, put_type, remove_type, put_link, remove_link, put_attribute,
-        put_number, begin, commit;
+    Statement put_offer, remove_offer, put_proxy, remove_proxy, put_type, remove_type, put_link,
+        remove_link, put_attribute, put_number, begin, commit;
   };
 
   OfferFile(std::string path, Database database, Statements statements);
   base::Status LoadNumbers(TraderState& state);
   base::Status LoadTypes(TraderState& state);
   base::Status LoadOffers(TraderState& state);
+  base::Status LoadProxies(TraderState& state);
   base::Status LoadLinks(TraderState& state);
   base::Status LoadAttributes(TraderState& state);
 
@@ -59,6 +60,7 @@ class OfferFile : public Journal {
   base::Status WriteWithPatience(const std::vector<StateChange>& changes);
   base::Status WriteAll(const std::vector<StateChange>& changes);
   base::Status Apply(const OfferStored& change);
+  base::Status PutProxy(const Offer& offer);
   base::Status Apply(const OffersRemoved& change);
   base::Status Apply(const TypeStored& change);
   base::Status Apply(const TypeRemoved& change);

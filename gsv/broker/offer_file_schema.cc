@@ -10,12 +10,15 @@ namespace {
 
 // "GSVB": tells a broker's file from every other database.
 constexpr int kApplication = 0x47535642;
-// Version 1 kept neither links nor attributes.
+// Version 1 kept neither links, proxies nor attributes.
 constexpr int kVersion = 2;
 
 constexpr std::string_view kAddedInVersion2 =
     "CREATE TABLE IF NOT EXISTS link (name TEXT PRIMARY KEY, target TEXT NOT NULL,"
     "    def_pass_on INTEGER NOT NULL, limiting INTEGER NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE IF NOT EXISTS proxy (number INTEGER PRIMARY KEY, type TEXT NOT NULL,"
+    "    target TEXT NOT NULL, properties BLOB NOT NULL, if_match_all INTEGER NOT NULL,"
+    "    recipe TEXT NOT NULL, policies BLOB NOT NULL);"
     "CREATE TABLE IF NOT EXISTS attribute (name TEXT PRIMARY KEY, value BLOB NOT NULL)"
     "    WITHOUT ROWID;";
 

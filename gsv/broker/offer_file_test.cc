@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/broker/broker_fixture.h"
+#include "gsv/broker/record_encoding.h"
 #include "gsv/broker/trader.h"
 
 namespace gsv::broker {
@@ -149,6 +150,28 @@ TEST_F(OfferFileTest, KeepsLinksAndAttributes) {
   EXPECT_EQ(trader->attributes().request_id_stem, std::string("a\0b", 3));
 }
 
+TEST_F(OfferFileTest, KeepsProxies) {
+  auto trader = Reopen();
+  ASSERT_TRUE(trader->AddType({.name = "Robot"}));
+  const std::string policies = EncodePolicies(CosTrading::PolicySeq());
+  const ProxyPart part{.if_match_all = true, .recipe = "n == $(n)", .policies = policies};
+  const std::string kept = *trader->ExportProxy("Robot", "IOR:00", {{"n", Value::Long(7)}}, part);
+  const std::string gone = *trader->ExportProxy("Robot", "IOR:01", {{"n", Value::Long(7)}}, part);
+  ASSERT_TRUE(trader->WithdrawProxy(gone));
+  trader = nullptr;
+  trader = Reopen();
+  EXPECT_EQ(trader->ProxyIds(), std::vector<std::string>{kept});
+  EXPECT_TRUE(trader->OfferIds().empty());
+  const OfferPtr proxy = trader->DescribeProxy(kept).value();
+  EXPECT_EQ(proxy->type, "Robot");
+  EXPECT_EQ(proxy->reference, "IOR:00");
+  EXPECT_EQ(*proxy->properties.Find("n"), Value::Long(7));
+  EXPECT_TRUE(proxy->proxy->if_match_all);
+  EXPECT_EQ(proxy->proxy->recipe, "n == $(n)");
+  EXPECT_EQ(proxy->proxy->policies, policies);
+  EXPECT_GT(*trader->Export("Robot", "IOR:02", {}), gone);
+}
+
 // A file of format 1, which knew neither links nor attributes.
 TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
   auto trader = Reopen();
@@ -156,7 +179,7 @@ TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
   const std::string id = *trader->Export("Robot", "IOR:00", {});
   trader = nullptr;
   ASSERT_TRUE(Database::Open(Path())->Run(
-      "DROP TABLE link; DROP TABLE attribute; PRAGMA user_version = 1"));
+      "DROP TABLE link; DROP TABLE proxy; DROP TABLE attribute; PRAGMA user_version = 1"));
   trader = Reopen();
   EXPECT_TRUE(trader->Describe(id));
   ASSERT_TRUE(trader->AddLink({.name = "kept", .target = "IOR:00"}));

@@ -57,7 +57,7 @@ void Apply(const CosTrading::Policy& policy, ImportPolicies& policies) {
   } else if (name == "use_dynamic_properties") {
     policies.use_dynamic_properties = ExtractBoolean(policy);
   } else if (name == "use_proxy_offers") {
-    ExtractBoolean(policy);  // there are none to leave out
+    policies.use_proxy_offers = ExtractBoolean(policy);
   } else if (name == "hop_count") {
     policies.hop_count = Extract<CORBA::ULong>(policy);
   } else if (name == "link_follow_rule") {
@@ -119,13 +119,19 @@ CosTrading::PolicySeq PoliciesToPassOn(const CosTrading::PolicySeq& policies,
     value <<= id;
     add("request_id", value);
   }
+  std::set<std::string> taken = {"starting_trader"};
+  for (CORBA::ULong i = 0; i < result.length(); ++i) taken.insert(result[i].name.in());
+  const std::set<std::string> set_here = taken;
+  for (CORBA::ULong i = 0; i < passed.fixed.length(); ++i) {
+    taken.insert(passed.fixed[i].name.in());
+  }
   for (CORBA::ULong i = 0; i < policies.length(); ++i) {
-    const std::string_view name = policies[i].name.in();
-    const bool replaced = name == "starting_trader" ||
-                          (name == "hop_count" && passed.hop_count.has_value()) ||
-                          (name == "link_follow_rule" && passed.link_follow_rule.has_value()) ||
-                          (name == "request_id" && passed.request_id.has_value());
-    if (!replaced) add(policies[i].name, policies[i].value);
+    if (!taken.contains(policies[i].name.in())) add(policies[i].name, policies[i].value);
+  }
+  for (CORBA::ULong i = 0; i < passed.fixed.length(); ++i) {
+    const CosTrading::Policy& fixed = passed.fixed[i];
+    const std::string name = fixed.name.in();
+    if (name == "starting_trader" || !set_here.contains(name)) add(fixed.name, fixed.value);
   }
   return result;
 }

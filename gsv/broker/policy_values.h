@@ -22,6 +22,8 @@ struct PassedPolicies {
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   std::optional<std::string> request_id{};
+  // In the place of the importer's of the same names, and after all others; those above stay.
+  CosTrading::PolicySeq fixed{};
 };
 
 // starting_trader first, as the standard recommends.

@@ -71,6 +71,10 @@ void Raise(const TradingError& error) {
       throw CosTrading::IllegalOfferId(name);
     case Refusal::kUnknownOfferId:
       throw CosTrading::UnknownOfferId(name);
+    case Refusal::kProxyOfferId:
+      throw Register::ProxyOfferId(name);
+    case Refusal::kNotProxyOfferId:
+      throw CosTrading::Proxy::NotProxyOfferId(name);
     case Refusal::kMissingMandatoryProperty:
       throw CosTrading::MissingMandatoryProperty(type, name);
     case Refusal::kMandatoryProperty:
@@ -85,6 +89,8 @@ void Raise(const TradingError& error) {
       throw CosTrading::IllegalConstraint(name);
     case Refusal::kIllegalPreference:
       throw CosTrading::Lookup::IllegalPreference(name);
+    case Refusal::kIllegalRecipe:
+      throw CosTrading::Proxy::IllegalRecipe(name);
     case Refusal::kNoMatchingOffers:
       throw Register::NoMatchingOffers(name);
     case Refusal::kIllegalLinkName:

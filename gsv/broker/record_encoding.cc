@@ -56,6 +56,17 @@ base::Result<PropertyList> DecodeProperties(const std::string& bytes) {
   });
 }
 
+std::string EncodePolicies(const CosTrading::PolicySeq& policies) { return Encode(policies); }
+
+base::Result<CosTrading::PolicySeq> DecodePolicies(const std::string& bytes) {
+  return Decode<CosTrading::PolicySeq>("a policy", [&]() -> base::Result<CosTrading::PolicySeq> {
+    cdrEncapsulationStream stream = StreamOf(bytes);
+    CosTrading::PolicySeq policies;
+    policies <<= stream;
+    return policies;
+  });
+}
+
 std::string EncodeServiceType(const ServiceType& type) { return Encode(ToCorba(type)); }
 
 base::Result<ServiceType> DecodeServiceType(const std::string& name, const std::string& bytes) {

@@ -1,6 +1,6 @@
 // Offers' properties and service types as bytes that outlive the process.
 //
-// Format  CDR encapsulations of CosTrading::PropertySeq and of
+// Format  CDR encapsulations of CosTrading::PropertySeq and PolicySeq, and of
 //         CosTradingRepos::ServiceTypeRepository::TypeStruct.
 // The process needs an ORB for them.
 //
@@ -8,6 +8,8 @@
 #pragma once
 
 #include <string>
+
+#include <COS/CosTrading.hh>
 
 #include "gsv/base/error.h"
 #include "gsv/broker/property.h"
@@ -17,6 +19,9 @@ namespace gsv::broker {
 
 std::string EncodeProperties(const PropertyList& properties);
 [[nodiscard]] base::Result<PropertyList> DecodeProperties(const std::string& bytes);
+
+std::string EncodePolicies(const CosTrading::PolicySeq& policies);
+[[nodiscard]] base::Result<CosTrading::PolicySeq> DecodePolicies(const std::string& bytes);
 
 // All but the name.
 std::string EncodeServiceType(const ServiceType& type);

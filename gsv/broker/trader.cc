@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -40,12 +42,19 @@ bool HasModifiableProperties(const ServiceType& type, const Offer& offer) {
                       [&](const Property& property) { return IsReadonlyIn(type, property); });
 }
 
+bool IsProxy(const OfferPtr& offer) { return offer->proxy != nullptr; }
+
+bool IsMatch(const Expression& constraint, const Offer& offer, DynamicValues& values) {
+  return (offer.proxy != nullptr && offer.proxy->if_match_all) ||
+         Matches(constraint, EvaluatedOffer(offer, values));
+}
+
 // Keeps the offers that match, up to `limit`; true when there were more.
 bool KeepMatching(const Expression& constraint, std::size_t limit, DynamicValues& values,
                   Offers& offers) {
   std::size_t kept = 0;
   for (OfferPtr& offer : offers) {
-    if (!Matches(constraint, EvaluatedOffer(*offer, values))) continue;
+    if (!IsMatch(constraint, *offer, values)) continue;
     if (kept == limit) {
       offers.resize(kept);
       return true;
@@ -164,28 +173,35 @@ Traded<std::string> Trader::Export(const std::string& type, std::string referenc
   auto checked =
       CheckExport(*described, std::move(properties), attributes().supports_dynamic_properties);
   if (!checked) return Refuse(checked.error());
-  if (auto fits = CheckSize(*checked, reference); !fits) return Refuse(fits.error());
+  return Store(
+      {.type = type, .reference = std::move(reference), .properties = std::move(*checked)});
+}
 
+Traded<std::string> Trader::Store(Offer offer) {
+  if (auto fits = CheckSize(offer.properties, offer.reference); !fits) return Refuse(fits.error());
   return Change([&]() -> Traded<std::string> {
     if (offers_.size() >= limits_.offers) {
       return Refuse({.refusal = Refusal::kLimit,
                      .detail = fmt::format("there are {} offers already", limits_.offers)});
     }
-    const std::uint64_t number = offers_.Add(
-        {.type = type, .reference = std::move(reference), .properties = std::move(*checked)});
+    const std::uint64_t number = offers_.Add(std::move(offer));
     Record(OfferStored{offers_.Find(number)});
     return IdOf(number);
   });
 }
 
 Traded<void> Trader::Withdraw(const std::string& id) {
-  const auto number = NumberOf(id);
-  if (!number) return Refuse(number.error());
   return Change([&]() -> Traded<void> {
-    if (!offers_.Remove(*number)) return Refuse({.refusal = Refusal::kUnknownOfferId, .name = id});
-    Record(OffersRemoved{{*number}});
+    const auto offer = FindOffer(id);
+    if (!offer) return Refuse(offer.error());
+    Remove({(*offer)->number});
     return {};
   });
+}
+
+void Trader::Remove(std::vector<std::uint64_t> numbers) {
+  for (const std::uint64_t number : numbers) offers_.Remove(number);
+  Record(OffersRemoved{std::move(numbers)});
 }
 
 Traded<OfferPtr> Trader::Describe(const std::string& id) const {
@@ -230,6 +246,7 @@ Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std:
     return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}),
                            limits_.offers);
   }();
+  std::erase_if(matching, IsProxy);
   DynamicValues values(evaluator, limits_.dynamic.query_budget);
   KeepMatching(*compiled, limits_.offers, values, matching);
 
@@ -264,13 +281,17 @@ std::size_t Trader::WithdrawAll(const std::vector<std::uint64_t>& numbers) {
 std::vector<std::string> Trader::OfferIds() const {
   const ReadLock lock(mutex_);
   std::vector<std::string> ids;
-  for (const OfferPtr& offer : offers_.All()) ids.push_back(IdOf(offer->number));
+  for (const OfferPtr& offer : offers_.All()) {
+    if (!IsProxy(offer)) ids.push_back(IdOf(offer->number));
+  }
   return ids;
 }
 
 Offers Trader::AllOffers() const {
   const ReadLock lock(mutex_);
-  return offers_.All();
+  Offers all = offers_.All();
+  std::erase_if(all, IsProxy);
+  return all;
 }
 
 Traded<QueryResult> Trader::Find(const Query& query) const {
@@ -297,6 +318,10 @@ Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& v
   if (KeepMatching(*constraint, matches.cardinalities.match, values, matches.offers)) {
     matches.limits_applied.emplace_back("match_card");
   }
+  const auto proxies =
+      std::stable_partition(matches.offers.begin(), matches.offers.end(), std::not_fn(IsProxy));
+  std::move(proxies, matches.offers.end(), std::back_inserter(matches.proxies));
+  matches.offers.erase(proxies, matches.offers.end());
   return matches;
 }
 
@@ -320,6 +345,9 @@ MatchingOffers Trader::Candidates(const Query& query) const {
   candidates.offers = offers_.OfTypes(types, search_card);
   if (offers_.CountOfTypes(types) > search_card) {
     candidates.limits_applied.emplace_back("search_card");
+  }
+  if (!query.policies.use_proxy_offers || !attributes_.supports_proxy_offers) {
+    std::erase_if(candidates.offers, IsProxy);
   }
   if (!query.policies.use_dynamic_properties || !attributes_.supports_dynamic_properties) {
     std::erase_if(candidates.offers,
@@ -354,6 +382,14 @@ std::string Trader::IdOf(std::uint64_t number) const {
 }
 
 Traded<OfferPtr> Trader::FindOffer(const std::string& id) const {
+  auto offer = FindAny(id);
+  if (offer && (*offer)->proxy != nullptr) {
+    return Refuse({.refusal = Refusal::kProxyOfferId, .name = id});
+  }
+  return offer;
+}
+
+Traded<OfferPtr> Trader::FindAny(const std::string& id) const {
   const auto number = NumberOf(id);
   if (!number) return Refuse(number.error());
   OfferPtr offer = offers_.Find(*number);

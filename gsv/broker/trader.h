@@ -41,6 +41,7 @@ struct Query {
 // What a query found before it is ordered and cut.
 struct MatchingOffers {
   Offers offers{};
+  Offers proxies{};  // other traders may have offers for the query
   Preference preference{};
   Cardinalities cardinalities{};
   std::vector<std::string> limits_applied{};
@@ -99,10 +100,19 @@ class Trader {
                                        DynamicEvaluator* evaluator = nullptr);
   // Withdraws those of the offers that are still there; returns how many.
   std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
-  // In the order of export.
+  // In the order of export; without proxies.
   std::vector<std::string> OfferIds() const;
   Offers AllOffers() const;
   std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
+
+  // ---- Proxy offers: what is said of offers above does not see them
+  // `target`, another trader's Lookup, is not looked at. Returns the proxy's id.
+  Traded<std::string> ExportProxy(const std::string& type, std::string target,
+                                  std::vector<Property> properties, ProxyPart part);
+  Traded<void> WithdrawProxy(const std::string& id);
+  Traded<OfferPtr> DescribeProxy(const std::string& id) const;
+  // In the order of export.
+  std::vector<std::string> ProxyIds() const;
 
   // ---- Links, see LinkTable
   Traded<void> AddLink(TraderLink link);
@@ -134,7 +144,13 @@ class Trader {
   MatchingOffers Candidates(const Query& query) const;
   Traded<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
+  // An offer or a proxy.
+  Traded<OfferPtr> FindAny(const std::string& id) const;
   Traded<OfferPtr> FindOffer(const std::string& id) const;
+  Traded<OfferPtr> FindProxy(const std::string& id) const;
+  // Checks the size, and gives the offer its number.
+  Traded<std::string> Store(Offer offer);
+  void Remove(std::vector<std::uint64_t> numbers);
   Traded<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
 
   const TraderLimits limits_;

@@ -33,6 +33,8 @@ enum class Refusal {
   kUnknownPropertyName,
   kIllegalOfferId,
   kUnknownOfferId,
+  kProxyOfferId,
+  kNotProxyOfferId,
   // Members: type, name
   kMissingMandatoryProperty,
   kMandatoryProperty,
@@ -43,6 +45,7 @@ enum class Refusal {
   // Members: name (the text that was refused)
   kIllegalConstraint,
   kIllegalPreference,
+  kIllegalRecipe,
   kNoMatchingOffers,
   kIllegalLinkName,
   kUnknownLinkName,

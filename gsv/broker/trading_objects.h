@@ -45,6 +45,7 @@ struct TradingObjects {
   CosTrading::Lookup_var lookup;
   CosTrading::Register_var registry;
   CosTrading::Link_var link;
+  CosTrading::Proxy_var proxy;
   CosTrading::Admin_var admin;
   CosTradingRepos::ServiceTypeRepository_var types;
 
