@@ -7,8 +7,29 @@ namespace gsv::broker {
 DynamicValues::DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget)
     : evaluator_(evaluator), budget_(budget) {}
 
-const Value* DynamicValues::Find(const Offer& offer, std::string_view name) {
+const Value* DynamicValues::FindStatic(const Offer& offer, std::string_view name) {
+  constexpr std::size_t kPlaces = 16;
+  const std::vector<Property>& properties = offer.properties.all();
+  auto place = std::find_if(places_.begin(), places_.end(),
+                            [&](const Place& known) { return known.name == name.data(); });
+  if (place != places_.end() && place->index < properties.size() &&
+      properties[place->index].name == name) {
+    return &properties[place->index].value;
+  }
   const Value* value = offer.properties.Find(name);
+  if (value == nullptr) return nullptr;
+  std::size_t index = 0;
+  while (&properties[index].value != value) ++index;
+  if (place != places_.end()) {
+    place->index = index;
+  } else if (places_.size() < kPlaces) {
+    places_.push_back({name.data(), index});
+  }
+  return value;
+}
+
+const Value* DynamicValues::Find(const Offer& offer, std::string_view name) {
+  const Value* value = FindStatic(offer, name);
   if (value == nullptr || !IsDynamic(*value)) return value;
   if (evaluator_ == nullptr) return nullptr;
   const auto [place, is_new] = known_.try_emplace(Key(offer.number, name));

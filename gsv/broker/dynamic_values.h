@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "gsv/broker/offer.h"
 #include "gsv/broker/property.h"
@@ -39,16 +40,25 @@ class DynamicValues {
   DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget);
 
   // The property's value, asked for when it is dynamic. Null when there is none. The pointer holds
-  // as long as this and the offer.
+  // as long as this and the offer. It is found at once where offers that are asked for one after
+  // the other have the same properties, and `name` stays where it is.
   const Value* Find(const Offer& offer, std::string_view name);
 
  private:
   using Key = std::pair<std::uint64_t, std::string>;
+  // Where the property of a name stood last.
+  struct Place {
+    const char* name;
+    std::size_t index;
+  };
+
+  const Value* FindStatic(const Offer& offer, std::string_view name);
 
   DynamicEvaluator* const evaluator_;
   const std::chrono::milliseconds budget_;
   std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // from the first question on
   std::map<Key, std::optional<Value>> known_;
+  std::vector<Place> places_;
 };
 
 // An offer with its dynamic properties evaluated as needed.

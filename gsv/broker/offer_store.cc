@@ -5,6 +5,12 @@
 #include "gsv/base/check.h"
 
 namespace gsv::broker {
+namespace {
+
+constexpr std::size_t kIndicesOfType = 8;
+constexpr std::size_t kIndexedTerms = 4;  // of one constraint
+
+}  // namespace
 
 std::uint64_t OfferStore::Add(Offer offer) {
   offer.number = next_number_++;
@@ -15,7 +21,9 @@ std::uint64_t OfferStore::Add(Offer offer) {
 
 void OfferStore::Restore(OfferPtr offer) {
   const std::uint64_t number = offer->number;
-  by_type_[offer->type].emplace(number, offer);
+  Bucket& bucket = by_type_[offer->type];
+  bucket.offers.Put(offer);
+  for (PropertyIndex& index : bucket.indices) index.Insert(offer);
   offers_.emplace(number, std::move(offer));
   SkipTo(number + 1);
 }
@@ -26,7 +34,12 @@ void OfferStore::Replace(Offer offer) {
   auto stored = std::make_shared<const Offer>(std::move(offer));
   const auto found = offers_.find(stored->number);
   GSV_CHECK(found != offers_.end() && found->second->type == stored->type);
-  by_type_.at(stored->type).at(stored->number) = stored;
+  Bucket& bucket = by_type_.at(stored->type);
+  for (PropertyIndex& index : bucket.indices) {
+    index.Remove(*found->second);
+    index.Insert(stored);
+  }
+  bucket.offers.Put(stored);
   found->second = std::move(stored);
 }
 
@@ -34,8 +47,9 @@ bool OfferStore::Remove(std::uint64_t number) {
   const auto found = offers_.find(number);
   if (found == offers_.end()) return false;
   const auto bucket = by_type_.find(found->second->type);
-  bucket->second.erase(number);
-  if (bucket->second.empty()) by_type_.erase(bucket);
+  for (PropertyIndex& index : bucket->second.indices) index.Remove(*found->second);
+  bucket->second.offers.Remove(number);
+  if (bucket->second.offers.size() == 0) by_type_.erase(bucket);
   offers_.erase(found);
   return true;
 }
@@ -45,24 +59,20 @@ OfferPtr OfferStore::Find(std::uint64_t number) const {
   return found != offers_.end() ? found->second : nullptr;
 }
 
-Offers OfferStore::OfTypes(const std::vector<std::string>& types, std::size_t limit) const {
-  Offers found;
+std::vector<OfferView> OfferStore::OfTypes(const std::vector<std::string>& types) const {
+  std::vector<OfferView> views;
   for (const std::string& type : types) {
     const auto bucket = by_type_.find(type);
-    if (bucket == by_type_.end()) continue;
-    for (const auto& [number, offer] : bucket->second) {
-      if (found.size() == limit) return found;
-      found.push_back(offer);
-    }
+    if (bucket != by_type_.end()) views.push_back(bucket->second.offers.View());
   }
-  return found;
+  return views;
 }
 
 std::size_t OfferStore::CountOfTypes(const std::vector<std::string>& types) const {
   std::size_t count = 0;
   for (const std::string& type : types) {
     const auto bucket = by_type_.find(type);
-    if (bucket != by_type_.end()) count += bucket->second.size();
+    if (bucket != by_type_.end()) count += bucket->second.offers.size();
   }
   return count;
 }
@@ -74,6 +84,52 @@ Offers OfferStore::All() const {
   std::sort(all.begin(), all.end(),
             [](const OfferPtr& a, const OfferPtr& b) { return a->number < b->number; });
   return all;
+}
+
+const PropertyIndex* OfferStore::Bucket::FindIndex(const std::string& property) const {
+  const auto found = std::find_if(indices.begin(), indices.end(), [&](const PropertyIndex& index) {
+    return index.property() == property;
+  });
+  return found != indices.end() ? &*found : nullptr;
+}
+
+std::optional<std::vector<OfferView>> OfferStore::OfTypesWith(
+    const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms) const {
+  std::vector<OfferView> views;
+  for (const std::string& type : types) {
+    const auto bucket = by_type_.find(type);
+    if (bucket == by_type_.end()) continue;
+    const PropertyIndex* best = nullptr;
+    const ScalarValue* value = nullptr;
+    for (const EqualityTerm& term : terms) {
+      const PropertyIndex* index = bucket->second.FindIndex(term.property);
+      if (index == nullptr) continue;
+      if (best != nullptr && best->Count(*value) <= index->Count(term.value)) continue;
+      best = index;
+      value = &term.value;
+    }
+    if (best == nullptr) return std::nullopt;
+    views.emplace_back(best->Find(*value));
+  }
+  return views;
+}
+
+void OfferStore::Index(const std::vector<std::string>& types,
+                       const std::vector<EqualityTerm>& terms) {
+  for (const std::string& type : types) {
+    const auto found = by_type_.find(type);
+    if (found == by_type_.end()) continue;
+    Bucket& bucket = found->second;
+    for (std::size_t i = 0; i < std::min(terms.size(), kIndexedTerms); ++i) {
+      if (bucket.FindIndex(terms[i].property) != nullptr) continue;
+      if (bucket.indices.size() == kIndicesOfType) bucket.indices.pop_front();
+      PropertyIndex& index = bucket.indices.emplace_back(terms[i].property);
+      const OfferView view = bucket.offers.View();
+      for (const OfferPtr& offer : view.offers()) {
+        if (offer != nullptr) index.Insert(offer);
+      }
+    }
+  }
 }
 
 }  // namespace gsv::broker

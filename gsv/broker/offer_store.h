@@ -1,15 +1,20 @@
-// The offers, by number and by service type.
+// The offers, by number, by service type, and by the values of properties that queries ask for.
 //
-// Threads  not safe; Trader serialises.
+// Threads  not safe; Trader serialises. What a view shows stays as it is.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "gsv/broker/equality_terms.h"
 #include "gsv/broker/offer.h"
+#include "gsv/broker/offer_column.h"
+#include "gsv/broker/property_index.h"
 
 namespace gsv::broker {
 
@@ -30,14 +35,26 @@ class OfferStore {
   // Null when there is none.
   OfferPtr Find(std::uint64_t number) const;
 
-  // At most `limit` offers of one of `types`, in the order of export within a type.
-  Offers OfTypes(const std::vector<std::string>& types, std::size_t limit) const;
+  // The offers of `types`: type by type, in the order of export within one.
+  std::vector<OfferView> OfTypes(const std::vector<std::string>& types) const;
   std::size_t CountOfTypes(const std::vector<std::string>& types) const;
   // In the order of export.
   Offers All() const;
 
+  // Of OfTypes(), in the same order, at least those for which one of `terms` is TRUE: the one that
+  // leaves the fewest. Nothing when there is no index for one of them in every type.
+  std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
+                                                    const std::vector<EqualityTerm>& terms) const;
+  // Makes indices for the first few of `terms`. Each type has a few; the oldest goes first.
+  void Index(const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms);
+
  private:
-  using Bucket = std::map<std::uint64_t, OfferPtr>;
+  struct Bucket {
+    OfferColumn offers{};
+    std::deque<PropertyIndex> indices{};  // in the order in which they were made
+
+    const PropertyIndex* FindIndex(const std::string& property) const;
+  };
 
   std::unordered_map<std::uint64_t, OfferPtr> offers_;
   std::map<std::string, Bucket> by_type_;

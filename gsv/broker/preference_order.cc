@@ -9,33 +9,36 @@ namespace gsv::broker {
 namespace {
 
 struct Ranked {
-  bool last;         // the expression has no value for this offer
-  long double rank;  // smaller comes first
-  OfferPtr offer;
+  long double rank;     // smaller comes first
+  std::uint32_t index;  // in the order in which they were found
+  bool last;            // the expression has no value for this offer
 };
 
-Ranked RankOf(const Preference& preference, OfferPtr offer, DynamicValues& values) {
-  const EvaluatedOffer properties(*offer, values);
+Ranked RankOf(const Preference& preference, const Offer& offer, std::uint32_t index,
+              DynamicValues& values) {
+  const EvaluatedOffer properties(offer, values);
   if (preference.kind == Preference::Kind::kWith) {
-    const bool matches = Matches(preference.expression, properties);
-    return {!matches, 0, std::move(offer)};
+    return {0, index, !Matches(preference.expression, properties)};
   }
   const auto number = EvaluateNumber(preference.expression, properties);
   const long double sign = preference.kind == Preference::Kind::kMin ? 1 : -1;
-  return {!number.has_value(), sign * number.value_or(0), std::move(offer)};
+  return {sign * number.value_or(0), index, !number.has_value()};
 }
 
 void OrderByRank(const Preference& preference, DynamicValues& values, Offers& offers) {
   std::vector<Ranked> ranked;
   ranked.reserve(offers.size());
-  for (OfferPtr& offer : offers) {
-    ranked.push_back(RankOf(preference, std::move(offer), values));
+  for (const OfferPtr& offer : offers) {
+    ranked.push_back(RankOf(preference, *offer, static_cast<std::uint32_t>(ranked.size()), values));
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return a.last != b.last ? b.last : a.rank < b.rank;
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    if (a.last != b.last) return b.last;
+    return a.rank != b.rank ? a.rank < b.rank : a.index < b.index;
   });
-  std::transform(ranked.begin(), ranked.end(), offers.begin(),
-                 [](Ranked& entry) { return std::move(entry.offer); });
+  Offers ordered;
+  ordered.reserve(offers.size());
+  for (const Ranked& entry : ranked) ordered.push_back(std::move(offers[entry.index]));
+  offers = std::move(ordered);
 }
 
 }  // namespace

@@ -2,16 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <functional>
-#include <iterator>
-#include <map>
 
 #include <fmt/format.h>
 
-#include "gsv/broker/evaluation.h"
 #include "gsv/broker/offer_rules.h"
-#include "gsv/broker/preference_order.h"
-#include "gsv/broker/query_compilation.h"
 
 namespace gsv::broker {
 namespace {
@@ -29,42 +23,7 @@ bool ReadHex(std::string_view text, Integer& value) {
   return read.ec == std::errc() && read.ptr == text.data() + text.size();
 }
 
-bool IsReadonlyIn(const ServiceType& type, const Property& property) {
-  return std::any_of(type.properties.begin(), type.properties.end(),
-                     [&](const PropertyDefinition& definition) {
-                       return definition.name == property.name && IsReadonly(definition.mode);
-                     });
-}
-
-bool HasModifiableProperties(const ServiceType& type, const Offer& offer) {
-  const std::vector<Property>& properties = offer.properties.all();
-  return !std::all_of(properties.begin(), properties.end(),
-                      [&](const Property& property) { return IsReadonlyIn(type, property); });
-}
-
 bool IsProxy(const OfferPtr& offer) { return offer->proxy != nullptr; }
-
-bool IsMatch(const Expression& constraint, const Offer& offer, DynamicValues& values) {
-  return (offer.proxy != nullptr && offer.proxy->if_match_all) ||
-         Matches(constraint, EvaluatedOffer(offer, values));
-}
-
-// Keeps the offers that match, up to `limit`; true when there were more.
-bool KeepMatching(const Expression& constraint, std::size_t limit, DynamicValues& values,
-                  Offers& offers) {
-  std::size_t kept = 0;
-  for (OfferPtr& offer : offers) {
-    if (!IsMatch(constraint, *offer, values)) continue;
-    if (kept == limit) {
-      offers.resize(kept);
-      return true;
-    }
-    if (&offers[kept] != &offer) offers[kept] = std::move(offer);
-    ++kept;
-  }
-  offers.resize(kept);
-  return false;
-}
 
 }  // namespace
 
@@ -233,38 +192,6 @@ Traded<void> Trader::Modify(const std::string& id, Modification modification) {
   });
 }
 
-Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std::string& constraint,
-                                             DynamicEvaluator* evaluator) {
-  const auto described = FullyDescribeType(type);
-  if (!described) return Refuse(described.error());
-  const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
-  if (!compiled) return Refuse(compiled.error());
-
-  // Services are asked for dynamic properties without the lock.
-  Offers matching = [&] {
-    const ReadLock lock(mutex_);
-    return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}),
-                           limits_.offers);
-  }();
-  std::erase_if(matching, IsProxy);
-  DynamicValues values(evaluator, limits_.dynamic.query_budget);
-  KeepMatching(*compiled, limits_.offers, values, matching);
-
-  return Change([&]() -> Traded<std::size_t> {
-    OffersRemoved removed;
-    for (const OfferPtr& offer : matching) {
-      // One that was modified meanwhile may not match any more.
-      if (offers_.Find(offer->number) != offer) continue;
-      offers_.Remove(offer->number);
-      removed.numbers.push_back(offer->number);
-    }
-    const std::size_t count = removed.numbers.size();
-    if (count == 0) return Refuse({.refusal = Refusal::kNoMatchingOffers, .name = constraint});
-    Record(std::move(removed));
-    return count;
-  });
-}
-
 std::size_t Trader::WithdrawAll(const std::vector<std::uint64_t>& numbers) {
   const auto count = Change([&]() -> Traded<std::size_t> {
     OffersRemoved removed;
@@ -292,77 +219,6 @@ Offers Trader::AllOffers() const {
   Offers all = offers_.All();
   std::erase_if(all, IsProxy);
   return all;
-}
-
-Traded<QueryResult> Trader::Find(const Query& query) const {
-  DynamicValues none(nullptr, {});
-  return Find(query, none);
-}
-
-Traded<QueryResult> Trader::Find(const Query& query, DynamicValues& values) const {
-  auto matches = FindMatching(query, values);
-  if (!matches) return Refuse(matches.error());
-  return Rank(std::move(*matches), values);
-}
-
-Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& values) const {
-  const auto type = FullyDescribeType(query.type);
-  if (!type) return Refuse(type.error());
-  const auto constraint = CompileConstraint(query.constraint, *type, limits_.expression);
-  if (!constraint) return Refuse(constraint.error());
-  auto preference = CompilePreference(query.preference, *type, limits_.expression);
-  if (!preference) return Refuse(preference.error());
-
-  MatchingOffers matches = Candidates(query);
-  matches.preference = std::move(*preference);
-  if (KeepMatching(*constraint, matches.cardinalities.match, values, matches.offers)) {
-    matches.limits_applied.emplace_back("match_card");
-  }
-  const auto proxies =
-      std::stable_partition(matches.offers.begin(), matches.offers.end(), std::not_fn(IsProxy));
-  std::move(proxies, matches.offers.end(), std::back_inserter(matches.proxies));
-  matches.offers.erase(proxies, matches.offers.end());
-  return matches;
-}
-
-QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
-  OrderBy(matches.preference, seed_++, values, matches.offers);
-  if (matches.offers.size() > matches.cardinalities.returned) {
-    matches.offers.resize(matches.cardinalities.returned);
-    matches.limits_applied.emplace_back("return_card");
-  }
-  return {std::move(matches.offers), std::move(matches.limits_applied)};
-}
-
-MatchingOffers Trader::Candidates(const Query& query) const {
-  const ReadLock lock(mutex_);
-  MatchingOffers candidates{.cardinalities = EffectiveCardinalities(query.policies, attributes_)};
-  const std::size_t search_card = candidates.cardinalities.search;
-  std::vector<std::string> types = {query.type};
-  if (!query.policies.exact_type_match) {
-    types = types_.WithSubTypes(query.type).value_or(types);
-  }
-  candidates.offers = offers_.OfTypes(types, search_card);
-  if (offers_.CountOfTypes(types) > search_card) {
-    candidates.limits_applied.emplace_back("search_card");
-  }
-  if (!query.policies.use_proxy_offers || !attributes_.supports_proxy_offers) {
-    std::erase_if(candidates.offers, IsProxy);
-  }
-  if (!query.policies.use_dynamic_properties || !attributes_.supports_dynamic_properties) {
-    std::erase_if(candidates.offers,
-                  [](const OfferPtr& offer) { return HasDynamicProperties(*offer); });
-  }
-  if (!query.policies.use_modifiable_properties && attributes_.supports_modifiable_properties) {
-    std::map<std::string_view, ServiceType> described;
-    for (const std::string& name : types) {
-      described.emplace(name, types_.FullyDescribe(name).value_or(ServiceType{.name = name}));
-    }
-    std::erase_if(candidates.offers, [&](const OfferPtr& offer) {
-      return HasModifiableProperties(described.at(offer->type), *offer);
-    });
-  }
-  return candidates;
 }
 
 Traded<std::uint64_t> Trader::NumberOf(const std::string& id) const {

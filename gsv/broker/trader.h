@@ -140,8 +140,11 @@ class Trader {
   }
   void RecordType(const std::string& name);
 
-  // The offers to be searched, and the cardinalities that hold for the query.
-  MatchingOffers Candidates(const Query& query) const;
+  struct Candidates;
+  // `terms` are those of the query's constraint.
+  Candidates SelectCandidates(const Query& query, const std::vector<EqualityTerm>& terms) const;
+  void MakeIndex(const std::vector<std::string>& types,
+                 const std::vector<EqualityTerm>& terms) const;
   Traded<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
   // An offer or a proxy.
@@ -160,7 +163,7 @@ class Trader {
   mutable std::shared_mutex mutex_;  // guards all that follows
   TraderAttributes attributes_;
   TypeRepository types_;
-  OfferStore offers_;
+  mutable OfferStore offers_;  // a query may make it an index
   LinkTable links_;
   Journal::Ticket last_ticket_ = 0;
 };

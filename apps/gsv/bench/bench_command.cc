@@ -11,6 +11,7 @@ void AddBenchCommands(const CommandLine& line) {
   AddTypicalBench(inner);
   AddLockstepBench(inner);
   AddCrowdBench(inner);
+  AddBrokerBench(inner);
 }
 
 }  // namespace gsv::app

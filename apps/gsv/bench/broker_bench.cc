@@ -1,0 +1,306 @@
+// `gsv bench broker`: how fast a broker with many offers is, in this process and over TCP.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <malloc.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/bench/bench.h"
+#include "apps/gsv/child_process.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/installation.h"
+#include "gsv/broker/broker_client.h"
+#include "gsv/broker/offer_file.h"
+#include "gsv/broker/trader.h"
+
+namespace gsv::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using broker::Property;
+using broker::Value;
+using nlohmann::ordered_json;
+
+constexpr int kClients = 64;
+constexpr const char* kType = "BenchRobot";
+constexpr const char* kScan = "floor > 2 and battery >= 0.25 and speed < 4.5";
+constexpr std::size_t kShown = 10;  // offers of an answer that a client looks at
+
+// Ten properties, the same for the same number.
+std::vector<Property> PropertiesOf(std::uint32_t n) {
+  const double unit = static_cast<double>(n * 2654435761u) / 4294967296.0;
+  return {{"battery", Value::Float(static_cast<float>(unit))},
+          {"colour", Value::String(n % 3 == 0   ? "red"
+                                   : n % 3 == 1 ? "green"
+                                                : "blue")},
+          {"floor", Value::Short(static_cast<std::int16_t>(n % 7))},
+          {"model", Value::String("pioneer 3-DX")},
+          {"name", Value::String("robot " + std::to_string(n))},
+          {"online", Value::Boolean(n % 5 != 0)},
+          {"serial", Value::ULong(n)},
+          {"speed", Value::Double(5 * unit)},
+          {"x", Value::Double(100 * unit)},
+          {"y", Value::Double(-100 * unit)}};
+}
+
+std::string Serial(std::uint32_t n) { return "serial == " + std::to_string(n); }
+
+// What is measured; each call may be made by many threads.
+struct Target {
+  std::function<base::Status(int client, std::uint32_t number)> export_one;
+  std::function<base::Status(int client, const std::string& constraint,
+                             const std::string& preference)>
+      query;
+};
+
+// Calls `work` for 0 … count-1 from `clients` threads; how long it took. Stops at an error.
+base::Result<Clock::duration> Spread(
+    int clients, std::uint32_t count,
+    const std::function<base::Status(int client, std::uint32_t n)>& work) {
+  std::atomic<std::uint32_t> next = 0;
+  std::vector<base::Status> ends(static_cast<std::size_t>(clients));
+  const auto start = Clock::now();
+  {
+    std::vector<std::jthread> threads;
+    for (int client = 0; client < clients; ++client) {
+      threads.emplace_back([&, client] {
+        base::Status& end = ends[static_cast<std::size_t>(client)];
+        for (std::uint32_t n = next++; n < count && end; n = next++) end = work(client, n);
+      });
+    }
+  }
+  for (const base::Status& end : ends) {
+    if (!end) return base::Fail(end.error());
+  }
+  return Clock::now() - start;
+}
+
+double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+// The value that the fraction `q` of all do not exceed (nearest rank), in milliseconds.
+double Quantile(std::vector<Clock::duration> durations, double q) {
+  std::sort(durations.begin(), durations.end());
+  const auto rank = static_cast<std::size_t>(q * static_cast<double>(durations.size()));
+  return 1e3 * Seconds(durations[std::min(rank, durations.size() - 1)]);
+}
+
+base::Result<std::vector<Clock::duration>> Time(
+    int clients, std::uint32_t count,
+    const std::function<base::Status(int client, std::uint32_t n)>& work) {
+  std::vector<Clock::duration> durations(count);
+  const auto spread = Spread(clients, count, [&](int client, std::uint32_t n) {
+    const auto start = Clock::now();
+    auto done = work(client, n);
+    durations[n] = Clock::now() - start;
+    return done;
+  });
+  if (!spread) return base::Fail(spread.error());
+  return durations;
+}
+
+// Exports, then asks. `bytes_used` says what the broker takes.
+base::Status Measure(const Target& target, std::uint32_t offers,
+                     const std::function<double()>& bytes_used, ordered_json& figures) {
+  const double before = bytes_used();
+  const auto exported = Spread(kClients, offers, target.export_one);
+  if (!exported) return base::Fail(exported.error());
+  figures["bytes_per_offer"] = (bytes_used() - before) / offers;
+  figures["exports_per_s"] = offers / Seconds(*exported);
+
+  const auto equal = [&](int client, std::uint32_t n) {
+    return target.query(client, Serial((n * 7919) % offers), "");
+  };
+  if (auto indexed = equal(0, 0); !indexed) return indexed;  // the first makes the index
+  const auto alone = Time(1, 2000, equal);
+  if (!alone) return base::Fail(alone.error());
+  figures["query_indexed_p50_ms"] = Quantile(*alone, 0.50);
+  figures["query_indexed_p99_ms"] = Quantile(*alone, 0.99);
+  const auto scanned =
+      Time(1, 40, [&](int client, std::uint32_t) { return target.query(client, kScan, "min x"); });
+  if (!scanned) return base::Fail(scanned.error());
+  figures["query_scan_p50_ms"] = Quantile(*scanned, 0.50);
+
+  const auto start = Clock::now();
+  const auto together = Time(kClients, 20'000, equal);
+  if (!together) return base::Fail(together.error());
+  figures["clients"] = kClients;
+  figures["clients_queries_per_s"] = 20'000 / Seconds(Clock::now() - start);
+  figures["clients_query_indexed_p99_ms"] = Quantile(*together, 0.99);
+  return {};
+}
+
+base::Status ToStatus(const broker::TradingError& error) {
+  return base::Fail(base::ErrorCode::kInvalidArgument, "the trader refused: " + error.detail);
+}
+
+Target TargetOf(broker::Trader& trader, const std::string& reference) {
+  return {.export_one = [&trader, reference](int, std::uint32_t n) -> base::Status {
+            const auto id = trader.Export(kType, reference, PropertiesOf(n));
+            return id ? base::Status() : ToStatus(id.error());
+          },
+          .query = [&trader](int, const std::string& constraint,
+                             const std::string& preference) -> base::Status {
+            const auto found =
+                trader.Find({.type = kType, .constraint = constraint, .preference = preference});
+            return found ? base::Status() : ToStatus(found.error());
+          }};
+}
+
+std::string ReferenceText(CORBA::ORB_ptr orb) {
+  const CORBA::Object_var object = orb->string_to_object("corbaloc::1.2@127.0.0.1:1/BenchRobot");
+  const CORBA::String_var text = orb->object_to_string(object);
+  return text.in();
+}
+
+base::Status MeasureInProcess(CORBA::ORB_ptr orb, std::uint32_t offers, const std::string& folder,
+                              ordered_json& figures) {
+  const std::string reference = ReferenceText(orb);
+  {
+    broker::Trader trader(broker::TraderLimits{}, 1, 1);
+    if (auto added = trader.AddType({.name = kType}); !added) return ToStatus(added.error());
+    const auto in_use = [] { return static_cast<double>(mallinfo2().uordblks); };
+    if (auto ok = Measure(TargetOf(trader, reference), offers, in_use, figures); !ok) return ok;
+    figures["bytes_per_offer"] =
+        figures["bytes_per_offer"].get<double>() - static_cast<double>(reference.size());
+  }
+  broker::Trader durable(broker::TraderLimits{}, 1, 1);
+  auto file = broker::OfferFile::Open(folder + "/in_process.db", 1);
+  if (!file) return base::Fail(file.error());
+  auto state = (*file)->Load();
+  if (!state) return base::Fail(state.error());
+  if (auto ok = durable.Restore(std::move(*state), std::move(*file)); !ok) return ok;
+  if (auto added = durable.AddType({.name = kType}); !added) return ToStatus(added.error());
+  const auto exported = Spread(kClients, offers / 5, TargetOf(durable, reference).export_one);
+  if (!exported) return base::Fail(exported.error());
+  figures["exports_durable_per_s"] = offers / 5 / Seconds(*exported);
+  return {};
+}
+
+double ResidentBytes(pid_t pid) {
+  std::ifstream statm("/proc/" + std::to_string(pid) + "/statm");
+  double size = 0;
+  double resident = 0;
+  statm >> size >> resident;
+  return resident * 4096;
+}
+
+// A broker in a process of its own, with a client for each thread.
+struct Remote {
+  std::unique_ptr<ChildProcess> process{};
+  std::vector<broker::BrokerClient> clients{};
+  CORBA::Object_var service{};
+
+  Target target() {
+    return {.export_one = [this](int client, std::uint32_t n) -> base::Status {
+              const auto id =
+                  clients[static_cast<std::size_t>(client)].Export(kType, service, PropertiesOf(n));
+              return id ? base::Status() : base::Fail(id.error());
+            },
+            .query = [this](int client, const std::string& constraint,
+                            const std::string& preference) -> base::Status {
+              const auto found = clients[static_cast<std::size_t>(client)].Query(
+                  kType, constraint, preference, kShown);
+              return found ? base::Status() : base::Fail(found.error());
+            }};
+  }
+};
+
+base::Result<Remote> StartRemote(CORBA::ORB_ptr orb, const std::vector<std::string>& where) {
+  std::vector<std::string> words = {ProgramPath(),       "broker", "--port", "0",
+                                    "--liveness-period", "0"};
+  words.insert(words.end(), where.begin(), where.end());
+  auto process = ChildProcess::Start(words, false);
+  if (!process) return base::Fail(process.error());
+  Remote remote{.process = std::move(*process)};
+  const auto reference = remote.process->ReadLine(std::chrono::seconds(10));
+  if (!reference) return base::Fail(base::ErrorCode::kUnavailable, "the broker did not start");
+  for (int i = 0; i < kClients; ++i) {
+    auto client = broker::BrokerClient::Connect(orb, *reference, std::chrono::seconds(30));
+    if (!client) return base::Fail(client.error());
+    remote.clients.push_back(std::move(*client));
+  }
+  if (auto ok = remote.clients[0].EnsureServiceType({.name = kType}); !ok) {
+    return base::Fail(ok.error());
+  }
+  remote.service = orb->string_to_object("corbaloc::1.2@127.0.0.1:1/BenchRobot");
+  return remote;
+}
+
+base::Status MeasureOverTcp(CORBA::ORB_ptr orb, std::uint32_t offers, const std::string& folder,
+                            ordered_json& figures) {
+  {
+    auto remote = StartRemote(orb, {"--memory"});
+    if (!remote) return base::Fail(remote.error());
+    const pid_t pid = remote->process->pid();
+    const auto resident = [pid] { return ResidentBytes(pid); };
+    if (auto ok = Measure(remote->target(), offers, resident, figures); !ok) return ok;
+    figures["bytes_per_offer"] =
+        figures["bytes_per_offer"].get<double>() - static_cast<double>(ReferenceText(orb).size());
+    figures["resident_mib"] = ResidentBytes(pid) / (1 << 20);
+  }
+  auto durable = StartRemote(orb, {"--data", folder + "/tcp.db"});
+  if (!durable) return base::Fail(durable.error());
+  const auto exported = Spread(kClients, offers / 5, durable->target().export_one);
+  if (!exported) return base::Fail(exported.error());
+  figures["exports_durable_per_s"] = offers / 5 / Seconds(*exported);
+  return {};
+}
+
+base::Status RunBench(std::uint32_t offers, bool json) {
+  const char* settings[][2] = {
+      {"maxGIOPConnectionPerServer", "64"}, {"traceLevel", "0"}, {nullptr, nullptr}};
+  int no_arguments = 0;
+  const CORBA::ORB_var orb = CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
+  std::string folder = (std::filesystem::temp_directory_path() / "gsv_bench_XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) {
+    return base::Fail(base::ErrorCode::kUnavailable, "no temporary folder can be made", folder);
+  }
+  base::Status end;
+  for (const bool tcp : {false, true}) {
+    ordered_json figures = {{"bench", "broker"},
+                            {"where", tcp ? "tcp" : "in_process"},
+                            {"offers", offers},
+                            {"properties", PropertiesOf(0).size()}};
+    end = (tcp ? MeasureOverTcp : MeasureInProcess)(orb, offers, folder, figures);
+    if (!end) break;
+    std::cout << (json ? figures.dump() : figures.dump(2)) << std::endl;
+  }
+  std::filesystem::remove_all(folder);
+  return end;
+}
+
+}  // namespace
+
+void AddBrokerBench(const CommandLine& bench) {
+  struct Arguments {
+    std::uint32_t offers = 100'000;
+    bool json = false;
+  };
+  CLI::App* command =
+      bench.app.add_subcommand("broker", "How fast a broker with many offers is, and how large");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("--offers", arguments->offers, "how many offers there are")
+      ->check(CLI::Range(1000, 200'000))
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json, "one JSON object a line");
+  command->callback([arguments, bench] {
+    if (const auto end = RunBench(arguments->offers, arguments->json); !end) {
+      bench.exit_code = Complain(end.error());
+    }
+  });
+}
+
+}  // namespace gsv::app
