@@ -1,13 +1,15 @@
 # `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
 # (tools/setup) and build.
 # `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build).
+# `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60); it needs clang.
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
 #   PRESET=dev    another preset of CMakePresets.json
 PRESET ?= release
 JOBS ?= $(shell nproc)
+FUZZ_SECONDS ?= 60
 BUILD := build/$(PRESET)
 
-.PHONY: run test soak build setup asan tsan format clean
+.PHONY: run test soak build setup asan tsan fuzz format clean
 
 run: build
 	$(BUILD)/bin/gsv run $(ARGS)
@@ -29,6 +31,12 @@ setup:
 
 asan tsan:
 	$(MAKE) test PRESET=$@
+
+fuzz:
+	@command -v clang++ > /dev/null || { echo "make fuzz needs clang: apt-get install clang"; exit 5; }
+	cmake --preset fuzz
+	cmake --build --preset fuzz --parallel $(JOBS)
+	tools/run_fuzzers build/fuzz $(FUZZ_SECONDS)
 
 format:
 	tools/format

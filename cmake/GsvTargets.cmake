@@ -72,6 +72,43 @@ function(gsv_test NAME)
     PROPERTIES TIMEOUT ${ARG_TIMEOUT} ${LABELS})
 endfunction()
 
+# gsv_fuzz_target(NAME SOURCES … CORPUS folder [DEPENDS …] [MAX_LENGTH bytes])
+#
+# With GSV_FUZZ (the preset fuzz, which needs clang): the libFuzzer program fuzz/NAME, which `make
+# fuzz` runs from the corpus on. Without: the test Fuzz.NAME, which runs the target on each file of
+# the corpus. The sources define LLVMFuzzerTestOneInput. An input that once failed joins the corpus.
+option(GSV_FUZZ "Build fuzz targets with libFuzzer, and no tests" OFF)
+if(GSV_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+function(gsv_fuzz_target NAME)
+  cmake_parse_arguments(ARG "" "CORPUS;MAX_LENGTH" "SOURCES;DEPENDS" ${ARGN})
+  get_filename_component(CORPUS ${ARG_CORPUS} ABSOLUTE)
+  if(NOT GSV_FUZZ)
+    gsv_test(${NAME}_replay_test
+      SOURCES ${ARG_SOURCES} ${CMAKE_SOURCE_DIR}/tests/support/fuzz_replay_test.cc
+      DEPENDS ${ARG_DEPENDS})
+    target_compile_definitions(${NAME}_replay_test PRIVATE
+      GSV_FUZZ_CORPUS="${CORPUS}" GSV_FUZZ_TEST_NAME=${NAME})
+    return()
+  endif()
+  if(NOT ARG_MAX_LENGTH)
+    set(ARG_MAX_LENGTH 4096)
+  endif()
+  add_executable(${NAME} ${ARG_SOURCES})
+  target_link_libraries(${NAME} PRIVATE ${ARG_DEPENDS})
+  target_link_options(${NAME} PRIVATE -fsanitize=fuzzer)
+  set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz)
+  set_property(GLOBAL APPEND PROPERTY GSV_FUZZ_LINES "${NAME} ${CORPUS} ${ARG_MAX_LENGTH}\n")
+  get_property(LINES GLOBAL PROPERTY GSV_FUZZ_LINES)
+  string(REPLACE ";" "" LINES "${LINES}")
+  file(WRITE ${CMAKE_BINARY_DIR}/fuzz/targets "${LINES}")
+  if(NOT TARGET fuzz_targets)
+    add_custom_target(fuzz_targets)
+  endif()
+  add_dependencies(fuzz_targets ${NAME})
+endfunction()
+
 set(GSV_REAL_DIR "$ENV{GSV_REAL_DIR}" CACHE PATH "Worlds and robots that other people made")
 if(NOT GSV_REAL_DIR)
   get_filename_component(GSV_REAL_DIR ${CMAKE_SOURCE_DIR}/../shared/real ABSOLUTE)

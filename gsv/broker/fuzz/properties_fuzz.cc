@@ -1,0 +1,41 @@
+// Any bytes as the properties of an offer, as they come in a message or from a file: they are
+// refused, or are the same after they were written and read again (but for the padding between
+// them, which omniORB does not set).
+#include <cstdint>
+#include <string>
+
+#include <omniORB4/CORBA.h>
+
+#include "gsv/base/check.h"
+#include "gsv/broker/record_encoding.h"
+
+using namespace gsv::broker;
+
+namespace {
+
+CORBA::ORB_ptr StartOrb() {
+  const char* settings[][2] = {
+      {"traceLevel", "0"}, {"giopMaxMsgSize", "65536"}, {nullptr, nullptr}};
+  int no_arguments = 0;
+  return CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const CORBA::ORB_ptr orb = StartOrb();
+  (void)orb;
+  const auto properties = DecodeProperties({reinterpret_cast<const char*>(data), size});
+  if (!properties) return 0;
+  const std::string encoded = EncodeProperties(*properties);
+  const auto again = DecodeProperties(encoded);
+  GSV_CHECK(again && again->all().size() == properties->all().size());
+  for (const Property& property : properties->all()) {
+    const Value* value = again->Find(property.name);
+    GSV_CHECK(value != nullptr && value->Type() == property.value.Type());
+    // NaN is not equal to itself.
+    const bool comparable = property.value.AsOther() == nullptr && property.value == property.value;
+    GSV_CHECK(!comparable || *value == property.value);
+  }
+  return 0;
+}
