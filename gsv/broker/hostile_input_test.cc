@@ -86,6 +86,36 @@ TEST_F(HostileInputTest, RefusesConstraintsThatAreTooLongOrTooDeep) {
   ExpectAlive();
 }
 
+// Each limit of a constraint, reached and gone beyond by one.
+TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
+  const auto padded = [](std::size_t length) { return "TRUE" + std::string(length - 4, ' '); };
+  EXPECT_NO_THROW(Query("Robot", padded(8192)));
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", padded(8193)); });
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '(') + "TRUE" + std::string(depth, ')');
+  };
+  EXPECT_NO_THROW(Query("Robot", nested(64)));
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", nested(65)); });
+  // A comparison takes three nodes and one to join it, a literal one, `not` one.
+  std::string thousand = "n == 0";
+  for (int i = 1; i < 249; ++i) thousand += " or n == 1";
+  thousand += " or not TRUE or TRUE";
+  EXPECT_NO_THROW(Query("Robot", thousand));
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", thousand + " or TRUE"); });
+}
+
+TEST_F(HostileInputTest, TakesAsManyPropertiesAsItMay) {
+  std::vector<Property> properties;
+  for (int i = 0; i < 128; ++i) properties.push_back({"p" + std::to_string(i), Value::Long(i)});
+  EXPECT_NO_THROW(Export("Robot", properties));
+  properties.push_back({"one_more", Value::Long(1)});
+  Raised<CORBA::IMP_LIMIT>([&] { Export("Robot", properties); });
+  EXPECT_NO_THROW(Export("Robot", {{"text", Value::String(std::string(32'000, 'x'))}}));
+  Raised<CORBA::IMP_LIMIT>([&] {
+    Export("Robot", {{"text", Value::String(std::string(32'768, 'x'))}});
+  });
+}
+
 TEST_F(HostileInputTest, RefusesOffersThatAreTooLarge) {
   CORBA::Any text;
   text <<= std::string(40'000, 'x').c_str();
