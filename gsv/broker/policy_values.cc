@@ -27,6 +27,34 @@ bool ExtractBoolean(const CosTrading::Policy& policy) {
 
 constexpr CORBA::ULong kLongestRequestId = 1024;
 
+// Whether a type is FollowOption but for its repository identifier, which an ORB may leave out.
+bool IsAnonymousFollowOption(CORBA::TypeCode_ptr type) {
+  if (type->kind() != CORBA::tk_enum || *type->id() != '\0' || type->member_count() != 3) {
+    return false;
+  }
+  for (CORBA::ULong i = 0; i < 3; ++i) {
+    if (std::string_view(type->member_name(i)) != CosTrading::_tc_FollowOption->member_name(i)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+FollowOption ExtractFollowOption(const CosTrading::Policy& policy) {
+  const CORBA::TypeCode_var type = policy.value.type();
+  if (!IsAnonymousFollowOption(type)) {
+    return static_cast<FollowOption>(Extract<CosTrading::FollowOption>(policy));
+  }
+  cdrMemoryStream stream;
+  policy.value.NP_marshalDataOnly(stream);
+  CORBA::ULong value = 0;
+  value <<= stream;
+  if (value > static_cast<CORBA::ULong>(FollowOption::kAlways)) {
+    throw Lookup::InvalidPolicyValue(policy);
+  }
+  return static_cast<FollowOption>(value);
+}
+
 TraderName ExtractTraderName(const CosTrading::Policy& policy) {
   const CosTrading::TraderName* name = nullptr;
   if (!(policy.value >>= name)) throw Lookup::PolicyTypeMismatch(policy);
@@ -61,8 +89,7 @@ void Apply(const CosTrading::Policy& policy, ImportPolicies& policies) {
   } else if (name == "hop_count") {
     policies.hop_count = Extract<CORBA::ULong>(policy);
   } else if (name == "link_follow_rule") {
-    policies.link_follow_rule =
-        static_cast<FollowOption>(Extract<CosTrading::FollowOption>(policy));
+    policies.link_follow_rule = ExtractFollowOption(policy);
   } else if (name == "starting_trader") {
     policies.starting_trader = ExtractTraderName(policy);
   } else if (name == "request_id") {

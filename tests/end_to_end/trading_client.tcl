@@ -1,0 +1,147 @@
+#!/usr/bin/tclsh
+# A client of the broker on another ORB, in another language: Tcl with Combat (Debian: tcl-combat).
+#
+#   trading_client.tcl BROKER OTHER_BROKER
+#
+# Exports, queries with every policy, iterates, links, follows the link, and withdraws; says what it
+# has done, a line each, and ends with 1 at the first answer that is not right.
+package require combat
+
+set id IDL:omg.org/CosTrading
+set property [list struct $id/Property:1.0 {name string value any}]
+set offer [list struct $id/Offer:1.0 [list reference Object properties [list sequence $property]]]
+set policy [list struct $id/Policy:1.0 {name string value any}]
+set desired [list union $id/Lookup/SpecifiedProps:1.0 {enum {none some all}} \
+    {some {sequence string}}]
+set follow {enum {local_only if_no_local always}}
+set repository IDL:omg.org/CosTradingRepos/ServiceTypeRepository
+set declaration [list struct $repository/PropStruct:1.0 {
+    name string value_type TypeCode
+    mode {enum {PROP_NORMAL PROP_READONLY PROP_MANDATORY PROP_MANDATORY_READONLY}}}]
+set incarnation [list struct $repository/IncarnationNumber:1.0 \
+    {high {unsigned long} low {unsigned long}}]
+
+proc check {what found expected} {
+    if {$found ne $expected} {
+        puts stderr "$what: found \"$found\" instead of \"$expected\""
+        exit 1
+    }
+    puts $what
+}
+
+# The exceptions that are waited for, with their members.
+set raises [list \
+    [list exception $id/IllegalConstraint:1.0 {constr string}] \
+    [list exception $id/Lookup/PolicyTypeMismatch:1.0 [list the_policy $policy]] \
+    [list exception $id/Link/UnknownLinkName:1.0 {name string}]]
+
+# The id of the exception that `script` raises.
+proc raised {script} {
+    if {![catch {uplevel 1 $script} problem]} { return "nothing" }
+    return [lindex $problem 0]
+}
+
+proc attribute {object name} { corba::dii $object [list Object _get_$name {}] }
+
+# What is found: the numbers n, as the iterator hands them out too, and the limits applied.
+proc query {lookup constraint preference {policies {}} {how_many 100}} {
+    global offer policy desired raises
+    corba::dii -timeout 20000 $lookup [list void query [list {in string} {in string} {in string} \
+        [list in [list sequence $policy]] [list in $desired] {in {unsigned long}} \
+        [list out [list sequence $offer]] {out Object} {out {sequence string}}] $raises] \
+        Robot $constraint $preference $policies all $how_many offers rest limits
+    set numbers [numbers_of $offers]
+    if {$rest ne "0"} {
+        for {set more 1} {$more} {} {
+            set more [corba::dii $rest [list boolean next_n [list {in {unsigned long}} \
+                [list out [list sequence $offer]]]] 2 next]
+            lappend numbers {*}[numbers_of $next]
+        }
+        corba::dii $rest {void destroy {}}
+    }
+    return [list $numbers $limits]
+}
+
+proc numbers_of {offers} {
+    lmap found $offers {
+        array set one $found
+        set number {}
+        foreach each $one(properties) {
+            array set property $each
+            if {$property(name) eq "n"} { set number [lindex $property(value) 1] }
+        }
+        set number
+    }
+}
+
+proc policies {args} {
+    set result {}
+    foreach {name type value} $args {
+        lappend result [list name $name value [list $type $value]]
+    }
+    return $result
+}
+
+proc export {lookup n} {
+    global property
+    corba::dii [attribute $lookup register_if] [list string export \
+        [list {in Object} {in string} [list in [list sequence $property]]]] \
+        $lookup Robot [list [list name n value [list long $n]]]
+}
+
+proc add_type {lookup} {
+    global declaration incarnation
+    corba::dii [attribute $lookup type_repos] [list $incarnation add_type \
+        [list {in string} {in string} [list in [list sequence $declaration]] \
+             {in {sequence string}}]] \
+        Robot "" {{name n value_type long mode PROP_MANDATORY}} {}
+}
+
+corba::init
+set near [corba::string_to_object [lindex $argv 0]]
+set far [corba::string_to_object [lindex $argv 1]]
+foreach lookup [list $near $far] { add_type $lookup }
+for {set n 0} {$n < 6} {incr n} { lappend ids [export $near $n] }
+export $far 100
+export $far 101
+
+check "queries" [query $near "n >= 2 and n < 4" "max n"] {{3 2} {}}
+check "iterates" [query $near "" "min n" {} 1] {{0 1 2 3 4 5} {}}
+set ulong {unsigned long}
+foreach {name type value constraint expected} [list \
+    search_card $ulong 2 "" {{0 1} search_card} \
+    match_card $ulong 2 "" {{0 1} match_card} \
+    return_card $ulong 2 "" {{0 1} return_card} \
+    exact_type_match boolean 1 "n < 2" {{0 1} {}} \
+    use_modifiable_properties boolean 1 "n < 2" {{0 1} {}} \
+    use_dynamic_properties boolean 0 "n < 2" {{0 1} {}} \
+    use_proxy_offers boolean 0 "n < 2" {{0 1} {}} \
+    hop_count $ulong 3 "n < 2" {{0 1} {}} \
+    link_follow_rule $follow local_only "n < 2" {{0 1} {}} \
+    starting_trader {sequence string} {} "n < 2" {{0 1} {}} \
+    request_id {sequence octet} tcl "n < 2" {{0 1} {}}] {
+    check "policy $name" [query $near $constraint "" [policies $name $type $value]] $expected
+}
+check "refused constraint" [raised {query $near "n <" ""}] $id/IllegalConstraint:1.0
+check "refused policy" [raised {query $near "" "" [policies hop_count string x]}] \
+    $id/Lookup/PolicyTypeMismatch:1.0
+
+set links [attribute $near link_if]
+corba::dii $links [list void add_link [list {in string} {in Object} [list in $follow] \
+    [list in $follow]]] far $far always always
+check "links" [corba::dii $links {{sequence string} list_links {}}] far
+check "follows the link" [query $near "n >= 5" "max n" [policies link_follow_rule $follow always]] \
+    {{101 100 5} {}}
+check "starts elsewhere" [query $near "" "min n" [policies starting_trader {sequence string} far]] \
+    {{100 101} {}}
+corba::dii $links {void remove_link {{in string}}} far
+check "unlinks" [raised {
+    corba::dii $links [list void remove_link {{in string}} $raises] far
+}] \
+    $id/Link/UnknownLinkName:1.0
+
+set register [attribute $near register_if]
+corba::dii $register {void withdraw {{in string}}} [lindex $ids 0]
+check "withdraws" [query $near "" "min n"] {{1 2 3 4 5} {}}
+corba::dii $register {void withdraw_using_constraint {{in string} {in string}}} Robot "n > 2"
+check "withdraws by constraint" [query $near "" "min n"] {{1 2} {}}
