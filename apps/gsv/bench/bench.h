@@ -10,5 +10,6 @@ void AddTypicalBench(const CommandLine& bench);
 void AddLockstepBench(const CommandLine& bench);
 void AddCrowdBench(const CommandLine& bench);
 void AddBrokerBench(const CommandLine& bench);
+void AddCameraBench(const CommandLine& bench);
 
 }  // namespace gsv::app

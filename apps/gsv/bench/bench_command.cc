@@ -12,6 +12,7 @@ void AddBenchCommands(const CommandLine& line) {
   AddLockstepBench(inner);
   AddCrowdBench(inner);
   AddBrokerBench(inner);
+  AddCameraBench(inner);
 }
 
 }  // namespace gsv::app

@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <bitset>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <mutex>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/bench/bench.h"
+#include "apps/gsv/bench/moving_scene.h"
+#include "apps/gsv/exit_code.h"
+#include "gsv/rendering/jpeg.h"
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Pictures = std::vector<std::shared_ptr<const model::Image>>;
+
+struct CameraArguments {
+  int cameras = 64;
+  std::string size = "320x240";
+  int robots = 50;
+  std::string world = "office", model = "b21r";
+  bool overview = false;
+  double duration = 10;  // s
+  std::string save;
+  bool json = false;
+};
+
+double Milliseconds(Clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+// Of all threads of this process, s.
+double ProcessorTime() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// The value that the fraction `q` of all do not exceed (nearest rank).
+double Quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(q * static_cast<double>(values.size()));
+  return values[std::min(rank, values.size() - 1)];
+}
+
+// Hands over snapshots and times the intervals between them.
+class SnapshotWatch final : public simulation::Observer {
+ public:
+  void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override {
+    const auto now = Clock::now();
+    const std::lock_guard lock(mutex_);
+    if (snapshot_ != nullptr) intervals_.push_back(Milliseconds(now - last_));
+    last_ = now;
+    snapshot_ = snapshot;
+    is_new_.notify_all();
+  }
+  void OnEvent(const simulation::Event&) override {}
+
+  // The latest, once there is one that was not handed over before; null when none comes.
+  std::shared_ptr<const world::Snapshot> Next() {
+    std::unique_lock lock(mutex_);
+    const bool came =
+        is_new_.wait_for(lock, std::chrono::seconds(10), [&] { return snapshot_ != handed_over_; });
+    return came ? handed_over_ = snapshot_ : nullptr;
+  }
+  std::vector<double> intervals() {  // ms
+    const std::lock_guard lock(mutex_);
+    return intervals_;
+  }
+  void Forget() {
+    const std::lock_guard lock(mutex_);
+    intervals_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable is_new_;
+  std::shared_ptr<const world::Snapshot> snapshot_, handed_over_;
+  Clock::time_point last_;
+  std::vector<double> intervals_;
+};
+
+// Refuses pictures of nothing and pictures that were there before.
+class PictureCheck {
+ public:
+  base::Status Check(const Pictures& pictures) {
+    for (const auto& picture : pictures) {
+      std::bitset<256> shades;
+      for (const std::uint8_t shade : picture->pixels) shades.set(shade);
+      if (shades.count() < 8) return Fail("a picture is blank");
+    }
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      if (i < last_.size() && last_[i]->pixels == pictures[i]->pixels)
+        return Fail("a moving camera's picture is the same as the one before");
+      if (i > 0 && pictures[i]->pixels == pictures[i - 1]->pixels)
+        return Fail("two cameras' pictures are the same");
+    }
+    last_ = pictures;
+    return {};
+  }
+
+ private:
+  static base::Status Fail(const std::string& what) {
+    return base::Fail(base::ErrorCode::kUnavailable, what, "bench camera");
+  }
+  Pictures last_;
+};
+
+struct Figures {
+  std::string renderer;
+  std::uint64_t triangles = 0;
+  int pictures = 0;
+  double wall = 0, processor = 0;  // s
+  std::vector<double> latencies;   // ms from request to pictures
+  std::vector<double> intervals;   // ms from step to step
+};
+
+base::Status Save(const std::string& folder, const Pictures& pictures) {
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const auto jpeg = rendering::EncodeJpeg(*pictures[i], 95);
+    if (!jpeg) return base::Fail(jpeg.error());
+    const std::string path = folder + "/camera_" + std::to_string(i) + ".jpg";
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(jpeg->data()),
+               static_cast<std::streamsize>(jpeg->size()));
+    if (!file.flush()) {
+      return base::Fail(base::ErrorCode::kUnavailable,
+                        "cannot be written; name a folder that is there", path);
+    }
+  }
+  return {};
+}
+
+base::Result<Figures> Measure(const CameraArguments& arguments,
+                              const rendering::CameraParameters& camera) {
+  auto scene = MovingScene::Create(arguments.world, arguments.model, arguments.robots);
+  if (!scene) return base::Fail(scene.error());
+  simulation::Simulation& simulation = *scene->simulation;
+  auto renderer = rendering::Renderer::Start();
+  if (!renderer) return base::Fail(renderer.error());
+  Figures figures;
+  figures.renderer = (*renderer)->renderer_name();
+  figures.triangles = TrianglesIn(*simulation.snapshot()->layout);
+
+  const auto draw = [&](const std::shared_ptr<const world::Snapshot>& snapshot) {
+    const auto views = arguments.overview ? scene->Overviews(*snapshot, arguments.cameras, camera)
+                                          : scene->RobotViews(*snapshot, arguments.cameras, camera);
+    return (*renderer)->Draw(snapshot, views, std::chrono::minutes(5));
+  };
+  // What is done once for a world is not measured.
+  const auto first = draw(simulation.snapshot());
+  if (!first) return base::Fail(first.error());
+  if (!arguments.save.empty()) {
+    if (auto ok = Save(arguments.save, *first); !ok) return base::Fail(ok.error());
+  }
+  auto watch = std::make_shared<SnapshotWatch>();
+  simulation.AddObserver(watch);
+  if (auto ok = simulation.Start(); !ok) return base::Fail(ok.error());
+  PictureCheck check;
+  Clock::time_point start;
+  double processor_start = 0;
+  // The first two rounds tell what moves.
+  for (int round = -2;
+       round < 0 || Clock::now() - start < std::chrono::duration<double>(arguments.duration);
+       ++round) {
+    if (round <= 0) start = Clock::now(), processor_start = ProcessorTime();
+    if (round == 0) watch->Forget();
+    const auto snapshot = watch->Next();
+    if (snapshot == nullptr)
+      return base::Fail(base::ErrorCode::kTimeout, "the simulation stands still", "bench camera");
+    const auto asked = Clock::now();
+    const auto pictures = draw(snapshot);
+    if (!pictures) return base::Fail(pictures.error());
+    if (round < 0) continue;
+    figures.latencies.push_back(Milliseconds(Clock::now() - asked));
+    figures.pictures += arguments.cameras;
+    if (auto ok = check.Check(*pictures); !ok) return base::Fail(ok.error());
+  }
+  figures.wall = std::chrono::duration<double>(Clock::now() - start).count();
+  figures.processor = ProcessorTime() - processor_start;
+  figures.intervals = watch->intervals();
+  return figures;
+}
+
+std::optional<rendering::CameraParameters> ParseSize(const std::string& size) {
+  rendering::CameraParameters camera;
+  camera.near = 0.05, camera.far = 200;
+  char beyond = 0;
+  if (std::sscanf(size.c_str(), "%dx%d%c", &camera.width, &camera.height, &beyond) != 2) return {};
+  if (!rendering::Check(camera)) return {};
+  return camera;
+}
+
+int Run(const CameraArguments& arguments) {
+  const auto camera = ParseSize(arguments.size);
+  if (!camera) {
+    return Complain({base::ErrorCode::kInvalidArgument,
+                     "give width and height in pixels, up to 4096 each, such as 320x240",
+                     "--size " + arguments.size});
+  }
+  const auto figures = Measure(arguments, *camera);
+  if (!figures) return Complain(figures.error());
+  const nlohmann::ordered_json json{
+      {"cameras", arguments.cameras},
+      {"size", arguments.size},
+      {"robots", arguments.robots},
+      {"triangles", figures->triangles},
+      {"pictures", figures->pictures},
+      {"pictures_per_s", figures->pictures / figures->wall},
+      {"p50_ms", Quantile(figures->latencies, 0.5)},
+      {"p99_ms", Quantile(figures->latencies, 0.99)},
+      {"step_p50_ms", Quantile(figures->intervals, 0.5)},
+      {"step_p99_ms", Quantile(figures->intervals, 0.99)},
+      {"cpu_ms_a_picture", 1e3 * figures->processor / figures->pictures},
+      {"renderer", figures->renderer}};
+  if (arguments.json) {
+    std::printf("%s\n", json.dump().c_str());
+  } else {
+    for (const auto& [name, value] : json.items()) {
+      std::printf("%-18s %s\n", name.c_str(), value.dump().c_str());
+    }
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void AddCameraBench(const CommandLine& bench) {
+  CLI::App* command = bench.app.add_subcommand(
+      "camera",
+      "Pictures of robots that drive about in real time, asked for in batches: how many a second, "
+      "how long from request to picture (p50_ms, p99_ms), and from step to step (step_p99_ms)");
+  auto arguments = std::make_shared<CameraArguments>();
+  command->add_option("--cameras", arguments->cameras, "pictures in a batch")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--size", arguments->size, "of a picture, pixels")->capture_default_str();
+  command->add_option("--robots", arguments->robots)
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10'000));
+  command->add_option("--world", arguments->world, "\"square\": that of bench crowd")
+      ->capture_default_str();
+  command->add_option("--model", arguments->model)->capture_default_str();
+  command->add_flag("--overview", arguments->overview,
+                    "cameras that circle above and see all, instead of the robots' own");
+  command->add_option("--duration", arguments->duration, "seconds")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  command->add_option("--save", arguments->save, "a folder for the first batch, as JPEG");
+  command->add_flag("--json", arguments->json, "one JSON object");
+  command->callback([arguments, bench] { bench.exit_code = Run(*arguments); });
+}
+
+}  // namespace gsv::app
