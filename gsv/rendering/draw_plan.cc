@@ -39,10 +39,10 @@ geometry::Shape AsDrawn(const model::Visual& visual) {
 
 class Builder {
  public:
-  Builder(GpuMeshes& meshes, GpuTextures& textures) : meshes_(meshes), textures_(textures) {}
+  Builder(MeshStore& meshes, TextureStore& textures) : meshes_(meshes), textures_(textures) {}
 
   void Add(const model::Visual& visual, int body, int link) {
-    const ShapeOnGpu shape = meshes_.Find(AsDrawn(visual));
+    const DrawShape shape = meshes_.Find(AsDrawn(visual));
     const bool plane = std::holds_alternative<geometry::Plane>(visual.shape);
     const int first_surface = next_surface_;
     next_surface_ += static_cast<int>(visual.materials.size());
@@ -52,6 +52,7 @@ class Builder {
       const model::Material& material = visual.materials[material_index];
       DrawGroup group = GroupOf(material);
       group.mesh = shape.mesh;
+      group.chunk = static_cast<std::uint32_t>(&chunk - shape.mesh->chunks.data());
       group.first_index = 3 * chunk.first_triangle;
       group.index_count = 3 * chunk.triangle_count;
       group.mirrored = shape.scale.x * shape.scale.y * shape.scale.z < 0;
@@ -108,17 +109,17 @@ class Builder {
     return it->second;
   }
 
-  using Key = std::tuple<const GpuMesh*, std::uint32_t, const GpuTexture*, const GpuTexture*,
-                         const GpuTexture*, const GpuTexture*, Blending, bool, bool>;
-  GpuMeshes& meshes_;
-  GpuTextures& textures_;
+  using Key = std::tuple<const DrawMesh*, std::uint32_t, const DrawTexture*, const DrawTexture*,
+                         const DrawTexture*, const DrawTexture*, Blending, bool, bool>;
+  MeshStore& meshes_;
+  TextureStore& textures_;
   std::map<Key, int> index_of_;
   int next_surface_ = 0;
 };
 
 }  // namespace
 
-DrawPlan::DrawPlan(const world::Layout& layout, GpuMeshes& meshes, GpuTextures& textures) {
+DrawPlan::DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore& textures) {
   Builder builder(meshes, textures);
   bodies_.resize(layout.bodies.size());
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {

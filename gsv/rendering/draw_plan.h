@@ -2,7 +2,7 @@
 // that are drawn by one call.
 //
 // A plan is made once for a layout and posed for each snapshot. It keeps no model alive, only what
-// is on the card.
+// the back end made of it.
 // Threads  the render thread only.
 #pragma once
 
@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "gsv/rendering/gpu_mesh.h"
-#include "gsv/rendering/gpu_texture.h"
+#include "gsv/rendering/mesh_store.h"
+#include "gsv/rendering/texture_store.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::rendering {
@@ -20,10 +20,11 @@ enum class Blending { kOpaque, kCutOut, kSeeThrough };
 
 // What the items of one draw call have in common.
 struct DrawGroup {
-  std::shared_ptr<const GpuMesh> mesh;
+  std::shared_ptr<const DrawMesh> mesh;
+  std::uint32_t chunk = 0;  // of the mesh
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
-  std::shared_ptr<const GpuTexture> base_colour, normal, metallic_roughness, emissive;  // or null
+  std::shared_ptr<const DrawTexture> base_colour, normal, metallic_roughness, emissive;  // or null
   Blending blending = Blending::kOpaque;
   bool mirrored = false;
   bool double_sided = false;
@@ -61,7 +62,7 @@ struct PlacedItem {
 
 class DrawPlan {
  public:
-  DrawPlan(const world::Layout& layout, GpuMeshes& meshes, GpuTextures& textures);
+  DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore& textures);
 
   // Moves every item to where `snapshot`, of this plan's layout, has it.
   void Pose(const world::Snapshot& snapshot);

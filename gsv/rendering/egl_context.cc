@@ -62,11 +62,11 @@ std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
 }
 
 // In the order in which they are tried: graphics cards, then Mesa without a device.
-std::vector<EGLDisplay> Displays(bool hardware) {
+std::vector<EGLDisplay> Displays(const EglOptions& options) {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<EGLDisplay> displays;
-  if (hardware) displays = DeviceDisplays(extensions);
-  if (Has(extensions, "EGL_MESA_platform_surfaceless")) {
+  if (options.hardware) displays = DeviceDisplays(extensions);
+  if (options.software && Has(extensions, "EGL_MESA_platform_surfaceless")) {
     displays.push_back(
         eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
   }
@@ -97,6 +97,11 @@ EGLContext MakeCurrentOn(EGLDisplay display) {
   return nullptr;
 }
 
+// What a card's display gives where the card is present but unusable.
+bool IsMesaInSoftware(const std::string& renderer_name) {
+  return renderer_name.starts_with("llvmpipe") || renderer_name.starts_with("softpipe");
+}
+
 std::string GlText(unsigned name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
   return text != nullptr ? text : "";
@@ -108,13 +113,13 @@ Result<std::unique_ptr<EglContext>> EglContext::Create(const EglOptions& options
   for (const std::string& library : {options.egl_library, options.gl_library}) {
     if (Status status = CheckLibrary(library); !status) return Fail(status.error());
   }
-  // Mesa's software renderer is also what it falls back to where a card is present but unusable.
-  const std::vector<EGLDisplay> displays = Displays(options.hardware);
+  const std::vector<EGLDisplay> displays = Displays(options);
   for (EGLDisplay display : displays) {
     EGLContext context = MakeCurrentOn(display);
     if (context == nullptr) continue;
     std::string name = GlText(GL_RENDERER) + ", OpenGL " + GlText(GL_VERSION);
-    return std::unique_ptr<EglContext>(new EglContext(display, context, std::move(name)));
+    std::unique_ptr<EglContext> created(new EglContext(display, context, std::move(name)));
+    if (options.software || !IsMesaInSoftware(created->renderer_name())) return created;
   }
   return Fail(ErrorCode::kUnavailable,
               std::string(displays.empty() ? "EGL found neither a graphics device nor Mesa"

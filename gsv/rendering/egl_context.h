@@ -13,9 +13,9 @@
 namespace gsv::rendering {
 
 struct EglOptions {
-  // Whether a graphics card may be used; without, pictures come from Mesa's software renderer and
-  // are the same on every machine with the same Mesa.
+  // Whether a graphics card may be used, and Mesa's software renderer; the card is tried first.
   bool hardware = true;
+  bool software = true;
   // The libraries that are opened; tests name ones that do not exist.
   std::string egl_library = "libEGL.so.1";
   std::string gl_library = "libOpenGL.so.0";

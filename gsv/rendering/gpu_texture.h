@@ -1,37 +1,20 @@
-// Textures on the graphics card, shared by all materials that use the same picture.
+// Textures on the graphics card.
 //
 // Threads  the render thread only.
 #pragma once
 
-#include <map>
-#include <memory>
-
-#include "gsv/model/image.h"
 #include "gsv/rendering/gl_objects.h"
+#include "gsv/rendering/texture_store.h"
 
 namespace gsv::rendering {
 
-// As its picture is encoded: whoever samples colours decodes them.
-struct GpuTexture {
+struct GpuTexture final : DrawTexture {
   GlTexture texture;
-  bool see_through = false;  // some pixel's alpha is below 1
 };
 
-class GpuTextures {
- public:
-  // Null for a null or unusable picture: its material then has no such map.
-  std::shared_ptr<const GpuTexture> Find(const std::shared_ptr<const model::Image>& image);
+// The side of the largest texture that the card takes, pixels.
+int LargestTexture();
 
-  // Forgets the textures whose picture is gone.
-  void Sweep();
-  std::size_t size() const { return entries_.size(); }
-
- private:
-  struct Entry {
-    std::weak_ptr<const model::Image> image;
-    std::shared_ptr<const GpuTexture> texture;
-  };
-  std::map<const model::Image*, Entry> entries_;
-};
+std::shared_ptr<DrawTexture> UploadTexture(const model::Image& image);
 
 }  // namespace gsv::rendering

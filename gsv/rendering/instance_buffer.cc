@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include "gsv/rendering/gpu_mesh.h"
 #include "gsv/rendering/shaders.h"
 
 namespace gsv::rendering {
@@ -62,9 +63,10 @@ void InstanceBuffer::Upload(const std::vector<InstanceData>& instances) {
 }
 
 void InstanceBuffer::Draw(const DrawGroup& group, std::size_t first, std::size_t count) const {
-  glVertexArrayVertexBuffer(arrays_.name(), kMeshBinding, group.mesh->vertices.name(), 0,
-                            kVertexBytes);
-  glVertexArrayElementBuffer(arrays_.name(), group.mesh->indices.name());
+  const auto& mesh = static_cast<const GpuMesh&>(*group.mesh);
+  glVertexArrayVertexBuffer(arrays_.name(), kMeshBinding, mesh.vertices.name(), 0,
+                            kVertexFloats * sizeof(float));
+  glVertexArrayElementBuffer(arrays_.name(), mesh.indices.name());
   const std::size_t offset = group.first_index * sizeof(std::uint32_t);
   glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<int>(group.index_count),
                                       GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),

@@ -11,10 +11,19 @@ namespace {
 TEST(RendererWithoutADriver, SaysWhatToInstall) {
   // GLVND's own way to name the drivers: here, none.
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/driver.json", 1);
-  const auto started = Renderer::Start();
+  RendererOptions options;
+  options.back_end = BackEnd::kOpenGl;
+  const auto started = Renderer::Start(options);
   ASSERT_FALSE(started);
   EXPECT_EQ(started.error().code, base::ErrorCode::kUnavailable);
   EXPECT_NE(started.error().message.find("install libegl1"), std::string::npos);
+}
+
+TEST(RendererWithoutADriver, HasTheRasteriser) {
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/driver.json", 1);
+  const auto started = Renderer::Start();
+  ASSERT_TRUE(started) << started.error().Sentence();
+  EXPECT_NE((*started)->renderer_name().find("rasteriser"), std::string::npos);
 }
 
 }  // namespace

@@ -16,10 +16,22 @@ using geometry::Vector3;
 
 constexpr double kPi = std::numbers::pi;
 
-class Picture : public testing::Test {
+// Built for each back end: as Picture and as OpenGlPicture.
+#ifndef PICTURE_SUITE
+#define PICTURE_SUITE Picture
+#define PICTURE_BACK_END kRasteriser
+#endif
+
+RendererOptions Options() {
+  RendererOptions options;
+  options.back_end = BackEnd::PICTURE_BACK_END;
+  return options;
+}
+
+class PICTURE_SUITE : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    auto started = Renderer::Start();
+    auto started = Renderer::Start(Options());
     ASSERT_TRUE(started) << started.error().Sentence();
     renderer_ = *started;
   }
@@ -35,9 +47,9 @@ class Picture : public testing::Test {
   TestScene scene_;
 };
 
-std::shared_ptr<Renderer> Picture::renderer_;
+std::shared_ptr<Renderer> PICTURE_SUITE::renderer_;
 
-TEST_F(Picture, HasTheSizeThatWasAskedFor) {
+TEST_F(PICTURE_SUITE, HasTheSizeThatWasAskedFor) {
   for (const auto& [width, height] : {std::pair{320, 240}, {1, 1}, {17, 333}}) {
     const auto picture = Take({{}, {width, height, 1, 0.1, 100}});
     EXPECT_EQ(picture->width, width);
@@ -47,7 +59,7 @@ TEST_F(Picture, HasTheSizeThatWasAskedFor) {
   }
 }
 
-TEST_F(Picture, OfNothingIsTheBackground) {
+TEST_F(PICTURE_SUITE, OfNothingIsTheBackground) {
   scene_.description().scene.background = {0.25, 0.5, 0.75, 1};
   const auto picture = Take({{}, {64, 48, 1, 0.1, 100}});
   // At the horizon, up to the haze that lightens it.
@@ -57,7 +69,7 @@ TEST_F(Picture, OfNothingIsTheBackground) {
   EXPECT_NEAR(p[2], 0.75 * 255, 15);
 }
 
-TEST_F(Picture, APointFallsWhereThePinholeCameraSays) {
+TEST_F(PICTURE_SUITE, APointFallsWhereThePinholeCameraSays) {
   const CameraView view{{{0.3, -0.2, 0.5}, geometry::FromRollPitchYaw({0.05, 0.1, 0.7})},
                         {320, 240, 1.047, 0.05, 100}};
   const double f = 160 / std::tan(1.047 / 2);
@@ -74,7 +86,7 @@ TEST_F(Picture, APointFallsWhereThePinholeCameraSays) {
   }
 }
 
-TEST_F(Picture, LeftIsLeftAndUpIsUp) {
+TEST_F(PICTURE_SUITE, LeftIsLeftAndUpIsUp) {
   scene_.Add("left", Box{{0.4, 0.4, 0.4}}, {{3, 1, 0}, {}}, Glowing(1, 0, 0));
   scene_.Add("up", Box{{0.4, 0.4, 0.4}}, {{3, 0, 0.8}, {}}, Glowing(0, 1, 0));
   scene_.Add("behind", Box{{0.4, 0.4, 0.4}}, {{-3, 0, 0}, {}}, Glowing(0, 0, 1));
@@ -89,7 +101,7 @@ TEST_F(Picture, LeftIsLeftAndUpIsUp) {
   EXPECT_EQ(FindBlob(*picture, 2).pixels, 0);
 }
 
-TEST_F(Picture, WhatIsInFrontHidesWhatIsBehind) {
+TEST_F(PICTURE_SUITE, WhatIsInFrontHidesWhatIsBehind) {
   scene_.Add("near", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
   scene_.Add("far", Box{{0.1, 1, 1}}, {{3, 0, 0}, {}}, Glowing(0, 1, 0));
   const CameraView ahead{{}, {160, 120, 1, 0.1, 100}};
@@ -101,7 +113,7 @@ TEST_F(Picture, WhatIsInFrontHidesWhatIsBehind) {
   EXPECT_GT(FindBlob(*picture, 1).pixels, 1000);
 }
 
-TEST_F(Picture, NothingIsDrawnOutsideTheClippingDistances) {
+TEST_F(PICTURE_SUITE, NothingIsDrawnOutsideTheClippingDistances) {
   scene_.Add("box", Box{{0.2, 1, 1}}, {{2, 0, 0}, {}}, Glowing(1, 0, 0));
   EXPECT_EQ(FindBlob(*Take({{}, {160, 120, 1, 2.5, 100}}), 0).pixels, 0);
   EXPECT_EQ(FindBlob(*Take({{}, {160, 120, 1, 0.1, 1.5}}), 0).pixels, 0);
@@ -125,7 +137,7 @@ std::shared_ptr<const model::Image> Quarters(int channels) {
   return image;
 }
 
-TEST_F(Picture, ATextureStandsUpright) {
+TEST_F(PICTURE_SUITE, ATextureStandsUpright) {
   model::Material material = Matt(1, 1, 1);
   material.base_colour_map = Quarters(3);
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
@@ -141,7 +153,7 @@ TEST_F(Picture, ATextureStandsUpright) {
   EXPECT_GT(blue.v, 60);
 }
 
-TEST_F(Picture, ACutOutTextureShowsWhatIsBehindItsHoles) {
+TEST_F(PICTURE_SUITE, ACutOutTextureShowsWhatIsBehindItsHoles) {
   model::Material material = Matt(1, 1, 1);
   material.base_colour_map = Quarters(4);
   material.alpha_cut_out = true;
@@ -155,7 +167,7 @@ TEST_F(Picture, ACutOutTextureShowsWhatIsBehindItsHoles) {
   EXPECT_LT(hole[0], 60);
 }
 
-TEST_F(Picture, SeeThroughThingsAreMixedWithWhatIsBehindThem) {
+TEST_F(PICTURE_SUITE, SeeThroughThingsAreMixedWithWhatIsBehindThem) {
   scene_.Add("pane", Box{{0.02, 1, 1}}, {{2, 0, 0}, {}}, Matt(1, 0, 0, 0.5));
   scene_.Add("wall", Box{{0.1, 8, 8}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
   const auto picture = Take({{}, {160, 120, 1, 0.1, 100}});
@@ -166,7 +178,7 @@ TEST_F(Picture, SeeThroughThingsAreMixedWithWhatIsBehindThem) {
   EXPECT_LT(pane[2], wall[2] - 30);
 }
 
-TEST_F(Picture, OfAMirroredMeshShowsItsOutside) {
+TEST_F(PICTURE_SUITE, OfAMirroredMeshShowsItsOutside) {
   const auto cube =
       std::make_shared<const geometry::TriangleMesh>(geometry::Tessellate(Box{{1, 1, 1}}));
   const CameraView view{{}, {160, 120, 1, 0.1, 100}};
@@ -183,7 +195,7 @@ CameraView FromAbove() {
   return {{{0, 0, 10}, geometry::FromAxisAngle({0, 1, 0}, kPi / 2)}, {100, 100, kPi / 2, 0.1, 100}};
 }
 
-TEST_F(Picture, AThingCastsItsShadowAwayFromTheSun) {
+TEST_F(PICTURE_SUITE, AThingCastsItsShadowAwayFromTheSun) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{-1, 0, -1});  // from +x, 45° high
   scene_.description().lights = {sun};
@@ -199,7 +211,7 @@ TEST_F(Picture, AThingCastsItsShadowAwayFromTheSun) {
   EXPECT_NEAR(Brightness(*Take(FromAbove()), 50, 50), light, 4);
 }
 
-TEST_F(Picture, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
+TEST_F(PICTURE_SUITE, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
   model::Light sun;
   scene_.description().lights = {sun};  // straight down
   scene_.Add("floor", Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, Matt(0.7, 0.7, 0.7), true);
@@ -223,7 +235,7 @@ TEST_F(Picture, TheShadowOfWhatMovedIsGoneFromWhereItWas) {
   EXPECT_LT(different, 160 * 120 / 200);
 }
 
-TEST_F(Picture, IsTheSameWhateverWasDrawnBefore) {
+TEST_F(PICTURE_SUITE, IsTheSameWhateverWasDrawnBefore) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{-1, 0.5, -1});
   scene_.description().lights = {sun};
@@ -235,7 +247,7 @@ TEST_F(Picture, IsTheSameWhateverWasDrawnBefore) {
   second->state.bodies[first->layout->Find("robot")].world_from_model.position = {1, -3, 0.5};
   const CameraView view = FromAbove();
   for (const auto& snapshot : {first, std::shared_ptr<const world::Snapshot>(second), first}) {
-    const auto fresh = Renderer::Start();
+    const auto fresh = Renderer::Start(Options());
     ASSERT_TRUE(fresh);
     const auto alone = (*fresh)->Draw(snapshot, view, std::chrono::seconds(30));
     const auto after = renderer_->Draw(snapshot, view, std::chrono::seconds(30));
@@ -244,7 +256,7 @@ TEST_F(Picture, IsTheSameWhateverWasDrawnBefore) {
   }
 }
 
-TEST_F(Picture, BeyondAllThatCastsShadowsTheGroundIsInTheSun) {
+TEST_F(PICTURE_SUITE, BeyondAllThatCastsShadowsTheGroundIsInTheSun) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{1, 0, -1});
   scene_.description().lights = {sun};
@@ -256,14 +268,14 @@ TEST_F(Picture, BeyondAllThatCastsShadowsTheGroundIsInTheSun) {
   EXPECT_NEAR(near, far, 30);
 }
 
-TEST_F(Picture, AWorldWithoutLightsHasASunAndIsNotDark) {
+TEST_F(PICTURE_SUITE, AWorldWithoutLightsHasASunAndIsNotDark) {
   scene_.description().scene.ambient = {0, 0, 0, 1};
   scene_.Add("floor", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   const auto picture = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
   EXPECT_GT(Brightness(*picture, 80, 110), 120);
 }
 
-TEST_F(Picture, ALampLightsWhatIsWithinItsRange) {
+TEST_F(PICTURE_SUITE, ALampLightsWhatIsWithinItsRange) {
   model::Light lamp;
   lamp.kind = model::Light::Kind::kPoint;
   lamp.world_from_light.position = {0, 0, 1};
@@ -280,7 +292,7 @@ TEST_F(Picture, ALampLightsWhatIsWithinItsRange) {
   EXPECT_LT(lit.pixels, 710);
 }
 
-TEST_F(Picture, ASpotLightsItsConeOnly) {
+TEST_F(PICTURE_SUITE, ASpotLightsItsConeOnly) {
   model::Light spot;
   spot.kind = model::Light::Kind::kSpot;
   spot.world_from_light.position = {0, 0, 4};
@@ -295,14 +307,14 @@ TEST_F(Picture, ASpotLightsItsConeOnly) {
   EXPECT_LT(lit.pixels, 3.14 * 12 * 12);
 }
 
-TEST_F(Picture, TheGroundReachesTheHorizon) {
+TEST_F(PICTURE_SUITE, TheGroundReachesTheHorizon) {
   scene_.Add("ground", geometry::Plane{{0, 0, 1}, {20, 20}}, {}, Glowing(1, 0, 0), true);
   const auto picture = Take({{{0, 0, 1}, {}}, {160, 120, 1, 0.1, 100}});
   // It ends 100 m away, where 1 m below the eye is f / 100 = 1.46 pixels below the middle.
   EXPECT_NEAR(FindBlob(*picture, 0).pixels / 160.0, 60 - 1.46, 0.6);
 }
 
-TEST_F(Picture, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
+TEST_F(PICTURE_SUITE, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
   scene_.Add("floor", geometry::Plane{{0, 0, 1}, {100, 100}}, {}, Matt(0.7, 0.7, 0.7), true);
   scene_.Add("ball", geometry::Sphere{0.5}, {{3, 0, 0.5}, {}}, Matt(0.2, 0.5, 0.9));
   const auto snapshot = scene_.Snapshot();
@@ -319,7 +331,7 @@ TEST_F(Picture, EqualRequestsGiveEqualBytesWhateverElseIsInTheBatch) {
 }
 
 // A camera sees the shadows of things that move, whatever cameras were drawn with it.
-TEST_F(Picture, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
+TEST_F(PICTURE_SUITE, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
   model::Light sun;
   sun.direction = geometry::Normalized(Vector3{-1, 0.3, -0.5});
   scene_.description().lights = {sun};

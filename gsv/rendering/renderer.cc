@@ -7,7 +7,8 @@
 #include <thread>
 
 #include "gsv/base/check.h"
-#include "gsv/rendering/batch_painter.h"
+#include "gsv/rendering/gl_batch_painter.h"
+#include "gsv/rendering/raster/raster_batch_painter.h"
 
 namespace gsv::rendering {
 namespace {
@@ -76,8 +77,8 @@ class Renderer::RenderThread {
                     " ms; the renderer is overloaded: ask less often or for smaller pictures");
   }
 
-  GpuCopies Count() {
-    std::future<GpuCopies> count;
+  DrawCopies Count() {
+    std::future<DrawCopies> count;
     {
       const std::lock_guard lock(mutex_);
       count = counts_.emplace_back().get_future();
@@ -90,16 +91,33 @@ class Renderer::RenderThread {
   using Batch = std::vector<std::shared_ptr<Request>>;
 
   void Run(std::promise<Result<std::string>>& started) {
-    Result<std::unique_ptr<EglContext>> context = EglContext::Create(options_.egl);
-    if (!context) {
-      started.set_value(Fail(context.error()));
+    const bool automatic = options_.back_end == BackEnd::kAutomatic;
+    EglOptions egl = options_.egl;
+    if (automatic && raster::CanRasterise()) egl.software = false;
+    std::unique_ptr<EglContext> context;
+    std::unique_ptr<BatchPainter> painter;
+    if (options_.back_end != BackEnd::kRasteriser) {
+      Result<std::unique_ptr<EglContext>> created = EglContext::Create(egl);
+      if (!created && egl.software) {
+        started.set_value(Fail(created.error()));
+        return;
+      }
+      if (created) {
+        context = *std::move(created);
+        painter = std::make_unique<GlBatchPainter>();
+      }
+    } else if (!raster::CanRasterise()) {
+      started.set_value(Fail(ErrorCode::kUnavailable,
+                             "this processor has no AVX2, which the rasteriser is made for; "
+                             "pictures need OpenGL here"));
       return;
     }
-    {
-      BatchPainter painter;
-      started.set_value((*context)->renderer_name());
-      Serve(painter);
+    if (painter == nullptr) {
+      painter = std::make_unique<raster::RasterBatchPainter>(base::ThreadTeam::DefaultThreads());
     }
+    started.set_value(context != nullptr ? context->renderer_name() : raster::kRasteriserName);
+    Serve(*painter);
+    painter.reset();
     EndAll();
   }
 
@@ -107,7 +125,7 @@ class Renderer::RenderThread {
     std::unique_lock lock(mutex_);
     while (!stopping_) {
       Batch batch = TakeBatch();
-      std::vector<std::promise<GpuCopies>> counts = std::exchange(counts_, {});
+      std::vector<std::promise<DrawCopies>> counts = std::exchange(counts_, {});
       if (batch.empty() && counts.empty()) {
         const bool woken = work_.wait_for(
             lock, kIdleSweep, [&] { return stopping_ || !queue_.empty() || !counts_.empty(); });
@@ -175,7 +193,7 @@ class Renderer::RenderThread {
   std::mutex mutex_;
   std::condition_variable work_;
   std::deque<std::shared_ptr<Request>> queue_;
-  std::vector<std::promise<GpuCopies>> counts_;
+  std::vector<std::promise<DrawCopies>> counts_;
   bool stopping_ = false;
   std::thread thread_;
 };
@@ -210,6 +228,6 @@ Result<Pictures> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
   return thread_->Draw(std::move(snapshot), views, timeout);
 }
 
-GpuCopies Renderer::CountGpuCopies() { return thread_->Count(); }
+DrawCopies Renderer::CountCopies() { return thread_->Count(); }
 
 }  // namespace gsv::rendering

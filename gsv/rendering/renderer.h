@@ -1,8 +1,9 @@
-// Takes pictures of snapshots with OpenGL, on a thread of its own.
+// Takes pictures of snapshots, on a thread of its own: with OpenGL on a graphics card, without one
+// by a rasteriser of our own.
 //
 // All requests that wait for the same snapshot are drawn as one batch, with one shadow map. The
-// card's copies of meshes and textures are shared between snapshots and simulations, and freed
-// after the model they came from is gone.
+// copies of meshes and textures are shared between snapshots and simulations, and freed after the
+// model they came from is gone.
 //
 // Determinism  a picture is a function of snapshot, camera and renderer_name(): equal inputs give
 //              equal bytes on one renderer, whatever else is drawn in the same batch.
@@ -25,14 +26,21 @@
 
 namespace gsv::rendering {
 
+enum class BackEnd {
+  kAutomatic,   // a graphics card; without one the rasteriser, or Mesa on processors without AVX2
+  kOpenGl,      // as `egl` allows
+  kRasteriser,  // kUnavailable on processors without AVX2 and FMA
+};
+
 struct RendererOptions {
+  BackEnd back_end = BackEnd::kAutomatic;
   EglOptions egl;
   // Requests that may wait at one moment; more are refused.
   std::size_t queue_capacity = 4096;
 };
 
-// What the card holds.
-struct GpuCopies {
+// What is kept of models.
+struct DrawCopies {
   std::size_t meshes = 0;
   std::size_t textures = 0;
   std::size_t layouts = 0;
@@ -56,11 +64,12 @@ class Renderer {
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = std::chrono::seconds(10));
 
-  // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6"
+  // "GSV rasteriser (AVX2)" or "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa
+  // 22.3.6".
   const std::string& renderer_name() const { return renderer_name_; }
 
   // After what nobody uses any more has been freed. Waits for the batch in progress.
-  GpuCopies CountGpuCopies();
+  DrawCopies CountCopies();
 
  private:
   class RenderThread;

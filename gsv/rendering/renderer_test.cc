@@ -25,7 +25,11 @@ std::shared_ptr<const model::Image> Grey() {
 }
 
 TEST(Renderer, SaysWhatItDrawsWith) {
-  EXPECT_NE(StartRenderer()->renderer_name().find("OpenGL"), std::string::npos);
+  RendererOptions options;
+  options.back_end = BackEnd::kOpenGl;
+  EXPECT_NE(StartRenderer(options)->renderer_name().find("OpenGL"), std::string::npos);
+  options.back_end = BackEnd::kRasteriser;
+  EXPECT_NE(StartRenderer(options)->renderer_name().find("rasteriser"), std::string::npos);
 }
 
 TEST(Renderer, RefusesACameraThatCannotBe) {
@@ -42,7 +46,7 @@ TEST(Renderer, FreesWhatBelongedToARemovedBody) {
   const CameraView view{{}, {32, 24, 1, 0.1, 100}};
   const auto draw = [&] { ASSERT_TRUE(renderer->Draw(scene.Snapshot(), view, kLong)); };
   draw();
-  EXPECT_EQ(renderer->CountGpuCopies().meshes, 0u);
+  EXPECT_EQ(renderer->CountCopies().meshes, 0u);
 
   model::Material material;
   material.base_colour_map = Grey();
@@ -53,14 +57,14 @@ TEST(Renderer, FreesWhatBelongedToARemovedBody) {
   {
     const auto snapshot = scene.Snapshot();
     ASSERT_TRUE(renderer->Draw(snapshot, view, kLong));
-    const GpuCopies held = renderer->CountGpuCopies();
+    const DrawCopies held = renderer->CountCopies();
     EXPECT_EQ(held.meshes, 2u);
     EXPECT_EQ(held.textures, 1u);
     EXPECT_EQ(held.layouts, 1u);
   }
   scene.Remove("cone");
   scene.Remove("ball");
-  const GpuCopies left = renderer->CountGpuCopies();
+  const DrawCopies left = renderer->CountCopies();
   EXPECT_EQ(left.meshes, 0u);
   EXPECT_EQ(left.textures, 0u);
   EXPECT_EQ(left.layouts, 0u);
@@ -75,7 +79,7 @@ TEST(Renderer, SharesOneCopyBetweenBodiesAndLayouts) {
   const CameraView view{{}, {32, 24, 1, 0.1, 100}};
   const auto first = scene.Snapshot(), second = scene.Snapshot();
   ASSERT_TRUE(renderer->Draw(first, view, kLong) && renderer->Draw(second, view, kLong));
-  const GpuCopies held = renderer->CountGpuCopies();
+  const DrawCopies held = renderer->CountCopies();
   EXPECT_EQ(held.meshes, 1u);
   EXPECT_EQ(held.layouts, 2u);
 }
@@ -141,6 +145,7 @@ TEST(Renderer, RefusesMoreThanItsQueueHolds) {
 
 TEST(Renderer, WithoutALibrarySaysWhichAndWhatToInstall) {
   RendererOptions options;
+  options.back_end = BackEnd::kOpenGl;
   options.egl.egl_library = "libEGL_that_is_not_there.so.1";
   const auto started = Renderer::Start(options);
   ASSERT_FALSE(started);

@@ -143,7 +143,7 @@ double ProcessorTime() {
 void Pictures(benchmark::State& bench) {
   const int cameras = static_cast<int>(bench.range(0));
   RendererOptions options;
-  options.egl.hardware = false;
+  options.back_end = BackEnd::kRasteriser;
   const auto renderer = Renderer::Start(options);
   GSV_CHECK(renderer.has_value());
   Office office;

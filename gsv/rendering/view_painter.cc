@@ -6,6 +6,7 @@
 
 #include <epoxy/gl.h>
 
+#include "gsv/rendering/gpu_texture.h"
 #include "gsv/rendering/shaders.h"
 
 namespace gsv::rendering {
@@ -45,8 +46,9 @@ unsigned FeaturesOf(const DrawGroup& group) {
 }
 
 void BindMaps(const DrawGroup& group) {
-  const auto bind = [](unsigned unit, const std::shared_ptr<const GpuTexture>& map) {
-    if (map != nullptr) glBindTextureUnit(unit, map->texture.name());
+  const auto bind = [](unsigned unit, const std::shared_ptr<const DrawTexture>& map) {
+    if (map == nullptr) return;
+    glBindTextureUnit(unit, static_cast<const GpuTexture&>(*map).texture.name());
   };
   bind(kBaseColourUnit, group.base_colour);
   bind(kNormalUnit, group.normal);
@@ -100,9 +102,9 @@ void ViewPainter::FindVisible(const CameraView& view, const DrawPlan& plan,
     if (item.radius < smallest * distance) continue;
     const bool see_through = plan.groups()[item.group].blending == Blending::kSeeThrough;
     (see_through ? see_through_ : solid_)
-        .push_back(
-            {item.group, distance, i,
-             shadows != nullptr && shadows->MayFallOn(plan.placed()[i].centre, item.radius)});
+        .push_back({item.group, distance, i,
+                    shadows != nullptr &&
+                        shadows->region().MayFallOn(plan.placed()[i].centre, item.radius)});
   }
 }
 

@@ -31,7 +31,7 @@ struct CameraArguments {
   bool overview = false;
   double duration = 10;  // s
   std::string save;
-  bool json = false;
+  bool opengl = false, json = false;
 };
 
 double Milliseconds(Clock::duration duration) {
@@ -146,7 +146,9 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
   auto scene = MovingScene::Create(arguments.world, arguments.model, arguments.robots);
   if (!scene) return base::Fail(scene.error());
   simulation::Simulation& simulation = *scene->simulation;
-  auto renderer = rendering::Renderer::Start();
+  rendering::RendererOptions options;
+  if (arguments.opengl) options.back_end = rendering::BackEnd::kOpenGl;
+  auto renderer = rendering::Renderer::Start(options);
   if (!renderer) return base::Fail(renderer.error());
   Figures figures;
   figures.renderer = (*renderer)->renderer_name();
@@ -257,6 +259,8 @@ void AddCameraBench(const CommandLine& bench) {
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
   command->add_option("--save", arguments->save, "a folder for the first batch, as JPEG");
+  command->add_flag("--opengl", arguments->opengl,
+                    "with OpenGL, in software where there is no graphics card");
   command->add_flag("--json", arguments->json, "one JSON object");
   command->callback([arguments, bench] { bench.exit_code = Run(*arguments); });
 }

@@ -1,0 +1,33 @@
+// Pictures with OpenGL: everything that lives on the graphics card.
+//
+// Threads  the render thread only, with the context current from construction to destruction.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "gsv/rendering/batch_painter.h"
+#include "gsv/rendering/picture_target.h"
+#include "gsv/rendering/shadow_map.h"
+#include "gsv/rendering/view_painter.h"
+
+namespace gsv::rendering {
+
+class GlBatchPainter final : public BatchPainter {
+ public:
+  GlBatchPainter();
+
+  base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
+      const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+
+ private:
+  PictureTarget& TargetFor(const CameraParameters& camera);
+
+  std::list<PictureTarget> targets_;  // most recently used first
+  InstanceBuffer instances_;
+  ShadowMap shadow_map_;
+  ViewPainter painter_;
+};
+
+}  // namespace gsv::rendering

@@ -1,0 +1,247 @@
+#include "gsv/rendering/raster/picture_painter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/rendering/edge_smoothing.h"
+#include "gsv/rendering/raster/raster_texture.h"
+
+namespace gsv::rendering::raster {
+namespace {
+
+using geometry::Vector3;
+
+constexpr int kTileWidth = 32, kTileHeight = 16;
+
+// The coarsest level whose vertices were moved by no more than about a pixel.
+const Level& LevelFor(const std::vector<Level>& levels, double pixel_in_mesh) {
+  const Level* level = &levels.front();
+  for (const Level& coarser : levels) {
+    if (coarser.cell <= pixel_in_mesh) level = &coarser;
+  }
+  return *level;
+}
+
+}  // namespace
+
+model::Image PicturePainter::Paint(const CameraView& view, const DrawPlan& plan,
+                                   const FrameBlock& block, const SunShadow* shadow) {
+  Begin(view, block);
+  FindVisible(view, plan);
+  Cover(view, plan);
+  const LightModel light(block, shadow);
+  Light(light);
+  Blend(view, plan, light);
+  return SmoothEdges(width_, height_, reinterpret_cast<const std::uint8_t*>(rgba_.data()));
+}
+
+void PicturePainter::Begin(const CameraView& view, const FrameBlock& block) {
+  width_ = view.parameters.width, height_ = view.parameters.height;
+  stride_ = width_ + 8;
+  const std::size_t pixels = At(0, height_);
+  inverse_w_.assign(pixels, static_cast<float>(1 / view.parameters.far));
+  nearest_.assign(pixels, 0);
+  rgba_.resize(static_cast<std::size_t>(width_) * height_ + 8);
+  triangles_.clear();
+  drawn_.clear();
+  // The middle of pixel (x, y) is at (2 x + 1) / width - 1, and so forth.
+  for (int i = 0; i < 3; ++i) {
+    right_[i] = 2 * block.view_right[i] / static_cast<float>(width_);
+    down_[i] = 2 * block.view_down[i] / static_cast<float>(height_);
+    forward_[i] = block.view_forward[i] - block.view_right[i] - block.view_down[i] +
+                  0.5f * right_[i] + 0.5f * down_[i];
+  }
+  rasteriser_.Begin(width_, height_, view.parameters.near, block.clip_from_relative);
+}
+
+void PicturePainter::FindVisible(const CameraView& view, const DrawPlan& plan) {
+  // Things smaller than this in the picture would only flicker.
+  constexpr double kSmallestInPixels = 0.3;
+  const Frustum frustum = FrustumOf(view);
+  const double pixel = 1 / FocalLength(view.parameters);  // at 1 m
+  solid_.clear();
+  see_through_.clear();
+  for (std::size_t i = 0; i < plan.items().size(); ++i) {
+    const DrawItem& item = plan.items()[i];
+    const Vector3 centre = plan.placed()[i].centre - view.world_from_camera.position;
+    if (!frustum.MeetsSphere(centre, item.radius)) continue;
+    const double distance = geometry::Norm(centre);
+    if (item.radius < kSmallestInPixels * pixel * distance) continue;
+    const DrawGroup& group = plan.groups()[item.group];
+    const double scale =
+        std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
+    const double nearest = std::max(0.0, distance - item.radius);
+    const auto& levels = static_cast<const RasterMesh&>(*group.mesh).levels[group.chunk];
+    (group.blending == Blending::kSeeThrough ? see_through_ : solid_)
+        .push_back({distance, i, &LevelFor(levels, pixel * nearest / scale)});
+  }
+  std::sort(solid_.begin(), solid_.end(), [&](const Seen& a, const Seen& b) {
+    const bool a_ground = plan.groups()[plan.items()[a.item].group].ground;
+    const bool b_ground = plan.groups()[plan.items()[b.item].group].ground;
+    if (a_ground != b_ground) return b_ground;
+    return a.distance != b.distance ? a.distance < b.distance : a.item < b.item;
+  });
+  std::sort(see_through_.begin(), see_through_.end(), [](const Seen& a, const Seen& b) {
+    return a.distance != b.distance ? a.distance > b.distance : a.item < b.item;
+  });
+}
+
+void PicturePainter::Cover(const CameraView& view, const DrawPlan& plan) {
+  for (const Seen& seen : solid_) {
+    drawn_.push_back(DrawnItem(plan, seen.item, *seen.level, view.world_from_camera.position));
+    CoverWith(static_cast<std::uint32_t>(drawn_.size() - 1),
+              static_cast<float>(1 / view.parameters.near));
+  }
+}
+
+void PicturePainter::CoverWith(std::uint32_t number, float nearest) {
+  const Drawn& drawn = drawn_[number];
+  const DrawGroup& group = *drawn.group;
+  const auto* holes = group.blending == Blending::kCutOut
+                          ? static_cast<const RasterTexture*>(group.base_colour.get())
+                          : nullptr;
+  // The ground gives way to what lies on it.
+  const F8 back = Splat(group.ground ? 1 - 2e-4f : 1.0f);
+  rasteriser_.ForEachTriangle(
+      drawn, number, group.double_sided, [&](const Triangle& t, const Box& box, bool crosses_near) {
+        const auto id = static_cast<std::int32_t>(triangles_.size() + 1);
+        bool is_seen = false;
+        Scan(t, box, [&](int x, int y, I8 covered, F8 inverse_w) {
+          const std::size_t at = At(x, y);
+          const F8 old = Load(&inverse_w_[at]);
+          I8 visible = covered & (inverse_w * back > old);
+          if (crosses_near) visible &= inverse_w <= Splat(nearest);
+          if (Bits(visible) == 0) return;
+          if (holes != nullptr) {
+            visible &=
+                Solid(t, *drawn.mesh, *holes, 0, Splat(static_cast<float>(x) - t.x0) + Steps(),
+                      static_cast<float>(y) - t.y0);
+          }
+          Store(&inverse_w_[at], Select(visible, inverse_w * back, old));
+          StoreInt(&nearest_[at], SelectInt(visible, SplatInt(id), LoadInt(&nearest_[at])));
+          is_seen = true;
+        });
+        if (is_seen) triangles_.push_back(t);
+      });
+}
+
+F8x3 PicturePainter::RayAt(int x, int y) const {
+  const F8 px = Splat(static_cast<float>(x)) + Steps();
+  const float py = static_cast<float>(y);
+  const auto part = [&](int i) {
+    return Fma(Splat(right_[i]), px, Splat(forward_[i] + down_[i] * py));
+  };
+  return {part(0), part(1), part(2)};
+}
+
+void PicturePainter::Light(const LightModel& light) {
+  for (int y = 0; y < height_; y += kTileHeight) {
+    for (int x = 0; x < width_; x += kTileWidth) LightTile(light, x, y);
+  }
+}
+
+void PicturePainter::LightTile(const LightModel& light, int x0, int y0) {
+  const int x1 = std::min(x0 + kTileWidth, width_), y1 = std::min(y0 + kTileHeight, height_);
+  const Lamps lamps = LampsOfTile(light, x0, y0, x1, y1);
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; x += 8) Light(light, lamps, x, y);
+  }
+}
+
+Lamps PicturePainter::LampsOfTile(const LightModel& light, int x0, int y0, int x1, int y1) const {
+  float nearest = 0, farthest = 1e30f;  // 1/w
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const std::size_t at = At(x, y);
+      if (nearest_[at] == 0) continue;
+      nearest = std::max(nearest, inverse_w_[at]);
+      farthest = std::min(farthest, inverse_w_[at]);
+    }
+  }
+  if (nearest == 0) return {};
+  constexpr double kMost = 1e30;
+  Vector3 min{kMost, kMost, kMost}, max{-kMost, -kMost, -kMost};
+  for (const int x : {x0, x1}) {
+    for (const int y : {y0, y1}) {
+      for (const float inverse_w : {nearest, farthest}) {
+        const auto part = [&](int i) {
+          const double px = x - 0.5, py = y - 0.5;
+          return (forward_[i] + right_[i] * px + down_[i] * py) / static_cast<double>(inverse_w);
+        };
+        const Vector3 p{part(0), part(1), part(2)};
+        min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+        max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+      }
+    }
+  }
+  return light.Reaching(min, max);
+}
+
+void PicturePainter::Light(const LightModel& light, const Lamps& lamps, int x, int y) {
+  const std::size_t at = At(x, y);
+  const I8 ids = LoadInt(&nearest_[at]);
+  const F8x3 ray = RayAt(x, y);
+  const int in_picture = x + 8 <= width_ ? 0xff : (1 << (width_ - x)) - 1;
+  int left = Bits(ids != 0) & in_picture;
+  const bool sky = left != in_picture;
+  F8x3 colour = Splat(0, 0, 0);
+  Surfaces surfaces{};
+  if (left != 0) {
+    while (left != 0) {
+      const int lane = __builtin_ctz(static_cast<unsigned>(left));
+      const std::uint32_t id = nearest_[at + static_cast<std::size_t>(lane)];
+      const I8 mask = ids == SplatInt(static_cast<std::int32_t>(id));
+      const Triangle& triangle = triangles_[id - 1];
+      FillIn(drawn_[triangle.drawn], triangle, x, y, mask, ray, surfaces);
+      left &= ~Bits(mask);
+    }
+    colour = light.Colour(surfaces, ray, lamps);
+  }
+  if (sky) colour = Select(ids == 0, light.Sky(ray), colour);
+  const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
+  // A row's last pixels reach into the next row, which is drawn later; a tile's not.
+  std::uint32_t* to = &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+  if (in_picture == 0xff) {
+    StoreInt(to, rgba);
+  } else {
+    const I8 inside = IntSteps() < SplatInt(width_ - x);
+    StoreInt(to, SelectInt(inside, rgba, LoadInt(to)));
+  }
+}
+
+void PicturePainter::Blend(const CameraView& view, const DrawPlan& plan, const LightModel& light) {
+  const F8 near = Splat(static_cast<float>(1 / view.parameters.near));
+  for (const Seen& seen : see_through_) {
+    const Drawn drawn = DrawnItem(plan, seen.item, *seen.level, view.world_from_camera.position);
+    rasteriser_.ForEachTriangle(
+        drawn, 0, drawn.group->double_sided, [&](const Triangle& t, const Box& box, bool) {
+          Scan(t, box, [&](int x, int y, I8 covered, F8 inverse_w) {
+            const I8 in_picture = IntSteps() < SplatInt(width_ - x);
+            const I8 visible = covered & in_picture & (inverse_w <= near) &
+                               (inverse_w > Load(&inverse_w_[At(x, y)]));
+            if (Bits(visible) == 0) return;
+            const F8x3 ray = RayAt(x, y);
+            Surfaces surfaces{};
+            FillIn(drawn, t, x, y, visible, ray, surfaces);
+            // Few of these pixels are in a picture: all lamps may reach them.
+            constexpr double kAnywhere = 1e30;
+            const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},
+                                               {kAnywhere, kAnywhere, kAnywhere});
+            const I8 above = Encoded(light.Colour(surfaces, ray, lamps), SplatInt(0));
+            std::uint32_t* to =
+                &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+            const I8 below = LoadInt(to);
+            // Alpha stays the number of the surface behind.
+            I8 mixed = below & SplatInt(static_cast<std::int32_t>(0xff000000u));
+            for (int shift = 0; shift < 24; shift += 8) {
+              const F8 a = ToFloat((above >> shift) & SplatInt(0xff)),
+                       b = ToFloat((below >> shift) & SplatInt(0xff));
+              mixed |= Truncated(Fma(a - b, surfaces.alpha, b + Splat(0.5f))) << shift;
+            }
+            StoreInt(to, SelectInt(visible, mixed, below));
+          });
+        });
+  }
+}
+
+}  // namespace gsv::rendering::raster

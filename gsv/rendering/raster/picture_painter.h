@@ -1,0 +1,56 @@
+// Draws what one camera sees.
+//
+// First which triangle is seen at each pixel: solid things, nearest first and the ground last. Then
+// each pixel's light, once. Then what is see-through, farthest first.
+// Threads  one thread at a time.
+#pragma once
+
+#include <vector>
+
+#include "gsv/model/image.h"
+#include "gsv/rendering/raster/lighting.h"
+
+namespace gsv::rendering::raster {
+
+class PicturePainter {
+ public:
+  // Of a posed plan, with smooth edges. `block` is complete; without `shadow` (null) everything is
+  // in the sun.
+  model::Image Paint(const CameraView& view, const DrawPlan& plan, const FrameBlock& block,
+                     const SunShadow* shadow);
+
+ private:
+  struct Seen {
+    double distance = 0;  // to its middle
+    std::size_t item = 0;
+    const Level* level = nullptr;
+  };
+
+  void Begin(const CameraView& view, const FrameBlock& block);
+  void FindVisible(const CameraView& view, const DrawPlan& plan);
+  void Cover(const CameraView& view, const DrawPlan& plan);
+  void CoverWith(std::uint32_t number, float nearest_w);
+  void Light(const LightModel& light);
+  void LightTile(const LightModel& light, int x0, int y0);
+  Lamps LampsOfTile(const LightModel& light, int x0, int y0, int x1, int y1) const;
+  void Light(const LightModel& light, const Lamps& lamps, int x, int y);
+  void Blend(const CameraView& view, const DrawPlan& plan, const LightModel& light);
+  F8x3 RayAt(int x, int y) const;
+
+  std::size_t At(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(stride_) +
+           static_cast<std::size_t>(x);
+  }
+
+  int width_ = 0, height_ = 0, stride_ = 0;
+  Float4 forward_, right_, down_;       // of a pixel's ray, by the pixel's place
+  std::vector<float> inverse_w_;        // of what is nearest at each pixel
+  std::vector<std::uint32_t> nearest_;  // its triangle's number from 1; 0: the sky
+  std::vector<Triangle> triangles_;
+  std::vector<Drawn> drawn_;
+  std::vector<Seen> solid_, see_through_;
+  std::vector<std::uint32_t> rgba_;
+  Rasteriser rasteriser_;
+};
+
+}  // namespace gsv::rendering::raster

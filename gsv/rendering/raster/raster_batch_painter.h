@@ -1,0 +1,45 @@
+// Pictures drawn by the processor, on several threads: what a machine without a graphics card has
+// them from.
+//
+// Determinism  a picture is the same to the bit on every machine, whatever the batch and the number
+//              of threads.
+// Threads      one thread at a time.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/rendering/batch_painter.h"
+#include "gsv/rendering/raster/sun_shadow.h"
+
+namespace gsv::rendering::raster {
+
+class PicturePainter;
+
+inline constexpr const char* kRasteriserName = "GSV rasteriser (AVX2)";
+
+// Whether this processor has what the rasteriser is made of: AVX2 and FMA.
+bool CanRasterise();
+
+class RasterBatchPainter final : public BatchPainter {
+ public:
+  // `threads` >= 1.
+  explicit RasterBatchPainter(int threads);
+  ~RasterBatchPainter() override;
+
+  base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
+      const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+
+ private:
+  std::unique_ptr<PicturePainter> TakePainter();
+  void GiveBack(std::unique_ptr<PicturePainter> painter);
+
+  base::ThreadTeam team_;
+  SunShadow shadow_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<PicturePainter>> idle_;  // guarded by mutex_
+};
+
+}  // namespace gsv::rendering::raster

@@ -1,0 +1,101 @@
+// Which pixels the triangles of an item cover, and how near they are there.
+//
+// Method   edge functions divided by depth (Olano and Greer, 1997): each corner i of a triangle has
+// a
+//          plane q_i over the picture with q_i = (weight of the corner) / w, w being the distance
+//          along the view; a pixel is covered where no q_i is negative, and 1/w is their sum.
+//          Triangles that reach behind the camera need no clipping.
+// Threads  one thread at a time.
+#pragma once
+
+#include <vector>
+
+#include "gsv/rendering/draw_plan.h"
+#include "gsv/rendering/frame_block.h"
+#include "gsv/rendering/raster/raster_mesh.h"
+#include "gsv/rendering/raster/simd.h"
+
+namespace gsv::rendering::raster {
+
+// An item as one camera sees it.
+struct Drawn {
+  const RasterMesh* mesh = nullptr;
+  const Level* level = nullptr;
+  const DrawGroup* group = nullptr;
+  const SurfaceFactors* factors = nullptr;
+  float rows[3][4];    // relative_from_mesh
+  float normal[3][3];  // turns the mesh's normals outward, not to unit length
+};
+
+Drawn DrawnItem(const DrawPlan& plan, std::size_t item, const Level& level,
+                const geometry::Vector3& origin);
+
+// q_i = c[i] + a[i] (x - x0) + b[i] (y - y0) at the middle of pixel (x, y).
+struct Triangle {
+  float a[3], b[3], c[3];
+  float x0, y0;
+  std::uint32_t corner[3];  // vertices of the mesh
+  std::uint32_t drawn;
+};
+
+struct Box {
+  int x0, y0, x1, y1;  // pixels, [x0, x1] by [y0, y1]
+};
+
+class Rasteriser {
+ public:
+  // Maps the frame of FrustumOf() to pixels; without perspective, w is 1.
+  void Begin(int width, int height, double near, const std::array<float, 16>& clip_from_relative);
+
+  // Calls visit(triangle, box, crosses_near) for each triangle that faces the camera and may cover
+  // a pixel.
+  template <class Visit>
+  void ForEachTriangle(const Drawn& drawn, std::uint32_t number, bool both_sides, Visit&& visit) {
+    Project(drawn);
+    for (std::uint32_t t = 0; t < drawn.level->triangle_count; t += 8) {
+      int crossing = 0;
+      for (int kept = SetUp(drawn, number, t, both_sides, crossing); kept != 0; kept &= kept - 1) {
+        const int lane = __builtin_ctz(static_cast<unsigned>(kept));
+        visit(triangles_[lane], boxes_[lane], false);
+      }
+      for (; crossing != 0; crossing &= crossing - 1) {
+        const int lane = __builtin_ctz(static_cast<unsigned>(crossing));
+        Triangle triangle;
+        if (SetUpCrossing(drawn, number, t + static_cast<std::uint32_t>(lane), both_sides,
+                          triangle)) {
+          visit(triangle, Box{0, 0, width_ - 1, height_ - 1}, true);
+        }
+      }
+    }
+  }
+
+ private:
+  void Project(const Drawn& drawn);
+  int SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t first, bool both_sides,
+            int& crossing);
+  bool SetUpCrossing(const Drawn& drawn, std::uint32_t number, std::uint32_t index, bool both_sides,
+                     Triangle& triangle) const;
+
+  int width_ = 0, height_ = 0;
+  float near_ = 0;
+  float to_pixels_[3][4];                 // from relative: x w, y w and w
+  float from_mesh_[3][4];                 // the same of the item at hand
+  std::vector<float> x_, y_, inverse_w_;  // 1/w 0: nearer than the picture begins
+  Triangle triangles_[8];
+  Box boxes_[8];
+};
+
+// Where the picture of a cut-out item, of `level` of detail, is solid; dx and dy are pixels from
+// the triangle's x0 and y0.
+struct RasterTexture;
+I8 Solid(const Triangle& triangle, const RasterMesh& mesh, const RasterTexture& holes, float level,
+         F8 dx, float dy);
+
+// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y, wherever one is covered.
+// Rows have room for seven pixels past the last.
+template <class Block>
+void Scan(const Triangle& triangle, const Box& box, Block&& block);
+
+}  // namespace gsv::rendering::raster
+
+#include "gsv/rendering/raster/scan.h"

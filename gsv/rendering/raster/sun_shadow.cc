@@ -1,0 +1,137 @@
+#include "gsv/rendering/raster/sun_shadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/rendering/raster/raster_texture.h"
+
+namespace gsv::rendering::raster {
+namespace {
+
+constexpr int kStride = kShadowSide + 16;
+constexpr int kFirst = kStride + 1;  // of texel (0, 0)
+
+// The coarsest level whose vertices were not moved by more than about a texel.
+const Level& LevelFor(const std::vector<Level>& levels, double scale, double texel) {
+  const Level* level = &levels.front();
+  for (const Level& coarser : levels) {
+    if (coarser.cell * scale <= texel) level = &coarser;
+  }
+  return *level;
+}
+
+}  // namespace
+
+void SunShadow::Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry::Vector3& to_sun,
+                     const std::vector<CameraView>& views) {
+  region_ = ShadowRegion(plan, to_sun);
+  if (region_.IsEmpty()) return;
+  const Drawn wanted{plan_id, plan.moved_count(), region_};
+  if (drawn_ != wanted) {
+    still_.assign(std::size_t{kStride} * (kShadowSide + 2), 0.0f);
+    DrawCasters(plan, ShadowRegion::StillCasters(plan), still_);
+    drawn_ = wanted;
+    moving_ = still_;
+    moved_.clear();
+  }
+  for (const ShadowRegion::Rectangle& part : moved_) CopyStill(part);
+  const std::vector<std::size_t> moving = region_.MovingCasters(plan, views);
+  moved_ = region_.PartsOf(plan, moving);
+  DrawCasters(plan, moving, moving_);
+}
+
+void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
+  for (int y = part.min_y; y < part.max_y; ++y) {
+    const std::ptrdiff_t row = kFirst + std::ptrdiff_t{kStride} * y;
+    std::copy(still_.begin() + row + part.min_x, still_.begin() + row + part.max_x,
+              moving_.begin() + row + part.min_x);
+  }
+}
+
+void SunShadow::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+                            std::vector<float>& map) {
+  FrameBlock block{};
+  region_.Describe({}, block);
+  // The map holds [0, 1], clip space [-1, 1] by [-1, 1].
+  std::array<float, 16> clip = block.shadow_from_relative;
+  float depth_row[4];
+  for (int column = 0; column < 4; ++column) {
+    depth_row[column] = clip[4 * column + 2];
+    for (int row = 0; row < 2; ++row) {
+      float& m = clip[4 * column + row];
+      m = 2 * m - (column == 3 ? 1.0f : 0.0f);
+    }
+  }
+  rasteriser_.Begin(kShadowSide, kShadowSide, 0.5, clip);
+  for (const std::size_t i : casters) {
+    const DrawItem& item = plan.items()[i];
+    // What is smaller than a texel hides none.
+    if (item.radius <= 0.5 * region_.TexelSize()) continue;
+    const auto& mesh = static_cast<const RasterMesh&>(*plan.groups()[item.group].mesh);
+    const double scale =
+        std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
+    const Level& level =
+        LevelFor(mesh.levels[plan.groups()[item.group].chunk], scale, 1.5 * region_.TexelSize());
+    DrawCaster(DrawnItem(plan, i, level, {}), depth_row, map);
+  }
+}
+
+void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4],
+                           std::vector<float>& map) {
+  const RasterMesh& mesh = *caster.mesh;
+  float row[4];  // depth from the mesh
+  for (int k = 0; k < 4; ++k) {
+    row[k] = k == 3 ? depth_row[3] : 0;
+    for (int j = 0; j < 3; ++j) row[k] += depth_row[j] * caster.rows[j][k];
+  }
+  const auto* holes = caster.group->blending == Blending::kCutOut
+                          ? static_cast<const RasterTexture*>(caster.group->base_colour.get())
+                          : nullptr;
+  rasteriser_.ForEachTriangle(caster, 0, true, [&](const Triangle& t, const Box& box, bool) {
+    float a = 0, b = 0, c = 0;
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = t.corner[i];
+      const float z = row[0] * mesh.x[v] + row[1] * mesh.y[v] + row[2] * mesh.z[v] + row[3];
+      a += t.a[i] * z, b += t.b[i] * z, c += t.c[i] * z;
+    }
+    // Away from the sun by what the depth changes over a texel, so that no surface shades itself.
+    c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
+    Scan(t, box, [&](int x, int y, I8 covered, F8) {
+      const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
+      const float dy = static_cast<float>(y) - t.y0;
+      if (holes != nullptr) covered &= Solid(t, mesh, *holes, 0, dx, dy);
+      const F8 z = Fma(Splat(a), dx, Splat(c + b * dy));
+      float* at = &map[static_cast<std::size_t>(kFirst + std::ptrdiff_t{kStride} * y + x)];
+      const F8 old = Load(at);
+      Store(at, Select(covered & (z > old), z, old));
+    });
+  });
+}
+
+F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
+  // Texel (0, 0)'s middle is at 0.5.
+  const F8 px = x - Splat(0.5f), py = y - Splat(0.5f);
+  const F8 whole_x = Floor(px), whole_y = Floor(py);
+  const F8 fx = px - whole_x, fy = py - whole_y;
+  const I8 at = (Truncated(whole_y) + 1) * SplatInt(kStride) + Truncated(whole_x) + 1;
+  const float* map = moving_.data();
+  const auto lit = [&](int offset) {
+    return Select(z >= Gather(map + offset, at), Splat(1), Splat(0));
+  };
+  const F8 l00 = lit(0), l01 = lit(kStride), l10 = lit(1), l11 = lit(kStride + 1);
+  const F8 top = Fma(l10 - l00, fx, l00), bottom = Fma(l11 - l01, fx, l01);
+  return Fma(bottom - top, fy, top);
+}
+
+F8 SunShadow::Visible(const F8x3& point) const {
+  const F8 side = Splat(kShadowSide);
+  // Up to the edge that hides nothing.
+  const auto inside = [&](F8 at) { return Min(Max(at, Splat(-0.5f)), side + Splat(0.4f)); };
+  const F8 x = point.x * side, y = point.y * side;
+  const F8 z = Max(point.z, Splat(0));  // as low as where nothing is
+  const F8 first = Lit(inside(x - Splat(0.6f)), inside(y - Splat(0.3f)), z);
+  const F8 second = Lit(inside(x + Splat(0.6f)), inside(y + Splat(0.3f)), z);
+  return Splat(0.5f) * (first + second);
+}
+
+}  // namespace gsv::rendering::raster
