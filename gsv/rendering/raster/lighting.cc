@@ -22,16 +22,18 @@ struct Reflector {
 
 // What is sent towards the camera of light of strength 1 that comes from `to_light`.
 F8x3 Reflected(const Reflector& s, const F8x3& to_light, F8 n_dot_l) {
-  // Of the direction half way between light and view only products are needed.
+  // h, half way between light and view, needs no unit length: with l and v added up, |l + v|² is
+  // 2 + 2 l·v, and v·h is |l + v| / 2.
   const F8 l_dot_v = Dot(to_light, s.to_view);
-  const F8 inverse = Splat(1) / Sqrt(Max(Fma(l_dot_v, Splat(2), Splat(2)), Splat(1e-6f)));
-  const F8 n_dot_h = Clamp01((Dot(s.normal, to_light) + Dot(s.normal, s.to_view)) * inverse);
-  const F8 v_dot_h = Clamp01((Splat(1) + l_dot_v) * inverse);
-  const F8 m = Splat(1) - v_dot_h, m2 = m * m, m5 = m2 * m2 * m;
-  const F8 d = Fma(n_dot_h * n_dot_h, s.alpha2 - Splat(1), Splat(1));
+  const F8 length2 = Max(Fma(l_dot_v, Splat(2), Splat(2)), Splat(1e-6f));
+  const F8 n_dot_sum = Max(Dot(s.normal, to_light) + Dot(s.normal, s.to_view), Splat(0));
+  const F8 m = Max(Fma(Sqrt(length2), Splat(-0.5f), Splat(1)), Splat(0)), m2 = m * m,
+           m5 = m2 * m2 * m;
+  const F8 d = Fma(n_dot_sum * n_dot_sum, s.alpha2 - Splat(1), length2);  // times |l + v|²
   const F8 v =
       Max(Mixed(Splat(2) * n_dot_l * s.n_dot_v, n_dot_l + s.n_dot_v, s.alpha), Splat(1e-4f));
-  const F8 gloss = Min(Splat(0.5f) * s.alpha2 / (d * d * v), Splat(8));
+  const F8 gloss =
+      Min(Splat(0.5f) * s.alpha2 * length2 * length2 / Max(d * d * v, Splat(1e-12f)), Splat(8));
   const auto channel = [&](F8 diffuse, F8 specular) {
     const F8 fresnel = Fma(Splat(1) - specular, m5, specular);
     return Fma(diffuse, Splat(1) - fresnel, fresnel * gloss) * n_dot_l;
@@ -95,7 +97,8 @@ F8x3 FromLamp(const LightBlock& lamp, const Reflector& s, const F8x3& position) 
     }
   }
   const F8 n_dot_l = Clamp01(Dot(s.normal, to_light));
-  const I8 lit = (n_dot_l * strength) > Splat(0);
+  // Less is not seen in eight bits.
+  const I8 lit = (n_dot_l * strength) > Splat(1e-3f);
   if (Bits(lit) == 0) return Splat(0, 0, 0);
   return Reflected(s, to_light, n_dot_l) * (Splat3(lamp.colour_inner) * strength);
 }
@@ -136,7 +139,7 @@ Lamps LightModel::Reaching(const geometry::Vector3& min, const geometry::Vector3
 F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& lamps) const {
   const F8x3 position = ray * surface.w;
   Reflector s;
-  s.normal = surface.normal;
+  s.normal = Normalized(surface.normal);
   s.to_view = Normalized(ray * Splat(-1));
   s.diffuse = surface.base * (Splat(1) - surface.metalness);
   s.specular = Mixed(Splat(0.04f, 0.04f, 0.04f), surface.base, surface.metalness);
@@ -152,7 +155,7 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
     if (shadow_ != nullptr && block_.to_sun[3] > 0) {
       // Beside the surface, so that it does not shade itself.
       const F8 beside = Splat(block_.to_sun[3]) * (Splat(1.5f) - n_dot_l);
-      const F8x3 p = Fma(surface.face_normal, beside, position);
+      const F8x3 p = Fma(Normalized(surface.face_normal), beside, position);
       const auto& m = block_.shadow_from_relative;
       const auto row = [&](int i) {
         return Fma(Splat(m[i]), p.x,
@@ -160,7 +163,9 @@ F8x3 LightModel::Colour(const Surfaces& surface, const F8x3& ray, const Lamps& l
       };
       visible = shadow_->Visible({row(0), row(1), row(2)});
     }
-    light = light + Reflected(s, to_sun, n_dot_l) * (Splat3(block_.sun_colour) * visible);
+    if (Bits(n_dot_l * visible > Splat(0)) != 0) {
+      light = light + Reflected(s, to_sun, n_dot_l) * (Splat3(block_.sun_colour) * visible);
+    }
   }
   for (int i = 0; i < lamps.count; ++i) light = light + FromLamp(*lamps.lights[i], s, position);
   return ToneMapped(light);

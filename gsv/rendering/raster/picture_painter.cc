@@ -32,6 +32,10 @@ model::Image PicturePainter::Paint(const CameraView& view, const DrawPlan& plan,
   const LightModel light(block, shadow);
   Light(light);
   Blend(view, plan, light);
+  return Smooth();
+}
+
+model::Image PicturePainter::Smooth() const {
   return SmoothEdges(width_, height_, reinterpret_cast<const std::uint8_t*>(rgba_.data()));
 }
 
@@ -51,7 +55,8 @@ void PicturePainter::Begin(const CameraView& view, const FrameBlock& block) {
     forward_[i] = block.view_forward[i] - block.view_right[i] - block.view_down[i] +
                   0.5f * right_[i] + 0.5f * down_[i];
   }
-  rasteriser_.Begin(width_, height_, view.parameters.near, block.clip_from_relative);
+  rasteriser_.Begin(width_, height_, view.parameters.near, block.clip_from_relative,
+                    Rasteriser::Rows::kDownwards);
 }
 
 void PicturePainter::FindVisible(const CameraView& view, const DrawPlan& plan) {
@@ -73,7 +78,8 @@ void PicturePainter::FindVisible(const CameraView& view, const DrawPlan& plan) {
     const double nearest = std::max(0.0, distance - item.radius);
     const auto& levels = static_cast<const RasterMesh&>(*group.mesh).levels[group.chunk];
     (group.blending == Blending::kSeeThrough ? see_through_ : solid_)
-        .push_back({distance, i, &LevelFor(levels, pixel * nearest / scale)});
+        .push_back({group.blending == Blending::kSeeThrough ? distance : distance - item.radius, i,
+                    &LevelFor(levels, pixel * nearest / scale)});
   }
   std::sort(solid_.begin(), solid_.end(), [&](const Seen& a, const Seen& b) {
     const bool a_ground = plan.groups()[plan.items()[a.item].group].ground;
@@ -88,10 +94,39 @@ void PicturePainter::FindVisible(const CameraView& view, const DrawPlan& plan) {
 
 void PicturePainter::Cover(const CameraView& view, const DrawPlan& plan) {
   for (const Seen& seen : solid_) {
+    const Vector3 centre = plan.placed()[seen.item].centre - view.world_from_camera.position;
+    if (IsHidden(view, centre, plan.items()[seen.item].radius)) continue;
     drawn_.push_back(DrawnItem(plan, seen.item, *seen.level, view.world_from_camera.position));
     CoverWith(static_cast<std::uint32_t>(drawn_.size() - 1),
               static_cast<float>(1 / view.parameters.near));
   }
+}
+
+// Whether what is drawn already hides a sphere.
+bool PicturePainter::IsHidden(const CameraView& view, const Vector3& centre, double radius) const {
+  const geometry::Quaternion& q = view.world_from_camera.orientation;
+  const double ahead = geometry::Dot(q * Vector3{1, 0, 0}, centre);
+  const double begin = ahead - radius, end = ahead + radius;
+  if (begin <= view.parameters.near) return false;
+  const double f = FocalLength(view.parameters);
+  const auto range = [&](double middle, int size, int& first, int& last) {
+    const double low = middle - radius, high = middle + radius;
+    first = static_cast<int>(
+        std::clamp(0.5 * size + f * low / (low < 0 ? begin : end) - 1, 0.0, size - 1.0));
+    last = static_cast<int>(
+        std::clamp(0.5 * size + f * high / (high > 0 ? begin : end) + 1, 0.0, size - 1.0));
+  };
+  int x0, x1, y0, y1;
+  range(-geometry::Dot(q * Vector3{0, 1, 0}, centre), width_, x0, x1);
+  range(-geometry::Dot(q * Vector3{0, 0, 1}, centre), height_, y0, y1);
+  const F8 nearest = Splat(static_cast<float>(1 / begin));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; x += 8) {
+      const I8 inside = IntSteps() <= SplatInt(x1 - x);
+      if (Bits(inside & (Load(&inverse_w_[At(x, y)]) < nearest)) != 0) return false;
+    }
+  }
+  return true;
 }
 
 void PicturePainter::CoverWith(std::uint32_t number, float nearest) {
@@ -135,6 +170,8 @@ F8x3 PicturePainter::RayAt(int x, int y) const {
 }
 
 void PicturePainter::Light(const LightModel& light) {
+  surface_of_.assign(triangles_.size(), -1);
+  surfaces_.clear();
   for (int y = 0; y < height_; y += kTileHeight) {
     for (int x = 0; x < width_; x += kTileWidth) LightTile(light, x, y);
   }
@@ -149,14 +186,19 @@ void PicturePainter::LightTile(const LightModel& light, int x0, int y0) {
 }
 
 Lamps PicturePainter::LampsOfTile(const LightModel& light, int x0, int y0, int x1, int y1) const {
-  float nearest = 0, farthest = 1e30f;  // 1/w
+  F8 most = Splat(0), least = Splat(1e30f);  // 1/w
   for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) {
-      const std::size_t at = At(x, y);
-      if (nearest_[at] == 0) continue;
-      nearest = std::max(nearest, inverse_w_[at]);
-      farthest = std::min(farthest, inverse_w_[at]);
+    for (int x = x0; x < x1; x += 8) {
+      const I8 seen = (LoadInt(&nearest_[At(x, y)]) != 0) & (IntSteps() < SplatInt(x1 - x));
+      const F8 inverse_w = Load(&inverse_w_[At(x, y)]);
+      most = Max(most, Select(seen, inverse_w, most));
+      least = Min(least, Select(seen, inverse_w, least));
     }
+  }
+  float nearest = most[0], farthest = least[0];
+  for (int lane = 1; lane < 8; ++lane) {
+    nearest = std::max(nearest, most[lane]);
+    farthest = std::min(farthest, least[lane]);
   }
   if (nearest == 0) return {};
   constexpr double kMost = 1e30;
@@ -192,7 +234,14 @@ void PicturePainter::Light(const LightModel& light, const Lamps& lamps, int x, i
       const std::uint32_t id = nearest_[at + static_cast<std::size_t>(lane)];
       const I8 mask = ids == SplatInt(static_cast<std::int32_t>(id));
       const Triangle& triangle = triangles_[id - 1];
-      FillIn(drawn_[triangle.drawn], triangle, x, y, mask, ray, surfaces);
+      const Drawn& drawn = drawn_[triangle.drawn];
+      std::int32_t& place = surface_of_[id - 1];
+      if (place < 0) {
+        place = static_cast<std::int32_t>(surfaces_.size());
+        surfaces_.push_back(SurfaceOf(drawn, triangle));
+      }
+      FillIn(drawn, triangle, surfaces_[static_cast<std::size_t>(place)], x, y, mask, ray,
+             surfaces);
       left &= ~Bits(mask);
     }
     colour = light.Colour(surfaces, ray, lamps);
@@ -215,6 +264,7 @@ void PicturePainter::Blend(const CameraView& view, const DrawPlan& plan, const L
     const Drawn drawn = DrawnItem(plan, seen.item, *seen.level, view.world_from_camera.position);
     rasteriser_.ForEachTriangle(
         drawn, 0, drawn.group->double_sided, [&](const Triangle& t, const Box& box, bool) {
+          const TriangleSurface surface = SurfaceOf(drawn, t);
           Scan(t, box, [&](int x, int y, I8 covered, F8 inverse_w) {
             const I8 in_picture = IntSteps() < SplatInt(width_ - x);
             const I8 visible = covered & in_picture & (inverse_w <= near) &
@@ -222,7 +272,7 @@ void PicturePainter::Blend(const CameraView& view, const DrawPlan& plan, const L
             if (Bits(visible) == 0) return;
             const F8x3 ray = RayAt(x, y);
             Surfaces surfaces{};
-            FillIn(drawn, t, x, y, visible, ray, surfaces);
+            FillIn(drawn, t, surface, x, y, visible, ray, surfaces);
             // Few of these pixels are in a picture: all lamps may reach them.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},

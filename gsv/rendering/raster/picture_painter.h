@@ -21,7 +21,7 @@ class PicturePainter {
 
  private:
   struct Seen {
-    double distance = 0;  // to its middle
+    double distance = 0;  // solid: to where it begins; see-through: to its middle
     std::size_t item = 0;
     const Level* level = nullptr;
   };
@@ -29,12 +29,14 @@ class PicturePainter {
   void Begin(const CameraView& view, const FrameBlock& block);
   void FindVisible(const CameraView& view, const DrawPlan& plan);
   void Cover(const CameraView& view, const DrawPlan& plan);
+  bool IsHidden(const CameraView& view, const geometry::Vector3& centre, double radius) const;
   void CoverWith(std::uint32_t number, float nearest_w);
   void Light(const LightModel& light);
   void LightTile(const LightModel& light, int x0, int y0);
   Lamps LampsOfTile(const LightModel& light, int x0, int y0, int x1, int y1) const;
   void Light(const LightModel& light, const Lamps& lamps, int x, int y);
   void Blend(const CameraView& view, const DrawPlan& plan, const LightModel& light);
+  model::Image Smooth() const;
   F8x3 RayAt(int x, int y) const;
 
   std::size_t At(int x, int y) const {
@@ -47,6 +49,8 @@ class PicturePainter {
   std::vector<float> inverse_w_;        // of what is nearest at each pixel
   std::vector<std::uint32_t> nearest_;  // its triangle's number from 1; 0: the sky
   std::vector<Triangle> triangles_;
+  std::vector<std::int32_t> surface_of_;  // triangle's number - 1 to its place in surfaces_, or -1
+  std::vector<TriangleSurface> surfaces_;
   std::vector<Drawn> drawn_;
   std::vector<Seen> solid_, see_through_;
   std::vector<std::uint32_t> rgba_;

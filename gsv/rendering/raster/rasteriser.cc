@@ -30,7 +30,9 @@ Drawn DrawnItem(const DrawPlan& plan, std::size_t item, const Level& level, cons
   return drawn;
 }
 
-void Rasteriser::Begin(int width, int height, double near, const std::array<float, 16>& clip) {
+void Rasteriser::Begin(int width, int height, double near, const std::array<float, 16>& clip,
+                       Rows rows) {
+  rows_upwards_ = rows == Rows::kUpwards;
   width_ = width, height_ = height;
   near_ = static_cast<float>(near);
   const float half[2] = {0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)};
@@ -91,8 +93,9 @@ int Rasteriser::SetUp(const Drawn& drawn, std::uint32_t number, std::uint32_t fi
                      ((corner[0] != corner[1]) | (corner[1] != corner[2]));
   crossing = Bits(crosses);
   const F8 area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-  // Rows run downwards, which turns counter-clockwise into clockwise.
-  const I8 faces = both_sides ? area != zero : drawn.group->mirrored ? area > zero : area < zero;
+  // Rows that run downwards turn counter-clockwise into clockwise.
+  const bool counter_clockwise = drawn.group->mirrored != rows_upwards_;
+  const I8 faces = both_sides ? area != zero : counter_clockwise ? area > zero : area < zero;
   const F8 width = Splat(static_cast<float>(width_)), height = Splat(static_cast<float>(height_));
   const auto first_pixel = [&](F8 low, F8 size) {
     return Truncated(Ceil(Min(Max(low - Splat(0.501f), zero), size)));
@@ -156,7 +159,8 @@ bool Rasteriser::SetUpCrossing(const Drawn& drawn, std::uint32_t number, std::ui
   }
   const double volume = p[0][0] * e[0][0] + p[0][1] * e[0][1] + p[0][2] * e[0][2];
   if (volume == 0) return false;
-  if (!both_sides && (drawn.group->mirrored ? volume < 0 : volume > 0)) return false;
+  const bool counter_clockwise = drawn.group->mirrored != rows_upwards_;
+  if (!both_sides && (counter_clockwise ? volume < 0 : volume > 0)) return false;
   for (int i = 0; i < 3; ++i) {
     triangle.a[i] = static_cast<float>(e[i][0] / volume);
     triangle.b[i] = static_cast<float>(e[i][1] / volume);

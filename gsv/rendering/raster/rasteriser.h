@@ -44,8 +44,10 @@ struct Box {
 
 class Rasteriser {
  public:
+  enum class Rows { kDownwards, kUpwards };
   // Maps the frame of FrustumOf() to pixels; without perspective, w is 1.
-  void Begin(int width, int height, double near, const std::array<float, 16>& clip_from_relative);
+  void Begin(int width, int height, double near, const std::array<float, 16>& clip_from_relative,
+             Rows rows);
 
   // Calls visit(triangle, box, crosses_near) for each triangle that faces the camera and may cover
   // a pixel.
@@ -78,6 +80,7 @@ class Rasteriser {
 
   int width_ = 0, height_ = 0;
   float near_ = 0;
+  bool rows_upwards_ = false;
   float to_pixels_[3][4];                 // from relative: x w, y w and w
   float from_mesh_[3][4];                 // the same of the item at hand
   std::vector<float> x_, y_, inverse_w_;  // 1/w 0: nearer than the picture begins

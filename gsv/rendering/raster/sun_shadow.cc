@@ -29,7 +29,7 @@ void SunShadow::Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry
   const Drawn wanted{plan_id, plan.moved_count(), region_};
   if (drawn_ != wanted) {
     still_.assign(std::size_t{kStride} * (kShadowSide + 2), 0.0f);
-    DrawCasters(plan, ShadowRegion::StillCasters(plan), still_);
+    DrawCasters(plan, ShadowRegion::StillCasters(plan), true, still_);
     drawn_ = wanted;
     moving_ = still_;
     moved_.clear();
@@ -37,7 +37,7 @@ void SunShadow::Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry
   for (const ShadowRegion::Rectangle& part : moved_) CopyStill(part);
   const std::vector<std::size_t> moving = region_.MovingCasters(plan, views);
   moved_ = region_.PartsOf(plan, moving);
-  DrawCasters(plan, moving, moving_);
+  DrawCasters(plan, moving, false, moving_);
 }
 
 void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
@@ -49,7 +49,7 @@ void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
 }
 
 void SunShadow::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
-                            std::vector<float>& map) {
+                            bool both_sides, std::vector<float>& map) {
   FrameBlock block{};
   region_.Describe({}, block);
   // The map holds [0, 1], clip space [-1, 1] by [-1, 1].
@@ -62,22 +62,22 @@ void SunShadow::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>
       m = 2 * m - (column == 3 ? 1.0f : 0.0f);
     }
   }
-  rasteriser_.Begin(kShadowSide, kShadowSide, 0.5, clip);
+  rasteriser_.Begin(kShadowSide, kShadowSide, 0.5, clip, Rasteriser::Rows::kUpwards);
   for (const std::size_t i : casters) {
     const DrawItem& item = plan.items()[i];
-    // What is smaller than a texel hides none.
-    if (item.radius <= 0.5 * region_.TexelSize()) continue;
+    // What is smaller than the soft edge of a shadow leaves none.
+    if (item.radius <= 1.5 * region_.TexelSize()) continue;
     const auto& mesh = static_cast<const RasterMesh&>(*plan.groups()[item.group].mesh);
     const double scale =
         std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
     const Level& level =
-        LevelFor(mesh.levels[plan.groups()[item.group].chunk], scale, 1.5 * region_.TexelSize());
-    DrawCaster(DrawnItem(plan, i, level, {}), depth_row, map);
+        LevelFor(mesh.levels[plan.groups()[item.group].chunk], scale, 3 * region_.TexelSize());
+    DrawCaster(DrawnItem(plan, i, level, {}), depth_row, both_sides, map);
   }
 }
 
 void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4],
-                           std::vector<float>& map) {
+                           bool both_sides, std::vector<float>& map) {
   const RasterMesh& mesh = *caster.mesh;
   float row[4];  // depth from the mesh
   for (int k = 0; k < 4; ++k) {
@@ -87,25 +87,28 @@ void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)
   const auto* holes = caster.group->blending == Blending::kCutOut
                           ? static_cast<const RasterTexture*>(caster.group->base_colour.get())
                           : nullptr;
-  rasteriser_.ForEachTriangle(caster, 0, true, [&](const Triangle& t, const Box& box, bool) {
-    float a = 0, b = 0, c = 0;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t v = t.corner[i];
-      const float z = row[0] * mesh.x[v] + row[1] * mesh.y[v] + row[2] * mesh.z[v] + row[3];
-      a += t.a[i] * z, b += t.b[i] * z, c += t.c[i] * z;
-    }
-    // Away from the sun by what the depth changes over a texel, so that no surface shades itself.
-    c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
-    Scan(t, box, [&](int x, int y, I8 covered, F8) {
-      const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
-      const float dy = static_cast<float>(y) - t.y0;
-      if (holes != nullptr) covered &= Solid(t, mesh, *holes, 0, dx, dy);
-      const F8 z = Fma(Splat(a), dx, Splat(c + b * dy));
-      float* at = &map[static_cast<std::size_t>(kFirst + std::ptrdiff_t{kStride} * y + x)];
-      const F8 old = Load(at);
-      Store(at, Select(covered & (z > old), z, old));
-    });
-  });
+  rasteriser_.ForEachTriangle(
+      caster, 0, both_sides || caster.group->double_sided,
+      [&](const Triangle& t, const Box& box, bool) {
+        float a = 0, b = 0, c = 0;
+        for (int i = 0; i < 3; ++i) {
+          const std::uint32_t v = t.corner[i];
+          const float z = row[0] * mesh.x[v] + row[1] * mesh.y[v] + row[2] * mesh.z[v] + row[3];
+          a += t.a[i] * z, b += t.b[i] * z, c += t.c[i] * z;
+        }
+        // Away from the sun by what the depth changes over a texel, so that no surface shades
+        // itself.
+        c -= 1.5f * std::max(std::abs(a), std::abs(b)) + 2e-7f;
+        Scan(t, box, [&](int x, int y, I8 covered, F8) {
+          const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
+          const float dy = static_cast<float>(y) - t.y0;
+          if (holes != nullptr) covered &= Solid(t, mesh, *holes, 0, dx, dy);
+          const F8 z = Fma(Splat(a), dx, Splat(c + b * dy));
+          float* at = &map[static_cast<std::size_t>(kFirst + std::ptrdiff_t{kStride} * y + x)];
+          const F8 old = Load(at);
+          Store(at, Select(covered & (z > old), z, old));
+        });
+      });
 }
 
 F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {

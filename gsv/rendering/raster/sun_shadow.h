@@ -34,9 +34,10 @@ class SunShadow {
   };
 
   void CopyStill(const ShadowRegion::Rectangle& part);
-  void DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+  // Of what moves only the sides in the sun are drawn, which is enough for what has an inside.
+  void DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters, bool both_sides,
                    std::vector<float>& map);
-  void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4],
+  void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4], bool both_sides,
                   std::vector<float>& map);
   F8 Lit(F8 x, F8 y, F8 z) const;
 

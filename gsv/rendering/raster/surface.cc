@@ -37,25 +37,26 @@ float Log2(float value) {
   return static_cast<float>(exponent) + (2 * fraction - 2);
 }
 
-// Of a square texture of one texel: how many times its coordinates change across a pixel, as a
-// level, in the middle of the eight pixels.
-float LevelOfOne(const Triangle& t, const RasterMesh& mesh, float dx, float dy, float width,
-                 float height) {
-  float q = 0, a = 0, b = 0, u = 0, v = 0, u_x = 0, u_y = 0, v_x = 0, v_y = 0;
-  for (int i = 0; i < 3; ++i) {
-    const float at = t.c[i] + t.a[i] * dx + t.b[i] * dy;
-    const float corner_u = mesh.u[t.corner[i]] * width, corner_v = mesh.v[t.corner[i]] * height;
-    q += at, a += t.a[i], b += t.b[i];
-    u += at * corner_u, v += at * corner_v;
-    u_x += t.a[i] * corner_u, v_x += t.a[i] * corner_v;
-    u_y += t.b[i] * corner_u, v_y += t.b[i] * corner_v;
-  }
-  if (!(q > 0)) return 0;
-  const float w = 1 / q;
-  u *= w, v *= w;
-  const float across = (u_x - u * a) * (u_x - u * a) + (v_x - v * a) * (v_x - v * a);
-  const float down = (u_y - u * b) * (u_y - u * b) + (v_y - v * b) * (v_y - v * b);
-  return 0.5f * Log2(std::max(std::max(across, down) * w * w, 1e-12f));
+F8 At(const TriangleSurface::Plane& plane, F8 dx, float dy) {
+  return Fma(Splat(plane.a), dx, Splat(plane.c + plane.b * dy));
+}
+
+// The level of a texture of one texel a pixel, from how its coordinates change across a pixel.
+float LevelAt(const TriangleSurface& s, float dx, float dy, const RasterTexture& texture) {
+  const auto at = [&](const TriangleSurface::Plane& p) { return p.c + p.a * dx + p.b * dy; };
+  const float inverse_w = at(s.inverse_w);
+  if (!(inverse_w > 0)) return 0;
+  const float w = 1 / inverse_w;
+  const float u = at(s.u) * w, v = at(s.v) * w;
+  const auto width = static_cast<float>(texture.levels[0].width);
+  const auto height = static_cast<float>(texture.levels[0].height);
+  const auto squared = [&](float by_u, float by_v, float by_w) {
+    const float du = (by_u - u * by_w) * width, dv = (by_v - v * by_w) * height;
+    return du * du + dv * dv;
+  };
+  const float fastest =
+      std::max(squared(s.u.a, s.v.a, s.inverse_w.a), squared(s.u.b, s.v.b, s.inverse_w.b));
+  return 0.5f * Log2(std::max(fastest * w * w, 1e-12f));
 }
 
 // A frame along the texture's axes (Schüler, "Followup: normal mapping without precomputed
@@ -101,19 +102,50 @@ I8 Solid(const Triangle& triangle, const RasterMesh& mesh, const RasterTexture& 
          Splat(0.5f);
 }
 
-void FillIn(const Drawn& drawn, const Triangle& t, int x, int y, I8 mask, const F8x3& ray,
-            Surfaces& s) {
+TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& t) {
   const RasterMesh& mesh = *drawn.mesh;
+  TriangleSurface s;
+  float n[3][3];  // of each corner
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t v = t.corner[i];
+    const float x = mesh.normal_x[v], y = mesh.normal_y[v], z = mesh.normal_z[v];
+    for (int k = 0; k < 3; ++k) {
+      n[i][k] = drawn.normal[k][0] * x + drawn.normal[k][1] * y + drawn.normal[k][2] * z;
+    }
+  }
+  const auto plane = [&](float v0, float v1, float v2) {
+    return TriangleSurface::Plane{t.a[0] * v0 + t.a[1] * v1 + t.a[2] * v2,
+                                  t.b[0] * v0 + t.b[1] * v1 + t.b[2] * v2,
+                                  t.c[0] * v0 + t.c[1] * v1 + t.c[2] * v2};
+  };
+  s.inverse_w = plane(1, 1, 1);
+  s.is_flat = std::equal(n[0], n[0] + 3, n[1]) && std::equal(n[0], n[0] + 3, n[2]);
+  const float length = std::sqrt(n[0][0] * n[0][0] + n[0][1] * n[0][1] + n[0][2] * n[0][2]);
+  for (int k = 0; k < 3; ++k) {
+    s.normal[k] = s.is_flat ? TriangleSurface::Plane{0, 0, n[0][k] / std::max(length, 1e-20f)}
+                            : plane(n[0][k], n[1][k], n[2][k]);
+  }
+  s.u = plane(mesh.u[t.corner[0]], mesh.u[t.corner[1]], mesh.u[t.corner[2]]);
+  s.v = plane(mesh.v[t.corner[0]], mesh.v[t.corner[1]], mesh.v[t.corner[2]]);
+  // Neighbouring surfaces, and the same one of two things, get different numbers of eight bits.
+  s.number =
+      (97 * mesh.surface[t.corner[0]] + 57 * static_cast<int>(drawn.factors->surface)) % 255 + 1;
+  return s;
+}
+
+void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surface, int x, int y,
+            I8 mask, const F8x3& ray, Surfaces& s) {
   const DrawGroup& group = *drawn.group;
   const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
   const float dy = static_cast<float>(y) - t.y0;
-  const Weights k = WeightsAt(t, dx, dy);
-  const F8 nx = Between(mesh.normal_x, t, k), ny = Between(mesh.normal_y, t, k),
-           nz = Between(mesh.normal_z, t, k);
-  const auto turned = [&](const float(&row)[3]) {
-    return Fma(Splat(row[0]), nx, Fma(Splat(row[1]), ny, Splat(row[2]) * nz));
-  };
-  F8x3 n = Normalized({turned(drawn.normal[0]), turned(drawn.normal[1]), turned(drawn.normal[2])});
+  const F8 w = Splat(1) / At(surface.inverse_w, dx, dy);
+  F8x3 n;
+  if (surface.is_flat) {
+    n = Splat(surface.normal[0].c, surface.normal[1].c, surface.normal[2].c);
+  } else {
+    n = {At(surface.normal[0], dx, dy), At(surface.normal[1], dx, dy),
+         At(surface.normal[2], dx, dy)};
+  }
   if (group.double_sided) {
     // The side that the camera sees.
     n = Select(Dot(n, ray) > Splat(0), n * Splat(-1), n);
@@ -125,16 +157,14 @@ void FillIn(const Drawn& drawn, const Triangle& t, int x, int y, I8 mask, const 
      roughness = Splat(f.roughness);
   F8x3 bumped = n;
   if (group.base_colour || group.normal || group.metallic_roughness || group.emissive) {
-    const F8 u = Between(mesh.u, t, k), v = Between(mesh.v, t, k);
+    const F8 u = At(surface.u, dx, dy) * w, v = At(surface.v, dx, dy) * w;
     const int seen = Bits(mask);
     const float middle = 0.5f * static_cast<float>(__builtin_ctz(static_cast<unsigned>(seen)) + 31 -
                                                    __builtin_clz(static_cast<unsigned>(seen)));
     const auto sample = [&](const std::shared_ptr<const DrawTexture>& of) {
       const auto& texture = static_cast<const RasterTexture&>(*of);
-      const float level = LevelOfOne(t, mesh, static_cast<float>(x) - t.x0 + middle, dy,
-                                     static_cast<float>(texture.levels[0].width),
-                                     static_cast<float>(texture.levels[0].height));
-      return Sample(texture, level, u, v);
+      return Sample(texture, LevelAt(surface, static_cast<float>(x) - t.x0 + middle, dy, texture),
+                    u, v);
     };
     if (group.base_colour) {
       const Texels texel = sample(group.base_colour);
@@ -150,11 +180,13 @@ void FillIn(const Drawn& drawn, const Triangle& t, int x, int y, I8 mask, const 
       const Texels texel = sample(group.emissive);
       emissive = emissive * F8x3{Decoded(texel.r), Decoded(texel.g), Decoded(texel.b)};
     }
-    if (group.normal) bumped = Bumped(drawn, t, sample(group.normal), n);
+    if (group.normal) bumped = Bumped(drawn, t, sample(group.normal), Normalized(n));
   }
-  // Neighbouring surfaces, and the same one of two things, get different numbers of eight bits.
-  const int number = (97 * mesh.surface[t.corner[0]] + 57 * static_cast<int>(f.surface)) % 255 + 1;
-  s.w = Select(mask, k.w, s.w);
+  if (Bits(mask) == 0xff) {
+    s = {w, bumped, n, base, emissive, alpha, metalness, roughness, SplatInt(surface.number)};
+    return;
+  }
+  s.w = Select(mask, w, s.w);
   s.normal = Select(mask, bumped, s.normal);
   s.face_normal = Select(mask, n, s.face_normal);
   s.base = Select(mask, base, s.base);
@@ -162,7 +194,7 @@ void FillIn(const Drawn& drawn, const Triangle& t, int x, int y, I8 mask, const 
   s.alpha = Select(mask, alpha, s.alpha);
   s.metalness = Select(mask, metalness, s.metalness);
   s.roughness = Select(mask, roughness, s.roughness);
-  s.number = SelectInt(mask, SplatInt(number), s.number);
+  s.number = SelectInt(mask, SplatInt(surface.number), s.number);
 }
 
 }  // namespace gsv::rendering::raster
