@@ -41,7 +41,7 @@ class Builder {
  public:
   Builder(MeshStore& meshes, TextureStore& textures) : meshes_(meshes), textures_(textures) {}
 
-  void Add(const model::Visual& visual, int body, int link) {
+  void Add(const model::Visual& visual, int body, int link, bool of_robot) {
     const DrawShape shape = meshes_.Find(AsDrawn(visual));
     const bool plane = std::holds_alternative<geometry::Plane>(visual.shape);
     const int first_surface = next_surface_;
@@ -60,6 +60,7 @@ class Builder {
       DrawItem item;
       item.body = body;
       item.link = link;
+      item.of_robot = of_robot;
       item.link_from_visual = visual.link_from_visual;
       item.scale = shape.scale;
       item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
@@ -124,10 +125,12 @@ DrawPlan::DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore&
   bodies_.resize(layout.bodies.size());
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const world::Body& body = layout.bodies[b];
+    const bool of_robot = body.is_robot || body.is_avatar;
+    bodies_[b].moved = of_robot;
     bodies_[b].first_item = builder.items.size();
     for (std::size_t l = 0; l < body.model->links.size(); ++l) {
       for (const model::Visual& visual : body.model->links[l].visuals) {
-        builder.Add(visual, static_cast<int>(b), static_cast<int>(l));
+        builder.Add(visual, static_cast<int>(b), static_cast<int>(l), of_robot);
       }
     }
     bodies_[b].item_count = builder.items.size() - bodies_[b].first_item;

@@ -49,6 +49,7 @@ struct DrawItem {
   double radius = 0;  // of the sphere about the centre that holds the item
   SurfaceFactors factors;
   bool casts_shadow = false;
+  bool of_robot = false;  // or of an avatar: made to move
 };
 
 // An item in the world.
@@ -72,7 +73,7 @@ class DrawPlan {
   const std::vector<PlacedItem>& placed() const { return placed_; }  // as items()
 
   // Whether a body is where the first snapshot had it, as buildings and furniture are that nobody
-  // has pushed.
+  // has pushed; robots and avatars never count as still.
   bool IsStill(int body) const { return !bodies_[body].moved; }
   // Grows with each body that moves for the first time.
   int moved_count() const { return moved_count_; }

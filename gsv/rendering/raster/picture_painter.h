@@ -18,6 +18,8 @@ class PicturePainter {
   // in the sun.
   model::Image Paint(const CameraView& view, const DrawPlan& plan, const FrameBlock& block,
                      const SunShadow* shadow);
+  // Of the last picture, as many as there is room for now.
+  std::size_t pixels() const { return nearest_.size(); }
 
  private:
   struct Seen {

@@ -51,6 +51,9 @@ std::unique_ptr<PicturePainter> RasterBatchPainter::TakePainter() {
 }
 
 void RasterBatchPainter::GiveBack(std::unique_ptr<PicturePainter> painter) {
+  // What a picture as large as a wall took is not kept for the next small one.
+  constexpr std::size_t kMostPixels = 2 << 20;
+  if (painter->pixels() > kMostPixels) return;
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(painter));
 }

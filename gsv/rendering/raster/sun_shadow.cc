@@ -11,11 +11,21 @@ namespace {
 constexpr int kStride = kShadowSide + 16;
 constexpr int kFirst = kStride + 1;  // of texel (0, 0)
 
-// The coarsest level whose vertices were not moved by more than about a texel.
-const Level& LevelFor(const std::vector<Level>& levels, double scale, double texel) {
+// How fine shadows are, in texels. Those of robots are drawn again for each snapshot; whether a
+// thing has moved must leave no trace in the picture.
+struct Fineness {
+  double moved_by;  // vertices of a caster, at most about
+  double smallest;  // radius of what leaves a shadow
+};
+constexpr Fineness kThing{0.5, 0.5}, kRobot{3, 1.5};
+
+// The coarsest level that is fine enough and still has the caster's shape.
+const Level& LevelFor(const std::vector<Level>& levels, const DrawItem& item, double moved_by) {
+  const double scale =
+      std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
   const Level* level = &levels.front();
   for (const Level& coarser : levels) {
-    if (coarser.cell * scale <= texel) level = &coarser;
+    if (coarser.cell * scale <= std::min(moved_by, item.radius / 3)) level = &coarser;
   }
   return *level;
 }
@@ -29,7 +39,7 @@ void SunShadow::Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry
   const Drawn wanted{plan_id, plan.moved_count(), region_};
   if (drawn_ != wanted) {
     still_.assign(std::size_t{kStride} * (kShadowSide + 2), 0.0f);
-    DrawCasters(plan, ShadowRegion::StillCasters(plan), true, still_);
+    DrawCasters(plan, ShadowRegion::StillCasters(plan), still_);
     drawn_ = wanted;
     moving_ = still_;
     moved_.clear();
@@ -37,7 +47,7 @@ void SunShadow::Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry
   for (const ShadowRegion::Rectangle& part : moved_) CopyStill(part);
   const std::vector<std::size_t> moving = region_.MovingCasters(plan, views);
   moved_ = region_.PartsOf(plan, moving);
-  DrawCasters(plan, moving, false, moving_);
+  DrawCasters(plan, moving, moving_);
 }
 
 void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
@@ -49,7 +59,7 @@ void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
 }
 
 void SunShadow::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
-                            bool both_sides, std::vector<float>& map) {
+                            std::vector<float>& map) {
   FrameBlock block{};
   region_.Describe({}, block);
   // The map holds [0, 1], clip space [-1, 1] by [-1, 1].
@@ -65,14 +75,13 @@ void SunShadow::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>
   rasteriser_.Begin(kShadowSide, kShadowSide, 0.5, clip, Rasteriser::Rows::kUpwards);
   for (const std::size_t i : casters) {
     const DrawItem& item = plan.items()[i];
-    // What is smaller than the soft edge of a shadow leaves none.
-    if (item.radius <= 1.5 * region_.TexelSize()) continue;
-    const auto& mesh = static_cast<const RasterMesh&>(*plan.groups()[item.group].mesh);
-    const double scale =
-        std::max({std::abs(item.scale.x), std::abs(item.scale.y), std::abs(item.scale.z)});
+    const Fineness fineness = item.of_robot ? kRobot : kThing;
+    if (item.radius <= fineness.smallest * region_.TexelSize()) continue;
+    const DrawGroup& group = plan.groups()[item.group];
+    const auto& mesh = static_cast<const RasterMesh&>(*group.mesh);
     const Level& level =
-        LevelFor(mesh.levels[plan.groups()[item.group].chunk], scale, 3 * region_.TexelSize());
-    DrawCaster(DrawnItem(plan, i, level, {}), depth_row, both_sides, map);
+        LevelFor(mesh.levels[group.chunk], item, fineness.moved_by * region_.TexelSize());
+    DrawCaster(DrawnItem(plan, i, level, {}), depth_row, !item.of_robot, map);
   }
 }
 

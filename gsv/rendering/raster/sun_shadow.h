@@ -34,8 +34,9 @@ class SunShadow {
   };
 
   void CopyStill(const ShadowRegion::Rectangle& part);
-  // Of what moves only the sides in the sun are drawn, which is enough for what has an inside.
-  void DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters, bool both_sides,
+  // Of robots only the sides in the sun are drawn, with fewer triangles: enough for what has an
+  // inside.
+  void DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
                    std::vector<float>& map);
   void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4], bool both_sides,
                   std::vector<float>& map);

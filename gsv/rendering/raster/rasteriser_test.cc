@@ -1,0 +1,153 @@
+#include "gsv/rendering/raster/rasteriser.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "gsv/rendering/raster/raster_mesh.h"
+#include "gsv/rendering/test_scene.h"
+
+namespace gsv::rendering {
+namespace {
+
+constexpr std::chrono::seconds kLong{30};
+
+std::shared_ptr<Renderer> StartRenderer(BackEnd back_end) {
+  RendererOptions options;
+  options.back_end = back_end;
+  auto started = Renderer::Start(options);
+  EXPECT_TRUE(started) << started.error().Sentence();
+  return started ? *started : nullptr;
+}
+
+// A closed room of many triangles around the camera: a gap between two would show the sky.
+TEST(Rasteriser, LeavesNoGapsBetweenTriangles) {
+  TestScene scene;
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
+  constexpr int kSlices = 90, kStacks = 70;
+  for (int stack = 0; stack <= kStacks; ++stack) {
+    for (int slice = 0; slice <= kSlices; ++slice) {
+      const double a = 2 * std::numbers::pi * (slice % kSlices) / kSlices;
+      const double b = std::numbers::pi * stack / kStacks;
+      mesh->positions.push_back(
+          {3 * std::sin(b) * std::cos(a), 2 * std::sin(b) * std::sin(a), 1.5 * std::cos(b)});
+    }
+  }
+  for (std::uint32_t stack = 0; stack < kStacks; ++stack) {
+    for (std::uint32_t slice = 0; slice < kSlices; ++slice) {
+      const std::uint32_t i = stack * (kSlices + 1) + slice, below = i + kSlices + 1;
+      mesh->triangles.push_back({i, i + 1, below});
+      mesh->triangles.push_back({i + 1, below + 1, below});
+    }
+  }
+  mesh->parts.push_back({"", 0, static_cast<std::uint32_t>(mesh->triangles.size()), 0});
+  model::Material material = Glowing(0, 1, 0);
+  material.double_sided = true;
+  scene.description().scene.background = {1, 0, 0, 1};
+  scene.Add("room", geometry::Mesh{mesh, {1, 1, 1}}, {}, material);
+  const auto renderer = StartRenderer(BackEnd::kRasteriser);
+  for (int i = 0; i < 12; ++i) {
+    const CameraView view{{{0.3 * std::cos(i), 0.2 * std::sin(i), 0.1},
+                           geometry::FromRollPitchYaw({0.2 * i, 0.3 * i, 0.7 * i})},
+                          {320, 240, 1.5, 0.01, 100}};
+    const auto picture = renderer->Draw(scene.Snapshot(), view, kLong);
+    ASSERT_TRUE(picture);
+    for (std::size_t p = 0; p < (*picture)->pixels.size(); p += 3) {
+      ASSERT_LT((*picture)->pixels[p], 128) << "view " << i << ", pixel " << p / 3;
+    }
+  }
+}
+
+// A wall that passes the camera begins behind it and nearer than the picture does.
+TEST(Rasteriser, DrawsWhatReachesBehindTheCamera) {
+  TestScene scene;
+  scene.Add("wall", geometry::Box{{400, 0.1, 2}}, {{0, -1, 0}, {}}, Glowing(0, 1, 0));
+  const auto renderer = StartRenderer(BackEnd::kRasteriser);
+  const auto picture = renderer->Draw(
+      scene.Snapshot(), CameraView{{}, {200, 100, std::numbers::pi / 2, 0.1, 150}}, kLong);
+  ASSERT_TRUE(picture);
+  // f is 100: the wall 0.95 m to the right ends at 150 m, 0.6 pixels right of the middle; at pixel
+  // u its upper and lower edges are (u - 100) / 0.95 from the middle row.
+  for (int u = 105; u < 200; ++u) {
+    const double half = (u + 0.5 - 100) / 0.95;
+    int green = 0;
+    for (int v = 0; v < 100; ++v) green += (*picture)->pixels[3 * (v * 200 + u) + 1] > 200;
+    EXPECT_NEAR(green, std::min(100.0, 2 * half), 2.1) << u;
+  }
+}
+
+TEST(RasterMesh, HasCoarserCopiesWithinTheirCell) {
+  auto mesh = geometry::Tessellate(geometry::Sphere{1});
+  MeshArrays arrays;
+  for (const auto& p : mesh.positions) {
+    for (const double value : {p.x, p.y, p.z, p.x, p.y, p.z, 0.0, 0.0, 1.0}) {
+      arrays.vertices.push_back(static_cast<float>(value));
+    }
+  }
+  for (const auto& t : mesh.triangles)
+    arrays.indices.insert(arrays.indices.end(), t.begin(), t.end());
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  arrays.chunks.push_back({0, count, 0, {{-1, -1, -1}, {1, 1, 1}}});
+  const auto made = raster::MakeRasterMesh(arrays);
+  const auto& raster_mesh = static_cast<const raster::RasterMesh&>(*made);
+  ASSERT_EQ(raster_mesh.levels.size(), 1u);
+  const auto& levels = raster_mesh.levels[0];
+  ASSERT_GT(levels.size(), 2u);
+  EXPECT_EQ(levels[0].cell, 0);
+  EXPECT_GE(levels[0].triangle_count, count);
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    EXPECT_GT(levels[l].cell, levels[l - 1].cell);
+    EXPECT_LT(levels[l].triangle_count, levels[l - 1].triangle_count);
+    for (std::uint32_t i = 0; i < levels[l].vertex_count; ++i) {
+      const std::uint32_t v = levels[l].first_vertex + i;
+      const double radius = std::hypot(raster_mesh.x[v], raster_mesh.y[v], raster_mesh.z[v]);
+      // Cells of all levels before add up, each 1.5 times the one before.
+      EXPECT_NEAR(radius, 1, std::sqrt(3.0) * 3 * levels[l].cell);
+    }
+  }
+}
+
+TEST(BackEnds, DrawAboutTheSamePicture) {
+  TestScene scene;
+  model::Light sun;
+  sun.direction = geometry::Normalized(geometry::Vector3{-1, 0.4, -0.8});
+  model::Light lamp;
+  lamp.kind = model::Light::Kind::kPoint;
+  lamp.world_from_light.position = {2, 1, 2};
+  lamp.range = 6;
+  scene.description().lights = {sun, lamp};
+  auto checked = std::make_shared<model::Image>();
+  checked->width = checked->height = 64;
+  for (int i = 0; i < 64 * 64; ++i) {
+    const std::uint8_t shade = (i / 8 + i / 64 / 8) % 2 == 0 ? 230 : 90;
+    checked->pixels.insert(checked->pixels.end(), {shade, shade, shade});
+  }
+  model::Material tiles = Matt(0.9, 0.8, 0.7);
+  tiles.base_colour_map = checked;
+  model::Material metal;
+  metal.base_colour = {0.8, 0.6, 0.3, 1};
+  metal.metalness = 0.8, metal.roughness = 0.3;
+  scene.Add("floor", geometry::Box{{20, 20, 0.1}}, {{0, 0, -0.05}, {}}, tiles, true);
+  scene.Add("ball", geometry::Sphere{0.5}, {{3, 0.5, 0.5}, {}}, metal);
+  scene.Add("post", geometry::Cylinder{0.2, 1.5}, {{4, -0.8, 0.75}, {}}, Matt(0.7, 0.1, 0.1));
+  scene.Add("pane", geometry::Box{{0.02, 1, 1}}, {{2.5, -0.8, 0.5}, {}}, Matt(0.2, 0.4, 0.9, 0.4));
+  const CameraView view{{{0, 0, 1}, geometry::FromRollPitchYaw({0, 0.2, 0})},
+                        {320, 240, 1.1, 0.05, 60}};
+  const auto snapshot = scene.Snapshot();
+  const auto ours = StartRenderer(BackEnd::kRasteriser)->Draw(snapshot, view, kLong);
+  const auto theirs = StartRenderer(BackEnd::kOpenGl)->Draw(snapshot, view, kLong);
+  ASSERT_TRUE(ours && theirs);
+  double sum = 0;
+  int far_off = 0;
+  for (std::size_t i = 0; i < (*ours)->pixels.size(); ++i) {
+    const int difference = std::abs((*ours)->pixels[i] - (*theirs)->pixels[i]);
+    sum += difference;
+    far_off += difference > 40;
+  }
+  EXPECT_LT(sum / static_cast<double>((*ours)->pixels.size()), 3);
+  EXPECT_LT(far_off, static_cast<int>((*ours)->pixels.size() / 100));
+}
+
+}  // namespace
+}  // namespace gsv::rendering
