@@ -227,8 +227,10 @@ void PicturePainter::Light(const LightModel& light, const Lamps& lamps, int x, i
   int left = Bits(ids != 0) & in_picture;
   const bool sky = left != in_picture;
   F8x3 colour = Splat(0, 0, 0);
-  Surfaces surfaces{};
+  Surfaces surfaces;
+  surfaces.number = SplatInt(0);
   if (left != 0) {
+    bool is_first = true;
     while (left != 0) {
       const int lane = __builtin_ctz(static_cast<unsigned>(left));
       const std::uint32_t id = nearest_[at + static_cast<std::size_t>(lane)];
@@ -240,8 +242,9 @@ void PicturePainter::Light(const LightModel& light, const Lamps& lamps, int x, i
         place = static_cast<std::int32_t>(surfaces_.size());
         surfaces_.push_back(SurfaceOf(drawn, triangle));
       }
-      FillIn(drawn, triangle, surfaces_[static_cast<std::size_t>(place)], x, y, mask, ray,
+      FillIn(drawn, triangle, surfaces_[static_cast<std::size_t>(place)], x, y, mask, is_first, ray,
              surfaces);
+      is_first = false;
       left &= ~Bits(mask);
     }
     colour = light.Colour(surfaces, ray, lamps);
@@ -271,8 +274,8 @@ void PicturePainter::Blend(const CameraView& view, const DrawPlan& plan, const L
                                (inverse_w > Load(&inverse_w_[At(x, y)]));
             if (Bits(visible) == 0) return;
             const F8x3 ray = RayAt(x, y);
-            Surfaces surfaces{};
-            FillIn(drawn, t, surface, x, y, visible, ray, surfaces);
+            Surfaces surfaces;
+            FillIn(drawn, t, surface, x, y, visible, true, ray, surfaces);
             // Few of these pixels are in a picture: all lamps may reach them.
             constexpr double kAnywhere = 1e30;
             const Lamps lamps = light.Reaching({-kAnywhere, -kAnywhere, -kAnywhere},

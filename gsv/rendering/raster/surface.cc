@@ -1,5 +1,7 @@
 #include "gsv/rendering/raster/surface.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "gsv/rendering/raster/raster_texture.h"
@@ -32,9 +34,8 @@ F8 Between(const std::vector<float>& values, const Triangle& t, const Weights& k
 
 // About the base two logarithm, from a number's exponent and fraction.
 float Log2(float value) {
-  int exponent = 0;
-  const float fraction = std::frexp(value, &exponent);  // [0.5, 1)
-  return static_cast<float>(exponent) + (2 * fraction - 2);
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  return static_cast<float>(bits) * (1.0f / (1 << 23)) - 127;
 }
 
 F8 At(const TriangleSurface::Plane& plane, F8 dx, float dy) {
@@ -134,7 +135,7 @@ TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& t) {
 }
 
 void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surface, int x, int y,
-            I8 mask, const F8x3& ray, Surfaces& s) {
+            I8 mask, bool is_first, const F8x3& ray, Surfaces& s) {
   const DrawGroup& group = *drawn.group;
   const F8 dx = Splat(static_cast<float>(x) - t.x0) + Steps();
   const float dy = static_cast<float>(y) - t.y0;
@@ -182,7 +183,7 @@ void FillIn(const Drawn& drawn, const Triangle& t, const TriangleSurface& surfac
     }
     if (group.normal) bumped = Bumped(drawn, t, sample(group.normal), Normalized(n));
   }
-  if (Bits(mask) == 0xff) {
+  if (is_first) {
     s = {w, bumped, n, base, emissive, alpha, metalness, roughness, SplatInt(surface.number)};
     return;
   }

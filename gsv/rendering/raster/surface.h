@@ -29,9 +29,10 @@ struct TriangleSurface {
 
 TriangleSurface SurfaceOf(const Drawn& drawn, const Triangle& triangle);
 
-// Fills in the lanes of `mask`, which see one triangle: pixels from (x, y) to the right. `ray` is
-// where they look, its part along the view being 1. Normals need not be of unit length.
+// Fills in the lanes of `mask`, which see one triangle: pixels from (x, y) to the right; the first
+// to do so fills in something everywhere. `ray` is where they look, its part along the view
+// being 1.
 void FillIn(const Drawn& drawn, const Triangle& triangle, const TriangleSurface& surface, int x,
-            int y, I8 mask, const F8x3& ray, Surfaces& surfaces);
+            int y, I8 mask, bool is_first, const F8x3& ray, Surfaces& surfaces);
 
 }  // namespace gsv::rendering::raster
