@@ -25,28 +25,34 @@ void NearObstacles::Clear(std::size_t chunk) {
 void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const PlanarPosition& at,
                          double travel) {
   const double within = travel + kTouchGap;
-  const Clearance& clearance = clearances_[mover];
-  const Vector2 moved = Vector2{at.x, at.y} - clearance.centre;
+  const double radius = scene_.footprint(mover).radius;
+  if (scene_.has_loose()) {
+    Search(chunks_[chunk], mover, at, within, radius + within + kRounding, true);
+  }
+  Clearance& clearance = clearances_[mover];
+  const Vector2 origin{at.x, at.y}, moved = origin - clearance.centre;
   const double room = clearance.radius - within;
   if (room > 0 && Dot(moved, moved) < room * room) return;
-  Search(chunks_[chunk], mover, at, within);
+  const double nearest =
+      Search(chunks_[chunk], mover, at, within, radius + std::max(within, kLookAround), false);
+  clearance = {origin, nearest - radius - kRounding};
 }
 
-void NearObstacles::Search(Chunk& chunk, std::uint32_t m, const PlanarPosition& at, double within) {
+double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const PlanarPosition& at, double within,
+                             double look, bool loose) const {
   const Mover& mover = scene_.movers()[m];
   const Footprint& footprint = scene_.kind(mover).footprint;
   const Vector2 origin{at.x, at.y};
-  const double reach = footprint.radius + std::max(within, kLookAround);
-  double nearest = reach;
+  double nearest = look;
   ConvexPiece placed;
   for (std::uint32_t p = 0; p < footprint.pieces.size(); ++p) {
     const int level = scene_.level(mover, p);
     if (level < 0) continue;
     const Footprint::Piece& piece = footprint.pieces[p];
     const Vector2 centre = PointAt(piece.centre, at);
-    const ObstacleField& field = scene_.field(level);
+    const ObstacleField& field = loose ? scene_.loose_field(level) : scene_.field(level);
     bool is_placed = false;
-    field.ForEachNear(origin, reach, [&](std::uint32_t index) {
+    field.ForEachNear(origin, look, [&](std::uint32_t index) {
       const Obstacle& obstacle = field[index];
       const double from_origin = DistanceTo(obstacle.shape, origin);
       nearest = std::min(nearest, from_origin);
@@ -58,11 +64,11 @@ void NearObstacles::Search(Chunk& chunk, std::uint32_t m, const PlanarPosition& 
       is_placed = true;
       const Separation separation = Separate(placed, obstacle.shape);
       if (separation.distance > within) return;
-      chunk.near.push_back({m, p, index, level, at, separation});
+      chunk.near.push_back({m, p, index, &field, at, separation});
       if (separation.distance <= kTouchGap) chunk.touching.push_back({mover.body, obstacle.body});
     });
   }
-  clearances_[m] = {origin, nearest - footprint.radius - kRounding};
+  return nearest;
 }
 
 Separation NearObstacles::SeparationAt(const Near& near, const PlanarPosition& at) const {

@@ -2,7 +2,8 @@
 //
 // Clearance    of each mover it is remembered how much room there was around it when it was last
 //              looked at; while it keeps to that room nothing is searched. It only ever spares
-//              questions whose answer is "nothing", so no outcome depends on it.
+//              questions whose answer is "nothing", so no outcome depends on it. Loose obstacles
+//              move: they are searched for each time.
 // Threads      Find() and Stop() may run concurrently for different chunks of movers.
 // Units        metres, seconds, world frame.
 #pragma once
@@ -43,7 +44,7 @@ class NearObstacles {
  private:
   struct Near {
     std::uint32_t mover, piece, obstacle;
-    int level;
+    const ObstacleField* field;
     PlanarPosition found_at;
     Separation separation;  // there
   };
@@ -61,11 +62,12 @@ class NearObstacles {
   const Footprint::Piece& PieceOf(const Near& near) const {
     return scene_.footprint(near.mover).pieces[near.piece];
   }
-  const Obstacle& ObstacleOf(const Near& near) const {
-    return scene_.field(near.level)[near.obstacle];
-  }
+  const Obstacle& ObstacleOf(const Near& near) const { return (*near.field)[near.obstacle]; }
   Separation SeparationAt(const Near& near, const PlanarPosition& at) const;
-  void Search(Chunk& chunk, std::uint32_t mover, const PlanarPosition& at, double within);
+  // Lists the obstacles within reach; gives how far the nearest, of those within `look`, is from
+  // the mover's origin. `look` is at least its radius and `within`.
+  double Search(Chunk& chunk, std::uint32_t mover, const PlanarPosition& at, double within,
+                double look, bool loose) const;
 
   const PlanarScene& scene_;
   std::vector<Clearance> clearances_;

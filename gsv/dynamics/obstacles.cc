@@ -1,6 +1,9 @@
 #include "gsv/dynamics/obstacles.h"
 
 #include <algorithm>
+#include <span>
+
+#include "gsv/world/snapshot.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -40,10 +43,20 @@ void SliceBody(const world::Body& body, const Pose& world_from_model, Interval h
   }
 }
 
+void AddObstacles(const std::vector<ConvexPiece>& pieces, int body,
+                  std::vector<Obstacle>& obstacles) {
+  for (const ConvexPiece& piece : pieces) {
+    const ConvexPiece disc = BoundingDisc(piece);
+    obstacles.push_back({piece, disc.vertices[0], disc.radius, body});
+  }
+}
+
 }  // namespace
 
+bool IsRigid(const world::Body& body) { return body.is_rigid && !body.is_static; }
+
 bool IsDriven(const world::Body& body) {
-  return !body.is_static && (body.model->drive.has_value() || body.is_avatar);
+  return !body.is_static && !body.is_rigid && (body.model->drive.has_value() || body.is_avatar);
 }
 
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
@@ -51,13 +64,33 @@ std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world:
   std::vector<Obstacle> obstacles;
   std::vector<ConvexPiece> pieces;
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
-    if (IsDriven(layout.bodies[i])) continue;
+    if (IsDriven(layout.bodies[i]) || IsRigid(layout.bodies[i])) continue;
     pieces.clear();
     SliceBody(layout.bodies[i], state.bodies[i].world_from_model, heights, pieces);
-    for (const ConvexPiece& piece : pieces) {
-      const ConvexPiece disc = BoundingDisc(piece);
-      obstacles.push_back({piece, disc.vertices[0], disc.radius, static_cast<int>(i)});
+    AddObstacles(pieces, static_cast<int>(i), obstacles);
+  }
+  return obstacles;
+}
+
+std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
+                                            Interval heights) {
+  std::vector<Obstacle> obstacles;
+  std::vector<ConvexPiece> pieces;
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    const world::Body& body = layout.bodies[i];
+    if (!IsRigid(body)) continue;
+    pieces.clear();
+    const std::vector<Pose> model_from_link = world::LinkPoses(
+        *body.model,
+        std::span(state.joint_positions).subspan(body.first_joint, body.model->joints.size()));
+    for (std::size_t l = 0; l < model_from_link.size(); ++l) {
+      const Pose world_from_link = state.bodies[i].world_from_model * model_from_link[l];
+      for (const model::Collision& collision : body.model->links[l].collisions) {
+        if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+        Slice(collision.shape, world_from_link * collision.link_from_collision, heights, pieces);
+      }
     }
+    AddObstacles(pieces, static_cast<int>(i), obstacles);
   }
   return obstacles;
 }

@@ -9,13 +9,21 @@
 
 namespace gsv::dynamics {
 
-// Whether the body moves by commands; all others stand still where the state has them.
+// Whether the body moves by forces: the rigid engine has it.
+bool IsRigid(const world::Body& body);
+
+// Whether the body moves by commands alone: the planar mover has it. All that is neither rigid nor
+// driven stands still where the state has it.
 bool IsDriven(const world::Body& body);
 
-// Slices, between the heights, of the collisions of all bodies that are not driven, in the order of
+// Slices, between the heights, of the collisions of all bodies that stand still, in the order of
 // the bodies, with joints at zero. A plane whose normal is within 45° of the vertical is ground and
 // left out; a steeper one is a wall without end.
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
                                        Interval heights);
+
+// The same of all bodies that are rigid, with joints as they are. Of a plane nothing is taken.
+std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
+                                            Interval heights);
 
 }  // namespace gsv::dynamics

@@ -87,6 +87,7 @@ void PlanarMover::ForEachChunk(const Work& work) {
 
 void PlanarMover::Slice(const world::State& state) {
   scene_.Slice(state);
+  scene_.SliceLoose(state);
   obstacles_.Reset(chunks_.size());
   pairs_.Reset();
 }
@@ -94,6 +95,7 @@ void PlanarMover::Slice(const world::State& state) {
 // For a step of 0 s everybody stays.
 void PlanarMover::Begin(const world::State& state, double seconds) {
   if (!scene_.StandsAsSliced(state)) Slice(state);
+  scene_.SliceLoose(state);
   const auto all = [&](bool Chunk::*is) {
     return std::all_of(chunks_.begin(), chunks_.end(), [&](const Chunk& c) { return c.*is; });
   };
@@ -297,6 +299,7 @@ std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, i
     Slice(state);
     FindNeighbours(mover, state);
   }
+  scene_.SliceLoose(state);
   for (std::size_t i = 0; i < chunks_.size(); ++i) obstacles_.Clear(i);
   motions_.Load(mover, state);
   obstacles_.Find(mover / kChunk, mover, motions_.positions[mover], 0);

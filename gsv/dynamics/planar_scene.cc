@@ -67,7 +67,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   GSV_CHECK(layout != nullptr);
   std::vector<MoverKind> kinds;
   std::vector<Mover> movers;
-  std::vector<int> standing;
+  std::vector<int> standing, loose;
   std::map<const model::Model*, std::uint32_t> known;  // upright ones; never walked through
   std::uint32_t pieces = 0;
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
@@ -77,7 +77,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
                         "the pose holds a number that is not finite", body.name);
     }
     if (!IsDriven(body)) {
-      standing.push_back(static_cast<int>(i));
+      (IsRigid(body) ? loose : standing).push_back(static_cast<int>(i));
       continue;
     }
     const Quaternion tilt = TiltOf(body.initial_pose.orientation);
@@ -100,6 +100,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   kinds_ = std::move(kinds);
   movers_ = std::move(movers);
   standing_ = std::move(standing);
+  loose_ = std::move(loose);
   levels_.assign(pieces, -1);
   is_sliced_ = false;
   return {};
@@ -113,8 +114,32 @@ void PlanarScene::Slice(const world::State& state) {
   }
   standing_poses_.clear();
   for (const int body : standing_) standing_poses_.push_back(state.bodies[body].world_from_model);
-  SliceLevels(AssignLevels(), state);
+  intervals_ = AssignLevels();
+  SliceLevels(state);
+  loose_state_.clear();
   is_sliced_ = true;
+}
+
+void PlanarScene::SliceLoose(const world::State& state) {
+  if (loose_.empty()) return;
+  std::vector<double> now;
+  for (const int body : loose_) {
+    const auto& [p, q] = state.bodies[body].world_from_model;
+    now.insert(now.end(), {p.x, p.y, p.z, q.w, q.x, q.y, q.z});
+    const auto first = state.joint_positions.begin() + layout_->bodies[body].first_joint;
+    now.insert(now.end(), first,
+               first + static_cast<std::ptrdiff_t>(layout_->bodies[body].model->joints.size()));
+  }
+  if (now == loose_state_) return;
+  loose_state_ = std::move(now);
+  loose_fields_.clear();
+  const std::vector<double> margins = MarginsOfLevels();
+  for (std::size_t i = 0; i < intervals_.size(); ++i) {
+    const Interval heights{intervals_[i].low, intervals_[i].high - kRides};
+    auto obstacles = heights.high > heights.low ? CollectLooseObstacles(*layout_, state, heights)
+                                                : std::vector<Obstacle>{};
+    loose_fields_.emplace_back(std::move(obstacles), margins[i]);
+  }
 }
 
 bool PlanarScene::StandsAsSliced(const world::State& state) const {
@@ -166,19 +191,24 @@ std::vector<Interval> PlanarScene::AssignLevels() {
   return levels;
 }
 
-void PlanarScene::SliceLevels(const std::vector<Interval>& levels, const world::State& state) {
-  std::vector<double> widest(levels.size(), 0.0);
+std::vector<double> PlanarScene::MarginsOfLevels() const {
+  std::vector<double> margins(intervals_.size(), kLookAround);
   for (const Mover& mover : movers_) {
     const Footprint& footprint = kind(mover).footprint;
     for (std::size_t p = 0; p < footprint.pieces.size(); ++p) {
       if (level(mover, p) < 0) continue;
-      double& radius = widest[level(mover, p)];
-      radius = std::max(radius, footprint.radius);
+      double& margin = margins[level(mover, p)];
+      margin = std::max(margin, footprint.radius + kLookAround);
     }
   }
+  return margins;
+}
+
+void PlanarScene::SliceLevels(const world::State& state) {
+  const std::vector<double> margins = MarginsOfLevels();
   fields_.clear();
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    fields_.emplace_back(CollectObstacles(*layout_, state, levels[i]), widest[i] + kLookAround);
+  for (std::size_t i = 0; i < intervals_.size(); ++i) {
+    fields_.emplace_back(CollectObstacles(*layout_, state, intervals_[i]), margins[i]);
   }
 }
 

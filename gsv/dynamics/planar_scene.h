@@ -7,6 +7,9 @@
 //          point. So a floor that a robot stands on, a ground plane and a door sill are no
 //          obstacles, and a table is one only to what reaches its top or its legs. Beyond
 //          kMaxLevels distinct intervals, their ends are rounded up to a grid just coarse enough.
+// Loose    rigid bodies are obstacles of their own, sliced anew whenever one has moved. What
+// reaches
+//          less than kRides below the top of a piece lies on the robot and is no obstacle to it.
 // Caching  slices are kept while obstacles and the heights of robots stay where they are; nothing
 //          depends on whether they were kept.
 #pragma once
@@ -25,6 +28,7 @@ namespace gsv::dynamics {
 
 // Fields are laid out for looking so far beyond a footprint, in metres.
 inline constexpr double kLookAround = 0.25;
+inline constexpr double kRides = 0.005;
 
 // What movers of one model have in common.
 struct MoverKind {
@@ -50,6 +54,8 @@ class PlanarScene {
 
   // Slices the obstacles of `state` for movers at their heights.
   void Slice(const world::State& state);
+  // Slices the loose ones, if one has moved. Levels are those of the last Slice().
+  void SliceLoose(const world::State& state);
   // Whether anything was sliced, and all that is no mover stands as it was then.
   bool StandsAsSliced(const world::State& state) const;
   // Whether a mover at height z is where it was as sliced last.
@@ -66,21 +72,28 @@ class PlanarScene {
     return levels_[mover.first_level + piece];
   }
   const ObstacleField& field(int level) const { return fields_[level]; }
+  bool has_loose() const { return !loose_.empty(); }
+  const ObstacleField& loose_field(int level) const { return loose_fields_[level]; }
   // The height of a mover's origin, as last sliced.
   double height(std::size_t mover) const { return heights_[mover]; }
 
  private:
   std::vector<Interval> AssignLevels();
-  void SliceLevels(const std::vector<Interval>& levels, const world::State& state);
+  void SliceLevels(const world::State& state);
+  std::vector<double> MarginsOfLevels() const;
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<MoverKind> kinds_;
   std::vector<Mover> movers_;
   std::vector<int> levels_;
-  std::vector<int> standing_;                   // bodies that are no movers
+  std::vector<Interval> intervals_;             // of the levels
+  std::vector<int> standing_;                   // bodies that neither move nor are loose
   std::vector<geometry::Pose> standing_poses_;  // as sliced
   std::vector<double> heights_;                 // of movers, as sliced
   std::vector<ObstacleField> fields_;
+  std::vector<int> loose_;           // bodies that are rigid
+  std::vector<double> loose_state_;  // as sliced: their poses and joints
+  std::vector<ObstacleField> loose_fields_;
   bool is_sliced_ = false;
 };
 

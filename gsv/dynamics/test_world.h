@@ -54,11 +54,15 @@ class TestWorld {
 
   void AddStatic(const std::string& name, std::shared_ptr<const model::Model> model,
                  const geometry::Pose& pose) {
-    Add(name, std::move(model), pose, true);
+    Add(name, std::move(model), pose, true, false);
+  }
+  void AddRigid(const std::string& name, std::shared_ptr<const model::Model> model,
+                const geometry::Pose& pose) {
+    Add(name, std::move(model), pose, false, true);
   }
   void AddRobot(const std::string& name, std::shared_ptr<const model::Model> model,
                 const geometry::Pose& pose) {
-    Add(name, std::move(model), pose, false);
+    Add(name, std::move(model), pose, false, false);
   }
   // A box standing at (x, y) with its foot at height z.
   void AddBox(const std::string& name, const geometry::Vector3& size, double x, double y,
@@ -115,17 +119,19 @@ class TestWorld {
 
   Engine& engine() { return *engine_; }
   world::State& state() { return state_; }
+  const world::State& state() const { return state_; }
   const world::Layout& layout() const { return *layout_; }
 
  private:
   void Add(const std::string& name, std::shared_ptr<const model::Model> model,
-           const geometry::Pose& pose, bool is_static) {
+           const geometry::Pose& pose, bool is_static, bool is_rigid) {
     world::Body body;
     body.name = name;
     body.is_robot = model->drive.has_value();
     body.model = std::move(model);
     body.initial_pose = pose;
     body.is_static = is_static;
+    body.is_rigid = is_rigid;
     bodies_.push_back(std::move(body));
   }
 

@@ -71,6 +71,12 @@ struct Joint {
   double friction = 0;
 };
 
+// What moves a model with a drive.
+enum class Movement {
+  kPlanar,  // its drive alone, over level ground
+  kRigid,   // forces: its wheels roll, it climbs, tips, is pushed
+};
+
 struct Model {
   std::string name;    // as the file says
   std::string source;  // the file it was read from, for messages
@@ -80,7 +86,8 @@ struct Model {
   std::vector<Link> links;    // links[0] is the canonical link; never empty
   std::vector<Joint> joints;  // a forest: no link is the child of two joints
   std::vector<SensorDescription> sensors;
-  std::optional<Drive> drive;  // present: a robot that can be given a behaviour
+  std::optional<Drive> drive;             // present: a robot that can be given a behaviour
+  Movement movement = Movement::kPlanar;  // of a model with a drive
 };
 
 // The radius about the model's origin, in its xy plane, of a circle that holds the boxes around

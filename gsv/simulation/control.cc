@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "gsv/base/check.h"
-#include "gsv/dynamics/planar_mover.h"
+#include "gsv/dynamics/world_engine.h"
 #include "gsv/simulation/stepping_simulation.h"
 
 namespace gsv::simulation {
@@ -43,11 +43,13 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
     body.initial_pose = placed.world_from_model;
     body.is_static = placed.is_static || placed.model->is_static;
     body.is_robot = !body.is_static && placed.model->drive.has_value();
+    body.is_rigid =
+        !body.is_static && dynamics::MovesByForces(*placed.model, placed.model->movement);
     bodies.push_back(std::move(body));
   }
   auto layout = world::MakeLayout(1, std::move(bodies), specification.world);
   auto team = std::make_shared<base::ThreadTeam>(ThreadsFor(specification));
-  auto engine = dynamics::MakePlanarMover(team);
+  auto engine = dynamics::MakeWorldEngine(team);
   if (auto ok = engine->SetLayout(layout); !ok) return base::Fail(ok.error());
   return std::shared_ptr<Simulation>(
       new SteppingSimulation(std::move(specification), std::move(sensors), std::move(team),

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "gsv/dynamics/world_engine.h"
 #include "gsv/sensing/ground.h"
 #include "gsv/simulation/stepping_simulation.h"
 
@@ -96,6 +97,9 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
     body.initial_pose = robot.on_ground ? StandingPose(robot) : robot.world_from_robot;
     body.is_robot = true;
     body.is_avatar = robot.is_avatar;
+    body.is_rigid =
+        !robot.is_avatar &&
+        dynamics::MovesByForces(*robot.model, robot.movement.value_or(robot.model->movement));
     bodies.push_back(std::move(body));
     added.push_back(robot.name);
   }

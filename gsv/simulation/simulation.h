@@ -41,6 +41,7 @@ struct RobotSpecification {
   // A behaviour that tells the time by the wall clock takes part in lockstep all the same.
   bool allow_unmanaged = false;
   bool is_avatar = false;
+  std::optional<model::Movement> movement;  // without one, as its model says
 };
 
 class Simulation : public std::enable_shared_from_this<Simulation> {

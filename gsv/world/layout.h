@@ -24,6 +24,7 @@ struct Body {
   bool is_static = false;
   bool is_robot = false;   // has a drive and may be given a behaviour
   bool is_avatar = false;  // steered by a person
+  bool is_rigid = false;   // moved by forces: falls, tips, is pushed, has joints
   int first_joint = 0;
   int first_link = 0;
 };

@@ -1,0 +1,202 @@
+// Rigid bodies against mechanics: every expected value is a closed form. docs/fidelity.md lists
+// them.
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "gsv/dynamics/test_rigid_world.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+using testing::EnergyOf;
+using testing::SolidOf;
+using testing::TestWorld;
+using testing::WorldOnGround;
+
+constexpr double kG = 9.8;
+constexpr double kStep = 0.001;
+
+model::Surface SurfaceOf(double friction, double restitution = 0) {
+  return {friction, friction, restitution};
+}
+
+Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
+
+// A plane inclined about the y axis: down is +x.
+Pose Inclined(double angle) { return {{0, 0, 0}, geometry::FromAxisAngle({0, 1, 0}, angle)}; }
+
+TEST(RigidFidelity, ABodyFallsAlongTheParabola) {
+  TestWorld world = WorldOnGround();
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 2), At(0, 0, 10));
+  ASSERT_TRUE(world.Start());
+  world.body("ball").linear_velocity = {3, -1, 2};
+  world.Run(1, kStep);
+  EXPECT_NEAR(world.position("ball").x, 3, 1e-9);
+  EXPECT_NEAR(world.position("ball").y, -1, 1e-9);
+  EXPECT_NEAR(world.position("ball").z, 10 + 2 - kG / 2, 1e-9);
+  EXPECT_NEAR(world.body("ball").linear_velocity.z, 2 - kG, 1e-9);
+}
+
+TEST(RigidFidelity, AStepOfAnySizeGivesTheSameFall) {
+  for (const double step : {0.0005, 0.004, 0.25}) {
+    TestWorld world = WorldOnGround();
+    world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 2), At(0, 0, 10));
+    ASSERT_TRUE(world.Start());
+    world.Run(1, step);
+    EXPECT_NEAR(world.position("ball").z, 10 - kG / 2, 1e-9) << step;
+  }
+}
+
+TEST(RigidFidelity, ABallBouncesToTheSquareOfItsRestitution) {
+  for (const double restitution : {0.5, 0.8}) {
+    TestWorld world = WorldOnGround(SurfaceOf(1, 1));
+    world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 1, SurfaceOf(1, restitution)),
+                   At(0, 0, 1.1));
+    ASSERT_TRUE(world.Start());
+    world.Run(std::sqrt(2 / kG) + 0.02, kStep);
+    double highest = 0;
+    for (int i = 0; i < 800; ++i) {
+      world.Step(kStep);
+      if (world.body("ball").linear_velocity.z < 0) break;
+      highest = std::max(highest, world.position("ball").z - 0.1);
+    }
+    EXPECT_NEAR(highest, restitution * restitution, 0.01) << restitution;
+  }
+}
+
+TEST(RigidFidelity, ASlidingBoxStopsAfterTheFrictionDistance) {
+  const double mu = 0.5, speed = 2;
+  TestWorld world = WorldOnGround();
+  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)), At(0, 0, 0.05));
+  ASSERT_TRUE(world.Start());
+  world.body("box").linear_velocity = {speed, 0, 0};
+  world.Run(1, kStep);
+  EXPECT_NEAR(world.position("box").x, speed * speed / (2 * mu * kG),
+              0.005 * speed * speed / (2 * mu * kG));
+  EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
+}
+
+TEST(RigidFidelity, ABoxOnAnInclineStaysBelowTheFrictionAngle) {
+  const double mu = 0.5;
+  const Pose incline = Inclined(std::atan(mu) - 0.01);
+  TestWorld world(MakeWorldEngine());
+  world.AddStatic("incline", testing::GroundOf(), incline);
+  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)),
+                 incline * At(0, 0, 0.05));
+  ASSERT_TRUE(world.Start());
+  world.Run(10, kStep);
+  EXPECT_NEAR((Inverse(incline) * world.position("box")).x, 0, 1e-5);
+  EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
+}
+
+TEST(RigidFidelity, ABoxOnAnInclineSlidesAboveTheFrictionAngle) {
+  const double mu = 0.5, angle = std::atan(mu) + 0.05;
+  const Pose incline = Inclined(angle);
+  TestWorld world(MakeWorldEngine());
+  world.AddStatic("incline", testing::GroundOf(), incline);
+  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)),
+                 incline * At(0, 0, 0.05));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, kStep);
+  const double expected = kG * (std::sin(angle) - mu * std::cos(angle)) * 2 * 2 / 2;
+  EXPECT_NEAR((Inverse(incline) * world.position("box")).x, expected, 0.005 * expected);
+}
+
+TEST(RigidFidelity, ABallRollsDownAnInclineAtFiveSeventhsOfTheSlope) {
+  const double angle = 0.2;
+  const Pose incline = Inclined(angle);
+  TestWorld world(MakeWorldEngine());
+  world.AddStatic("incline", testing::GroundOf(), incline);
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 1), incline * At(0, 0, 0.1));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, kStep);
+  const double expected = 5.0 / 7 * kG * std::sin(angle) * 2 * 2 / 2;
+  EXPECT_NEAR((Inverse(incline) * world.position("ball")).x, expected, 0.005 * expected);
+}
+
+TEST(RigidFidelity, ACollisionKeepsMomentum) {
+  TestWorld world(MakeWorldEngine());
+  const model::Surface bouncy = SurfaceOf(0, 0.7);
+  world.AddRigid("a", SolidOf(geometry::Sphere{0.1}, 3, bouncy), At(0, 0, 100));
+  world.AddRigid("b", SolidOf(geometry::Sphere{0.1}, 1, bouncy), At(1, 0, 100));
+  ASSERT_TRUE(world.Start());
+  world.body("a").linear_velocity = {2, 0, 0};
+  world.Run(1, kStep);
+  const double va = world.body("a").linear_velocity.x, vb = world.body("b").linear_velocity.x;
+  // Momentum 6 kg m/s; they part at 0.7² of the 2 m/s at which they met.
+  EXPECT_NEAR(3 * va + vb, 6, 1e-9);
+  // Give or take the depth at which bodies rest in each other, in one substep.
+  EXPECT_NEAR(vb - va, 0.49 * 2, 0.0101);
+  EXPECT_EQ(world.body("a").collisions, 1u);
+}
+
+TEST(RigidFidelity, ABoxAtRestNeitherSinksNorDrifts) {
+  TestWorld world = WorldOnGround();
+  world.AddRigid("box", SolidOf(geometry::Box{{0.5, 0.5, 0.5}}, 10), At(1, 2, 0.25));
+  ASSERT_TRUE(world.Start());
+  world.Run(1, kStep);
+  const Vector3 settled = world.position("box");
+  EXPECT_NEAR(settled.x, 1, 1e-9);
+  EXPECT_NEAR(settled.y, 2, 1e-9);
+  EXPECT_NEAR(settled.z, 0.25, 2e-5);
+  world.Run(60, kStep);
+  EXPECT_EQ(world.position("box"), settled);
+}
+
+TEST(RigidFidelity, AStackStandsForAMinute) {
+  TestWorld world = WorldOnGround();
+  const auto box = SolidOf(geometry::Box{{0.5, 0.5, 0.5}}, 1);
+  for (int i = 0; i < 5; ++i) {
+    world.AddRigid("box" + std::to_string(i), box, At(0, 0, 0.25 + 0.5 * i));
+  }
+  ASSERT_TRUE(world.Start());
+  world.Run(60, kStep);
+  for (int i = 0; i < 5; ++i) {
+    const Vector3& at = world.position("box" + std::to_string(i));
+    EXPECT_NEAR(at.x, 0, 1e-4) << i;
+    EXPECT_NEAR(at.y, 0, 1e-4) << i;
+    EXPECT_NEAR(at.z, 0.25 + 0.5 * i, 1e-4) << i;
+    EXPECT_EQ(world.body("box" + std::to_string(i)).linear_velocity, Vector3{}) << i;
+  }
+}
+
+TEST(RigidFidelity, EnergyNeverGrows) {
+  TestWorld world = WorldOnGround(SurfaceOf(0.6, 1));
+  const model::Surface bouncy = SurfaceOf(0.6, 0.6);
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.2}, 1, bouncy), At(0, 0, 2));
+  world.AddRigid("box", SolidOf(geometry::Box{{0.3, 0.4, 0.5}}, 2, bouncy), At(0.1, 0.1, 1));
+  world.AddRigid("can", SolidOf(geometry::Cylinder{0.1, 0.3}, 1, bouncy), At(1, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.body("box").angular_velocity = {3, 5, 1};
+  world.body("can").linear_velocity = {-2, 0, 1};
+  double energy = EnergyOf(world);
+  const double most = energy;
+  for (int i = 0; i < 5000; ++i) {
+    world.Step(kStep);
+    const double now = EnergyOf(world);
+    // What a substep's rounding of a turn and the slop of a contact make.
+    ASSERT_LE(now, energy + 2e-4 * most) << "step " << i;
+    energy = now;
+  }
+  EXPECT_LT(energy, 0.8 * most);
+}
+
+TEST(RigidFidelity, AFastBodyDoesNotCrossAThinWall) {
+  for (const double step : {0.001, 0.01, 0.1}) {
+    for (const double speed : {5.0, 30.0, 90.0}) {
+      TestWorld world = WorldOnGround();
+      world.AddBox("wall", {0.002, 20, 20}, 3, 0);
+      world.AddRigid("box", SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1), At(0, 0, 5));
+      ASSERT_TRUE(world.Start());
+      world.body("box").linear_velocity = {speed, 0, 0};
+      world.Run(0.8, step);
+      EXPECT_LT(world.position("box").x, 3) << speed << " m/s, step " << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

@@ -1,0 +1,83 @@
+#include "gsv/dynamics/world_engine.h"
+
+#include <algorithm>
+
+#include "gsv/dynamics/obstacles.h"
+#include "gsv/dynamics/planar_mover.h"
+#include "gsv/dynamics/rigid_engine.h"
+
+namespace gsv::dynamics {
+namespace {
+
+class WorldEngine final : public Engine {
+ public:
+  explicit WorldEngine(std::shared_ptr<base::ThreadTeam> team)
+      : planar_(MakePlanarMover(std::move(team))) {}
+
+  base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {
+    if (auto ok = planar_->SetLayout(layout); !ok) return ok;
+    layout_ = layout;
+    return rigid_.SetLayout(std::move(layout));
+  }
+
+  void Step(base::SimTime step, world::State& state,
+            std::vector<world::Contact>& contacts) override {
+    if (!rigid_.has_bodies()) {
+      planar_->Step(step, state, contacts);
+      return;
+    }
+    before_ = state;
+    planar_->Step(step, state, contacts);
+    if (rigid_.Move(step, before_, contacts, state)) {
+      PutPlanarBack(state);
+      planar_->Step(step, state, contacts);
+      rigid_.GoOn(step, before_, state);
+    }
+    rigid_.AddContacts(before_, state, contacts);
+  }
+
+  std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override {
+    return planar_->Overlaps(state, tolerance);
+  }
+
+  std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
+                                         double tolerance) override {
+    return planar_->OverlapsOf(state, body, tolerance);
+  }
+
+ private:
+  void PutPlanarBack(world::State& state) const {
+    for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
+      const world::Body& body = layout_->bodies[i];
+      if (!IsDriven(body)) continue;
+      state.bodies[i] = before_.bodies[i];
+      const auto joints = static_cast<std::ptrdiff_t>(body.model->joints.size());
+      const auto put_back = [&](const std::vector<double>& from, std::vector<double>& to) {
+        std::copy_n(from.begin() + body.first_joint, joints, to.begin() + body.first_joint);
+      };
+      put_back(before_.joint_positions, state.joint_positions);
+      put_back(before_.joint_velocities, state.joint_velocities);
+    }
+  }
+
+  std::shared_ptr<const world::Layout> layout_;
+  std::unique_ptr<Engine> planar_;
+  RigidEngine rigid_;
+  world::State before_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team) {
+  return std::make_unique<WorldEngine>(std::move(team));
+}
+
+bool MovesByForces(const model::Model& model, model::Movement movement) {
+  const bool asks = movement == model::Movement::kRigid;
+  const bool collides =
+      std::any_of(model.links.begin(), model.links.end(),
+                  [](const model::Link& link) { return !link.collisions.empty(); });
+  return (asks || !model.drive) && collides;
+}
+
+}  // namespace gsv::dynamics

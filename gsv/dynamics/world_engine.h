@@ -1,0 +1,25 @@
+// The engine of a whole world: the planar mover for wheeled bases and people, Bullet for all that
+// is rigid.
+//
+// Together    rigid bodies stop planar ones, which push them: with the speed that they want, and a
+//             force of at most their own weight (traction 1). A planar robot gives way to nothing:
+//             what runs into it bounces off. What lies on a robot rides along.
+// Cost        a world without rigid bodies costs what the planar mover costs.
+// Determinism as Engine has it, for both.
+#pragma once
+
+#include <memory>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/dynamics/engine.h"
+
+namespace gsv::dynamics {
+
+// The team helps the planar mover; without one, the caller works alone.
+std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team = nullptr);
+
+// Whether a body of this model moves by forces where it is not static: one that is asked to, or has
+// no drive to move it otherwise. What collides with nothing has nothing to stand on and stays.
+bool MovesByForces(const model::Model& model, model::Movement movement);
+
+}  // namespace gsv::dynamics
