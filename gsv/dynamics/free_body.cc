@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <optional>
+
+#include "gsv/dynamics/drive_servo.h"
 #include "gsv/dynamics/moving_body.h"
 
 namespace gsv::dynamics {
@@ -25,10 +29,21 @@ class FreeBody final : public MovingBody {
                               btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
     // What bounces must reach what it bounces off at its full speed.
     if (plan.solids[0].bounces()) object_.setContactProcessingThreshold(0);
+    if (plan.kinematics) servo_.emplace(*plan.kinematics, body, state.time);
     world.addRigidBody(&object_, btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
   }
 
-  void BeforeSubstep(double) override {}
+  void BeforeSubstep(double seconds) override {
+    if (!servo_) return;
+    servo_->Advance(seconds);
+    const Pose world_from_part = FromBullet(object_.getWorldTransform());
+    Vector3 velocity = FromBullet(object_.getLinearVelocity());
+    Vector3 angular_velocity = FromBullet(object_.getAngularVelocity());
+    HoldBase(*servo_, world_from_part * Inverse(part().model_from_part), world_from_part.position,
+             gravity_.length(), seconds, velocity, angular_velocity);
+    object_.setLinearVelocity(ToBullet(velocity));
+    object_.setAngularVelocity(ToBullet(angular_velocity));
+  }
 
   // Bullet moves by the velocity at a substep's end; on a parabola the mean of both ends is right.
   void AfterSubstep(double seconds) override {
@@ -49,6 +64,7 @@ class FreeBody final : public MovingBody {
 
   void Store(double seconds, world::State& state) const override {
     world::BodyState& body = state.bodies[plan_.body];
+    if (servo_) body.drive.actual = servo_->motion();
     const Vector3 velocity = FromBullet(object_.getLinearVelocity());
     const Vector3 angular_velocity = FromBullet(object_.getAngularVelocity());
     const double rest = kResting * seconds;
@@ -76,6 +92,7 @@ class FreeBody final : public MovingBody {
   const Owner& owner_;
   const btVector3 gravity_;
   btRigidBody object_;
+  std::optional<DriveServo> servo_;
   double was_resting_speed_;
 };
 

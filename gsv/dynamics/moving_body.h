@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
@@ -32,6 +33,11 @@ class MovingBody {
 
 std::unique_ptr<MovingBody> MakeFreeBody(const RigidBody& plan, const world::State& state,
                                          Owner& owner, btMultiBodyDynamicsWorld& world);
+// `owners` are those of the plan's solids. Joints keep to their limits, are damped and rub; those
+// of a drive's wheels turn as the drive wants (RollsOnWheels()), its steering goes where it wants.
+std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan, const world::State& state,
+                                          std::span<Owner* const> owners,
+                                          btMultiBodyDynamicsWorld& world);
 
 // m/s² and rad/s²: a body that neither moves by more than this times the step before a step nor
 // after it keeps its place, so that what is at rest stays there to the bit. It is as if all had a

@@ -61,7 +61,7 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
   settings.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
   for (const StandingBody& standing : scene.standing()) AddStanding(standing);
   for (const RigidBody& body : scene.bodies()) {
-    bodies_.push_back(MakeFreeBody(body, before, NewOwner(body.solids[0], true), world_));
+    AddRigid(body);
   }
   AddPlanarNear();
 }
@@ -70,6 +70,13 @@ RigidWorld::~RigidWorld() = default;
 
 Owner& RigidWorld::NewOwner(const Solid& solid, bool moves_by_forces) {
   return owners_.emplace_back(Owner{&solid, moves_by_forces, false});
+}
+
+void RigidWorld::AddRigid(const RigidBody& body) {
+  std::vector<Owner*> owners;
+  for (const Solid& solid : body.solids) owners.push_back(&NewOwner(solid, true));
+  bodies_.push_back(body.is_jointed() ? MakeJointTree(body, before_, owners, world_)
+                                      : MakeFreeBody(body, before_, *owners[0], world_));
 }
 
 void RigidWorld::AddStanding(const StandingBody& standing) {

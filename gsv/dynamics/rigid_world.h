@@ -51,6 +51,7 @@ class RigidWorld {
     btRigidBody* object;
   };
 
+  void AddRigid(const RigidBody& body);
   void AddStanding(const StandingBody& standing);
   void AddPlanarNear();
   void AddPlanar(const PlanarBody& planar);

@@ -1,0 +1,295 @@
+// Parts that joints hold together, in joint coordinates (Featherstone's method, as btMultiBody).
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include "gsv/dynamics/drive_servo.h"
+#include "gsv/dynamics/moving_body.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+
+constexpr double kNoLimit = 1e6;  // N, N m, m/s, rad/s: where the model sets none
+// 1/s: a joint that is to be at a position turns there at this times the distance.
+constexpr double kServoGain = 20;
+
+class JointTree final : public MovingBody {
+ public:
+  JointTree(const RigidBody& plan, const world::State& state, std::span<Owner* const> owners,
+            btMultiBodyDynamicsWorld& world);
+
+  void BeforeSubstep(double seconds) override;
+  void AfterSubstep(double) override {}
+  double Speed() const override;
+  double Thickness() const override;
+  void Bounds(btVector3& low, btVector3& high) const override;
+  void Store(double seconds, world::State& state) const override;
+
+ private:
+  struct Motor {
+    int link;   // of tree_
+    int joint;  // of the model
+    std::unique_ptr<btMultiBodyJointMotor> constraint;
+  };
+
+  const std::vector<Part>& parts() const { return plan_.articulation.parts; }
+  const model::Joint& JointOf(const Part& part) const { return plan_.model->joints[part.joint]; }
+  void SetUpLink(int link);
+  void Place(const world::State& state);
+  void AddCollider(int link, Owner& owner, btMultiBodyDynamicsWorld& world);
+  void AddLimitsAndMotors(btMultiBodyDynamicsWorld& world);
+  void Drive(double seconds);
+  void TurnMotors(double seconds);
+  Pose WorldFromModel() const;
+  double RestingSpeed() const;
+
+  const RigidBody& plan_;
+  btMultiBody tree_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+  std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
+  std::vector<Motor> motors_;
+  std::optional<DriveServo> servo_;
+  std::vector<double> wanted_positions_, wanted_rates_;  // of the drive's joints
+  double grip_;
+  double resting_speed_before_;
+};
+
+JointTree::JointTree(const RigidBody& plan, const world::State& state,
+                     std::span<Owner* const> owners, btMultiBodyDynamicsWorld& world)
+    : plan_(plan),
+      tree_(static_cast<int>(plan.articulation.parts.size()) - 1, plan.articulation.parts[0].mass,
+            ToBullet(plan.articulation.parts[0].inertia), plan.articulation.is_fixed, false),
+      wanted_positions_(plan.model->joints.size()),
+      wanted_rates_(plan.model->joints.size()),
+      grip_(world.getGravity().length()) {
+  for (int link = 0; link < tree_.getNumLinks(); ++link) SetUpLink(link);
+  tree_.finalizeMultiDof();
+  tree_.setLinearDamping(0);
+  tree_.setAngularDamping(0);
+  tree_.setUseGyroTerm(true);
+  tree_.setHasSelfCollision(false);
+  tree_.setMaxCoordinateVelocity(kNoLimit);
+  tree_.setMaxAppliedImpulse(kNoLimit);
+  Place(state);
+  world.addMultiBody(&tree_);
+  for (int link = -1; link < tree_.getNumLinks(); ++link) {
+    AddCollider(link, *owners[static_cast<std::size_t>(link + 1)], world);
+  }
+  if (plan.kinematics) {
+    servo_.emplace(*plan.kinematics, state.bodies[plan.body], state.time);
+  }
+  AddLimitsAndMotors(world);
+  resting_speed_before_ = RestingSpeed();
+}
+
+void JointTree::SetUpLink(int link) {
+  const Part& part = parts()[static_cast<std::size_t>(link) + 1];
+  const Part& parent = parts()[static_cast<std::size_t>(part.parent)];
+  const model::Joint& joint = JointOf(part);
+  const Pose parent_from_part = Inverse(parent.model_from_part) * part.model_from_part;
+  const Vector3& pivot = joint.model_from_joint.position;
+  const Vector3 pivot_in_parent = Inverse(parent.model_from_part) * pivot;
+  const Vector3 pivot_in_part = Inverse(part.model_from_part) * pivot;
+  const Vector3 axis =
+      Inverse(part.model_from_part.orientation) * (joint.model_from_joint.orientation * joint.axis);
+  const btQuaternion part_from_parent = ToBullet(Inverse(parent_from_part.orientation));
+  if (joint.kind == model::JointKind::kPrismatic) {
+    tree_.setupPrismatic(link, part.mass, ToBullet(part.inertia), part.parent - 1, part_from_parent,
+                         ToBullet(axis), ToBullet(pivot_in_parent), ToBullet(-pivot_in_part), true);
+  } else {
+    tree_.setupRevolute(link, part.mass, ToBullet(part.inertia), part.parent - 1, part_from_parent,
+                        ToBullet(axis), ToBullet(pivot_in_parent), ToBullet(-pivot_in_part), true);
+  }
+}
+
+void JointTree::Place(const world::State& state) {
+  const world::BodyState& body = state.bodies[plan_.body];
+  const Pose world_from_base = body.world_from_model * parts()[0].model_from_part;
+  const Vector3 arm = world_from_base.position - body.world_from_model.position;
+  tree_.setBaseWorldTransform(ToBullet(world_from_base));
+  if (!plan_.articulation.is_fixed) {
+    tree_.setBaseVel(ToBullet(body.linear_velocity + Cross(body.angular_velocity, arm)));
+    tree_.setBaseOmega(ToBullet(body.angular_velocity));
+  }
+  for (int link = 0; link < tree_.getNumLinks(); ++link) {
+    const int joint = plan_.first_joint + parts()[static_cast<std::size_t>(link) + 1].joint;
+    tree_.setJointPos(link, state.joint_positions[joint]);
+    tree_.setJointVel(link, state.joint_velocities[joint]);
+  }
+  btAlignedObjectArray<btQuaternion> rotations;
+  btAlignedObjectArray<btVector3> origins;
+  tree_.forwardKinematics(rotations, origins);
+}
+
+void JointTree::AddCollider(int link, Owner& owner, btMultiBodyDynamicsWorld& world) {
+  auto collider = std::make_unique<btMultiBodyLinkCollider>(&tree_, link);
+  collider->setCollisionShape(owner.solid->shape);
+  collider->setWorldTransform(link < 0 ? tree_.getBaseWorldTransform()
+                                       : tree_.getLink(link).m_cachedWorldTransform);
+  collider->setUserPointer(&owner);
+  collider->setCollisionFlags(collider->getCollisionFlags() |
+                              btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+  if (owner.solid->bounces()) collider->setContactProcessingThreshold(0);
+  if (link < 0) {
+    tree_.setBaseCollider(collider.get());
+  } else {
+    tree_.getLink(link).m_collider = collider.get();
+  }
+  world.addCollisionObject(collider.get(), btBroadphaseProxy::DefaultFilter,
+                           btBroadphaseProxy::AllFilter);
+  colliders_.push_back(std::move(collider));
+}
+
+void JointTree::AddLimitsAndMotors(btMultiBodyDynamicsWorld& world) {
+  for (int link = 0; link < tree_.getNumLinks(); ++link) {
+    const Part& part = parts()[static_cast<std::size_t>(link) + 1];
+    const model::Joint& joint = JointOf(part);
+    const model::Range& limits = joint.position_limits;
+    if (joint.kind != model::JointKind::kContinuous &&
+        (std::isfinite(limits.min) || std::isfinite(limits.max))) {
+      limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(
+          &tree_, link, std::max(limits.min, -kNoLimit), std::min(limits.max, kNoLimit)));
+      world.addMultiBodyConstraint(limits_.back().get());
+    }
+    auto motor = std::make_unique<btMultiBodyJointMotor>(&tree_, link, 0.0, 0.0);
+    world.addMultiBodyConstraint(motor.get());
+    motors_.push_back({link, part.joint, std::move(motor)});
+  }
+}
+
+Pose JointTree::WorldFromModel() const {
+  const Pose world_from_model =
+      FromBullet(tree_.getBaseWorldTransform()) * Inverse(parts()[0].model_from_part);
+  return {world_from_model.position, Normalized(world_from_model.orientation)};
+}
+
+void JointTree::Drive(double seconds) {
+  const world::DriveCommand motion = servo_->Advance(seconds);
+  if (!RollsOnWheels(*plan_.model)) {
+    const Pose world_from_base = FromBullet(tree_.getBaseWorldTransform());
+    Vector3 velocity = FromBullet(tree_.getBaseVel());
+    Vector3 angular_velocity = FromBullet(tree_.getBaseOmega());
+    HoldBase(*servo_, WorldFromModel(), world_from_base.position, grip_, seconds, velocity,
+             angular_velocity);
+    tree_.setBaseVel(ToBullet(velocity));
+    tree_.setBaseOmega(ToBullet(angular_velocity));
+  }
+  for (const Motor& motor : motors_) wanted_positions_[motor.joint] = tree_.getJointPos(motor.link);
+  std::fill(wanted_rates_.begin(), wanted_rates_.end(), 0.0);
+  servo_->kinematics().TurnJoints({}, motion, seconds, wanted_positions_, wanted_rates_);
+}
+
+void JointTree::TurnMotors(double seconds) {
+  const auto among = [](const std::vector<int>& joints, int joint) {
+    return std::find(joints.begin(), joints.end(), joint) != joints.end();
+  };
+  for (const Motor& motor : motors_) {
+    const model::Joint& joint = plan_.model->joints[motor.joint];
+    const double position = tree_.getJointPos(motor.link), rate = tree_.getJointVel(motor.link);
+    const double effort = std::min(joint.effort_limit, kNoLimit);
+    const model::Drive* drive = servo_ ? &*plan_.model->drive : nullptr;
+    if (drive != nullptr && among(drive->steered, motor.joint)) {
+      const double most = std::min(joint.velocity_limit, kNoLimit);
+      const double turn = kServoGain * (wanted_positions_[motor.joint] - position);
+      motor.constraint->setVelocityTarget(std::clamp(turn, -most, most));
+      motor.constraint->setMaxAppliedImpulse(effort * seconds);
+    } else if (drive != nullptr && (among(drive->left_wheels, motor.joint) ||
+                                    among(drive->right_wheels, motor.joint))) {
+      motor.constraint->setVelocityTarget(wanted_rates_[motor.joint]);
+      motor.constraint->setMaxAppliedImpulse(effort * seconds);
+    } else {
+      // A motor that holds still with so much force is Coulomb's friction.
+      motor.constraint->setMaxAppliedImpulse(joint.friction * seconds);
+      if (joint.damping == 0) continue;
+      // Never more than would stop the lightest that may hang from the joint.
+      const Part& part = parts()[static_cast<std::size_t>(motor.link) + 1];
+      const double inertia = joint.kind == model::JointKind::kPrismatic
+                                 ? part.mass
+                                 : std::min({part.inertia.x, part.inertia.y, part.inertia.z});
+      tree_.addJointTorque(motor.link,
+                           -joint.damping * rate / (1 + joint.damping * seconds / inertia));
+    }
+  }
+}
+
+void JointTree::BeforeSubstep(double seconds) {
+  if (servo_) Drive(seconds);
+  TurnMotors(seconds);
+}
+
+double JointTree::Speed() const {
+  double speed = tree_.getBaseVel().length();
+  double turning = tree_.getBaseOmega().length();
+  speed += turning * plan_.solids[0].radius;
+  for (int link = 0; link < tree_.getNumLinks(); ++link) {
+    const double rate = std::abs(tree_.getJointVel(link));
+    const bool slides =
+        JointOf(parts()[static_cast<std::size_t>(link) + 1]).kind == model::JointKind::kPrismatic;
+    speed += slides ? rate : rate * plan_.solids[static_cast<std::size_t>(link) + 1].radius;
+  }
+  return speed;
+}
+
+double JointTree::Thickness() const {
+  double least = plan_.solids[0].thickness;
+  for (const Solid& solid : plan_.solids) least = std::min(least, solid.thickness);
+  return least;
+}
+
+void JointTree::Bounds(btVector3& low, btVector3& high) const {
+  colliders_[0]->getCollisionShape()->getAabb(colliders_[0]->getWorldTransform(), low, high);
+  for (const auto& collider : colliders_) {
+    btVector3 a, b;
+    collider->getCollisionShape()->getAabb(collider->getWorldTransform(), a, b);
+    low.setMin(a);
+    high.setMax(b);
+  }
+}
+
+double JointTree::RestingSpeed() const {
+  double fastest = std::max(tree_.getBaseVel().length(), tree_.getBaseOmega().length());
+  for (int link = 0; link < tree_.getNumLinks(); ++link) {
+    fastest = std::max<double>(fastest, std::abs(tree_.getJointVel(link)));
+  }
+  return fastest;
+}
+
+void JointTree::Store(double seconds, world::State& state) const {
+  world::BodyState& body = state.bodies[plan_.body];
+  if (servo_) body.drive.actual = servo_->motion();
+  const double rest = kResting * seconds;
+  const bool rests = resting_speed_before_ < rest && RestingSpeed() < rest;
+  for (int link = 0; link < tree_.getNumLinks(); ++link) {
+    const int joint = plan_.first_joint + parts()[static_cast<std::size_t>(link) + 1].joint;
+    // A limit stops a joint within a substep; so far it may have gone beyond.
+    const model::Range& limits =
+        JointOf(parts()[static_cast<std::size_t>(link) + 1]).position_limits;
+    if (!rests) {
+      state.joint_positions[joint] = std::clamp(tree_.getJointPos(link), limits.min, limits.max);
+    }
+    state.joint_velocities[joint] = rests ? 0 : tree_.getJointVel(link);
+  }
+  if (rests) {
+    body.linear_velocity = body.angular_velocity = {};
+  } else if (!plan_.articulation.is_fixed) {
+    StoreMotion(WorldFromModel(), FromBullet(tree_.getBaseWorldTransform()).position,
+                FromBullet(tree_.getBaseVel()), FromBullet(tree_.getBaseOmega()), body);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan, const world::State& state,
+                                          std::span<Owner* const> owners,
+                                          btMultiBodyDynamicsWorld& world) {
+  return std::make_unique<JointTree>(plan, state, owners, world);
+}
+
+}  // namespace gsv::dynamics
