@@ -53,6 +53,8 @@ base::Status Check(const model::Model& model) {
     status = CheckPositive(drive.wheel_radius, "wheel radius");
     if (status) status = CheckPositive(drive.wheel_separation, "wheel separation");
   }
+  if (status) status = CheckPositive(drive.left_wheel_scale, "left wheel's scale");
+  if (status) status = CheckPositive(drive.right_wheel_scale, "right wheel's scale");
   if (status && drive.kind == DriveKind::kAckermann) {
     status = CheckPositive(drive.wheel_base, "wheel base");
     if (status && !(drive.steering_limit > 0 && drive.steering_limit < 1.57)) {
@@ -100,6 +102,9 @@ base::Result<DriveKinematics> DriveKinematics::Create(const model::Model& model)
   DriveKinematics kinematics;
   kinematics.drive_ = *model.drive;
   kinematics.reference_x_ = ReferenceX(model);
+  kinematics.wheels_are_as_believed_ =
+      model.drive->kind != DriveKind::kDifferential ||
+      (model.drive->left_wheel_scale == 1 && model.drive->right_wheel_scale == 1);
   kinematics.AddWheels(model, model.drive->left_wheels, 1);
   kinematics.AddWheels(model, model.drive->right_wheels, -1);
   for (const int joint : model.drive->steered) {
@@ -123,7 +128,10 @@ void DriveKinematics::AddWheels(const model::Model& model, const std::vector<int
     const geometry::Pose& pose = model.joints[joint].model_from_joint;
     // A wheel whose axis points to the left turns forwards.
     const bool backwards = (pose.orientation * model.joints[joint].axis).y < 0;
-    const double per_metre = (backwards ? -1 : 1) / drive_.wheel_radius;
+    const double scale = side > 0 ? drive_.left_wheel_scale : drive_.right_wheel_scale;
+    const double radius =
+        wheels_are_as_believed_ ? drive_.wheel_radius : drive_.wheel_radius * scale;
+    const double per_metre = (backwards ? -1 : 1) / radius;
     const double ahead = pose.position.x - reference_x_;
     Wheel wheel{joint, per_metre, 0, -to_side * per_metre, 0};
     if (drive_.kind == DriveKind::kSynchro) wheel.angle = 0;
@@ -160,6 +168,13 @@ world::DriveCommand DriveKinematics::Next(const world::DriveState& state, base::
   return next;
 }
 
+world::DriveCommand DriveKinematics::TrueMotion(const world::DriveCommand& motion) const {
+  const double aside = motion.angular * drive_.wheel_separation / 2;
+  const double left = (motion.linear - aside) * drive_.left_wheel_scale;
+  const double right = (motion.linear + aside) * drive_.right_wheel_scale;
+  return {(left + right) / 2, motion.lateral, (right - left) / drive_.wheel_separation};
+}
+
 double DriveKinematics::RollOf(const Wheel& wheel, const Travel& travel) const {
   if (wheel.ahead == 0) {
     return wheel.forward * travel.forward + wheel.left * travel.left + wheel.angle * travel.angle;
@@ -177,7 +192,8 @@ double DriveKinematics::SteeringAngle(const Steered& steered, double curvature) 
 void DriveKinematics::TurnJoints(const Travel& travel, const world::DriveCommand& motion,
                                  double step_seconds, std::span<double> positions,
                                  std::span<double> velocities) const {
-  const Travel per_second{motion.linear, motion.lateral, motion.angular};
+  const world::DriveCommand moves = wheels_are_as_believed_ ? motion : TrueMotion(motion);
+  const Travel per_second{moves.linear, moves.lateral, moves.angular};
   for (const Wheel& wheel : wheels_) {
     positions[wheel.joint] += RollOf(wheel, travel);
     velocities[wheel.joint] = RollOf(wheel, per_second);

@@ -40,9 +40,14 @@ class DriveKinematics {
   world::DriveCommand Next(const world::DriveState& state, base::SimTime now,
                            double step_seconds) const;
 
-  // The twist of the model's origin when the reference point moves so.
+  // How the reference point moves when the drive turns the wheels for `motion`: the same, unless
+  // the wheels' true radii are others than the drive believes.
+  world::DriveCommand TrueMotion(const world::DriveCommand& motion) const;
+
+  // The twist of the model's origin when the drive turns the wheels for `motion`.
   Twist OriginTwist(const world::DriveCommand& motion) const {
-    return {motion.linear, motion.lateral - motion.angular * reference_x_, motion.angular};
+    const world::DriveCommand moves = wheels_are_as_believed_ ? motion : TrueMotion(motion);
+    return {moves.linear, moves.lateral - moves.angular * reference_x_, moves.angular};
   }
 
   bool can_turn_on_the_spot() const { return drive_.kind != model::DriveKind::kAckermann; }
@@ -77,6 +82,7 @@ class DriveKinematics {
 
   model::Drive drive_;
   double reference_x_ = 0;
+  bool wheels_are_as_believed_ = true;
   std::vector<Wheel> wheels_;
   std::vector<Steered> steered_;
 };

@@ -30,6 +30,9 @@ struct Drive {
   std::vector<int> steered;       // kAckermann: steering joints
   double wheel_separation = 0.3;  // between left and right contact points
   double wheel_radius = 0.1;
+  // kDifferential: the wheels' true radii over wheel_radius, which is what the drive takes them
+  // for.
+  double left_wheel_scale = 1, right_wheel_scale = 1;
   double wheel_base = 0;        // kAckermann, kMecanum: front to rear axle
   double steering_limit = 0.5;  // kAckermann
   Range linear_velocity, angular_velocity;
