@@ -14,7 +14,7 @@
 // Threads     one thread at a time.
 // Determinism Step() is a function of the layout, the states and the step size alone: Bullet's
 // world
-//             is built anew for each step. See docs/adr/011-bullet-world-of-one-step.md.
+//             is built anew for each step. See docs/adr/012-bullet-world-of-one-step.md.
 #pragma once
 
 #include <memory>
