@@ -1,5 +1,6 @@
 #include "apps/gsv/broker_listing_commands.h"
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <map>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <system_error>
 #include <thread>
 
@@ -146,7 +147,7 @@ ForwardedAnswer QueryForwarder::AskOne(CORBA::ORB_ptr orb, const ForwardedQuery&
     answer.complete = true;
   } catch (const CORBA::SystemException&) {
     answered = false;
-  } catch (const std::bad_alloc&) {
+  } catch (const std::exception&) {
     answered = false;
   }
   Leave(destination, answered);
