@@ -8,6 +8,13 @@
 namespace gsv::broker {
 namespace {
 
+// Letters are those of ISO Latin-1: between them stand the signs for times and divided by.
+bool IsInName(char character) {
+  const auto code = static_cast<unsigned char>(character);
+  if (code >= 0xC0) return code != 0xD7 && code != 0xF7;
+  return code < 0x80 && (std::isalnum(code) != 0 || code == '_');
+}
+
 // Thrown where there is no value; it ends the whole evaluation.
 struct NoValue {};
 
@@ -151,7 +158,9 @@ class Reader {
       number.real = -number.real;
       return number;
     }
-    if (at_ < text_.size() && (std::isdigit(text_[at_]) || text_[at_] == '.')) return ReadNumber();
+    if (at_ < text_.size() &&
+        (std::isdigit(static_cast<unsigned char>(text_[at_])) || text_[at_] == '.'))
+      return ReadNumber();
     const std::string name = Name();
     if (!live) return false;
     const Value* value = offer_.Find(name);
@@ -247,7 +256,7 @@ class Reader {
 
   bool Word(const std::string& word) {
     std::size_t end = at_;
-    while (end < text_.size() && (std::isalnum(text_[end]) || text_[end] == '_')) ++end;
+    while (end < text_.size() && IsInName(text_[end])) ++end;
     if (text_.substr(at_, end - at_) != word) return false;
     at_ = end;
     Skip();
@@ -256,7 +265,7 @@ class Reader {
 
   std::string Name() {
     const std::size_t start = at_;
-    while (at_ < text_.size() && (std::isalnum(text_[at_]) || text_[at_] == '_')) ++at_;
+    while (at_ < text_.size() && IsInName(text_[at_])) ++at_;
     std::string name = text_.substr(start, at_ - start);
     if (name.empty()) throw std::logic_error("no name in " + text_);
     Skip();
