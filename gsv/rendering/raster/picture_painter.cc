@@ -251,7 +251,7 @@ void PicturePainter::Light(const LightModel& light, const Lamps& lamps, int x, i
   }
   if (sky) colour = Select(ids == 0, light.Sky(ray), colour);
   const I8 rgba = Encoded(colour, SelectInt(ids == 0, SplatInt(0), surfaces.number));
-  // A row's last pixels reach into the next row, which is drawn later; a tile's not.
+  // The last pixels of a row leave the next row alone.
   std::uint32_t* to = &rgba_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
   if (in_picture == 0xff) {
     StoreInt(to, rgba);
