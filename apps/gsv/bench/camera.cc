@@ -174,7 +174,7 @@ base::Result<Figures> Measure(const CameraArguments& arguments,
   double processor_start = 0;
   // The first two rounds tell what moves.
   for (int round = -2;
-       round < 0 || Clock::now() - start < std::chrono::duration<double>(arguments.duration);
+       round <= 0 || Clock::now() - start < std::chrono::duration<double>(arguments.duration);
        ++round) {
     if (round <= 0) start = Clock::now(), processor_start = ProcessorTime();
     if (round == 0) watch->Forget();
