@@ -20,6 +20,10 @@ constexpr double kNoLimit = 1e6;  // N, N m, m/s, rad/s: where the model sets no
 // 1/s: a joint that is to be at a position turns there at this times the distance.
 constexpr double kServoGain = 20;
 
+bool Holds(const std::vector<int>& joints, int joint) {
+  return std::find(joints.begin(), joints.end(), joint) != joints.end();
+}
+
 class JointTree final : public MovingBody {
  public:
   JointTree(const RigidBody& plan, const world::State& state, std::span<Owner* const> owners,
@@ -46,7 +50,9 @@ class JointTree final : public MovingBody {
   void AddCollider(int link, Owner& owner, btMultiBodyDynamicsWorld& world);
   void AddLimitsAndMotors(btMultiBodyDynamicsWorld& world);
   void Drive(double seconds);
+  world::JointCommand CommandOf(int joint) const;
   void TurnMotors(double seconds);
+  double Damping(const Motor& motor, double seconds) const;
   Pose WorldFromModel() const;
   double RestingSpeed() const;
 
@@ -56,6 +62,7 @@ class JointTree final : public MovingBody {
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
   std::vector<Motor> motors_;
   std::optional<DriveServo> servo_;
+  std::vector<world::JointCommand> commands_;            // of the model's joints; may be empty
   std::vector<double> wanted_positions_, wanted_rates_;  // of the drive's joints
   double grip_;
   double resting_speed_before_;
@@ -84,6 +91,10 @@ JointTree::JointTree(const RigidBody& plan, const world::State& state,
   }
   if (plan.kinematics) {
     servo_.emplace(*plan.kinematics, state.bodies[plan.body], state.time);
+  }
+  if (!state.joint_commands.empty()) {
+    const auto first = state.joint_commands.begin() + plan.first_joint;
+    commands_.assign(first, first + static_cast<std::ptrdiff_t>(plan.model->joints.size()));
   }
   AddLimitsAndMotors(world);
   resting_speed_before_ = RestingSpeed();
@@ -186,37 +197,50 @@ void JointTree::Drive(double seconds) {
   servo_->kinematics().TurnJoints({}, motion, seconds, wanted_positions_, wanted_rates_);
 }
 
-void JointTree::TurnMotors(double seconds) {
-  const auto among = [](const std::vector<int>& joints, int joint) {
-    return std::find(joints.begin(), joints.end(), joint) != joints.end();
-  };
-  for (const Motor& motor : motors_) {
-    const model::Joint& joint = plan_.model->joints[motor.joint];
-    const double position = tree_.getJointPos(motor.link), rate = tree_.getJointVel(motor.link);
-    const double effort = std::min(joint.effort_limit, kNoLimit);
-    const model::Drive* drive = servo_ ? &*plan_.model->drive : nullptr;
-    if (drive != nullptr && among(drive->steered, motor.joint)) {
-      const double most = std::min(joint.velocity_limit, kNoLimit);
-      const double turn = kServoGain * (wanted_positions_[motor.joint] - position);
-      motor.constraint->setVelocityTarget(std::clamp(turn, -most, most));
-      motor.constraint->setMaxAppliedImpulse(effort * seconds);
-    } else if (drive != nullptr && (among(drive->left_wheels, motor.joint) ||
-                                    among(drive->right_wheels, motor.joint))) {
-      motor.constraint->setVelocityTarget(wanted_rates_[motor.joint]);
-      motor.constraint->setMaxAppliedImpulse(effort * seconds);
-    } else {
-      // A motor that holds still with so much force is Coulomb's friction.
-      motor.constraint->setMaxAppliedImpulse(joint.friction * seconds);
-      if (joint.damping == 0) continue;
-      // Never more than would stop the lightest that may hang from the joint.
-      const Part& part = parts()[static_cast<std::size_t>(motor.link) + 1];
-      const double inertia = joint.kind == model::JointKind::kPrismatic
-                                 ? part.mass
-                                 : std::min({part.inertia.x, part.inertia.y, part.inertia.z});
-      tree_.addJointTorque(motor.link,
-                           -joint.damping * rate / (1 + joint.damping * seconds / inertia));
+// What a joint is to do now: its drive's part in it, or what it is told.
+world::JointCommand JointTree::CommandOf(int joint) const {
+  using Kind = world::JointCommand::Kind;
+  if (servo_) {
+    const model::Drive& drive = *plan_.model->drive;
+    if (Holds(drive.steered, joint)) return {Kind::kPosition, wanted_positions_[joint]};
+    if (Holds(drive.left_wheels, joint) || Holds(drive.right_wheels, joint)) {
+      return {Kind::kVelocity, wanted_rates_[joint]};
     }
   }
+  return commands_.empty() ? world::JointCommand{} : commands_[joint];
+}
+
+void JointTree::TurnMotors(double seconds) {
+  using Kind = world::JointCommand::Kind;
+  for (const Motor& motor : motors_) {
+    const model::Joint& joint = plan_.model->joints[motor.joint];
+    const double effort = std::min(joint.effort_limit, kNoLimit);
+    const double fastest = std::min(joint.velocity_limit, kNoLimit);
+    const world::JointCommand command = CommandOf(motor.joint);
+    if (command.kind == Kind::kPosition || command.kind == Kind::kVelocity) {
+      const double rate = command.kind == Kind::kVelocity
+                              ? command.value
+                              : kServoGain * (command.value - tree_.getJointPos(motor.link));
+      motor.constraint->setVelocityTarget(std::clamp(rate, -fastest, fastest));
+      motor.constraint->setMaxAppliedImpulse(effort * seconds);
+      continue;
+    }
+    // A motor that holds still with so much force is Coulomb's friction.
+    motor.constraint->setVelocityTarget(0);
+    motor.constraint->setMaxAppliedImpulse(joint.friction * seconds);
+    const double force = command.kind == Kind::kEffort ? command.value : 0;
+    tree_.addJointTorque(motor.link, std::clamp(force, -effort, effort) + Damping(motor, seconds));
+  }
+}
+
+// Never more than would stop the lightest that may hang from the joint.
+double JointTree::Damping(const Motor& motor, double seconds) const {
+  const model::Joint& joint = plan_.model->joints[motor.joint];
+  const Part& part = parts()[static_cast<std::size_t>(motor.link) + 1];
+  const double inertia = joint.kind == model::JointKind::kPrismatic
+                             ? part.mass
+                             : std::min({part.inertia.x, part.inertia.y, part.inertia.z});
+  return -joint.damping * tree_.getJointVel(motor.link) / (1 + joint.damping * seconds / inertia);
 }
 
 void JointTree::BeforeSubstep(double seconds) {

@@ -88,6 +88,35 @@ TEST(JointedBody, FrictionHoldsAJoint) {
   EXPECT_NEAR(world.joint("slider", 0), 0, 1e-6);
 }
 
+TEST(JointedBody, AJointGoesWhereItIsTold) {
+  using Kind = world::JointCommand::Kind;
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("arm", Hanging(model::JointKind::kRevolute, 0.5), At(0, 0, 2));
+  ASSERT_TRUE(world.Start());
+  world.CommandJoint("arm", 0, {Kind::kPosition, 1.2});
+  world.Run(1, 0.01);
+  EXPECT_NEAR(world.joint("arm", 0), 1.2, 1e-3);
+  const double before = world.joint("arm", 0);
+  world.CommandJoint("arm", 0, {Kind::kVelocity, -0.5});
+  world.Run(1, 0.01);
+  EXPECT_NEAR(world.joint("arm", 0), before - 0.5, 1e-3);
+  EXPECT_NEAR(world.joint_velocity("arm", 0), -0.5, 1e-6);
+}
+
+TEST(JointedBody, AnEffortAcceleratesAJointUpToItsLimit) {
+  auto model = Hanging(model::JointKind::kPrismatic, 0, {1, 0, 0});
+  model->joints[0].effort_limit = 3;
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("slider", model, At(0, 0, 2));
+  ASSERT_TRUE(world.Start());
+  world.CommandJoint("slider", 0, {world::JointCommand::Kind::kEffort, 2});
+  world.Run(1, 0.01);
+  EXPECT_NEAR(world.joint_velocity("slider", 0), 2, 1e-6);
+  world.CommandJoint("slider", 0, {world::JointCommand::Kind::kEffort, 50});
+  world.Run(1, 0.01);
+  EXPECT_NEAR(world.joint_velocity("slider", 0), 2 + 3, 1e-6);
+}
+
 // A box of 8 kg on two wheels and, behind them, a ball that slides, as small robots are built.
 std::shared_ptr<model::Model> WheeledRobot() {
   auto model = std::make_shared<model::Model>();

@@ -47,8 +47,8 @@ void RestingState::Remember(const RigidScene& scene, const world::State& before,
 
 bool RestingState::Holds(const RigidScene& scene, const world::State& before,
                          const world::State& after, double seconds) const {
-  return rests_ && seconds == seconds_ && state_ == ValuesOf(scene, before) &&
-         !AnyNear(scene, before, after, areas_);
+  return rests_ && before.joint_commands.empty() && seconds == seconds_ &&
+         state_ == ValuesOf(scene, before) && !AnyNear(scene, before, after, areas_);
 }
 
 }  // namespace gsv::dynamics

@@ -82,6 +82,10 @@ class TestWorld {
     drive.command_time = state_.time;
   }
 
+  void CommandJoint(const std::string& name, int joint, const world::JointCommand& command) {
+    world::CommandJoint(*layout_, layout_->Find(name), joint, command, state_);
+  }
+
   std::vector<world::Contact> Step(double seconds) {
     const base::SimTime step = base::FromSeconds(seconds);
     std::vector<world::Contact> contacts;

@@ -40,6 +40,12 @@ State InitialState(const Layout& layout) {
   return state;
 }
 
+void CommandJoint(const Layout& layout, int body, int joint, const JointCommand& command,
+                  State& state) {
+  state.joint_commands.resize(static_cast<std::size_t>(layout.joint_count));
+  state.joint_commands[static_cast<std::size_t>(layout.bodies[body].first_joint + joint)] = command;
+}
+
 void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
   GSV_CHECK(layout.bodies.size() == state.bodies.size());
   hash.Add(state.step);
@@ -50,6 +56,14 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
   }
   for (const double q : state.joint_positions) hash.Add(q);
   for (const double qd : state.joint_velocities) hash.Add(qd);
+  // Those that were never given leave no trace.
+  for (std::size_t i = 0; i < state.joint_commands.size(); ++i) {
+    const JointCommand& command = state.joint_commands[i];
+    if (command.kind == JointCommand::Kind::kNone) continue;
+    hash.Add(static_cast<std::uint64_t>(i));
+    hash.Add(static_cast<std::uint64_t>(command.kind));
+    hash.Add(command.value);
+  }
 }
 
 }  // namespace gsv::world

@@ -43,16 +43,34 @@ struct BodyState {
   bool in_contact = false;       // touched something, other than the ground, in the last step
 };
 
+// What a joint that forces move is told to do, until it is told something else.
+struct JointCommand {
+  enum class Kind : std::uint8_t {
+    kNone,      // its own damping and friction only
+    kPosition,  // rad or m: to be there, at its velocity and effort limits at most
+    kVelocity,  // rad/s or m/s, at its effort limit at most
+    kEffort,    // N m or N, within its effort limit
+  };
+  Kind kind = Kind::kNone;
+  double value = 0;
+  friend bool operator==(const JointCommand&, const JointCommand&) = default;
+};
+
 struct State {
   std::int64_t step = 0;
   base::SimTime time{0};
   std::vector<BodyState> bodies;        // as Layout::bodies
   std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
   std::vector<double> joint_velocities;
+  std::vector<JointCommand> joint_commands;  // as joint_positions; empty: none was ever given
 };
 
 // Everything where it starts and at rest.
 State InitialState(const Layout& layout);
+
+// Tells a joint of a body what to do.
+void CommandJoint(const Layout& layout, int body, int joint, const JointCommand& command,
+                  State& state);
 
 // Adds every field of `state`, and the bodies' names, in canonical order.
 void AddToHash(const Layout& layout, const State& state, base::Hash& hash);

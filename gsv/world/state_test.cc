@@ -66,6 +66,18 @@ TEST(AddToHash, SeesAChangeOfEveryField) {
       [](State& s) { s.bodies[1].in_contact = true; },
       [](State& s) { s.joint_positions[0] = 1; },
       [](State& s) { s.joint_velocities[1] = 1; },
+      [](State& s) {
+        s.joint_commands = {{}, {JointCommand::Kind::kEffort, 0}};
+      },
+      [](State& s) {
+        s.joint_commands = {{}, {JointCommand::Kind::kEffort, 1}};
+      },
+      [](State& s) {
+        s.joint_commands = {{}, {JointCommand::Kind::kVelocity, 1}};
+      },
+      [](State& s) {
+        s.joint_commands = {{JointCommand::Kind::kVelocity, 1}, {}};
+      },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {
     State changed = state;
