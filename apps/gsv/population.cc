@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "apps/gsv/in_process.h"
 
@@ -50,6 +51,12 @@ class Population {
     for (const scenario::RobotEntry& avatar : options_.avatars) {
       if (auto name = Place(avatar, true); !name) return base::Fail(name.error());
     }
+    for (const auto& [robot, movement] : options_.movement_of) {
+      if (moved_as_told_.contains(robot)) continue;
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        "no robot of that name or model is added by --robot",
+                        "--movement " + robot);
+    }
     for (const auto& [robot, behaviour] : options_.behaviour_of) {
       if (!wanted_.contains(robot)) {
         return base::Fail(base::ErrorCode::kInvalidArgument, "there is no robot of that name",
@@ -68,6 +75,12 @@ class Population {
     robot.name = entry.name;
     robot.model = *model;
     robot.is_avatar = is_avatar;
+    const std::string& name = entry.name.empty() ? (*model)->name : entry.name;
+    const auto movement = options_.movement_of.find(name);
+    if (movement != options_.movement_of.end()) {
+      robot.movement = movement->second;
+      moved_as_told_.insert(name);
+    }
     if (entry.start) robot.world_from_robot = *entry.start;
     return robot;
   }
@@ -137,6 +150,7 @@ class Population {
   const RunOptions& options_;
   base::Problems& problems_;
   std::map<std::string, std::string> wanted_;  // behaviour by robot
+  std::set<std::string> moved_as_told_;        // of options_.movement_of
 };
 
 }  // namespace

@@ -19,6 +19,10 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--behaviour", a.behaviours,
                      "NAME for all robots, or ROBOT=NAME for one: a behaviour that is offered, or "
                      "a program gsv-NAME to start; its options may follow: 'goto --goal-x 3'");
+  command.add_option(
+      "--movement", a.movements,
+      "ROBOT=rigid (a name, or a model of --robot): by forces, as its wheels roll; ROBOT=planar: "
+      "by its drive alone, over level ground. Without it: as its model says, else planar");
   command.add_flag("--in-process", a.in_process,
                    "run the behaviours inside gsv, from their plug-ins gsv-NAME.so: the same "
                    "outcome, and many more robots");
@@ -91,6 +95,20 @@ base::Status UnderstandBehaviours(const std::vector<std::string>& texts, RunOpti
   return {};
 }
 
+base::Status UnderstandMovements(const std::vector<std::string>& texts, RunOptions& options) {
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.rfind('=');
+    const std::string how = equals == std::string::npos ? "" : text.substr(equals + 1);
+    if (equals == 0 || (how != "rigid" && how != "planar")) {
+      return base::Fail(base::ErrorCode::kInvalidArgument, "expected ROBOT=rigid or ROBOT=planar",
+                        "--movement " + text);
+    }
+    options.movement_of[text.substr(0, equals)] =
+        how == "rigid" ? model::Movement::kRigid : model::Movement::kPlanar;
+  }
+  return {};
+}
+
 base::Status UnderstandRobots(const std::vector<std::string>& texts,
                               std::vector<scenario::RobotEntry>& robots) {
   for (const std::string& text : texts) {
@@ -117,6 +135,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
     return base::Fail(ok.error());
   if (auto ok = UnderstandRobots(a.avatars, options.avatars); !ok) return base::Fail(ok.error());
   if (auto ok = UnderstandBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());
+  if (auto ok = UnderstandMovements(a.movements, options); !ok) return base::Fail(ok.error());
 
   simulation::Specification& specification = options.specification;
   specification.name = "simulation";

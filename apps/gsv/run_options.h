@@ -19,9 +19,10 @@ struct RunOptions {
   RuntimeOptions runtime;
   scenario::Scenario scenario;
   std::vector<scenario::RobotEntry> avatars;
-  std::string behaviour;                            // of all robots that have none of their own
-  std::map<std::string, std::string> behaviour_of;  // by robot
-  bool in_process = false;                          // behaviours are plug-ins, not programs
+  std::string behaviour;                               // of all robots that have none of their own
+  std::map<std::string, std::string> behaviour_of;     // by robot
+  std::map<std::string, model::Movement> movement_of;  // by robot
+  bool in_process = false;                             // behaviours are plug-ins, not programs
   simulation::Specification specification;
   std::string record;       // a file; empty: no recording
   double wall_timeout = 0;  // s; 0: none
@@ -32,7 +33,7 @@ struct RunOptions {
 // The options as they stand on the command line, before they are understood.
 struct RunArguments {
   std::string world;
-  std::vector<std::string> robots, avatars, behaviours, model_path;
+  std::vector<std::string> robots, avatars, behaviours, movements, model_path;
   std::string broker, mode_on_failure = "go_on", record;
   double duration = 0, step = 0, factor = 1, deadline = 10, wall_timeout = 0;
   std::uint64_t seed = 0;

@@ -122,6 +122,11 @@ class DriveReader {
     drive_.wheel_radius = diameter && *diameter > 0
                               ? *diameter / 2
                               : Positive({"wheel_radius", "wheelRadius"}, MeasuredRadius());
+    // Ours, for wheels that are not what the drive takes them for.
+    drive_.left_wheel_scale =
+        Positive({"left_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
+    drive_.right_wheel_scale =
+        Positive({"right_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
     drive_.wheel_base = Positive({"wheel_base", "wheelbase"}, MeasuredWheelBase());
     drive_.steering_limit = Positive({"steering_limit"}, drive_.steering_limit);
   }

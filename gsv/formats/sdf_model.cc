@@ -77,6 +77,7 @@ class ModelReader {
     ReportLoops(MakeForest(model_.links.size(), model_.joints));
     for (const auto& [sensor, scope] : pending_sensors_) AddSensor(sensor, scope);
     for (const auto& [plugin, scope] : pending_plugins_) AddDrive(plugin, scope);
+    ReadMovement(source.Element());
     SetDefaultPose(source);
     FramedModel result;
     result.model = std::make_shared<const Model>(std::move(model_));
@@ -293,6 +294,18 @@ class ModelReader {
       return;
     }
     model_.drive = std::move(drive);
+  }
+
+  // Ours: <gsv:movement>planar or rigid</gsv:movement>.
+  void ReadMovement(const sdf::ElementPtr& element) {
+    if (element == nullptr || !element->HasElement("gsv:movement")) return;
+    const auto text = element->GetElement("gsv:movement")->Get<std::string>();
+    if (text == "rigid") {
+      model_.movement = model::Movement::kRigid;
+    } else if (text != "planar") {
+      context_.Complain("<gsv:movement> must be planar or rigid, not \"" + text + "\"",
+                        PlaceOfElement(element));
+    }
   }
 
   void SetDefaultPose(const sdf::Model& source) {

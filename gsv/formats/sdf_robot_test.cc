@@ -221,5 +221,25 @@ TEST_F(SdfRobotTest, GivesSensorsOfOneNameDifferentNames) {
   EXPECT_EQ(model->sensors[1].name, "b::s");
 }
 
+TEST_F(SdfRobotTest, ReadsWhatMovesTheModel) {
+  EXPECT_EQ(Read(Robot(""))->movement, model::Movement::kPlanar);
+  EXPECT_EQ(Read(Robot("<gsv:movement>rigid</gsv:movement>"))->movement, model::Movement::kRigid);
+  EXPECT_THAT(problems_, IsEmpty());
+  Read(Robot("<gsv:movement>flying</gsv:movement>"));
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].message, HasSubstr("planar or rigid"));
+}
+
+TEST_F(SdfRobotTest, WheelsMayBeOthersThanTheDriveBelieves) {
+  const auto drive =
+      DriveOf(Plugin("gz-sim-diff-drive-system", "gz::sim::systems::DiffDrive",
+                     "<left_joint>fl_joint</left_joint><right_joint>fr_joint</right_joint>"
+                     "<wheel_separation>0.6</wheel_separation><wheel_radius>0.1</wheel_radius>"
+                     "<left_wheel_radius>0.101</left_wheel_radius>"));
+  ASSERT_TRUE(drive);
+  EXPECT_DOUBLE_EQ(drive->left_wheel_scale, 1.01);
+  EXPECT_EQ(drive->right_wheel_scale, 1);
+}
+
 }  // namespace
 }  // namespace gsv::formats

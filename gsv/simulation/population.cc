@@ -153,6 +153,10 @@ world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {
                 state.joint_positions.begin() + body.first_joint);
     std::copy_n(state_.joint_velocities.begin() + old_body.first_joint, body.model->joints.size(),
                 state.joint_velocities.begin() + body.first_joint);
+    if (state_.joint_commands.empty()) continue;
+    state.joint_commands.resize(static_cast<std::size_t>(layout.joint_count));
+    std::copy_n(state_.joint_commands.begin() + old_body.first_joint, body.model->joints.size(),
+                state.joint_commands.begin() + body.first_joint);
   }
   return state;
 }
@@ -290,6 +294,30 @@ base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
   }
   if (auto ok = RemoveFromWorld({name}); !ok) return ok;
   AddEvent("robot_removed", name);
+  return {};
+}
+
+base::Status SteppingSimulation::CommandJoint(const std::string& body, const std::string& joint,
+                                              const world::JointCommand& command) {
+  if (!std::isfinite(command.value)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "a joint's command must be finite",
+                      body + "/" + joint);
+  }
+  const auto world_lock = LockWorld();
+  if (!world_lock) return RefuseStuck();
+  const int index = layout_->Find(body);
+  if (index < 0 || !layout_->bodies[index].is_rigid) {
+    return base::Fail(base::ErrorCode::kNotFound, "forces move no body \"" + body + "\"",
+                      specification_.name);
+  }
+  const auto& joints = layout_->bodies[index].model->joints;
+  const auto found = std::find_if(joints.begin(), joints.end(),
+                                  [&](const model::Joint& j) { return j.name == joint; });
+  if (found == joints.end()) {
+    return base::Fail(base::ErrorCode::kNotFound, "there is no joint \"" + joint + "\"", body);
+  }
+  world::CommandJoint(*layout_, index, static_cast<int>(found - joints.begin()), command, state_);
+  AddEvent("joint_commanded", body, joint);
   return {};
 }
 

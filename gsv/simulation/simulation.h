@@ -68,6 +68,12 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Status SetBehaviour(const std::string& robot,
                                     std::shared_ptr<BehaviourPort> behaviour) = 0;
 
+  // Tells a joint of a rigid body what to do, from the next step on; what it does is seen in the
+  // snapshot. Fails when there is no such joint, or forces do not move it. In a run that is to be
+  // repeated it is given while the simulation is paused.
+  virtual base::Status CommandJoint(const std::string& body, const std::string& joint,
+                                    const world::JointCommand& command) = 0;
+
   // Each returns once the request is accepted; what comes of it is seen in status(). An action that
   // the phase does not allow fails with kNotRunning and says what is allowed.
   virtual base::Status Start() = 0;

@@ -40,6 +40,9 @@ class SteppingSimulation final : public Simulation {
   base::Status SetBehaviour(const std::string& robot,
                             std::shared_ptr<BehaviourPort> behaviour) override;
 
+  base::Status CommandJoint(const std::string& body, const std::string& joint,
+                            const world::JointCommand& command) override;
+
   base::Status Start() override;
   base::Status Pause() override;
   base::Status Resume() override;

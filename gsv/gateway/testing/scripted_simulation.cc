@@ -219,6 +219,11 @@ base::Status ScriptedSimulation::SetBehaviour(const std::string&,
   return Refused();
 }
 
+base::Status ScriptedSimulation::CommandJoint(const std::string&, const std::string&,
+                                              const world::JointCommand&) {
+  return Refused();
+}
+
 simulation::SimulationStatus ScriptedSimulation::status() const {
   const std::lock_guard lock(mutex_);
   simulation::SimulationStatus status;

@@ -35,6 +35,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Status RemoveRobot(const std::string& name) override;
   base::Status SetBehaviour(const std::string& robot,
                             std::shared_ptr<simulation::BehaviourPort> behaviour) override;
+  base::Status CommandJoint(const std::string& body, const std::string& joint,
+                            const world::JointCommand& command) override;
   base::Status Start() override;
   base::Status Pause() override;
   base::Status Resume() override;
