@@ -1,6 +1,8 @@
 #include "gsv/dynamics/obstacles.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <span>
 
 #include "gsv/world/snapshot.h"
@@ -73,12 +75,11 @@ std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world:
 }
 
 std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
-                                            Interval heights) {
+                                            std::span<const int> bodies, Interval heights) {
   std::vector<Obstacle> obstacles;
   std::vector<ConvexPiece> pieces;
-  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+  for (const int i : bodies) {
     const world::Body& body = layout.bodies[i];
-    if (!IsRigid(body)) continue;
     pieces.clear();
     const std::vector<Pose> model_from_link = world::LinkPoses(
         *body.model,
@@ -90,9 +91,27 @@ std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const w
         Slice(collision.shape, world_from_link * collision.link_from_collision, heights, pieces);
       }
     }
-    AddObstacles(pieces, static_cast<int>(i), obstacles);
+    AddObstacles(pieces, i, obstacles);
   }
   return obstacles;
+}
+
+double LooseRadius(const world::Body& body) {
+  if (!body.model->joints.empty()) return std::numeric_limits<double>::infinity();
+  const std::vector<Pose> model_from_link = world::LinkPoses(*body.model, {});
+  double radius = 0;
+  for (std::size_t l = 0; l < model_from_link.size(); ++l) {
+    for (const model::Collision& collision : body.model->links[l].collisions) {
+      if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+      const geometry::Bounds bounds = geometry::BoundsOf(collision.shape);
+      const Vector3 farthest{std::max(std::abs(bounds.min.x), std::abs(bounds.max.x)),
+                             std::max(std::abs(bounds.min.y), std::abs(bounds.max.y)),
+                             std::max(std::abs(bounds.min.z), std::abs(bounds.max.z))};
+      const Pose model_from_shape = model_from_link[l] * collision.link_from_collision;
+      radius = std::max(radius, Norm(model_from_shape.position) + Norm(farthest));
+    }
+  }
+  return radius;
 }
 
 }  // namespace gsv::dynamics

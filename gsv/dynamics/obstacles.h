@@ -1,6 +1,7 @@
 // The obstacles of a world between two heights: slices of all that wheeled bases cannot push.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "gsv/dynamics/obstacle_field.h"
@@ -22,8 +23,11 @@ bool IsDriven(const world::Body& body);
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
                                        Interval heights);
 
-// The same of all bodies that are rigid, with joints as they are. Of a plane nothing is taken.
+// The same of `bodies`, which are rigid, with joints as they are. Of a plane nothing is taken.
 std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
-                                            Interval heights);
+                                            std::span<const int> bodies, Interval heights);
+
+// No part of the rigid body is ever farther from its origin; infinite where it has joints.
+double LooseRadius(const world::Body& body);
 
 }  // namespace gsv::dynamics

@@ -49,6 +49,9 @@ class PlanarMover final : public Engine {
   void ForEachChunk(const Work& work);
 
   void Slice(const world::State& state);
+  // Slices the loose bodies that a mover may meet in a step of so many seconds.
+  void LookForLoose(const world::State& state, double seconds);
+  void AddSight(std::uint32_t mover);
   void Begin(const world::State& state, double seconds);
   void BeginChunk(std::size_t index, const world::State& state, double seconds);
   void EndChunk(std::size_t index, double seconds, world::State& state);
@@ -62,6 +65,7 @@ class PlanarMover final : public Engine {
 
   const std::shared_ptr<base::ThreadTeam> team_;
   PlanarScene scene_;
+  std::vector<Sight> sights_;  // of the movers, where there are loose bodies
   MoverMotions motions_;
   NearObstacles obstacles_;
   NearPairs pairs_;
@@ -87,15 +91,31 @@ void PlanarMover::ForEachChunk(const Work& work) {
 
 void PlanarMover::Slice(const world::State& state) {
   scene_.Slice(state);
-  scene_.SliceLoose(state);
   obstacles_.Reset(chunks_.size());
   pairs_.Reset();
+}
+
+void PlanarMover::AddSight(std::uint32_t mover) {
+  const PlanarPosition& at = motions_.positions[mover];
+  sights_.push_back(
+      {{at.x, at.y}, scene_.footprint(mover).radius + motions_.reaches[mover] + kLookAround});
+}
+
+void PlanarMover::LookForLoose(const world::State& state, double seconds) {
+  if (!scene_.has_loose()) return;
+  sights_.clear();
+  for (std::uint32_t m = 0; m < count(); ++m) {
+    motions_.Load(m, state);
+    motions_.FollowCommand(m, state, seconds);
+    AddSight(m);
+  }
+  scene_.SliceLoose(state, sights_);
 }
 
 // For a step of 0 s everybody stays.
 void PlanarMover::Begin(const world::State& state, double seconds) {
   if (!scene_.StandsAsSliced(state)) Slice(state);
-  scene_.SliceLoose(state);
+  LookForLoose(state, seconds);
   const auto all = [&](bool Chunk::*is) {
     return std::all_of(chunks_.begin(), chunks_.end(), [&](const Chunk& c) { return c.*is; });
   };
@@ -103,6 +123,7 @@ void PlanarMover::Begin(const world::State& state, double seconds) {
   ForEachChunk(begin_chunk);
   if (!all(&Chunk::is_as_sliced)) {
     Slice(state);
+    scene_.SliceLoose(state, sights_);
     ForEachChunk(begin_chunk);
   }
   if (!all(&Chunk::has_room)) pairs_.FindCandidates(motions_.positions, motions_.reaches);
@@ -299,9 +320,12 @@ std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, i
     Slice(state);
     FindNeighbours(mover, state);
   }
-  scene_.SliceLoose(state);
   for (std::size_t i = 0; i < chunks_.size(); ++i) obstacles_.Clear(i);
   motions_.Load(mover, state);
+  motions_.FollowCommand(mover, state, 0);
+  sights_.clear();
+  AddSight(mover);
+  scene_.SliceLoose(state, sights_);
   obstacles_.Find(mover / kChunk, mover, motions_.positions[mover], 0);
   pairs_.FindOf(mover, neighbours_, motions_.positions);
   ListTouching();

@@ -101,6 +101,8 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
   movers_ = std::move(movers);
   standing_ = std::move(standing);
   loose_ = std::move(loose);
+  loose_radii_.clear();
+  for (const int body : loose_) loose_radii_.push_back(LooseRadius(layout_->bodies[body]));
   levels_.assign(pieces, -1);
   is_sliced_ = false;
   return {};
@@ -116,28 +118,44 @@ void PlanarScene::Slice(const world::State& state) {
   for (const int body : standing_) standing_poses_.push_back(state.bodies[body].world_from_model);
   intervals_ = AssignLevels();
   SliceLevels(state);
-  loose_state_.clear();
+  is_loose_sliced_ = false;
   is_sliced_ = true;
 }
 
-void PlanarScene::SliceLoose(const world::State& state) {
+void PlanarScene::LookForLoose(const world::State& state, std::span<const Sight> sights) {
+  seen_.clear();
+  for (std::size_t i = 0; i < loose_.size(); ++i) {
+    const auto& origin = state.bodies[loose_[i]].world_from_model.position;
+    const bool is_seen = std::any_of(sights.begin(), sights.end(), [&](const Sight& sight) {
+      const Vector2 apart = Vector2{origin.x, origin.y} - sight.centre;
+      const double reach = sight.radius + loose_radii_[i];
+      return Dot(apart, apart) <= reach * reach;
+    });
+    if (is_seen) seen_.push_back(loose_[i]);
+  }
+}
+
+void PlanarScene::SliceLoose(const world::State& state, std::span<const Sight> sights) {
   if (loose_.empty()) return;
+  LookForLoose(state, sights);
   std::vector<double> now;
-  for (const int body : loose_) {
+  for (const int body : seen_) {
     const auto& [p, q] = state.bodies[body].world_from_model;
-    now.insert(now.end(), {p.x, p.y, p.z, q.w, q.x, q.y, q.z});
+    now.insert(now.end(), {static_cast<double>(body), p.x, p.y, p.z, q.w, q.x, q.y, q.z});
     const auto first = state.joint_positions.begin() + layout_->bodies[body].first_joint;
     now.insert(now.end(), first,
                first + static_cast<std::ptrdiff_t>(layout_->bodies[body].model->joints.size()));
   }
-  if (now == loose_state_) return;
+  if (is_loose_sliced_ && now == loose_state_) return;
+  is_loose_sliced_ = true;
   loose_state_ = std::move(now);
   loose_fields_.clear();
   const std::vector<double> margins = MarginsOfLevels();
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval heights{intervals_[i].low, intervals_[i].high - kRides};
-    auto obstacles = heights.high > heights.low ? CollectLooseObstacles(*layout_, state, heights)
-                                                : std::vector<Obstacle>{};
+    auto obstacles = heights.high > heights.low
+                         ? CollectLooseObstacles(*layout_, state, seen_, heights)
+                         : std::vector<Obstacle>{};
     loose_fields_.emplace_back(std::move(obstacles), margins[i]);
   }
 }

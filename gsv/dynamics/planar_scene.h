@@ -7,15 +7,16 @@
 //          point. So a floor that a robot stands on, a ground plane and a door sill are no
 //          obstacles, and a table is one only to what reaches its top or its legs. Beyond
 //          kMaxLevels distinct intervals, their ends are rounded up to a grid just coarse enough.
-// Loose    rigid bodies are obstacles of their own, sliced anew whenever one has moved. What
-// reaches
-//          less than kRides below the top of a piece lies on the robot and is no obstacle to it.
+// Loose    rigid bodies are obstacles of their own: those in some mover's sight are sliced, anew
+//          whenever one has moved. What reaches less than kRides below the top of a piece lies on
+//          the robot and is no obstacle to it.
 // Caching  slices are kept while obstacles and the heights of robots stay where they are; nothing
 //          depends on whether they were kept.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gsv/base/error.h"
@@ -45,6 +46,12 @@ struct Mover {
   int first_joint = 0, joint_count = 0;
 };
 
+// A disc of the plane in which a mover looks for obstacles.
+struct Sight {
+  Vector2 centre;
+  double radius = 0;
+};
+
 class PlanarScene {
  public:
   static constexpr int kMaxLevels = 64;
@@ -54,8 +61,9 @@ class PlanarScene {
 
   // Slices the obstacles of `state` for movers at their heights.
   void Slice(const world::State& state);
-  // Slices the loose ones, if one has moved. Levels are those of the last Slice().
-  void SliceLoose(const world::State& state);
+  // Slices the loose ones that reach into one of the sights, unless that is done already. Levels
+  // are those of the last Slice().
+  void SliceLoose(const world::State& state, std::span<const Sight> sights);
   // Whether anything was sliced, and all that is no mover stands as it was then.
   bool StandsAsSliced(const world::State& state) const;
   // Whether a mover at height z is where it was as sliced last.
@@ -81,6 +89,8 @@ class PlanarScene {
   std::vector<Interval> AssignLevels();
   void SliceLevels(const world::State& state);
   std::vector<double> MarginsOfLevels() const;
+  // Lists in `seen_` the loose bodies that reach into one of the sights.
+  void LookForLoose(const world::State& state, std::span<const Sight> sights);
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<MoverKind> kinds_;
@@ -92,9 +102,11 @@ class PlanarScene {
   std::vector<double> heights_;                 // of movers, as sliced
   std::vector<ObstacleField> fields_;
   std::vector<int> loose_;           // bodies that are rigid
-  std::vector<double> loose_state_;  // as sliced: their poses and joints
+  std::vector<double> loose_radii_;  // theirs
+  std::vector<int> seen_;            // those of them that are sliced
+  std::vector<double> loose_state_;  // as sliced: who they are, their poses and joints
   std::vector<ObstacleField> loose_fields_;
-  bool is_sliced_ = false;
+  bool is_sliced_ = false, is_loose_sliced_ = false;
 };
 
 }  // namespace gsv::dynamics

@@ -1,6 +1,7 @@
 #include "gsv/dynamics/rigid_engine.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "gsv/dynamics/obstacles.h"
@@ -26,7 +27,7 @@ Vector3 VelocityAt(const PlanarBody& planar, const world::DriveCommand& motion,
 }  // namespace
 
 struct RigidEngine::Parts {
-  BulletKit kit;
+  std::optional<BulletKit> kit;  // its pools take 8 MiB: only where there is something rigid
   RigidScene scene;
   RigidContacts contacts;
   std::vector<Push> pushes;
@@ -38,7 +39,9 @@ RigidEngine::~RigidEngine() = default;
 
 base::Status RigidEngine::SetLayout(std::shared_ptr<const world::Layout> layout) {
   parts_->resting.Forget();
-  return parts_->scene.SetLayout(std::move(layout));
+  if (auto ok = parts_->scene.SetLayout(std::move(layout)); !ok) return ok;
+  if (has_bodies() && !parts_->kit) parts_->kit.emplace();
+  return {};
 }
 
 bool RigidEngine::has_bodies() const { return parts_->scene.has_bodies(); }
@@ -78,7 +81,7 @@ bool RigidEngine::Move(base::SimTime step, const world::State& before,
   RestingState& resting = parts_->resting;
   if (resting.Holds(parts_->scene, before, state, seconds)) return false;
   parts_->contacts.Clear();
-  RigidWorld world(parts_->kit, parts_->scene, before, state, seconds);
+  RigidWorld world(*parts_->kit, parts_->scene, before, state, seconds);
   world.Run(parts_->pushes, parts_->contacts);
   world.Store(state);
   resting.Remember(parts_->scene, before, state, seconds, world.MakeAreas());
