@@ -2,6 +2,8 @@
 // until all wait (or, in real time, for the wall clock), step, publish.
 #include <utility>
 
+#include <pthread.h>
+
 #include "gsv/base/check.h"
 #include "gsv/simulation/stepping_simulation.h"
 
