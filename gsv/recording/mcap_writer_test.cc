@@ -1,13 +1,12 @@
 #include "gsv/recording/mcap_writer.h"
 
-#include <cstdlib>
-#include <filesystem>
 #include <future>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "gsv/base/temporary_folder.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/recording/test_recording.h"
 
@@ -50,20 +49,6 @@ std::shared_future<void> Opened() {
   promise.set_value();
   return promise.get_future().share();
 }
-
-// A fresh directory, removed at the end.
-class Directory {
- public:
-  Directory() {
-    std::string name = (std::filesystem::temp_directory_path() / "gsv-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Directory() { std::filesystem::remove_all(path_); }
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 TEST(McapWriter, RecordsWhatSeveralThreadsWrite) {
   Bytes bytes;
@@ -211,8 +196,9 @@ TEST(McapWriter, AFullDiskEndsTheRecordingAndTellsWhy) {
 }
 
 TEST(McapWriter, NeverReplacesARecordingUnasked) {
-  const Directory directory;
-  const std::string path = directory / "run.mcap";
+  const auto folder = base::TemporaryFolder::Make("gsv-test");
+  ASSERT_TRUE(folder);
+  const std::string path = folder->path() / "run.mcap";
   { ASSERT_TRUE(McapWriter::Create(path)); }
   const auto again = McapWriter::Create(path);
   ASSERT_FALSE(again);

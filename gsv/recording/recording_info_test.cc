@@ -1,12 +1,12 @@
 #include "gsv/recording/recording_info.h"
 
-#include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/temporary_folder.h"
 #include "gsv/recording/content_hash.h"
 #include "gsv/recording/test_recording.h"
 
@@ -60,20 +60,14 @@ TEST(ContentHash, DependsOnWhatIsSaidAndNotOnHowItWasWritten) {
 
 class RecordingInfoTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "gsv-XXXXXX").string();
-    directory_ = ::mkdtemp(name.data());
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   std::string Save(const Bytes& bytes, std::size_t size) {
-    const std::string path = (directory_ / "run.mcap").string();
+    const std::string path = (folder_.path() / "run.mcap").string();
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(size));
     return path;
   }
 
-  std::filesystem::path directory_;
+  const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
 TEST_F(RecordingInfoTest, TellsTheSameAsJsonAndAsText) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/temporary_folder.h"
 #include "gsv/recording/content_hash.h"
 #include "gsv/recording/test_recording.h"
 
@@ -80,17 +81,14 @@ TEST(Recover, SaysWhatADamagedChunkCost) {
 class RecoverFiles : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "gsv-XXXXXX").string();
-    directory_ = ::mkdtemp(name.data());
     const Bytes bytes = ThreeChunks();
     std::ofstream(Path("in.mcap"), std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size() - 100));
   }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-  std::string Path(const char* name) const { return (directory_ / name).string(); }
+  std::string Path(const char* name) const { return (folder_.path() / name).string(); }
 
-  std::filesystem::path directory_;
+  const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
 TEST_F(RecoverFiles, WritesTheOutputAndNothingElse) {
@@ -98,7 +96,7 @@ TEST_F(RecoverFiles, WritesTheOutputAndNothingElse) {
   ASSERT_TRUE(recovery) << recovery.error().Sentence();
   EXPECT_EQ(recovery->messages, 30U);
   EXPECT_TRUE(McapReader::Open(Path("out.mcap")).value()->summary().indexed);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
 }
 
 TEST_F(RecoverFiles, NeverWritesOverAFile) {
