@@ -1,5 +1,5 @@
 # `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
-# (tools/setup) and build.
+# (tools/setup) and build what they need: `make run` no tests.
 # `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build).
 # `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60); it needs clang.
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
@@ -9,9 +9,10 @@ JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 60
 BUILD := build/$(PRESET)
 
-.PHONY: run test soak build setup asan tsan fuzz format clean
+.PHONY: run test soak build configure setup asan tsan fuzz format clean
 
-run: build
+run: configure
+	cmake --build $(BUILD) --target programs --parallel $(JOBS)
 	$(BUILD)/bin/gsv run $(ARGS)
 
 test: build
@@ -22,9 +23,11 @@ soak: build
 	cmake --build build/dev --target gsv --parallel $(JOBS)
 	tools/soak $(BUILD) build/dev
 
-build: setup
-	cmake --preset $(PRESET)
+build: configure
 	cmake --build $(BUILD) --parallel $(JOBS)
+
+configure: setup
+	cmake --preset $(PRESET)
 
 setup:
 	tools/setup

@@ -37,7 +37,7 @@ sdf::ParserConfig ConfigFor(const std::map<std::string, std::filesystem::path>& 
   return config;
 }
 
-std::string PlaceOf(const sdf::Error& error, const std::filesystem::path& source) {
+std::string ErrorPlace(const sdf::Error& error, const std::filesystem::path& source) {
   std::string file = error.FilePath().value_or("");
   if (IsNoFile(file)) file = source.string();
   std::string place = file;
@@ -62,7 +62,7 @@ void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
     if (IsChecked(error)) continue;
     const bool absent = error.Code() == sdf::ErrorCode::URI_LOOKUP;
     problems.push_back({absent ? Problem::Severity::kWarning : Problem::Severity::kError,
-                        error.Message(), PlaceOf(error, source)});
+                        error.Message(), ErrorPlace(error, source)});
   }
 }
 
@@ -88,7 +88,7 @@ base::Result<SdfDocument> ParseSdf(const std::string& text, const std::filesyste
       return Fail(base::ErrorCode::kBadModel, "there is no world or model inside", source.string());
     }
     return Fail(base::ErrorCode::kBadModel, errors.front().Message(),
-                PlaceOf(errors.front(), source));
+                ErrorPlace(errors.front(), source));
   }
   return document;
 }

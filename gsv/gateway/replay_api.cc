@@ -13,7 +13,7 @@
 namespace gsv::gateway {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kLatest = 9e9;  // s: what nanoseconds can hold
 
@@ -159,14 +159,14 @@ Response ReplayApi::Replay(const Request& request) {
 }
 
 Response ReplayApi::Events() const {
-  Json list = Json::array();
+  OrderedJson list = OrderedJson::array();
   for (const RecordedEvent& event : player_.timeline().Events()) {
     list.push_back({{"time_s", base::ToSeconds(event.time)},
                     {"event", event.event},
                     {"robot", event.robot},
                     {"detail", event.detail}});
   }
-  return JsonResponse(200, list.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return JsonResponse(200, list.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
 // /api/models/ID.glb

@@ -21,7 +21,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 // How long Stop() waits for clients to take leave.
-constexpr std::chrono::seconds kFarewell{1};
+constexpr std::chrono::seconds kLastAnswers{1};
 // After the system ran out of descriptors: how long until it is tried again.
 constexpr std::chrono::milliseconds kBreath{100};
 
@@ -107,7 +107,7 @@ class BeastServer final : public Server {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { SayGoodbye(); });
     // The thread ends by itself when the last connection has.
-    finished_.get_future().wait_for(kFarewell);
+    finished_.get_future().wait_for(kLastAnswers);
     io_.stop();
     thread_.join();
     for (const std::weak_ptr<Connection>& weak : connections_) {

@@ -5,14 +5,14 @@
 namespace gsv::gateway {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Names and messages may hold bytes that are not UTF-8; they are replaced.
-std::string Dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string Dump(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-Json RobotJson(const simulation::RobotStatus& robot) {
+OrderedJson RobotJson(const simulation::RobotStatus& robot) {
   const geometry::Vector3& position = robot.world_from_robot.position;
   return {{"name", robot.name},
           {"model", robot.model},
@@ -29,8 +29,8 @@ Json RobotJson(const simulation::RobotStatus& robot) {
           {"collisions", robot.collisions}};
 }
 
-Json ToJson(const simulation::SimulationStatus& status) {
-  Json robots = Json::array();
+OrderedJson ToJson(const simulation::SimulationStatus& status) {
+  OrderedJson robots = OrderedJson::array();
   for (const simulation::RobotStatus& robot : status.robots) robots.push_back(RobotJson(robot));
   return {{"name", status.name},
           {"phase", simulation::ToString(status.phase)},
@@ -46,7 +46,7 @@ Json ToJson(const simulation::SimulationStatus& status) {
           {"robots", std::move(robots)}};
 }
 
-Json ToJson(const ReplayClock& clock) {
+OrderedJson ToJson(const ReplayClock& clock) {
   return {{"start_s", base::ToSeconds(clock.start())},
           {"end_s", base::ToSeconds(clock.end())},
           {"time_s", base::ToSeconds(clock.position())},
@@ -59,7 +59,7 @@ Json ToJson(const ReplayClock& clock) {
 std::string StatusJson(const simulation::SimulationStatus& status) { return Dump(ToJson(status)); }
 
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay) {
-  Json json = ToJson(status);
+  OrderedJson json = ToJson(status);
   json["replay"] = ToJson(replay);
   return Dump(json);
 }
@@ -67,7 +67,7 @@ std::string StatusJson(const simulation::SimulationStatus& status, const ReplayC
 std::string ReplayJson(const ReplayClock& clock) { return Dump(ToJson(clock)); }
 
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations) {
-  Json list = Json::array();
+  OrderedJson list = OrderedJson::array();
   for (const simulation::SimulationStatus& status : simulations) {
     list.push_back({{"name", status.name},
                     {"phase", simulation::ToString(status.phase)},

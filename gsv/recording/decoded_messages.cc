@@ -43,9 +43,9 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
 }
 
 // All messages of one instant that count, by (topic, number).
-class Instants {
+class InstantReader {
  public:
-  explicit Instants(const McapReader& reader) : reader_(reader), cursor_(reader.Messages()) {}
+  explicit InstantReader(const McapReader& reader) : reader_(reader), cursor_(reader.Messages()) {}
 
   using Messages = std::map<std::pair<std::string, std::uint32_t>, std::vector<std::byte>>;
 
@@ -110,7 +110,7 @@ Difference Missing(base::SimTime time, const std::string& topic, bool in_first) 
   return {time, topic, "", in_first ? "missing" : "there", in_first ? "there" : "missing"};
 }
 
-base::Result<Difference> Compare(const Instants& first, const Instants& second,
+base::Result<Difference> Compare(const InstantReader& first, const InstantReader& second,
                                  const std::string& topic, const std::vector<std::byte>& a,
                                  const std::vector<std::byte>& b) {
   Difference difference{first.time, topic, "", "", ""};
@@ -199,7 +199,7 @@ std::string Difference::Sentence() const {
 
 base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
                                                         const McapReader& second) {
-  Instants a(first), b(second);
+  InstantReader a(first), b(second);
   for (;;) {
     const auto more_a = a.Next();
     if (!more_a) return base::Fail(more_a.error());

@@ -181,6 +181,30 @@ void Append(Bytes& out, const DataEndRecord& record);
 // file needs: not for MessageIndex, SummaryOffset and DataEnd. An attachment's CRC is checked.
 template <typename Record>
 std::optional<Record> Parse(std::span<const std::byte> content);
+template <>
+std::optional<HeaderRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<FooterRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<SchemaRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<ChannelRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<MessageRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<ChunkRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<ChunkIndexRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<AttachmentRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<AttachmentIndexRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<StatisticsRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<MetadataRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<MetadataIndexRecord> Parse(std::span<const std::byte> content);
 
 // The head of an attachment, whose content need not be there beyond its media type.
 std::optional<AttachmentIndexRecord> ParseAttachmentHead(std::span<const std::byte> content);

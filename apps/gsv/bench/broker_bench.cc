@@ -88,8 +88,6 @@ base::Result<Clock::duration> Spread(
   return Clock::now() - start;
 }
 
-double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-
 // The value that the fraction `q` of all do not exceed (nearest rank), in milliseconds.
 double Quantile(std::vector<Clock::duration> durations, double q) {
   std::sort(durations.begin(), durations.end());

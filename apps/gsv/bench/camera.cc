@@ -34,10 +34,6 @@ struct CameraArguments {
   bool opengl = false, json = false;
 };
 
-double Milliseconds(Clock::duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
 // Of all threads of this process, s.
 double ProcessorTime() {
   timespec now;

@@ -42,10 +42,6 @@ struct CrowdRow {
   std::shared_ptr<CrowdCheck> check;  // null unless it is verified
 };
 
-double Seconds(WallClock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 // Resident now, not at its peak: rows of one run come one after the other.
 double ResidentMebibytes() {
   std::ifstream statm("/proc/self/statm");

@@ -22,10 +22,6 @@ constexpr const char* kSeparateCalls = "wander --no-pictures";
 constexpr const char* kExchange = "cruise";
 constexpr int kMostInTheOffice = 20;  // robots
 
-double Milliseconds(Clock::duration duration) {
-  return std::chrono::duration<double, std::milli>(duration).count();
-}
-
 // Durations in milliseconds, from any thread.
 class Durations {
  public:
