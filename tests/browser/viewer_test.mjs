@@ -118,8 +118,8 @@ test("pause freezes the simulated time, resume lets it go on", async () => {
   await page.waitForFunction((then) => window.gsv.time > then + 0.2, frozen);
 });
 
-// Seen from above, where no wall hides a robot; a desk may, hence "most". What is at a robot's middle
-// must be something else once it has gone.
+// Seen from above, where no wall hides a robot; a desk may, hence "half" of several. What is at a
+// robot's middle must be something else once it has gone.
 test("robots are drawn at their projected places, and leave them when they move", async () => {
   await pause();
   for (const part of ["Beams", "Names", "Grid"]) await show(part, false);
@@ -138,7 +138,8 @@ test("robots are drawn at their projected places, and leave them when they move"
   };
   // A wanderer may spend some seconds on turning.
   let left = await deserted();
-  for (let tries = 0; tries < 20 && !left.includes(true); tries++) {
+  const enough = Math.min(robots.length, 3);
+  for (let tries = 0; tries < 20 && left.filter(Boolean).length < enough; tries++) {
     const { step } = await ask("");
     await ask("/step", { count: STEPS_TO_MOVE });
     await until(async () => (await ask("")).step >= step + STEPS_TO_MOVE, "the steps");
@@ -156,8 +157,9 @@ test("robots are drawn at their projected places, and leave them when they move"
   const judged = verdicts.filter((verdict) => verdict !== null);
   const seen = judged.filter(({ wasThere }) => wasThere);
   assert.ok(judged.length > 0, "no robot moved away from its place");
+  assert.ok(seen.length > 0, "no robot was seen at its place");
   assert.ok(
-    seen.length > judged.length / 2,
+    seen.length >= judged.length / 2,
     `seen at their places: ${seen.length} of ${JSON.stringify(judged)}`,
   );
   await page.keyboard.press("r");
