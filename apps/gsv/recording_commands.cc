@@ -12,6 +12,7 @@
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
+#include "apps/gsv/resimulation.h"
 #include "gsv/gateway/replay_gateway.h"
 #include "gsv/recording/decoded_messages.h"
 #include "gsv/recording/recording_info.h"
@@ -106,13 +107,7 @@ int Diff(const RecordingArguments& arguments) {
   if (!difference) return Refuse(difference.error());
   if (arguments.json) {
     nlohmann::ordered_json json{{"equal", !difference->has_value()}};
-    if (*difference) {
-      json["time_s"] = base::ToSeconds((*difference)->time);
-      json["topic"] = (*difference)->topic;
-      json["field"] = (*difference)->field;
-      json["first"] = (*difference)->in_first;
-      json["second"] = (*difference)->in_second;
-    }
+    if (*difference) json.update(ToJson(**difference));
     std::puts(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     std::puts(*difference ? (*difference)->Sentence().c_str() : "they tell the same");
@@ -127,6 +122,8 @@ struct ReplayArguments {
   bool headless = false;
   bool paused = false;
   bool json = false;
+  bool resimulate = false;
+  std::string broker;  // of a resimulation
 };
 
 // Reads the whole file, every message in its turn, and tells what a replay would have shown.
@@ -176,6 +173,14 @@ base::Result<std::unique_ptr<gateway::ReplayGateway>> StartGateway(const ReplayA
 }
 
 int Replay(const ReplayArguments& arguments, Signals& signals) {
+  if (arguments.json && !arguments.headless && !arguments.resimulate) {
+    return Complain(
+        {base::ErrorCode::kInvalidArgument, "goes with --headless or --resimulate", "--json"});
+  }
+  if (arguments.resimulate) {
+    const auto end = Resimulate({arguments.file, arguments.broker, arguments.json}, signals);
+    return end ? *end : Refuse(end.error());
+  }
   if (arguments.headless) return CheckReplay(arguments);
   auto player = gateway::ReplayPlayer::Open(arguments.file, arguments.options);
   if (!player) return Refuse(player.error());
@@ -205,9 +210,14 @@ void AddReplayCommand(const CommandLine& line) {
   command->add_flag("--loop", arguments->options.loop, "begin anew at the end");
   command->add_flag("--paused", arguments->paused,
                     "wait at the beginning for somebody to start it");
-  CLI::Option* headless =
-      command->add_flag("--headless", arguments->headless, "no viewer: read all of it, and check");
-  command->add_flag("--json", arguments->json, "one JSON object")->needs(headless);
+  command->add_flag("--headless", arguments->headless, "no viewer: read all of it, and check");
+  CLI::Option* resimulate = command->add_flag(
+      "--resimulate", arguments->resimulate,
+      "no viewer: run the recorded command again, in lockstep, with live behaviours, and say where "
+      "the outcome first differs; exit code 1 if it does");
+  command->add_option("--broker", arguments->broker, "where a resimulation finds the behaviours")
+      ->needs(resimulate);
+  command->add_flag("--json", arguments->json, "with --headless or --resimulate: one JSON object");
   command->callback([arguments, line] { line.exit_code = Replay(*arguments, line.signals); });
 }
 

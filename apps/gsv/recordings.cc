@@ -5,8 +5,12 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "gsv/base/log.h"
 #include "gsv/formats/gltf_writer.h"
@@ -16,14 +20,13 @@
 namespace gsv::app {
 namespace {
 
-std::string CommandLineOfThisProcess() {
+std::vector<std::string> ArgumentsOfThisProcess() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string line{std::istreambuf_iterator<char>(file), {}};
-  while (!line.empty() && line.back() == '\0') line.pop_back();
-  for (char& character : line) {
-    if (character == '\0') character = ' ';
+  std::vector<std::string> arguments;
+  for (std::string argument; std::getline(file, argument, '\0');) {
+    arguments.push_back(std::move(argument));
   }
-  return line;
+  return arguments;
 }
 
 std::string Host() {
@@ -34,8 +37,15 @@ std::string Host() {
 recording::RecorderOptions Options() {
   recording::RecorderOptions options;
   options.write_glb = &formats::WriteGlb;
+  const std::vector<std::string> arguments = ArgumentsOfThisProcess();
+  std::error_code ignored;
   options.metadata = {
-      {"gsv_version", GSV_VERSION}, {"command", CommandLineOfThisProcess()}, {"host", Host()}};
+      {"gsv_version", GSV_VERSION},
+      {"command", fmt::format("{}", fmt::join(arguments, " "))},
+      {std::string(kArgumentsKey),
+       nlohmann::json(arguments).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
+      {std::string(kFolderKey), std::filesystem::current_path(ignored).string()},
+      {"host", Host()}};
   return options;
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include "gsv/base/error.h"
 
@@ -18,6 +19,11 @@ class SimulationRecorder;
 }
 
 namespace gsv::app {
+
+// Keys of the metadata record "gsv.simulation": how the recording program was called, as a JSON
+// array of its arguments, and in which folder.
+inline constexpr std::string_view kArgumentsKey = "arguments";
+inline constexpr std::string_view kFolderKey = "folder";
 
 class Recordings {
  public:

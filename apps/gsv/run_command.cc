@@ -10,7 +10,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/population.h"
 #include "apps/gsv/recordings.h"
-#include "apps/gsv/run_options.h"
+#include "apps/gsv/run.h"
 #include "apps/gsv/run_report.h"
 
 namespace gsv::app {
@@ -91,7 +91,9 @@ int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   return exit_code;
 }
 
-base::Result<int> Run(const RunOptions& options, Signals& signals) {
+}  // namespace
+
+base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet) {
   auto runtime = Runtime::Start(options.runtime);
   if (!runtime) return base::Fail(runtime.error());
   base::Problems problems;
@@ -109,13 +111,13 @@ base::Result<int> Run(const RunOptions& options, Signals& signals) {
     std::fprintf(stderr, "gsv: warning: %s\n", warning.c_str());
 
   for (const simulation::Event& event : (*simulation)->events(0)) {
-    if (event.kind == "robot_moved")
+    if (event.kind == "robot_moved" && !is_quiet)
       std::fprintf(stderr, "gsv: note: %s: %s\n", event.robot.c_str(), event.detail.c_str());
   }
 
   if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
   std::FILE* const notes = options.json ? stderr : stdout;
-  std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
+  if (!is_quiet) std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
   if (const std::string& url = (*runtime)->viewer_url(); !url.empty()) {
     std::fprintf(notes, "viewer: %s\n", url.c_str());
     if (options.open_browser) OpenBrowser(url);
@@ -128,14 +130,13 @@ base::Result<int> Run(const RunOptions& options, Signals& signals) {
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
   int exit_code = JudgeBehaviours(**simulation, Await(**simulation, options, signals));
   if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
+  if (is_quiet) return exit_code;
   const std::string report =
       options.json ? JsonReport(**simulation, warnings) + "\n" : TextReport(**simulation);
   std::fputs(report.c_str(), stdout);
   std::fflush(stdout);
   return exit_code;
 }
-
-}  // namespace
 
 void AddRunCommand(const CommandLine& line) {
   CLI::App* command = line.app.add_subcommand(

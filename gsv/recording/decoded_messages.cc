@@ -188,6 +188,14 @@ base::Result<std::optional<DecodedMessage>> DecodedMessages::Next() {
   }
 }
 
+nlohmann::ordered_json ToJson(const Difference& difference) {
+  return {{"time_s", base::ToSeconds(difference.time)},
+          {"topic", difference.topic},
+          {"field", difference.field},
+          {"first", difference.in_first},
+          {"second", difference.in_second}};
+}
+
 std::string Difference::Sentence() const {
   if (field.empty()) {
     return fmt::format("{:.6f} s, {}: a message is {} in the first and {} in the second",

@@ -50,6 +50,8 @@ struct Difference {
   std::string in_first, in_second;  // the values as JSON; "missing"
   std::string Sentence() const;
 };
+// time_s, topic, field, first, second.
+nlohmann::ordered_json ToJson(const Difference& difference);
 
 // Compares what counts for the content hash (see content_hash.h). Empty: they tell the same.
 base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,

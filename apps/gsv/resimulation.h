@@ -1,0 +1,22 @@
+// Runs what a recording of `gsv run` tells of once more, with live behaviours, and compares.
+#pragma once
+
+#include <string>
+
+#include "apps/gsv/signals.h"
+#include "gsv/base/error.h"
+
+namespace gsv::app {
+
+struct ResimulationOptions {
+  std::string file;
+  std::string broker;  // empty: one of its own
+  bool json = false;
+};
+
+// Lockstep, from the recorded command and its folder, to the recorded end. Prints where the two
+// first differ; the exit code is 1 if they do. kInvalidArgument when the recording does not say
+// how it was made.
+base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signals);
+
+}  // namespace gsv::app

@@ -1,0 +1,85 @@
+// `gsv replay --resimulate`: a recorded run once more, with live behaviours.
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// A room with one wall, 2 m ahead of the robot but for `more` metres.
+std::string Room(double more) {
+  return R"(<sdf version="1.7"><world name="room">
+    <include><uri>model://ground_plane</uri></include>
+    <model name="wall"><static>true</static><pose>)" +
+         std::to_string(2 + more) + R"( 0 0.5 0 0 0</pose><link name="link">
+      <collision name="c"><geometry><box><size>0.2 8 1</size></box></geometry></collision>
+      <visual name="v"><geometry><box><size>0.2 8 1</size></box></geometry></visual>
+    </link></model></world></sdf>)";
+}
+
+class Resimulation : public ::testing::Test {
+ protected:
+  Resimulation()
+      : world_(folder_.Write("room.sdf", Room(0))), recording_(folder_.path() / "run.mcap") {}
+
+  Outcome Record(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{
+        "run", world_.string(), "--robot", "pebble@0,0", "--behaviour",       "wander",    "--seed",
+        "7",   "--duration",    "2",       "--record",   recording_.string(), "--headless"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunProgram("gsv", arguments);
+  }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path world_, recording_;
+};
+
+TEST_F(Resimulation, TellsThatARunRepeats) {
+  const Outcome recorded = Record({"--lockstep"});
+  ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
+  const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
+  EXPECT_EQ(again.ending, "exit code 0") << again.err;
+  EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
+  EXPECT_THAT(again.out, HasSubstr("2.000 s"));
+}
+
+TEST_F(Resimulation, NamesTheFirstDifference) {
+  const Outcome recorded = Record({"--lockstep"});
+  ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
+  std::ofstream(world_) << Room(0.5);
+  const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate", "--json"});
+  EXPECT_EQ(again.ending, "exit code 1") << again.err;
+  const auto report = again.LastLine();
+  EXPECT_EQ(report["equal"], false);
+  // The first topic by name that tells of the wall.
+  EXPECT_EQ(report["first_difference"]["time_s"], 0);
+  EXPECT_EQ(report["first_difference"]["topic"], "/gsv/beams");
+}
+
+TEST_F(Resimulation, OfARecordingThatIsNoRunIsRefused) {
+  const auto writer = Program("../tests/recording_write_recordings");
+  ASSERT_EQ(RunProgram(writer, {folder_.path()}).ending, "exit code 0");
+  const Outcome again =
+      RunProgram("gsv", {"replay", folder_.path() / "whole.mcap", "--resimulate"});
+  EXPECT_THAT(again.err, HasSubstr("only recordings of gsv run can be simulated again"));
+  EXPECT_EQ(again.ending, "exit code 2");
+}
+
+TEST_F(Resimulation, SaysWhatOfTheRunIsGone) {
+  const Outcome recorded = Record({"--lockstep"});
+  ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
+  std::filesystem::remove(world_);
+  const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
+  EXPECT_EQ(again.ending, "exit code 3");
+  EXPECT_THAT(again.err, HasSubstr(world_.string()));
+}
+
+}  // namespace
+}  // namespace gsv::testing
