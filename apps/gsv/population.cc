@@ -118,7 +118,7 @@ class Population {
   }
 
   base::Status GiveBehaviours() {
-    if (options_.in_process) return HostBehaviours();
+    if (options_.in_process || options_.make_behaviour) return HostBehaviours();
     std::map<std::string, int> programs;
     for (const auto& [robot, behaviour] : wanted_) {
       if (!behaviour.empty()) ++programs[behaviour];
@@ -138,7 +138,8 @@ class Population {
   base::Status HostBehaviours() {
     for (const auto& [robot, behaviour] : wanted_) {
       if (behaviour.empty()) continue;
-      auto port = InProcessBehaviour(behaviour);
+      auto port = options_.make_behaviour ? options_.make_behaviour(robot, behaviour)
+                                          : InProcessBehaviour(behaviour);
       if (!port) return base::Fail(port.error());
       if (auto ok = simulation_.SetBehaviour(robot, *std::move(port)); !ok) return ok;
     }

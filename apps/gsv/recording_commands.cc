@@ -123,7 +123,8 @@ struct ReplayArguments {
   bool paused = false;
   bool json = false;
   bool resimulate = false;
-  std::string broker;  // of a resimulation
+  std::string broker;     // of a resimulation
+  bool commands = false;  // of a resimulation
 };
 
 // Reads the whole file, every message in its turn, and tells what a replay would have shown.
@@ -178,7 +179,8 @@ int Replay(const ReplayArguments& arguments, Signals& signals) {
         {base::ErrorCode::kInvalidArgument, "goes with --headless or --resimulate", "--json"});
   }
   if (arguments.resimulate) {
-    const auto end = Resimulate({arguments.file, arguments.broker, arguments.json}, signals);
+    const auto end =
+        Resimulate({arguments.file, arguments.broker, arguments.commands, arguments.json}, signals);
     return end ? *end : Refuse(end.error());
   }
   if (arguments.headless) return CheckReplay(arguments);
@@ -213,9 +215,14 @@ void AddReplayCommand(const CommandLine& line) {
   command->add_flag("--headless", arguments->headless, "no viewer: read all of it, and check");
   CLI::Option* resimulate = command->add_flag(
       "--resimulate", arguments->resimulate,
-      "no viewer: run the recorded command again, in lockstep, with live behaviours, and say where "
-      "the outcome first differs; exit code 1 if it does");
+      "no viewer: run the recorded simulation again, in lockstep, with live behaviours, and say "
+      "where the outcome first differs; exit code 1 if it does");
   command->add_option("--broker", arguments->broker, "where a resimulation finds the behaviours")
+      ->needs(resimulate);
+  command
+      ->add_flag("--commands", arguments->commands,
+                 "a resimulation gives the robots the recorded commands, without behaviours, and "
+                 "compares how bodies moved")
       ->needs(resimulate);
   command->add_flag("--json", arguments->json, "with --headless or --resimulate: one JSON object");
   command->callback([arguments, line] { line.exit_code = Replay(*arguments, line.signals); });

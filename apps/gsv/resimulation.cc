@@ -11,11 +11,16 @@
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/run.h"
 #include "gsv/base/temporary_folder.h"
+#include "gsv/hosting/recorded_commands.h"
 #include "gsv/recording/decoded_messages.h"
 #include "gsv/recording/recording_info.h"
 
 namespace gsv::app {
 namespace {
+
+constexpr std::string_view kCommandsTopic = "/gsv/commands";
+
+std::vector<std::string> MotionTopics() { return {"/gsv/poses", "/tf", "/gsv/state_hash"}; }
 
 base::Error NotOfARun(const std::string& file) {
   return {base::ErrorCode::kInvalidArgument,
@@ -67,6 +72,31 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   return Understand(arguments);
 }
 
+// Has every robot do what it did then.
+base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions& run) {
+  recording::Selection selection;
+  selection.topics = {std::string(kCommandsTopic)};
+  auto messages = recording::DecodedMessages::Open(reader, selection);
+  if (!messages) return base::Fail(messages.error());
+  auto commands = std::make_shared<std::map<std::string, hosting::TimedCommands>>();
+  for (;;) {
+    const auto message = messages->Next();
+    if (!message) return base::Fail(message.error());
+    if (!*message) break;
+    const auto& content = (*message)->content;
+    const auto& stamp = content.at("stamp");
+    (*commands)[content.at("robot").get<std::string>()].push_back(
+        {std::chrono::seconds(stamp.at("sec").get<std::int64_t>()) +
+             std::chrono::nanoseconds(stamp.at("nanosec").get<std::int64_t>()),
+         {content.at("linear_m_s").get<double>(), content.at("lateral_m_s").get<double>(),
+          content.at("angular_rad_s").get<double>()}});
+  }
+  run.make_behaviour = [commands](const std::string& robot, const std::string& behaviour) {
+    return std::make_shared<hosting::RecordedCommands>(behaviour, (*commands)[robot]);
+  };
+  return {};
+}
+
 void Print(const std::optional<recording::Difference>& difference,
            const recording::RecordingInfo& info, bool json) {
   if (json) {
@@ -105,17 +135,19 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   }
   auto run = OptionsOf(*call, options.file);
   if (!run) return base::Fail(run.error());
-  if (run->specification.mode != simulation::Mode::kLockstep)
-    return base::Fail(NotOfARun(info->path));
   run->runtime.broker = options.broker;
   run->record = (folder->path() / "again.mcap").string();
   run->specification.duration = info->end;
+  if (options.commands) {
+    if (auto ok = UseRecordedCommands(**recorded, *run); !ok) return base::Fail(ok.error());
+  }
   const auto exit_code = Run(*run, signals, true);
   if (!exit_code || *exit_code != kOk) return exit_code;
 
   const auto again = recording::McapReader::Open(run->record);
   if (!again) return base::Fail(again.error());
-  const auto difference = recording::FirstDifference(**recorded, **again);
+  const auto difference = recording::FirstDifference(
+      **recorded, **again, options.commands ? MotionTopics() : std::vector<std::string>());
   if (!difference) return base::Fail(difference.error());
   Print(*difference, *info, options.json);
   return *difference ? kAssertionFailed : kOk;

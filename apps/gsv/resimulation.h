@@ -1,4 +1,4 @@
-// Runs what a recording of `gsv run` tells of once more, with live behaviours, and compares.
+// Runs what a recording of `gsv run` tells of once more, and compares.
 #pragma once
 
 #include <string>
@@ -10,13 +10,15 @@ namespace gsv::app {
 
 struct ResimulationOptions {
   std::string file;
-  std::string broker;  // empty: one of its own
+  std::string broker;     // empty: one of its own
+  bool commands = false;  // the recorded ones instead of live behaviours
   bool json = false;
 };
 
-// Lockstep, from the recorded command and its folder, to the recorded end. Prints where the two
-// first differ; the exit code is 1 if they do. kInvalidArgument when the recording does not say
-// how it was made.
+// Lockstep, from the recorded command and its folder, to the recorded end. Compares all topics, or
+// how bodies moved if the robots get recorded commands (nobody then asks for pictures or mounts
+// sensors). Prints where the two first differ; the exit code is 1 if they do. kInvalidArgument when
+// the recording does not say how it was made.
 base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signals);
 
 }  // namespace gsv::app

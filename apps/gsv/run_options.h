@@ -1,12 +1,15 @@
 // What `gsv run` was asked for.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "apps/gsv/runtime.h"
 #include "gsv/scenario/scenario.h"
+#include "gsv/simulation/behaviour_port.h"
 #include "gsv/simulation/types.h"
 
 namespace CLI {
@@ -23,6 +26,10 @@ struct RunOptions {
   std::map<std::string, std::string> behaviour_of;     // by robot
   std::map<std::string, model::Movement> movement_of;  // by robot
   bool in_process = false;                             // behaviours are plug-ins, not programs
+  // Makes robots' behaviours in place of the ones that are named, when it is set.
+  std::function<std::shared_ptr<simulation::BehaviourPort>(const std::string& robot,
+                                                           const std::string& behaviour)>
+      make_behaviour;
   simulation::Specification specification;
   std::string record;       // a file; empty: no recording
   double wall_timeout = 0;  // s; 0: none

@@ -47,6 +47,7 @@ TEST(Cdr, AlignsAFieldToItsSizeCountedFromTheHeadersEnd) {
   command.step = 3;
   command.robot = "abcd";
   command.linear_m_s = 0.5;
+  command.lateral_m_s = 0;
   command.angular_rad_s = -0.5;
   EXPECT_THAT(Encoded(command),
               ElementsAreArray(BytesOf({0, 1, 0, 0,                           //
@@ -55,6 +56,7 @@ TEST(Cdr, AlignsAFieldToItsSizeCountedFromTheHeadersEnd) {
                                         5, 0, 0, 0, 'a', 'b', 'c',  'd',  0,  // robot
                                         0, 0, 0, 0, 0,   0,   0,              // to 32
                                         0, 0, 0, 0, 0,   0,   0xe0, 0x3f,     //
+                                        0, 0, 0, 0, 0,   0,   0,    0,        //
                                         0, 0, 0, 0, 0,   0,   0xe0, 0xbf})));
 }
 

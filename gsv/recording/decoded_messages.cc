@@ -45,7 +45,8 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
 // All messages of one instant that count, by (topic, number).
 class InstantReader {
  public:
-  explicit InstantReader(const McapReader& reader) : reader_(reader), cursor_(reader.Messages()) {}
+  InstantReader(const McapReader& reader, const Selection& selection)
+      : reader_(reader), selection_(selection), cursor_(reader.Messages()) {}
 
   using Messages = std::map<std::pair<std::string, std::uint32_t>, std::vector<std::byte>>;
 
@@ -87,6 +88,7 @@ class InstantReader {
       if (!*message) return {};
       const auto channel = reader_.summary().channels.find((*message)->channel_id);
       if (channel == reader_.summary().channels.end()) continue;
+      if (!selection_.Has(channel->second.topic)) continue;
       const auto& metadata = channel->second.metadata;
       const auto flag = metadata.find("reproducible");
       if (flag != metadata.end() && flag->second == "false") continue;
@@ -99,6 +101,7 @@ class InstantReader {
   }
 
   const McapReader& reader_;
+  const Selection& selection_;
   MessageCursor cursor_;
   bool has_next_ = false;
   base::SimTime next_time_{};
@@ -206,8 +209,10 @@ std::string Difference::Sentence() const {
 }
 
 base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
-                                                        const McapReader& second) {
-  InstantReader a(first), b(second);
+                                                        const McapReader& second,
+                                                        const std::vector<std::string>& topics) {
+  const Selection selection{topics};
+  InstantReader a(first, selection), b(second, selection);
   for (;;) {
     const auto more_a = a.Next();
     if (!more_a) return base::Fail(more_a.error());

@@ -53,9 +53,10 @@ struct Difference {
 // time_s, topic, field, first, second.
 nlohmann::ordered_json ToJson(const Difference& difference);
 
-// Compares what counts for the content hash (see content_hash.h). Empty: they tell the same.
-base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
-                                                        const McapReader& second);
+// Compares what counts for the content hash (see content_hash.h), of the selected topics. Empty:
+// they tell the same.
+base::Result<std::optional<Difference>> FirstDifference(
+    const McapReader& first, const McapReader& second, const std::vector<std::string>& topics = {});
 
 // A table of one topic: a row a message, a column a number or text of it ("ranges.0"), the columns
 // in the order in which they first appear; RFC 4180.

@@ -1,5 +1,7 @@
 #include "gsv/recording/state_topics.h"
 
+#include <cmath>
+
 #include "gsv/base/hash.h"
 #include "gsv/messages/time.h"
 
@@ -16,6 +18,7 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate)
       clock_(writer, "/clock"),
       poses_(writer, "/gsv/poses"),
       transforms_(writer, "/tf"),
+      commands_(writer, "/gsv/commands"),
       status_(writer, "/gsv/status", {.reproducible = false}),
       events_(writer, "/gsv/events"),
       hash_(writer, "/gsv/state_hash") {}
@@ -27,6 +30,7 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
     layout_ = snapshot->layout;
     pose_list_ = presentation::PoseListOf(*layout_);
   }
+  WriteNewCommands(*snapshot);
   if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
   if (hash_instants_.Pass(time)) WriteHash(*snapshot);
 }
@@ -51,6 +55,28 @@ void StateTopics::WriteHash(const world::Snapshot& snapshot) {
   message.step = static_cast<std::uint64_t>(snapshot.state.step);
   message.hash = hash.Hex();
   hash_.Write(snapshot.state.time, message);
+}
+
+// A snapshot shows a command one step after it was given.
+void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
+  const world::State& state = snapshot.state;
+  for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
+    const world::Body& body = layout_->bodies[i];
+    if (!body.is_robot) continue;
+    const world::DriveState& drive = state.bodies[i].drive;
+    world::DriveState& told = told_[body.name];
+    if (drive.command == told.command && drive.command_time == told.command_time) continue;
+    told = drive;
+    const double part = base::ToSeconds(drive.command_time) / base::ToSeconds(state.time);
+    messages::gsv_msgs::Command message;
+    message.stamp = messages::ToMessage(drive.command_time);
+    message.step = static_cast<std::uint64_t>(std::llround(static_cast<double>(state.step) * part));
+    message.robot = body.name;
+    message.linear_m_s = drive.command.linear;
+    message.lateral_m_s = drive.command.lateral;
+    message.angular_rad_s = drive.command.angular;
+    commands_.Write(state.time, message);
+  }
 }
 
 void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {

@@ -1,9 +1,11 @@
-// The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/status,
-// /gsv/events, /gsv/state_hash (docs/formats/messages.md).
+// The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
+// /gsv/status, /gsv/events, /gsv/state_hash (docs/formats/messages.md).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gsv/messages/rosgraph_msgs.h"
@@ -29,16 +31,19 @@ class StateTopics {
  private:
   void WritePoses(const world::Snapshot& snapshot);
   void WriteHash(const world::Snapshot& snapshot);
+  void WriteNewCommands(const world::Snapshot& snapshot);
 
   Instants poses_instants_;
   Instants hash_instants_;
   std::optional<std::int64_t> poses_step_;  // whose poses were written last
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_
+  std::map<std::string, world::DriveState> told_;   // by robot: what it was told last
 
   TopicWriter<messages::rosgraph_msgs::Clock> clock_;
   TopicWriter<messages::gsv_msgs::Poses> poses_;
   TopicWriter<messages::tf2_msgs::TFMessage> transforms_;
+  TopicWriter<messages::gsv_msgs::Command> commands_;
   TopicWriter<messages::gsv_msgs::SimulationStatus> status_;
   TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
   TopicWriter<messages::gsv_msgs::StateHash> hash_;

@@ -13,21 +13,23 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// A room with one wall, 2 m ahead of the robot but for `more` metres.
-std::string Room(double more) {
+// A room with one wall, `thickness` m thick, its middle `x` m ahead of the robot.
+std::string Room(double x, double thickness = 0.2) {
+  const std::string box =
+      "<geometry><box><size>" + std::to_string(thickness) + " 8 1</size></box></geometry>";
   return R"(<sdf version="1.7"><world name="room">
     <include><uri>model://ground_plane</uri></include>
     <model name="wall"><static>true</static><pose>)" +
-         std::to_string(2 + more) + R"( 0 0.5 0 0 0</pose><link name="link">
-      <collision name="c"><geometry><box><size>0.2 8 1</size></box></geometry></collision>
-      <visual name="v"><geometry><box><size>0.2 8 1</size></box></geometry></visual>
+         std::to_string(x) + R"( 0 0.5 0 0 0</pose><link name="link">
+      <collision name="c">)" +
+         box + R"(</collision><visual name="v">)" + box + R"(</visual>
     </link></model></world></sdf>)";
 }
 
 class Resimulation : public ::testing::Test {
  protected:
   Resimulation()
-      : world_(folder_.Write("room.sdf", Room(0))), recording_(folder_.path() / "run.mcap") {}
+      : world_(folder_.Write("room.sdf", Room(2))), recording_(folder_.path() / "run.mcap") {}
 
   Outcome Record(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{
@@ -53,7 +55,7 @@ TEST_F(Resimulation, TellsThatARunRepeats) {
 TEST_F(Resimulation, NamesTheFirstDifference) {
   const Outcome recorded = Record({"--lockstep"});
   ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
-  std::ofstream(world_) << Room(0.5);
+  std::ofstream(world_) << Room(2.5);
   const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate", "--json"});
   EXPECT_EQ(again.ending, "exit code 1") << again.err;
   const auto report = again.LastLine();
@@ -61,6 +63,26 @@ TEST_F(Resimulation, NamesTheFirstDifference) {
   // The first topic by name that tells of the wall.
   EXPECT_EQ(report["first_difference"]["time_s"], 0);
   EXPECT_EQ(report["first_difference"]["topic"], "/gsv/beams");
+}
+
+// The instants of a behaviour in real time are the wall clock's; its commands' are kept.
+TEST_F(Resimulation, ByItsCommandsARunInRealTimeRepeatsToTheBit) {
+  const Outcome recorded = Record();
+  ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
+  const Outcome again =
+      RunProgram("gsv", {"replay", recording_, "--resimulate", "--commands", "--json"});
+  EXPECT_EQ(again.ending, "exit code 0") << again.out << again.err;
+  EXPECT_EQ(again.LastLine()["equal"], true);
+}
+
+TEST_F(Resimulation, ByItsCommandsARobotRunsIntoAWallThatHasGrown) {
+  const Outcome recorded = Record({"--lockstep", "--behaviour", "goto --goal-x 1.2"});
+  ASSERT_EQ(recorded.ending, "exit code 0") << recorded.err;
+  std::ofstream(world_) << Room(2, 2.6);
+  const Outcome again =
+      RunProgram("gsv", {"replay", recording_, "--resimulate", "--commands", "--json"});
+  EXPECT_EQ(again.ending, "exit code 1") << again.out << again.err;
+  EXPECT_GT(again.LastLine()["first_difference"]["time_s"], 0.2);
 }
 
 TEST_F(Resimulation, OfARecordingThatIsNoRunIsRefused) {

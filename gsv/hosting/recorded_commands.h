@@ -1,0 +1,46 @@
+// A behaviour that does what another did: gives its robot recorded commands, each at its instant.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gsv/simulation/local_behaviour.h"
+
+namespace gsv::hosting {
+
+struct TimedCommand {
+  base::SimTime time{0};
+  world::DriveCommand command;
+};
+using TimedCommands = std::vector<TimedCommand>;  // times never fall
+
+class RecordedCommands final : public simulation::LocalBehaviour {
+ public:
+  // `name`: of the behaviour whose commands they are.
+  RecordedCommands(std::string name, TimedCommands commands);
+
+  base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;
+  base::Status Start() override;
+  base::Status Stop() override { return {}; }
+  base::Status Pause() override { return {}; }
+  base::Status Resume() override { return {}; }
+  void Destroy() override;
+  const std::string& name() const override { return name_; }
+  const std::string& place() const override { return place_; }
+
+  simulation::ClockId clock() const override { return clock_; }
+  void TakeTurn(simulation::Turn& turn) override;
+
+ private:
+  const std::string name_, place_;
+  const TimedCommands commands_;
+
+  std::mutex mutex_;  // guards what follows; held during a turn
+  std::shared_ptr<simulation::Agent> agent_;
+  simulation::ClockId clock_ = 0;
+  std::size_t next_ = 0;
+};
+
+}  // namespace gsv::hosting
