@@ -76,7 +76,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       step_(specification_.step),
       sensors_(std::move(sensors)),
       shared_(std::make_shared<SharedState>(std::make_shared<world::Snapshot>(world::Snapshot{
-                                                layout, world::InitialState(*layout), {}}),
+                                                layout, world::InitialState(*layout), {}, {}}),
                                             specification_.mode, specification_.seed, sensors_)),
       team_(std::move(team)),
       engine_(std::move(engine)),
@@ -84,6 +84,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       state_(world::InitialState(*layout_)),
       pacer_(step_, specification_.factor),
       caller_(kCallingThreads) {
+  wheel_odometry_.SetLayout(*layout_);
   for (const world::Body& body : layout_->bodies) {
     if (!body.is_robot) continue;
     agents_.emplace(body.name, std::make_shared<RobotAgent>(body.name, body.model, false, shared_));
@@ -288,7 +289,7 @@ base::Status SteppingSimulation::Reset() {
     shared_->commanded.clear();
     shared_->ready.clear();
     shared_->history.Restart(
-        std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}}));
+        std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}}));
     shared_->now = SimTime(0);
     shared_->end_reason.clear();
     for (const auto& [name, agent] : agents_) {

@@ -135,7 +135,9 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
   layout_ = world::MakeLayout(version, std::move(settled), layout->description);
   state_ = std::move(state);
   if (auto ok = engine_->SetLayout(layout_); !ok) return ok;
-  shared_->history.Restart(std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}}));
+  wheel_odometry_.SetLayout(*layout_);
+  shared_->history.Restart(
+      std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}}));
   return {};
 }
 

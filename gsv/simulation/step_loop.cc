@@ -175,7 +175,12 @@ void SteppingSimulation::TakeStep() {
 
 std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
   auto snapshot = snapshots_.Take();
+  const double step_seconds = base::ToSeconds(step_);
+  world::KeepVelocities(state_, snapshot->accelerations);
+  wheel_odometry_.KeepWheels(state_);
   engine_->Step(step_, state_, snapshot->contacts);
+  wheel_odometry_.Advance(step_seconds, state_);
+  world::FinishAccelerations(state_, step_seconds, snapshot->accelerations);
   ++state_.step;
   state_.time = state_.step * step_;
   snapshot->layout = layout_;

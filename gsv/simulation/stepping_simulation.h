@@ -21,6 +21,7 @@
 #include "gsv/simulation/run_statistics.h"
 #include "gsv/simulation/simulation.h"
 #include "gsv/simulation/snapshot_pool.h"
+#include "gsv/world/wheel_odometry.h"
 
 namespace gsv::simulation {
 
@@ -142,6 +143,7 @@ class SteppingSimulation final : public Simulation {
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;
   SnapshotPool snapshots_;
+  world::WheelOdometry wheel_odometry_;
   Turn::Instant instant_;           // of the turns being taken
   std::vector<RobotAgent*> turns_;  // being taken
   GateOpener gate_opener_;

@@ -63,6 +63,23 @@ std::span<const double> JointPositions(const Snapshot& snapshot, int body) {
 
 }  // namespace
 
+void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations) {
+  accelerations.resize(state.bodies.size());
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    accelerations[i] = {state.bodies[i].linear_velocity, state.bodies[i].angular_velocity};
+  }
+}
+
+void FinishAccelerations(const State& state, double step_seconds,
+                         std::vector<Acceleration>& accelerations) {
+  const double per_second = 1 / step_seconds;
+  for (std::size_t i = 0; i < accelerations.size(); ++i) {
+    Acceleration& mean = accelerations[i];
+    mean.linear = per_second * (state.bodies[i].linear_velocity - mean.linear);
+    mean.angular = per_second * (state.bodies[i].angular_velocity - mean.angular);
+  }
+}
+
 std::vector<Pose> LinkPoses(const model::Model& model, std::span<const double> joint_positions) {
   GSV_CHECK(joint_positions.size() == model.joints.size());
   const std::vector<int> parent_joint = ParentJoints(model);

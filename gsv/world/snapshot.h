@@ -20,11 +20,23 @@ struct Contact {
   bool began = false;        // was not there one step earlier
 };
 
+// Of a model's origin, in world axes: the mean over the step that led here.
+struct Acceleration {
+  geometry::Vector3 linear;   // m/s²
+  geometry::Vector3 angular;  // rad/s²
+};
+
 struct Snapshot {
   std::shared_ptr<const Layout> layout;  // never null
   State state;
-  std::vector<Contact> contacts;  // of the step that led here, by (first, second)
+  std::vector<Contact> contacts;            // of the step that led here, by (first, second)
+  std::vector<Acceleration> accelerations;  // as Layout::bodies; empty where no step led here
 };
+
+// Around a step: keeps the velocities before it, and makes accelerations of them after it.
+void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations);
+void FinishAccelerations(const State& state, double step_seconds,
+                         std::vector<Acceleration>& accelerations);
 
 // Poses of a model's links at the given joint positions (one for each joint), model_from_link. A
 // revolute joint turns its child about its axis, a prismatic one slides it along; other kinds are

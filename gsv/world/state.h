@@ -33,11 +33,18 @@ struct DriveState {
   DriveCommand actual;            // what the base does now, within its acceleration limits
 };
 
+// Where a base believes to be by its wheels' turning, from where it started; see wheel_odometry.h.
+struct Odometry {
+  double x = 0, y = 0, yaw = 0;    // m, rad: of its reference point, in the frame of its start
+  double linear = 0, angular = 0;  // m/s, rad/s: over the last step
+};
+
 struct BodyState {
   geometry::Pose world_from_model;
   geometry::Vector3 linear_velocity;
   geometry::Vector3 angular_velocity;
   DriveState drive;
+  Odometry odometry;
   double distance = 0;           // m that the model's origin has travelled
   std::uint64_t collisions = 0;  // contacts that began (not: steps in contact)
   bool in_contact = false;       // touched something, other than the ground, in the last step

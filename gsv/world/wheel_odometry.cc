@@ -1,0 +1,69 @@
+#include "gsv/world/wheel_odometry.h"
+
+#include <cmath>
+
+namespace gsv::world {
+
+void WheelOdometry::SetLayout(const Layout& layout) {
+  bases_.clear();
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    const Body& body = layout.bodies[i];
+    if (!body.is_robot || !body.model->drive) continue;
+    const model::Drive& drive = *body.model->drive;
+    Base base;
+    base.body = static_cast<int>(i);
+    base.separation = drive.wheel_separation;
+    const auto add = [&](const std::vector<int>& joints, std::vector<Wheel>& wheels) {
+      for (const int joint : joints) {
+        const model::Joint& axle = body.model->joints[static_cast<std::size_t>(joint)];
+        // A wheel whose axis points to the left turns forwards.
+        const bool backwards = (axle.model_from_joint.orientation * axle.axis).y < 0;
+        const double radius = backwards ? -drive.wheel_radius : drive.wheel_radius;
+        wheels.push_back({body.first_joint + joint, radius / static_cast<double>(joints.size())});
+      }
+    };
+    if (drive.kind == model::DriveKind::kDifferential && !drive.left_wheels.empty() &&
+        !drive.right_wheels.empty()) {
+      add(drive.left_wheels, base.left);
+      add(drive.right_wheels, base.right);
+    }
+    bases_.push_back(std::move(base));
+  }
+}
+
+double WheelOdometry::Travel(const std::vector<Wheel>& wheels, const State& state) const {
+  double travel = 0;
+  for (const Wheel& wheel : wheels) {
+    travel += wheel.metres_per_rad * (state.joint_positions[wheel.joint] - before_[wheel.joint]);
+  }
+  return travel;
+}
+
+void WheelOdometry::Advance(double step_seconds, State& state) const {
+  for (const Base& base : bases_) {
+    BodyState& body = state.bodies[base.body];
+    double forward = 0, left = 0, angle = 0;
+    if (base.left.empty()) {
+      forward = step_seconds * body.drive.actual.linear;
+      left = step_seconds * body.drive.actual.lateral;
+      angle = step_seconds * body.drive.actual.angular;
+    } else {
+      const double on_left = Travel(base.left, state), on_right = Travel(base.right, state);
+      forward = (on_left + on_right) / 2;
+      angle = (on_right - on_left) / base.separation;
+    }
+    Odometry& odometry = body.odometry;
+    odometry.linear = forward / step_seconds;
+    odometry.angular = angle / step_seconds;
+    if (forward == 0 && left == 0 && angle == 0) continue;
+    // The chord of the arc points half the turn to the side.
+    const double half = angle / 2;
+    const double chord = std::abs(half) < 1e-4 ? 1 - half * half / 6 : std::sin(half) / half;
+    const double c = std::cos(odometry.yaw + half), s = std::sin(odometry.yaw + half);
+    odometry.x += chord * (c * forward - s * left);
+    odometry.y += chord * (s * forward + c * left);
+    odometry.yaw = geometry::WrapAngle(odometry.yaw + angle);
+  }
+}
+
+}  // namespace gsv::world

@@ -1,0 +1,97 @@
+#include "gsv/world/wheel_odometry.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace gsv::world {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadius = 0.1, kSeparation = 0.4, kStep = 0.01;
+
+// Two wheels; the right one's axis points to the right, so that it turns forwards by going down.
+std::shared_ptr<const Layout> Robot(model::DriveKind kind) {
+  auto model = std::make_shared<model::Model>();
+  model->links.resize(3);
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    model::Joint joint;
+    joint.kind = model::JointKind::kContinuous;
+    joint.parent = 0;
+    joint.child = wheel + 1;
+    joint.axis = {0, wheel == 0 ? 1.0 : -1.0, 0};
+    model->joints.push_back(joint);
+  }
+  model->drive.emplace();
+  model->drive->kind = kind;
+  model->drive->left_wheels = {0};
+  model->drive->right_wheels = {1};
+  model->drive->wheel_radius = kRadius;
+  model->drive->wheel_separation = kSeparation;
+  Body body;
+  body.name = "robot";
+  body.model = model;
+  body.is_robot = true;
+  return MakeLayout(1, {body}, std::make_shared<model::WorldDescription>());
+}
+
+// Rolls the wheels `steps` times by so many metres.
+Odometry AfterRolling(double left, double right, int steps) {
+  const auto layout = Robot(model::DriveKind::kDifferential);
+  WheelOdometry wheels;
+  wheels.SetLayout(*layout);
+  State state = InitialState(*layout);
+  for (int i = 0; i < steps; ++i) {
+    wheels.KeepWheels(state);
+    state.joint_positions[0] += left / kRadius;
+    state.joint_positions[1] -= right / kRadius;
+    wheels.Advance(kStep, state);
+  }
+  return state.bodies[0].odometry;
+}
+
+TEST(WheelOdometry, GoesStraightByWhatTheWheelsRoll) {
+  const Odometry odometry = AfterRolling(0.02, 0.02, 50);
+  EXPECT_NEAR(odometry.x, 1, 1e-12);
+  EXPECT_EQ(odometry.y, 0);
+  EXPECT_EQ(odometry.yaw, 0);
+  EXPECT_NEAR(odometry.linear, 2, 1e-9);
+}
+
+TEST(WheelOdometry, FollowsAnArcExactlyWhateverTheStep) {
+  // A quarter of a circle of radius 1 to the left.
+  const double left = (1 - kSeparation / 2) * kPi / 2, right = (1 + kSeparation / 2) * kPi / 2;
+  for (const int steps : {1, 7, 1000}) {
+    const Odometry odometry = AfterRolling(left / steps, right / steps, steps);
+    EXPECT_NEAR(odometry.x, 1, 1e-9) << steps;
+    EXPECT_NEAR(odometry.y, 1, 1e-9) << steps;
+    EXPECT_NEAR(odometry.yaw, kPi / 2, 1e-9) << steps;
+    EXPECT_NEAR(odometry.angular, kPi / 2 / steps / kStep, 1e-6) << steps;
+  }
+}
+
+TEST(WheelOdometry, OfOtherDrivesIsWhatTheDriveDoes) {
+  const auto layout = Robot(model::DriveKind::kMecanum);
+  WheelOdometry wheels;
+  wheels.SetLayout(*layout);
+  State state = InitialState(*layout);
+  state.bodies[0].odometry.yaw = kPi / 2;
+  state.bodies[0].drive.actual = {0, 1, 0};  // to the left, which is backwards along x
+  wheels.KeepWheels(state);
+  wheels.Advance(0.5, state);
+  EXPECT_NEAR(state.bodies[0].odometry.x, -0.5, 1e-12);
+  EXPECT_NEAR(state.bodies[0].odometry.y, 0, 1e-12);
+}
+
+TEST(WheelOdometry, IsPartOfTheHash) {
+  const auto layout = Robot(model::DriveKind::kDifferential);
+  State state = InitialState(*layout);
+  base::Hash before, after;
+  AddToHash(*layout, state, before);
+  state.bodies[0].odometry.x = 1e-9;
+  AddToHash(*layout, state, after);
+  EXPECT_NE(before.Hex(), after.Hex());
+}
+
+}  // namespace
+}  // namespace gsv::world
