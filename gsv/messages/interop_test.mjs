@@ -63,7 +63,8 @@ function plain(value) {
 }
 
 function assertIsHumbles(name, definition) {
-  if (name.startsWith("gsv_msgs/")) return;
+  // The common messages hold neither ours nor those of these two packages.
+  if (/^(gsv_msgs|ros_gz_interfaces|vision_msgs)\//.test(name)) return;
   const humbles = ros2humble[name.replace("/msg/", "/")];
   const fields = ({ definitions }) =>
     definitions.map(({ type, name, isArray = false, arrayLength, isConstant = false, value }) =>
