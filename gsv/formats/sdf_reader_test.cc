@@ -52,6 +52,21 @@ class SdfReaderTest : public testing::Test {
   base::Problems problems_;
 };
 
+TEST_F(SdfReaderTest, ReadsWhereOnTheEarthAWorldLies) {
+  EXPECT_FALSE(World("<world name='w'/>").origin);
+  const auto world = World(R"(<world name='w'><magnetic_field>1e-5 2e-5 -3e-5</magnetic_field>
+    <spherical_coordinates><surface_model>EARTH_WGS84</surface_model>
+      <latitude_deg>45</latitude_deg><longitude_deg>-90</longitude_deg><elevation>12</elevation>
+      <heading_deg>180</heading_deg></spherical_coordinates></world>)");
+  EXPECT_THAT(problems_, IsEmpty()) << problems_.front().Sentence();
+  ExpectNear(world.magnetic_field, {1e-5, 2e-5, -3e-5});
+  ASSERT_TRUE(world.origin);
+  EXPECT_NEAR(world.origin->latitude, std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(world.origin->longitude, -std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(world.origin->elevation, 12);
+  EXPECT_NEAR(world.origin->heading, std::numbers::pi, 1e-12);
+}
+
 TEST_F(SdfReaderTest, ReadsPhysicsSceneAndLights) {
   const auto world = World(R"(<world name='yard'>
     <physics type='ode'><max_step_size>0.004</max_step_size><real_time_factor>2</real_time_factor></physics>

@@ -212,6 +212,23 @@ TEST_F(SdfRobotTest, ReadsSensorsOfKnownAndUnknownTypes) {
   EXPECT_EQ(model::TextOr(where.parameters, "frame_id", ""), "map");
 }
 
+TEST_F(SdfRobotTest, ReadsWhatSdformatHasNoElementForByOurPrefix) {
+  const auto model = Read(Robot("", R"(
+    <sensor name='echo' type='sonar'><sonar><gsv:beam>cone</gsv:beam><max>4</max></sonar></sensor>
+    <sensor name='feel' type='imu'><imu><angular_velocity><x><noise type='gaussian'><stddev>0.01</stddev>
+      <dynamic_bias_stddev>0.02</dynamic_bias_stddev><gsv:dropout_probability>0.1</gsv:dropout_probability>
+      </noise></x></angular_velocity></imu></sensor>)"));
+  EXPECT_THAT(problems_, IsEmpty()) << problems_.front().Sentence();
+  ASSERT_THAT(model->sensors, SizeIs(2));
+  EXPECT_EQ(model::TextOr(model->sensors[0].parameters, "beam", ""), "cone");
+  EXPECT_EQ(model::NumberOr(model->sensors[0].parameters, "max", 0), 4);
+  const auto& feel = model->sensors[1].parameters;
+  EXPECT_EQ(model::NumberOr(feel, "angular_velocity.x.noise.stddev", 0), 0.01);
+  EXPECT_EQ(model::NumberOr(feel, "angular_velocity.x.noise.dynamic_bias_stddev", 0), 0.02);
+  EXPECT_EQ(model::NumberOr(feel, "angular_velocity.x.noise.dropout_probability", 0), 0.1);
+  EXPECT_EQ(model::TextOr(feel, "angular_velocity.x.noise.type", ""), "gaussian");
+}
+
 TEST_F(SdfRobotTest, GivesSensorsOfOneNameDifferentNames) {
   const auto model = Read(
       "<sdf version='1.9'><model name='r'><link name='a'><sensor name='s' type='imu'/></link>"

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include <sdf/Param.hh>
 
@@ -11,6 +12,9 @@ namespace {
 
 using model::Parameters;
 using model::ParameterValue;
+
+// What SDFormat has no element for stands in a namespace of ours: <gsv:dropout>.
+constexpr std::string_view kOurs = "gsv:";
 
 bool IsWrapper(const std::string& name) {
   static const std::set<std::string> wrappers = {
@@ -56,7 +60,8 @@ bool IsDefined(const sdf::Element& element) {
 
 void Flatten(const sdf::ElementPtr& element, const std::string& prefix, Parameters& parameters) {
   for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
-    const std::string& name = child->GetName();
+    std::string name = child->GetName();
+    if (name.starts_with(kOurs)) name.erase(0, kOurs.size());
     if (IsNoParameter(name)) continue;
     const std::string path = prefix.empty() ? name : prefix + "." + name;
     const bool wraps = prefix.empty() && IsWrapper(name);

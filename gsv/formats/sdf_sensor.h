@@ -16,7 +16,8 @@ namespace gsv::formats {
 // is named like an element ("noise.type"), except `name` and `type` of the sensor itself. <pose>,
 // <update_rate>, <visualize> and <plugin> are no parameters. Where SDFormat defines an element, its
 // type and its default hold; elsewhere what reads as a number is a number, "true" and "false" are
-// flags, and the rest is text. Of repeated elements the first counts.
+// flags, and the rest is text; of "gsv:" before an element's name, which SDFormat asks for where it
+// has no such element, nothing is left. Of repeated elements the first counts.
 model::SensorDescription ReadSensor(const sdf::ElementPtr& sensor);
 
 }  // namespace gsv::formats

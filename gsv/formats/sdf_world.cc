@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <sdf/Element.hh>
 #include <sdf/Physics.hh>
@@ -41,6 +42,22 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
 }
 
+void ReadOrigin(const ignition::math::SphericalCoordinates& coordinates,
+                const ReadingContext& context, model::WorldDescription& world) {
+  const model::GeodeticOrigin origin{
+      coordinates.LatitudeReference().Radian(), coordinates.LongitudeReference().Radian(),
+      coordinates.ElevationReference(), coordinates.HeadingOffset().Radian()};
+  const Vector3 place{origin.latitude, origin.longitude, origin.elevation};
+  if (geometry::IsFinite(place) && std::isfinite(origin.heading) &&
+      std::abs(origin.latitude) <= std::numbers::pi / 2) {
+    world.origin = origin;
+  } else {
+    context.Complain(
+        "<spherical_coordinates> must be finite, with a latitude of at most 90 degrees",
+        context.source.string());
+  }
+}
+
 }  // namespace
 
 model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) {
@@ -74,6 +91,15 @@ void ReadSurroundings(const sdf::World& source, const ReadingContext& context,
     world.gravity = gravity;
   } else {
     context.Complain("<gravity> must be finite", context.source.string());
+  }
+  const Vector3 magnetic_field = FromIgnition(source.MagneticField());
+  if (geometry::IsFinite(magnetic_field)) {
+    world.magnetic_field = magnetic_field;
+  } else {
+    context.Complain("<magnetic_field> must be finite", context.source.string());
+  }
+  if (const auto* coordinates = source.SphericalCoordinates()) {
+    ReadOrigin(*coordinates, context, world);
   }
   if (const sdf::Physics* physics = source.PhysicsDefault()) ReadPhysics(*physics, context, world);
   const sdf::Scene* scene = source.Scene();

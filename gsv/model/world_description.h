@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,21 @@ struct PlacedModel {
   bool is_static = false;
 };
 
+// Where on the earth (WGS84) the world's origin lies.
+struct GeodeticOrigin {
+  double latitude = 0, longitude = 0;  // rad
+  double elevation = 0;                // m above the ellipsoid
+  double heading = 0;                  // rad from east to the world's x axis, counter-clockwise
+};
+
 struct WorldDescription {
   std::string name;
   std::string source;
   base::SimTime max_step_size{std::chrono::milliseconds(1)};
   double real_time_factor = 1;
   geometry::Vector3 gravity{0, 0, -9.8};
+  geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
+  std::optional<GeodeticOrigin> origin;  // without one, satellites tell nothing
   SceneLook scene;
   std::vector<Light> lights;
   std::vector<PlacedModel> models;
