@@ -27,6 +27,23 @@ double ParameterReader::Number(const std::string& name, double otherwise, double
   return *value;
 }
 
+bool ParameterReader::Flag(const std::string& name, bool otherwise) {
+  const auto it = description_.parameters.find(name);
+  if (it == description_.parameters.end()) return otherwise;
+  if (const bool* flag = std::get_if<bool>(&it->second)) return *flag;
+  if (const double* number = std::get_if<double>(&it->second)) return *number != 0;
+  Refuse(fmt::format("{} must be true or false", name));
+  return otherwise;
+}
+
+std::string ParameterReader::Text(const std::string& name, const std::string& otherwise) {
+  const auto it = description_.parameters.find(name);
+  if (it == description_.parameters.end()) return otherwise;
+  if (const auto* text = std::get_if<std::string>(&it->second)) return *text;
+  Refuse(fmt::format("{} must be text", name));
+  return otherwise;
+}
+
 int ParameterReader::Count(const std::string& name, int otherwise, int low, int high) {
   const double value = Number(name, otherwise, low, high);
   if (value != std::floor(value)) {

@@ -25,6 +25,12 @@ class ParameterReader {
   // The same for a whole number.
   int Count(const std::string& name, int otherwise, int low, int high);
 
+  // Yes or no; a number is yes unless it is 0.
+  bool Flag(const std::string& name, bool otherwise);
+
+  // Text; what is a number or a flag is refused.
+  std::string Text(const std::string& name, const std::string& otherwise);
+
   // Says that the parameters do not fit together.
   void Refuse(const std::string& why);
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <boost/container/small_vector.hpp>
 
@@ -11,7 +13,7 @@
 namespace gsv::sensing {
 
 // `values` has the shape its sensor type documents (a sonar: one range in metres). `picture` is
-// null for all but cameras.
+// null for all but cameras; `labels`, names that go with the values, for all types that have none.
 struct Reading {
   using Values = boost::container::small_vector<double, 1>;  // a single one takes no allocation
 
@@ -19,6 +21,7 @@ struct Reading {
   base::SimTime time{0};  // the sampling instant
   Values values;
   std::shared_ptr<const model::Image> picture;
+  std::shared_ptr<const std::vector<std::string>> labels;
 };
 
 }  // namespace gsv::sensing

@@ -3,7 +3,16 @@
 #include <fmt/format.h>
 
 #include "gsv/base/check.h"
+#include "gsv/sensing/altimeter.h"
+#include "gsv/sensing/battery.h"
+#include "gsv/sensing/bumper.h"
+#include "gsv/sensing/imu.h"
+#include "gsv/sensing/joint_encoders.h"
 #include "gsv/sensing/lidar.h"
+#include "gsv/sensing/logical_camera.h"
+#include "gsv/sensing/magnetometer.h"
+#include "gsv/sensing/navsat.h"
+#include "gsv/sensing/odometer.h"
 #include "gsv/sensing/positioning.h"
 #include "gsv/sensing/sonar.h"
 
@@ -38,7 +47,9 @@ std::vector<std::string> SensorRegistry::names() const {
 }
 
 void AddBuiltInSensors(SensorRegistry& registry) {
-  for (SensorType (*make)() : {SonarType, LidarType, PositioningType}) {
+  for (SensorType (*make)() :
+       {SonarType, LidarType, PositioningType, ImuType, OdometerType, NavsatType, MagnetometerType,
+        AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType}) {
     GSV_CHECK(registry.Add(make()));
   }
 }

@@ -55,7 +55,7 @@ class SensorRegistry {
   std::map<std::string, std::shared_ptr<const SensorType>, std::less<>> types_;
 };
 
-// Sonar, lidar, positioning: all that need no renderer.
+// All that need no renderer.
 void AddBuiltInSensors(SensorRegistry& registry);
 
 }  // namespace gsv::sensing

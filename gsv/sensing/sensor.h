@@ -56,6 +56,8 @@ class Sampling {
     return world_from_link_ * description.link_from_sensor;
   }
 
+  std::uint64_t seed() const { return seed_; }
+
   // The noise of this sensor at this instant, keyed by (seed, robot, sensor, step).
   base::Noise NoiseOf(const model::SensorDescription& description) const {
     return {seed_, base::StableId(robot().name + "/" + description.name),
@@ -63,7 +65,9 @@ class Sampling {
   }
 
   // A reading without values, stamped with this instant.
-  Reading Stamped() const { return {snapshot_->state.step, snapshot_->state.time, {}, nullptr}; }
+  Reading Stamped() const {
+    return {snapshot_->state.step, snapshot_->state.time, {}, nullptr, nullptr};
+  }
 
  private:
   std::shared_ptr<const world::Snapshot> snapshot_;

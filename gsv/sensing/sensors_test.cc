@@ -249,7 +249,10 @@ TEST(SensorParameters, AreRefusedWithASentence) {
 }
 
 TEST(SensorRegistry, FindsTypesByNameAndAlias) {
-  EXPECT_EQ(Registry().names(), (std::vector<std::string>{"lidar", "positioning", "sonar"}));
+  EXPECT_EQ(Registry().names(),
+            (std::vector<std::string>{"altimeter", "battery", "contact", "imu", "joint_encoders",
+                                      "lidar", "logical_camera", "magnetometer", "navsat",
+                                      "odometry", "positioning", "sonar"}));
   EXPECT_EQ(Registry().Find("gpu_ray"), Registry().Find("lidar"));
   EXPECT_EQ(Registry().Find("telepathy"), nullptr);
   EXPECT_EQ(Registry().Find("sonar")->schema->name, "sensor_msgs/msg/Range");

@@ -1,0 +1,15 @@
+// The sensor type "magnetometer": the earth's field, which the world's file sets
+// (<magnetic_field>).
+//
+// Frame       sensor frame.
+// Parameters  {x,y,z}.noise in tesla, see noise.h.
+// Readings    values {x, y, z} in tesla. As a message: sensor_msgs/MagneticField.
+#pragma once
+
+#include "gsv/sensing/registry.h"
+
+namespace gsv::sensing {
+
+SensorType MagnetometerType();
+
+}  // namespace gsv::sensing

@@ -1,0 +1,163 @@
+#include "gsv/sensing/noise.h"
+
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "gsv/sensing/drift.h"
+#include "gsv/sensing/registry.h"
+#include "gsv/sensing/test_snapshot.h"
+
+namespace gsv::sensing {
+namespace {
+
+using base::FromSeconds;
+
+constexpr int kMany = 4000;
+constexpr std::uint64_t kSeed = 11;
+
+struct Moments {
+  double mean = 0, variance = 0;
+};
+
+Moments MomentsOf(int count, const std::function<double(int)>& value) {
+  double sum = 0, squares = 0;
+  for (int i = 0; i < count; ++i) {
+    const double v = value(i);
+    sum += v, squares += v * v;
+  }
+  const double mean = sum / count;
+  return {mean, squares / count - mean * mean};
+}
+
+// Of `count` normal values of variance 1: their mean and variance err by this at 3 sigma.
+double MeanBound(int count) { return 3 / std::sqrt(double(count)); }
+double VarianceBound(int count) { return 3 * std::sqrt(2.0 / count); }
+
+TEST(Drift, HasVarianceOneAtEveryInstant) {
+  for (const double seconds : {0.0, 0.1, 3.3, 100.0, 639.99, 5000.0}) {
+    const Moments moments = MomentsOf(
+        kMany, [&](int i) { return DriftAt(FromSeconds(seconds), 10, kSeed, std::uint64_t(i)); });
+    EXPECT_NEAR(moments.mean, 0, MeanBound(kMany)) << seconds;
+    EXPECT_NEAR(moments.variance, 1, VarianceBound(kMany)) << seconds;
+  }
+}
+
+TEST(Drift, ForgetsByTheCorrelationTime) {
+  // The correlation of values a time t apart is exp(-t / correlation time), also where t spans the
+  // border between two blocks (at 640 s) or between two of its halves (at 320 s).
+  for (const double lag : {0.5, 5.0, 10.0, 20.0}) {
+    for (const double middle : {55.0, 320.0, 640.0}) {
+      double sum = 0;
+      for (int i = 0; i < kMany; ++i) {
+        sum += DriftAt(FromSeconds(middle - lag / 2), 10, kSeed, std::uint64_t(i)) *
+               DriftAt(FromSeconds(middle + lag / 2), 10, kSeed, std::uint64_t(i));
+      }
+      const double rho = std::exp(-lag / 10);
+      const double bound = 3 * std::sqrt((1 + rho * rho) / kMany);
+      EXPECT_NEAR(sum / kMany, rho, bound) << lag << " s about " << middle;
+    }
+  }
+}
+
+TEST(Drift, MovesLittleInLittleTime) {
+  for (double t = 0; t < 1500; t += 0.37) {
+    const double step =
+        DriftAt(FromSeconds(t + 1e-3), 10, kSeed, 1) - DriftAt(FromSeconds(t), 10, kSeed, 1);
+    // sqrt(2 dt / correlation time) is 0.014; five times that, and what interpolation adds.
+    EXPECT_LT(std::abs(step), 0.12) << t;
+  }
+}
+
+// A robot with an altimeter; what is read of the height 5 above a reference of 0.
+class NoiseTest : public ::testing::Test {
+ protected:
+  NoiseTest() {
+    snapshot_ = testing::MakeSnapshot(
+        {{"robot", testing::ModelOf(geometry::Sphere{0.2}), {{0, 0, 5}, {}}, false}});
+    AddBuiltInSensors(registry_);
+  }
+
+  double Read(const std::string& name, const model::Parameters& noise, std::int64_t step,
+              std::uint64_t seed = kSeed) {
+    model::SensorDescription description;
+    description.name = name;
+    description.type = "altimeter";
+    description.parameters = {{"vertical_reference", 0.0}};
+    for (const auto& [key, value] : noise) {
+      description.parameters["vertical_position.noise." + key] = value;
+    }
+    snapshot_->state.step = step;
+    snapshot_->state.time = FromSeconds(0.01 * static_cast<double>(step));
+    const auto sensor = registry_.Find("altimeter")->create(description);
+    EXPECT_TRUE(sensor) << sensor.error().Sentence();
+    return (*sensor)->Sample(Sampling(snapshot_, 0, seed, rays_))->values[0];
+  }
+
+  std::shared_ptr<world::Snapshot> snapshot_;
+  SensorRegistry registry_;
+  RaySceneCache rays_;
+};
+
+TEST_F(NoiseTest, WhiteNoiseHasItsMeanAndDeviation) {
+  const Moments moments = MomentsOf(kMany, [&](int i) {
+    return Read("a", {{"mean", 0.3}, {"stddev", 0.5}}, i);
+  });
+  EXPECT_NEAR(moments.mean, 5.3, 0.5 * MeanBound(kMany));
+  EXPECT_NEAR(moments.variance, 0.25, 0.25 * VarianceBound(kMany));
+}
+
+TEST_F(NoiseTest, ABiasStaysAndIsAnotherOnEachSensor) {
+  const model::Parameters noise = {{"bias_mean", 1.0}, {"bias_stddev", 0.5}};
+  EXPECT_EQ(Read("a", noise, 0), Read("a", noise, 1234));
+  EXPECT_NE(Read("a", noise, 0), Read("a", noise, 0, kSeed + 1));
+  const Moments moments =
+      MomentsOf(kMany, [&](int i) { return Read(std::to_string(i), noise, 7); });
+  EXPECT_NEAR(moments.mean, 6, 0.5 * MeanBound(kMany));
+  EXPECT_NEAR(moments.variance, 0.25, 0.25 * VarianceBound(kMany));
+}
+
+TEST_F(NoiseTest, ADriftHasTheDeviationThatGazebosTendsTo) {
+  const model::Parameters noise = {{"dynamic_bias_stddev", 0.2},
+                                   {"dynamic_bias_correlation_time", 8.0}};
+  const Moments moments =
+      MomentsOf(kMany, [&](int i) { return Read(std::to_string(i), noise, 300); });
+  EXPECT_NEAR(moments.variance, 0.2 * 0.2 * 8 / 2, 0.16 * VarianceBound(kMany));
+  EXPECT_NEAR(Read("a", noise, 300), Read("a", noise, 301), 0.1);
+}
+
+TEST_F(NoiseTest, ReadingsAreMultiplesOfThePrecision) {
+  for (int i = 0; i < 100; ++i) {
+    const double value = Read("a", {{"stddev", 1.0}, {"precision", 0.25}}, i);
+    EXPECT_EQ(value * 4, std::round(value * 4));
+  }
+}
+
+TEST_F(NoiseTest, ReadingsDropOutAsOftenAsTheyShould) {
+  const double p = 0.1;
+  int dropped = 0;
+  for (int i = 0; i < kMany; ++i) dropped += std::isnan(Read("a", {{"dropout_probability", p}}, i));
+  EXPECT_NEAR(double(dropped) / kMany, p, 3 * std::sqrt(p * (1 - p) / kMany));
+}
+
+TEST_F(NoiseTest, OutliersStrikeAsOftenAndAsFarAsTheyShould) {
+  const double p = 0.2;
+  const model::Parameters noise = {{"outlier_probability", p}, {"outlier_stddev", 3.0}};
+  int struck = 0;
+  double squares = 0;
+  for (int i = 0; i < kMany; ++i) {
+    const double error = Read("a", noise, i) - 5;
+    struck += error != 0;
+    squares += error * error;
+  }
+  EXPECT_NEAR(double(struck) / kMany, p, 3 * std::sqrt(p * (1 - p) / kMany));
+  EXPECT_NEAR(squares / struck, 9, 9 * VarianceBound(struck));
+}
+
+TEST_F(NoiseTest, NoneIsNone) {
+  EXPECT_EQ(Read("a", {{"type", std::string("none")}, {"stddev", 1.0}}, 3), 5);
+}
+
+}  // namespace
+}  // namespace gsv::sensing

@@ -1,0 +1,23 @@
+// How a sensor moves through the world.
+//
+// Frames  world axes.
+// Exactness  velocities are those of the state, joints included. The acceleration is the body's
+// mean
+//            over the last step, carried to the sensor's place with the centripetal terms of body
+//            and joints; how joints speed up is not felt.
+#pragma once
+
+#include "gsv/sensing/sensor.h"
+
+namespace gsv::sensing {
+
+struct SensorMotion {
+  geometry::Pose world_from_sensor;
+  geometry::Vector3 velocity;          // m/s
+  geometry::Vector3 angular_velocity;  // rad/s
+  geometry::Vector3 acceleration;      // m/s²
+};
+
+SensorMotion MotionOf(const Sampling& sampling, const model::SensorDescription& description);
+
+}  // namespace gsv::sensing

@@ -1,0 +1,160 @@
+// Sensors of motion in a world that moves: what they read against what the motion must make them
+// read. docs/fidelity.md lists what is expected.
+#include <numbers>
+
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::simulation {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadius = 0.1, kSeparation = 0.3;
+
+// A disc on two wheels whose true radii are `left` and `right` times what the drive takes them for,
+// with one sensor named after its type, 0.15 m ahead.
+std::shared_ptr<model::Model> Rover(const std::string& sensor, double left = 1, double right = 1) {
+  auto model = std::make_shared<model::Model>(*Disc(0.2));
+  for (const double side : {1.0, -1.0}) {
+    model->links.push_back({});
+    model::Joint joint;
+    joint.name = side > 0 ? "left" : "right";
+    joint.kind = model::JointKind::kContinuous;
+    joint.parent = 0;
+    joint.child = static_cast<int>(model->links.size()) - 1;
+    joint.model_from_joint = PlanarPose(0, side * kSeparation / 2, kRadius, 0);
+    joint.axis = {0, 1, 0};
+    model->joints.push_back(joint);
+  }
+  model->drive->kind = model::DriveKind::kDifferential;
+  model->drive->left_wheels = {0};
+  model->drive->right_wheels = {1};
+  model->drive->wheel_separation = kSeparation;
+  model->drive->wheel_radius = kRadius;
+  model->drive->left_wheel_scale = left;
+  model->drive->right_wheel_scale = right;
+  model->sensors.clear();
+  model::SensorDescription description;
+  description.name = description.type = sensor;
+  description.link_from_sensor = PlanarPose(0.15, 0, 0.1, 0);
+  model->sensors.push_back(description);
+  return model;
+}
+
+struct Leg {
+  world::DriveCommand command;
+  SimTime duration;
+};
+
+// Drives the legs and gives the sensor's reading and the robot's pose at the end.
+struct Driven {
+  std::vector<double> values;
+  std::shared_ptr<const std::vector<std::string>> labels;
+  geometry::Pose pose;
+};
+
+Driven Drive(std::shared_ptr<model::Model> model, const std::vector<Leg>& legs, double x = 0) {
+  auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
+    for (const Leg& leg : legs) {
+      if (!agent.Command(leg.command) || !SleepFor(agent, clock, leg.duration)) return;
+    }
+  });
+  SimTime duration{0};
+  for (const Leg& leg : legs) duration += leg.duration;
+  auto simulation = Make(Lockstep(duration));
+  const std::string sensor = model->sensors[0].name;
+  RobotSpecification robot = Robot("robot", x, 0, behaviour);
+  robot.model = std::move(model);
+  EXPECT_TRUE(simulation->AddRobot(std::move(robot)));
+  EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  const auto reading = simulation->Watch("robot", sensor);
+  EXPECT_TRUE(reading) << reading.error().Sentence();
+  return {{reading->values.begin(), reading->values.end()},
+          reading->labels,
+          StatusOf(*simulation, "robot").world_from_robot};
+}
+
+std::vector<Leg> AroundTheSquare() {
+  std::vector<Leg> legs;
+  for (int side = 0; side < 4; ++side) {
+    legs.push_back({{0.5, 0, 0}, 4s});
+    legs.push_back({{0, 0, kPi / 4}, 2s});
+  }
+  return legs;
+}
+
+TEST(MotionSensors, AnOdometerClosesTheSquareThatUnequalWheelsMiss) {
+  // The square of planar_fidelity_test.cc, with sides of 2 m: where wheels differ by the ratio E
+  // the robot misses its start by 2 L beta, beta = L / (b/2 (E + 1) / (E - 1)); the wheels do not
+  // know.
+  const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
+  const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
+  ASSERT_EQ(driven.values.size(), 5u);
+  EXPECT_NEAR(driven.values[0], 0, 1e-9);
+  EXPECT_NEAR(driven.values[1], 0, 1e-9);
+  EXPECT_NEAR(geometry::WrapAngle(driven.values[2]), 0, 1e-9);
+  const double expected = 2 * 2 * 2 / (kSeparation / 2 * (ratio + 1) / (ratio - 1));
+  EXPECT_NEAR(driven.pose.position.x, expected, 0.05 * expected);
+  EXPECT_NEAR(driven.pose.position.y, -expected, 0.05 * expected);
+}
+
+TEST(MotionSensors, AnImuOnASpinningRobotFeelsItsCentripetalForce) {
+  const Driven driven = Drive(Rover("imu"), {{{0, 0, 2}, 1s}});
+  ASSERT_EQ(driven.values.size(), 10u);
+  EXPECT_NEAR(driven.values[2], 2, 1e-9);
+  EXPECT_NEAR(driven.values[3], -2 * 2 * 0.15, 1e-9);
+  EXPECT_NEAR(driven.values[4], 0, 1e-9);
+  EXPECT_NEAR(driven.values[5], 9.8, 1e-9);
+}
+
+TEST(MotionSensors, AnImuOnARobotThatCirclesFeelsTheCircle) {
+  // At 0.5 m/s and 0.5 rad/s: 0.25 m/s² to the left, less what the step of 10 ms blurs.
+  const Driven driven = Drive(Rover("imu"), {{{0.5, 0, 0.5}, 1s}});
+  ASSERT_EQ(driven.values.size(), 10u);
+  EXPECT_NEAR(driven.values[4], 0.25, 1e-3);
+  EXPECT_NEAR(driven.values[3], -0.5 * 0.5 * 0.15, 2e-3);
+}
+
+TEST(MotionSensors, AnImuOnAFallingRobotFeelsNothing) {
+  auto model = Rover("imu");
+  model->movement = model::Movement::kRigid;
+  auto simulation = Make(Lockstep(300ms));
+  RobotSpecification robot = Robot("robot", 0, 0);
+  robot.model = model;
+  robot.world_from_robot.position.z = 3;
+  robot.on_ground = false;
+  ASSERT_TRUE(simulation->AddRobot(std::move(robot)));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  const auto reading = simulation->Watch("robot", "imu");
+  ASSERT_TRUE(reading);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(reading->values[i], 0, 1e-6) << i;
+  EXPECT_LT(StatusOf(*simulation, "robot").world_from_robot.position.z, 2.6);
+}
+
+TEST(MotionSensors, JointEncodersSeeTheWheelsRoll) {
+  const Driven driven = Drive(Rover("joint_encoders"), {{{0.5, 0, 0}, 2s}});
+  EXPECT_EQ(*driven.labels, (std::vector<std::string>{"left", "right"}));
+  ASSERT_EQ(driven.values.size(), 4u);
+  EXPECT_NEAR(driven.values[0], 1 / kRadius, 1e-9);
+  EXPECT_NEAR(driven.values[1], 0.5 / kRadius, 1e-9);
+}
+
+TEST(MotionSensors, ABumperFeelsTheWall) {
+  // The wall's face is at 2.9 m, the robot's radius is 0.2 m.
+  const Driven before = Drive(Rover("contact"), {{{0.5, 0, 0}, 1s}});
+  EXPECT_TRUE(before.values.empty());
+  const Driven driven = Drive(Rover("contact"), {{{0.5, 0, 0}, 2s}}, 2.0);
+  EXPECT_EQ(*driven.labels, std::vector<std::string>{"wall"});
+  ASSERT_EQ(driven.values.size(), 7u);
+  EXPECT_NEAR(driven.values[0], 0.05, 1e-3);  // the face, from the sensor 0.15 m ahead
+  EXPECT_NEAR(driven.values[3], 1, 1e-6);
+}
+
+TEST(MotionSensors, ABatteryFallsAsTheRobotDrives) {
+  const Driven driven = Drive(Rover("battery"), {{{0.5, 0, 0}, 4s}});
+  ASSERT_EQ(driven.values.size(), 5u);
+  EXPECT_NEAR(driven.values[2], 5 - (0.5 * 4 + 4 * 2.0) / 3600, 1e-12);
+  EXPECT_NEAR(driven.values[1], 0.5 + 4 * 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace gsv::simulation
