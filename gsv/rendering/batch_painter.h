@@ -11,6 +11,7 @@
 #include "gsv/base/error.h"
 #include "gsv/rendering/draw_plan.h"
 #include "gsv/rendering/frame_block.h"
+#include "gsv/rendering/ground_truth.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::rendering {
@@ -23,8 +24,12 @@ class BatchPainter {
   virtual base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
 
+  // truths[i] is views[i]'s. Fails where nothing can draw them.
+  virtual base::Result<std::vector<std::shared_ptr<const GroundTruth>>> Survey(
+      const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
+
   // Forgets what belongs to layouts, meshes and pictures that are gone.
-  void Sweep();
+  virtual void Sweep();
   DrawCopies Count() const;
 
  protected:

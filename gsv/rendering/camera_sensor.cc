@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "gsv/messages/sensor_msgs.h"
+#include "gsv/rendering/camera_parameters.h"
 #include "gsv/rendering/jpeg.h"
 #include "gsv/sensing/encoding.h"
-#include "gsv/sensing/parameters.h"
 
 namespace gsv::rendering {
 namespace {
@@ -17,15 +17,7 @@ constexpr int kJpegQuality = 80;
 
 Result<CameraParameters> ReadParameters(const model::SensorDescription& description) {
   sensing::ParameterReader reader(description);
-  CameraParameters camera;
-  camera.width = reader.Count("image.width", camera.width, 1, kMaxPictureSide);
-  camera.height = reader.Count("image.height", camera.height, 1, kMaxPictureSide);
-  camera.horizontal_fov = reader.Number("horizontal_fov", camera.horizontal_fov, 0.01, 3.0);
-  camera.near = reader.Number("clip.near", camera.near, 1e-4, 1e6);
-  camera.far = reader.Number("clip.far", camera.far, 1e-4, 1e6);
-  if (reader.status()) {
-    if (base::Status fits = Check(camera); !fits) reader.Refuse(fits.error().message);
-  }
+  const CameraParameters camera = ReadCameraParameters(reader);
   if (!reader.status()) return Fail(reader.status().error());
   return camera;
 }

@@ -8,6 +8,7 @@
 
 #include "gsv/rendering/gpu_mesh.h"
 #include "gsv/rendering/gpu_texture.h"
+#include "gsv/rendering/raster/raster_batch_painter.h"
 
 namespace gsv::rendering {
 namespace {
@@ -30,6 +31,8 @@ base::Status CheckCard() {
 }
 
 }  // namespace
+
+GlBatchPainter::~GlBatchPainter() = default;
 
 GlBatchPainter::GlBatchPainter()
     : BatchPainter(MeshStore(UploadMesh), TextureStore(UploadTexture, LargestTexture())) {
@@ -88,6 +91,23 @@ base::Result<Pictures> GlBatchPainter::Draw(const world::Snapshot& snapshot,
   }
   if (base::Status status = CheckCard(); !status) return base::Fail(status.error());
   return pictures;
+}
+
+base::Result<std::vector<std::shared_ptr<const GroundTruth>>> GlBatchPainter::Survey(
+    const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
+  if (!raster::CanRasterise()) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "this processor has no AVX2, which depth and segmentation are made with");
+  }
+  if (surveyor_ == nullptr) {
+    surveyor_ = std::make_unique<raster::RasterBatchPainter>(base::ThreadTeam::DefaultThreads());
+  }
+  return surveyor_->Survey(snapshot, views);
+}
+
+void GlBatchPainter::Sweep() {
+  BatchPainter::Sweep();
+  if (surveyor_ != nullptr) surveyor_->Sweep();
 }
 
 }  // namespace gsv::rendering

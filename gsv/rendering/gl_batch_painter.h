@@ -14,12 +14,21 @@
 
 namespace gsv::rendering {
 
+namespace raster {
+class RasterBatchPainter;
+}
+
 class GlBatchPainter final : public BatchPainter {
  public:
   GlBatchPainter();
+  ~GlBatchPainter() override;
 
   base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+  // By the rasteriser: ground truth is the same to the bit on every machine.
+  base::Result<std::vector<std::shared_ptr<const GroundTruth>>> Survey(
+      const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+  void Sweep() override;
 
  private:
   PictureTarget& TargetFor(const CameraParameters& camera);
@@ -28,6 +37,7 @@ class GlBatchPainter final : public BatchPainter {
   InstanceBuffer instances_;
   ShadowMap shadow_map_;
   ViewPainter painter_;
+  std::unique_ptr<raster::RasterBatchPainter> surveyor_;  // null until it is asked for
 };
 
 }  // namespace gsv::rendering

@@ -1,9 +1,11 @@
 #include "gsv/rendering/renderer.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <future>
 #include <mutex>
+#include <span>
 #include <thread>
 
 #include "gsv/base/check.h"
@@ -23,11 +25,23 @@ constexpr std::size_t kMostInBatch = 64;
 // How long what nobody uses may stay on the card while no picture is asked for.
 constexpr std::chrono::seconds kIdleSweep{5};
 
+using Truths = std::vector<std::shared_ptr<const GroundTruth>>;
+
 struct Request {
   std::shared_ptr<const world::Snapshot> snapshot;
   std::vector<CameraView> views;
+  bool is_survey = false;  // `truths` is asked for, else `pictures`
   std::promise<Result<Pictures>> pictures;
+  std::promise<Result<Truths>> truths;
   bool abandoned = false;  // nobody waits any more
+
+  void Fail(const base::Error& error) {
+    if (is_survey) {
+      truths.set_value(base::Fail(error));
+    } else {
+      pictures.set_value(base::Fail(error));
+    }
+  }
 };
 
 }  // namespace
@@ -58,23 +72,16 @@ class Renderer::RenderThread {
     auto request = std::make_shared<Request>();
     request->snapshot = std::move(snapshot);
     request->views = std::move(views);
-    std::future<Result<Pictures>> pictures = request->pictures.get_future();
-    {
-      const std::lock_guard lock(mutex_);
-      if (queue_.size() >= options_.queue_capacity) {
-        return Fail(ErrorCode::kUnavailable,
-                    std::to_string(queue_.size()) +
-                        " requests for pictures wait already; ask less often or for smaller ones");
-      }
-      queue_.push_back(request);
-    }
-    work_.notify_one();
-    if (pictures.wait_for(timeout) == std::future_status::ready) return pictures.get();
-    const std::lock_guard lock(mutex_);
-    request->abandoned = true;
-    return Fail(ErrorCode::kTimeout,
-                "no picture within " + std::to_string(timeout.count()) +
-                    " ms; the renderer is overloaded: ask less often or for smaller pictures");
+    return Await(request, request->pictures.get_future(), timeout);
+  }
+
+  Result<Truths> Survey(std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
+                        std::chrono::milliseconds timeout) {
+    auto request = std::make_shared<Request>();
+    request->snapshot = std::move(snapshot);
+    request->views = {view};
+    request->is_survey = true;
+    return Await(request, request->truths.get_future(), timeout);
   }
 
   DrawCopies Count() {
@@ -89,6 +96,27 @@ class Renderer::RenderThread {
 
  private:
   using Batch = std::vector<std::shared_ptr<Request>>;
+
+  template <typename Product>
+  Result<Product> Await(const std::shared_ptr<Request>& request,
+                        std::future<Result<Product>> product, std::chrono::milliseconds timeout) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (queue_.size() >= options_.queue_capacity) {
+        return Fail(ErrorCode::kUnavailable,
+                    std::to_string(queue_.size()) +
+                        " requests for pictures wait already; ask less often or for smaller ones");
+      }
+      queue_.push_back(request);
+    }
+    work_.notify_one();
+    if (product.wait_for(timeout) == std::future_status::ready) return product.get();
+    const std::lock_guard lock(mutex_);
+    request->abandoned = true;
+    return Fail(ErrorCode::kTimeout,
+                "no picture within " + std::to_string(timeout.count()) +
+                    " ms; the renderer is overloaded: ask less often or for smaller pictures");
+  }
 
   void Run(std::promise<Result<std::string>>& started) {
     const bool automatic = options_.back_end == BackEnd::kAutomatic;
@@ -158,22 +186,41 @@ class Renderer::RenderThread {
   }
 
   static void Serve(BatchPainter& painter, Batch batch) {
+    const auto surveys = std::stable_partition(
+        batch.begin(), batch.end(), [](const auto& request) { return !request->is_survey; });
+    const world::Snapshot& snapshot = *batch.front()->snapshot;
+    const std::span pictures(batch.begin(), surveys), truths(surveys, batch.end());
+    Result<Pictures> drawn;
+    Result<Truths> surveyed;
+    if (!pictures.empty()) drawn = painter.Draw(snapshot, ViewsOf(pictures));
+    if (!truths.empty()) surveyed = painter.Survey(snapshot, ViewsOf(truths));
+    Serve(pictures, std::move(drawn), &Request::pictures);
+    Serve(truths, std::move(surveyed), &Request::truths);
+  }
+
+  static std::vector<CameraView> ViewsOf(std::span<const std::shared_ptr<Request>> requests) {
     std::vector<CameraView> views;
-    for (const auto& request : batch) {
+    for (const auto& request : requests) {
       views.insert(views.end(), request->views.begin(), request->views.end());
     }
-    Result<Pictures> drawn = painter.Draw(*batch.front()->snapshot, views);
+    return views;
+  }
+
+  // Shares out what was made of the requests' views, one after the other.
+  template <typename Product>
+  static void Serve(std::span<const std::shared_ptr<Request>> requests, Result<Product> made,
+                    std::promise<Result<Product>> Request::*promise) {
     std::size_t first = 0;
-    for (const auto& request : batch) {
+    for (const auto& request : requests) {
       // What a request keeps alive goes before its caller continues: he may count what is left.
       request->snapshot.reset();
       const std::size_t count = request->views.size();
-      if (drawn) {
-        request->pictures.set_value(
-            Pictures(drawn->begin() + static_cast<std::ptrdiff_t>(first),
-                     drawn->begin() + static_cast<std::ptrdiff_t>(first + count)));
+      if (made) {
+        ((*request).*promise)
+            .set_value(Product(made->begin() + static_cast<std::ptrdiff_t>(first),
+                               made->begin() + static_cast<std::ptrdiff_t>(first + count)));
       } else {
-        request->pictures.set_value(Fail(drawn.error()));
+        request->Fail(made.error());
       }
       first += count;
     }
@@ -182,7 +229,7 @@ class Renderer::RenderThread {
   void EndAll() {
     const std::lock_guard lock(mutex_);
     for (const auto& request : queue_) {
-      request->pictures.set_value(Fail(ErrorCode::kEnded, "the renderer has been shut down"));
+      request->Fail({ErrorCode::kEnded, "the renderer has been shut down", {}});
     }
     queue_.clear();
     for (auto& count : counts_) count.set_value({});
@@ -226,6 +273,16 @@ Result<Pictures> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
     if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
   }
   return thread_->Draw(std::move(snapshot), views, timeout);
+}
+
+Result<std::shared_ptr<const GroundTruth>> Renderer::Survey(
+    std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
+    std::chrono::milliseconds timeout) {
+  GSV_CHECK(snapshot != nullptr);
+  if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
+  Result<Truths> truths = thread_->Survey(std::move(snapshot), view, timeout);
+  if (!truths) return Fail(truths.error());
+  return std::move(truths->front());
 }
 
 DrawCopies Renderer::CountCopies() { return thread_->Count(); }

@@ -22,6 +22,7 @@
 #include "gsv/model/image.h"
 #include "gsv/rendering/camera_view.h"
 #include "gsv/rendering/egl_context.h"
+#include "gsv/rendering/ground_truth.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::rendering {
@@ -62,6 +63,12 @@ class Renderer {
   // The same for several cameras; pictures[i] is views[i]'s. They are drawn in one batch.
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
+      std::chrono::milliseconds timeout = std::chrono::seconds(10));
+
+  // Distances and whose they are, always by the rasteriser: kUnavailable on processors without AVX2
+  // and FMA.
+  [[nodiscard]] base::Result<std::shared_ptr<const GroundTruth>> Survey(
+      std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
       std::chrono::milliseconds timeout = std::chrono::seconds(10));
 
   // "GSV rasteriser (AVX2)" or "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gsv/rendering/edge_smoothing.h"
 #include "gsv/rendering/raster/raster_texture.h"
@@ -12,6 +13,8 @@ namespace {
 using geometry::Vector3;
 
 constexpr int kTileWidth = 32, kTileHeight = 16;
+// The ground gives way to what lies on it.
+constexpr float kGroundBack = 1 - 2e-4f;
 
 // The coarsest level whose vertices were moved by no more than about a pixel.
 const Level& LevelFor(const std::vector<Level>& levels, double pixel_in_mesh) {
@@ -35,6 +38,29 @@ model::Image PicturePainter::Paint(const CameraView& view, const DrawPlan& plan,
   return Smooth();
 }
 
+GroundTruth PicturePainter::Survey(const CameraView& view, const DrawPlan& plan,
+                                   const FrameBlock& block) {
+  Begin(view, block);
+  FindVisible(view, plan);
+  Cover(view, plan);
+  GroundTruth truth{width_, height_, {}, {}};
+  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  truth.depth.assign(pixels, std::numeric_limits<float>::infinity());
+  truth.body.assign(pixels, -1);
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::uint32_t triangle = nearest_[At(x, y)];
+      if (triangle == 0) continue;
+      const std::uint32_t drawn = triangles_[triangle - 1].drawn;
+      const std::size_t pixel = static_cast<std::size_t>(y) * width_ + x;
+      const float back = drawn_[drawn].group->ground ? kGroundBack : 1.0f;
+      truth.depth[pixel] = back / inverse_w_[At(x, y)];
+      truth.body[pixel] = body_of_[drawn];
+    }
+  }
+  return truth;
+}
+
 model::Image PicturePainter::Smooth() const {
   return SmoothEdges(width_, height_, reinterpret_cast<const std::uint8_t*>(rgba_.data()));
 }
@@ -48,6 +74,7 @@ void PicturePainter::Begin(const CameraView& view, const FrameBlock& block) {
   rgba_.resize(static_cast<std::size_t>(width_) * height_ + 8);
   triangles_.clear();
   drawn_.clear();
+  body_of_.clear();
   // The middle of pixel (x, y) is at (2 x + 1) / width - 1, and so forth.
   for (int i = 0; i < 3; ++i) {
     right_[i] = 2 * block.view_right[i] / static_cast<float>(width_);
@@ -97,6 +124,7 @@ void PicturePainter::Cover(const CameraView& view, const DrawPlan& plan) {
     const Vector3 centre = plan.placed()[seen.item].centre - view.world_from_camera.position;
     if (IsHidden(view, centre, plan.items()[seen.item].radius)) continue;
     drawn_.push_back(DrawnItem(plan, seen.item, *seen.level, view.world_from_camera.position));
+    body_of_.push_back(plan.items()[seen.item].body);
     CoverWith(static_cast<std::uint32_t>(drawn_.size() - 1),
               static_cast<float>(1 / view.parameters.near));
   }
@@ -135,8 +163,7 @@ void PicturePainter::CoverWith(std::uint32_t number, float nearest) {
   const auto* holes = group.blending == Blending::kCutOut
                           ? static_cast<const RasterTexture*>(group.base_colour.get())
                           : nullptr;
-  // The ground gives way to what lies on it.
-  const F8 back = Splat(group.ground ? 1 - 2e-4f : 1.0f);
+  const F8 back = Splat(group.ground ? kGroundBack : 1.0f);
   rasteriser_.ForEachTriangle(
       drawn, number, group.double_sided, [&](const Triangle& t, const Box& box, bool crosses_near) {
         const auto id = static_cast<std::int32_t>(triangles_.size() + 1);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gsv/model/image.h"
+#include "gsv/rendering/ground_truth.h"
 #include "gsv/rendering/raster/lighting.h"
 
 namespace gsv::rendering::raster {
@@ -18,6 +19,8 @@ class PicturePainter {
   // in the sun.
   model::Image Paint(const CameraView& view, const DrawPlan& plan, const FrameBlock& block,
                      const SunShadow* shadow);
+  // The same without light.
+  GroundTruth Survey(const CameraView& view, const DrawPlan& plan, const FrameBlock& block);
   // Of the last picture, as many as there is room for now.
   std::size_t pixels() const { return nearest_.size(); }
 
@@ -54,6 +57,7 @@ class PicturePainter {
   std::vector<std::int32_t> surface_of_;  // triangle's number - 1 to its place in surfaces_, or -1
   std::vector<TriangleSurface> surfaces_;
   std::vector<Drawn> drawn_;
+  std::vector<std::int32_t> body_of_;  // as drawn_, of what is solid
   std::vector<Seen> solid_, see_through_;
   std::vector<std::uint32_t> rgba_;
   Rasteriser rasteriser_;

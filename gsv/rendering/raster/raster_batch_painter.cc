@@ -42,6 +42,22 @@ base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchPainte
   return pictures;
 }
 
+base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchPainter::Survey(
+    const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
+  PlannedLayout& planned = PlanFor(snapshot.layout);
+  planned.plan->Pose(snapshot);
+  std::vector<std::shared_ptr<const GroundTruth>> truths(views.size());
+  team_.Share(views.size(), 1, [&](std::size_t begin, std::size_t end) {
+    std::unique_ptr<PicturePainter> painter = TakePainter();
+    for (std::size_t i = begin; i < end; ++i) {
+      truths[i] = std::make_shared<const GroundTruth>(
+          painter->Survey(views[i], *planned.plan, planned.lighting->BlockFor(views[i])));
+    }
+    GiveBack(std::move(painter));
+  });
+  return truths;
+}
+
 std::unique_ptr<PicturePainter> RasterBatchPainter::TakePainter() {
   const std::lock_guard lock(mutex_);
   if (idle_.empty()) return std::make_unique<PicturePainter>();

@@ -31,6 +31,8 @@ class RasterBatchPainter final : public BatchPainter {
 
   base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+  base::Result<std::vector<std::shared_ptr<const GroundTruth>>> Survey(
+      const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
 
  private:
   std::unique_ptr<PicturePainter> TakePainter();
