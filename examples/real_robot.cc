@@ -158,8 +158,9 @@ class CartSensors final : public POA_sba::SensorFactory {
   sba::PositioningSystem_ptr create_positioning_system(const char*) override {
     throw sba::Refused("this robot does not know where it is");
   }
-  sba::Sensor_ptr create(const char*, const sba::SensorTraits&) override {
-    throw sba::Refused("sonars only");
+  sba::Sensor_ptr create(const char* type, const sba::SensorTraits& description) override {
+    if (std::string_view(type) != "sonar") throw sba::Refused("sonars only");
+    return create_sonar(description.name, description.mounting, 0, kMaxRange);
   }
 
  private:

@@ -1,6 +1,6 @@
 #include "sdk/remote_robot.h"
 
-#include <cstring>
+#include <charconv>
 
 #include "gsv/orb/errors.h"
 
@@ -13,36 +13,80 @@ Placement FromIdl(const sba::Placement& p) {
 
 sba::Placement ToIdl(const Placement& p) { return {p.x, p.y, p.z, p.roll, p.pitch, p.yaw}; }
 
-class RemoteSonar final : public Sonar {
- public:
-  RemoteSonar(RemoteRobot& robot, sba::Sonar_ptr sonar, double max_range)
-      : robot_(robot), sonar_(sba::Sonar::_duplicate(sonar)), max_range_(max_range) {}
+// A parameter's text as what it stands for.
+Parameters::mapped_type ValueOf(const std::string& text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, number);
+  if (!text.empty() && parsed.ec == std::errc() && parsed.ptr == end) return number;
+  return text;
+}
 
-  double Range() override {
-    double range = max_range_;
-    robot_.Try([&] { range = sonar_->range(); });
-    return range;
+std::string TextOf(const Parameters::mapped_type& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const std::string* text = std::get_if<std::string>(&value)) return *text;
+  char text[32];
+  const auto written = std::to_chars(text, text + sizeof text, std::get<double>(value));
+  return {text, written.ptr};
+}
+
+SensorTraits FromIdl(const sba::SensorTraits& idl) {
+  SensorTraits traits{
+      std::string(idl.name), std::string(idl.type), FromIdl(idl.mounting), idl.update_rate_hz, {}};
+  for (CORBA::ULong i = 0; i < idl.parameters.length(); ++i) {
+    const sba::NameValue& parameter = idl.parameters[i];
+    traits.parameters.emplace(parameter.name, ValueOf(std::string(parameter.value)));
   }
-  double max_range() const override { return max_range_; }
+  return traits;
+}
 
- private:
-  RemoteRobot& robot_;
-  sba::Sonar_var sonar_;
-  const double max_range_;
-};
+sba::SensorTraits ToIdl(const SensorTraits& traits) {
+  sba::SensorTraits idl;
+  idl.name = traits.name.c_str();
+  idl.type = traits.type.c_str();
+  idl.mounting = ToIdl(traits.robot_from_sensor);
+  idl.update_rate_hz = traits.update_rate;
+  idl.parameters.length(static_cast<CORBA::ULong>(traits.parameters.size()));
+  CORBA::ULong i = 0;
+  for (const auto& [name, value] : traits.parameters) {
+    idl.parameters[i].name = name.c_str();
+    idl.parameters[i++].value = TextOf(value).c_str();
+  }
+  return idl;
+}
 
-class RemoteCamera final : public Camera {
+void Copy(const sba::Measurement& from, Reading& to) {
+  to.sensor = from.sensor_name;
+  to.time = SimTime(from.time_ns);
+  to.values.assign(from.values.get_buffer(), from.values.get_buffer() + from.values.length());
+  to.labels.clear();
+  for (CORBA::ULong i = 0; i < from.labels.length(); ++i) to.labels.emplace_back(from.labels[i]);
+}
+
+class RemotePort final : public SensorPort {
  public:
-  RemoteCamera(RemoteRobot& robot, sba::Camera_ptr camera)
-      : robot_(robot), camera_(sba::Camera::_duplicate(camera)) {}
+  RemotePort(RemoteRobot& robot, sba::Sensor_ptr sensor, SensorTraits traits)
+      : robot_(robot), sensor_(sba::Sensor::_duplicate(sensor)), traits_(std::move(traits)) {}
+
+  const SensorTraits& traits() const override { return traits_; }
+
+  bool Measure(Reading& reading) override {
+    reading.values.clear(), reading.labels.clear();
+    return robot_.Try([&] {
+      const sba::Measurement_var measured = sensor_->measure();
+      Copy(measured.in(), reading);
+    });
+  }
 
   Picture TakePicture() override {
     Picture picture;
     robot_.Try([&] {
-      const sba::Picture_var taken = camera_->take_picture();
-      picture.width = static_cast<int>(taken->width);
-      picture.height = static_cast<int>(taken->height);
-      const sba::Octets& rgb = taken->rgb;
+      const sba::Measurement_var taken = sensor_->measure();
+      picture.width = static_cast<int>(taken->image_width);
+      picture.height = static_cast<int>(taken->image_height);
+      const sba::Octets& rgb = taken->image;
       picture.rgb.assign(rgb.get_buffer(), rgb.get_buffer() + rgb.length());
     });
     return picture;
@@ -50,32 +94,14 @@ class RemoteCamera final : public Camera {
 
  private:
   RemoteRobot& robot_;
-  sba::Camera_var camera_;
-};
-
-class RemotePositioningSystem final : public PositioningSystem {
- public:
-  RemotePositioningSystem(RemoteRobot& robot, sba::PositioningSystem_ptr system)
-      : robot_(robot), system_(sba::PositioningSystem::_duplicate(system)) {}
-
-  Placement Locate() override {
-    Placement placement;
-    robot_.Try([&] { placement = FromIdl(system_->locate()); });
-    return placement;
-  }
-
- private:
-  RemoteRobot& robot_;
-  sba::PositioningSystem_var system_;
+  sba::Sensor_var sensor_;
+  const SensorTraits traits_;
 };
 
 std::vector<Reading> FromIdl(const sba::Measurements& measurements) {
   std::vector<Reading> readings(measurements.length());
   for (CORBA::ULong i = 0; i < measurements.length(); ++i) {
-    const sba::Doubles& values = measurements[i].values;
-    readings[i].sensor = measurements[i].sensor_name;
-    readings[i].time = SimTime(measurements[i].time_ns);
-    readings[i].values.assign(values.get_buffer(), values.get_buffer() + values.length());
+    Copy(measurements[i], readings[i]);
   }
   return readings;
 }
@@ -136,66 +162,23 @@ std::vector<SensorTraits> RemoteRobot::Sensors() {
   std::vector<SensorTraits> sensors;
   Try([&] {
     const sba::SensorTraitsList_var list = factory_->list();
-    for (CORBA::ULong i = 0; i < list->length(); ++i) {
-      const sba::SensorTraits& traits = list.in()[i];
-      sensors.push_back(
-          {std::string(traits.name), std::string(traits.type), FromIdl(traits.mounting)});
-    }
+    for (CORBA::ULong i = 0; i < list->length(); ++i) sensors.push_back(FromIdl(list.in()[i]));
   });
   return sensors;
 }
 
-base::Status RemoteRobot::OpenSensor(const std::string& sensor) {
-  return orb::Call(name_, [&] { sba::Sensor_var opened = factory_->open(sensor.c_str()); });
-}
-
-base::Result<std::unique_ptr<Sonar>> RemoteRobot::OpenSonar(const std::string& sensor) {
-  return orb::Call(name_, [&]() -> std::unique_ptr<Sonar> {
+base::Result<std::unique_ptr<SensorPort>> RemoteRobot::OpenPort(const std::string& sensor) {
+  return orb::Call(name_, [&]() -> std::unique_ptr<SensorPort> {
     const sba::Sensor_var opened = factory_->open(sensor.c_str());
-    const sba::Sonar_var sonar = sba::Sonar::_narrow(opened);
-    if (CORBA::is_nil(sonar))
-      throw sba::Refused(("the sensor \"" + sensor + "\" is no sonar").c_str());
-    return std::make_unique<RemoteSonar>(*this, sonar, sonar->max_range());
+    const sba::SensorTraits_var traits = opened->traits();
+    return std::make_unique<RemotePort>(*this, opened, FromIdl(traits.in()));
   });
 }
 
-base::Result<std::unique_ptr<Camera>> RemoteRobot::OpenCamera(const std::string& sensor) {
-  return orb::Call(name_, [&]() -> std::unique_ptr<Camera> {
-    const sba::Sensor_var opened = factory_->open(sensor.c_str());
-    const sba::Camera_var camera = sba::Camera::_narrow(opened);
-    if (CORBA::is_nil(camera))
-      throw sba::Refused(("the sensor \"" + sensor + "\" is no camera").c_str());
-    return std::make_unique<RemoteCamera>(*this, camera);
-  });
-}
-
-base::Result<std::unique_ptr<Sonar>> RemoteRobot::CreateSonar(const std::string& sensor,
-                                                              const Placement& robot_from_sonar,
-                                                              double min_range, double max_range) {
-  return orb::Call(name_, [&]() -> std::unique_ptr<Sonar> {
-    const sba::Sonar_var sonar =
-        factory_->create_sonar(sensor.c_str(), ToIdl(robot_from_sonar), min_range, max_range);
-    return std::make_unique<RemoteSonar>(*this, sonar, max_range);
-  });
-}
-
-base::Result<std::unique_ptr<Camera>> RemoteRobot::CreateCamera(const std::string& sensor,
-                                                                const Placement& robot_from_camera,
-                                                                int width, int height,
-                                                                double horizontal_fov) {
-  return orb::Call(name_, [&]() -> std::unique_ptr<Camera> {
-    const sba::Camera_var camera = factory_->create_camera(
-        sensor.c_str(), ToIdl(robot_from_camera), static_cast<CORBA::ULong>(width),
-        static_cast<CORBA::ULong>(height), horizontal_fov);
-    return std::make_unique<RemoteCamera>(*this, camera);
-  });
-}
-
-base::Result<std::unique_ptr<PositioningSystem>> RemoteRobot::CreatePositioningSystem(
-    const std::string& sensor) {
-  return orb::Call(name_, [&]() -> std::unique_ptr<PositioningSystem> {
-    const sba::PositioningSystem_var system = factory_->create_positioning_system(sensor.c_str());
-    return std::make_unique<RemotePositioningSystem>(*this, system);
+base::Result<std::unique_ptr<SensorPort>> RemoteRobot::CreatePort(SensorTraits traits) {
+  return orb::Call(name_, [&]() -> std::unique_ptr<SensorPort> {
+    const sba::Sensor_var created = factory_->create(traits.type.c_str(), ToIdl(traits));
+    return std::make_unique<RemotePort>(*this, created, std::move(traits));
   });
 }
 

@@ -29,17 +29,6 @@ class RemoteRobot final : public Robot {
   const std::string& name() const override { return name_; }
   double footprint_radius() const override { return footprint_radius_; }
   std::vector<SensorTraits> Sensors() override;
-  base::Result<std::unique_ptr<Sonar>> OpenSonar(const std::string& sensor) override;
-  base::Result<std::unique_ptr<Camera>> OpenCamera(const std::string& sensor) override;
-  base::Status OpenSensor(const std::string& sensor) override;
-  base::Result<std::unique_ptr<Sonar>> CreateSonar(const std::string& sensor,
-                                                   const Placement& robot_from_sonar,
-                                                   double min_range, double max_range) override;
-  base::Result<std::unique_ptr<Camera>> CreateCamera(const std::string& sensor,
-                                                     const Placement& robot_from_camera, int width,
-                                                     int height, double horizontal_fov) override;
-  base::Result<std::unique_ptr<PositioningSystem>> CreatePositioningSystem(
-      const std::string& sensor) override;
   void Drive(double linear, double angular) override;
   SimTime Now() override;
   bool SleepUntil(SimTime instant) override;
@@ -54,6 +43,8 @@ class RemoteRobot final : public Robot {
 
  private:
   RemoteRobot(std::string name, sba::Hardware_ptr hardware);
+  base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
+  base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
   void Note(const base::Error& error);
 
   const std::string name_;

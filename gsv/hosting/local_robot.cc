@@ -10,10 +10,6 @@ namespace {
 using simulation::MountedSensor;
 using SensorPtr = std::shared_ptr<MountedSensor>;
 
-const model::SensorDescription& DescriptionOf(const MountedSensor& sensor) {
-  return sensor.design().description;
-}
-
 Placement ToPlacement(const geometry::Pose& pose) {
   const auto angles = geometry::ToRollPitchYaw(pose.orientation);
   return {pose.position.x, pose.position.y, pose.position.z, angles.roll, angles.pitch, angles.yaw};
@@ -23,28 +19,34 @@ geometry::Pose ToPose(const Placement& p) {
   return {{p.x, p.y, p.z}, geometry::FromRollPitchYaw({p.roll, p.pitch, p.yaw})};
 }
 
-class LocalSonar final : public Sonar {
- public:
-  LocalSonar(LocalRobot& robot, SensorPtr sensor)
-      : robot_(robot),
-        sensor_(std::move(sensor)),
-        max_range_(model::NumberOr(DescriptionOf(*sensor_).parameters, "max", 0.0)) {}
+SensorTraits TraitsOf(const model::SensorDescription& description,
+                      const geometry::Pose& robot_from_link) {
+  return {description.name, description.type,
+          ToPlacement(robot_from_link * description.link_from_sensor), description.update_rate,
+          description.parameters};
+}
 
-  double Range() override {
-    const auto reading = robot_.Read(*sensor_);
-    return reading ? reading->values.at(0) : max_range_;
+void Copy(const MountedSensor& sensor, const sensing::Reading& from, Reading& to) {
+  if (to.sensor != sensor.name()) to.sensor = sensor.name();
+  to.time = from.time;
+  to.values.assign(from.values.begin(), from.values.end());
+  to.labels.clear();
+  if (from.labels != nullptr) to.labels = *from.labels;
+}
+
+class LocalPort final : public SensorPort {
+ public:
+  LocalPort(LocalRobot& robot, SensorPtr sensor, SensorTraits traits)
+      : robot_(robot), sensor_(std::move(sensor)), traits_(std::move(traits)) {}
+
+  const SensorTraits& traits() const override { return traits_; }
+
+  bool Measure(Reading& reading) override {
+    const auto measured = robot_.Read(*sensor_);
+    reading.values.clear(), reading.labels.clear();
+    if (measured) Copy(*sensor_, *measured, reading);
+    return measured.has_value();
   }
-  double max_range() const override { return max_range_; }
-
- private:
-  LocalRobot& robot_;
-  const SensorPtr sensor_;
-  const double max_range_;
-};
-
-class LocalCamera final : public Camera {
- public:
-  LocalCamera(LocalRobot& robot, SensorPtr sensor) : robot_(robot), sensor_(std::move(sensor)) {}
 
   Picture TakePicture() override {
     Picture picture;
@@ -59,23 +61,7 @@ class LocalCamera final : public Camera {
  private:
   LocalRobot& robot_;
   const SensorPtr sensor_;
-};
-
-class LocalPositioningSystem final : public PositioningSystem {
- public:
-  LocalPositioningSystem(LocalRobot& robot, SensorPtr sensor)
-      : robot_(robot), sensor_(std::move(sensor)) {}
-
-  Placement Locate() override {
-    const auto reading = robot_.Read(*sensor_);
-    if (!reading) return {};
-    const auto& v = reading->values;
-    return {v.at(0), v.at(1), v.at(2), v.at(3), v.at(4), v.at(5)};
-  }
-
- private:
-  LocalRobot& robot_;
-  const SensorPtr sensor_;
+  const SensorTraits traits_;
 };
 
 }  // namespace
@@ -121,100 +107,48 @@ void LocalRobot::ReadOpenSensors(std::vector<Reading>& readings) {
   for (std::size_t i = 0; i < open_.size(); ++i) {
     const auto reading = Read(*open_[i]);
     if (!reading) return;
-    if (readings[i].sensor != open_[i]->name()) readings[i].sensor = open_[i]->name();
-    readings[i].time = reading->time;
-    readings[i].values.assign(reading->values.begin(), reading->values.end());
+    Copy(*open_[i], *reading, readings[i]);
   }
 }
 
 std::vector<SensorTraits> LocalRobot::Sensors() {
   std::vector<SensorTraits> sensors;
   for (const model::SensorDescription& description : agent_->Sensors()) {
-    const geometry::Pose robot_from_sensor =
-        agent_->RobotFromLink(description.link) * description.link_from_sensor;
-    sensors.push_back({description.name, description.type, ToPlacement(robot_from_sensor)});
+    sensors.push_back(TraitsOf(description, agent_->RobotFromLink(description.link)));
   }
   return sensors;
 }
 
-base::Status LocalRobot::Enter(const std::string& sensor) {
+base::Result<std::unique_ptr<SensorPort>> LocalRobot::Enter(const std::string& sensor) {
   auto mounted = agent_->Mounted(sensor);
   if (!mounted) return base::Fail(mounted.error());
   const auto place =
       std::lower_bound(open_.begin(), open_.end(), sensor,
                        [](const SensorPtr& a, const std::string& b) { return a->name() < b; });
-  if (place != open_.end() && (*place)->name() == sensor) return {};
-  open_.insert(place, *mounted);
-  if ((*mounted)->casts_rays()) ++ray_sensors_;
-  return {};
+  if (place == open_.end() || (*place)->name() != sensor) {
+    open_.insert(place, *mounted);
+    if ((*mounted)->casts_rays()) ++ray_sensors_;
+  }
+  const model::SensorDescription& description = (*mounted)->design().description;
+  SensorTraits traits = TraitsOf(description, agent_->RobotFromLink(description.link));
+  return std::make_unique<LocalPort>(*this, *std::move(mounted), std::move(traits));
 }
 
-base::Status LocalRobot::OpenSensor(const std::string& sensor) {
-  if (auto ok = agent_->OpenSensor(sensor); !ok) return ok;
+base::Result<std::unique_ptr<SensorPort>> LocalRobot::OpenPort(const std::string& sensor) {
+  if (auto ok = agent_->OpenSensor(sensor); !ok) return base::Fail(ok.error());
   return Enter(sensor);
 }
 
-base::Result<SensorPtr> LocalRobot::Open(const std::string& sensor, const std::string& type) {
-  if (auto ok = OpenSensor(sensor); !ok) return base::Fail(ok.error());
-  auto mounted = agent_->Mounted(sensor);
-  if (mounted && DescriptionOf(**mounted).type != type) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the sensor \"" + sensor + "\" is no " + type, name());
-  }
-  return mounted;
-}
-
-base::Result<std::unique_ptr<Sonar>> LocalRobot::OpenSonar(const std::string& sensor) {
-  auto mounted = Open(sensor, "sonar");
-  if (!mounted) return base::Fail(mounted.error());
-  return std::make_unique<LocalSonar>(*this, *std::move(mounted));
-}
-
-base::Result<std::unique_ptr<Camera>> LocalRobot::OpenCamera(const std::string& sensor) {
-  auto mounted = Open(sensor, "camera");
-  if (!mounted) return base::Fail(mounted.error());
-  return std::make_unique<LocalCamera>(*this, *std::move(mounted));
-}
-
-base::Result<SensorPtr> LocalRobot::Create(const std::string& type, const std::string& sensor,
-                                           const Placement& robot_from_sensor,
-                                           model::Parameters parameters) {
+base::Result<std::unique_ptr<SensorPort>> LocalRobot::CreatePort(SensorTraits traits) {
   model::SensorDescription description;
-  description.name = sensor;
-  description.type = type;
-  description.link_from_sensor = Inverse(agent_->RobotFromLink(0)) * ToPose(robot_from_sensor);
-  description.parameters = std::move(parameters);
+  description.name = traits.name;
+  description.type = traits.type;
+  description.link_from_sensor =
+      Inverse(agent_->RobotFromLink(0)) * ToPose(traits.robot_from_sensor);
+  description.update_rate = traits.update_rate;
+  description.parameters = std::move(traits.parameters);
   if (auto ok = agent_->CreateSensor(std::move(description)); !ok) return base::Fail(ok.error());
-  if (auto ok = Enter(sensor); !ok) return base::Fail(ok.error());
-  return agent_->Mounted(sensor);
-}
-
-base::Result<std::unique_ptr<Sonar>> LocalRobot::CreateSonar(const std::string& sensor,
-                                                             const Placement& robot_from_sonar,
-                                                             double min_range, double max_range) {
-  auto mounted =
-      Create("sonar", sensor, robot_from_sonar, {{"min", min_range}, {"max", max_range}});
-  if (!mounted) return base::Fail(mounted.error());
-  return std::make_unique<LocalSonar>(*this, *std::move(mounted));
-}
-
-base::Result<std::unique_ptr<Camera>> LocalRobot::CreateCamera(const std::string& sensor,
-                                                               const Placement& robot_from_camera,
-                                                               int width, int height,
-                                                               double horizontal_fov) {
-  auto mounted = Create("camera", sensor, robot_from_camera,
-                        {{"image.width", static_cast<double>(width)},
-                         {"image.height", static_cast<double>(height)},
-                         {"horizontal_fov", horizontal_fov}});
-  if (!mounted) return base::Fail(mounted.error());
-  return std::make_unique<LocalCamera>(*this, *std::move(mounted));
-}
-
-base::Result<std::unique_ptr<PositioningSystem>> LocalRobot::CreatePositioningSystem(
-    const std::string& sensor) {
-  auto mounted = Create("positioning", sensor, {}, {});
-  if (!mounted) return base::Fail(mounted.error());
-  return std::make_unique<LocalPositioningSystem>(*this, *std::move(mounted));
+  return Enter(traits.name);
 }
 
 void LocalRobot::Command(const DriveCommand& command) {

@@ -38,17 +38,6 @@ class LocalRobot final : public Robot {
   const std::string& name() const override { return agent_->robot(); }
   double footprint_radius() const override { return agent_->footprint_radius(); }
   std::vector<SensorTraits> Sensors() override;
-  base::Result<std::unique_ptr<Sonar>> OpenSonar(const std::string& sensor) override;
-  base::Result<std::unique_ptr<Camera>> OpenCamera(const std::string& sensor) override;
-  base::Status OpenSensor(const std::string& sensor) override;
-  base::Result<std::unique_ptr<Sonar>> CreateSonar(const std::string& sensor,
-                                                   const Placement& robot_from_sonar,
-                                                   double min_range, double max_range) override;
-  base::Result<std::unique_ptr<Camera>> CreateCamera(const std::string& sensor,
-                                                     const Placement& robot_from_camera, int width,
-                                                     int height, double horizontal_fov) override;
-  base::Result<std::unique_ptr<PositioningSystem>> CreatePositioningSystem(
-      const std::string& sensor) override;
   void Drive(double linear, double angular) override;
   SimTime Now() override;
   bool SleepUntil(SimTime instant) override;
@@ -63,11 +52,9 @@ class LocalRobot final : public Robot {
  private:
   using SensorPtr = std::shared_ptr<simulation::MountedSensor>;
 
-  // Opens it; fails when it is of another type.
-  base::Result<SensorPtr> Open(const std::string& sensor, const std::string& type);
-  base::Result<SensorPtr> Create(const std::string& type, const std::string& sensor,
-                                 const Placement& robot_from_sensor, model::Parameters parameters);
-  base::Status Enter(const std::string& sensor);  // into open_
+  base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
+  base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
+  base::Result<std::unique_ptr<SensorPort>> Enter(const std::string& sensor);  // into open_
   void Command(const DriveCommand& command);
   base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
 

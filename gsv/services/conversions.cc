@@ -113,6 +113,12 @@ sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& readin
   measurement.time_ns = reading.time.count();
   measurement.values.length(static_cast<CORBA::ULong>(reading.values.size()));
   std::copy(reading.values.begin(), reading.values.end(), measurement.values.get_buffer());
+  if (reading.labels != nullptr) {
+    measurement.labels.length(static_cast<CORBA::ULong>(reading.labels->size()));
+    for (CORBA::ULong i = 0; i < measurement.labels.length(); ++i) {
+      measurement.labels[i] = (*reading.labels)[i].c_str();
+    }
+  }
   measurement.image_width = measurement.image_height = 0;
   if (reading.picture != nullptr) {
     const model::Image& picture = *reading.picture;

@@ -1,10 +1,10 @@
 #include "gsv/services/hardware_servants.h"
 
 #include <chrono>
-#include <cstring>
 
 #include "gsv/orb/errors.h"
 #include "gsv/services/conversions.h"
+#include "gsv/services/sensor_servants.h"
 
 namespace gsv::services {
 namespace {
@@ -16,102 +16,6 @@ using GroupPtr = std::shared_ptr<ServantGroup>;
 // Wall time after which a wait is answered NOT_YET.
 constexpr std::chrono::milliseconds kLease{2000};
 constexpr unsigned kReadingRaises = orb::kNotRunning | orb::kEnded | orb::kFailed;
-
-// What all sensor servants have in common, mixed into the skeleton of each interface.
-template <typename Skeleton>
-class SensorServant : public Skeleton {
- public:
-  SensorServant(AgentPtr agent, model::SensorDescription description, GroupPtr group)
-      : agent_(std::move(agent)), description_(std::move(description)), group_(std::move(group)) {}
-
-  sba::SensorTraits* traits() override {
-    return new sba::SensorTraits(ToIdl(description_, agent_->RobotFromLink(description_.link)));
-  }
-  sba::Measurement* measure() override {
-    return new sba::Measurement(ToIdl(description_.name, Read()));
-  }
-  void close() override {
-    (void)agent_->CloseSensor(description_.name);  // closed twice is closed
-    group_->Deactivate(this);
-  }
-
- protected:
-  sensing::Reading Read() {
-    return orb::ValueOrThrow(agent_->Read(description_.name), kReadingRaises);
-  }
-  const model::SensorDescription& description() const { return description_; }
-
- private:
-  const AgentPtr agent_;
-  const model::SensorDescription description_;
-  const GroupPtr group_;
-};
-
-using PlainSensorServant = SensorServant<POA_sba::Sensor>;
-
-class SonarServant final : public SensorServant<POA_sba::Sonar> {
- public:
-  using SensorServant::SensorServant;
-  CORBA::Double range() override { return Read().values.at(0); }
-  CORBA::Double max_range() override {
-    return model::NumberOr(description().parameters, "max", 0.0);
-  }
-};
-
-class LidarServant final : public SensorServant<POA_sba::Lidar> {
- public:
-  using SensorServant::SensorServant;
-  sba::Doubles* ranges() override {
-    const sensing::Reading reading = Read();
-    auto* ranges = new sba::Doubles;
-    ranges->length(static_cast<CORBA::ULong>(reading.values.size()));
-    std::copy(reading.values.begin(), reading.values.end(), ranges->get_buffer());
-    return ranges;
-  }
-};
-
-class CameraServant final : public SensorServant<POA_sba::Camera> {
- public:
-  using SensorServant::SensorServant;
-  sba::Picture* take_picture() override {
-    const sba::Measurement measurement = ToIdl(description().name, Read());
-    auto* picture = new sba::Picture;
-    picture->width = measurement.image_width;
-    picture->height = measurement.image_height;
-    picture->rgb = measurement.image;
-    picture->time_ns = measurement.time_ns;
-    return picture;
-  }
-};
-
-class PositioningServant final : public SensorServant<POA_sba::PositioningSystem> {
- public:
-  using SensorServant::SensorServant;
-  sba::Placement locate() override {
-    const auto values = Read().values;
-    return {values.at(0), values.at(1), values.at(2), values.at(3), values.at(4), values.at(5)};
-  }
-};
-
-std::string Key(const PortableServer::ObjectId& id) {
-  return {reinterpret_cast<const char*>(id.get_buffer()), id.length()};
-}
-
-template <typename Servant>
-PortableServer::ServantBase* Make(AgentPtr agent, model::SensorDescription description,
-                                  GroupPtr group) {
-  return new Servant(std::move(agent), std::move(description), std::move(group));
-}
-
-std::map<std::string, SensorServantMaker>& Makers() {
-  static std::map<std::string, SensorServantMaker> makers = {
-      {"sonar", Make<SonarServant>},
-      {"lidar", Make<LidarServant>},
-      {"camera", Make<CameraServant>},
-      {"positioning", Make<PositioningServant>},
-  };
-  return makers;
-}
 
 class SensorFactoryServant final : public POA_sba::SensorFactory {
  public:
@@ -280,61 +184,6 @@ class HardwareServant final : public POA_sba::Hardware {
 };
 
 }  // namespace
-
-ServantGroup::ServantGroup(PortableServer::POA_ptr poa)
-    : poa_(PortableServer::POA::_duplicate(poa)) {}
-
-void ServantGroup::DeactivateAll() {
-  std::set<std::string> ids;
-  {
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-    ids.swap(ids_);
-  }
-  for (const std::string& id : ids) DeactivateId(id);
-}
-
-void ServantGroup::DeactivateId(const std::string& id) {
-  try {
-    PortableServer::ObjectId object_id;
-    object_id.length(static_cast<CORBA::ULong>(id.size()));
-    std::memcpy(object_id.get_buffer(), id.data(), id.size());
-    poa_->deactivate_object(object_id);
-  } catch (const CORBA::Exception&) {
-    // It was deactivated by another call at the same moment.
-  }
-}
-
-CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant) {
-  const PortableServer::ServantBase_var owned(servant);  // the POA holds on to it
-  const std::lock_guard lock(mutex_);
-  if (closed_) throw sba::Ended("the robot is gone");
-  const PortableServer::ObjectId_var id = poa_->activate_object(servant);
-  ids_.insert(Key(id));
-  return poa_->id_to_reference(id);
-}
-
-void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {
-  try {
-    const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
-    {
-      const std::lock_guard lock(mutex_);
-      ids_.erase(Key(id));
-    }
-    DeactivateId(Key(id));
-  } catch (const CORBA::Exception&) {
-    // It was deactivated by another call at the same moment.
-  }
-}
-
-void SensorServants::Register(const std::string& type, SensorServantMaker maker) {
-  Makers()[type] = maker;
-}
-
-SensorServantMaker SensorServants::For(const std::string& type) {
-  const auto it = Makers().find(type);
-  return it == Makers().end() ? Make<PlainSensorServant> : it->second;
-}
 
 sba::Hardware_ptr ActivateHardware(AgentPtr agent, GroupPtr group) {
   return group->Activate<sba::Hardware>(new HardwareServant(std::move(agent), group));

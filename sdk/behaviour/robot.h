@@ -8,67 +8,21 @@
 // Threads  one behaviour, one thread.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gsv/base/error.h"
-#include "gsv/base/sim_time.h"
+#include "sdk/behaviour/sensors.h"
 
 namespace gsv {
 
-using base::SimTime;
 using namespace std::chrono_literals;  // robot.SleepFor(50ms)
-
-// Fixed-axis roll, pitch, yaw as in URDF.
-struct Placement {
-  double x = 0, y = 0, z = 0;
-  double roll = 0, pitch = 0, yaw = 0;
-};
-
-struct Picture {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgb;  // rows from the top, 3 bytes a pixel
-};
-
-struct SensorTraits {
-  std::string name;
-  std::string type;
-  Placement robot_from_sensor;
-};
-
-class Sonar {
- public:
-  virtual ~Sonar() = default;
-  // m to the nearest echo; max_range() when there is none.
-  virtual double Range() = 0;
-  virtual double max_range() const = 0;
-};
-
-class Camera {
- public:
-  virtual ~Camera() = default;
-  virtual Picture TakePicture() = 0;
-};
-
-class PositioningSystem {
- public:
-  virtual ~PositioningSystem() = default;
-  virtual Placement Locate() = 0;  // world_from_robot
-};
 
 struct DriveCommand {
   double linear = 0;   // m/s
   double angular = 0;  // rad/s
-};
-
-// One sensor's reading in a control cycle; the shape of `values` is its type's.
-struct Reading {
-  std::string sensor;
-  SimTime time{0};
-  std::vector<double> values;
 };
 
 class Robot {
@@ -80,22 +34,36 @@ class Robot {
   virtual double footprint_radius() const = 0;
   virtual std::vector<SensorTraits> Sensors() = 0;
 
-  // A sensor of the robot's model; an error when it is not there or of another kind.
-  virtual base::Result<std::unique_ptr<Sonar>> OpenSonar(const std::string& sensor) = 0;
-  virtual base::Result<std::unique_ptr<Camera>> OpenCamera(const std::string& sensor) = 0;
+  // A sensor of the robot's model; an error when it is not there or of another type.
+  template <typename Kind>
+  base::Result<std::unique_ptr<Kind>> Open(const std::string& sensor);
   // Any sensor, to be read by Exchange().
-  virtual base::Status OpenSensor(const std::string& sensor) = 0;
+  base::Status OpenSensor(const std::string& sensor);
 
-  // Further sensors, mounted on the base.
-  virtual base::Result<std::unique_ptr<Sonar>> CreateSonar(const std::string& sensor,
-                                                           const Placement& robot_from_sonar,
-                                                           double min_range, double max_range) = 0;
-  virtual base::Result<std::unique_ptr<Camera>> CreateCamera(const std::string& sensor,
-                                                             const Placement& robot_from_camera,
-                                                             int width, int height,
-                                                             double horizontal_fov) = 0;
-  virtual base::Result<std::unique_ptr<PositioningSystem>> CreatePositioningSystem(
-      const std::string& sensor) = 0;
+  // A further sensor, mounted on the base. Its parameters are those of its type in docs/sensors.md.
+  template <typename Kind>
+  base::Result<std::unique_ptr<Kind>> Create(const std::string& sensor,
+                                             const Placement& robot_from_sensor,
+                                             Parameters parameters = {}, double update_rate = 0);
+
+  base::Result<std::unique_ptr<Sonar>> OpenSonar(const std::string& sensor) {
+    return Open<Sonar>(sensor);
+  }
+  base::Result<std::unique_ptr<Camera>> OpenCamera(const std::string& sensor) {
+    return Open<Camera>(sensor);
+  }
+  base::Result<std::unique_ptr<Sonar>> CreateSonar(const std::string& sensor,
+                                                   const Placement& robot_from_sonar,
+                                                   double min_range, double max_range) {
+    return Create<Sonar>(sensor, robot_from_sonar, {{"min", min_range}, {"max", max_range}});
+  }
+  base::Result<std::unique_ptr<Camera>> CreateCamera(const std::string& sensor,
+                                                     const Placement& robot_from_camera, int width,
+                                                     int height, double horizontal_fov);
+  base::Result<std::unique_ptr<PositioningSystem>> CreatePositioningSystem(
+      const std::string& sensor) {
+    return Create<PositioningSystem>(sensor, {});
+  }
 
   // Acts until the next command.
   virtual void Drive(double linear, double angular) = 0;
@@ -112,6 +80,46 @@ class Robot {
   virtual bool IsRunning() const = 0;
   // Why it is not running; empty while it is, and after an ordinary end.
   virtual std::string error() const = 0;
+
+ private:
+  virtual base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) = 0;
+  virtual base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) = 0;
 };
+
+template <typename Kind>
+base::Result<std::unique_ptr<Kind>> Robot::Open(const std::string& sensor) {
+  auto port = OpenPort(sensor);
+  if (!port) return base::Fail(port.error());
+  if ((*port)->traits().type != Kind::kType) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the sensor \"" + sensor + "\" is no " + Kind::kType, name());
+  }
+  return std::make_unique<Kind>(*std::move(port));
+}
+
+template <typename Kind>
+base::Result<std::unique_ptr<Kind>> Robot::Create(const std::string& sensor,
+                                                  const Placement& robot_from_sensor,
+                                                  Parameters parameters, double update_rate) {
+  auto port =
+      CreatePort({sensor, Kind::kType, robot_from_sensor, update_rate, std::move(parameters)});
+  if (!port) return base::Fail(port.error());
+  return std::make_unique<Kind>(*std::move(port));
+}
+
+inline base::Status Robot::OpenSensor(const std::string& sensor) {
+  const auto port = OpenPort(sensor);
+  return port ? base::Status{} : base::Fail(port.error());
+}
+
+inline base::Result<std::unique_ptr<Camera>> Robot::CreateCamera(const std::string& sensor,
+                                                                 const Placement& robot_from_camera,
+                                                                 int width, int height,
+                                                                 double horizontal_fov) {
+  return Create<Camera>(sensor, robot_from_camera,
+                        {{"image.width", static_cast<double>(width)},
+                         {"image.height", static_cast<double>(height)},
+                         {"horizontal_fov", horizontal_fov}});
+}
 
 }  // namespace gsv

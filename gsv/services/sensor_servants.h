@@ -1,0 +1,72 @@
+// The servants of sensors. What a type's IDL interface needs is one class with its operations on
+// top of SensorServant, and one line that registers it; a plug-in does the same, see
+// docs/sensors.md.
+//
+// Threads  ORB threads; Register() before the first simulation.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "gsv/orb/errors.h"
+#include "gsv/services/conversions.h"
+#include "gsv/services/servant_group.h"
+#include "gsv/simulation/agent.h"
+
+namespace gsv::services {
+
+// What all sensor servants have in common, mixed into the skeleton of each interface.
+template <typename Skeleton>
+class SensorServant : public Skeleton {
+ public:
+  SensorServant(std::shared_ptr<simulation::Agent> agent, model::SensorDescription description,
+                std::shared_ptr<ServantGroup> group)
+      : agent_(std::move(agent)), description_(std::move(description)), group_(std::move(group)) {}
+
+  sba::SensorTraits* traits() override {
+    return new sba::SensorTraits(ToIdl(description_, agent_->RobotFromLink(description_.link)));
+  }
+  sba::Measurement* measure() override {
+    return new sba::Measurement(ToIdl(description_.name, Read()));
+  }
+  void close() override {
+    (void)agent_->CloseSensor(description_.name);  // closed twice is closed
+    group_->Deactivate(this);
+  }
+
+ protected:
+  // Raises what an operation on a sensor may raise.
+  sensing::Reading Read() {
+    return orb::ValueOrThrow(agent_->Read(description_.name),
+                             orb::kNotRunning | orb::kEnded | orb::kFailed);
+  }
+  const model::SensorDescription& description() const { return description_; }
+
+ private:
+  const std::shared_ptr<simulation::Agent> agent_;
+  const model::SensorDescription description_;
+  const std::shared_ptr<ServantGroup> group_;
+};
+
+// Makes the servant of one sensor.
+using SensorServantMaker =
+    PortableServer::ServantBase* (*)(std::shared_ptr<simulation::Agent> agent,
+                                     model::SensorDescription description,
+                                     std::shared_ptr<ServantGroup> group);
+
+template <typename Servant>
+PortableServer::ServantBase* MakeSensorServant(std::shared_ptr<simulation::Agent> agent,
+                                               model::SensorDescription description,
+                                               std::shared_ptr<ServantGroup> group) {
+  return new Servant(std::move(agent), std::move(description), std::move(group));
+}
+
+// Types with an interface of their own; a type that is not listed is served as a plain sba::Sensor.
+class SensorServants {
+ public:
+  static void Register(const std::string& type, SensorServantMaker maker);
+  static SensorServantMaker For(const std::string& type);
+};
+
+}  // namespace gsv::services

@@ -1,0 +1,60 @@
+#include "gsv/services/servant_group.h"
+
+#include <cstring>
+
+namespace gsv::services {
+namespace {
+
+std::string Key(const PortableServer::ObjectId& id) {
+  return {reinterpret_cast<const char*>(id.get_buffer()), id.length()};
+}
+
+}  // namespace
+
+ServantGroup::ServantGroup(PortableServer::POA_ptr poa)
+    : poa_(PortableServer::POA::_duplicate(poa)) {}
+
+void ServantGroup::DeactivateAll() {
+  std::set<std::string> ids;
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    ids.swap(ids_);
+  }
+  for (const std::string& id : ids) DeactivateId(id);
+}
+
+void ServantGroup::DeactivateId(const std::string& id) {
+  try {
+    PortableServer::ObjectId object_id;
+    object_id.length(static_cast<CORBA::ULong>(id.size()));
+    std::memcpy(object_id.get_buffer(), id.data(), id.size());
+    poa_->deactivate_object(object_id);
+  } catch (const CORBA::Exception&) {
+    // It was deactivated by another call at the same moment.
+  }
+}
+
+CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant) {
+  const PortableServer::ServantBase_var owned(servant);  // the POA holds on to it
+  const std::lock_guard lock(mutex_);
+  if (closed_) throw sba::Ended("the robot is gone");
+  const PortableServer::ObjectId_var id = poa_->activate_object(servant);
+  ids_.insert(Key(id));
+  return poa_->id_to_reference(id);
+}
+
+void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {
+  try {
+    const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
+    {
+      const std::lock_guard lock(mutex_);
+      ids_.erase(Key(id));
+    }
+    DeactivateId(Key(id));
+  } catch (const CORBA::Exception&) {
+    // It was deactivated by another call at the same moment.
+  }
+}
+
+}  // namespace gsv::services

@@ -1,0 +1,39 @@
+// CORBA objects that come and go together.
+//
+// Threads  any.
+#pragma once
+
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "idl/hardware.hh"
+
+namespace gsv::services {
+
+// The objects that belong to one robot's hardware. Its owner ends them together; whoever calls them
+// afterwards gets OBJECT_NOT_EXIST.
+class ServantGroup {
+ public:
+  explicit ServantGroup(PortableServer::POA_ptr poa);
+
+  // Takes the servant over and gives a reference to it. Raises sba::Ended after DeactivateAll().
+  template <typename Interface>
+  typename Interface::_ptr_type Activate(PortableServer::ServantBase* servant) {
+    const CORBA::Object_var object = Adopt(servant);
+    return Interface::_narrow(object);
+  }
+  void Deactivate(PortableServer::ServantBase* servant);
+  void DeactivateAll();
+
+ private:
+  CORBA::Object_ptr Adopt(PortableServer::ServantBase* servant);
+  void DeactivateId(const std::string& id);
+
+  PortableServer::POA_var poa_;
+  std::mutex mutex_;
+  std::set<std::string> ids_;  // object ids, as bytes
+  bool closed_ = false;
+};
+
+}  // namespace gsv::services

@@ -1,0 +1,264 @@
+// Every sensor as a behaviour reads it, inside the simulation's process and through CORBA, and
+// through its own IDL interface: the same each time.
+#include "sdk/behaviour/sensors.h"
+
+#include <cmath>
+
+#include "gsv/hosting/hosted_behaviour.h"
+#include "gsv/orb/orb.h"
+#include "gsv/services/hardware_servants.h"
+#include "gsv/simulation/test_simulation.h"
+#include "idl/sensors.hh"
+#include "sdk/behaviour/behaviour.h"
+#include "sdk/remote_robot.h"
+
+namespace gsv {
+namespace {
+
+using namespace std::chrono_literals;
+
+// What it reads 50 ms after the start, as plain numbers and names.
+struct Read {
+  std::map<std::string, std::vector<double>> values;
+  std::map<std::string, std::vector<std::string>> names;
+  std::string error;
+};
+
+std::vector<double> Numbers(const Vector& v) { return {v.x, v.y, v.z}; }
+std::vector<double> Numbers(const Placement& p) { return {p.x, p.y, p.z, p.roll, p.pitch, p.yaw}; }
+
+class ReadsAll final : public Behaviour {
+ public:
+  explicit ReadsAll(Read& read) : read_(read) {}
+
+  base::Status Init(Robot& robot) override {
+    const auto open = [&](auto& sensor) -> base::Status {
+      using Kind = typename std::remove_reference_t<decltype(sensor)>::element_type;
+      auto opened = robot.Open<Kind>(Kind::kType);
+      if (!opened) return base::Fail(opened.error());
+      sensor = *std::move(opened);
+      return {};
+    };
+    for (const base::Status& status :
+         {open(sonar_), open(lidar_), open(position_), open(imu_), open(odometer_),
+          open(satellites_), open(magnetometer_), open(altimeter_), open(bumper_), open(joints_),
+          open(battery_), open(logical_camera_)}) {
+      if (!status) return status;
+    }
+    const auto wrong = robot.Open<Imu>("sonar");
+    if (!wrong) read_.error = wrong.error().message;
+    auto created = robot.Create<Sonar>("more", {.x = 0.1, .z = 0.2}, {{"max", 2.0}});
+    if (!created) return base::Fail(created.error());
+    created_ = *std::move(created);
+    return {};
+  }
+
+  void Run(Robot& robot) override {
+    robot.Drive(1, 0);
+    if (!robot.SleepFor(50ms)) return;
+    auto& values = read_.values;
+    values["sonar"] = {sonar_->Range(), sonar_->max_range()};
+    values["more"] = {created_->Range(), created_->max_range()};
+    values["lidar"] = lidar_->Ranges();
+    values["positioning"] = Numbers(position_->Locate());
+    const Imu::Motion motion = imu_->Feel();
+    values["imu"] = Numbers(motion.specific_force);
+    const Odometer::Estimate estimate = odometer_->Reckon();
+    values["odometry"] = {estimate.x, estimate.y, estimate.yaw, estimate.linear, estimate.angular};
+    const SatelliteReceiver::Position fix = satellites_->Fix();
+    values["navsat"] = {fix.latitude_deg, fix.longitude_deg, fix.altitude, fix.east};
+    values["magnetometer"] = Numbers(magnetometer_->Field());
+    const Altimeter::Height height = altimeter_->Measured();
+    values["altimeter"] = {height.position, height.velocity, height.reference};
+    for (const Bumper::Touch& touch : bumper_->Touches()) {
+      values["contact"] = Numbers(touch.normal);
+      read_.names["contact"].push_back(touch.other);
+    }
+    for (const JointEncoders::Joint& joint : joints_->Joints()) {
+      read_.names["joint_encoders"].push_back(joint.name);
+      values["joint_encoders"].push_back(joint.position);
+    }
+    const Battery::Charge charge = battery_->Level();
+    values["battery"] = {charge.voltage, charge.current, charge.charge, charge.fraction};
+    for (const LogicalCamera::Sighting& sighting : logical_camera_->Look()) {
+      read_.names["logical_camera"].push_back(sighting.name);
+      values["logical_camera"] = Numbers(sighting.sensor_from_model);
+    }
+  }
+
+ private:
+  Read& read_;
+  std::unique_ptr<Sonar> sonar_, created_;
+  std::unique_ptr<Lidar> lidar_;
+  std::unique_ptr<PositioningSystem> position_;
+  std::unique_ptr<Imu> imu_;
+  std::unique_ptr<Odometer> odometer_;
+  std::unique_ptr<SatelliteReceiver> satellites_;
+  std::unique_ptr<Magnetometer> magnetometer_;
+  std::unique_ptr<Altimeter> altimeter_;
+  std::unique_ptr<Bumper> bumper_;
+  std::unique_ptr<JointEncoders> joints_;
+  std::unique_ptr<Battery> battery_;
+  std::unique_ptr<LogicalCamera> logical_camera_;
+};
+
+// A disc at the wall's foot with a lever and one sensor of each type, named after it.
+simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::BehaviourPort> behaviour) {
+  auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
+  model->links.push_back({});
+  model::Joint lever;
+  lever.name = "lever";
+  lever.kind = model::JointKind::kRevolute;
+  lever.parent = 0;
+  lever.child = 1;
+  model->joints.push_back(lever);
+  model->sensors.clear();
+  for (const char* type :
+       {"sonar", "lidar", "positioning", "imu", "odometry", "navsat", "magnetometer", "altimeter",
+        "contact", "joint_encoders", "battery", "logical_camera"}) {
+    model::SensorDescription sensor;
+    sensor.name = sensor.type = type;
+    sensor.link_from_sensor.position = {0, 0, 0.25};
+    // Level with the wall's middle.
+    if (sensor.type == "logical_camera") sensor.link_from_sensor.position.z = 1;
+    if (sensor.type == "lidar") sensor.parameters = {{"scan.horizontal.samples", 8.0}};
+    if (sensor.type == "imu") {
+      sensor.parameters = {{"linear_acceleration.x.noise.stddev", 0.1}};
+    }
+    model->sensors.push_back(sensor);
+  }
+  simulation::RobotSpecification robot = simulation::Robot("robot", 2.68, 0, std::move(behaviour));
+  robot.model = std::move(model);
+  return robot;
+}
+
+void RunWith(std::shared_ptr<simulation::BehaviourPort> behaviour) {
+  auto specification = simulation::Lockstep(100ms);
+  auto world = std::make_shared<model::WorldDescription>(*specification.world);
+  world->origin = model::GeodeticOrigin{0.8, 0.1, 50, 0};
+  specification.world = world;
+  auto simulation = simulation::Make(specification);
+  ASSERT_TRUE(simulation->AddRobot(RobotWithAll(std::move(behaviour))));
+  ASSERT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
+}
+
+// Drives the behaviour through the servants of its robot, as a process elsewhere does.
+class ThroughCorba final : public simulation::BehaviourPort {
+ public:
+  using Also = std::function<void(sba::SensorFactory_ptr)>;
+  ThroughCorba(PortableServer::POA_ptr poa, std::unique_ptr<Behaviour> behaviour, Also also)
+      : group_(std::make_shared<services::ServantGroup>(poa)),
+        behaviour_(std::move(behaviour)),
+        also_(std::move(also)) {}
+
+  base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override {
+    hardware_ = services::ActivateHardware(agent, group_);
+    auto robot = sdk::RemoteRobot::Connect("robot", hardware_);
+    if (!robot) return base::Fail(robot.error());
+    robot_ = *std::move(robot);
+    return behaviour_->Init(*robot_);
+  }
+  base::Status Start() override {
+    if (auto ok = robot_->OpenClock(); !ok) return ok;
+    thread_ = std::jthread([this] {
+      behaviour_->Run(*robot_);
+      const sba::SensorFactory_var factory = hardware_->sensor_factory();
+      also_(factory);
+      robot_->CloseClock();
+    });
+    return {};
+  }
+  base::Status Stop() override {
+    robot_->End();
+    if (thread_.joinable()) thread_.join();
+    return {};
+  }
+  base::Status Pause() override { return {}; }
+  base::Status Resume() override { return {}; }
+  void Destroy() override { group_->DeactivateAll(); }
+  bool IsDead() override { return false; }
+  bool time_managed() const override { return true; }
+  const std::string& name() const override { return name_; }
+  const std::string& place() const override { return name_; }
+
+ private:
+  const std::string name_ = "test";
+  const std::shared_ptr<services::ServantGroup> group_;
+  const std::unique_ptr<Behaviour> behaviour_;
+  const Also also_;
+  sba::Hardware_var hardware_;
+  std::unique_ptr<sdk::RemoteRobot> robot_;
+  std::jthread thread_;
+};
+
+template <typename Interface>
+typename Interface::_var_type Opened(sba::SensorFactory_ptr factory, const char* name) {
+  const sba::Sensor_var sensor = factory->open(name);
+  auto narrowed = Interface::_narrow(sensor);
+  EXPECT_FALSE(CORBA::is_nil(narrowed)) << name;
+  return narrowed;
+}
+
+// The same values through the interface of each type.
+void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
+  const auto& values = read.values;
+  EXPECT_EQ(Opened<sba::Sonar>(factory, "sonar")->range(), values.at("sonar")[0]);
+  const sba::Doubles_var ranges = Opened<sba::Lidar>(factory, "lidar")->ranges();
+  EXPECT_EQ(ranges->length(), values.at("lidar").size());
+  EXPECT_EQ(Opened<sba::PositioningSystem>(factory, "positioning")->locate().x_m,
+            values.at("positioning")[0]);
+  const sba::ImuReading felt = Opened<sba::Imu>(factory, "imu")->feel();
+  EXPECT_EQ(felt.specific_force_m_s2.x, values.at("imu")[0]);
+  EXPECT_EQ(felt.time_ns, 50'000'000);
+  EXPECT_EQ(Opened<sba::Odometer>(factory, "odometry")->reckon().x_m, values.at("odometry")[0]);
+  EXPECT_EQ(Opened<sba::SatelliteReceiver>(factory, "navsat")->fix().latitude_deg,
+            values.at("navsat")[0]);
+  EXPECT_EQ(Opened<sba::Magnetometer>(factory, "magnetometer")->field_t().z,
+            values.at("magnetometer")[2]);
+  EXPECT_EQ(Opened<sba::Altimeter>(factory, "altimeter")->height().reference_m,
+            values.at("altimeter")[2]);
+  EXPECT_TRUE(Opened<sba::Bumper>(factory, "contact")->is_pressed());
+  const sba::TouchPoints_var touches = Opened<sba::Bumper>(factory, "contact")->touches();
+  ASSERT_EQ(touches->length(), 1u);
+  EXPECT_STREQ(touches.in()[0].other, "wall");
+  const sba::JointReadings_var joints =
+      Opened<sba::JointEncoders>(factory, "joint_encoders")->joints();
+  ASSERT_EQ(joints->length(), 1u);
+  EXPECT_STREQ(joints.in()[0].joint, "lever");
+  EXPECT_EQ(Opened<sba::Battery>(factory, "battery")->level().charge_ah, values.at("battery")[2]);
+  const sba::Sightings_var sightings =
+      Opened<sba::LogicalCamera>(factory, "logical_camera")->look();
+  ASSERT_EQ(sightings->length(), 1u);
+  EXPECT_STREQ(sightings.in()[0].name, "wall");
+}
+
+TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
+  Read local, remote;
+  RunWith(std::make_shared<hosting::HostedBehaviour>(
+      "reader", [&] { return std::make_unique<ReadsAll>(local); }));
+  auto orb = orb::StartOrb({});
+  ASSERT_TRUE(orb) << orb.error().Sentence();
+  {
+    const PortableServer::POA_var poa = orb::RootPoa(*orb);
+    RunWith(std::make_shared<ThroughCorba>(
+        poa, std::make_unique<ReadsAll>(remote),
+        [&](sba::SensorFactory_ptr factory) { CheckInterfaces(factory, remote); }));
+  }
+  (*orb)->destroy();
+  EXPECT_EQ(local.values, remote.values);
+  EXPECT_EQ(local.names, remote.names);
+  EXPECT_EQ(local.values.size(), 13u);
+
+  const auto& values = local.values;
+  EXPECT_EQ(values.at("more")[1], 2);
+  EXPECT_NEAR(values.at("sonar")[0], 0.2, 1e-3);  // it stands at the wall
+  EXPECT_EQ(values.at("sonar")[1], 5);
+  EXPECT_NEAR(values.at("altimeter")[2], 0.25, 1e-9);
+  EXPECT_GT(values.at("navsat")[0], 45);
+  EXPECT_EQ(local.names.at("contact"), std::vector<std::string>{"wall"});
+  EXPECT_EQ(local.error, "the sensor \"sonar\" is no imu");
+  EXPECT_EQ(remote.error, "the sensor \"sonar\" is no imu");
+}
+
+}  // namespace
+}  // namespace gsv
