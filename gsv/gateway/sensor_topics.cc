@@ -64,7 +64,7 @@ void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snap
   sensors_ = std::move(found);
   SensorList with_beams;
   for (const auto& [topic, sensor] : sensors_) {
-    if (sensor->type->overlay == sensing::Overlay::kLines) with_beams.push_back(sensor);
+    if (presentation::HasLines(*sensor->type, sensor->description)) with_beams.push_back(sensor);
   }
   beam_sensors_ = std::make_shared<SensorList>(std::move(with_beams));
   beams_of_.reset();
@@ -222,10 +222,8 @@ void SensorTopics::TakeBeams(simulation::Simulation& simulation, const world::Sn
     const geometry::Pose world_from_sensor =
         world::LinkPose(snapshot, body, sensor->description.link) *
         sensor->description.link_from_sensor;
-    for (const sensing::Segment& beam : sensor->type->beams(sensor->description, *reading)) {
-      points[sensor->robot].push_back(world_from_sensor * beam.from);
-      points[sensor->robot].push_back(world_from_sensor * beam.to);
-    }
+    presentation::AppendLines(*sensor->type, sensor->description, *reading, world_from_sensor,
+                              points[sensor->robot]);
   }
   messages::visualization_msgs::MarkerArray message;
   for (const std::string& robot : robots_with_beams_) {

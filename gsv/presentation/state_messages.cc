@@ -129,6 +129,24 @@ messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event) 
   return message;
 }
 
+bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor) {
+  return type.overlay == sensing::Overlay::kLines ||
+         (type.overlay == sensing::Overlay::kPoints && sensor.visualize);
+}
+
+void AppendLines(const sensing::SensorType& type, const model::SensorDescription& sensor,
+                 const sensing::Reading& reading, const geometry::Pose& world_from_sensor,
+                 std::vector<geometry::Vector3>& points_in_world) {
+  constexpr double kDash = 0.02;  // of a beam's length
+  if (!HasLines(type, sensor)) return;
+  const bool as_points = type.overlay == sensing::Overlay::kPoints;
+  for (const sensing::Segment& beam : type.beams(sensor, reading)) {
+    const geometry::Vector3 from = as_points ? beam.to + kDash * (beam.from - beam.to) : beam.from;
+    points_in_world.push_back(world_from_sensor * from);
+    points_in_world.push_back(world_from_sensor * beam.to);
+  }
+}
+
 messages::visualization_msgs::Marker BeamsMarker(const std::string& robot, base::SimTime time,
                                                  std::vector<geometry::Vector3> points_in_world) {
   messages::visualization_msgs::Marker marker = Marker(robot, time);

@@ -15,6 +15,7 @@
 #include "gsv/messages/visualization_msgs.h"
 #include "gsv/model/sensor_description.h"
 #include "gsv/presentation/pose_list.h"
+#include "gsv/sensing/registry.h"
 #include "gsv/simulation/types.h"
 
 namespace gsv::presentation {
@@ -35,6 +36,14 @@ void AppendSensorTransform(const world::Layout& layout, int body,
 
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
+
+// The lines that are drawn of a reading, as pairs of points in the world: the beams of a type that
+// is drawn as lines, and short dashes where beams end of one that is drawn as points and whose file
+// asks for it (<visualize>). Nothing of other types.
+bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
+void AppendLines(const sensing::SensorType& type, const model::SensorDescription& sensor,
+                 const sensing::Reading& reading, const geometry::Pose& world_from_sensor,
+                 std::vector<geometry::Vector3>& points_in_world);
 
 // One robot's beams as pairs of points in the world.
 messages::visualization_msgs::Marker BeamsMarker(const std::string& robot, base::SimTime time,

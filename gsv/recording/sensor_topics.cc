@@ -75,8 +75,7 @@ std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
     Complain(sensor.error());
     return nullptr;
   }
-  const double rate =
-      type->overlay == sensing::Overlay::kPicture ? rates_.pictures : rates_.readings;
+  const double rate = (*sensor)->TakesLong() ? rates_.pictures : rates_.readings;
   return std::make_shared<Sensor>(Sensor{robot,
                                          description,
                                          type,
@@ -131,16 +130,14 @@ void SensorTopics::WriteTransforms(const world::Snapshot& snapshot) {
 void SensorTopics::WriteBeams(const world::Snapshot& snapshot) {
   std::map<std::string, std::vector<geometry::Vector3>> points;  // in the world, by robot
   for (const auto& [topic, sensor] : sensors_) {
-    if (sensor->type->overlay != sensing::Overlay::kLines || !sensor->newest) continue;
+    if (!presentation::HasLines(*sensor->type, sensor->description) || !sensor->newest) continue;
     const int body = snapshot.layout->Find(sensor->robot);
     if (body < 0) continue;
     const geometry::Pose world_from_sensor =
         world::LinkPose(snapshot, body, sensor->description.link) *
         sensor->description.link_from_sensor;
-    for (const sensing::Segment& beam : sensor->type->beams(sensor->description, *sensor->newest)) {
-      points[sensor->robot].push_back(world_from_sensor * beam.from);
-      points[sensor->robot].push_back(world_from_sensor * beam.to);
-    }
+    presentation::AppendLines(*sensor->type, sensor->description, *sensor->newest,
+                              world_from_sensor, points[sensor->robot]);
   }
   const base::SimTime time = snapshot.state.time;
   messages::visualization_msgs::MarkerArray message;
