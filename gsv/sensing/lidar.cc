@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/encoding.h"
+#include "gsv/sensing/noise.h"
 #include "gsv/sensing/parameters.h"
 
 namespace gsv::sensing {
@@ -32,7 +34,8 @@ struct Fan {
 struct LidarSettings {
   Fan horizontal, vertical;
   double min = 0, max = 0;
-  double noise_mean = 0, noise_stddev = 0;
+  double noise_mean = 0, noise_stddev = 0;  // of white noise alone, drawn beam after beam
+  std::optional<NoiseModel> full_noise;     // any other
 };
 
 Fan ReadFan(ParameterReader& reader, const std::string& name, int samples, double min_angle,
@@ -69,10 +72,13 @@ base::Result<LidarSettings> ReadSettings(const model::SensorDescription& descrip
     reader.Refuse(
         fmt::format("range.min is {} and above range.max, {}", settings.min, settings.max));
   }
-  settings.noise_mean = reader.Number("noise.mean", 0, -1e3, 1e3);
-  settings.noise_stddev = reader.Number("noise.stddev", 0, 0, 1e3);
-  if (model::TextOr(description.parameters, "noise.type", "gaussian") == "none") {
-    settings.noise_mean = settings.noise_stddev = 0;
+  const NoiseModel noise = ReadNoise(reader, "noise", 1e3);
+  NoiseModel white;
+  white.mean = noise.mean, white.stddev = noise.stddev;
+  if (noise == white) {
+    settings.noise_mean = noise.mean, settings.noise_stddev = noise.stddev;
+  } else {
+    settings.full_noise = noise;
   }
   if (!reader.status()) return base::Fail(reader.status().error());
   return settings;
@@ -103,10 +109,14 @@ class Lidar final : public Sensor {
     reading.values.reserve(directions_.size());
     base::Noise noise = sampling.NoiseOf(description());
     sampling.ExpectRays(directions_.size());
+    std::optional<NoisyReading> noisy;
+    if (settings_.full_noise) noisy.emplace(sampling, description());
     for (const Vector3& direction : directions_) {
       const Ray beam{world_from_lidar.position, world_from_lidar.orientation * direction,
                      settings_.max};
-      reading.values.push_back(Measured(sampling.Range(beam), noise));
+      double distance = sampling.Range(beam);
+      if (noisy) distance = Disturbed(*noisy, reading.values.size(), distance);
+      reading.values.push_back(Measured(distance, noise));
     }
     return reading;
   }
@@ -114,6 +124,13 @@ class Lidar final : public Sensor {
   bool CastsRays() const override { return true; }
 
  private:
+  // A dropout is an echo that is missed.
+  double Disturbed(const NoisyReading& noisy, std::size_t beam, double distance) const {
+    if (distance == kInfinity) return distance;
+    const double read = noisy.Read(*settings_.full_noise, beam, distance);
+    return std::isnan(read) ? kInfinity : read;
+  }
+
   double Measured(double distance, base::Noise& noise) const {
     // Every beam draws, so that one beam's noise does not hang on what another hits.
     const double error = settings_.noise_stddev > 0

@@ -9,9 +9,9 @@
 // Parameters  SDFormat's, flattened. scan.horizontal.samples (360), .resolution (1: beams for each
 //             sample), .min_angle (-pi), .max_angle (pi - one beam's width); scan.vertical.* the
 //             same (1 sample at 0). With one beam the angle is min_angle. range.min (0.08),
-//             range.max (10). noise.mean, noise.stddev (0): Gaussian, metres, on what lies within
-//             the limits and kept there; none if noise.type is "none". Of range.resolution nothing
-//             is made, as in Gazebo.
+//             range.max (10). noise (m), see noise.h: a bias is each beam's own, a dropout reads as
+//             nothing hit, and what lies within the limits is kept there. Of range.resolution
+//             nothing is made, as in Gazebo.
 // Message     sensor_msgs/LaserScan: of several fans the one nearest to the horizontal.
 #pragma once
 

@@ -171,6 +171,30 @@ TEST_F(SensorTest, LidarNoiseHangsOnSeedAndStepAndHasItsDeviation) {
   EXPECT_NEAR(std::sqrt(squares / 2001), 0.02, 0.002);
 }
 
+TEST_F(SensorTest, LidarMissesEchoesAndRoundsThoseItHears) {
+  auto parameters = Scan(2000, -0.2, 0.2);
+  parameters["noise.stddev"] = 0.02;
+  parameters["noise.precision"] = 0.25;
+  parameters["noise.dropout_probability"] = 0.1;
+  int missed = 0;
+  for (const double range : Sample(Description("lidar", parameters)).values) {
+    missed += range == kInfinity;
+    if (range != kInfinity) {
+      EXPECT_EQ(4 * range, std::round(4 * range));
+    }
+  }
+  EXPECT_NEAR(missed / 2000.0, 0.1, 3 * std::sqrt(0.1 * 0.9 / 2000));
+}
+
+TEST_F(SensorTest, SonarIsDeafWhereAnEchoDropsOut) {
+  EXPECT_EQ(
+      Sample(Description("sonar", {{"max", 10.0}, {"noise.dropout_probability", 1.0}})).values[0],
+      10);
+  const double biased =
+      Sample(Description("sonar", {{"max", 10.0}, {"noise.bias_mean", 0.5}})).values[0];
+  EXPECT_NEAR(biased, 4.3, 1e-12);
+}
+
 TEST_F(SensorTest, LidarIsDrawnWhereItsBeamsEnd) {
   const auto description = Description("lidar", Scan(3, -0.2, 0.2));
   const auto beams = Registry().Find("lidar")->beams(description, Sample(description));

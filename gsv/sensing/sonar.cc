@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/encoding.h"
+#include "gsv/sensing/noise.h"
 #include "gsv/sensing/parameters.h"
+#include "gsv/sensing/sound_cone.h"
 
 namespace gsv::sensing {
 namespace {
@@ -18,6 +21,8 @@ using geometry::Vector3;
 struct SonarSettings {
   double min = 0, max = 5;
   double field_of_view = 0.26;
+  std::optional<SoundSettings> sound;  // of a cone
+  NoiseModel noise;
 };
 
 base::Result<SonarSettings> ReadSettings(const model::SensorDescription& description) {
@@ -32,6 +37,13 @@ base::Result<SonarSettings> ReadSettings(const model::SensorDescription& descrip
   if (settings.min > settings.max) {
     reader.Refuse(fmt::format("min is {} and above max, {}", settings.min, settings.max));
   }
+  settings.noise = ReadNoise(reader, "noise", 1e3);
+  const std::string beam = reader.Text("beam", "ray");
+  if (beam == "cone") {
+    settings.sound = ReadSound(reader);
+  } else if (beam != "ray") {
+    reader.Refuse(fmt::format("beam is \"{}\"; it must be ray or cone", beam));
+  }
   if (!reader.status()) return base::Fail(reader.status().error());
   return settings;
 }
@@ -39,13 +51,16 @@ base::Result<SonarSettings> ReadSettings(const model::SensorDescription& descrip
 class Sonar final : public Sensor {
  public:
   Sonar(const model::SensorDescription& description, const SonarSettings& settings)
-      : Sensor(description), settings_(settings) {}
+      : Sensor(description), settings_(settings) {
+    if (settings.sound) cone_.emplace(*settings.sound);
+  }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const geometry::Pose world_from_sonar = sampling.WorldFromSensor(description());
-    const Ray beam{world_from_sonar.position, world_from_sonar.orientation * Vector3{1, 0, 0},
-                   settings_.max};
-    const double echo = sampling.Range(beam);  // infinite: none
+    double echo = Echo(sampling, world_from_sonar);  // infinite: none
+    if (!settings_.noise.is_none() && std::isfinite(echo)) {
+      echo = NoisyReading(sampling, description()).Read(settings_.noise, 0, echo);
+    }
     base::Result<Reading> reading = sampling.Stamped();
     reading->values.push_back(echo >= settings_.min ? std::min(echo, settings_.max)
                                                     : settings_.max);
@@ -55,7 +70,14 @@ class Sonar final : public Sensor {
   bool CastsRays() const override { return true; }
 
  private:
+  double Echo(const Sampling& sampling, const geometry::Pose& world_from_sonar) const {
+    if (cone_) return cone_->NearestEcho(sampling, world_from_sonar, settings_.max);
+    return sampling.Range({world_from_sonar.position,
+                           world_from_sonar.orientation * Vector3{1, 0, 0}, settings_.max});
+  }
+
   SonarSettings settings_;
+  std::optional<SoundCone> cone_;
 };
 
 std::vector<std::uint8_t> Encode(const model::SensorDescription& description,
