@@ -60,6 +60,9 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
                   "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
       ->envname("GSV_BROKER");
   command.add_option("--model-path", a.model_path, "a folder to look for models in");
+  command.add_option("--sensor-plugin", a.sensor_plugins,
+                     "a library that brings sensor types, gsv-sensor-NAME.so; those in the folders "
+                     "of GSV_SENSOR_PLUGIN_PATH are there anyway");
   command
       .add_option("--port", a.port,
                   "the viewer's port; 0: any that is free (default: 8080, or any)")
@@ -159,6 +162,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.in_process = a.in_process;
   options.runtime.broker = a.broker;
   options.runtime.model_path.assign(a.model_path.begin(), a.model_path.end());
+  options.runtime.sensor_plugins.assign(a.sensor_plugins.begin(), a.sensor_plugins.end());
   options.runtime.viewer = !a.headless;
   options.runtime.port_given = a.port >= 0;
   if (a.port >= 0) options.runtime.port = a.port;

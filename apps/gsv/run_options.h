@@ -40,7 +40,7 @@ struct RunOptions {
 // The options as they stand on the command line, before they are understood.
 struct RunArguments {
   std::string world;
-  std::vector<std::string> robots, avatars, behaviours, movements, model_path;
+  std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
   std::string broker, mode_on_failure = "go_on", record;
   double duration = 0, step = 0, factor = 1, deadline = 10, wall_timeout = 0;
   std::uint64_t seed = 0;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <thread>
 
 #include "apps/gsv/installation.h"
@@ -15,7 +16,9 @@
 #include "gsv/orb/orb.h"
 #include "gsv/rendering/camera_sensor.h"
 #include "gsv/rendering/renderer.h"
+#include "gsv/rendering/survey_sensors.h"
 #include "gsv/scenario/scenario.h"
+#include "gsv/services/sensor_plugins.h"
 
 namespace gsv::app {
 namespace {
@@ -27,23 +30,37 @@ std::string HostName() {
   return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "localhost";
 }
 
-std::shared_ptr<const sensing::SensorRegistry> MakeSensors(const RuntimeOptions& options) {
+base::Status LoadSensorPlugins(const RuntimeOptions& options, sensing::SensorRegistry& sensors) {
+  const char* const folders = std::getenv("GSV_SENSOR_PLUGIN_PATH");
+  auto files = services::FindSensorPlugins(folders == nullptr ? "" : folders);
+  files.insert(files.end(), options.sensor_plugins.begin(), options.sensor_plugins.end());
+  for (const std::filesystem::path& file : files) {
+    if (auto ok = services::LoadSensorPlugin(file, sensors); !ok) return ok;
+  }
+  return {};
+}
+
+base::Result<std::shared_ptr<const sensing::SensorRegistry>> MakeSensors(
+    const RuntimeOptions& options) {
   auto sensors = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*sensors);
   auto renderer = rendering::Renderer::Start();
   if (!renderer) spdlog::warn("no cameras: {}", renderer.error().Sentence());
+  const auto surveys_added = rendering::AddSurveySensors(*sensors, renderer);
+  GSV_CHECK(surveys_added.has_value());
   if (!options.adapt_camera) {
     const auto added = rendering::AddCameraSensor(*sensors, std::move(renderer));
     GSV_CHECK(added.has_value());
-    return sensors;
+  } else {
+    sensing::SensorRegistry cameras;
+    const auto camera_added = rendering::AddCameraSensor(cameras, std::move(renderer));
+    GSV_CHECK(camera_added.has_value());
+    sensing::SensorType camera = *cameras.Find("camera");
+    options.adapt_camera(camera);
+    const auto added = sensors->Add(std::move(camera));
+    GSV_CHECK(added.has_value());
   }
-  sensing::SensorRegistry cameras;
-  const auto camera_added = rendering::AddCameraSensor(cameras, std::move(renderer));
-  GSV_CHECK(camera_added.has_value());
-  sensing::SensorType camera = *cameras.Find("camera");
-  options.adapt_camera(camera);
-  const auto added = sensors->Add(std::move(camera));
-  GSV_CHECK(added.has_value());
+  if (auto ok = LoadSensorPlugins(options, *sensors); !ok) return base::Fail(ok.error());
   return sensors;
 }
 
@@ -63,11 +80,13 @@ class HostDirectory final : public gateway::SimulationDirectory {
 
 base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& options) {
   std::unique_ptr<Runtime> runtime(new Runtime);
+  auto sensors = MakeSensors(options);
+  if (!sensors) return base::Fail(sensors.error());
   if (auto ok = runtime->StartBroker(options); !ok) return base::Fail(ok.error());
   formats::ReadOptions reading;
   reading.model_path = options.model_path;
   runtime->host_ = std::make_shared<services::SimulationHost>(
-      MakeSensors(options), std::make_shared<formats::ModelLibrary>(std::move(reading)));
+      *std::move(sensors), std::make_shared<formats::ModelLibrary>(std::move(reading)));
   runtime->recordings_ = std::make_unique<Recordings>();
   const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
   runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);

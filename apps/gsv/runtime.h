@@ -28,6 +28,7 @@ class Recordings;
 struct RuntimeOptions {
   std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
   std::vector<std::filesystem::path> model_path;
+  std::vector<std::filesystem::path> sensor_plugins;  // besides those of GSV_SENSOR_PLUGIN_PATH
   bool viewer = true;
   int port = 8080;  // of the viewer; 0: the system chooses
   // Changes the camera type before it is registered; may be empty.

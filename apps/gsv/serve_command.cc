@@ -11,7 +11,7 @@ namespace {
 
 struct ServeArguments {
   std::string broker, name = "gsv";
-  std::vector<std::string> model_path;
+  std::vector<std::string> model_path, sensor_plugins;
   int port = -1;
   bool headless = false;
 };
@@ -20,6 +20,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   RuntimeOptions options;
   options.broker = arguments.broker;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
+  options.sensor_plugins.assign(arguments.sensor_plugins.begin(), arguments.sensor_plugins.end());
   options.viewer = !arguments.headless;
   options.port_given = arguments.port >= 0;
   if (arguments.port >= 0) options.port = arguments.port;
@@ -45,6 +46,10 @@ void AddServeCommand(const CommandLine& line) {
       ->envname("GSV_BROKER");
   command->add_option("--name", arguments->name, "the name in the offer")->capture_default_str();
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  command->add_option(
+      "--sensor-plugin", arguments->sensor_plugins,
+      "a library that brings sensor types, gsv-sensor-NAME.so; those in the folders "
+      "of GSV_SENSOR_PLUGIN_PATH are there anyway");
   command
       ->add_option("--port", arguments->port,
                    "the viewer's port; 0: any that is free (default: 8080, or any)")
