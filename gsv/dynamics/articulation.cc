@@ -76,7 +76,14 @@ void Weigh(const model::Model& model, Part& part) {
     part.mass += link.inertial.mass;
     moment += link.inertial.mass * (link.model_from_link * link.inertial.link_from_com).position;
   }
-  const Vector3 centre = part.mass > 0 ? moment * (1 / part.mass) : Vector3{};
+  Vector3 centre = moment * (part.mass > 0 ? 1 / part.mass : 0);
+  // A cross of two axes weighs nothing.
+  if (part.mass == 0 && !part.links.empty()) {
+    centre = model.links[part.links[0]].model_from_link.position;
+  }
+  for (const int l : part.links) {
+    if (!model.links[l].has_gravity) part.heaviness -= model.links[l].inertial.mass / part.mass;
+  }
   Matrix total{};
   for (const int l : part.links) {
     const model::Inertial& i = model.links[l].inertial;
@@ -93,19 +100,43 @@ void Weigh(const model::Model& model, Part& part) {
 
 }  // namespace
 
-bool IsMovable(model::JointKind kind) {
-  return kind == model::JointKind::kRevolute || kind == model::JointKind::kContinuous ||
-         kind == model::JointKind::kPrismatic;
+namespace {
+
+// The joint that each link hangs from, or -1.
+std::vector<int> ParentJoints(const model::Model& model) {
+  std::vector<int> parent_joint(model.links.size(), -1);
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    parent_joint[model.joints[j].child] = static_cast<int>(j);
+  }
+  return parent_joint;
+}
+
+// A ball joint's three follow each other, and so may those of several: each third one moves what
+// hangs from it.
+bool IsWithinBall(const model::Model& model, const std::vector<int>& parent_joint, int joint) {
+  int in_a_row = 0;
+  for (; joint >= 0 && model.joints[joint].kind == model::JointKind::kBall; ++in_a_row) {
+    const int parent = model.joints[joint].parent;
+    joint = parent < 0 ? -1 : parent_joint[parent];
+  }
+  return in_a_row % 3 != 0;
+}
+
+}  // namespace
+
+std::array<int, 3> JointsOfBall(const model::Model& model, const Part& part) {
+  const std::vector<int> parent_joint = ParentJoints(model);
+  const int second = parent_joint[model.joints[part.joint].parent];
+  return {parent_joint[model.joints[second].parent], second, part.joint};
 }
 
 Articulation MakeArticulation(const model::Model& model) {
   Articulation articulation;
   articulation.part_of_link.assign(model.links.size(), -1);
   articulation.parts.emplace_back();
-  std::vector<int> parent_joint(model.links.size(), -1);
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    parent_joint[model.joints[j].child] = static_cast<int>(j);
-    if (model.joints[j].parent < 0) articulation.is_fixed = true;
+  const std::vector<int> parent_joint = ParentJoints(model);
+  for (const model::Joint& joint : model.joints) {
+    if (joint.parent < 0) articulation.is_fixed = true;
   }
   // From the roots outwards: a link's part is known once that of its parent is.
   for (std::size_t placed = 0, before = 1; placed != before;) {
@@ -116,7 +147,8 @@ Articulation MakeArticulation(const model::Model& model) {
       const int parent_link = joint < 0 ? -1 : model.joints[joint].parent;
       int part = parent_link < 0 ? 0 : articulation.part_of_link[parent_link];
       if (part < 0) continue;
-      if (joint >= 0 && IsMovable(model.joints[joint].kind)) {
+      if (joint >= 0 && model.joints[joint].kind != model::JointKind::kFixed &&
+          !IsWithinBall(model, parent_joint, joint)) {
         articulation.parts.push_back({joint, part, {}, 0, {}, {}});
         part = static_cast<int>(articulation.parts.size()) - 1;
       }

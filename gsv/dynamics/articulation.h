@@ -5,6 +5,7 @@
 // Units   kg, kg m², metres.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "gsv/model/model.h"
@@ -12,12 +13,15 @@
 namespace gsv::dynamics {
 
 struct Part {
-  int joint = -1;   // of the model, that moves it against its parent; -1: the base
+  // Of the model, that moves it against its parent; -1: the base. Of a ball joint the last of the
+  // three that it is made of.
+  int joint = -1;
   int parent = -1;  // a part before this one; -1: the base has none
   std::vector<int> links;
   double mass = 0;
   geometry::Pose model_from_part;
   geometry::Vector3 inertia;  // principal moments
+  double heaviness = 1;       // the share of its mass on which gravity acts
 };
 
 struct Articulation {
@@ -28,11 +32,11 @@ struct Articulation {
 };
 
 // Links that hang from no joint belong to the base, which moves with the model's frame, and so does
-// what hangs from the world by a joint that is not fixed. Ball and screw joints hold like fixed
-// ones.
+// what hangs from the world by a joint that is not fixed. Links within a ball joint belong to its
+// parent.
 Articulation MakeArticulation(const model::Model& model);
 
-// Whether the joint moves: revolute, continuous or prismatic.
-bool IsMovable(model::JointKind kind);
+// The three joints of the model, from parent to child, that are the ball joint above a part.
+std::array<int, 3> JointsOfBall(const model::Model& model, const Part& part);
 
 }  // namespace gsv::dynamics

@@ -14,7 +14,11 @@ class FreeBody final : public MovingBody {
  public:
   FreeBody(const RigidBody& plan, const world::State& state, Owner& owner,
            btMultiBodyDynamicsWorld& world)
-      : plan_(plan), owner_(owner), gravity_(world.getGravity()), object_(Description()) {
+      : plan_(plan),
+        owner_(owner),
+        grip_(world.getGravity().length()),
+        gravity_(world.getGravity() * part().heaviness),
+        object_(Description()) {
     const world::BodyState& body = state.bodies[plan.body];
     was_resting_speed_ = std::max(Norm(body.linear_velocity), Norm(body.angular_velocity));
     const Pose world_from_part = body.world_from_model * part().model_from_part;
@@ -31,6 +35,7 @@ class FreeBody final : public MovingBody {
     if (plan.solids[0].bounces()) object_.setContactProcessingThreshold(0);
     if (plan.kinematics) servo_.emplace(*plan.kinematics, body, state.time);
     world.addRigidBody(&object_, btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
+    object_.setGravity(gravity_);
   }
 
   void BeforeSubstep(double seconds) override {
@@ -40,7 +45,7 @@ class FreeBody final : public MovingBody {
     Vector3 velocity = FromBullet(object_.getLinearVelocity());
     Vector3 angular_velocity = FromBullet(object_.getAngularVelocity());
     HoldBase(*servo_, world_from_part * Inverse(part().model_from_part), world_from_part.position,
-             gravity_.length(), seconds, velocity, angular_velocity);
+             grip_, seconds, velocity, angular_velocity);
     object_.setLinearVelocity(ToBullet(velocity));
     object_.setAngularVelocity(ToBullet(angular_velocity));
   }
@@ -90,6 +95,7 @@ class FreeBody final : public MovingBody {
 
   const RigidBody& plan_;
   const Owner& owner_;
+  const double grip_;
   const btVector3 gravity_;
   btRigidBody object_;
   std::optional<DriveServo> servo_;

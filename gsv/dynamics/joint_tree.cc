@@ -7,6 +7,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include "gsv/dynamics/ball_angles.h"
 #include "gsv/dynamics/drive_servo.h"
 #include "gsv/dynamics/moving_body.h"
 
@@ -42,11 +43,28 @@ class JointTree final : public MovingBody {
     int joint;  // of the model
     std::unique_ptr<btMultiBodyJointMotor> constraint;
   };
+  struct Ball {
+    int link;
+    BallAngles angles;
+  };
+  // Bullet knows no screws: a revolute link whose arm grows as it turns.
+  struct Screw {
+    int link;
+    double pitch;  // m/rad
+    btVector3 arm;
+  };
 
   const std::vector<Part>& parts() const { return plan_.articulation.parts; }
+  const Part& PartOf(int link) const { return parts()[static_cast<std::size_t>(link) + 1]; }
   const model::Joint& JointOf(const Part& part) const { return plan_.model->joints[part.joint]; }
   void SetUpLink(int link);
   void Place(const world::State& state);
+  void PlaceBall(const Ball& ball, const world::State& state);
+  void StoreBall(const Ball& ball, bool rests, world::State& state) const;
+  void Slide();
+  void LiftWhatIsWeightless();
+  bool IsBall(int link) const { return JointOf(PartOf(link)).kind == model::JointKind::kBall; }
+  double Rate(int link) const;
   void AddCollider(int link, Owner& owner, btMultiBodyDynamicsWorld& world);
   void AddLimitsAndMotors(btMultiBodyDynamicsWorld& world);
   void Drive(double seconds);
@@ -61,9 +79,12 @@ class JointTree final : public MovingBody {
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<std::unique_ptr<btMultiBodyConstraint>> limits_;
   std::vector<Motor> motors_;
+  std::vector<Ball> balls_;
+  std::vector<Screw> screws_;
   std::optional<DriveServo> servo_;
   std::vector<world::JointCommand> commands_;            // of the model's joints; may be empty
   std::vector<double> wanted_positions_, wanted_rates_;  // of the drive's joints
+  const btVector3 gravity_;
   double grip_;
   double resting_speed_before_;
 };
@@ -75,6 +96,7 @@ JointTree::JointTree(const RigidBody& plan, const world::State& state,
             ToBullet(plan.articulation.parts[0].inertia), plan.articulation.is_fixed, false),
       wanted_positions_(plan.model->joints.size()),
       wanted_rates_(plan.model->joints.size()),
+      gravity_(world.getGravity()),
       grip_(world.getGravity().length()) {
   for (int link = 0; link < tree_.getNumLinks(); ++link) SetUpLink(link);
   tree_.finalizeMultiDof();
@@ -101,7 +123,7 @@ JointTree::JointTree(const RigidBody& plan, const world::State& state,
 }
 
 void JointTree::SetUpLink(int link) {
-  const Part& part = parts()[static_cast<std::size_t>(link) + 1];
+  const Part& part = PartOf(link);
   const Part& parent = parts()[static_cast<std::size_t>(part.parent)];
   const model::Joint& joint = JointOf(part);
   const Pose parent_from_part = Inverse(parent.model_from_part) * part.model_from_part;
@@ -114,9 +136,54 @@ void JointTree::SetUpLink(int link) {
   if (joint.kind == model::JointKind::kPrismatic) {
     tree_.setupPrismatic(link, part.mass, ToBullet(part.inertia), part.parent - 1, part_from_parent,
                          ToBullet(axis), ToBullet(pivot_in_parent), ToBullet(-pivot_in_part), true);
+  } else if (joint.kind == model::JointKind::kBall) {
+    tree_.setupSpherical(link, part.mass, ToBullet(part.inertia), part.parent - 1, part_from_parent,
+                         ToBullet(pivot_in_parent), ToBullet(-pivot_in_part), true);
+    balls_.push_back({link, BallAngles(*plan_.model, part)});
   } else {
     tree_.setupRevolute(link, part.mass, ToBullet(part.inertia), part.parent - 1, part_from_parent,
                         ToBullet(axis), ToBullet(pivot_in_parent), ToBullet(-pivot_in_part), true);
+  }
+  if (joint.kind == model::JointKind::kScrew) {
+    btMultibodyLink& screw = tree_.getLink(link);
+    screw.setAxisBottom(0, screw.getAxisBottom(0) + joint.thread_pitch * ToBullet(axis));
+    screws_.push_back({link, joint.thread_pitch, screw.m_dVector});
+  }
+}
+
+void JointTree::Slide() {
+  for (const Screw& screw : screws_) {
+    btMultibodyLink& link = tree_.getLink(screw.link);
+    link.m_dVector = screw.arm + screw.pitch * tree_.getJointPos(screw.link) * link.getAxisTop(0);
+    link.updateCacheMultiDof();
+  }
+}
+
+void JointTree::PlaceBall(const Ball& ball, const world::State& state) {
+  std::array<double, 3> angles, rates;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto joint = static_cast<std::size_t>(plan_.first_joint + ball.angles.joints()[i]);
+    angles[i] = state.joint_positions[joint];
+    rates[i] = state.joint_velocities[joint];
+  }
+  const geometry::Quaternion turn = ball.angles.Turn(angles);
+  const Vector3 omega = ball.angles.AngularVelocity(rates);
+  const double position[] = {turn.x, turn.y, turn.z, turn.w};
+  const double velocity[] = {omega.x, omega.y, omega.z};
+  tree_.setJointPosMultiDof(ball.link, position);
+  tree_.setJointVelMultiDof(ball.link, velocity);
+}
+
+void JointTree::StoreBall(const Ball& ball, bool rests, world::State& state) const {
+  const btScalar* q = tree_.getJointPosMultiDof(ball.link);
+  const btScalar* w = tree_.getJointVelMultiDof(ball.link);
+  const std::array<double, 3> angles =
+      ball.angles.AnglesOf(geometry::Normalized({q[3], q[0], q[1], q[2]}));
+  const std::array<double, 3> rates = ball.angles.RatesOf({w[0], w[1], w[2]});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto joint = static_cast<std::size_t>(plan_.first_joint + ball.angles.joints()[i]);
+    if (!rests) state.joint_positions[joint] = angles[i];
+    state.joint_velocities[joint] = rests ? 0 : rates[i];
   }
 }
 
@@ -130,10 +197,13 @@ void JointTree::Place(const world::State& state) {
     tree_.setBaseOmega(ToBullet(body.angular_velocity));
   }
   for (int link = 0; link < tree_.getNumLinks(); ++link) {
-    const int joint = plan_.first_joint + parts()[static_cast<std::size_t>(link) + 1].joint;
+    if (IsBall(link)) continue;
+    const int joint = plan_.first_joint + PartOf(link).joint;
     tree_.setJointPos(link, state.joint_positions[joint]);
     tree_.setJointVel(link, state.joint_velocities[joint]);
   }
+  for (const Ball& ball : balls_) PlaceBall(ball, state);
+  Slide();
   btAlignedObjectArray<btQuaternion> rotations;
   btAlignedObjectArray<btVector3> origins;
   tree_.forwardKinematics(rotations, origins);
@@ -160,7 +230,8 @@ void JointTree::AddCollider(int link, Owner& owner, btMultiBodyDynamicsWorld& wo
 
 void JointTree::AddLimitsAndMotors(btMultiBodyDynamicsWorld& world) {
   for (int link = 0; link < tree_.getNumLinks(); ++link) {
-    const Part& part = parts()[static_cast<std::size_t>(link) + 1];
+    if (IsBall(link)) continue;
+    const Part& part = PartOf(link);
     const model::Joint& joint = JointOf(part);
     const model::Range& limits = joint.position_limits;
     if (joint.kind != model::JointKind::kContinuous &&
@@ -236,16 +307,47 @@ void JointTree::TurnMotors(double seconds) {
 // Never more than would stop the lightest that may hang from the joint.
 double JointTree::Damping(const Motor& motor, double seconds) const {
   const model::Joint& joint = plan_.model->joints[motor.joint];
-  const Part& part = parts()[static_cast<std::size_t>(motor.link) + 1];
+  // A cross of two axes weighs nothing: what hangs from it counts.
+  auto part = parts().begin() + motor.link + 1;
+  while (part->mass == 0) {
+    const int index = static_cast<int>(part - parts().begin());
+    const auto child =
+        std::find_if(part, parts().end(), [&](const Part& p) { return p.parent == index; });
+    if (child == parts().end()) return 0;
+    part = child;
+  }
   const double inertia = joint.kind == model::JointKind::kPrismatic
-                             ? part.mass
-                             : std::min({part.inertia.x, part.inertia.y, part.inertia.z});
+                             ? part->mass
+                             : std::min({part->inertia.x, part->inertia.y, part->inertia.z});
   return -joint.damping * tree_.getJointVel(motor.link) / (1 + joint.damping * seconds / inertia);
 }
 
 void JointTree::BeforeSubstep(double seconds) {
+  Slide();
   if (servo_) Drive(seconds);
   TurnMotors(seconds);
+  LiftWhatIsWeightless();
+}
+
+// Bullet pulls at all parts.
+void JointTree::LiftWhatIsWeightless() {
+  for (std::size_t i = 0; i < parts().size(); ++i) {
+    const Part& part = parts()[i];
+    if (part.heaviness == 1) continue;
+    const btVector3 lift = -(1 - part.heaviness) * part.mass * gravity_;
+    if (i == 0) {
+      tree_.addBaseForce(lift);
+    } else {
+      tree_.addLinkForce(static_cast<int>(i) - 1, lift);
+    }
+  }
+}
+
+// rad/s or m/s
+double JointTree::Rate(int link) const {
+  if (!IsBall(link)) return std::abs(tree_.getJointVel(link));
+  const btScalar* rate = tree_.getJointVelMultiDof(link);
+  return btVector3(rate[0], rate[1], rate[2]).length();
 }
 
 double JointTree::Speed() const {
@@ -253,10 +355,12 @@ double JointTree::Speed() const {
   double turning = tree_.getBaseOmega().length();
   speed += turning * plan_.solids[0].radius;
   for (int link = 0; link < tree_.getNumLinks(); ++link) {
-    const double rate = std::abs(tree_.getJointVel(link));
-    const bool slides =
-        JointOf(parts()[static_cast<std::size_t>(link) + 1]).kind == model::JointKind::kPrismatic;
-    speed += slides ? rate : rate * plan_.solids[static_cast<std::size_t>(link) + 1].radius;
+    const double rate = Rate(link);
+    const model::Joint& joint = JointOf(PartOf(link));
+    const double radius = plan_.solids[static_cast<std::size_t>(link) + 1].radius;
+    speed += joint.kind == model::JointKind::kPrismatic
+                 ? rate
+                 : rate * (radius + std::abs(joint.thread_pitch));
   }
   return speed;
 }
@@ -280,7 +384,7 @@ void JointTree::Bounds(btVector3& low, btVector3& high) const {
 double JointTree::RestingSpeed() const {
   double fastest = std::max(tree_.getBaseVel().length(), tree_.getBaseOmega().length());
   for (int link = 0; link < tree_.getNumLinks(); ++link) {
-    fastest = std::max<double>(fastest, std::abs(tree_.getJointVel(link)));
+    fastest = std::max<double>(fastest, Rate(link));
   }
   return fastest;
 }
@@ -290,11 +394,12 @@ void JointTree::Store(double seconds, world::State& state) const {
   if (servo_) body.drive.actual = servo_->motion();
   const double rest = kResting * seconds;
   const bool rests = resting_speed_before_ < rest && RestingSpeed() < rest;
+  for (const Ball& ball : balls_) StoreBall(ball, rests, state);
   for (int link = 0; link < tree_.getNumLinks(); ++link) {
-    const int joint = plan_.first_joint + parts()[static_cast<std::size_t>(link) + 1].joint;
+    if (IsBall(link)) continue;
+    const int joint = plan_.first_joint + PartOf(link).joint;
     // A limit stops a joint within a substep; so far it may have gone beyond.
-    const model::Range& limits =
-        JointOf(parts()[static_cast<std::size_t>(link) + 1]).position_limits;
+    const model::Range& limits = JointOf(PartOf(link)).position_limits;
     if (!rests) {
       state.joint_positions[joint] = std::clamp(tree_.getJointPos(link), limits.min, limits.max);
     }

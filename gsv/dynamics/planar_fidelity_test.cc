@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/planar_mover.h"
+#include "gsv/dynamics/test_table.h"
 #include "gsv/dynamics/test_world.h"
 
 namespace gsv::dynamics {
@@ -66,19 +67,23 @@ TEST(PlanarFidelity, UnequalWheelsMissItByTheTextbooksError) {
   // robots", IEEE Trans. Robotics and Automation 12(6), 1996: with the ratio E of the right wheel's
   // diameter to the left one's, each side is an arc of radius R = b/2 (E + 1) / (E - 1) that turns
   // by beta = L / R, and the end is off by 2 L beta along both axes.
-  const double ratio = 1.0001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
-  const double beta = kSide / (kSeparation / 2 * (ratio + 1) / (ratio - 1));
-  const double expected = 2 * kSide * beta;
-  for (const double turn : {1.0, -1.0}) {
-    TestWorld world = AroundTheSquare(TwoWheeled(left, right), turn);
-    EXPECT_NEAR(world.position("robot").x, turn * expected, 0.02 * expected);
-    EXPECT_NEAR(world.position("robot").y, -expected, 0.02 * expected);
-    EXPECT_NEAR(geometry::WrapAngle(world.yaw("robot")), 4 * beta, 0.02 * 4 * beta);
-    // The wheels have turned for a perfect square: odometry does not see the error.
-    const double left_path = world.joint("robot", 0) * kRadius;
-    const double right_path = world.joint("robot", 1) * kRadius;
-    EXPECT_NEAR((left_path + right_path) / 2, 4 * kSide, 1e-9);
-    EXPECT_NEAR((right_path - left_path) / kSeparation, turn * 2 * kPi, 1e-9);
+  testing::Table table("umbmark");
+  for (const double ratio : {1.00002, 1.00005, 1.0001, 1.00015, 1.0002}) {
+    const double left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
+    const double beta = kSide / (kSeparation / 2 * (ratio + 1) / (ratio - 1));
+    const double expected = 2 * kSide * beta;
+    for (const double turn : {1.0, -1.0}) {
+      TestWorld world = AroundTheSquare(TwoWheeled(left, right), turn);
+      EXPECT_NEAR(world.position("robot").x, turn * expected, 0.02 * expected);
+      EXPECT_NEAR(world.position("robot").y, -expected, 0.02 * expected);
+      EXPECT_NEAR(geometry::WrapAngle(world.yaw("robot")), 4 * beta, 0.02 * 4 * beta);
+      // The wheels have turned for a perfect square: odometry does not see the error.
+      table.Row({ratio, turn * world.position("robot").x, -world.position("robot").y, expected});
+      const double left_path = world.joint("robot", 0) * kRadius;
+      const double right_path = world.joint("robot", 1) * kRadius;
+      EXPECT_NEAR((left_path + right_path) / 2, 4 * kSide, 1e-9);
+      EXPECT_NEAR((right_path - left_path) / kSeparation, turn * 2 * kPi, 1e-9);
+    }
   }
 }
 

@@ -22,11 +22,46 @@ const model::Surface& SurfaceOf(const btCollisionObjectWrapper* wrapper) {
   return owner.solid->surfaces.front();
 }
 
+bool IsSlantwise(const model::Surface& surface) { return surface.friction != surface.friction2; }
+
+// The direction of the first of the two frictions, in the world.
+btVector3 DirectionOf(const model::Surface& surface, const btCollisionObjectWrapper* wrapper) {
+  const geometry::Vector3& direction = surface.friction_direction;
+  if (Dot(direction, direction) == 0) return {1, 0, 0};
+  return wrapper->getWorldTransform().getBasis() * ToBullet(direction);
+}
+
+// The contact has less friction across `direction` than along it, or more. Bullet knows one
+// coefficient: where a direction is shorter than one, so much less force acts along it.
+void TakeDirections(const btVector3& direction, double along, double across,
+                    btManifoldPoint& point) {
+  constexpr double kShortest = 1e-6;
+  const btVector3& normal = point.m_normalWorldOnB;
+  btVector3 first = direction - direction.dot(normal) * normal;
+  if (first.length() < kShortest) btPlaneSpace1(normal, first, point.m_lateralFrictionDir2);
+  first.normalize();
+  const double most = std::max(along, across);
+  if (!(most > 0)) return;
+  point.m_combinedFriction = most;
+  point.m_lateralFrictionDir1 = first * std::max(along / most, kShortest);
+  point.m_lateralFrictionDir2 = normal.cross(first) * std::max(across / most, kShortest);
+  point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+}
+
 bool TakeSurfaces(btManifoldPoint& point, const btCollisionObjectWrapper* first, int, int,
                   const btCollisionObjectWrapper* second, int, int) {
   const model::Surface& a = SurfaceOf(first);
   const model::Surface& b = SurfaceOf(second);
   point.m_combinedFriction = std::min(a.friction, b.friction);
+  if (IsSlantwise(a) || IsSlantwise(b)) {
+    // Of two that both have a direction, that of the one which slips more.
+    const bool first_tells =
+        IsSlantwise(a) &&
+        (!IsSlantwise(b) || std::min(a.friction, a.friction2) <= std::min(b.friction, b.friction2));
+    const btVector3 direction = first_tells ? DirectionOf(a, first) : DirectionOf(b, second);
+    TakeDirections(direction, std::min(a.friction, b.friction), std::min(a.friction2, b.friction2),
+                   point);
+  }
   point.m_combinedRestitution = a.restitution * b.restitution;
   return true;
 }

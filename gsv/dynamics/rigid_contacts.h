@@ -1,7 +1,9 @@
 // What touches what in a Bullet world: surfaces in, contacts out. Private to this folder.
 //
 // Surfaces  two that touch have the smaller friction of the two and the product of their
-//           restitutions, as in DART, which Gazebo uses.
+//           restitutions, as in DART, which Gazebo uses. Where one of them has two frictions, they
+//           act along its direction and across; where both have, that of the more slippery one
+//           counts.
 #pragma once
 
 #include <vector>

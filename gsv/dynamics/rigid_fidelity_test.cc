@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/dynamics/test_rigid_world.h"
+#include "gsv/dynamics/test_table.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -73,36 +74,49 @@ TEST(RigidFidelity, ASlidingBoxStopsAfterTheFrictionDistance) {
   world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)), At(0, 0, 0.05));
   ASSERT_TRUE(world.Start());
   world.body("box").linear_velocity = {speed, 0, 0};
-  world.Run(1, kStep);
+  testing::Table table("friction");
+  for (int i = 0; i <= 1000; ++i) {
+    const double sliding = std::min(kStep * i, speed / (mu * kG));
+    table.Row({kStep * i, world.position("box").x, (speed - mu * kG * sliding / 2) * sliding});
+    if (i < 1000) world.Step(kStep);
+  }
   EXPECT_NEAR(world.position("box").x, speed * speed / (2 * mu * kG),
               0.005 * speed * speed / (2 * mu * kG));
   EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
 }
 
-TEST(RigidFidelity, ABoxOnAnInclineStaysBelowTheFrictionAngle) {
-  const double mu = 0.5;
-  const Pose incline = Inclined(std::atan(mu) - 0.01);
-  TestWorld world(MakeWorldEngine());
-  world.AddStatic("incline", testing::GroundOf(), incline);
-  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)),
-                 incline * At(0, 0, 0.05));
-  ASSERT_TRUE(world.Start());
-  world.Run(10, kStep);
-  EXPECT_NEAR((Inverse(incline) * world.position("box")).x, 0, 1e-5);
-  EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
-}
+constexpr double kInclineFriction = 0.5;
 
-TEST(RigidFidelity, ABoxOnAnInclineSlidesAboveTheFrictionAngle) {
-  const double mu = 0.5, angle = std::atan(mu) + 0.05;
+// A box that is put down on an incline: how far it is down the slope after so many seconds.
+double SlideDown(double angle, double seconds, Vector3& velocity) {
   const Pose incline = Inclined(angle);
   TestWorld world(MakeWorldEngine());
   world.AddStatic("incline", testing::GroundOf(), incline);
-  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)),
+  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(kInclineFriction)),
                  incline * At(0, 0, 0.05));
-  ASSERT_TRUE(world.Start());
-  world.Run(2, kStep);
-  const double expected = kG * (std::sin(angle) - mu * std::cos(angle)) * 2 * 2 / 2;
-  EXPECT_NEAR((Inverse(incline) * world.position("box")).x, expected, 0.005 * expected);
+  EXPECT_TRUE(world.Start());
+  world.Run(seconds, kStep);
+  velocity = world.body("box").linear_velocity;
+  return (Inverse(incline) * world.position("box")).x;
+}
+
+TEST(RigidFidelity, ABoxOnAnInclineStaysBelowTheFrictionAngle) {
+  Vector3 velocity;
+  EXPECT_NEAR(SlideDown(std::atan(kInclineFriction) - 0.01, 10, velocity), 0, 1e-5);
+  EXPECT_EQ(velocity, Vector3{});
+}
+
+TEST(RigidFidelity, ABoxOnAnInclineSlidesAboveTheFrictionAngle) {
+  testing::Table table("incline");
+  Vector3 velocity;
+  for (const double beyond : {-0.1, -0.05, -0.01, 0.05, 0.1, 0.15, 0.2, 0.3}) {
+    const double angle = std::atan(kInclineFriction) + beyond;
+    const double slope = std::sin(angle) - kInclineFriction * std::cos(angle);
+    const double expected = std::max(0.0, kG * slope * 2 * 2 / 2);
+    const double slid = SlideDown(angle, 2, velocity);
+    EXPECT_NEAR(slid, expected, 0.005 * expected + 1e-5) << beyond;
+    table.Row({angle, slid, expected});
+  }
 }
 
 TEST(RigidFidelity, ABallRollsDownAnInclineAtFiveSeventhsOfTheSlope) {
@@ -153,7 +167,12 @@ TEST(RigidFidelity, AStackStandsForAMinute) {
     world.AddRigid("box" + std::to_string(i), box, At(0, 0, 0.25 + 0.5 * i));
   }
   ASSERT_TRUE(world.Start());
-  world.Run(60, kStep);
+  testing::Table table("stack");
+  for (int i = 0; i <= 600; ++i) {
+    const Vector3& top = world.position("box4");
+    table.Row({0.1 * i, 1e6 * (top.z - 2.25), 1e6 * std::hypot(top.x, top.y)});
+    if (i < 600) world.Run(0.1, kStep);
+  }
   for (int i = 0; i < 5; ++i) {
     const Vector3& at = world.position("box" + std::to_string(i));
     EXPECT_NEAR(at.x, 0, 1e-4) << i;
@@ -174,9 +193,11 @@ TEST(RigidFidelity, EnergyNeverGrows) {
   world.body("can").linear_velocity = {-2, 0, 1};
   double energy = EnergyOf(world);
   const double most = energy;
+  testing::Table table("energy");
   for (int i = 0; i < 5000; ++i) {
     world.Step(kStep);
     const double now = EnergyOf(world);
+    if (i % 5 == 0) table.Row({kStep * (i + 1), now});
     // What a substep's rounding of a turn and the slop of a contact make.
     ASSERT_LE(now, energy + 2e-4 * most) << "step " << i;
     energy = now;

@@ -58,7 +58,8 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
   settings.m_linearSlop = kSlop;
   settings.m_restitutionVelocityThreshold = kBounces;
   settings.m_splitImpulsePenetrationThreshold = 0;
-  settings.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
+  settings.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS |
+                          SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
   for (const StandingBody& standing : scene.standing()) AddStanding(standing);
   for (const RigidBody& body : scene.bodies()) {
     AddRigid(body);

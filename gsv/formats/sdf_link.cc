@@ -48,6 +48,11 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   take(surface.friction2, {"surface", "friction", "bullet", "friction2"});
   take(surface.friction, {"surface", "friction", "ode", "mu"});
   take(surface.friction2, {"surface", "friction", "ode", "mu2"});
+  const auto direction =
+      ValueAt<ignition::math::Vector3d>(collision, {"surface", "friction", "ode", "fdir1"});
+  if (direction && geometry::IsFinite(FromIgnition(*direction)) && direction->Length() > 0) {
+    surface.friction_direction = geometry::Normalized(FromIgnition(*direction));
+  }
   take(surface.restitution, {"surface", "bounce", "restitution_coefficient"});
   surface.restitution = std::min(surface.restitution, 1.0);
   return surface;
@@ -195,6 +200,7 @@ geometry::Pose Resolve(const sdf::SemanticPose& semantic, const std::string& res
 model::Link ReadLink(const sdf::Link& source, const ReadingContext& context) {
   model::Link link;
   link.inertial = ReadInertial(source, context);
+  link.has_gravity = ValueAt<bool>(source.Element(), {"gravity"}).value_or(true);
   ReadCollisions(source, link, context);
   ReadVisuals(source, link, context);
   return link;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -9,13 +10,14 @@
 #include <sdf/Element.hh>
 #include <sdf/Frame.hh>
 #include <sdf/Joint.hh>
-#include <sdf/JointAxis.hh>
 #include <sdf/Link.hh>
 #include <sdf/SemanticPose.hh>
 
 #include "gsv/formats/joint_forest.h"
 #include "gsv/formats/sdf_document.h"
 #include "gsv/formats/sdf_drive.h"
+#include "gsv/formats/sdf_joint.h"
+#include "gsv/formats/sdf_joint_target.h"
 #include "gsv/formats/sdf_link.h"
 #include "gsv/formats/sdf_sensor.h"
 
@@ -25,39 +27,9 @@ namespace {
 using base::ErrorCode;
 using geometry::Pose;
 using model::Joint;
-using model::JointKind;
 using model::Model;
 
 constexpr int kDeepestNesting = 32;
-constexpr double kNoLimit = 1e15;  // SDFormat writes 1e16 for "none"
-
-JointKind KindOf(sdf::JointType type) {
-  switch (type) {
-    case sdf::JointType::REVOLUTE:
-      return JointKind::kRevolute;
-    case sdf::JointType::CONTINUOUS:
-      return JointKind::kContinuous;
-    case sdf::JointType::PRISMATIC:
-      return JointKind::kPrismatic;
-    case sdf::JointType::BALL:
-      return JointKind::kBall;
-    case sdf::JointType::UNIVERSAL:
-      return JointKind::kUniversal;
-    case sdf::JointType::SCREW:
-      return JointKind::kScrew;
-    case sdf::JointType::REVOLUTE2:
-      return JointKind::kUniversal;
-    default:
-      return JointKind::kFixed;
-  }
-}
-
-double LimitOrInfinity(double value) {
-  return std::abs(value) >= kNoLimit ? std::copysign(INFINITY, value) : value;
-}
-
-// A positive upper bound; SDFormat says -1 for "none".
-double BoundOrInfinity(double value) { return value >= 0 && value < kNoLimit ? value : INFINITY; }
 
 class ModelReader {
  public:
@@ -76,7 +48,10 @@ class ModelReader {
     for (const auto& [joint, scope, place] : pending_joints_) AddJoint(*joint, scope, place);
     ReportLoops(MakeForest(model_.links.size(), model_.joints));
     for (const auto& [sensor, scope] : pending_sensors_) AddSensor(sensor, scope);
-    for (const auto& [plugin, scope] : pending_plugins_) AddDrive(plugin, scope);
+    for (const auto& [plugin, scope] : pending_plugins_) {
+      AddDrive(plugin, scope);
+      ReadJointTargets(plugin, scope, context_, model_);
+    }
     ReadMovement(source.Element());
     SetDefaultPose(source);
     FramedModel result;
@@ -168,7 +143,6 @@ class ModelReader {
     }
     Joint joint;
     joint.name = scope + source.Name();
-    joint.kind = KindOf(source.Type());
     joint.parent = parent == "world" ? -1 : LinkIndex(scope + parent);
     joint.child = LinkIndex(scope + child);
     if (joint.child < 0 || (joint.parent < 0 && parent != "world")) {
@@ -176,41 +150,8 @@ class ModelReader {
       return;
     }
     joint.model_from_joint = frames_[joint.name];
-    if (source.Type() == sdf::JointType::REVOLUTE2 || source.Type() == sdf::JointType::GEARBOX) {
-      context_.Warn(source.Type() == sdf::JointType::GEARBOX
-                        ? "gearbox joints are not supported; the joint is fixed"
-                        : "revolute2 joints are simulated as universal joints",
-                    place);
-    }
-    if (const sdf::JointAxis* axis = source.Axis(0)) ReadAxis(*axis, place, joint);
-    model_.joints.push_back(std::move(joint));
-  }
-
-  void ReadAxis(const sdf::JointAxis& axis, const std::string& place, Joint& joint) {
-    ignition::math::Vector3d xyz;
-    if (!axis.ResolveXyz(xyz).empty() || !geometry::IsFinite(FromIgnition(xyz)) ||
-        xyz.Length() == 0) {
-      context_.Complain("the joint's axis has no direction; z is taken", place);
-      xyz = {0, 0, 1};
-    }
-    joint.axis = geometry::Normalized(FromIgnition(xyz));
-    joint.position_limits = {LimitOrInfinity(axis.Lower()), LimitOrInfinity(axis.Upper())};
-    if (!(joint.position_limits.min <= joint.position_limits.max)) {
-      context_.Complain("the joint's <lower> limit is above its <upper>; both are dropped", place);
-      joint.position_limits = {};
-    }
-    if (joint.kind == JointKind::kRevolute && std::isinf(joint.position_limits.min) &&
-        std::isinf(joint.position_limits.max)) {
-      joint.kind = JointKind::kContinuous;
-    }
-    joint.effort_limit = BoundOrInfinity(axis.Effort());
-    joint.velocity_limit = BoundOrInfinity(axis.MaxVelocity());
-    joint.damping = axis.Damping();
-    joint.friction = axis.Friction();
-    if (!(joint.damping >= 0) || !(joint.friction >= 0)) {
-      context_.Complain("a joint's damping and friction must not be negative; 0 is taken", place);
-      joint.damping = joint.friction = 0;
-    }
+    joint_children_[joint.name] = joint.child;
+    formats::AddJoint(source, std::move(joint), place, context_, model_);
   }
 
   void ReportLoops(const std::vector<std::string>& loops) {
@@ -228,10 +169,9 @@ class ModelReader {
     Pose model_from_owner = frames_[frame];
     sensor.link = LinkIndex(frame);
     if (sensor.link < 0) {
-      const auto joint = std::find_if(model_.joints.begin(), model_.joints.end(),
-                                      [&](const Joint& j) { return j.name == frame; });
-      if (joint == model_.joints.end()) return;
-      sensor.link = joint->child;
+      const auto joint = joint_children_.find(frame);
+      if (joint == joint_children_.end()) return;
+      sensor.link = joint->second;
     }
     const Pose owner_from_sensor = PoseOfSensor(element, frame, place, model_from_owner);
     const auto link = static_cast<std::size_t>(sensor.link);
@@ -332,6 +272,7 @@ class ModelReader {
   Model model_;
   std::map<std::string, Pose> frames_;
   std::vector<PendingJoint> pending_joints_;
+  std::map<std::string, int> joint_children_;  // link indices
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;
   std::set<std::string> sensor_names_;

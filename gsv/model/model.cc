@@ -44,4 +44,29 @@ double LowestPoint(const Model& model) {
   return lowest;
 }
 
+const char* NameOf(JointKind kind) {
+  switch (kind) {
+    case JointKind::kFixed:
+      return "fixed";
+    case JointKind::kRevolute:
+      return "revolute";
+    case JointKind::kContinuous:
+      return "continuous";
+    case JointKind::kPrismatic:
+      return "prismatic";
+    case JointKind::kBall:
+      return "ball";
+    case JointKind::kScrew:
+      return "screw";
+  }
+  return "";
+}
+
+int FindJoint(const std::vector<Joint>& joints, const std::string& name) {
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].name == name && TakesCommands(joints[j].kind)) return static_cast<int>(j);
+  }
+  return -1;
+}
+
 }  // namespace gsv::model

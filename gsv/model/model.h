@@ -27,9 +27,11 @@ struct Visual {
 
 // Coulomb friction and restitution, as in SDFormat's <surface>.
 struct Surface {
-  double friction = 1.0;
-  double friction2 = 1.0;
+  double friction = 1.0;   // along friction_direction
+  double friction2 = 1.0;  // across
   double restitution = 0.0;
+  // In the collision's frame, unit length; zero: the world's x axis.
+  geometry::Vector3 friction_direction;
 };
 
 struct Collision {
@@ -52,9 +54,23 @@ struct Link {
   Inertial inertial;
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
+  bool has_gravity = true;
 };
 
-enum class JointKind { kFixed, kRevolute, kContinuous, kPrismatic, kBall, kUniversal, kScrew };
+enum class JointKind {
+  kFixed,
+  kRevolute,
+  kContinuous,
+  kPrismatic,
+  kBall,   // one of three in a row that are one ball joint, see SplitJoint() in gsv/formats
+  kScrew,  // turns, and slides by thread_pitch times the angle
+};
+
+// What can be told to a joint of one scalar: to be somewhere, to move so fast, to be pushed so
+// hard.
+inline bool TakesCommands(JointKind kind) {
+  return kind != JointKind::kFixed && kind != JointKind::kBall;
+}
 
 struct Joint {
   std::string name;
@@ -69,6 +85,21 @@ struct Joint {
   double velocity_limit = std::numeric_limits<double>::infinity();
   double damping = 0;
   double friction = 0;
+  double thread_pitch = 0;  // m/rad, of kScrew
+};
+
+// "revolute", "prismatic", …
+const char* NameOf(JointKind kind);
+
+// The index of the joint of that name that takes commands, or -1.
+int FindJoint(const std::vector<Joint>& joints, const std::string& name);
+
+// What a joint is told to do from the start, by its model's own controllers.
+struct JointTarget {
+  enum class Kind { kPosition, kVelocity };  // rad or m; rad/s or m/s
+  int joint = 0;                             // index in Model::joints
+  Kind kind = Kind::kPosition;
+  double value = 0;
 };
 
 // What moves a model with a drive.
@@ -83,8 +114,9 @@ struct Model {
   bool is_static = false;
   // Where its file puts it in a world when whoever places it says nothing.
   geometry::Pose default_pose;
-  std::vector<Link> links;    // links[0] is the canonical link; never empty
-  std::vector<Joint> joints;  // a forest: no link is the child of two joints
+  std::vector<Link> links;                 // links[0] is the canonical link; never empty
+  std::vector<Joint> joints;               // a forest: no link is the child of two joints
+  std::vector<JointTarget> joint_targets;  // at most one of a joint
   std::vector<SensorDescription> sensors;
   std::optional<Drive> drive;             // present: a robot that can be given a behaviour
   Movement movement = Movement::kPlanar;  // of a model with a drive

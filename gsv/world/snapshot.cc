@@ -7,10 +7,7 @@ namespace {
 
 using geometry::Pose;
 
-bool Moves(model::JointKind kind) {
-  return kind == model::JointKind::kRevolute || kind == model::JointKind::kContinuous ||
-         kind == model::JointKind::kPrismatic;
-}
+bool Moves(model::JointKind kind) { return kind != model::JointKind::kFixed; }
 
 // The joint that each link hangs from, or -1.
 std::vector<int> ParentJoints(const model::Model& model) {
@@ -29,6 +26,9 @@ Pose Displacement(const model::Joint& joint, double position) {
     motion.position = joint.axis * position;
   } else {
     motion.orientation = geometry::FromAxisAngle(joint.axis, position);
+    if (joint.kind == model::JointKind::kScrew) {
+      motion.position = joint.axis * (joint.thread_pitch * position);
+    }
   }
   return joint.model_from_joint * motion * Inverse(joint.model_from_joint);
 }

@@ -39,8 +39,8 @@ void FinishAccelerations(const State& state, double step_seconds,
                          std::vector<Acceleration>& accelerations);
 
 // Poses of a model's links at the given joint positions (one for each joint), model_from_link. A
-// revolute joint turns its child about its axis, a prismatic one slides it along; other kinds are
-// taken as fixed.
+// revolute joint turns its child about its axis, a prismatic one slides it along, a screw does
+// both.
 std::vector<geometry::Pose> LinkPoses(const model::Model& model,
                                       std::span<const double> joint_positions);
 

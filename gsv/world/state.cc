@@ -1,5 +1,8 @@
 #include "gsv/world/state.h"
 
+#include <cmath>
+#include <string>
+
 #include "gsv/base/check.h"
 
 namespace gsv::world {
@@ -39,7 +42,38 @@ State InitialState(const Layout& layout) {
   }
   state.joint_positions.assign(layout.joint_count, 0.0);
   state.joint_velocities.assign(layout.joint_count, 0.0);
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    if (!layout.bodies[i].is_rigid) continue;
+    for (const model::JointTarget& target : layout.bodies[i].model->joint_targets) {
+      const bool is_position = target.kind == model::JointTarget::Kind::kPosition;
+      const auto kind = is_position ? JointCommand::Kind::kPosition : JointCommand::Kind::kVelocity;
+      CommandJoint(layout, static_cast<int>(i), target.joint, {kind, target.value}, state);
+    }
+  }
   return state;
+}
+
+base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command) {
+  using base::ErrorCode;
+  if (joint < 0 || joint >= static_cast<int>(body.model->joints.size())) {
+    return base::Fail(ErrorCode::kNotFound, "there is no joint number " + std::to_string(joint),
+                      body.name);
+  }
+  const model::Joint& which = body.model->joints[static_cast<std::size_t>(joint)];
+  const std::string place = body.name + "/" + which.name;
+  if (!std::isfinite(command.value)) {
+    return base::Fail(ErrorCode::kInvalidArgument, "a joint's command must be finite", place);
+  }
+  if (!model::TakesCommands(which.kind)) {
+    return base::Fail(ErrorCode::kInvalidArgument, "fixed and ball joints take no commands", place);
+  }
+  if (!body.is_rigid) {
+    return base::Fail(ErrorCode::kInvalidArgument,
+                      "joints take commands where forces move the robot: run it with --movement " +
+                          body.name + "=rigid",
+                      place);
+  }
+  return {};
 }
 
 void CommandJoint(const Layout& layout, int body, int joint, const JointCommand& command,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gsv/base/error.h"
 #include "gsv/base/hash.h"
 #include "gsv/base/sim_time.h"
 #include "gsv/geometry/pose.h"
@@ -68,12 +69,17 @@ struct State {
   base::SimTime time{0};
   std::vector<BodyState> bodies;        // as Layout::bodies
   std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
+  // Those of a ball joint are its angular velocity about its three axes, as the child carries them.
   std::vector<double> joint_velocities;
   std::vector<JointCommand> joint_commands;  // as joint_positions; empty: none was ever given
 };
 
-// Everything where it starts and at rest.
+// Everything where it starts and at rest; joints have their models' targets.
 State InitialState(const Layout& layout);
+
+// Refuses commands that are not finite, that forces do not move the body to follow, or that are for
+// a joint which is not there or takes none.
+base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
 // Tells a joint of a body what to do.
 void CommandJoint(const Layout& layout, int body, int joint, const JointCommand& command,

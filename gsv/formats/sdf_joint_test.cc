@@ -1,0 +1,138 @@
+// Joints, what controllers tell them, and what surfaces and links say of forces.
+#include <gmock/gmock.h>
+
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/formats/test_folder.h"
+
+namespace gsv::formats {
+namespace {
+
+using geometry::Vector3;
+using model::JointKind;
+using model::JointTarget;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class SdfJointTest : public testing::Test {
+ protected:
+  std::shared_ptr<const model::Model> Read(const std::string& content) {
+    const auto file =
+        folder_.Write("m.sdf", "<sdf version='1.9'><model name='m'>" + content + "</model></sdf>");
+    auto model = ModelLibrary().ReadModel(file.string(), problems_);
+    EXPECT_TRUE(model.has_value()) << (model ? "" : model.error().Sentence());
+    return model.value_or(std::make_shared<const model::Model>());
+  }
+  std::shared_ptr<const model::Model> ReadJoint(const std::string& type, const std::string& content,
+                                                const std::string& more = "") {
+    return Read(
+        "<link name='a'/><link name='b'><pose>0 0 1 0 0 0</pose></link><joint name='j' type='" +
+        type + "'><parent>a</parent><child>b</child>" + content + "</joint>" + more);
+  }
+
+  TestFolder folder_;
+  base::Problems problems_;
+};
+
+TEST_F(SdfJointTest, AUniversalJointIsTwoWithACrossBetweenThem) {
+  for (const char* type : {"universal", "revolute2"}) {
+    const auto model =
+        ReadJoint(type,
+                  "<axis><xyz>1 0 0</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>"
+                  "<axis2><xyz>0 1 0</xyz><dynamics><damping>0.3</damping></dynamics></axis2>");
+    ASSERT_THAT(model->joints, SizeIs(2));
+    const model::Joint &first = model->joints[0], &second = model->joints[1];
+    EXPECT_EQ(first.name, "j");
+    EXPECT_EQ(first.kind, JointKind::kRevolute);
+    EXPECT_EQ(first.axis, (Vector3{1, 0, 0}));
+    EXPECT_EQ(first.position_limits.max, 1);
+    EXPECT_EQ(second.name, "j::axis2");
+    EXPECT_EQ(second.kind, JointKind::kContinuous);
+    EXPECT_EQ(second.axis, (Vector3{0, 1, 0}));
+    EXPECT_EQ(second.damping, 0.3);
+    ASSERT_THAT(model->links, SizeIs(3));
+    const model::Link& cross = model->links[static_cast<std::size_t>(first.child)];
+    EXPECT_EQ(cross.name, "j::cross");
+    EXPECT_EQ(cross.inertial.mass, 0);
+    EXPECT_EQ(cross.model_from_link.position, (Vector3{0, 0, 1}));
+    EXPECT_EQ(second.parent, first.child);
+    EXPECT_EQ(model->links[static_cast<std::size_t>(second.child)].name, "b");
+  }
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+TEST_F(SdfJointTest, ABallJointIsThree) {
+  const auto model = ReadJoint("ball", "");
+  ASSERT_THAT(model->joints, SizeIs(3));
+  ASSERT_THAT(model->links, SizeIs(4));
+  int link = 0;
+  for (const model::Joint& joint : model->joints) {
+    EXPECT_EQ(joint.kind, JointKind::kBall);
+    EXPECT_EQ(joint.parent, link);
+    link = joint.child;
+  }
+  EXPECT_EQ(model->links[static_cast<std::size_t>(link)].name, "b");
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+TEST_F(SdfJointTest, AScrewHasItsPitchInMetresARadian) {
+  // 4 rad/m of a left-handed thread.
+  const auto old =
+      ReadJoint("screw", "<thread_pitch>4</thread_pitch><axis><xyz>0 0 1</xyz></axis>");
+  EXPECT_EQ(old->joints.at(0).kind, JointKind::kScrew);
+  EXPECT_DOUBLE_EQ(old->joints.at(0).thread_pitch, -0.25);
+  EXPECT_THAT(problems_, IsEmpty());
+  const auto none =
+      ReadJoint("screw", "<thread_pitch>0</thread_pitch><axis><xyz>0 0 1</xyz></axis>");
+  EXPECT_EQ(none->joints.at(0).kind, JointKind::kFixed);
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].message, HasSubstr("must have a pitch"));
+}
+
+TEST_F(SdfJointTest, ReadsWhatGazebosControllersTellJoints) {
+  const auto model = Read(
+      "<link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>"
+      "</axis></joint><joint name='k' type='prismatic'><parent>a</parent><child>c</child><axis>"
+      "<xyz>0 0 1</xyz><limit><effort>50</effort></limit></axis></joint>"
+      "<plugin filename='gz-sim-joint-controller-system' name='gz::sim::systems::JointController'>"
+      "<joint_name>j</joint_name><initial_velocity>1.5</initial_velocity></plugin>"
+      "<plugin filename='ignition-gazebo-joint-position-controller-system' "
+      "name='ignition::gazebo::systems::JointPositionController'><joint_name>k</joint_name>"
+      "<initial_position>0.2</initial_position><cmd_max>30</cmd_max></plugin>");
+  EXPECT_THAT(problems_, IsEmpty());
+  ASSERT_THAT(model->joint_targets, SizeIs(2));
+  EXPECT_EQ(model->joint_targets[0].joint, 0);
+  EXPECT_EQ(model->joint_targets[0].kind, JointTarget::Kind::kVelocity);
+  EXPECT_EQ(model->joint_targets[0].value, 1.5);
+  EXPECT_EQ(model->joint_targets[1].joint, 1);
+  EXPECT_EQ(model->joint_targets[1].kind, JointTarget::Kind::kPosition);
+  EXPECT_EQ(model->joint_targets[1].value, 0.2);
+  EXPECT_EQ(model->joints[1].effort_limit, 30);
+  EXPECT_FALSE(model->drive.has_value());
+}
+
+TEST_F(SdfJointTest, ComplainsOfControllersOfJointsThatAreNotThere) {
+  (void)Read(
+      "<link name='a'/>\n<plugin filename='gz-sim-joint-controller-system' name='x'>"
+      "<joint_name>nowhere</joint_name></plugin>");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_EQ(problems_[0].severity, base::Problem::Severity::kError);
+  EXPECT_THAT(problems_[0].Sentence(), AllOf(HasSubstr("m.sdf:2"), HasSubstr("\"nowhere\"")));
+}
+
+TEST_F(SdfJointTest, ReadsBothFrictionsAndTheirDirectionAndWhoHasNoGravity) {
+  const auto model = Read(
+      "<link name='a'><gravity>0</gravity><collision name='c'><geometry><sphere><radius>1</radius>"
+      "</sphere></geometry><surface><friction><ode><mu>0.5</mu><mu2>0.1</mu2><fdir1>0 2 0</fdir1>"
+      "</ode></friction></surface></collision></link><link name='b'/>");
+  const model::Surface& surface = model->links.at(0).collisions.at(0).surface;
+  EXPECT_EQ(surface.friction, 0.5);
+  EXPECT_EQ(surface.friction2, 0.1);
+  EXPECT_EQ(surface.friction_direction, (Vector3{0, 1, 0}));
+  EXPECT_FALSE(model->links[0].has_gravity);
+  EXPECT_TRUE(model->links[1].has_gravity);
+}
+
+}  // namespace
+}  // namespace gsv::formats
