@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gsv/dynamics/plane_pairs.h"
+
 namespace gsv::dynamics {
 namespace {
 
@@ -38,6 +40,7 @@ BulletKit::BulletKit() : dispatcher(&configuration) {
   // A contact area is found at once, not over several substeps.
   configuration.setPlaneConvexMultipointIterations(kDirections, kContactPoints);
   configuration.setConvexConvexMultipointIterations(kDirections, kContactPoints);
+  dispatcher.setNearCallback(LookAtPairsThatMayTouch);
   InstallSurfaces();
 }
 
