@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "gsv/orb/errors.h"
+#include "sdk/remote_joint.h"
 
 namespace gsv::sdk {
 namespace {
@@ -128,14 +128,6 @@ base::Result<std::unique_ptr<RemoteRobot>> RemoteRobot::Connect(const std::strin
   return robot;
 }
 
-template <typename Function>
-bool RemoteRobot::Try(Function call) {
-  if (!running_) return false;
-  const auto status = orb::Call(name_, call);
-  if (!status) Note(status.error());
-  return status.has_value();
-}
-
 void RemoteRobot::Note(const base::Error& error) {
   const std::lock_guard lock(error_mutex_);
   // The end of a run is no error.
@@ -180,6 +172,16 @@ base::Result<std::unique_ptr<SensorPort>> RemoteRobot::CreatePort(SensorTraits t
     const sba::Sensor_var created = factory_->create(traits.type.c_str(), ToIdl(traits));
     return std::make_unique<RemotePort>(*this, created, std::move(traits));
   });
+}
+
+std::vector<JointTraits> RemoteRobot::Joints() {
+  std::vector<JointTraits> joints;
+  Try([&] { joints = ListRemoteJoints(hardware_); });
+  return joints;
+}
+
+base::Result<std::unique_ptr<Joint>> RemoteRobot::OpenJoint(const std::string& joint) {
+  return orb::Call(name_, [&] { return OpenRemoteJoint(*this, hardware_, joint); });
 }
 
 void RemoteRobot::Drive(double linear, double angular) {

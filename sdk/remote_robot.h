@@ -6,6 +6,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "gsv/orb/errors.h"
 #include "idl/hardware.hh"
 #include "sdk/behaviour/robot.h"
 
@@ -29,6 +30,8 @@ class RemoteRobot final : public Robot {
   const std::string& name() const override { return name_; }
   double footprint_radius() const override { return footprint_radius_; }
   std::vector<SensorTraits> Sensors() override;
+  std::vector<JointTraits> Joints() override;
+  base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) override;
   void Drive(double linear, double angular) override;
   SimTime Now() override;
   bool SleepUntil(SimTime instant) override;
@@ -39,7 +42,12 @@ class RemoteRobot final : public Robot {
 
   // Calls `call` unless the run is over; notes why it failed. True when it succeeded.
   template <typename Function>
-  bool Try(Function call);
+  bool Try(Function call) {
+    if (!running_) return false;
+    const auto status = orb::Call(name_, call);
+    if (!status) Note(status.error());
+    return status.has_value();
+  }
 
  private:
   RemoteRobot(std::string name, sba::Hardware_ptr hardware);

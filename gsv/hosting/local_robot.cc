@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gsv/base/check.h"
+#include "gsv/hosting/local_joint.h"
 
 namespace gsv::hosting {
 namespace {
@@ -161,6 +162,28 @@ void LocalRobot::Command(const DriveCommand& command) {
   } else if (const auto ok = agent_->Command(given); !ok) {
     Note(ok.error());
   }
+}
+
+std::vector<JointTraits> LocalRobot::Joints() { return TraitsOf(agent_->Joints()); }
+
+base::Result<std::unique_ptr<Joint>> LocalRobot::OpenJoint(const std::string& joint) {
+  return MakeLocalJoint(*this, agent_->Joints(), joint);
+}
+
+void LocalRobot::CommandJoint(int joint, const world::JointCommand& command) {
+  if (!is_running_) return;
+  const auto ok =
+      turn_ != nullptr ? turn_->CommandJoint(joint, command) : agent_->CommandJoint(joint, command);
+  if (!ok) Note(ok.error());
+}
+
+std::optional<simulation::JointReading> LocalRobot::ReadJoint(int joint) {
+  if (!is_running_) return std::nullopt;
+  if (turn_ != nullptr) return turn_->ReadJoint(joint);
+  const auto reading = agent_->ReadJoint(joint);
+  if (reading) return *reading;
+  Note(reading.error());
+  return std::nullopt;
 }
 
 void LocalRobot::Drive(double linear, double angular) {

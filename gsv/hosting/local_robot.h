@@ -38,6 +38,8 @@ class LocalRobot final : public Robot {
   const std::string& name() const override { return agent_->robot(); }
   double footprint_radius() const override { return agent_->footprint_radius(); }
   std::vector<SensorTraits> Sensors() override;
+  std::vector<JointTraits> Joints() override;
+  base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) override;
   void Drive(double linear, double angular) override;
   SimTime Now() override;
   bool SleepUntil(SimTime instant) override;
@@ -48,6 +50,11 @@ class LocalRobot final : public Robot {
 
   // Empty when the run is over or the sensor fails, which ends the run.
   std::optional<sensing::Reading> Read(simulation::MountedSensor& sensor);
+
+  // Of the robot's model, by index. Nothing comes of either when the run is over; a command that is
+  // refused ends it.
+  void CommandJoint(int joint, const world::JointCommand& command);
+  std::optional<simulation::JointReading> ReadJoint(int joint);
 
  private:
   using SensorPtr = std::shared_ptr<simulation::MountedSensor>;

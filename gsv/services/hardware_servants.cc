@@ -4,6 +4,7 @@
 
 #include "gsv/orb/errors.h"
 #include "gsv/services/conversions.h"
+#include "gsv/services/joint_servants.h"
 #include "gsv/services/sensor_servants.h"
 
 namespace gsv::services {
@@ -158,7 +159,7 @@ class ClockServant final : public POA_sba::Clock {
   const GroupPtr group_;
 };
 
-class HardwareServant final : public POA_sba::Hardware {
+class HardwareServant final : public POA_sba::JointedHardware {
  public:
   HardwareServant(AgentPtr agent, GroupPtr group)
       : agent_(std::move(agent)), group_(std::move(group)) {}
@@ -176,6 +177,10 @@ class HardwareServant final : public POA_sba::Hardware {
     const auto clock =
         orb::ValueOrThrow(agent_->OpenClock(), orb::kRefused | orb::kNotRunning | orb::kEnded);
     return group_->Activate<sba::Clock>(new ClockServant(agent_, clock, group_));
+  }
+  sba::JointTraitsList* list_joints() override { return ListJoints(*agent_); }
+  sba::JointActuator_ptr open_joint(const char* name) override {
+    return ActivateJoint(agent_, name, group_);
   }
 
  private:

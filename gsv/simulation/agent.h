@@ -19,7 +19,7 @@
 #include "gsv/base/sim_time.h"
 #include "gsv/model/sensor_description.h"
 #include "gsv/sensing/reading.h"
-#include "gsv/world/state.h"
+#include "gsv/world/snapshot.h"
 
 namespace gsv::simulation {
 
@@ -39,6 +39,20 @@ struct Exchanged {
   base::SimTime now{0};
   std::vector<NamedReading> readings;  // kReached: of all opened sensors, by name
 };
+
+struct JointReading {
+  base::SimTime time{0};
+  double position = 0;  // rad or m
+  double velocity = 0;  // rad/s or m/s
+};
+
+// `joint` counts the joints of the body's model.
+inline JointReading JointReadingIn(const world::Snapshot& snapshot, int body, int joint) {
+  const auto index = static_cast<std::size_t>(
+      snapshot.layout->bodies[static_cast<std::size_t>(body)].first_joint + joint);
+  const world::State& state = snapshot.state;
+  return {state.time, state.joint_positions[index], state.joint_velocities[index]};
+}
 
 class MountedSensor;
 
@@ -66,6 +80,12 @@ class Agent {
                                            std::chrono::milliseconds lease) = 0;
 
   virtual base::Status Command(const world::DriveCommand& command) = 0;
+
+  // Joints, by their index in the robot's model. A command acts from this instant until the next;
+  // refused where forces do not move the robot.
+  virtual const std::vector<model::Joint>& Joints() const = 0;
+  virtual base::Status CommandJoint(int joint, const world::JointCommand& command) = 0;
+  virtual base::Result<JointReading> ReadJoint(int joint) = 0;
 
   // Sensors: those of the model, opened by name, and further ones.
   virtual std::vector<model::SensorDescription> Sensors() const = 0;

@@ -23,4 +23,14 @@ base::Result<sensing::Reading> Turn::Read(MountedSensor& sensor) const {
   return reading;
 }
 
+base::Status Turn::CommandJoint(int joint, const world::JointCommand& command) {
+  if (auto ok = world::CheckJointCommand(sampling_->robot(), joint, command); !ok) return ok;
+  joint_commands_.emplace_back(joint, command);
+  return {};
+}
+
+JointReading Turn::ReadJoint(int joint) const {
+  return JointReadingIn(*sampling_->snapshot(), sampling_->body(), joint);
+}
+
 }  // namespace gsv::simulation

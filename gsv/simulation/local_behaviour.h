@@ -54,6 +54,9 @@ class Turn {
 
   // Acts from this step on; a later command replaces it.
   void Command(const world::DriveCommand& command) { command_ = command; }
+  // The same for a joint of the robot's model.
+  base::Status CommandJoint(int joint, const world::JointCommand& command);
+  JointReading ReadJoint(int joint) const;  // at this instant
   // The command belongs to an exchange on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 
@@ -78,6 +81,7 @@ class Turn {
   const Instant* instant_ = nullptr;
   const sensing::Sampling* sampling_ = nullptr;
   std::optional<world::DriveCommand> command_;
+  std::vector<std::pair<int, world::JointCommand>> joint_commands_;
   std::uint64_t exchanges_ = 0;
   std::variant<Finished, Waiting, Blocked> end_;
 };

@@ -301,10 +301,6 @@ base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
 
 base::Status SteppingSimulation::CommandJoint(const std::string& body, const std::string& joint,
                                               const world::JointCommand& command) {
-  if (!std::isfinite(command.value)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "a joint's command must be finite",
-                      body + "/" + joint);
-  }
   const auto world_lock = LockWorld();
   if (!world_lock) return RefuseStuck();
   const int index = layout_->Find(body);
@@ -318,7 +314,9 @@ base::Status SteppingSimulation::CommandJoint(const std::string& body, const std
   if (found == joints.end()) {
     return base::Fail(base::ErrorCode::kNotFound, "there is no joint \"" + joint + "\"", body);
   }
-  world::CommandJoint(*layout_, index, static_cast<int>(found - joints.begin()), command, state_);
+  const int number = static_cast<int>(found - joints.begin());
+  if (auto ok = world::CheckJointCommand(layout_->bodies[index], number, command); !ok) return ok;
+  world::CommandJoint(*layout_, index, number, command, state_);
   AddEvent("joint_commanded", body, joint);
   return {};
 }

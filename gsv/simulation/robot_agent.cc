@@ -43,6 +43,10 @@ void RobotAgent::Recount() {
 
 void RobotAgent::Pend(const PendingCommand& command) {
   pending_ = command;
+  Announce();
+}
+
+void RobotAgent::Announce() {
   if (std::exchange(is_commanded_, true)) return;
   shared_->commanded.push_back(this);
 }
@@ -183,6 +187,37 @@ base::Status RobotAgent::Command(const world::DriveCommand& command) {
   return {};
 }
 
+base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& command) {
+  const auto snapshot = shared_->history.latest();
+  const int body = snapshot->layout->Find(robot_);
+  if (body < 0) {
+    return base::Fail(base::ErrorCode::kNotRunning, "the robot does not stand in the world yet",
+                      robot_);
+  }
+  const world::Body& robot = snapshot->layout->bodies[static_cast<std::size_t>(body)];
+  if (auto ok = world::CheckJointCommand(robot, joint, command); !ok) return ok;
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  pending_joints_.emplace_back(joint, command);
+  Announce();
+  return {};
+}
+
+base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
+  {
+    std::unique_lock lock = shared_->LockForAgent();
+    if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+  }
+  const auto snapshot = shared_->history.latest();
+  const int body = snapshot->layout->Find(robot_);
+  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
+  if (joint < 0 || joint >= static_cast<int>(model_->joints.size())) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "there is no joint number " + std::to_string(joint), robot_);
+  }
+  return JointReadingIn(*snapshot, body, joint);
+}
+
 base::Status RobotAgent::OpenSensor(const std::string& name) {
   std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
@@ -294,6 +329,11 @@ std::function<void()> RobotAgent::Settle() {
   if (is_gone_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
   clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
   if (turn_.command_) Pend({turn_.exchanges_ > 0 ? clock : 0, *turn_.command_});
+  if (!turn_.joint_commands_.empty()) {
+    pending_joints_.insert(pending_joints_.end(), turn_.joint_commands_.begin(),
+                           turn_.joint_commands_.end());
+    Announce();
+  }
   if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
     is_blocked_ = true;
     return std::move(blocked->work);
@@ -315,6 +355,10 @@ std::optional<world::DriveCommand> RobotAgent::TakeCommand() {
   return command;
 }
 
+std::vector<std::pair<int, world::JointCommand>> RobotAgent::TakeJointCommands() {
+  return std::exchange(pending_joints_, {});
+}
+
 void RobotAgent::MarkGone() {
   is_gone_ = true;
   gate_.Open();
@@ -324,6 +368,7 @@ void RobotAgent::MarkGone() {
 void RobotAgent::ResetClocks() {
   clocks_ = AgentClocks();
   pending_.reset();
+  pending_joints_.clear();
   is_commanded_ = false;
   started_ = false;
   death_reported_ = false;

@@ -35,6 +35,9 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                                    std::optional<world::DriveCommand> command, SimTime until,
                                    std::chrono::milliseconds lease) override;
   base::Status Command(const world::DriveCommand& command) override;
+  const std::vector<model::Joint>& Joints() const override { return model_->joints; }
+  base::Status CommandJoint(int joint, const world::JointCommand& command) override;
+  base::Result<JointReading> ReadJoint(int joint) override;
   std::vector<model::SensorDescription> Sensors() const override { return rack_.Descriptions(); }
   std::vector<std::string> SensorTypes() const override { return rack_.TypeNames(); }
   base::Status OpenSensor(const std::string& name) override;
@@ -77,6 +80,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool is_watched() const { return behaviour_ != nullptr && is_alive() && !is_gone_; }
   // What is to act from this step on, once.
   std::optional<world::DriveCommand> TakeCommand();
+  // The same for its joints, each with its index in the robot's model; the last of a joint holds.
+  std::vector<std::pair<int, world::JointCommand>> TakeJointCommands();
   void MarkGone();
   bool is_gone() const { return is_gone_; }
   void ResetClocks();
@@ -114,6 +119,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     world::DriveCommand command;
   };
   void Pend(const PendingCommand& command);
+  void Announce();  // that there are commands to take
   void StopDriving() { Pend({}); }
 
   const std::string robot_;
@@ -128,6 +134,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::shared_ptr<BehaviourPort> behaviour_;
   AgentClocks clocks_;
   std::optional<PendingCommand> pending_;
+  std::vector<std::pair<int, world::JointCommand>> pending_joints_;
   int body_ = -1;
   bool is_counted_ = false;    // in shared_->running
   bool is_commanded_ = false;  // in shared_->commanded

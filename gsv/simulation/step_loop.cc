@@ -151,11 +151,15 @@ void SteppingSimulation::TakeStep() {
       // Somebody may have come between the check and the locks: a robot added, a clock opened.
       if (shared_->mode == Mode::kLockstep && shared_->running > 0) return;
       for (RobotAgent* agent : shared_->commanded) {
-        const auto command = agent->TakeCommand();
-        if (!command) continue;
-        world::DriveState& drive = state_.bodies[agent->body()].drive;
-        drive.command = *command;
-        drive.command_time = state_.time;
+        if (const auto command = agent->TakeCommand()) {
+          world::DriveState& drive = state_.bodies[agent->body()].drive;
+          drive.command = *command;
+          drive.command_time = state_.time;
+        }
+        for (const auto& [joint, command] : agent->TakeJointCommands()) {
+          if (!layout_->bodies[agent->body()].is_rigid) continue;
+          world::CommandJoint(*layout_, agent->body(), joint, command, state_);
+        }
       }
       shared_->commanded.clear();
       stepped_run_ = run_;

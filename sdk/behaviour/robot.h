@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/base/sim_time.h"
+#include "sdk/behaviour/joint.h"
 #include "sdk/behaviour/sensors.h"
 
 namespace gsv {
@@ -64,6 +66,10 @@ class Robot {
       const std::string& sensor) {
     return Create<PositioningSystem>(sensor, {});
   }
+
+  // The joints that take commands, and one of them by name.
+  virtual std::vector<JointTraits> Joints() = 0;
+  virtual base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) = 0;
 
   // Acts until the next command.
   virtual void Drive(double linear, double angular) = 0;

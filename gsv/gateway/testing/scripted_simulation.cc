@@ -58,6 +58,11 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
     command_ = command;
     return {};
   }
+  const std::vector<model::Joint>& Joints() const override { return joints_; }
+  base::Status CommandJoint(int, const world::JointCommand&) override { return Refused(); }
+  base::Result<simulation::JointReading> ReadJoint(int) override {
+    return base::Fail(Refused().error());
+  }
   std::vector<model::SensorDescription> Sensors() const override { return {}; }
   std::vector<std::string> SensorTypes() const override { return {}; }
   base::Status OpenSensor(const std::string&) override { return Refused(); }
@@ -78,6 +83,7 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
 
  private:
   const std::string name_ = kAvatar;
+  const std::vector<model::Joint> joints_;
   mutable std::mutex mutex_;
   world::DriveCommand command_;
 };

@@ -1,0 +1,171 @@
+// Joints as behaviours command and read them, inside the simulation and from outside.
+#include <gmock/gmock.h>
+
+#include "gsv/hosting/hosted_behaviour.h"
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::hosting {
+namespace {
+
+using simulation::Lockstep;
+using simulation::Phase;
+using simulation::RunToEnd;
+using ::testing::HasSubstr;
+
+model::Link Box(const std::string& name, const geometry::Vector3& size, double z, double mass) {
+  model::Link link;
+  link.name = name;
+  link.model_from_link = {{0, 0, z}, {}};
+  link.inertial = {mass, {}, 0.1, 0.1, 0.1};
+  link.collisions.push_back({name, {}, geometry::Box{size}, {}});
+  return link;
+}
+
+// A box with a lift on top, which weighs 19.6 N.
+std::shared_ptr<const model::Model> Lift(model::Movement movement) {
+  auto model = std::make_shared<model::Model>();
+  model->name = "lift";
+  model->links = {Box("base", {0.5, 0.5, 0.3}, 0.15, 20), Box("fork", {0.4, 0.4, 0.05}, 0.4, 2)};
+  model::Joint joint;
+  joint.name = "lift";
+  joint.kind = model::JointKind::kPrismatic;
+  joint.parent = 0;
+  joint.child = 1;
+  joint.position_limits = {0, 0.5};
+  joint.velocity_limit = 0.4;
+  joint.effort_limit = 100;
+  model->joints = {joint};
+  model->drive.emplace();
+  model->drive->kind = model::DriveKind::kVelocity;
+  model->movement = movement;
+  return model;
+}
+
+simulation::RobotSpecification LiftWith(std::shared_ptr<simulation::BehaviourPort> behaviour,
+                                        model::Movement movement = model::Movement::kRigid) {
+  simulation::RobotSpecification robot = simulation::Robot("lift", 0, 0, std::move(behaviour));
+  robot.model = Lift(movement);
+  return robot;
+}
+
+std::shared_ptr<simulation::Simulation> OnGround(SimTime duration) {
+  simulation::Specification specification = Lockstep(duration);
+  auto world = std::make_shared<model::WorldDescription>(*specification.world);
+  auto ground = std::make_shared<model::Model>();
+  ground->links.resize(1);
+  ground->links[0].collisions.push_back({"ground", {}, geometry::Plane{}, {}});
+  world->models.push_back({"ground", ground, {}, true});
+  specification.world = world;
+  return simulation::Make(specification);
+}
+
+class Lifting final : public Behaviour {
+ public:
+  using Body = std::function<void(gsv::Robot&, Joint&)>;
+  explicit Lifting(Body body) : body_(std::move(body)) {}
+  base::Status Init(gsv::Robot& robot) override {
+    auto joint = robot.OpenJoint("lift");
+    if (!joint) return base::Fail(joint.error());
+    joint_ = *std::move(joint);
+    return {};
+  }
+  void Run(gsv::Robot& robot) override { body_(robot, *joint_); }
+
+ private:
+  const Body body_;
+  std::unique_ptr<Joint> joint_;
+};
+
+std::shared_ptr<HostedBehaviour> Hosted(Lifting::Body body) {
+  return std::make_shared<HostedBehaviour>("lifting",
+                                           [body] { return std::make_unique<Lifting>(body); });
+}
+
+TEST(LocalJoint, GoesWhereItIsTold) {
+  auto simulation = OnGround(4s);
+  std::vector<double> positions, velocities;
+  ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
+    const auto after = [&](SimTime duration) {
+      if (!robot.SleepFor(duration)) return;
+      positions.push_back(joint.Read().position);
+      velocities.push_back(joint.Read().velocity);
+    };
+    EXPECT_EQ(joint.traits().kind, "prismatic");
+    EXPECT_EQ(joint.traits().max_position, 0.5);
+    joint.MoveTo(0.3);
+    after(2s);
+    joint.MoveAt(0.1);
+    after(1s);
+    // Lets it fall: onto its lower limit.
+    joint.Release();
+    after(500ms);
+  }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_EQ(positions.size(), 3u);
+  EXPECT_NEAR(positions[0], 0.3, 1e-3);
+  EXPECT_NEAR(positions[1], 0.4, 2e-3);
+  EXPECT_NEAR(velocities[1], 0.1, 1e-6);
+  EXPECT_NEAR(positions[2], 0, 2e-3);
+}
+
+TEST(LocalJoint, AnEffortLiftsAgainstGravity) {
+  auto simulation = OnGround(1s);
+  double velocity = 0;
+  ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
+    joint.Apply(2 * 9.8 + 1);
+    if (robot.SleepFor(500ms)) velocity = joint.Read().velocity;
+  }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  // One newton too much for 2 kg.
+  EXPECT_NEAR(velocity, 0.25, 0.005);
+}
+
+TEST(LocalJoint, HasTheHashOfOneThatIsCommandedFromOutside) {
+  auto inside = OnGround(2s), outside = OnGround(2s);
+  ASSERT_TRUE(inside->AddRobot(LiftWith(Hosted([](gsv::Robot& robot, Joint& joint) {
+    joint.MoveTo(0.2);
+    if (robot.SleepFor(500ms)) joint.MoveTo(joint.Read().position / 2);
+    while (robot.SleepFor(500ms)) {
+    }
+  }))));
+  ASSERT_TRUE(outside->AddRobot(LiftWith(std::make_shared<simulation::ThreadBehaviour>(
+      [](simulation::Agent& agent, simulation::ClockId clock) {
+        using Kind = world::JointCommand::Kind;
+        ASSERT_TRUE(agent.CommandJoint(0, {Kind::kPosition, 0.2}));
+        ASSERT_TRUE(simulation::SleepFor(agent, clock, 500ms));
+        const double half = agent.ReadJoint(0)->position / 2;
+        ASSERT_TRUE(agent.CommandJoint(0, {Kind::kPosition, half}));
+        while (simulation::SleepFor(agent, clock, 500ms)) {
+        }
+      }))));
+  ASSERT_EQ(RunToEnd(*inside), Phase::kFinished);
+  ASSERT_EQ(RunToEnd(*outside), Phase::kFinished);
+  EXPECT_EQ(inside->state_hash(), outside->state_hash());
+}
+
+TEST(LocalJoint, IsRefusedWhereForcesDoNotMoveTheRobot) {
+  auto simulation = OnGround(1s);
+  std::string error;
+  ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
+                                              joint.MoveTo(0.3);
+                                              error = robot.error();
+                                            }),
+                                            model::Movement::kPlanar)));
+  RunToEnd(*simulation);
+  EXPECT_THAT(error, HasSubstr("--movement lift=rigid"));
+}
+
+TEST(LocalJoint, ThereIsNoneOfAnotherName) {
+  auto simulation = OnGround(1s);
+  auto robot = LiftWith(std::make_shared<HostedBehaviour>(
+      "lifting", [] { return std::make_unique<Lifting>([](gsv::Robot&, Joint&) {}); }));
+  auto model = std::make_shared<model::Model>(*robot.model);
+  model->joints[0].name = "other";
+  robot.model = model;
+  const auto added = simulation->AddRobot(robot);
+  ASSERT_FALSE(added);
+  EXPECT_THAT(added.error().Sentence(), HasSubstr("no joint \"lift\""));
+}
+
+}  // namespace
+}  // namespace gsv::hosting

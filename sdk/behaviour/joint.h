@@ -1,0 +1,46 @@
+// A joint of a robot as its behaviour sees it: told where to go, how fast, or how hard; and read.
+//
+// Units    rad, rad/s and N m; of prismatic joints m, m/s and N.
+// Errors   as of Robot: after the end of the run every call returns at once, and readings are zero.
+// Threads  one behaviour, one thread.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "gsv/base/sim_time.h"
+
+namespace gsv {
+
+struct JointTraits {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::string name;
+  std::string kind;  // "revolute", "continuous", "prismatic", "screw"
+  double min_position = -kNone, max_position = kNone;
+  double max_velocity = kNone;
+  double max_effort = kNone;
+};
+
+struct JointState {
+  base::SimTime time{0};
+  double position = 0;
+  double velocity = 0;
+};
+
+class Joint {
+ public:
+  virtual ~Joint() = default;
+  virtual const JointTraits& traits() const = 0;
+
+  // Each acts until the next: to be there, at the joint's limits of velocity and effort at most; to
+  // move so, at its limit of effort at most; to be pushed so, within that limit; and nothing but
+  // its own damping and friction.
+  virtual void MoveTo(double position) = 0;
+  virtual void MoveAt(double velocity) = 0;
+  virtual void Apply(double effort) = 0;
+  virtual void Release() = 0;
+
+  virtual JointState Read() = 0;
+};
+
+}  // namespace gsv
