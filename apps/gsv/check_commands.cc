@@ -6,6 +6,7 @@
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
+#include "apps/gsv/limit_option.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/rendering/renderer.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct CheckArguments {
   std::string file;
   std::vector<std::string> model_path;
+  formats::ReadLimits limits;
   bool json = false;
   bool strict = false;
 };
@@ -55,10 +57,12 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   auto arguments = std::make_shared<CheckArguments>();
   command->add_option("file", arguments->file, "its file, folder or name")->required();
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  AddLimitOption(*command, arguments->limits);
   command->add_flag("--json", arguments->json, "one JSON object a line");
   command->add_flag("--strict", arguments->strict, "warnings count as errors");
   command->callback([arguments, line, read] {
     formats::ReadOptions options;
+    options.limits = arguments->limits;
     options.model_path.assign(arguments->model_path.begin(), arguments->model_path.end());
     formats::ModelLibrary library(std::move(options));
     base::Problems problems;

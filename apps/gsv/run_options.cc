@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/installation.h"
+#include "apps/gsv/limit_option.h"
 
 namespace gsv::app {
 
@@ -63,6 +64,7 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--sensor-plugin", a.sensor_plugins,
                      "a library that brings sensor types, gsv-sensor-NAME.so; those in the folders "
                      "of GSV_SENSOR_PLUGIN_PATH are there anyway");
+  AddLimitOption(command, a.limits);
   command
       .add_option("--port", a.port,
                   "the viewer's port; 0: any that is free (default: 8080, or any)")
@@ -163,6 +165,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.runtime.broker = a.broker;
   options.runtime.model_path.assign(a.model_path.begin(), a.model_path.end());
   options.runtime.sensor_plugins.assign(a.sensor_plugins.begin(), a.sensor_plugins.end());
+  options.runtime.limits = a.limits;
   options.runtime.viewer = !a.headless;
   options.runtime.port_given = a.port >= 0;
   if (a.port >= 0) options.runtime.port = a.port;

@@ -41,6 +41,7 @@ struct RunOptions {
 struct RunArguments {
   std::string world;
   std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
+  formats::ReadLimits limits;
   std::string broker, mode_on_failure = "go_on", record;
   double duration = 0, step = 0, factor = 1, deadline = 10, wall_timeout = 0;
   std::uint64_t seed = 0;

@@ -85,6 +85,7 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   if (auto ok = runtime->StartBroker(options); !ok) return base::Fail(ok.error());
   formats::ReadOptions reading;
   reading.model_path = options.model_path;
+  reading.limits = options.limits;
   runtime->host_ = std::make_shared<services::SimulationHost>(
       *std::move(sensors), std::make_shared<formats::ModelLibrary>(std::move(reading)));
   runtime->recordings_ = std::make_unique<Recordings>();

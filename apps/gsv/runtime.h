@@ -13,6 +13,7 @@
 #include "apps/gsv/behaviour_launcher.h"
 #include "apps/gsv/child_process.h"
 #include "apps/gsv/running_instances.h"
+#include "gsv/formats/read_limits.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
 #include "gsv/services/simulation_servant.h"
@@ -29,6 +30,7 @@ struct RuntimeOptions {
   std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
   std::vector<std::filesystem::path> model_path;
   std::vector<std::filesystem::path> sensor_plugins;  // besides those of GSV_SENSOR_PLUGIN_PATH
+  formats::ReadLimits limits;
   bool viewer = true;
   int port = 8080;  // of the viewer; 0: the system chooses
   // Changes the camera type before it is registered; may be empty.

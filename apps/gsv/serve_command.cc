@@ -4,6 +4,7 @@
 
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
+#include "apps/gsv/limit_option.h"
 #include "apps/gsv/runtime.h"
 
 namespace gsv::app {
@@ -12,6 +13,7 @@ namespace {
 struct ServeArguments {
   std::string broker, name = "gsv";
   std::vector<std::string> model_path, sensor_plugins;
+  formats::ReadLimits limits;
   int port = -1;
   bool headless = false;
 };
@@ -21,6 +23,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.broker = arguments.broker;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
   options.sensor_plugins.assign(arguments.sensor_plugins.begin(), arguments.sensor_plugins.end());
+  options.limits = arguments.limits;
   options.viewer = !arguments.headless;
   options.port_given = arguments.port >= 0;
   if (arguments.port >= 0) options.port = arguments.port;
@@ -50,6 +53,7 @@ void AddServeCommand(const CommandLine& line) {
       "--sensor-plugin", arguments->sensor_plugins,
       "a library that brings sensor types, gsv-sensor-NAME.so; those in the folders "
       "of GSV_SENSOR_PLUGIN_PATH are there anyway");
+  AddLimitOption(*command, arguments->limits);
   command
       ->add_option("--port", arguments->port,
                    "the viewer's port; 0: any that is free (default: 8080, or any)")

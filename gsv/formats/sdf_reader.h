@@ -15,30 +15,16 @@
 // Threads  all members may be called concurrently; one file is read at a time.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/formats/read_limits.h"
 #include "gsv/model/world_description.h"
 
 namespace gsv::formats {
-
-// What a file may ask for at most; more is refused with a sentence.
-struct ReadLimits {
-  std::size_t xml_bytes = 64u << 20;
-  int xml_depth = 64;
-  int include_depth = 16;
-  std::size_t models_in_world = 100'000;
-  std::size_t mesh_bytes = 512u << 20;
-  std::size_t mesh_triangles = 5'000'000;
-  std::size_t mesh_vertices = 10'000'000;
-  std::size_t texture_bytes = 256u << 20;
-  int texture_side = 8192;   // pixels
-  int heightmap_side = 513;  // vertices; larger pictures are sampled down
-};
 
 struct ReadOptions {
   std::vector<std::filesystem::path> model_path;  // as of --model-path

@@ -1,0 +1,29 @@
+// What a file may ask for at most; more is refused with a sentence. docs/formats/worlds.md lists
+// them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "gsv/base/error.h"
+
+namespace gsv::formats {
+
+struct ReadLimits {
+  std::size_t xml_bytes = 64u << 20;
+  int xml_depth = 64;
+  int include_depth = 16;
+  std::size_t models_in_world = 100'000;
+  std::size_t mesh_bytes = 512u << 20;
+  std::size_t mesh_triangles = 5'000'000;
+  std::size_t mesh_vertices = 10'000'000;
+  std::size_t texture_bytes = 256u << 20;
+  int texture_side = 8192;   // pixels
+  int heightmap_side = 513;  // vertices; larger pictures are sampled down
+};
+
+// Sets one of them by its name above: "mesh_triangles=20000000". kInvalidArgument, naming those
+// that there are, when there is none of that name or the number is not above zero.
+[[nodiscard]] base::Status SetLimit(const std::string& text, ReadLimits& limits);
+
+}  // namespace gsv::formats
