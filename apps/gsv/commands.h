@@ -19,6 +19,7 @@ void AddRunCommand(const CommandLine& line);
 void AddServeCommand(const CommandLine& line);
 void AddBrokerCommands(const CommandLine& line);     // broker, offers, types, links
 void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
+void AddDrawCommand(const CommandLine& line);        // world draw; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddControlCommands(const CommandLine& line);    // ps, pause, resume, step, stop, reset
 void AddBenchCommands(const CommandLine& line);      // bench

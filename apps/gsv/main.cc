@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   AddServeCommand(line);
   AddBrokerCommands(line);
   AddCheckCommands(line);
+  AddDrawCommand(line);
   AddRecordingCommands(line);
   AddControlCommands(line);
   AddBenchCommands(line);

@@ -182,6 +182,27 @@ TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
   EXPECT_EQ(RunProgram("gsv", {"world", "check", "office"}).ending, "exit code 0");
 }
 
+TEST(CommandLine, DrawWritesAPictureOfAWorldAndSaysWhatItHolds) {
+  TemporaryFolder folder;
+  const std::string picture = folder.path() / "office.jpg";
+  const Outcome outcome = RunProgram(
+      "gsv", {"world", "draw", "office", picture, "--width", "160", "--height", "120", "--json"});
+  ASSERT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_GT(outcome.LastLine()["triangles"], 100);
+  std::ifstream file(picture, std::ios::binary);
+  EXPECT_EQ(file.get(), 0xff);  // a JPEG file begins so
+  EXPECT_EQ(file.get(), 0xd8);
+}
+
+TEST(CommandLine, LimitsAreRaisedByName) {
+  EXPECT_EQ(RunProgram("gsv", {"world", "check", "office", "--limit", "xml_bytes=10"}).ending,
+            "exit code 3");
+  EXPECT_EQ(RunProgram("gsv", {"world", "check", "office", "--limit", "xml_bytes=10000000"}).ending,
+            "exit code 0");
+  EXPECT_EQ(RunProgram("gsv", {"world", "check", "office", "--limit", "xml=1"}).ending,
+            "exit code 2");
+}
+
 // It cannot be interrupted, and must not hold up the end of the run.
 TEST(CommandLine, ABehaviourInProcessThatNeverReturnsFailsTheRun) {
   TemporaryFolder folder;
