@@ -17,9 +17,11 @@
 #include <unistd.h>
 
 #include "gsv/broker/admin_servant.h"
+#include "gsv/broker/checked_transport.h"
 #include "gsv/broker/link_servant.h"
 #include "gsv/broker/lookup_servant.h"
 #include "gsv/broker/offer_file.h"
+#include "gsv/broker/process_limits.h"
 #include "gsv/broker/proxy_servant.h"
 #include "gsv/broker/pulse.h"
 #include "gsv/broker/register_servant.h"
@@ -32,9 +34,7 @@ namespace {
 
 constexpr const char* kKey = "TradingService";
 
-// A nested TypeCode is read by recursion: at 16 bytes a level, a message of 64 KiB holds 4,096
-// levels.
-constexpr unsigned long kThreadStackBytes = 4ul << 20;
+constexpr unsigned long kThreadStackBytes = 1ul << 20;
 
 std::string Endpoint(const BrokerOptions& options) {
   return fmt::format("giop:tcp:{}:{}", options.host,
@@ -51,7 +51,9 @@ CORBA::ORB_ptr StartOrb(const BrokerOptions& options) {
       {"threadPerConnectionUpperLimit", "256"},
       {"threadPerConnectionLowerLimit", "200"},
       {"maxServerThreadPerConnection", "2"},
-      {"maxServerThreadPoolSize", "16"},
+      {"maxServerThreadPoolSize", "32"},
+      // A thread of the pool that waited for one connection's next request would make others wait.
+      {"threadPoolWatchConnection", "0"},
       {"inConScanPeriod", "180"},
       {"outConScanPeriod", "60"},
       {"scanGranularity", "5"},
@@ -66,6 +68,7 @@ CORBA::ORB_ptr StartOrb(const BrokerOptions& options) {
       {"traceLevel", "0"},
       {nullptr, nullptr},
   };
+  InstallCheckedTransport(MaxConnections());
   omni_thread::stacksize(kThreadStackBytes);
   // Those that ask other traders read what these answer.
   pthread_attr_t attributes;

@@ -8,10 +8,13 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include "gsv/broker/broker_fixture.h"
+#include "gsv/broker/raw_connection.h"
+#include "gsv/broker/raw_message.h"
 
 namespace gsv::broker {
 namespace {
@@ -142,6 +145,23 @@ TEST_F(HostileFloodTest, TenThousandConnections) {
   Judge(bystander, "connections");
 }
 
+// More connections than the broker keeps: it lets go of those that have been silent longest.
+TEST_F(HostileFloodTest, ConnectionsThatAreHeld) {
+  rlimit descriptors{};
+  getrlimit(RLIMIT_NOFILE, &descriptors);
+  descriptors.rlim_cur = descriptors.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &descriptors);
+  constexpr int kMoreThanKept = 4500;
+  if (descriptors.rlim_cur < 2 * kMoreThanKept) GTEST_SKIP() << "too few descriptors";
+  Bystander bystander(lookup_);
+  std::vector<int> held;
+  for (int i = 0; i < kMoreThanKept; ++i) held.push_back(Connect());
+  char byte = 0;
+  EXPECT_EQ(recv(held.front(), &byte, 1, 0), 0);
+  Judge(bystander, "held_connections");
+  for (const int each : held) close(each);
+}
+
 TEST_F(HostileFloodTest, SlowSenders) {
   Bystander bystander(lookup_);
   std::vector<int> slow;
@@ -152,6 +172,33 @@ TEST_F(HostileFloodTest, SlowSenders) {
     EXPECT_EQ(Query("Robot").offers->length(), 1u);
   }
   Judge(bystander, "slow_senders");
+  for (const int socket : slow) close(socket);
+}
+
+// More slow connections than the broker has threads for, and yet who comes after them is served.
+TEST_F(HostileFloodTest, SlowSendersBeyondTheThreads) {
+  Bystander bystander(lookup_);
+  std::vector<int> slow;
+  for (int i = 0; i < 700; ++i) slow.push_back(Connect());
+  const std::string message = std::string("GIOP\x01\x02\x01\x00\x40\x00\x00\x00", 12);
+  const auto drip = [&](char byte) {
+    for (const int socket : slow) send(socket, &byte, 1, MSG_NOSIGNAL);
+  };
+  for (const char byte : message.substr(0, 4)) drip(byte);
+
+  const RawCdr arguments =
+      RawCdr().String("Robot").String("").String("").ULong(0).ULong(0).ULong(1);
+  const std::string query = RawRequest("TradingService", "query", arguments.bytes());
+  std::vector<double> waits;
+  for (int i = 0; i < 50; ++i) {
+    const auto start = Clock::now();
+    const RawConnection newcomer(std::stoi(broker_.port()));
+    newcomer.Send(query);
+    EXPECT_NE(newcomer.Read().find("IDL:omg.org/CosTradingDynamic"), std::string::npos);
+    waits.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
+  RecordProperty("newcomers_max_ms", std::to_string(*std::max_element(waits.begin(), waits.end())));
+  Judge(bystander, "many_slow_senders");
   for (const int socket : slow) close(socket);
 }
 

@@ -8,13 +8,16 @@
 namespace gsv::broker {
 
 struct ProcessLimits {
-  // A message of 64 KiB can make omniORB take some 130 MiB for a moment; an attacker with many
-  // connections gets bad_alloc, not the machine.
+  // Whoever wants more gets bad_alloc, not the machine.
   std::size_t address_space_bytes = std::size_t{2} << 30;
   int malloc_arenas = 2;
+  std::size_t descriptors = 8192;  // as far as the system lets the process have them
 };
 
 // For the whole process, from now on. Call it before threads start.
 [[nodiscard]] base::Status ApplyProcessLimits(const ProcessLimits& limits);
+
+// How many connections clients may keep open, so that descriptors remain for the rest.
+std::size_t MaxConnections();
 
 }  // namespace gsv::broker

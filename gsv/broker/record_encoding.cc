@@ -6,6 +6,7 @@
 
 #include "gsv/broker/corba_values.h"
 #include "gsv/broker/encapsulation.h"
+#include "gsv/broker/message_check.h"
 
 namespace gsv::broker {
 namespace {
@@ -45,6 +46,7 @@ std::string EncodeProperties(const PropertyList& properties) {
 
 base::Result<PropertyList> DecodeProperties(const std::string& bytes) {
   return Decode<PropertyList>("an offer", [&]() -> base::Result<PropertyList> {
+    if (!IsPropertySequence(bytes)) throw CORBA::MARSHAL();
     cdrEncapsulationStream stream = StreamOf(bytes);
     CosTrading::PropertySeq sequence;
     sequence <<= stream;
@@ -60,6 +62,7 @@ std::string EncodePolicies(const CosTrading::PolicySeq& policies) { return Encod
 
 base::Result<CosTrading::PolicySeq> DecodePolicies(const std::string& bytes) {
   return Decode<CosTrading::PolicySeq>("a policy", [&]() -> base::Result<CosTrading::PolicySeq> {
+    if (!IsPropertySequence(bytes)) throw CORBA::MARSHAL();
     cdrEncapsulationStream stream = StreamOf(bytes);
     CosTrading::PolicySeq policies;
     policies <<= stream;

@@ -1,0 +1,110 @@
+// Looks through bytes in CDR without an ORB. Bytes come from outside: the first that does not fit
+// makes the reader fail, and from then on it reads zeros.
+//
+// Source  CORBA 3.1 part 2, 7.3.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <type_traits>
+
+namespace gsv::broker {
+
+class CdrReader {
+ public:
+  // `bytes` must outlive it; alignment counts from their first one. GIOP 1.1 and 1.2 write wide
+  // characters differently: `minor` says which it is.
+  CdrReader(std::string_view bytes, bool little_endian, int minor = 2, std::size_t position = 0)
+      : bytes_(bytes), position_(position), minor_(minor), little_endian_(little_endian) {
+    if (position > bytes.size()) Fail();
+  }
+
+  bool ok() const { return ok_; }
+  void Fail() {
+    ok_ = false;
+    position_ = bytes_.size();
+  }
+  int minor() const { return minor_; }
+  std::size_t position() const { return position_; }
+  std::size_t remaining() const { return bytes_.size() - position_; }
+  // Where the next byte lies.
+  const char* here() const { return bytes_.data() + position_; }
+
+  void Align(std::size_t alignment) { Skip((alignment - position_ % alignment) % alignment); }
+  void Skip(std::size_t count) {
+    if (count > remaining()) return Fail();
+    position_ += count;
+  }
+  // `Skip` of `count` values of `size` bytes, which are aligned to `alignment`.
+  void SkipValues(std::size_t count, std::size_t size, std::size_t alignment) {
+    if (count == 0) return;
+    Align(alignment);
+    if (count > remaining() / size) return Fail();
+    Skip(count * size);
+  }
+
+  std::uint8_t Octet() { return Number<std::uint8_t>(); }
+  std::uint16_t UShort() { return Number<std::uint16_t>(); }
+  std::uint32_t ULong() { return Number<std::uint32_t>(); }
+  std::uint64_t ULongLong() { return Number<std::uint64_t>(); }
+
+  // A length, then as many bytes.
+  std::string_view Octets() {
+    const std::uint32_t length = ULong();
+    if (length > remaining()) Fail();
+    if (!ok_) return {};
+    const std::string_view octets(here(), length);
+    position_ += length;
+    return octets;
+  }
+  // Without the zero at its end. Fails where that is missing.
+  std::string_view String() {
+    std::string_view text = Octets();
+    if (text.empty() || text.back() != '\0') {
+      Fail();
+      return {};
+    }
+    text.remove_suffix(1);
+    return text;
+  }
+  // The number of elements of a sequence. Fails where there are more than bytes.
+  std::uint32_t Count() {
+    const std::uint32_t count = ULong();
+    if (count > remaining()) Fail();
+    return ok_ ? count : 0;
+  }
+  // What has a byte order and an alignment of its own.
+  CdrReader Encapsulation() {
+    const std::string_view octets = Octets();
+    if (octets.empty()) Fail();
+    CdrReader inner(octets, !octets.empty() && octets.front() != 0, minor_, octets.empty() ? 0 : 1);
+    if (!ok_ || (!octets.empty() && static_cast<unsigned char>(octets.front()) > 1)) inner.Fail();
+    return inner;
+  }
+
+ private:
+  template <typename T>
+  T Number() {
+    Align(sizeof(T));
+    if (sizeof(T) > remaining()) Fail();
+    if (!ok_) return 0;
+    unsigned char raw[sizeof(T)];
+    std::memcpy(raw, here(), sizeof(T));
+    position_ += sizeof(T);
+    T value = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      const std::size_t shift = little_endian_ ? i : sizeof(T) - 1 - i;
+      value = static_cast<T>(value | static_cast<T>(static_cast<T>(raw[i]) << (8 * shift)));
+    }
+    return value;
+  }
+
+  std::string_view bytes_;
+  std::size_t position_;
+  int minor_;
+  bool little_endian_;
+  bool ok_ = true;
+};
+
+}  // namespace gsv::broker
