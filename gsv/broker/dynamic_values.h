@@ -14,6 +14,7 @@
 
 #include "gsv/broker/offer.h"
 #include "gsv/broker/property.h"
+#include "gsv/broker/scan_turns.h"
 
 namespace gsv::broker {
 
@@ -39,6 +40,9 @@ class DynamicValues {
   // Without an evaluator no dynamic property has a value.
   DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget);
 
+  // Null, or whose turn is given up while a service is asked.
+  void set_turn(ScanTurn* turn) { turn_ = turn; }
+
   // The property's value, asked for when it is dynamic. Null when there is none. The pointer holds
   // as long as this and the offer. It is found at once where offers that are asked for one after
   // the other have the same properties, and `name` stays where it is.
@@ -55,6 +59,7 @@ class DynamicValues {
   const Value* FindStatic(const Offer& offer, std::string_view name);
 
   DynamicEvaluator* const evaluator_;
+  ScanTurn* turn_ = nullptr;
   const std::chrono::milliseconds budget_;
   std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // from the first question on
   std::map<Key, std::optional<Value>> known_;

@@ -9,6 +9,8 @@ namespace {
 
 // Fewer empty entries than this are not worth moving the others for.
 constexpr std::size_t kFewest = 64;
+// Fewer offers are looked through one by one.
+constexpr std::size_t kWorthColumns = 1024;
 
 }  // namespace
 
@@ -23,6 +25,23 @@ OfferView::OfferView(std::shared_ptr<Shared> shared) : shared_(std::move(shared)
 
 OfferView::~OfferView() {
   if (shared_ != nullptr) --shared_->readers;
+}
+
+std::vector<Choice> OfferView::Choose(const std::vector<NumberTerm>& terms) const {
+  std::vector<Choice> choices;
+  if (offers().size() < kWorthColumns) return choices;
+  bool decided = true;
+  for (const NumberTerm& term : terms) {
+    const auto column = shared_->columns.Of(offers(), term.property);
+    if (column == nullptr) {
+      decided = false;
+      continue;
+    }
+    if (choices.empty()) choices.resize(offers().size(), Choice::kYes);
+    column->Narrow(term, choices);
+  }
+  if (!decided) std::replace(choices.begin(), choices.end(), Choice::kYes, Choice::kUnknown);
+  return choices;
 }
 
 void OfferColumn::Put(OfferPtr offer) {
@@ -56,6 +75,8 @@ Offers& OfferColumn::Own() {
     auto copy = std::make_shared<OfferView::Shared>();
     copy->offers = shared_->offers;
     shared_ = std::move(copy);
+  } else {
+    shared_->columns.Clear();
   }
   return shared_->offers;
 }

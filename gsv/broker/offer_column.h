@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "gsv/broker/number_column.h"
 #include "gsv/broker/offer.h"
 
 namespace gsv::broker {
@@ -25,10 +26,14 @@ class OfferView {
 
   const Offers& offers() const { return shared_->offers; }
 
+  // What the columns say of each offer. Empty when they say nothing.
+  std::vector<Choice> Choose(const std::vector<NumberTerm>& terms) const;
+
  private:
   friend class OfferColumn;
   struct Shared {
     Offers offers;
+    NumberColumns columns;
     std::atomic<int> readers = 0;
   };
   explicit OfferView(std::shared_ptr<Shared> shared);

@@ -26,6 +26,7 @@
 #include "gsv/broker/link_table.h"
 #include "gsv/broker/offer.h"
 #include "gsv/broker/offer_store.h"
+#include "gsv/broker/scan_turns.h"
 #include "gsv/broker/trading_error.h"
 #include "gsv/broker/type_repository.h"
 
@@ -160,6 +161,7 @@ class Trader {
   std::uint32_t stem_;
   std::unique_ptr<Journal> journal_;  // null: everything is in memory
   mutable std::atomic<std::uint64_t> seed_;
+  mutable ScanTurns scan_turns_{ScanTurns::ForThisMachine()};
   mutable std::shared_mutex mutex_;  // guards all that follows
   TraderAttributes attributes_;
   TypeRepository types_;

@@ -4,6 +4,7 @@
 
 #include "gsv/broker/equality_terms.h"
 #include "gsv/broker/evaluation.h"
+#include "gsv/broker/number_terms.h"
 #include "gsv/broker/preference_order.h"
 #include "gsv/broker/query_compilation.h"
 #include "gsv/broker/trader.h"
@@ -12,6 +13,9 @@ namespace gsv::broker {
 namespace {
 
 using ReadLock = std::shared_lock<std::shared_mutex>;
+
+// As many steps of an evaluation are over soon.
+constexpr std::size_t kWorthATurn = 20'000;
 
 // Fewer offers are looked through as fast as they are found in an index.
 constexpr std::size_t kWorthAnIndex = 256;
@@ -41,11 +45,15 @@ struct Trader::Candidates {
   std::vector<OfferView> views{};
   Cardinalities cardinalities{};
   std::vector<std::string> limits_applied{};
+  bool cut = false;  // there are more of them than may be searched
   bool with_proxies = true;
   bool with_dynamic = true;
   bool with_modifiable = true;
   std::map<std::string, ServiceType> types{};  // described if without modifiable ones
 
+  // What it may take to look through them.
+  std::size_t Steps(const Expression& constraint) const;
+  void Search(const Expression& constraint, DynamicValues& values, MatchingOffers& matches) const;
   bool Admit(const Offer& offer) const {
     return (with_proxies || offer.proxy == nullptr) &&
            (with_dynamic || !HasDynamicProperties(offer)) &&
@@ -76,20 +84,41 @@ Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& v
   MatchingOffers matches{.preference = std::move(*preference),
                          .cardinalities = candidates.cardinalities,
                          .limits_applied = std::move(candidates.limits_applied)};
-  std::size_t to_search = candidates.cardinalities.search;
-  for (const OfferView& view : candidates.views) {
-    for (const OfferPtr& offer : view.offers()) {
+  ScanTurn turn(candidates.Steps(*constraint) > kWorthATurn ? &scan_turns_ : nullptr);
+  values.set_turn(&turn);
+  candidates.Search(*constraint, values, matches);
+  values.set_turn(nullptr);
+  return matches;
+}
+
+std::size_t Trader::Candidates::Steps(const Expression& constraint) const {
+  std::size_t offers = 0;
+  for (const OfferView& view : views) offers += view.offers().size();
+  return offers * constraint.nodes.size();
+}
+
+void Trader::Candidates::Search(const Expression& constraint, DynamicValues& values,
+                                MatchingOffers& matches) const {
+  const NumberTerms terms = NumberTermsOf(constraint);
+  std::size_t to_search = cardinalities.search;
+  for (const OfferView& view : views) {
+    // What is cut off depends on every offer before it.
+    const std::vector<Choice> choices = cut ? std::vector<Choice>() : view.Choose(terms.terms);
+    for (std::size_t i = 0; i < view.offers().size(); ++i) {
+      const Choice choice = choices.empty() ? Choice::kUnknown : choices[i];
+      if (choice == Choice::kNo) continue;
+      const OfferPtr& offer = view.offers()[i];
       if (offer == nullptr) continue;
-      if (to_search-- == 0) return matches;
-      if (!candidates.Admit(*offer) || !IsMatch(*constraint, *offer, values)) continue;
-      if (matches.offers.size() + matches.proxies.size() == candidates.cardinalities.match) {
+      if (to_search-- == 0) return;
+      const bool known = choice == Choice::kYes && terms.complete;
+      if (!Admit(*offer) || !(known || IsMatch(constraint, *offer, values))) continue;
+      if (matches.offers.size() + matches.proxies.size() == cardinalities.match) {
         matches.limits_applied.emplace_back("match_card");
-        return matches;
+        return;
       }
       (offer->proxy != nullptr ? matches.proxies : matches.offers).push_back(offer);
     }
   }
-  return matches;
 }
 
 QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
@@ -120,10 +149,9 @@ Trader::Candidates Trader::SelectCandidates(const Query& query,
     }
   }
   const std::size_t count = offers_.CountOfTypes(types);
-  const bool cut = count > candidates.cardinalities.search;
-  if (cut) candidates.limits_applied.emplace_back("search_card");
-  // What is cut off depends on every offer before it.
-  if (!cut && !terms.empty() && count >= kWorthAnIndex) {
+  candidates.cut = count > candidates.cardinalities.search;
+  if (candidates.cut) candidates.limits_applied.emplace_back("search_card");
+  if (!candidates.cut && !terms.empty() && count >= kWorthAnIndex) {
     if (auto chosen = offers_.OfTypesWith(types, terms)) {
       candidates.views = std::move(*chosen);
       return candidates;

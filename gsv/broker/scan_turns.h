@@ -1,0 +1,52 @@
+// Whose turn it is to look through many offers. One core stays free of that, so that short queries
+// are answered meanwhile; the long ones go one after the other as they came.
+//
+// Threads  any.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+
+namespace gsv::broker {
+
+class ScanTurns {
+ public:
+  // `at_once` have a turn at a time, at least one.
+  explicit ScanTurns(std::size_t at_once);
+  // As many as there are cores, but for one.
+  static std::size_t ForThisMachine();
+
+  void Take();
+  void Give();
+
+ private:
+  const std::uint64_t at_once_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::uint64_t asked_ = 0;
+  std::uint64_t ended_ = 0;
+};
+
+// A turn as long as this lives; null: none is needed.
+class ScanTurn {
+ public:
+  explicit ScanTurn(ScanTurns* turns) : turns_(turns) { Resume(); }
+  ~ScanTurn() { Pause(); }
+  ScanTurn(const ScanTurn&) = delete;
+  ScanTurn& operator=(const ScanTurn&) = delete;
+
+  // Others go on while the holder waits for something else.
+  void Pause() {
+    if (turns_ != nullptr) turns_->Give();
+  }
+  void Resume() {
+    if (turns_ != nullptr) turns_->Take();
+  }
+
+ private:
+  ScanTurns* const turns_;
+};
+
+}  // namespace gsv::broker
