@@ -14,10 +14,10 @@ template <typename Comparison>
 void NarrowBy(const Comparison& holds, const std::vector<double>& numbers,
               const std::vector<Choice>& known, double literal, std::vector<Choice>& choices) {
   for (std::size_t i = 0; i < choices.size(); ++i) {
-    const Choice term = known[i] == Choice::kYes && !holds(numbers[i], literal) ? Choice::kNo
-                                                                               : known[i];
-    choices[i] = term == Choice::kNo || choices[i] == Choice::kNo ? Choice::kNo
-                                                                 : std::max(term, choices[i]);
+    const Choice term =
+        known[i] == Choice::kYes && !holds(numbers[i], literal) ? Choice::kNo : known[i];
+    choices[i] =
+        term == Choice::kNo || choices[i] == Choice::kNo ? Choice::kNo : std::max(term, choices[i]);
   }
 }
 
