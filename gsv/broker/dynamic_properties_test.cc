@@ -129,12 +129,14 @@ TEST_F(DynamicPropertiesTest, AreRememberedForTheirLifetime) {
 }
 
 TEST_F(DynamicPropertiesTest, AFailureMakesTheConstraintFalseAndLeavesThePropertyOut) {
+  // It raises DPEvalFailure, or answers another type than it promised.
   for (const auto mood : {Evaluator::Mood::kFail, Evaluator::Mood::kWrongType}) {
     evaluator_->Be(mood);
     // Other information, so that nothing is remembered of it.
     const std::string id = ExportSpeed(static_cast<double>(mood));
     EXPECT_EQ(Query("Robot", "speed > 0").offers->length(), 0u);
     EXPECT_EQ(Query("Robot", "not (speed > 0)").offers->length(), 0u);
+    EXPECT_EQ(Query("Robot", "exist speed").offers->length(), 0u);
     Answer all = Query("Robot");
     ASSERT_EQ(all.offers->length(), 1u);
     EXPECT_EQ(all.offers[0].properties.length(), 0u);

@@ -231,6 +231,7 @@ TEST_F(LookupServantTest, ObeysMaxList) {
 
 TEST_F(LookupServantTest, KnowsItsComponentsAndItsAttributes) {
   EXPECT_TRUE(lookup_->_is_equivalent(CosTrading::Lookup_var(register_->lookup_if())));
+  EXPECT_TRUE(register_->_is_equivalent(CosTrading::Register_var(lookup_->register_if())));
   EXPECT_FALSE(CORBA::is_nil(CosTrading::Link_var(lookup_->link_if())));
   EXPECT_FALSE(CORBA::is_nil(CosTrading::Proxy_var(lookup_->proxy_if())));
   EXPECT_FALSE(CORBA::is_nil(CosTrading::Admin_var(register_->admin_if())));

@@ -154,6 +154,22 @@ TEST_F(RegisterServantTest, RaisesForDynamicProperties) {
                "speed");
 }
 
+TEST_F(RegisterServantTest, RaisesForADynamicPropertyThatAModificationAdds) {
+  AddType("Ship", {Define("hull", CORBA::_tc_string, Repository::PROP_READONLY)});
+  const std::string id = Export("Ship");
+  CosTradingDynamic::DynamicProp dynamic;
+  dynamic.eval_if = CosTradingDynamic::DynamicPropEval::_narrow(TestService());
+  dynamic.returned_type = CORBA::TypeCode::_duplicate(CORBA::_tc_string);
+  CosTrading::PropertySeq properties;
+  properties.length(1);
+  properties[0].name = "hull";
+  properties[0].value <<= dynamic;
+  const auto readonly = Raised<CosTrading::ReadonlyDynamicProperty>(
+      [&] { register_->modify(id.c_str(), {}, properties); });
+  EXPECT_STREQ(readonly.type, "Ship");
+  EXPECT_STREQ(readonly.name, "hull");
+}
+
 TEST_F(RegisterServantTest, ComparesTheInterface) {
   AddType("Evaluator", {}, {}, kServiceInterface);
   AddType("Scoped", {}, {}, "::CosTradingDynamic::DynamicPropEval");
