@@ -38,6 +38,7 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     reportCompressedSize: false,
     chunkSizeWarningLimit: 1500,
+    rollupOptions: { input: ["index.html", "broker.html"] },
   },
   server: {
     proxy: {

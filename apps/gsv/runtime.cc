@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "apps/gsv/broker_page.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/recordings.h"
 #include "gsv/base/check.h"
@@ -134,6 +135,8 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway::GatewayOptions gateway;
   gateway.port = static_cast<std::uint16_t>(options.port);
   gateway.web_root = ShareFolder() / "web";
+  gateway.broker = [page = std::make_shared<const BrokerPage>(orb_, broker_->reference())](
+                       const gateway::Request& request) { return page->Handle(request); };
   auto directory = std::make_shared<HostDirectory>(host_);
   auto started = gateway::Gateway::Start(gateway, directory);
   if (!started && !options.port_given) {

@@ -20,6 +20,7 @@ class LocalGateway final : public Gateway, private Handler {
       : directory_(directory),
         files_(options.web_root),
         api_(directory, &formats::WriteGlb),
+        broker_(options.broker),
         publisher_(std::move(directory), watchers_) {}
 
   ~LocalGateway() override { Stop(); }
@@ -53,6 +54,9 @@ class LocalGateway final : public Gateway, private Handler {
 
   Response Answer(const Request& request) {
     const std::vector<std::string>& path = request.target.segments;
+    if (broker_ && path.size() > 1 && path[0] == "api" && path[1] == "broker") {
+      return broker_(request);
+    }
     if (!path.empty() && path[0] == "api") return api_.Handle(request);
     if (request.method != "GET") return MethodNotAllowed("GET");
     if (path == std::vector<std::string>{"ws"}) {
@@ -81,6 +85,7 @@ class LocalGateway final : public Gateway, private Handler {
   const std::shared_ptr<SimulationDirectory> directory_;
   StaticFiles files_;
   Api api_;
+  const std::function<Response(const Request&)> broker_;
   WorkerPool readers_{2, kWaitingRequests};
   WorkerPool commanders_{2, kWaitingRequests};
   WorkerPool watchers_{2, kWaitingReadings};

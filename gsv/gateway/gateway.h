@@ -5,9 +5,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
+#include "gsv/gateway/http.h"
 #include "gsv/gateway/ports.h"
 #include "gsv/gateway/server.h"
 
@@ -15,6 +17,8 @@ namespace gsv::gateway {
 
 struct GatewayOptions : ServerOptions {
   std::filesystem::path web_root;  // the viewer's files; may be absent
+  // Answers what is below /api/broker; empty: nothing is there.
+  std::function<Response(const Request&)> broker{};
 };
 
 class Gateway {

@@ -31,9 +31,24 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
       toggleButton(app, "labels", "label", "Names"),
       toggleButton(app, "grid", "grid", "Grid"),
       element("span", { class: "divider", "aria-hidden": "true" }),
+      brokerLink(app),
       viewButton("help", "Help", "?", () => app.openHelp(true)),
     ),
   );
+}
+
+// A recording has no broker.
+function brokerLink(app: App): HTMLElement {
+  const link = element(
+    "a",
+    { class: "button plain", href: "broker.html", "aria-label": "Broker", title: "Broker" },
+    icon("broker"),
+  );
+  app.store.watch(
+    ({ replay }) => replay !== null,
+    (isReplay) => (link.hidden = isReplay),
+  );
+  return link;
 }
 
 // A recording has its own, in the timeline.

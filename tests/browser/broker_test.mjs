@@ -1,0 +1,65 @@
+// The broker page in a real browser, on the broker of a real simulation.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage } from "./browser.mjs";
+import { startServer } from "./server.mjs";
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(["office", "--robot", "b21r@-5,-1.5,0", "--behaviour", "wander"]);
+  browser = await openBrowser({ width: 1024, height: 680 });
+  ({ page, faults } = await openPage(browser, `${server.url}broker.html`));
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+async function find(constraint) {
+  await page.getByLabel("Constraint").fill(constraint);
+  await page.getByRole("button", { name: "Find" }).click();
+}
+
+async function choose(type) {
+  await page.locator(`[data-type="${type}"]`).click();
+  await page.getByRole("heading", { name: type, exact: true }).waitFor();
+}
+
+test("the types and the offers of the running simulation are there", async () => {
+  await choose("gsv::SimulationService");
+  await page.getByText("1 offer", { exact: true }).waitFor();
+  assert.match(await page.locator(".offer .properties").innerText(), /viewer_url/);
+});
+
+test("a constraint says what matches", async () => {
+  await choose("gsv::SimulationService");
+  await find("cores >= 1 and exist viewer_url");
+  await page.getByText("1 of 1 offer matches", { exact: true }).waitFor();
+  assert.equal(await page.locator(".term[data-result='true']").count(), 2);
+});
+
+test("a constraint that does not match says which term failed", async () => {
+  await choose("gsv::SimulationService");
+  await find("cores >= 1 and pid < 0 and wings == 2");
+  await page.getByText("0 of 1 offer matches", { exact: true }).waitFor();
+  assert.match(await page.locator(".term[data-result='false']").innerText(), /pid < 0/);
+  assert.match(await page.locator(".term[data-result='no value']").innerText(), /the offer has no wings/);
+});
+
+test("a constraint that is wrong is answered with the broker's sentence", async () => {
+  await find("cores >= ");
+  assert.match(await page.getByRole("alert").innerText(), /cores/);
+  faults.splice(0, faults.length, ...faults.filter((fault) => !/status of 400/.test(fault)));
+});
+
+test("the viewer leads to it and back, and nothing went wrong in its scripts", async () => {
+  await page.getByTitle("The simulation").click();
+  await page.getByRole("link", { name: "Broker", exact: true }).click();
+  await page.getByRole("heading", { name: "Broker", exact: true }).waitFor();
+  assert.deepEqual(faults, []);
+});

@@ -1,0 +1,145 @@
+// What the server tells of its broker. Every call ends: with an answer, the server's sentence, or a
+// timeout.
+import type { JsonObject } from "../api/json";
+import { listAt, objectAt, textAt, textOr } from "../api/json";
+
+export interface PropertyDefinition {
+  name: string;
+  type: string; // "sequence<string>"
+  mandatory: boolean;
+  readonly: boolean;
+}
+
+export interface ServiceType {
+  name: string;
+  interfaceName: string;
+  superTypes: string[];
+  masked: boolean;
+  properties: PropertyDefinition[];
+}
+
+export type Result = "true" | "false" | "no value";
+
+export interface Term {
+  term: string;
+  result: Result;
+  missing: string[]; // properties that it needs and the offer lacks
+}
+
+export interface Offer {
+  address: string;
+  properties: [name: string, value: string][]; // the values as JSON writes them
+  matches: boolean;
+  terms: Term[];
+}
+
+export interface Answer {
+  offers: Offer[]; // those that match, in the order of the preference, then the others
+  isCut: boolean; // there are more
+}
+
+export interface Link {
+  name: string;
+  address: string;
+  rules: string;
+  answers: boolean;
+}
+
+export interface Question {
+  type: string;
+  constraint: string;
+  preference: string;
+}
+
+const TIMEOUT_MS = 20_000;
+
+export class BrokerApi {
+  constructor(
+    private readonly base: string,
+    private readonly fetchPage: typeof fetch = (input, init) => fetch(input, init),
+  ) {}
+
+  async types(): Promise<{ broker: string; types: ServiceType[] }> {
+    const answer = objectAt(await this.get("types"), "types");
+    const types = listAt(answer.types, "types").map((type, i) => parseType(objectAt(type, `types[${i}]`)));
+    types.sort((a, b) => a.name.localeCompare(b.name));
+    return { broker: textOr(answer.broker, ""), types };
+  }
+
+  async offers(question: Question): Promise<Answer> {
+    // Not URLSearchParams: a "+" is a "+" to the server.
+    const query = Object.entries(question).map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
+    const answer = objectAt(await this.get(`offers?${query.join("&")}`), "offers");
+    return {
+      offers: listAt(answer.offers, "offers").map((offer, i) => parseOffer(objectAt(offer, `offers[${i}]`))),
+      isCut: answer.cut === true,
+    };
+  }
+
+  async links(): Promise<Link[]> {
+    const answer = objectAt(await this.get("links"), "links");
+    return listAt(answer.links, "links").map((link, i) => parseLink(objectAt(link, `links[${i}]`)));
+  }
+
+  private async get(path: string): Promise<unknown> {
+    const url = new URL(`api/broker/${path}`, this.base).href;
+    const signal = AbortSignal.timeout(TIMEOUT_MS);
+    const response = await this.fetchPage(url, { signal }).catch(() => {
+      throw new Error("The server cannot be reached.");
+    });
+    const answer: unknown = await response.json().catch(() => null);
+    if (response.ok) return answer;
+    const sentence = textOr((answer as { error?: unknown } | null)?.error, "");
+    throw new Error(sentence || `The server answered ${response.status}.`);
+  }
+}
+
+function parseType(type: JsonObject): ServiceType {
+  return {
+    name: textAt(type.name, "name"),
+    interfaceName: textOr(type.interface, ""),
+    superTypes: listAt(type.super_types ?? [], "super_types").map((name) => textAt(name, "super_types")),
+    masked: type.masked === true,
+    properties: listAt(type.properties ?? [], "properties").map((each) => {
+      const property = objectAt(each, "property");
+      return {
+        name: textAt(property.name, "name"),
+        type: textAt(property.type, "type"),
+        mandatory: property.mandatory === true,
+        readonly: property.readonly === true,
+      };
+    }),
+  };
+}
+
+function parseOffer(offer: JsonObject): Offer {
+  return {
+    address: textOr(offer.address, ""),
+    properties: Object.entries(objectAt(offer.properties, "properties")).map(([name, value]) => [
+      name,
+      JSON.stringify(value),
+    ]),
+    matches: offer.matches === true,
+    terms: listAt(offer.terms ?? [], "terms").map((each) => {
+      const term = objectAt(each, "term");
+      return {
+        term: textAt(term.term, "term"),
+        result: resultOf(term.result),
+        missing: listAt(term.missing ?? [], "missing").map((name) => textAt(name, "missing")),
+      };
+    }),
+  };
+}
+
+function resultOf(text: unknown): Result {
+  return text === "true" || text === "false" ? text : "no value";
+}
+
+function parseLink(link: JsonObject): Link {
+  return {
+    name: textAt(link.name, "name"),
+    address: textOr(link.address, ""),
+    rules: `${textOr(link.def_pass_on_follow_rule, "")} · ${textOr(link.limiting_follow_rule, "")}`,
+    answers: link.answers === true,
+  };
+}

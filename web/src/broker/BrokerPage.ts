@@ -1,0 +1,161 @@
+// The broker page: service types, the offers of the chosen one with a constraint to try, and links.
+import { element } from "../ui/element";
+import type { BrokerApi, Link, ServiceType } from "./BrokerApi";
+import { offerList } from "./OfferList";
+
+export class BrokerPage {
+  private readonly address = element("code", { class: "broker-address dim" });
+  private readonly types = element("div", { class: "types" });
+  private readonly links = element("ul", { class: "links" });
+  private readonly heading = element("h2", {}, "Offers");
+  private readonly declared = element("div", {});
+  private readonly constraint = field("constraint", "battery > 0.5 and exist camera");
+  private readonly preference = field("preference", "min load");
+  private readonly answer = element("div", { class: "answer" });
+  private type = "";
+  private asked = 0;
+
+  constructor(private readonly api: BrokerApi) {}
+
+  show(page: HTMLElement): void {
+    page.classList.add("broker-page");
+    page.append(
+      element(
+        "header",
+        { class: "toolbar" },
+        element(
+          "div",
+          { class: "toolbar-start" },
+          element("a", { class: "wordmark", href: "./", title: "The simulation" }, "GSV"),
+          element("h1", {}, "Broker"),
+          this.address,
+        ),
+      ),
+      element(
+        "nav",
+        { class: "sidebar", "aria-label": "Service types and links" },
+        element("h2", {}, "Service types"),
+        this.types,
+        element("h2", {}, "Links"),
+        this.links,
+      ),
+      element("main", { class: "view" }, this.heading, this.declared, this.question(), this.answer),
+    );
+  }
+
+  async load(): Promise<void> {
+    void this.loadLinks();
+    try {
+      const { broker, types } = await this.api.types();
+      this.address.textContent = broker;
+      this.types.replaceChildren(...types.map((type) => this.typeButton(type)));
+      if (types.length === 0) this.types.replaceChildren(hint("The broker knows no service type yet."));
+      if (types[0]) await this.choose(types[0]);
+    } catch (error) {
+      this.complain(error);
+    }
+  }
+
+  private question(): HTMLElement {
+    const form = element(
+      "form",
+      { class: "question" },
+      element("label", {}, element("span", {}, "Constraint"), this.constraint),
+      element("label", {}, element("span", {}, "Preference"), this.preference),
+      element("button", { class: "button primary", type: "submit" }, "Find"),
+    );
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void this.find();
+    });
+    return form;
+  }
+
+  private typeButton(type: ServiceType): HTMLElement {
+    const button = element(
+      "button",
+      { class: "robot type", type: "button", "aria-pressed": "false", "data-type": type.name },
+      element("span", { class: "robot-name" }, type.name),
+      element("span", { class: "robot-behaviour" }, type.superTypes.map((name) => `: ${name}`).join(" ")),
+      type.masked && element("span", { class: "number" }, "masked"),
+    );
+    button.addEventListener("click", () => void this.choose(type));
+    return button;
+  }
+
+  private async choose(type: ServiceType): Promise<void> {
+    this.type = type.name;
+    for (const button of this.types.querySelectorAll("button")) {
+      button.setAttribute("aria-pressed", String(button.dataset.type === type.name));
+    }
+    this.heading.textContent = type.name;
+    this.declared.replaceChildren(declaration(type));
+    await this.find();
+  }
+
+  // Answers that come after a later question are passed over.
+  private async find(): Promise<void> {
+    const turn = ++this.asked;
+    const constraint = this.constraint.value.trim();
+    try {
+      const answer = await this.api.offers({
+        type: this.type,
+        constraint,
+        preference: this.preference.value.trim(),
+      });
+      if (turn === this.asked) this.answer.replaceChildren(...offerList(answer, constraint));
+    } catch (error) {
+      if (turn === this.asked) this.complain(error);
+    }
+  }
+
+  private async loadLinks(): Promise<void> {
+    try {
+      const links = await this.api.links();
+      this.links.replaceChildren(...links.map(linkRow));
+      if (links.length === 0) this.links.replaceChildren(hint("None."));
+    } catch (error) {
+      this.links.replaceChildren(hint((error as Error).message));
+    }
+  }
+
+  private complain(error: unknown): void {
+    this.answer.replaceChildren(element("p", { class: "problem", role: "alert" }, (error as Error).message));
+  }
+}
+
+function field(name: string, placeholder: string): HTMLInputElement {
+  return element("input", { name, placeholder, spellcheck: "false", autocomplete: "off", autocapitalize: "off" });
+}
+
+function hint(text: string): HTMLElement {
+  return element("p", { class: "hint" }, text);
+}
+
+function declaration({ interfaceName, properties }: ServiceType): HTMLElement {
+  return element(
+    "details",
+    { class: "declared" },
+    element("summary", {}, `${properties.length} declared properties`),
+    interfaceName !== "" && element("p", { class: "dim" }, element("code", {}, interfaceName)),
+    element(
+      "dl",
+      { class: "properties" },
+      ...properties.flatMap(({ name, type, mandatory, readonly }) => [
+        element("dt", {}, name),
+        element("dd", {}, `${type}${mandatory ? ", mandatory" : ""}${readonly ? ", read-only" : ""}`),
+      ]),
+    ),
+  );
+}
+
+function linkRow({ name, address, rules, answers }: Link): HTMLElement {
+  return element(
+    "li",
+    { class: "link", "data-answers": String(answers) },
+    element("span", { class: "dot", "data-phase": answers ? "running" : "dead", "aria-hidden": "true" }),
+    element("span", { class: "robot-name" }, name),
+    element("span", { class: "robot-behaviour" }, answers ? address : `${address} does not answer`),
+    element("span", { class: "robot-behaviour" }, rules),
+  );
+}
