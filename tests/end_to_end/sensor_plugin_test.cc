@@ -140,7 +140,8 @@ TEST_F(SensorPlugin, IsReadThroughItsOwnInterface) {
     ASSERT_TRUE(client);
     const auto offers = client->Query(broker::SimulationServiceType().name, "", "first", 1);
     ASSERT_TRUE(offers);
-    const auto service = sba::SimulationService::_narrow(offers->front().object);
+    const sba::SimulationService_var service =
+        sba::SimulationService::_narrow(offers->front().object);
     sba::SimulationSpecification specification;
     specification.world = world_.c_str();
     specification.pacing = sba::LOCKSTEP;
@@ -151,15 +152,15 @@ TEST_F(SensorPlugin, IsReadThroughItsOwnInterface) {
     specification.keep = true;
     const sba::Simulation_var simulation = service->create_simulation(specification);
     const PortableServer::POA_var poa = orb::RootPoa(*orb);
-    ReadsInInit behaviour;
-    const PortableServer::ObjectId_var id = poa->activate_object(&behaviour);
+    const PortableServer::Servant_var<ReadsInInit> behaviour(new ReadsInInit);
+    const PortableServer::ObjectId_var id = poa->activate_object(behaviour.in());
     sba::RobotSpecification robot;
     robot.model = robot_.c_str();
     robot.start = {0, 0, 0, 0, 0, 0};
-    robot.behaviour = behaviour._this();
+    robot.behaviour = behaviour.in()->_this();
     const CORBA::String_var name(simulation->add_robot(robot));
-    EXPECT_TRUE(behaviour.is_typed);
-    EXPECT_NEAR(behaviour.distance, kDistance, 1e-6);
+    EXPECT_TRUE(behaviour.in()->is_typed);
+    EXPECT_NEAR(behaviour.in()->distance, kDistance, 1e-6);
     poa->deactivate_object(id);
   }
   (*orb)->destroy();
