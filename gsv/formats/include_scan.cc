@@ -34,12 +34,13 @@ std::string IncludeLeftOut(const std::string& uri, const base::Error& error) {
          " is left out: " + error.message;
 }
 
-base::Result<fs::path> IncludeScan::FileOf(const std::string& uri,
-                                           const fs::path& naming_file) const {
+base::Result<fs::path> IncludeScan::FileOf(const std::string& uri, const fs::path& naming_file) {
+  const auto key = std::make_pair(uri, naming_file.string());
+  if (const auto known = found_.find(key); known != found_.end()) return known->second;
   auto found = finder_.Find(uri, naming_file);
-  if (!found) return found;
   std::error_code error;
-  return fs::is_directory(*found, error) ? ModelFileIn(*found) : found;
+  if (found && fs::is_directory(*found, error)) found = ModelFileIn(*found);
+  return found_.emplace(key, std::move(found)).first->second;
 }
 
 base::Status IncludeScan::Scan(XMLElement& element, const fs::path& file) {

@@ -25,9 +25,9 @@ class IncludeScan {
   // Fails when includes go round or deeper than the limit.
   base::Status Scan(tinyxml2::XMLElement& element, const std::filesystem::path& file);
 
-  // The file an <include> names.
+  // The file an <include> names; looked for once.
   base::Result<std::filesystem::path> FileOf(const std::string& uri,
-                                             const std::filesystem::path& naming_file) const;
+                                             const std::filesystem::path& naming_file);
 
   // Each <uri> as it is written, and its file.
   const std::map<std::string, std::filesystem::path>& files() const { return files_; }
@@ -42,6 +42,7 @@ class IncludeScan {
   const ReadLimits& limits_;
   base::Problems& problems_;
   std::map<std::string, std::filesystem::path> files_;
+  std::map<std::pair<std::string, std::string>, base::Result<std::filesystem::path>> found_;
   std::vector<std::filesystem::path> open_;  // the chain of files being visited
   std::map<std::filesystem::path, bool> done_;
 };

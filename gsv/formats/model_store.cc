@@ -31,12 +31,17 @@ void Append(const std::string& plugins, XMLElement& model) {
 
 base::Result<std::shared_ptr<const StoredFile>> ModelStore::Read(const std::filesystem::path& file,
                                                                  const std::string& plugins) {
+  const auto name = std::make_pair(file.string(), plugins);
+  if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
   std::error_code ignored;
   const auto key = std::make_pair(std::filesystem::weakly_canonical(file, ignored), plugins);
-  if (const auto it = files_.find(key); it != files_.end()) return it->second;
-  auto stored = ReadFresh(file, plugins);
-  if (!stored) return Fail(stored.error());
-  return files_[key] = std::make_shared<const StoredFile>(std::move(*stored));
+  auto& known = files_[key];
+  if (known == nullptr) {
+    auto stored = ReadFresh(file, plugins);
+    if (!stored) return Fail(stored.error());
+    known = std::make_shared<const StoredFile>(std::move(*stored));
+  }
+  return by_name_[name] = known;
 }
 
 base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file,

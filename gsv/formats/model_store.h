@@ -57,6 +57,8 @@ class ModelStore {
   TextureReader textures_;
   MeshReader meshes_;
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
+  // The same as they were named, so that the file system is asked once.
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;
 };
 
 }  // namespace gsv::formats

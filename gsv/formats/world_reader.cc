@@ -195,7 +195,8 @@ class WorldReader {
         TakeLight(*child);
       } else if (kind == "frame") {
         TakeFrame(*child);
-      } else if (kind == "physics" || kind == "gravity" || kind == "scene") {
+      } else if (kind == "physics" || kind == "gravity" || kind == "scene" ||
+                 kind == "magnetic_field" || kind == "spherical_coordinates") {
         surroundings_.push_back(child);
       } else if (kind == "actor" || kind == "population" || kind == "road" || kind == "joint") {
         context_.Warn("<" + kind + "> in a world is not supported and left out", Place(*child));
