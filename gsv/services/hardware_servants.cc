@@ -191,7 +191,7 @@ class HardwareServant final : public POA_sba::JointedHardware {
 }  // namespace
 
 sba::Hardware_ptr ActivateHardware(AgentPtr agent, GroupPtr group) {
-  return group->Activate<sba::Hardware>(new HardwareServant(std::move(agent), group));
+  return group->ActivateAs<sba::Hardware>(new HardwareServant(std::move(agent), group));
 }
 
 }  // namespace gsv::services

@@ -35,13 +35,13 @@ void ServantGroup::DeactivateId(const std::string& id) {
   }
 }
 
-CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant) {
+CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant, const char* type) {
   const PortableServer::ServantBase_var owned(servant);  // the POA holds on to it
   const std::lock_guard lock(mutex_);
   if (closed_) throw sba::Ended("the robot is gone");
   const PortableServer::ObjectId_var id = poa_->activate_object(servant);
   ids_.insert(Key(id));
-  return poa_->id_to_reference(id);
+  return type == nullptr ? poa_->id_to_reference(id) : poa_->create_reference_with_id(id, type);
 }
 
 void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {

@@ -20,14 +20,22 @@ class ServantGroup {
   // Takes the servant over and gives a reference to it. Raises sba::Ended after DeactivateAll().
   template <typename Interface>
   typename Interface::_ptr_type Activate(PortableServer::ServantBase* servant) {
-    const CORBA::Object_var object = Adopt(servant);
+    const CORBA::Object_var object = Adopt(servant, nullptr);
+    return Interface::_narrow(object);
+  }
+  // The same, and the reference says no more of its type than `Interface`, though the servant may
+  // be of a later one: clients that were made before that know what they get.
+  template <typename Interface>
+  typename Interface::_ptr_type ActivateAs(PortableServer::ServantBase* servant) {
+    const CORBA::Object_var object = Adopt(servant, Interface::_PD_repoId);
     return Interface::_narrow(object);
   }
   void Deactivate(PortableServer::ServantBase* servant);
   void DeactivateAll();
 
  private:
-  CORBA::Object_ptr Adopt(PortableServer::ServantBase* servant);
+  // `type`: a repository id; null: the servant's own.
+  CORBA::Object_ptr Adopt(PortableServer::ServantBase* servant, const char* type);
   void DeactivateId(const std::string& id);
 
   PortableServer::POA_var poa_;
