@@ -221,7 +221,7 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   const sba::TouchPoints_var touches = Opened<sba::Bumper>(factory, "contact")->touches();
   ASSERT_EQ(touches->length(), 1u);
   EXPECT_STREQ(touches.in()[0].other, "wall");
-  const sba::JointReadings_var joints =
+  const sba::EncoderReadings_var joints =
       Opened<sba::JointEncoders>(factory, "joint_encoders")->joints();
   ASSERT_EQ(joints->length(), 1u);
   EXPECT_STREQ(joints.in()[0].joint, "lever");

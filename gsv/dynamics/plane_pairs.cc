@@ -13,8 +13,7 @@ bool IsPlane(const btBroadphaseProxy& proxy) {
 
 // The boxes are wider than the bodies by the distance at which contacts begin.
 bool IsAbove(const btBroadphaseProxy& body, const btBroadphaseProxy& plane) {
-  const auto& shape =
-      *static_cast<const btStaticPlaneShape*>(ObjectOf(plane).getCollisionShape());
+  const auto& shape = *static_cast<const btStaticPlaneShape*>(ObjectOf(plane).getCollisionShape());
   const btTransform& place = ObjectOf(plane).getWorldTransform();
   const btVector3 normal = place.getBasis() * shape.getPlaneNormal();
   const btVector3 lowest(normal.x() > 0 ? body.m_aabbMin.x() : body.m_aabbMax.x(),

@@ -128,9 +128,9 @@ class BumperServant final : public SensorServant<POA_sba::Bumper> {
 class JointEncodersServant final : public SensorServant<POA_sba::JointEncoders> {
  public:
   using SensorServant::SensorServant;
-  sba::JointReadings* joints() override {
+  sba::EncoderReadings* joints() override {
     const Reading reading = Read();
-    sba::JointReadings_var joints = new sba::JointReadings;
+    sba::EncoderReadings_var joints = new sba::EncoderReadings;
     joints->length(static_cast<CORBA::ULong>(reading.values.size() / 2));
     for (CORBA::ULong i = 0; i < joints->length(); ++i) {
       joints[i].joint = reading.labels->at(i).c_str();
