@@ -12,6 +12,9 @@
 #include "apps/gsv/run.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/hosting/recorded_commands.h"
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/time.h"
 #include "gsv/recording/decoded_messages.h"
 #include "gsv/recording/recording_info.h"
 
@@ -72,24 +75,32 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   return Understand(arguments);
 }
 
+base::Result<hosting::TimedCommand> CommandOf(const messages::gsv_msgs::Command& message) {
+  const hosting::TimedCommand command{
+      messages::ToSimTime(message.stamp),
+      {message.linear_m_s, message.lateral_m_s, message.angular_rad_s}};
+  if (world::IsFinite(command.command)) return command;
+  return base::Fail(base::ErrorCode::kCorrupt, "a recorded command is not finite",
+                    std::string(kCommandsTopic) + " of " + message.robot);
+}
+
 // Has every robot do what it did then.
 base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions& run) {
-  recording::Selection selection;
-  selection.topics = {std::string(kCommandsTopic)};
-  auto messages = recording::DecodedMessages::Open(reader, selection);
-  if (!messages) return base::Fail(messages.error());
+  using messages::gsv_msgs::Command;
+  const recording::Summary& summary = reader.summary();
   auto commands = std::make_shared<std::map<std::string, hosting::TimedCommands>>();
+  recording::MessageCursor cursor = reader.Messages();
   for (;;) {
-    const auto message = messages->Next();
+    const auto record = cursor.Next();
+    if (!record) return base::Fail(record.error());
+    if (!*record) break;
+    const auto channel = summary.channels.find((*record)->channel_id);
+    if (channel == summary.channels.end() || channel->second.topic != kCommandsTopic) continue;
+    const auto message = messages::Decode<Command>((*record)->data);
     if (!message) return base::Fail(message.error());
-    if (!*message) break;
-    const auto& content = (*message)->content;
-    const auto& stamp = content.at("stamp");
-    (*commands)[content.at("robot").get<std::string>()].push_back(
-        {std::chrono::seconds(stamp.at("sec").get<std::int64_t>()) +
-             std::chrono::nanoseconds(stamp.at("nanosec").get<std::int64_t>()),
-         {content.at("linear_m_s").get<double>(), content.at("lateral_m_s").get<double>(),
-          content.at("angular_rad_s").get<double>()}});
+    const auto command = CommandOf(*message);
+    if (!command) return base::Fail(command.error());
+    (*commands)[message->robot].push_back(*command);
   }
   run.make_behaviour = [commands](const std::string& robot, const std::string& behaviour) {
     return std::make_shared<hosting::RecordedCommands>(behaviour, (*commands)[robot]);
