@@ -63,8 +63,5 @@ ConvexPiece BoundingDisc(const ConvexPiece& piece);
 
 inline double Dot(Vector2 a, Vector2 b) { return a.x * b.x + a.y * b.y; }
 inline double Cross(Vector2 a, Vector2 b) { return a.x * b.y - a.y * b.x; }
-inline Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.y + b.y}; }
-inline Vector2 operator-(Vector2 a, Vector2 b) { return {a.x - b.x, a.y - b.y}; }
-inline Vector2 operator*(double s, Vector2 a) { return {s * a.x, s * a.y}; }
 
 }  // namespace gsv::dynamics

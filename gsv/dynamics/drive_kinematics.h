@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "gsv/base/error.h"
-#include "gsv/dynamics/planar_motion.h"
+#include "gsv/geometry/planar_motion.h"
 #include "gsv/model/model.h"
 #include "gsv/world/state.h"
 
@@ -45,7 +45,7 @@ class DriveKinematics {
   world::DriveCommand TrueMotion(const world::DriveCommand& motion) const;
 
   // The twist of the model's origin when the drive turns the wheels for `motion`.
-  Twist OriginTwist(const world::DriveCommand& motion) const {
+  geometry::Twist OriginTwist(const world::DriveCommand& motion) const {
     const world::DriveCommand moves = wheels_are_as_believed_ ? motion : TrueMotion(motion);
     return {moves.linear, moves.lateral - moves.angular * reference_x_, moves.angular};
   }

@@ -102,7 +102,7 @@ TEST(DriveKinematics, AckermannTurnsNoTighterThanItsSteering) {
   EXPECT_NEAR(drive.Next(Commanded({2, 0, 1}), {}, 0.01).angular, 1, 1e-12);
   EXPECT_FALSE(drive.can_turn_on_the_spot());
   // The rear axle, 0.3 m behind the origin, does not slip sideways.
-  const Twist twist = drive.OriginTwist({2, 0, 1});
+  const geometry::Twist twist = drive.OriginTwist({2, 0, 1});
   EXPECT_NEAR(twist.y - twist.angular * 0.3, 0, 1e-12);
   EXPECT_EQ(twist.x, 2);
 }

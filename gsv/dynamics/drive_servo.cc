@@ -9,7 +9,7 @@ using geometry::Vector3;
 
 void HoldBase(const DriveServo& servo, const geometry::Pose& world_from_model, const Vector3& point,
               double grip, double seconds, Vector3& velocity_of_point, Vector3& angular_velocity) {
-  const Twist twist = servo.kinematics().OriginTwist(servo.motion());
+  const geometry::Twist twist = servo.kinematics().OriginTwist(servo.motion());
   const double yaw = geometry::Yaw(world_from_model.orientation);
   const Vector3 arm = point - world_from_model.position;
   const double wanted_x = std::cos(yaw) * twist.x - std::sin(yaw) * twist.y - twist.angular * arm.y;

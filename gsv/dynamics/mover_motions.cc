@@ -15,7 +15,7 @@ void MoverMotions::Store(std::uint32_t m, const Journey& journey, double seconds
                          world::State& state) const {
   const Mover& mover = scene_.movers()[m];
   world::BodyState& body = state.bodies[mover.body];
-  const PlanarPosition& at = positions[m];
+  const geometry::PlanarPosition& at = positions[m];
   body.world_from_model.position.x = at.x;
   body.world_from_model.position.y = at.y;
   if (journey.travel.angle != 0) {
@@ -23,7 +23,7 @@ void MoverMotions::Store(std::uint32_t m, const Journey& journey, double seconds
         Normalized(geometry::FromAxisAngle({0, 0, 1}, journey.travel.angle) *
                    body.world_from_model.orientation);
   }
-  const Twist twist = kinematics(m).OriginTwist(drives[m]);
+  const geometry::Twist twist = kinematics(m).OriginTwist(drives[m]);
   body.linear_velocity = {at.cosine * twist.x - at.sine * twist.y,
                           at.sine * twist.x + at.cosine * twist.y, 0};
   body.angular_velocity = {0, 0, twist.angular};

@@ -8,14 +8,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "gsv/dynamics/planar_motion.h"
 #include "gsv/dynamics/planar_scene.h"
+#include "gsv/geometry/planar_motion.h"
 #include "gsv/world/state.h"
 
 namespace gsv::dynamics {
 
 // Where a body stands and how it heads, without a detour through angles.
-inline PlanarPosition PositionOf(const geometry::Pose& pose) {
+inline geometry::PlanarPosition PositionOf(const geometry::Pose& pose) {
   const geometry::Quaternion& q = pose.orientation;
   const double cosine = 1 - 2 * (q.y * q.y + q.z * q.z), sine = 2 * (q.w * q.z + q.x * q.y);
   const double length = std::sqrt(cosine * cosine + sine * sine);
@@ -23,7 +23,7 @@ inline PlanarPosition PositionOf(const geometry::Pose& pose) {
   return {pose.position.x, pose.position.y, cosine / length, sine / length};
 }
 
-inline double SpeedOf(const Twist& twist) {
+inline double SpeedOf(const geometry::Twist& twist) {
   return twist.y == 0 ? std::abs(twist.x) : std::sqrt(twist.x * twist.x + twist.y * twist.y);
 }
 
@@ -44,7 +44,7 @@ class MoverMotions {
   void Load(std::uint32_t mover, const world::State& state);
   // Lets it follow its command in a first leg of so many seconds; in one of 0 s everybody stays.
   void FollowCommand(std::uint32_t mover, const world::State& state, double seconds);
-  void SetLeg(std::uint32_t mover, const Twist& twist, double seconds);
+  void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);
   // Moves it to its leg's end.
   void RunLeg(std::uint32_t mover, Journey& journey);
   // Writes where it is, how it moves and how its wheels turned to `state`.
@@ -56,9 +56,9 @@ class MoverMotions {
   }
 
   // One entry for each of the scene's movers.
-  std::vector<PlanarPosition> positions;
+  std::vector<geometry::PlanarPosition> positions;
   std::vector<world::DriveCommand> drives;  // while it moves, and then at the end
-  std::vector<Twist> twists;                // in this leg
+  std::vector<geometry::Twist> twists;      // in this leg
   std::vector<double> times;                // in this leg; 0 for who stands
   std::vector<double> reaches;              // how far any part may get in this step
   std::vector<Vector2> normals;             // of those stopped: to what is in the way
@@ -84,7 +84,7 @@ inline void MoverMotions::FollowCommand(std::uint32_t m, const world::State& sta
   reaches[m] = (SpeedOf(twists[m]) + std::abs(twists[m].angular) * kind.spin_radius) * seconds;
 }
 
-inline void MoverMotions::SetLeg(std::uint32_t m, const Twist& twist, double seconds) {
+inline void MoverMotions::SetLeg(std::uint32_t m, const geometry::Twist& twist, double seconds) {
   twists[m] = twist;
   times[m] = Moves(twist) ? seconds : 0;
 }
@@ -92,7 +92,7 @@ inline void MoverMotions::SetLeg(std::uint32_t m, const Twist& twist, double sec
 inline void MoverMotions::RunLeg(std::uint32_t m, Journey& journey) {
   const double time = times[m];
   if (time <= 0) return;
-  const Twist& twist = twists[m];
+  const geometry::Twist& twist = twists[m];
   positions[m] = Advance(positions[m], twist, time);
   journey.distance += SpeedOf(twist) * time;
   journey.travel.forward += twist.x * time;

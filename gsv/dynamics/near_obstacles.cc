@@ -22,7 +22,7 @@ void NearObstacles::Clear(std::size_t chunk) {
   chunks_[chunk].touching.clear();
 }
 
-void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const PlanarPosition& at,
+void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
                          double travel) {
   const double within = travel + kTouchGap;
   const double radius = scene_.footprint(mover).radius;
@@ -38,8 +38,8 @@ void NearObstacles::Find(std::size_t chunk, std::uint32_t mover, const PlanarPos
   clearance = {origin, nearest - radius - kRounding};
 }
 
-double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const PlanarPosition& at, double within,
-                             double look, bool loose) const {
+double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const geometry::PlanarPosition& at,
+                             double within, double look, bool loose) const {
   const Mover& mover = scene_.movers()[m];
   const Footprint& footprint = scene_.kind(mover).footprint;
   const Vector2 origin{at.x, at.y};
@@ -71,20 +71,20 @@ double NearObstacles::Search(Chunk& chunk, std::uint32_t m, const PlanarPosition
   return nearest;
 }
 
-Separation NearObstacles::SeparationAt(const Near& near, const PlanarPosition& at) const {
+Separation NearObstacles::SeparationAt(const Near& near, const geometry::PlanarPosition& at) const {
   if (at == near.found_at) return near.separation;
   ConvexPiece placed;
   Place(PieceOf(near).shape, at, placed);
   return Separate(placed, ObstacleOf(near).shape);
 }
 
-void NearObstacles::Stop(std::size_t chunk, std::span<const PlanarPosition> starts,
-                         std::span<const Twist> twists, std::span<double> times,
+void NearObstacles::Stop(std::size_t chunk, std::span<const geometry::PlanarPosition> starts,
+                         std::span<const geometry::Twist> twists, std::span<double> times,
                          std::span<Vector2> normals) const {
   for (const Near& near : chunks_[chunk].near) {
     double& time = times[near.mover];
     if (time <= 0) continue;
-    const PlanarPosition& start = starts[near.mover];
+    const geometry::PlanarPosition& start = starts[near.mover];
     const auto impact = FindImpact(MovingPiece{&PieceOf(near).shape, start, twists[near.mover]},
                                    ObstacleOf(near).shape, time, SeparationAt(near, start).normal);
     if (!impact) continue;
@@ -99,7 +99,7 @@ void NearObstacles::AddTouching(std::vector<BodyPair>& touching) const {
   }
 }
 
-void NearObstacles::Collect(std::span<const PlanarPosition> positions,
+void NearObstacles::Collect(std::span<const geometry::PlanarPosition> positions,
                             ContactCollector& contacts) const {
   for (const Chunk& chunk : chunks_) {
     for (const Near& near : chunk.near) {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "gsv/dynamics/contact_collector.h"
-#include "gsv/dynamics/planar_motion.h"
 #include "gsv/dynamics/planar_scene.h"
+#include "gsv/geometry/planar_motion.h"
 
 namespace gsv::dynamics {
 
@@ -28,24 +28,26 @@ class NearObstacles {
   // Starts a chunk's list; then its movers are to be added in ascending order.
   void Clear(std::size_t chunk);
   // Adds what a mover at `at` may meet if no part of it moves further than `travel`.
-  void Find(std::size_t chunk, std::uint32_t mover, const PlanarPosition& at, double travel);
+  void Find(std::size_t chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
+            double travel);
 
   // Stops the chunk's movers, which start at starts[m] and move for times[m], at the first obstacle
   // in their way: times[m] becomes when, normals[m] the direction of it.
-  void Stop(std::size_t chunk, std::span<const PlanarPosition> starts,
-            std::span<const Twist> twists, std::span<double> times,
+  void Stop(std::size_t chunk, std::span<const geometry::PlanarPosition> starts,
+            std::span<const geometry::Twist> twists, std::span<double> times,
             std::span<Vector2> normals) const;
 
   // Appends to `touching` who touched what when it was found.
   void AddTouching(std::vector<BodyPair>& touching) const;
   // Offers the contacts of all movers at `positions` with what was found.
-  void Collect(std::span<const PlanarPosition> positions, ContactCollector& contacts) const;
+  void Collect(std::span<const geometry::PlanarPosition> positions,
+               ContactCollector& contacts) const;
 
  private:
   struct Near {
     std::uint32_t mover, piece, obstacle;
     const ObstacleField* field;
-    PlanarPosition found_at;
+    geometry::PlanarPosition found_at;
     Separation separation;  // there
   };
   // Every obstacle is further than `radius` from any part of the mover, however it is turned, with
@@ -63,11 +65,11 @@ class NearObstacles {
     return scene_.footprint(near.mover).pieces[near.piece];
   }
   const Obstacle& ObstacleOf(const Near& near) const { return (*near.field)[near.obstacle]; }
-  Separation SeparationAt(const Near& near, const PlanarPosition& at) const;
+  Separation SeparationAt(const Near& near, const geometry::PlanarPosition& at) const;
   // Lists the obstacles within reach; gives how far the nearest, of those within `look`, is from
   // the mover's origin. `look` is at least its radius and `within`.
-  double Search(Chunk& chunk, std::uint32_t mover, const PlanarPosition& at, double within,
-                double look, bool loose) const;
+  double Search(Chunk& chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
+                double within, double look, bool loose) const;
 
   const PlanarScene& scene_;
   std::vector<Clearance> clearances_;

@@ -39,7 +39,7 @@ void NearPairs::Clear() {
   touching_.clear();
 }
 
-void NearPairs::FindCandidates(std::span<const PlanarPosition> starts,
+void NearPairs::FindCandidates(std::span<const geometry::PlanarPosition> starts,
                                std::span<const double> travels) {
   centres_.resize(starts.size());
   radii_.resize(starts.size());
@@ -52,7 +52,8 @@ void NearPairs::FindCandidates(std::span<const PlanarPosition> starts,
   candidates_.assign(found.begin(), found.end());
 }
 
-void NearPairs::Find(std::span<const PlanarPosition> starts, std::span<const double> travels) {
+void NearPairs::Find(std::span<const geometry::PlanarPosition> starts,
+                     std::span<const double> travels) {
   Clear();
   for (const auto& [first, second] : candidates_) {
     AddIfNear(first, second, starts, travels[first] + travels[second] + kTouchGap);
@@ -60,7 +61,7 @@ void NearPairs::Find(std::span<const PlanarPosition> starts, std::span<const dou
 }
 
 void NearPairs::FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
-                       std::span<const PlanarPosition> starts) {
+                       std::span<const geometry::PlanarPosition> starts) {
   Clear();
   for (const std::uint32_t other : others) {
     AddIfNear(std::min(mover, other), std::max(mover, other), starts, kTouchGap);
@@ -68,8 +69,8 @@ void NearPairs::FindOf(std::uint32_t mover, std::span<const std::uint32_t> other
 }
 
 void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
-                          std::span<const PlanarPosition> starts, double within) {
-  const PlanarPosition &start_a = starts[first], &start_b = starts[second];
+                          std::span<const geometry::PlanarPosition> starts, double within) {
+  const geometry::PlanarPosition &start_a = starts[first], &start_b = starts[second];
   const Footprint &a = scene_.footprint(first), &b = scene_.footprint(second);
   const Vector2 apart{start_b.x - start_a.x, start_b.y - start_a.y};
   const double furthest = a.radius + b.radius + within + kRounding;
@@ -102,8 +103,9 @@ void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
   if (touches) touching_.push_back({scene_.movers()[first].body, scene_.movers()[second].body});
 }
 
-void NearPairs::Stop(std::span<const PlanarPosition> starts, std::span<const Twist> twists,
-                     std::span<double> times, std::span<Vector2> normals) {
+void NearPairs::Stop(std::span<const geometry::PlanarPosition> starts,
+                     std::span<const geometry::Twist> twists, std::span<double> times,
+                     std::span<Vector2> normals) {
   outcomes_.resize(times.size());
   for (const NearPair& pair : pairs_) {
     for (const std::uint32_t m : {pair.first, pair.second}) outcomes_[m] = {times[m], 0, 0};
@@ -160,15 +162,15 @@ std::optional<Impact> NearPairs::PairImpact(const Motions& motions, const NearPa
   // One has come to its end and stands; the other goes on.
   a.start = Advance(a.start, a.twist, both);
   b.start = Advance(b.start, b.twist, both);
-  (first_time <= both ? a : b).twist = Twist{};
+  (first_time <= both ? a : b).twist = geometry::Twist{};
   impact = FirstImpact(pair, a, b, end - both);
   if (impact) impact->time += both;
   return impact;
 }
 
 Separation NearPairs::SeparationAt(const NearPair& pair, const PiecePair& pieces,
-                                   const PlanarPosition& first_at,
-                                   const PlanarPosition& second_at) const {
+                                   const geometry::PlanarPosition& first_at,
+                                   const geometry::PlanarPosition& second_at) const {
   if (first_at == pieces.first_found_at && second_at == pieces.second_found_at) {
     return pieces.separation;
   }
@@ -198,7 +200,7 @@ void NearPairs::AddTouching(std::vector<BodyPair>& touching) const {
   touching.insert(touching.end(), touching_.begin(), touching_.end());
 }
 
-void NearPairs::Collect(std::span<const PlanarPosition> positions,
+void NearPairs::Collect(std::span<const geometry::PlanarPosition> positions,
                         ContactCollector& contacts) const {
   for (const NearPair& pair : pairs_) {
     const BodyPair bodies{scene_.movers()[pair.first].body, scene_.movers()[pair.second].body};

@@ -33,37 +33,40 @@ class NearPairs {
 
   // Whether the candidates hold for the mover: no part of it leaves its room if it moves no further
   // than `travel` from `at`. Threads: may run concurrently.
-  bool HasRoom(std::uint32_t mover, const PlanarPosition& at, double travel) const {
+  bool HasRoom(std::uint32_t mover, const geometry::PlanarPosition& at, double travel) const {
     const Room& room = rooms_[mover];
     const double left = room.radius - travel;
     const Vector2 moved = Vector2{at.x, at.y} - room.centre;
     return left > 0 && Dot(moved, moved) < left * left;
   }
-  void FindCandidates(std::span<const PlanarPosition> starts, std::span<const double> travels);
+  void FindCandidates(std::span<const geometry::PlanarPosition> starts,
+                      std::span<const double> travels);
 
   // Lists the pairs that may meet while no part of mover m moves further than travels[m]. All
   // movers have room.
-  void Find(std::span<const PlanarPosition> starts, std::span<const double> travels);
+  void Find(std::span<const geometry::PlanarPosition> starts, std::span<const double> travels);
   // Lists those of one mover with `others`, in ascending order, as they stand. Nobody needs room.
   void FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
-              std::span<const PlanarPosition> starts);
+              std::span<const geometry::PlanarPosition> starts);
 
   // Stops movers, which start at starts[m] and move for times[m], where they meet: times[m] becomes
   // when, normals[m] the direction of who is in the way.
-  void Stop(std::span<const PlanarPosition> starts, std::span<const Twist> twists,
-            std::span<double> times, std::span<Vector2> normals);
+  void Stop(std::span<const geometry::PlanarPosition> starts,
+            std::span<const geometry::Twist> twists, std::span<double> times,
+            std::span<Vector2> normals);
 
   // Appends to `touching` who touched whom when found.
   void AddTouching(std::vector<BodyPair>& touching) const;
   // Offers the contacts of movers at `positions`.
-  void Collect(std::span<const PlanarPosition> positions, ContactCollector& contacts) const;
+  void Collect(std::span<const geometry::PlanarPosition> positions,
+               ContactCollector& contacts) const;
 
  private:
   static constexpr int kRounds = 8;
 
   struct PiecePair {
     std::uint32_t first, second;  // pieces of the two footprints
-    PlanarPosition first_found_at, second_found_at;
+    geometry::PlanarPosition first_found_at, second_found_at;
     Separation separation;  // there
   };
   struct NearPair {
@@ -80,16 +83,17 @@ class NearPairs {
     int since, new_since;  // the round that found this, as seen by this round and by the next
   };
   struct Motions {
-    std::span<const PlanarPosition> starts;
-    std::span<const Twist> twists;
+    std::span<const geometry::PlanarPosition> starts;
+    std::span<const geometry::Twist> twists;
     std::span<const double> times;
   };
 
   void Clear();
-  void AddIfNear(std::uint32_t first, std::uint32_t second, std::span<const PlanarPosition> starts,
-                 double within);
+  void AddIfNear(std::uint32_t first, std::uint32_t second,
+                 std::span<const geometry::PlanarPosition> starts, double within);
   Separation SeparationAt(const NearPair& pair, const PiecePair& pieces,
-                          const PlanarPosition& first_at, const PlanarPosition& second_at) const;
+                          const geometry::PlanarPosition& first_at,
+                          const geometry::PlanarPosition& second_at) const;
   void FindImpacts(const Motions& motions, int round);
   std::optional<Impact> PairImpact(const Motions& motions, const NearPair& pair) const;
   std::optional<Impact> FirstImpact(const NearPair& pair, MovingPiece a, MovingPiece b,

@@ -96,7 +96,7 @@ void PlanarMover::Slice(const world::State& state) {
 }
 
 void PlanarMover::AddSight(std::uint32_t mover) {
-  const PlanarPosition& at = motions_.positions[mover];
+  const geometry::PlanarPosition& at = motions_.positions[mover];
   sights_.push_back(
       {{at.x, at.y}, scene_.footprint(mover).radius + motions_.reaches[mover] + kLookAround});
 }
@@ -167,7 +167,7 @@ void PlanarMover::EndChunk(std::size_t index, double seconds, world::State& stat
     } else {
       motions_.Store(m, journey, seconds, state);
     }
-    motions_.SetLeg(m, Twist{}, 0);
+    motions_.SetLeg(m, geometry::Twist{}, 0);
   }
 }
 
@@ -184,7 +184,7 @@ void PlanarMover::SlideAlong(double seconds) {
   for (const Stopped& stopped : stopped_) {
     const std::uint32_t m = stopped.mover;
     world::DriveCommand& motion = motions_.drives[m];
-    const PlanarPosition& at = motions_.positions[m];
+    const geometry::PlanarPosition& at = motions_.positions[m];
     const Vector2 normal = motions_.normals[m];
     const Vector2 into{at.cosine * normal.x + at.sine * normal.y,
                        at.cosine * normal.y - at.sine * normal.x};

@@ -19,7 +19,7 @@ constexpr double kTraction = 1;
 // Of the point of a planar body, in the world, when its drive moves so.
 Vector3 VelocityAt(const PlanarBody& planar, const world::DriveCommand& motion,
                    const geometry::Pose& world_from_model, const Vector3& point) {
-  const Twist twist = planar.kinematics->OriginTwist(motion);
+  const geometry::Twist twist = planar.kinematics->OriginTwist(motion);
   const Vector3 origin = world_from_model.orientation * Vector3{twist.x, twist.y, 0};
   return origin + Cross({0, 0, twist.angular}, point - world_from_model.position);
 }

@@ -20,8 +20,8 @@ struct Corners {
   int count = 0;
 };
 
-void Project(const ConvexPiece& placed, const PlanarPosition& at, const Twist& twist, Vector2 axis,
-             Corners& corners) {
+void Project(const ConvexPiece& placed, const geometry::PlanarPosition& at,
+             const geometry::Twist& twist, Vector2 axis, Corners& corners) {
   corners.count = placed.vertex_count;
   const double vx = at.cosine * twist.x - at.sine * twist.y;
   const double vy = at.sine * twist.x + at.cosine * twist.y;
@@ -106,7 +106,7 @@ Impact MakeImpact(double time, Vector2 normal, const Corners& a, const Corners& 
 
 // Whether no point of the piece moves.
 bool IsStill(const MovingPiece& moving) {
-  const Twist& twist = moving.twist;
+  const geometry::Twist& twist = moving.twist;
   if (twist.x != 0 || twist.y != 0) return false;
   const ConvexPiece& piece = *moving.piece;
   return twist.angular == 0 || (piece.vertex_count == 1 && piece.vertices[0] == Vector2{});
@@ -121,7 +121,8 @@ std::optional<Impact> Find(const MovingPiece& first, double end, Vector2 normal,
   ConvexPiece placed;
   Corners a, b;
   for (int advance = 0; advance < kMaxAdvances; ++advance) {
-    const PlanarPosition at = advance == 0 ? first.start : Advance(first.start, first.twist, time);
+    const geometry::PlanarPosition at =
+        advance == 0 ? first.start : Advance(first.start, first.twist, time);
     Place(*first.piece, at, placed);
     const ConvexPiece& second = place_second(time);
     if (advance > 0) normal = Separate(placed, second).normal;
@@ -147,7 +148,7 @@ std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& se
                                  Vector2 normal) {
   if (IsStill(first) && IsStill(second)) return std::nullopt;
   ConvexPiece placed;
-  PlanarPosition at;
+  geometry::PlanarPosition at;
   return Find(
       first, end, normal,
       [&](double time) -> const ConvexPiece& {

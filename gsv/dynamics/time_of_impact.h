@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "gsv/dynamics/convex_piece.h"
-#include "gsv/dynamics/planar_motion.h"
+#include "gsv/geometry/planar_motion.h"
 
 namespace gsv::dynamics {
 
@@ -24,11 +24,12 @@ inline constexpr double kStopGap = 0.5e-6;
 // A piece of a base, given in the base's frame, and how the base moves.
 struct MovingPiece {
   const ConvexPiece* piece = nullptr;
-  PlanarPosition start;  // at time 0
-  Twist twist;           // from then on
+  geometry::PlanarPosition start;  // at time 0
+  geometry::Twist twist;           // from then on
 };
 
-inline void Place(const ConvexPiece& piece, const PlanarPosition& at, ConvexPiece& placed) {
+inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
+                  ConvexPiece& placed) {
   Place(piece, at.x, at.y, at.cosine, at.sine, placed);
 }
 

@@ -19,7 +19,7 @@ ConvexPiece Rectangle(double half_length, double half_width) {
 
 TEST(Advance, FollowsACircle) {
   for (const double w : {1e-12, 1e-6, 0.3, -2.0, 40.0}) {
-    const PlanarPosition end = Advance({1, 2, 0, 1}, {0.7, 0, w}, 1.5);
+    const geometry::PlanarPosition end = geometry::Advance({1, 2, 0, 1}, {0.7, 0, w}, 1.5);
     // Heading along y at first; the centre is v / w to the left.
     const double r = 0.7 / w, angle = w * 1.5;
     const double x = std::abs(w) < 1e-5 ? 1 - 0.7 * 1.5 * angle / 2 : 1 - r * (1 - std::cos(angle));
@@ -31,7 +31,7 @@ TEST(Advance, FollowsACircle) {
 }
 
 TEST(Advance, MovesSidewaysToo) {
-  const PlanarPosition end = Advance({}, {0, 2, std::numbers::pi}, 1);
+  const geometry::PlanarPosition end = geometry::Advance({}, {0, 2, std::numbers::pi}, 1);
   // Half a circle of radius 2 / pi, starting to the left: it ends at x = -2 r.
   EXPECT_NEAR(end.x, -4 / std::numbers::pi, 1e-12);
   EXPECT_NEAR(end.y, 0, 1e-12);
@@ -89,8 +89,8 @@ TEST(FindImpact, SaysWhoseMotionClosesTheGap) {
 
 double GapAt(const MovingPiece& a, const MovingPiece& b, double time) {
   ConvexPiece placed_a, placed_b;
-  const PlanarPosition at_a = Advance(a.start, a.twist, time),
-                       at_b = Advance(b.start, b.twist, time);
+  const geometry::PlanarPosition at_a = geometry::Advance(a.start, a.twist, time),
+                                 at_b = geometry::Advance(b.start, b.twist, time);
   Place(*a.piece, at_a, placed_a);
   Place(*b.piece, at_b, placed_b);
   return Separate(placed_a, placed_b).distance;

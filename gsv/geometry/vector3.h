@@ -1,4 +1,4 @@
-// Three coordinates in double precision.
+// Two and three coordinates in double precision.
 //
 // Plain data with a fixed order of operations: equal inputs give equal bits (docs/adr/003).
 #pragma once
@@ -11,6 +11,10 @@ struct Vector2 {
   double x = 0, y = 0;
   friend bool operator==(const Vector2&, const Vector2&) = default;
 };
+
+inline Vector2 operator+(Vector2 a, Vector2 b) { return {a.x + b.x, a.y + b.y}; }
+inline Vector2 operator-(Vector2 a, Vector2 b) { return {a.x - b.x, a.y - b.y}; }
+inline Vector2 operator*(double s, Vector2 a) { return {s * a.x, s * a.y}; }
 
 struct Vector3 {
   double x = 0, y = 0, z = 0;

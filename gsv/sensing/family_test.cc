@@ -195,7 +195,7 @@ TEST_F(FamilyTest, ASatelliteReceiverTellsWhereItIsAndHowItMoves) {
 }
 
 TEST_F(FamilyTest, AnOdometerTellsWhatTheWheelsSay) {
-  body().odometry = {1, 2, kPi / 2, 0.5, 0.1};
+  body().odometry = {{1, 2, 0, 1}, 0.5, 0.1};
   ExpectValues(Sample(Description("odometry")), {1, 2, kPi / 2, 0.5, 0.1});
   const auto message = Sent<messages::nav_msgs::Odometry>(Description("odometry"));
   EXPECT_EQ(message.header.frame_id, "robot/odom");
@@ -209,20 +209,21 @@ TEST_F(FamilyTest, ABumperFeelsWhereItIsTouched) {
   EXPECT_TRUE(Sample(Description("bumper")).values.empty());
   const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
   // By the other one, whose index is lower, straight ahead; by the floor; behind.
-  snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}, 0.01},
+  snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}, 0.01, true, 0.4},
                          {body_, floor, {1, 0, 0}, {0, 0, -1}, 0.001},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}, 0.02}};
   const Reading all = Sample(Description("contact"));
-  ASSERT_EQ(all.values.size(), 14u);
+  ASSERT_EQ(all.values.size(), 16u);
   EXPECT_EQ(*all.labels, (std::vector<std::string>{"other", "floor"}));
-  ExpectValues(all, {0.3, 0, 0, 1, 0, 0, 0.01, -0.7, 0, 0, -1, 0, 0, 0.02});
+  ExpectValues(all, {0.3, 0, 0, 1, 0, 0, 0.01, 0.4, -0.7, 0, 0, -1, 0, 0, 0.02, 0});
   const Reading ahead = Sample(Description("contact", {{"field_of_view", kPi}}));
   EXPECT_EQ(*ahead.labels, std::vector<std::string>{"other"});
-  EXPECT_EQ(Sample(Description("contact", {{"ground", true}})).values.size(), 21u);
+  EXPECT_EQ(Sample(Description("contact", {{"ground", true}})).values.size(), 24u);
   const auto message = Sent<messages::gsv_msgs::Bumper>(Description("contact"));
   ASSERT_EQ(message.contacts.size(), 2u);
   EXPECT_EQ(message.contacts[0].other, "other");
   EXPECT_NEAR(message.contacts[0].point.x, 0.3, 1e-12);
+  EXPECT_EQ(message.contacts[0].closing_speed, 0.4);
   const auto lines = Registry().Find("contact")->beams(Description("contact"), all);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NEAR(lines[0].from.x, 0.3, 1e-12);

@@ -1,5 +1,7 @@
 #include "gsv/sensing/odometer.h"
 
+#include <cmath>
+
 #include "gsv/messages/nav_msgs.h"
 #include "gsv/sensing/noise.h"
 #include "gsv/sensing/sensor_type.h"
@@ -18,7 +20,8 @@ class Odometer final : public Sensor {
     const world::Odometry& odometry = sampling.snapshot()->state.bodies[sampling.body()].odometry;
     const NoisyReading noisy(sampling, description());
     Reading reading = sampling.Stamped();
-    reading.values = {odometry.x, odometry.y, odometry.yaw,
+    reading.values = {odometry.place.x, odometry.place.y,
+                      std::atan2(odometry.place.sine, odometry.place.cosine),
                       noisy.Read(linear_noise_, 0, odometry.linear),
                       noisy.Read(angular_noise_, 1, odometry.angular)};
     return reading;

@@ -25,7 +25,8 @@ void Add(const BodyState& body, base::Hash& hash) {
   Add(body.drive.command, hash);
   hash.Add(static_cast<std::int64_t>(body.drive.command_time.count()));
   Add(body.drive.actual, hash);
-  hash.Add(body.odometry.x), hash.Add(body.odometry.y), hash.Add(body.odometry.yaw);
+  const geometry::PlanarPosition& place = body.odometry.place;
+  hash.Add(place.x), hash.Add(place.y), hash.Add(place.cosine), hash.Add(place.sine);
   hash.Add(body.odometry.linear), hash.Add(body.odometry.angular);
   hash.Add(body.distance);
   hash.Add(body.collisions);

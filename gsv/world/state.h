@@ -10,6 +10,7 @@
 #include "gsv/base/error.h"
 #include "gsv/base/hash.h"
 #include "gsv/base/sim_time.h"
+#include "gsv/geometry/planar_motion.h"
 #include "gsv/geometry/pose.h"
 #include "gsv/world/layout.h"
 
@@ -36,7 +37,7 @@ struct DriveState {
 
 // Where a base believes to be by its wheels' turning, from where it started; see wheel_odometry.h.
 struct Odometry {
-  double x = 0, y = 0, yaw = 0;    // m, rad: of its reference point, in the frame of its start
+  geometry::PlanarPosition place;  // of its reference point, in the frame of its start
   double linear = 0, angular = 0;  // m/s, rad/s: over the last step
 };
 

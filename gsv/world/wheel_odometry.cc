@@ -1,7 +1,5 @@
 #include "gsv/world/wheel_odometry.h"
 
-#include <cmath>
-
 namespace gsv::world {
 
 void WheelOdometry::SetLayout(const Layout& layout) {
@@ -56,13 +54,8 @@ void WheelOdometry::Advance(double step_seconds, State& state) const {
     odometry.linear = forward / step_seconds;
     odometry.angular = angle / step_seconds;
     if (forward == 0 && left == 0 && angle == 0) continue;
-    // The chord of the arc points half the turn to the side.
-    const double half = angle / 2;
-    const double chord = std::abs(half) < 1e-4 ? 1 - half * half / 6 : std::sin(half) / half;
-    const double c = std::cos(odometry.yaw + half), s = std::sin(odometry.yaw + half);
-    odometry.x += chord * (c * forward - s * left);
-    odometry.y += chord * (s * forward + c * left);
-    odometry.yaw = geometry::WrapAngle(odometry.yaw + angle);
+    odometry.place = geometry::Advance(odometry.place, {forward, left, angle}, 1);
+    odometry.place.Normalize();
   }
 }
 

@@ -1,5 +1,6 @@
 #include "gsv/world/wheel_odometry.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -52,9 +53,9 @@ Odometry AfterRolling(double left, double right, int steps) {
 
 TEST(WheelOdometry, GoesStraightByWhatTheWheelsRoll) {
   const Odometry odometry = AfterRolling(0.02, 0.02, 50);
-  EXPECT_NEAR(odometry.x, 1, 1e-12);
-  EXPECT_EQ(odometry.y, 0);
-  EXPECT_EQ(odometry.yaw, 0);
+  EXPECT_NEAR(odometry.place.x, 1, 1e-12);
+  EXPECT_EQ(odometry.place.y, 0);
+  EXPECT_EQ(odometry.place.sine, 0);
   EXPECT_NEAR(odometry.linear, 2, 1e-9);
 }
 
@@ -63,9 +64,10 @@ TEST(WheelOdometry, FollowsAnArcExactlyWhateverTheStep) {
   const double left = (1 - kSeparation / 2) * kPi / 2, right = (1 + kSeparation / 2) * kPi / 2;
   for (const int steps : {1, 7, 1000}) {
     const Odometry odometry = AfterRolling(left / steps, right / steps, steps);
-    EXPECT_NEAR(odometry.x, 1, 1e-9) << steps;
-    EXPECT_NEAR(odometry.y, 1, 1e-9) << steps;
-    EXPECT_NEAR(odometry.yaw, kPi / 2, 1e-9) << steps;
+    EXPECT_NEAR(odometry.place.x, 1, 1e-9) << steps;
+    EXPECT_NEAR(odometry.place.y, 1, 1e-9) << steps;
+    EXPECT_NEAR(odometry.place.cosine, 0, 1e-9) << steps;
+    EXPECT_NEAR(odometry.place.sine, 1, 1e-9) << steps;
     EXPECT_NEAR(odometry.angular, kPi / 2 / steps / kStep, 1e-6) << steps;
   }
 }
@@ -75,12 +77,19 @@ TEST(WheelOdometry, OfOtherDrivesIsWhatTheDriveDoes) {
   WheelOdometry wheels;
   wheels.SetLayout(*layout);
   State state = InitialState(*layout);
-  state.bodies[0].odometry.yaw = kPi / 2;
+  state.bodies[0].odometry.place = {0, 0, 0, 1};
   state.bodies[0].drive.actual = {0, 1, 0};  // to the left, which is backwards along x
   wheels.KeepWheels(state);
   wheels.Advance(0.5, state);
-  EXPECT_NEAR(state.bodies[0].odometry.x, -0.5, 1e-12);
-  EXPECT_NEAR(state.bodies[0].odometry.y, 0, 1e-12);
+  EXPECT_NEAR(state.bodies[0].odometry.place.x, -0.5, 1e-12);
+  EXPECT_NEAR(state.bodies[0].odometry.place.y, 0, 1e-12);
+}
+
+TEST(WheelOdometry, KeepsItsHeadingsLengthOverAMillionTurns) {
+  const Odometry odometry = AfterRolling(-0.01, 0.01, 1'000'000);
+  EXPECT_NEAR(std::hypot(odometry.place.cosine, odometry.place.sine), 1, 1e-15);
+  EXPECT_NEAR(std::atan2(odometry.place.sine, odometry.place.cosine),
+              std::remainder(0.02 / kSeparation * 1e6, 2 * kPi), 1e-6);
 }
 
 TEST(WheelOdometry, IsPartOfTheHash) {
@@ -88,7 +97,7 @@ TEST(WheelOdometry, IsPartOfTheHash) {
   State state = InitialState(*layout);
   base::Hash before, after;
   AddToHash(*layout, state, before);
-  state.bodies[0].odometry.x = 1e-9;
+  state.bodies[0].odometry.place.x = 1e-9;
   AddToHash(*layout, state, after);
   EXPECT_NE(before.Hex(), after.Hex());
 }
