@@ -39,8 +39,7 @@ class MaterialReader {
       // A picture replaces the diffuse colour.
       material.base_colour = {1, 1, 1, material.base_colour.a};
     }
-    material.alpha_cut_out =
-        material.base_colour_map != nullptr && material.base_colour_map->channels == 4;
+    ReadSeeThrough(source, material);
     material.normal_map = FirstMap(source, {aiTextureType_NORMALS});
     material.emissive_map = FirstMap(source, {aiTextureType_EMISSIVE});
     if (material.emissive_map != nullptr) material.emissive = {1, 1, 1, 1};
@@ -70,6 +69,19 @@ class MaterialReader {
       // Zero is what exporters write that mean the opposite: a mesh nobody can see is no use.
       material.base_colour.a = opacity > 0 ? Unit(static_cast<double>(opacity)) : 1.0;
     }
+  }
+
+  // A colour map's alpha counts where the file says so: many hold one that means nothing.
+  void ReadSeeThrough(const aiMaterial& source, Material& material) {
+    std::string mode = source.GetTextureCount(aiTextureType_OPACITY) > 0 ? "MASK" : "OPAQUE";
+    if (IsGltf(source)) {
+      aiString written;
+      if (source.Get(AI_MATKEY_GLTF_ALPHAMODE, written) == AI_SUCCESS) mode = written.C_Str();
+      if (mode == "OPAQUE") material.base_colour.a = 1;
+    }
+    if (mode == "OPAQUE") material.base_colour_map = textures_.Opaque(material.base_colour_map);
+    material.alpha_cut_out = mode == "MASK" && material.base_colour_map != nullptr &&
+                             material.base_colour_map->channels == 4;
   }
 
   void ReadGloss(const aiMaterial& source, Material& material) {

@@ -161,6 +161,62 @@ TEST_F(MeshReaderTest, WarnsOfTexturesThatAreAbsent) {
   EXPECT_EQ(problems_[0].severity, base::Problem::Severity::kWarning);
 }
 
+// A TGA of one red pixel whose alpha is zero.
+const std::string kSeeThrough{"\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x28\0\0\xff\0", 22};
+
+// Gazebo's model of the Create has a picture whose alpha is zero nearly everywhere.
+TEST_F(MeshReaderTest, TheAlphaOfAPictureCountsWhereTheMaterialSaysSo) {
+  folder_.Write("red.tga", kSeeThrough);
+  folder_.Write("a.mtl", "newmtl green\nmap_Kd red.tga\n");
+  const auto opaque = Read("a.obj", kObj);
+  ASSERT_TRUE(opaque.has_value()) << opaque.error().Sentence();
+  const model::Material& solid = opaque->materials.at(opaque->triangles->parts.at(0).material);
+  EXPECT_THAT(solid.base_colour_map->pixels, testing::ElementsAre(255, 0, 0));
+  EXPECT_FALSE(solid.alpha_cut_out);
+
+  folder_.Write("a.mtl", "newmtl green\nmap_Kd red.tga\nmap_d red.tga\n");
+  const auto cut = Read("a.obj", kObj);
+  ASSERT_TRUE(cut.has_value()) << cut.error().Sentence();
+  const model::Material& net = cut->materials.at(cut->triangles->parts.at(0).material);
+  EXPECT_THAT(net.base_colour_map->pixels, testing::ElementsAre(255, 0, 0, 0));
+  EXPECT_TRUE(net.alpha_cut_out);
+}
+
+// A triangle whose picture is one red pixel of alpha zero.
+std::string Gltf(const std::string& alpha_mode) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0}]}],
+"materials":[{)" +
+         (alpha_mode.empty() ? "" : "\"alphaMode\":\"" + alpha_mode + "\",") +
+         R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,)"
+         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP4z8DAAAAEAQEARwbK3gAAAABJRU5Er"
+         "kJg"
+         R"(gg=="}],
+"buffers":[{"byteLength":60,"uri":"data:application/octet-stream;base64,)"
+         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"
+         R"("}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],
+"max":[1,1,0]},{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}]})";
+}
+
+TEST_F(MeshReaderTest, TheAlphaOfGltfCountsByItsMode) {
+  const struct {
+    const char* mode;
+    int channels;
+    bool cut_out;
+  } cases[] = {{"", 3, false}, {"OPAQUE", 3, false}, {"MASK", 4, true}, {"BLEND", 4, false}};
+  for (const auto& c : cases) {
+    const auto mesh = Read("a.gltf", Gltf(c.mode));
+    ASSERT_TRUE(mesh.has_value()) << mesh.error().Sentence();
+    const model::Material& material = mesh->materials.at(mesh->triangles->parts.at(0).material);
+    ASSERT_NE(material.base_colour_map, nullptr) << c.mode;
+    EXPECT_EQ(material.base_colour_map->channels, c.channels) << c.mode;
+    EXPECT_EQ(material.alpha_cut_out, c.cut_out) << c.mode;
+  }
+}
+
 TEST_F(MeshReaderTest, ReadsEachFileOnce) {
   const auto path = folder_.Write("a.stl", BinaryStl(1, {{0, 0, 0, 1, 0, 0, 0, 1, 0}}));
   TextureReader textures(limits_);

@@ -146,6 +146,15 @@ base::Result<std::shared_ptr<const Image>> TextureReader::Read(const std::filesy
   return image;
 }
 
+std::shared_ptr<const Image> TextureReader::Opaque(const std::shared_ptr<const Image>& image) {
+  if (image == nullptr || image->channels != 4) return image;
+  auto& opaque = opaque_[image];
+  if (opaque != nullptr) return opaque;
+  auto copy = std::make_shared<Image>(Image{image->width, image->height, 3, {}, image->source});
+  copy->pixels = WithoutAlpha(image->pixels.data(), image->pixels.size() / 4);
+  return opaque = copy;
+}
+
 std::shared_ptr<const Image> TextureReader::Combine(const std::shared_ptr<const Image>& roughness,
                                                     const std::shared_ptr<const Image>& metalness) {
   if (roughness == nullptr && metalness == nullptr) return nullptr;

@@ -31,10 +31,14 @@ class TextureReader {
   std::shared_ptr<const model::Image> Combine(const std::shared_ptr<const model::Image>& roughness,
                                               const std::shared_ptr<const model::Image>& metalness);
 
+  // The same picture with 3 channels, for a material that does not let its alpha count.
+  std::shared_ptr<const model::Image> Opaque(const std::shared_ptr<const model::Image>& image);
+
  private:
   ReadLimits limits_;
   std::map<std::filesystem::path, std::shared_ptr<const model::Image>> images_;
   std::map<std::pair<const void*, const void*>, std::shared_ptr<const model::Image>> combined_;
+  std::map<std::shared_ptr<const model::Image>, std::shared_ptr<const model::Image>> opaque_;
 };
 
 }  // namespace gsv::formats
