@@ -72,6 +72,7 @@ class ReadsAll final : public Behaviour {
     values["altimeter"] = {height.position, height.velocity, height.reference};
     for (const Bumper::Touch& touch : bumper_->Touches()) {
       values["contact"] = Numbers(touch.normal);
+      values["contact"].push_back(touch.closing_speed);
       read_.names["contact"].push_back(touch.other);
     }
     for (const JointEncoders::Joint& joint : joints_->Joints()) {
@@ -221,6 +222,7 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   const sba::TouchPoints_var touches = Opened<sba::Bumper>(factory, "contact")->touches();
   ASSERT_EQ(touches->length(), 1u);
   EXPECT_STREQ(touches.in()[0].other, "wall");
+  EXPECT_EQ(touches.in()[0].closing_speed_m_s, values.at("contact")[3]);
   const sba::EncoderReadings_var joints =
       Opened<sba::JointEncoders>(factory, "joint_encoders")->joints();
   ASSERT_EQ(joints->length(), 1u);

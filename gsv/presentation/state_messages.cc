@@ -102,6 +102,23 @@ void AppendSensorTransform(const world::Layout& layout, int body,
       moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
 }
 
+messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
+                                           const world::Contact& contact) {
+  const auto name = [&](int body) {
+    return snapshot.layout->bodies[static_cast<std::size_t>(body)].name;
+  };
+  messages::gsv_msgs::Contact message;
+  message.stamp = messages::ToMessage(snapshot.state.time);
+  message.step = StepNumber(snapshot.state.step);
+  message.first = name(contact.first);
+  message.second = name(contact.second);
+  message.point = {contact.point.x, contact.point.y, contact.point.z};
+  message.normal = {contact.normal.x, contact.normal.y, contact.normal.z};
+  message.depth = contact.depth;
+  message.closing_speed = contact.closing_speed;
+  return message;
+}
+
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status) {
   messages::gsv_msgs::SimulationStatus message;
   message.stamp = messages::ToMessage(status.time);

@@ -34,6 +34,9 @@ void AppendSensorTransform(const world::Layout& layout, int body,
                            const model::SensorDescription& sensor, base::SimTime time,
                            messages::tf2_msgs::TFMessage& message);
 
+messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
+                                           const world::Contact& contact);
+
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 

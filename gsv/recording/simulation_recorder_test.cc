@@ -126,6 +126,17 @@ TEST_F(SimulationRecorderTest, EachTopicKeepsItsRateInSimulatedTime) {
   EXPECT_EQ(counts["/gsv/events"], 2u);  // started, finished
 }
 
+TEST_F(SimulationRecorderTest, TellsWhoMetWhomAndHowHard) {
+  Record(4.0);
+  const auto contacts = Read<messages::gsv_msgs::Contact>("/gsv/contacts");
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].first, "robot");
+  EXPECT_EQ(contacts[0].second, "wall");
+  EXPECT_NEAR(contacts[0].point.x, 2.9, 1e-3);
+  EXPECT_NEAR(contacts[0].normal.x, 1, 1e-9);
+  EXPECT_NEAR(contacts[0].closing_speed, 4, 1e-9);
+}
+
 TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {
   Record(1.0);
   const auto readings = Read<messages::sensor_msgs::Range>("/robot/front");

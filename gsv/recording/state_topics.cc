@@ -19,6 +19,7 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate)
       poses_(writer, "/gsv/poses"),
       transforms_(writer, "/tf"),
       commands_(writer, "/gsv/commands"),
+      contacts_(writer, "/gsv/contacts"),
       status_(writer, "/gsv/status", {.reproducible = false}),
       events_(writer, "/gsv/events"),
       hash_(writer, "/gsv/state_hash") {}
@@ -31,6 +32,7 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
     pose_list_ = presentation::PoseListOf(*layout_);
   }
   WriteNewCommands(*snapshot);
+  WriteNewContacts(*snapshot);
   if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
   if (hash_instants_.Pass(time)) WriteHash(*snapshot);
 }
@@ -76,6 +78,14 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     message.lateral_m_s = drive.command.lateral;
     message.angular_rad_s = drive.command.angular;
     commands_.Write(state.time, message);
+  }
+}
+
+void StateTopics::WriteNewContacts(const world::Snapshot& snapshot) {
+  for (const world::Contact& contact : snapshot.contacts) {
+    if (contact.began) {
+      contacts_.Write(snapshot.state.time, presentation::ContactMessage(snapshot, contact));
+    }
   }
 }
 

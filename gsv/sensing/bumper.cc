@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr std::size_t kValues = 7;      // of one contact
+constexpr std::size_t kValues = 8;      // of one contact
 constexpr double kGroundSlope = -0.70;  // of a normal that points down within 45 degrees
 constexpr double kDrawnLength = 0.3;    // m
 
@@ -36,8 +36,8 @@ class Bumper final : public Sensor {
       const Vector3 point = sensor_from_world * contact.point;
       if (std::abs(std::atan2(point.y, point.x)) > half_view_) continue;
       const Vector3 normal = sensor_from_world.orientation * outwards;
-      for (const double value :
-           {point.x, point.y, point.z, normal.x, normal.y, normal.z, contact.depth}) {
+      for (const double value : {point.x, point.y, point.z, normal.x, normal.y, normal.z,
+                                 contact.depth, contact.closing_speed}) {
         reading.values.push_back(value);
       }
       labels->push_back(snapshot.layout->bodies[is_first ? contact.second : contact.first].name);
@@ -52,7 +52,7 @@ class Bumper final : public Sensor {
     for (std::size_t i = 0; reading.labels != nullptr && i < reading.labels->size(); ++i) {
       const double* const v = &reading.values[kValues * i];
       message.contacts.push_back(
-          {(*reading.labels)[i], {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]});
+          {(*reading.labels)[i], {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6], v[7]});
     }
     return message;
   }

@@ -113,13 +113,14 @@ class BumperServant final : public SensorServant<POA_sba::Bumper> {
   sba::TouchPoints* touches() override {
     const Reading reading = Read();
     sba::TouchPoints_var touches = new sba::TouchPoints;
-    touches->length(static_cast<CORBA::ULong>(reading.values.size() / 7));
+    touches->length(static_cast<CORBA::ULong>(reading.values.size() / 8));
     for (CORBA::ULong i = 0; i < touches->length(); ++i) {
       sba::TouchPoint& touch = touches[i];
       touch.other = reading.labels->at(i).c_str();
-      touch.point_m = VectorAt(reading, 7 * i);
-      touch.normal = VectorAt(reading, 7 * i + 3);
-      touch.depth_m = reading.values.at(7 * i + 6);
+      touch.point_m = VectorAt(reading, 8 * i);
+      touch.normal = VectorAt(reading, 8 * i + 3);
+      touch.depth_m = reading.values.at(8 * i + 6);
+      touch.closing_speed_m_s = reading.values.at(8 * i + 7);
     }
     return touches._retn();
   }
@@ -221,6 +222,7 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {"sonar", MakeSensorServant<SonarServant>},
       {"lidar", MakeSensorServant<LidarServant>},
       {"camera", MakeSensorServant<CameraServant>},
+      {"wideangle_camera", MakeSensorServant<CameraServant>},
       {"positioning", MakeSensorServant<PositioningServant>},
       {"imu", MakeSensorServant<ImuServant>},
       {"odometry", MakeSensorServant<OdometerServant>},

@@ -144,7 +144,7 @@ TEST(MotionSensors, ABumperFeelsTheWall) {
   EXPECT_TRUE(before.values.empty());
   const Driven driven = Drive(Rover("contact"), {{{0.5, 0, 0}, 2s}}, 2.0);
   EXPECT_EQ(*driven.labels, std::vector<std::string>{"wall"});
-  ASSERT_EQ(driven.values.size(), 7u);
+  ASSERT_EQ(driven.values.size(), 8u);
   EXPECT_NEAR(driven.values[0], 0.05, 1e-3);  // the face, from the sensor 0.15 m ahead
   EXPECT_NEAR(driven.values[3], 1, 1e-6);
 }

@@ -184,6 +184,7 @@ std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
   wheel_odometry_.KeepWheels(state_);
   engine_->Step(step_, state_, snapshot->contacts);
   wheel_odometry_.Advance(step_seconds, state_);
+  world::FinishContacts(state_, snapshot->accelerations, snapshot->contacts);
   world::FinishAccelerations(state_, step_seconds, snapshot->accelerations);
   ++state_.step;
   state_.time = state_.step * step_;

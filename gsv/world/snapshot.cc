@@ -1,5 +1,7 @@
 #include "gsv/world/snapshot.h"
 
+#include <algorithm>
+
 #include "gsv/base/check.h"
 
 namespace gsv::world {
@@ -67,6 +69,23 @@ void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations
   accelerations.resize(state.bodies.size());
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     accelerations[i] = {state.bodies[i].linear_velocity, state.bodies[i].angular_velocity};
+  }
+}
+
+void FinishContacts(const State& state, const std::vector<Acceleration>& kept,
+                    std::vector<Contact>& contacts) {
+  const auto velocity = [&](int body, const geometry::Vector3& point) {
+    const Acceleration& of_origin = kept[static_cast<std::size_t>(body)];
+    const geometry::Vector3& origin =
+        state.bodies[static_cast<std::size_t>(body)].world_from_model.position;
+    return of_origin.linear + Cross(of_origin.angular, point - origin);
+  };
+  for (Contact& contact : contacts) {
+    contact.closing_speed = 0;
+    if (!contact.began) continue;
+    const geometry::Vector3 closing =
+        velocity(contact.first, contact.point) - velocity(contact.second, contact.point);
+    contact.closing_speed = std::max(0.0, Dot(closing, contact.normal));
   }
 }
 

@@ -18,6 +18,7 @@ struct Contact {
   geometry::Vector3 normal;  // world, unit length
   double depth = 0;          // m
   bool began = false;        // was not there one step earlier
+  double closing_speed = 0;  // m/s at which the two met, along the normal; 0 unless it began
 };
 
 // Of a model's origin, in world axes: the mean over the step that led here.
@@ -33,8 +34,11 @@ struct Snapshot {
   std::vector<Acceleration> accelerations;  // as Layout::bodies; empty where no step led here
 };
 
-// Around a step: keeps the velocities before it, and makes accelerations of them after it.
+// Around a step: keeps the velocities before it, and after it makes closing speeds and
+// accelerations of them, in this order.
 void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations);
+void FinishContacts(const State& state, const std::vector<Acceleration>& kept,
+                    std::vector<Contact>& contacts);
 void FinishAccelerations(const State& state, double step_seconds,
                          std::vector<Acceleration>& accelerations);
 

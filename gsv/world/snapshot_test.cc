@@ -68,6 +68,28 @@ TEST(LinkPose, AgreesWithLinkPosesInTheWorld) {
   ExpectNear(LinkPose(snapshot, 0, 2).position, LinkPoses(snapshot, 0)[2].position);
 }
 
+TEST(Contacts, AreAsHardAsTheirPointsApproachEachOther) {
+  // One goes ahead at 2 m/s and turns at 3 rad/s about z, the other recedes at 0.5 m/s.
+  State state;
+  state.bodies.resize(2);
+  state.bodies[0].world_from_model.position = {1, 0, 0};
+  state.bodies[0].linear_velocity = {2, 0, 0};
+  state.bodies[0].angular_velocity = {0, 0, 3};
+  state.bodies[1].world_from_model.position = {3, 0, 0};
+  state.bodies[1].linear_velocity = {0.5, 0, 0};
+  std::vector<Acceleration> kept;
+  KeepVelocities(state, kept);
+  state.bodies[0].linear_velocity = {};  // the step has stopped it
+  // Where they meet, 0.4 to the right of the first one's middle, its turning adds 1.2 m/s.
+  std::vector<Contact> contacts(3, {0, 1, {2, -0.4, 0}, {1, 0, 0}, 0.01, true});
+  contacts[1].began = false;
+  contacts[2].normal = {-1, 0, 0};
+  FinishContacts(state, kept, contacts);
+  EXPECT_NEAR(contacts[0].closing_speed, 2 + 1.2 - 0.5, 1e-12);
+  EXPECT_EQ(contacts[1].closing_speed, 0);  // they touched before
+  EXPECT_EQ(contacts[2].closing_speed, 0);  // they part
+}
+
 TEST(MovingLinks, AreThoseBelowAJointThatMoves) {
   model::Model arm = Arm();
   EXPECT_EQ(MovingLinks(arm), (std::vector<int>{1, 2}));

@@ -70,9 +70,10 @@ Altimeter::Height Altimeter::Measured() {
 std::vector<Bumper::Touch> Bumper::Touches() {
   const Reading& reading = Measure();
   std::vector<Touch> touches;
-  for (std::size_t i = 0; i < GroupsOf(reading, 7); ++i) {
-    touches.push_back({reading.labels[i], VectorAt(reading.values, 7 * i),
-                       VectorAt(reading.values, 7 * i + 3), reading.values[7 * i + 6]});
+  for (std::size_t i = 0; i < GroupsOf(reading, 8); ++i) {
+    touches.push_back({reading.labels[i], VectorAt(reading.values, 8 * i),
+                       VectorAt(reading.values, 8 * i + 3), reading.values[8 * i + 6],
+                       reading.values[8 * i + 7]});
   }
   return touches;
 }

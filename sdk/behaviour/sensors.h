@@ -199,6 +199,7 @@ class Bumper : public Sensor {
     std::string other;
     Vector point, normal;
     double depth = 0;
+    double closing_speed = 0;  // m/s at which the two met; 0: they touched already
   };
   bool IsPressed() { return !Measure().values.empty(); }
   std::vector<Touch> Touches();
