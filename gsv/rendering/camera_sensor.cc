@@ -3,8 +3,9 @@
 #include <utility>
 
 #include "gsv/messages/sensor_msgs.h"
-#include "gsv/rendering/camera_parameters.h"
+#include "gsv/rendering/exposure.h"
 #include "gsv/rendering/jpeg.h"
+#include "gsv/rendering/optics.h"
 #include "gsv/sensing/encoding.h"
 
 namespace gsv::rendering {
@@ -15,35 +16,36 @@ using base::Result;
 
 constexpr int kJpegQuality = 80;
 
-Result<CameraParameters> ReadParameters(const model::SensorDescription& description) {
-  sensing::ParameterReader reader(description);
-  const CameraParameters camera = ReadCameraParameters(reader);
-  if (!reader.status()) return Fail(reader.status().error());
-  return camera;
-}
-
 class Camera final : public sensing::Sensor {
  public:
-  Camera(const model::SensorDescription& description, const CameraParameters& parameters,
-         Result<std::shared_ptr<Renderer>> renderer)
-      : Sensor(description), parameters_(parameters), renderer_(std::move(renderer)) {}
+  Camera(const model::SensorDescription& description, sensing::ParameterReader& reader,
+         const std::string& lens_type, Result<std::shared_ptr<Renderer>> renderer)
+      : Sensor(description),
+        optics_(Optics::Read(reader, lens_type)),
+        exposure_(reader),
+        renderer_(std::move(renderer)) {}
 
   Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
     if (!renderer_) return Fail(renderer_.error());
     auto picture =
-        (*renderer_)
-            ->Draw(sampling.snapshot(), {sampling.WorldFromSensor(description()), parameters_});
+        optics_.Draw(**renderer_, sampling.snapshot(), sampling.WorldFromSensor(description()));
     if (!picture) return Fail(picture.error());
     sensing::Reading reading = sampling.Stamped();
-    reading.values = {static_cast<double>(parameters_.width),
-                      static_cast<double>(parameters_.height)};
+    reading.values = {static_cast<double>((*picture)->width),
+                      static_cast<double>((*picture)->height)};
     reading.picture = std::move(*picture);
+    if (!exposure_.is_neutral()) {
+      auto exposed = std::make_shared<model::Image>(*reading.picture);
+      exposure_.Apply(sampling, description(), *exposed);
+      reading.picture = std::move(exposed);
+    }
     return reading;
   }
   bool TakesLong() const override { return true; }
 
  private:
-  CameraParameters parameters_;
+  Optics optics_;
+  Exposure exposure_;
   Result<std::shared_ptr<Renderer>> renderer_;
 };
 
@@ -67,19 +69,27 @@ base::Status AddCameraSensor(sensing::SensorRegistry& registry,
     renderer =
         Fail(base::ErrorCode::kUnavailable, "no renderer was started, so there are no pictures");
   }
-  sensing::SensorType type;
-  type.name = "camera";
-  type.create =
-      [renderer = std::move(renderer)](
-          const model::SensorDescription& description) -> Result<std::unique_ptr<sensing::Sensor>> {
-    const auto parameters = ReadParameters(description);
-    if (!parameters) return Fail(parameters.error());
-    return std::make_unique<Camera>(description, *parameters, renderer);
-  };
-  type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
-  type.encode = Encode;
-  type.overlay = sensing::Overlay::kPicture;
-  return registry.Add(std::move(type));
+  // The lens of a wide-angle camera is what SDFormat says it is without a <lens>.
+  const std::pair<const char*, const char*> kinds[] = {{"camera", "gnomonical"},
+                                                       {"wideangle_camera", "stereographic"}};
+  for (const auto& [name, lens_type] : kinds) {
+    sensing::SensorType type;
+    type.name = name;
+    if (type.name != "camera") type.aliases = {"wideanglecamera", "wide_angle_camera"};
+    type.create = [renderer,
+                   lens = std::string(lens_type)](const model::SensorDescription& description)
+        -> Result<std::unique_ptr<sensing::Sensor>> {
+      sensing::ParameterReader reader(description);
+      auto camera = std::make_unique<Camera>(description, reader, lens, renderer);
+      if (!reader.status()) return Fail(reader.status().error());
+      return camera;
+    };
+    type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
+    type.encode = Encode;
+    type.overlay = sensing::Overlay::kPicture;
+    if (auto added = registry.Add(std::move(type)); !added) return added;
+  }
+  return {};
 }
 
 }  // namespace gsv::rendering

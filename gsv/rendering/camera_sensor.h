@@ -1,8 +1,8 @@
-// The sensor type "camera": pictures from a robot's own viewpoint.
+// The sensor types "camera" and "wideangle_camera": pictures from a robot's own viewpoint.
 //
 // Frame       sensor frame: x along the view, y left, z up.
-// Parameters  horizontal_fov (rad, 1.047), image.width and image.height (pixels, 320 by 240, at
-//             most 4096), clip.near and clip.far (m, 0.1 and 100).
+// Parameters  those of every camera, see optics.h (a "wideangle_camera" has a stereographic lens),
+//             and those of exposure.h.
 // Readings    values {width, height} in pixels; the picture is RGB. As a message:
 //             sensor_msgs/CompressedImage, JPEG of quality 80.
 // Errors      Sample(): kUnavailable with the reason where there is no renderer; everything that

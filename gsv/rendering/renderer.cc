@@ -75,11 +75,11 @@ class Renderer::RenderThread {
     return Await(request, request->pictures.get_future(), timeout);
   }
 
-  Result<Truths> Survey(std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
-                        std::chrono::milliseconds timeout) {
+  Result<Truths> Survey(std::shared_ptr<const world::Snapshot> snapshot,
+                        std::vector<CameraView> views, std::chrono::milliseconds timeout) {
     auto request = std::make_shared<Request>();
     request->snapshot = std::move(snapshot);
-    request->views = {view};
+    request->views = std::move(views);
     request->is_survey = true;
     return Await(request, request->truths.get_future(), timeout);
   }
@@ -275,14 +275,14 @@ Result<Pictures> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
   return thread_->Draw(std::move(snapshot), views, timeout);
 }
 
-Result<std::shared_ptr<const GroundTruth>> Renderer::Survey(
-    std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
-    std::chrono::milliseconds timeout) {
+Result<Truths> Renderer::Survey(std::shared_ptr<const world::Snapshot> snapshot,
+                                const std::vector<CameraView>& views,
+                                std::chrono::milliseconds timeout) {
   GSV_CHECK(snapshot != nullptr);
-  if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
-  Result<Truths> truths = thread_->Survey(std::move(snapshot), view, timeout);
-  if (!truths) return Fail(truths.error());
-  return std::move(truths->front());
+  for (const CameraView& view : views) {
+    if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
+  }
+  return thread_->Survey(std::move(snapshot), views, timeout);
 }
 
 DrawCopies Renderer::CountCopies() { return thread_->Count(); }

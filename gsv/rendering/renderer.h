@@ -65,10 +65,10 @@ class Renderer {
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = std::chrono::seconds(10));
 
-  // Distances and whose they are, always by the rasteriser: kUnavailable on processors without AVX2
-  // and FMA.
-  [[nodiscard]] base::Result<std::shared_ptr<const GroundTruth>> Survey(
-      std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
+  // Distances and whose they are, truths[i] being views[i]'s; always by the rasteriser:
+  // kUnavailable on processors without AVX2 and FMA.
+  [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> Survey(
+      std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = std::chrono::seconds(10));
 
   // "GSV rasteriser (AVX2)" or "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa

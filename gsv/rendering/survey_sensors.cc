@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/vision_msgs.h"
-#include "gsv/rendering/camera_parameters.h"
+#include "gsv/rendering/optics.h"
 #include "gsv/rendering/png.h"
 #include "gsv/sensing/noise.h"
 #include "gsv/sensing/sensor_type.h"
@@ -26,43 +27,44 @@ using RendererResult = Result<std::shared_ptr<Renderer>>;
 constexpr std::size_t kHead = 2;          // values before the pixels': width and height
 constexpr std::size_t kMostDrawn = 2000;  // points of a cloud in the viewer
 
-// Half a pixel into pixel (x, y), at a distance of 1 along the view.
-Vector3 RayOf(const CameraParameters& camera, std::size_t x, std::size_t y) {
-  const double f = FocalLength(camera);
-  return {1, (0.5 * camera.width - (static_cast<double>(x) + 0.5)) / f,
-          (0.5 * camera.height - (static_cast<double>(y) + 0.5)) / f};
+// To what is seen at a place in the picture, for one metre along the view; nothing where the lens
+// shows nothing, or what lies straight beside the camera.
+std::optional<Vector3> RayOf(const Lens& lens, double u, double v) {
+  const auto ray = lens.RayAt(u, v);
+  if (!ray || std::abs(ray->x) < 1e-6) return std::nullopt;
+  return (1 / ray->x) * *ray;
 }
 
-CameraParameters ParametersOf(const model::SensorDescription& description) {
+// The same in the middle of a pixel, by its place in the rows one after the other.
+std::optional<Vector3> RayOfPixel(const Lens& lens, std::size_t pixel, std::size_t width) {
+  return RayOf(lens, static_cast<double>(pixel % width) + 0.5,
+               static_cast<double>(pixel / width) + 0.5);
+}
+
+Lens LensOf(const model::SensorDescription& description) {
   sensing::ParameterReader reader(description);
-  return ReadCameraParameters(reader);
+  return Optics::Read(reader).lens();
 }
 
 class SurveySensor : public sensing::Sensor {
  public:
   SurveySensor(const model::SensorDescription& description, sensing::ParameterReader& reader,
                RendererResult renderer)
-      : Sensor(description),
-        parameters_(ReadCameraParameters(reader)),
-        renderer_(std::move(renderer)) {}
+      : Sensor(description), optics_(Optics::Read(reader)), renderer_(std::move(renderer)) {}
 
   Result<Reading> Sample(const sensing::Sampling& sampling) const override {
     if (!renderer_) return Fail(renderer_.error());
     const auto truth =
-        (*renderer_)
-            ->Survey(sampling.snapshot(), {sampling.WorldFromSensor(description()), parameters_});
+        optics_.Survey(**renderer_, sampling.snapshot(), sampling.WorldFromSensor(description()));
     if (!truth) return Fail(truth.error());
     return Read(sampling, **truth);
   }
   bool TakesLong() const override { return true; }
 
- protected:
-  const CameraParameters& parameters() const { return parameters_; }
-
  private:
   virtual Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const = 0;
 
-  CameraParameters parameters_;
+  Optics optics_;
   RendererResult renderer_;
 };
 
@@ -91,15 +93,16 @@ class DepthCamera final : public SurveySensor {
     }
     cloud.point_step = 12;
     if (reading.values.size() < kHead) return cloud;
-    const CameraParameters camera = ParametersOf(description);
+    const Lens lens = LensOf(description);
     cloud.width = static_cast<std::uint32_t>(reading.values[0]);
     cloud.height = static_cast<std::uint32_t>(reading.values[1]);
     cloud.row_step = cloud.point_step * cloud.width;
     cloud.data.resize(std::size_t{cloud.row_step} * cloud.height);
     for (std::size_t i = 0; i + kHead < reading.values.size(); ++i) {
       const double depth = reading.values[kHead + i];
-      const Vector3 point = std::isfinite(depth)
-                                ? depth * RayOf(camera, i % cloud.width, i / cloud.width)
+      const auto ray = RayOfPixel(lens, i, cloud.width);
+      const Vector3 point = ray && std::isfinite(depth)
+                                ? depth * *ray
                                 : Vector3{1, 1, 1} * std::numeric_limits<double>::quiet_NaN();
       const float xyz[] = {static_cast<float>(point.x), static_cast<float>(point.y),
                            static_cast<float>(point.z)};
@@ -127,12 +130,14 @@ std::vector<Segment> CloudPoints(const model::SensorDescription& description,
                                  const Reading& reading) {
   std::vector<Segment> beams;
   if (reading.values.size() <= kHead) return beams;
-  const CameraParameters camera = ParametersOf(description);
+  const Lens lens = LensOf(description);
   const auto width = static_cast<std::size_t>(reading.values[0]);
   const std::size_t pixels = reading.values.size() - kHead;
   for (std::size_t i = 0; i < pixels; i += 1 + pixels / kMostDrawn) {
     const double depth = reading.values[kHead + i];
-    if (std::isfinite(depth)) beams.push_back({{}, depth * RayOf(camera, i % width, i / width)});
+    if (!std::isfinite(depth)) continue;
+    const auto ray = RayOfPixel(lens, i, width);
+    if (ray) beams.push_back({{}, depth * *ray});
   }
   return beams;
 }
@@ -235,15 +240,16 @@ class BoundingBoxCamera final : public SurveySensor {
 // Each box as a frame at a distance of 1 m.
 std::vector<Segment> BoxFrames(const model::SensorDescription& description,
                                const Reading& reading) {
-  const CameraParameters camera = ParametersOf(description);
-  const double f = FocalLength(camera);
+  const Lens lens = LensOf(description);
   std::vector<Segment> lines;
   for (std::size_t i = 0; i + 4 <= reading.values.size(); i += 4) {
     const double* const v = &reading.values[i];
-    const double left = (0.5 * camera.width - v[0]) / f, right = (0.5 * camera.width - v[2]) / f;
-    const double top = (0.5 * camera.height - v[1]) / f, low = (0.5 * camera.height - v[3]) / f;
-    const Vector3 corners[] = {{1, left, top}, {1, right, top}, {1, right, low}, {1, left, low}};
-    for (int k = 0; k < 4; ++k) lines.push_back({corners[k], corners[(k + 1) % 4]});
+    const std::optional<Vector3> corners[] = {RayOf(lens, v[0], v[1]), RayOf(lens, v[2], v[1]),
+                                              RayOf(lens, v[2], v[3]), RayOf(lens, v[0], v[3])};
+    for (int k = 0; k < 4; ++k) {
+      const auto &from = corners[k], &to = corners[(k + 1) % 4];
+      if (from && to) lines.push_back({*from, *to});
+    }
   }
   return lines;
 }

@@ -2,7 +2,7 @@
 // "boundingbox_camera".
 //
 // Frame       sensor frame: x along the view, y left, z up.
-// Parameters  those of every camera, see camera_parameters.h. Of a depth camera also noise (m), see
+// Parameters  those of every camera, see optics.h. Of a depth camera also noise (m), see
 //             sensing/noise.h: white noise, bias and dropout, a pixel each.
 // Readings    rows from the top, see ground_truth.h.
 //             depth_camera ("depth", "rgbd_camera"): values {width, height, then for each pixel the

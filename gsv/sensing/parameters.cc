@@ -1,6 +1,7 @@
 #include "gsv/sensing/parameters.h"
 
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,23 @@ std::string ParameterReader::Text(const std::string& name, const std::string& ot
   if (const auto* text = std::get_if<std::string>(&it->second)) return *text;
   Refuse(fmt::format("{} must be text", name));
   return otherwise;
+}
+
+geometry::Vector2 ParameterReader::Pair(const std::string& name, geometry::Vector2 otherwise,
+                                        double low, double high) {
+  if (!description_.parameters.contains(name)) return otherwise;
+  std::istringstream text(Text(name, ""));
+  geometry::Vector2 pair;
+  if (!(text >> pair.x >> pair.y) || !(text >> std::ws).eof()) {
+    Refuse(fmt::format("{} must be two numbers, such as \"0.5 0.5\"", name));
+    return otherwise;
+  }
+  for (const double value : {pair.x, pair.y}) {
+    if (value >= low && value <= high) continue;
+    Refuse(fmt::format("{} holds {}; it must lie between {} and {}", name, value, low, high));
+    return otherwise;
+  }
+  return pair;
 }
 
 int ParameterReader::Count(const std::string& name, int otherwise, int low, int high) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gsv/base/error.h"
+#include "gsv/geometry/vector3.h"
 #include "gsv/model/sensor_description.h"
 
 namespace gsv::sensing {
@@ -30,6 +31,10 @@ class ParameterReader {
 
   // Text; what is a number or a flag is refused.
   std::string Text(const std::string& name, const std::string& otherwise);
+
+  // Two numbers, written as text: "0.5 0.5". Each must lie in [low, high].
+  geometry::Vector2 Pair(const std::string& name, geometry::Vector2 otherwise, double low,
+                         double high);
 
   // Says that the parameters do not fit together.
   void Refuse(const std::string& why);

@@ -15,7 +15,7 @@ base::Result<sensing::Reading> Turn::Read(MountedSensor& sensor) const {
   if (sensor.casts_rays() && !instant_->casts_rays.load(std::memory_order_relaxed)) {
     instant_->casts_rays.store(true, std::memory_order_relaxed);
   }
-  const SnapshotHistory::SnapshotPtr& snapshot = instant_->snapshots.At(sensor.design().period);
+  const SnapshotHistory::SnapshotPtr& snapshot = instant_->snapshots.At(sensor.design().cadence);
   auto reading = snapshot == sampling_->snapshot()
                      ? sensor.Read(*sampling_)
                      : sensor.Read({snapshot, sampling_->body(), instant_->seed, *instant_->rays});

@@ -6,8 +6,27 @@
 namespace gsv::simulation {
 namespace {
 
-base::SimTime PeriodOf(double update_rate) {
-  return update_rate > 0 ? base::FromSeconds(1.0 / update_rate) : base::SimTime(0);
+// Samples under way at one moment: each holds a snapshot of the whole world.
+constexpr double kMostUnderWay = 100;
+
+// The parameter `latency` (s, 0) is common to all types.
+base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
+                                const std::string& where) {
+  const auto refuse = [&](const char* sentence) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, sentence, where);
+  };
+  const double rate = description.update_rate;
+  if (!std::isfinite(rate) || rate < 0 || rate > 1e6) {
+    return refuse("the update rate must lie between 0 and 1e6 Hz");
+  }
+  const double latency = model::NumberOr(description.parameters, "latency", 0);
+  if (!(latency >= 0 && latency <= 10)) return refuse("the latency must lie between 0 and 10 s");
+  if (latency > 0 && rate == 0) return refuse("a sensor with a latency needs an update rate");
+  if (latency * rate > kMostUnderWay) {
+    return refuse("the latency must not be longer than 100 readings take");
+  }
+  if (rate == 0) return Cadence{};
+  return Cadence{base::FromSeconds(1 / rate), base::FromSeconds(latency)};
 }
 
 }  // namespace
@@ -20,17 +39,14 @@ base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription descript
     return base::Fail(base::ErrorCode::kNotFound,
                       "there is no sensor type \"" + description.type + "\"", where);
   }
-  if (!std::isfinite(description.update_rate) || description.update_rate < 0 ||
-      description.update_rate > 1e6) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the update rate must lie between 0 and 1e6 Hz", where);
-  }
+  const auto cadence = CadenceOf(description, where);
+  if (!cadence) return base::Fail(cadence.error());
   description.type = type->name;
   auto design = std::make_shared<SensorDesign>();
   auto sensor = type->create(description);
   if (!sensor) return base::Fail(sensor.error());
   design->sensor = *std::move(sensor);
-  design->period = PeriodOf(description.update_rate);
+  design->cadence = *cadence;
   design->description = std::move(description);
   return design;
 }

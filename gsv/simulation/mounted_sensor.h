@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gsv/sensing/registry.h"
+#include "gsv/simulation/snapshot_history.h"
 
 namespace gsv::simulation {
 
@@ -19,7 +20,7 @@ struct SensorDesign {
   model::SensorDescription description;
   std::unique_ptr<const sensing::Sensor> sensor;  // null: cannot be made, see `refusal`
   base::Error refusal;
-  base::SimTime period{0};  // between samples; 0: a sample at every step
+  Cadence cadence;
 };
 
 using SensorDesignPtr = std::shared_ptr<const SensorDesign>;

@@ -23,7 +23,7 @@ RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> mo
       shared_(std::move(shared)),
       rack_(robot_, model_, shared_->designs) {
   for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
-    shared_->history.Use(design->period);
+    shared_->history.Use(design->cadence);
   }
 }
 
@@ -230,14 +230,14 @@ base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
   const std::string name = description.name;
   auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
   if (!created) return created;
-  shared_->history.Use((*rack_.Find(name))->design().period);
+  shared_->history.Use((*rack_.Find(name))->design().cadence);
   return {};
 }
 
 base::Status RobotAgent::CloseSensor(const std::string& name) { return rack_.Close(name); }
 
 base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
-  const auto snapshot = shared_->history.At(sensor.design().period);
+  const auto snapshot = shared_->history.At(sensor.design().cadence);
   const int body = snapshot->layout->Find(robot_);
   if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
   return sensor.Read({snapshot, body, shared_->seed, shared_->rays});

@@ -7,30 +7,41 @@ SnapshotHistory::SnapshotPtr SnapshotHistory::latest() const {
   return latest_;
 }
 
-SnapshotHistory::SnapshotPtr SnapshotHistory::At(base::SimTime period) {
+SnapshotHistory::SnapshotPtr SnapshotHistory::At(const Cadence& cadence) {
   const std::lock_guard lock(mutex_);
-  if (period.count() <= 0) return latest_;
-  return at_instant_.emplace(period, latest_).first->second;
+  if (cadence.period.count() <= 0) return latest_;
+  return kept_.try_emplace(cadence, Kept{latest_, {}}).first->second.arrived;
 }
 
 void SnapshotHistory::MakeFrame(Frame& frame) const {
   const std::lock_guard lock(mutex_);
   frame.latest_ = latest_;
-  frame.at_instant_.assign(at_instant_.begin(), at_instant_.end());
+  frame.at_instant_.clear();
+  for (const auto& [cadence, kept] : kept_) frame.at_instant_.emplace_back(cadence, kept.arrived);
 }
 
 void SnapshotHistory::Publish(SnapshotPtr snapshot) {
   const std::lock_guard lock(mutex_);
-  const base::SimTime before = latest_->state.time;
-  for (auto& [period, kept] : at_instant_) {
-    if (snapshot->state.time / period != before / period) kept = snapshot;
+  const base::SimTime before = latest_->state.time, now = snapshot->state.time;
+  for (auto& [cadence, kept] : kept_) {
+    if (now / cadence.period != before / cadence.period) {
+      if (cadence.latency.count() <= 0) {
+        kept.arrived = snapshot;
+        continue;
+      }
+      kept.coming.push_back(snapshot);
+    }
+    while (!kept.coming.empty() && kept.coming.front()->state.time + cadence.latency <= now) {
+      kept.arrived = std::move(kept.coming.front());
+      kept.coming.pop_front();
+    }
   }
   latest_ = std::move(snapshot);
 }
 
 void SnapshotHistory::Restart(SnapshotPtr snapshot) {
   const std::lock_guard lock(mutex_);
-  for (auto& [period, kept] : at_instant_) kept = snapshot;
+  for (auto& [cadence, kept] : kept_) kept = {snapshot, {}};
   latest_ = std::move(snapshot);
 }
 

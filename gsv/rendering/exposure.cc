@@ -1,0 +1,84 @@
+#include "gsv/rendering/exposure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gsv::rendering {
+namespace {
+
+// sRGB (IEC 61966-2-1).
+double Linear(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+// Of a number from 0 to 255.
+std::array<float, 256> LinearTable() {
+  std::array<float, 256> table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = static_cast<float>(Linear(static_cast<double>(i) / 255));
+  }
+  return table;
+}
+
+// The number whose light is nearest: thresholds[i] lies in the middle between i and i + 1.
+std::uint8_t Encoded(float light, const std::array<float, 256>& thresholds) {
+  const auto above = std::upper_bound(thresholds.begin(), thresholds.end() - 1, light);
+  return static_cast<std::uint8_t>(above - thresholds.begin());
+}
+
+std::array<float, 256> Thresholds() {
+  std::array<float, 256> table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = static_cast<float>(Linear((static_cast<double>(i) + 0.5) / 255));
+  }
+  return table;
+}
+
+}  // namespace
+
+Exposure::Exposure(sensing::ParameterReader& reader)
+    : light_(std::exp2(reader.Number("exposure", 0, -20, 20))),
+      gain_(reader.Number("gain", 1, 0, 1e6)),
+      vignetting_(reader.Number("vignetting", 0, 0, 1)),
+      noise_(ReadNoise(reader, "noise", 1)) {}
+
+bool Exposure::is_neutral() const {
+  return light_ == 1 && gain_ == 1 && vignetting_ == 0 && noise_.is_none();
+}
+
+void Exposure::Apply(const sensing::Sampling& sampling, const model::SensorDescription& description,
+                     model::Image& picture) const {
+  ApplyLight(picture);
+  if (!noise_.is_none()) ApplyNoise(sampling, description, picture);
+}
+
+void Exposure::ApplyLight(model::Image& picture) const {
+  if (light_ == 1 && gain_ == 1 && vignetting_ == 0) return;
+  static const std::array<float, 256> kLinear = LinearTable(), kThresholds = Thresholds();
+  const double middle_x = 0.5 * picture.width, middle_y = 0.5 * picture.height;
+  const double corner = middle_x * middle_x + middle_y * middle_y;
+  std::uint8_t* at = picture.pixels.data();
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const double dx = x + 0.5 - middle_x, dy = y + 0.5 - middle_y;
+      const double left = 1 - vignetting_ * (dx * dx + dy * dy) / corner;
+      const auto factor = static_cast<float>(light_ * gain_ * left);
+      for (int c = 0; c < 3; ++c, ++at) *at = Encoded(factor * kLinear[*at], kThresholds);
+    }
+  }
+}
+
+void Exposure::ApplyNoise(const sensing::Sampling& sampling,
+                          const model::SensorDescription& description,
+                          model::Image& picture) const {
+  const sensing::NoisyReading noisy(sampling, description);
+  const double mean = noise_.mean + noisy.Bias(noise_, 0);
+  base::Noise white = sampling.NoiseOf(description);
+  for (std::uint8_t& value : picture.pixels) {
+    const double off = mean + (noise_.stddev > 0 ? noise_.stddev * white.Gaussian() : 0);
+    value = static_cast<std::uint8_t>(std::clamp(value + 255 * gain_ * off + 0.5, 0.0, 255.0));
+  }
+}
+
+}  // namespace gsv::rendering

@@ -1,0 +1,213 @@
+// Where things are in pictures through a lens, against its equations.
+#include "gsv/rendering/lens_map.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gsv/rendering/optics.h"
+#include "gsv/rendering/test_scene.h"
+
+namespace gsv::rendering {
+namespace {
+
+using geometry::Vector2;
+using geometry::Vector3;
+
+constexpr double kPi = std::numbers::pi;
+
+struct LensCase {
+  const char* name;
+  model::Parameters parameters;
+  double widest;  // rad from the view
+};
+
+std::vector<LensCase> Cases() {
+  const std::string equidistant = "equidistant", stereographic = "stereographic";
+  return {
+      {"pinhole", {{"horizontal_fov", 1.05}}, 0.5},
+      {"distorted",
+       {{"horizontal_fov", 1.05},
+        {"distortion.k1", -0.28},
+        {"distortion.k2", 0.07},
+        {"distortion.p1", 0.0011},
+        {"distortion.p2", -0.0004}},
+       0.5},
+      {"cushion", {{"horizontal_fov", 1.05}, {"distortion.k1", 0.2}}, 0.45},
+      {"intrinsics",
+       {{"lens.intrinsics.fx", 600.0},
+        {"lens.intrinsics.fy", 640.0},
+        {"lens.intrinsics.cx", 300.0},
+        {"lens.intrinsics.cy", 260.0}},
+       0.3},
+      {"fisheye", {{"horizontal_fov", kPi}, {"lens.type", equidistant}}, 1.5},
+      {"all round",
+       {{"horizontal_fov", 5.0}, {"lens.type", stereographic}, {"lens.cutoff_angle", kPi}},
+       2.0},
+  };
+}
+
+class LensPicture : public testing::TestWithParam<LensCase> {
+ protected:
+  Optics Read() {
+    model::SensorDescription description;
+    description.parameters = GetParam().parameters;
+    description.parameters["image.width"] = 640.0;
+    description.parameters["image.height"] = 480.0;
+    sensing::ParameterReader reader(description);
+    Optics optics = Optics::Read(reader);
+    EXPECT_TRUE(reader.status()) << reader.status().error().Sentence();
+    return optics;
+  }
+
+  void SetUp() override {
+    if (!renderer_) GTEST_SKIP() << renderer_.error().Sentence();
+  }
+
+  base::Result<std::shared_ptr<Renderer>> renderer_ = Renderer::Start();
+};
+
+// The middle of what a ball covers, by rays about its rim: that is not where its centre is.
+Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
+  const double sine = radius / Norm(centre);
+  const Vector3 along = Normalized(centre);
+  const Vector3 side =
+      Normalized(Cross(along, std::abs(along.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}));
+  const Vector3 other = Cross(along, side);
+  constexpr int kCorners = 720;  // of the polygon whose centroid is taken
+  std::vector<Vector2> rim;
+  for (int i = 0; i < kCorners; ++i) {
+    const double a = 2 * kPi * i / kCorners;
+    const auto at = lens.Project(std::sqrt(1 - sine * sine) * along +
+                                 sine * (std::cos(a) * side + std::sin(a) * other));
+    EXPECT_TRUE(at);
+    if (at) rim.push_back(*at);
+  }
+  double area = 0, u = 0, v = 0;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const Vector2 &a = rim[i], &b = rim[(i + 1) % rim.size()];
+    const double piece = a.x * b.y - b.x * a.y;
+    area += piece, u += piece * (a.x + b.x), v += piece * (a.y + b.y);
+  }
+  return {u / (3 * area), v / (3 * area)};
+}
+
+// The centre of what is red, by how red it is: whatever light gleams on it besides.
+Blob RedOf(const model::Image& picture) {
+  Blob blob;
+  double weight = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint8_t* p =
+          &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
+      if (p[0] <= std::max(p[1], p[2])) continue;
+      ++blob.pixels;
+      weight += p[0], blob.u += p[0] * (x + 0.5), blob.v += p[0] * (y + 0.5);
+    }
+  }
+  if (weight > 0) blob.u /= weight, blob.v /= weight;
+  return blob;
+}
+
+// Edges are drawn to the pixel: several balls of different sizes tell where their middle is.
+TEST_P(LensPicture, ShowsThingsWhereTheEquationsSay) {
+  const Optics optics = Read();
+  const auto is_inside = [](const Vector2& at) {
+    return at.x > 40 && at.x < 600 && at.y > 40 && at.y < 440;
+  };
+  int seen = 0;
+  Vector2 squares;
+  for (const double angle : {0.0, 0.3, 0.6, 0.95}) {
+    for (const double round : {0.2, 1.7, 3.9, 5.1}) {
+      const double off = angle * GetParam().widest;
+      const Vector3 centre = 4 * Vector3{std::cos(off), std::sin(off) * std::cos(round),
+                                         std::sin(off) * std::sin(round)};
+      const auto middle = optics.lens().Project(centre);
+      if (!middle || !is_inside(*middle)) continue;
+      ++seen;
+      Vector2 error;
+      constexpr double kSizes[] = {0.16, 0.18, 0.205, 0.24};
+      for (const double size : kSizes) {
+        const double radius = size * std::max(0.5, GetParam().widest);
+        TestScene scene;
+        scene.description().scene.background = {0, 0, 0, 1};
+        scene.Add("ball", geometry::Sphere{radius}, {centre, {}}, Glowing(1, 0, 0));
+        const auto picture = optics.Draw(**renderer_, scene.Snapshot(), {});
+        ASSERT_TRUE(picture) << picture.error().Sentence();
+        ASSERT_EQ((*picture)->width, 640);
+        const Blob ball = RedOf(**picture);
+        EXPECT_GT(ball.pixels, 50);
+        const Vector2 expected = MiddleOfBall(optics.lens(), centre, radius);
+        error = error + (1.0 / std::size(kSizes)) * (Vector2{ball.u, ball.v} - expected);
+      }
+      EXPECT_NEAR(error.x, 0, 0.15) << off << " " << round;
+      EXPECT_NEAR(error.y, 0, 0.15) << off << " " << round;
+      squares = squares + Vector2{error.x * error.x, error.y * error.y};
+    }
+  }
+  EXPECT_GE(seen, 8);
+  EXPECT_LT(std::sqrt(squares.x / seen), 0.05);
+  EXPECT_LT(std::sqrt(squares.y / seen), 0.05);
+}
+
+TEST_P(LensPicture, MeasuresTheDepthOfAWall) {
+  const Optics optics = Read();
+  TestScene scene;
+  scene.Add("wall", geometry::Box{{1, 2000, 2000}}, {{5.5, 0, 0}, {}}, Matt(1, 1, 1));
+  const auto truth = optics.Survey(**renderer_, scene.Snapshot(), {});
+  ASSERT_TRUE(truth) << truth.error().Sentence();
+  const int wall = 0;
+  int seen = 0;
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * 640 + static_cast<std::size_t>(x);
+      const auto ray = optics.lens().RayAt(x + 0.5, y + 0.5);
+      if (!ray || ray->x < 0.15) continue;
+      ASSERT_EQ((*truth)->body[at], wall) << x << " " << y;
+      ASSERT_NEAR((*truth)->depth[at], 5, 1e-4 / ray->x) << x << " " << y;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 20'000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lenses, LensPicture, testing::ValuesIn(Cases()), [](const auto& info) {
+  std::string name = info.param.name;
+  std::erase(name, ' ');
+  return name;
+});
+
+TEST(LensMap, LooksNoFurtherThanItsLens) {
+  EXPECT_EQ(LensMap(Lens(CameraParameters{}), {}).Views({}).size(), 1u);
+  const auto half = Lens::Wide({}, *WideViewNamed("equidistant"), kPi);
+  ASSERT_TRUE(half);
+  // All faces but the one behind.
+  EXPECT_EQ(LensMap(*half, {}).Views({}).size(), 5u);
+}
+
+TEST(LensMap, IsBlackWhereTheLensShowsNothing) {
+  WideView narrow = *WideViewNamed("equidistant");
+  narrow.cutoff_angle = 0.5;
+  const auto lens = Lens::Wide({}, narrow, 2);
+  ASSERT_TRUE(lens);
+  const LensMap map(*lens, {});
+  const CameraParameters face = map.Views({}).front().parameters;
+  const auto white = std::make_shared<const model::Image>(model::Image{
+      face.width,
+      face.height,
+      3,
+      std::vector<std::uint8_t>(
+          3 * static_cast<std::size_t>(face.width) * static_cast<std::size_t>(face.height), 255),
+      {}});
+  const std::vector<std::shared_ptr<const model::Image>> faces{white};
+  const model::Image joined = map.Join(faces);
+  EXPECT_EQ(Brightness(joined, 160, 120), 255);
+  EXPECT_EQ(Brightness(joined, 160 + 75, 120), 255);  // 0.5 rad are 80 pixels
+  EXPECT_EQ(Brightness(joined, 160 + 85, 120), 0);
+  EXPECT_EQ(Brightness(joined, 0, 0), 0);
+}
+
+}  // namespace
+}  // namespace gsv::rendering
