@@ -219,6 +219,28 @@ class Maze(unittest.TestCase):
                 self.assertEqual(min(o.distance(x, y) for o in obstacles), 0, f"a gap at {x}, {y}")
 
 
+class Warehouse(unittest.TestCase):
+    def setUp(self):
+        self.obstacles = obstacles_of_world("warehouse.sdf")
+
+    def test_its_ways_are_as_wide_as_its_comment_says(self):
+        for k in range(-70, 45):
+            x = k / 10
+            distance = min(o.distance(x, 0) for o in self.obstacles)
+            self.assertAlmostEqual(distance, 5.8 / 2, delta=0.01, msg=f"at x = {x}")
+            for y in (-5.05, 5.05):
+                distance = min(o.distance(x, y) for o in self.obstacles)
+                self.assertAlmostEqual(distance, 2.3 / 2, delta=0.01, msg=f"at {x}, {y}")
+
+    def test_nothing_stands_in_anything_else(self):
+        for a in self.obstacles:
+            for b in self.obstacles:
+                if a.owner >= b.owner or a.low >= b.high or b.low >= a.high:
+                    continue
+                for x, y in a.corners():
+                    self.assertGreater(b.distance(x, y), 0, f"{a.owner} in {b.owner}")
+
+
 class Robots(unittest.TestCase):
     def sonars(self, robot):
         return [s for s in model_named(robot).iter("sensor") if s.get("type") == "sonar"]
@@ -235,12 +257,12 @@ class Robots(unittest.TestCase):
             self.assertEqual(float(sonar.findtext("sonar/max")), 5.0)
 
     def test_the_small_robots_have_8_sonars_every_45_degrees(self):
-        for robot in ("pebble", "rover4"):
+        for robot in ("pebble", "rover4", "courier"):
             headings = [float(s.findtext("pose").split()[5]) % 360 for s in self.sonars(robot)]
             self.assertEqual(headings, [45 * k for k in range(8)], robot)
 
     def test_each_robot_has_a_drive_and_a_camera(self):
-        for robot in ("b21r", "pebble", "rover4", "avatar"):
+        for robot in ("b21r", "pebble", "rover4", "courier", "avatar"):
             model = model_named(robot)
             self.assertEqual(len(model.findall("plugin")), 1, robot)
             cameras = [s for s in model.iter("sensor") if s.get("type") == "camera"]

@@ -10,10 +10,10 @@
 namespace gsv::app {
 
 void AddRunOptions(CLI::App& command, RunArguments& a) {
-  command.add_option(
-      "world", a.world,
-      "a world's file, a model to use as one, or one of ours (office, maze, playground); "
-      "without one: the office with five robots");
+  command.add_option("world", a.world,
+                     "a world's file, a model to use as one, or one of ours (office, maze, "
+                     "warehouse, yard, playground); "
+                     "without one: the office with five robots");
   command.add_option(
       "--robot", a.robots,
       "MODEL[@x,y[,yaw]]: a robot and where it starts; metres, yaw in radians or as 90deg");

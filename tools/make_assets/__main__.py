@@ -1,4 +1,5 @@
-"""Makes the meshes, textures and the building of assets/: python3 tools/make_assets
+"""Makes the meshes, textures, the building, the warehouse, the yard and the car of assets/:
+python3 tools/make_assets
 
 Its results are committed; run it again after changing it. Textures need ImageMagick's `convert`,
 all else only Python. The same scripts give the same meshes; JPEGs may differ between versions of
@@ -9,9 +10,12 @@ import sys
 from pathlib import Path
 
 import building
+import car
 import robots
 import textures
 import things
+import warehouse
+import yard
 
 ASSETS = Path(__file__).resolve().parent.parent.parent / "assets"
 
@@ -27,6 +31,9 @@ def main(arguments):
     robots.make(models)
     things.make(models)
     building.make(models / "office_building")
+    car.make(models)
+    warehouse.make(ASSETS)
+    yard.make(ASSETS)
     return 0
 
 

@@ -100,6 +100,52 @@ def bricks(base, joint, across, rows, seed):
     return colour
 
 
+def concrete(base, seed):
+    """Poured in slabs, with stains and hair cracks."""
+    stains, grain = Noise(seed, 6, 6), Noise(seed + 1, 160, 160)
+
+    def colour(u, v):
+        joint = min(edge(min(u, 1 - u), 0.004), edge(min(v, 1 - v), 0.004))
+        t = 0.9 + 0.12 * stains.at(u, v) + 0.1 * (grain.at(u, v) - 0.5)
+        return shade(base, t * (0.75 + 0.25 * joint))
+
+    return colour
+
+
+def cardboard(base, tape, seed):
+    """A box's side, with tape across its middle."""
+    grain, waves = Noise(seed, 4, 96), Noise(seed + 1, 12, 12)
+
+    def colour(u, v):
+        if abs(v - 0.5) < 0.05:
+            return shade(tape, 0.95 + 0.1 * waves.at(u, v))
+        rim = min(edge(min(u, 1 - u), 0.02), edge(min(v, 1 - v), 0.02))
+        return shade(base, (0.9 + 0.12 * grain.at(u, v) + 0.06 * waves.at(u, v)) * (0.8 + 0.2 * rim))
+
+    return colour
+
+
+def grass(seed):
+    patches, blades, fine = Noise(seed, 5, 5), Noise(seed + 1, 48, 96), Noise(seed + 2, 128, 128)
+
+    def colour(u, v):
+        t = 0.45 * patches.at(u, v) + 0.35 * blades.at(u, v) + 0.2 * fine.at(u, v)
+        return mixed((62, 88, 36), (140, 158, 84), t)
+
+    return colour
+
+
+def gravel(seed):
+    stones, fine = Noise(seed, 72, 72), Noise(seed + 1, 128, 128)
+    tint = Noise(seed + 2, 24, 24)
+
+    def colour(u, v):
+        t = 0.6 * stones.at(u, v) + 0.4 * fine.at(u, v)
+        return mixed((112, 104, 94), mixed((196, 190, 178), (178, 164, 146), tint.at(u, v)), t)
+
+    return colour
+
+
 def book_spines(seed):
     """One board's width of books, standing."""
     source = random.Random(seed)
@@ -152,6 +198,10 @@ TEXTURES = {  # name: (width, height, colour of a point)
     "tiles": (256, 256, tiles((198, 196, 190), (128, 126, 122), 4, 6)),
     "brick": (512, 256, bricks((158, 80, 62), (186, 178, 168), 8, 10, 7)),
     "books": (512, 128, book_spines(9)),
+    "concrete": (512, 512, concrete((164, 163, 158), 12)),
+    "cardboard": (128, 128, cardboard((190, 148, 100), (206, 178, 130), 15)),
+    "grass": (256, 256, grass(18)),
+    "gravel": (256, 256, gravel(21)),
     "painting": (256, 192, painting(10)),
 }
 
