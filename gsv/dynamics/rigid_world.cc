@@ -18,7 +18,7 @@ constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
 constexpr double kPassable = 0.4;
 
 // Rounds of the solver: a few bodies have time for many.
-constexpr int kMostRounds = 1000, kFewestRounds = 50, kRoundsOfAll = 5000;
+constexpr int kMostRounds = 250, kFewestRounds = 50, kRoundsOfAll = 5000;
 // (N s)²: until no impulse changes by more.
 constexpr double kConverged = 1e-16;
 // m: how deep bodies rest in each other, so that what touches goes on touching.

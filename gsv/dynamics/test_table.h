@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <initializer_list>
 #include <iomanip>
 #include <string>
+#include <vector>
 
 namespace gsv::dynamics::testing {
 
@@ -17,7 +17,7 @@ class Table {
       file_.open(folder + ("/" + name + ".dat"));
     }
   }
-  void Row(std::initializer_list<double> values) {
+  void Row(const std::vector<double>& values) {
     if (!file_.is_open()) return;
     for (const double value : values) file_ << std::setprecision(12) << value << ' ';
     file_ << '\n';
