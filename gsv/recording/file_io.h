@@ -12,7 +12,7 @@
 
 namespace gsv::recording {
 
-// Takes bytes, one after the other.
+// Takes bytes, one after the other. Sync() may be called while another thread writes.
 class ByteSink {
  public:
   virtual ~ByteSink() = default;

@@ -37,7 +37,10 @@ class McapFileWriter {
   base::Status Attach(const AttachmentRecord& attachment);
   base::Status AddMetadata(const MetadataRecord& metadata);
 
-  // Closes the current chunk and returns when it would survive a loss of power.
+  // Writes the current chunk, if there is anything in it: from then on a crash of this process
+  // leaves it readable.
+  base::Status CloseChunk();
+  // The same, and returns when it would survive a loss of power.
   base::Status Flush();
   // Writes the rest and the summary. Nothing may follow.
   base::Status Close();
@@ -46,7 +49,6 @@ class McapFileWriter {
   std::uint64_t bytes_written() const { return position_; }
 
  private:
-  base::Status CloseChunk();
   void WriteRaw(std::span<const std::byte> bytes);
   template <typename Record>
   void WriteRecord(const Record& record);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "gsv/base/check.h"
 #include "gsv/base/log.h"
+#include "gsv/recording/background_sync.h"
 
 namespace gsv::recording {
 namespace {
@@ -194,6 +196,7 @@ McapWriter::Progress McapWriter::progress() const {
 
 void McapWriter::Run() {
   McapFileWriter file(*sink_, options_.file);
+  std::optional<BackgroundSync> disk(*sink_);
   Bytes batch;
   std::vector<Bytes> whole;
   for (bool closing = false; !closing;) {
@@ -203,6 +206,7 @@ void McapWriter::Run() {
       std::unique_lock lock(mutex_);
       progress_.bytes = file.bytes_written();
       if (!file.status() && status_) EndWith(file.status().error());
+      if (const base::Status synced = disk->status(); !synced && status_) EndWith(synced.error());
       work_.wait(lock, [&] { return flush_ || closing_ || queued() >= wake_at_; });
       batch.clear();
       std::swap(batch, queue_);
@@ -215,11 +219,12 @@ void McapWriter::Run() {
     room_.notify_all();
     for (const Bytes& record : whole) WriteBatch(file, record);
     WriteBatch(file, batch);
-    if (flush) file.Flush();
+    if (flush && file.CloseChunk()) disk->Ask();
     if (closing && dropped > 0) {
       file.AddMetadata({"gsv.recording", {{"dropped_messages", std::to_string(dropped)}}});
     }
   }
+  disk.reset();
   const base::Status status = file.Close();
   const std::lock_guard lock(mutex_);
   progress_.bytes = file.bytes_written();

@@ -1,0 +1,22 @@
+// What recording_victim tells kill_test of each snapshot, through a pipe: plain bytes, for two
+// programs on one machine.
+#pragma once
+
+#include <cstdint>
+#include <ctime>
+
+namespace gsv::recording {
+
+struct HandOver {
+  std::int64_t time_ns = 0;  // simulated
+  std::int64_t wall_ns = 0;  // after the recorder had taken the snapshot
+};
+
+// The clock that all processes of a machine share.
+inline std::int64_t WallNow() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+}  // namespace gsv::recording

@@ -1,0 +1,218 @@
+// Programs that record are killed (SIGKILL) at two hundred random moments, many at once. What each
+// had handed to its recorder a second before, by the wall clock, must be in its file.
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <set>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "gsv/base/temporary_folder.h"
+#include "gsv/recording/hand_over.h"
+#include "gsv/recording/recording_info.h"
+#include "gsv/recording/recover.h"
+#include "gsv/recording/test_recording.h"
+
+namespace gsv::recording {
+namespace {
+
+constexpr int kMoments = 200;
+constexpr std::size_t kAtOnce = 20;
+constexpr std::int64_t kMillisecond = 1'000'000;  // ns
+constexpr std::int64_t kPromised = 1000 * kMillisecond;
+constexpr std::int64_t kLongestLife = 2500 * kMillisecond;
+// A process that got no processor for so long cannot keep a promise about time: its moment is
+// tried again.
+constexpr std::int64_t kStall = 250 * kMillisecond;
+constexpr int kMostAgain = 200;
+
+// One recording program, from its start to its end.
+class Victim {
+ public:
+  Victim(std::string path, std::int64_t life, int dawdling_us)
+      : path_(std::move(path)), dies_at_(WallNow() + life) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) std::abort();
+    pipe_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    std::string program = GSV_RECORDING_VICTIM, dawdling = std::to_string(dawdling_us);
+    char* arguments[]{program.data(), path_.data(), dawdling.data(), nullptr};
+    if (posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments, environ) != 0) {
+      std::abort();
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+  }
+  Victim(const Victim&) = delete;
+  Victim& operator=(const Victim&) = delete;
+  ~Victim() {
+    if (pid_ > 0) Kill();
+  }
+
+  const std::string& path() const { return path_; }
+  int pipe() const { return pipe_; }
+  std::int64_t dies_at() const { return dies_at_; }
+
+  // One read's worth; false at the end.
+  bool Listen() {
+    HandOver batch[256];
+    const ssize_t size = read(pipe_, batch, sizeof batch);
+    if (size <= 0) return false;
+    told_.insert(told_.end(), batch, batch + size / static_cast<ssize_t>(sizeof(HandOver)));
+    return true;
+  }
+
+  void Kill() {
+    killed_at_ = WallNow();
+    kill(pid_, SIGKILL);
+    waitpid(std::exchange(pid_, -1), nullptr, 0);
+    while (Listen()) {
+    }
+    close(pipe_);
+  }
+
+  // After Kill(): up to which simulated time all must be there; nothing: it was too short a life.
+  std::optional<base::SimTime> promised() const {
+    std::optional<base::SimTime> newest;
+    for (const HandOver& each : told_) {
+      if (each.wall_ns <= killed_at_ - kPromised) newest = base::SimTime(each.time_ns);
+    }
+    return newest;
+  }
+
+  bool has_stalled() const {
+    std::int64_t last = told_.empty() ? killed_at_ : told_.front().wall_ns;
+    for (const HandOver& each : told_) {
+      if (each.wall_ns - last > kStall) return true;
+      last = each.wall_ns;
+    }
+    return killed_at_ - last > kStall;
+  }
+
+ private:
+  std::string path_;
+  std::int64_t dies_at_;
+  std::int64_t killed_at_ = 0;
+  int pipe_ = -1;
+  pid_t pid_ = -1;
+  std::vector<HandOver> told_;
+};
+
+std::map<std::string, std::set<base::SimTime>> TimesByTopic(const McapReader& reader) {
+  std::map<std::string, std::set<base::SimTime>> times;
+  MessageCursor cursor = reader.Messages();
+  for (auto next = cursor.Next(); next && *next; next = cursor.Next()) {
+    times[reader.summary().channels.at((*next)->channel_id).topic].insert((*next)->log_time);
+  }
+  return times;
+}
+
+// Recovers what the victim left behind, and looks whether all that was promised is in it.
+void Judge(const Victim& victim) {
+  const std::string mended = victim.path() + ".mended";
+  const auto recovery = Recover(victim.path(), mended);
+  const std::optional<base::SimTime> until = victim.promised();
+  if (!recovery) {
+    EXPECT_FALSE(until) << recovery.error().Sentence();
+    return;
+  }
+  const auto info = ReadInfo(mended);
+  ASSERT_TRUE(info) << info.error().Sentence();
+  EXPECT_TRUE(info->indexed);
+  EXPECT_TRUE(info->problems.empty());
+  EXPECT_EQ(info->messages, recovery->messages);
+  if (until) {
+    auto times = TimesByTopic(**McapReader::Open(mended));
+    for (base::SimTime time{}; time <= *until; time += 20ms) {
+      ASSERT_TRUE(times["/clock"].contains(time)) << time.count() << " of " << until->count();
+    }
+    for (base::SimTime time{}; time <= *until; time += 50ms) {
+      ASSERT_TRUE(times["/robot/front"].contains(time)) << time.count() << " of " << until->count();
+    }
+  }
+  std::filesystem::remove(mended);
+  std::filesystem::remove(victim.path());
+}
+
+class Killing {
+ public:
+  explicit Killing(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // Goes on until kMoments have been judged.
+  void Run() {
+    while (judged_ < kMoments && !testing::Test::HasFatalFailure()) {
+      while (victims_.size() < kAtOnce && started_ - again_ < kMoments) Start();
+      ASSERT_FALSE(victims_.empty()) << "this machine stalls too often to tell";
+      ListenUntilOneIsDue();
+      KillThoseDue();
+    }
+  }
+
+  int with_a_promise() const { return with_a_promise_; }
+
+ private:
+  void Start() {
+    std::uniform_int_distribution<std::int64_t> life(0, kLongestLife);
+    std::uniform_int_distribution<int> dawdling(2'000, 50'000);
+    const std::string name = "run_" + std::to_string(started_++) + ".mcap";
+    victims_.push_back(std::make_unique<Victim>(folder_ / name, life(random_), dawdling(random_)));
+  }
+
+  void ListenUntilOneIsDue() {
+    std::int64_t due = victims_.front()->dies_at();
+    std::vector<pollfd> pipes;
+    for (const auto& victim : victims_) {
+      due = std::min(due, victim->dies_at());
+      pipes.push_back({victim->pipe(), POLLIN, 0});
+    }
+    const std::int64_t left = std::max<std::int64_t>(0, due - WallNow());
+    poll(pipes.data(), pipes.size(), static_cast<int>(left / kMillisecond) + 1);
+    for (std::size_t i = 0; i < pipes.size(); ++i) {
+      if ((pipes[i].revents & POLLIN) != 0) victims_[i]->Listen();
+    }
+  }
+
+  void KillThoseDue() {
+    for (auto& victim : victims_) {
+      if (victim->dies_at() > WallNow()) continue;
+      victim->Kill();
+      const bool counts = !victim->has_stalled();
+      if (counts) {
+        ++judged_;
+        with_a_promise_ += victim->promised() ? 1 : 0;
+        SCOPED_TRACE(victim->path());
+        Judge(*victim);
+      } else if (again_ < kMostAgain) {
+        ++again_;
+      }
+      victim.reset();
+    }
+    std::erase(victims_, nullptr);
+  }
+
+  const std::filesystem::path folder_;
+  std::mt19937_64 random_{1};
+  std::vector<std::unique_ptr<Victim>> victims_;
+  int started_ = 0, again_ = 0, judged_ = 0, with_a_promise_ = 0;
+};
+
+TEST(Kill, AtTwoHundredMomentsLosesASecondAtMost) {
+  const auto folder = base::TemporaryFolder::Make("gsv-kill");
+  ASSERT_TRUE(folder);
+  Killing killing(folder->path());
+  killing.Run();
+  // Lives are as long as 2.5 s, so that most had something to lose.
+  EXPECT_GT(killing.with_a_promise(), kMoments / 4);
+}
+
+}  // namespace
+}  // namespace gsv::recording
