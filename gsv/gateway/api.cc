@@ -1,11 +1,11 @@
 #include "gsv/gateway/api.h"
 
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "gsv/gateway/command_json.h"
+#include "gsv/gateway/simulation_commands.h"
 #include "gsv/gateway/status_json.h"
 #include "gsv/presentation/scene_json.h"
 
@@ -14,24 +14,12 @@ namespace {
 
 using simulation::Simulation;
 
-base::Status StepBy(Simulation& simulation, const std::string& body) {
+base::Status Obey(Simulation& simulation, const SimulationCommand& command,
+                  const std::string& body) {
+  if (!command.takes_count) return command.run(simulation, 0);
   const base::Result<std::int64_t> count = ParseStepCount(body);
   if (!count) return base::Fail(count.error());
-  return simulation.Step(*count);
-}
-
-using Action = base::Status (*)(Simulation& simulation, const std::string& body);
-
-const std::map<std::string, Action>& Actions() {
-  static const std::map<std::string, Action> kActions{
-      {"start", [](Simulation& s, const std::string&) { return s.Start(); }},
-      {"pause", [](Simulation& s, const std::string&) { return s.Pause(); }},
-      {"resume", [](Simulation& s, const std::string&) { return s.Resume(); }},
-      {"stop", [](Simulation& s, const std::string&) { return s.Stop(); }},
-      {"reset", [](Simulation& s, const std::string&) { return s.Reset(); }},
-      {"step", &StepBy},
-  };
-  return kActions;
+  return command.run(simulation, *count);
 }
 
 Response StatusOf(const Simulation& simulation) {
@@ -89,10 +77,10 @@ Response Api::OfSimulation(const Request& request) {
   if (path.size() == 3) return is_get ? StatusOf(*simulation) : MethodNotAllowed("GET");
   if (path.size() > 4) return OfRobot(request, simulation);
   if (path[3] == "scene") return is_get ? Scene(*simulation) : MethodNotAllowed("GET");
-  const auto action = Actions().find(path[3]);
-  if (action == Actions().end()) return NoSuchAddress();
+  const SimulationCommand* command = FindSimulationCommand(path[3]);
+  if (command == nullptr) return NoSuchAddress();
   if (request.method != "POST") return MethodNotAllowed("POST");
-  if (const base::Status done = action->second(*simulation, request.body); !done) {
+  if (const base::Status done = Obey(*simulation, *command, request.body); !done) {
     return ErrorResponse(done.error());
   }
   return StatusOf(*simulation);

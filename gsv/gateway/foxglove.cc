@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <limits>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -32,46 +30,9 @@ bool Offers(std::string_view offered, std::string_view name) {
   return false;
 }
 
-tl::unexpected<base::Error> Malformed(std::string_view expected) {
-  return base::Fail(base::ErrorCode::kCorrupt,
-                    "a message is not one of the Foxglove protocol: " + std::string(expected));
-}
-
-std::optional<std::uint32_t> AsId(const Json& json) {
-  if (!json.is_number_unsigned()) return std::nullopt;
-  const auto value = json.get<std::uint64_t>();
-  if (value > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
-  return static_cast<std::uint32_t>(value);
-}
-
-const Json& Member(const Json& object, const char* name) {
-  static const Json kNull;
-  if (!object.is_object()) return kNull;
-  const auto found = object.find(name);
-  return found == object.end() ? kNull : *found;
-}
-
-base::Result<ClientMessage> ParseSubscribe(const Json& list) {
-  if (!list.is_array()) return Malformed("'subscribe' needs an array 'subscriptions'");
-  Subscribe message;
-  for (const Json& entry : list) {
-    const std::optional<std::uint32_t> id = AsId(Member(entry, "id"));
-    const std::optional<std::uint32_t> channel = AsId(Member(entry, "channelId"));
-    if (!id || !channel) return Malformed("a subscription needs the numbers 'id' and 'channelId'");
-    message.subscriptions.push_back({*id, *channel});
-  }
-  return message;
-}
-
-base::Result<ClientMessage> ParseUnsubscribe(const Json& list) {
-  if (!list.is_array()) return Malformed("'unsubscribe' needs an array 'subscriptionIds'");
-  Unsubscribe message;
-  for (const Json& entry : list) {
-    const std::optional<std::uint32_t> id = AsId(entry);
-    if (!id) return Malformed("'subscriptionIds' holds something that is not a number");
-    message.subscriptions.push_back(*id);
-  }
-  return message;
+Json ToJson(std::uint64_t time_ns) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  return {{"sec", time_ns / kSecond}, {"nsec", time_ns % kSecond}};
 }
 
 template <std::unsigned_integral Number>
@@ -90,11 +51,21 @@ std::string_view ChooseSubprotocol(std::string_view offered) {
 }
 
 std::string ServerInfoText(const ServerInfo& info) {
-  return Dump({{"op", "serverInfo"},
-               {"name", info.name},
-               {"capabilities", info.capabilities},
-               {"metadata", info.metadata},
-               {"sessionId", info.session_id}});
+  Json json{{"op", "serverInfo"},
+            {"name", info.name},
+            {"capabilities", info.capabilities},
+            {"metadata", info.metadata},
+            {"sessionId", info.session_id}};
+  const auto& capabilities = info.capabilities;
+  if (std::find(capabilities.begin(), capabilities.end(), "services") != capabilities.end()) {
+    json["supportedEncodings"] = {"cdr"};
+  }
+  if (info.playback) {
+    json["capabilities"].push_back("playbackControl");
+    json["dataStartTime"] = ToJson(info.playback->start_ns);
+    json["dataEndTime"] = ToJson(info.playback->end_ns);
+  }
+  return Dump(json);
 }
 
 std::string AdvertiseText(std::span<const Channel> channels) {
@@ -117,17 +88,6 @@ std::string UnadvertiseText(std::span<const ChannelId> channels) {
 
 std::string StatusText(StatusLevel level, std::string_view message) {
   return Dump({{"op", "status"}, {"level", static_cast<int>(level)}, {"message", message}});
-}
-
-base::Result<ClientMessage> ParseClientMessage(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return Malformed("a text must be a JSON object");
-  const Json& op = Member(json, "op");
-  if (!op.is_string()) return Malformed("the string 'op' is missing");
-  const auto& name = op.get_ref<const std::string&>();
-  if (name == "subscribe") return ParseSubscribe(Member(json, "subscriptions"));
-  if (name == "unsubscribe") return ParseUnsubscribe(Member(json, "subscriptionIds"));
-  return Unsupported{name.substr(0, 64)};
 }
 
 BinaryHeader MessageDataHeader(SubscriptionId subscription, std::uint64_t time_ns) {

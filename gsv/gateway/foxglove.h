@@ -7,10 +7,10 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "gsv/base/error.h"
@@ -36,11 +36,18 @@ struct Channel {
   std::string schema;
 };
 
+// The times of what a playback has to play, in nanoseconds.
+struct TimeRange {
+  std::uint64_t start_ns = 0, end_ns = 0;
+};
+
 struct ServerInfo {
   std::string name;
   std::vector<std::string> capabilities;
   std::map<std::string, std::string> metadata;
   std::string session_id;  // another one tells a client that the server is not the one it knew
+  // Of a playback, which then has the capability to be controlled.
+  std::optional<TimeRange> playback{};
 };
 
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
@@ -50,26 +57,6 @@ std::string ServerInfoText(const ServerInfo& info);
 std::string AdvertiseText(std::span<const Channel> channels);
 std::string UnadvertiseText(std::span<const ChannelId> channels);
 std::string StatusText(StatusLevel level, std::string_view message);
-
-// Client to server.
-struct Subscription {
-  SubscriptionId id = 0;
-  ChannelId channel = 0;
-};
-struct Subscribe {
-  std::vector<Subscription> subscriptions;
-};
-struct Unsubscribe {
-  std::vector<SubscriptionId> subscriptions;
-};
-// A message for a capability that this server does not declare.
-struct Unsupported {
-  std::string op;
-};
-using ClientMessage = std::variant<Subscribe, Unsubscribe, Unsupported>;
-
-// Fails with kCorrupt on what is not a message of the protocol.
-base::Result<ClientMessage> ParseClientMessage(std::string_view text);
 
 // What stands before the payload of a binary message: at most opcode (1), subscription (4, little
 // endian) and time (8, nanoseconds, little endian).

@@ -1,5 +1,6 @@
 #include "gsv/gateway/hub.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gsv::gateway {
@@ -7,13 +8,21 @@ namespace gsv::gateway {
 using foxglove::ChannelId;
 using foxglove::StatusLevel;
 
-Hub::Hub(foxglove::ServerInfo info, std::function<void()> on_demand)
-    : info_(std::move(info)), on_demand_(std::move(on_demand)) {}
+Hub::Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
+         std::shared_ptr<Operations> operations)
+    : info_(std::move(info)), on_demand_(std::move(on_demand)), desk_(std::move(operations)) {
+  info_.capabilities.push_back("connectionGraph");
+  for (std::string& name : desk_.capabilities()) info_.capabilities.push_back(std::move(name));
+}
 
-void Hub::Add(std::shared_ptr<Client> client) {
+void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
+  // The older protocol knows no playbacks.
+  const bool knows_playback = subprotocol == foxglove::kSubprotocols.front();
   {
     const std::lock_guard lock(mutex_);
-    client->SendText(SharedBytes(foxglove::ServerInfoText(info_)));
+    foxglove::ServerInfo info = info_;
+    if (!knows_playback) info.playback.reset();
+    client->SendText(SharedBytes(foxglove::ServerInfoText(info)));
     if (closed_) {
       client->Close(close_code_, close_reason_);
       return;
@@ -21,17 +30,19 @@ void Hub::Add(std::shared_ptr<Client> client) {
     std::vector<foxglove::Channel> channels;
     for (const auto& [id, topic] : topics_) channels.push_back(topic.channel);
     client->SendText(SharedBytes(foxglove::AdvertiseText(channels)));
-    Client* key = client.get();
-    members_[key].client = std::move(client);
+    members_[client.get()] = Member{client, "viewer " + std::to_string(next_member_++)};
   }
+  desk_.Welcome(client, knows_playback);
   on_demand_();
 }
 
 void Hub::Remove(Client* client) {
+  desk_.Forget(client);
   {
     const std::lock_guard lock(mutex_);
     members_.erase(client);
     for (auto& [id, topic] : topics_) topic.listeners.erase(client);
+    has_graph_changed_ = true;
   }
   on_demand_();
 }
@@ -39,14 +50,34 @@ void Hub::Remove(Client* client) {
 base::Status Hub::Receive(Client* client, std::string_view text) {
   const base::Result<foxglove::ClientMessage> message = foxglove::ParseClientMessage(text);
   if (!message) return base::Fail(message.error());
-  {
-    const std::lock_guard lock(mutex_);
-    const auto member = members_.find(client);
-    if (member == members_.end()) return {};
-    std::visit([&](const auto& content) { Apply(member->second, content); }, *message);
-  }
-  on_demand_();
+  Take(client, *message);
   return {};
+}
+
+base::Status Hub::ReceiveBytes(Client* client, std::string_view bytes) {
+  const base::Result<foxglove::ClientMessage> message = foxglove::ParseClientBytes(bytes);
+  if (!message) return base::Fail(message.error());
+  Take(client, *message);
+  return {};
+}
+
+void Hub::Take(Client* client, const foxglove::ClientMessage& message) {
+  std::unique_lock lock(mutex_);
+  const auto member = members_.find(client);
+  if (member == members_.end()) return;
+  std::visit(
+      [&](const auto& content) {
+        if constexpr (requires { Apply(member->second, content); }) {
+          Apply(member->second, content);
+          lock.unlock();
+        } else {
+          const std::shared_ptr<Client> sender = member->second.client;
+          lock.unlock();
+          desk_.Take(sender, content);
+        }
+      },
+      message);
+  on_demand_();
 }
 
 void Hub::Apply(Member& member, const foxglove::Subscribe& message) {
@@ -62,6 +93,7 @@ void Hub::Apply(Member& member, const foxglove::Subscribe& message) {
       Complain(member, "the channel " + topic->second.channel.topic + " is subscribed to already");
     } else {
       member.subscriptions.emplace(wish.id, wish.channel);
+      has_graph_changed_ = true;
     }
   }
 }
@@ -76,7 +108,19 @@ void Hub::Apply(Member& member, const foxglove::Unsubscribe& message) {
     const auto topic = topics_.find(subscription->second);
     if (topic != topics_.end()) topic->second.listeners.erase(member.client.get());
     member.subscriptions.erase(subscription);
+    has_graph_changed_ = true;
   }
+}
+
+void Hub::Apply(Member& member, const foxglove::WatchGraph& message) {
+  if (member.watches_graph == !message.is_end) return;
+  if (!message.is_end) {
+    foxglove::ConnectionGraph now = Graph();
+    const std::string text = foxglove::GraphUpdateText({}, now);
+    if (!text.empty()) member.client->SendText(SharedBytes(text));
+    if (!IsGraphWatched()) graph_ = std::move(now);
+  }
+  member.watches_graph = !message.is_end;
 }
 
 void Hub::Apply(Member& member, const foxglove::Unsupported& message) {
@@ -84,7 +128,7 @@ void Hub::Apply(Member& member, const foxglove::Unsupported& message) {
 }
 
 void Hub::Complain(Member& member, std::string_view message) {
-  member.client->SendText(SharedBytes(foxglove::StatusText(StatusLevel::kError, message)));
+  member.client->SendStatus(StatusLevel::kError, message);
 }
 
 std::vector<ChannelId> Hub::Advertise(std::vector<foxglove::Channel> channels) {
@@ -99,6 +143,7 @@ std::vector<ChannelId> Hub::Advertise(std::vector<foxglove::Channel> channels) {
   for (foxglove::Channel& channel : channels) {
     topics_[channel.id].channel = std::move(channel);
   }
+  has_graph_changed_ = true;
   for (auto& [key, member] : members_) member.client->SendText(text);
   return ids;
 }
@@ -107,6 +152,7 @@ void Hub::Unadvertise(std::span<const ChannelId> channels) {
   if (channels.empty()) return;
   const std::lock_guard lock(mutex_);
   for (const ChannelId id : channels) topics_.erase(id);
+  has_graph_changed_ = true;
   const SharedBytes text(foxglove::UnadvertiseText(channels));
   for (auto& [key, member] : members_) {
     std::erase_if(member.subscriptions,
@@ -180,6 +226,52 @@ void Hub::SendStatus(StatusLevel level, std::string_view message) {
   const SharedBytes text(foxglove::StatusText(level, message));
   const std::lock_guard lock(mutex_);
   for (auto& [key, member] : members_) member.client->SendText(text);
+}
+
+void Hub::SetPublishers(ChannelId channel, std::set<std::string> publishers) {
+  const std::lock_guard lock(mutex_);
+  const auto topic = topics_.find(channel);
+  if (topic == topics_.end() || topic->second.publishers == publishers) return;
+  topic->second.publishers = std::move(publishers);
+  has_graph_changed_ = true;
+}
+
+void Hub::PublishChanges(bool has_jumped) {
+  desk_.PublishChanges(has_jumped);
+  PublishGraph();
+}
+
+void Hub::PublishGraph() {
+  const std::lock_guard lock(mutex_);
+  if (!has_graph_changed_ || !IsGraphWatched()) return;
+  has_graph_changed_ = false;
+  foxglove::ConnectionGraph now = Graph();
+  const SharedBytes text(foxglove::GraphUpdateText(graph_, now));
+  graph_ = std::move(now);
+  if (text.size() == 0) return;
+  for (auto& [key, member] : members_) {
+    if (member.watches_graph) member.client->SendText(text);
+  }
+}
+
+// The lock is held.
+bool Hub::IsGraphWatched() const {
+  return std::any_of(members_.begin(), members_.end(),
+                     [](const auto& entry) { return entry.second.watches_graph; });
+}
+
+// The lock is held.
+foxglove::ConnectionGraph Hub::Graph() const {
+  foxglove::ConnectionGraph graph;
+  for (const auto& [id, topic] : topics_) {
+    const std::string& name = topic.channel.topic;
+    graph.publishers[name].insert(topic.publishers.begin(), topic.publishers.end());
+    for (const auto& [client, listener] : topic.listeners) {
+      graph.subscribers[name].insert(members_.at(client).name);
+    }
+  }
+  for (const std::string& service : desk_.service_names()) graph.providers[service] = {"gsv"};
+  return graph;
 }
 
 void Hub::Close(CloseCode code, const std::string& reason) {

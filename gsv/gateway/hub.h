@@ -2,8 +2,7 @@
 // the messages come from (a simulation here, or another instance) is no concern of it.
 //
 // Threads  any; no call blocks. Clients are called under the hub's lock: they queue, and do not
-// call
-//          back.
+//          call back.
 #pragma once
 
 #include <cstdint>
@@ -11,46 +10,32 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gsv/base/error.h"
-#include "gsv/gateway/foxglove.h"
-#include "gsv/gateway/shared_bytes.h"
+#include "gsv/gateway/client.h"
+#include "gsv/gateway/request_desk.h"
 
 namespace gsv::gateway {
-
-// Why a connection is closed, as in RFC 6455, section 7.4.1.
-enum class CloseCode : std::uint16_t {
-  kGoingAway = 1001,
-  kProtocolError = 1002,
-  kPolicyViolation = 1008,
-  kTooBig = 1009,
-  kTryAgainLater = 1013,
-};
-
-// One connected viewer.
-class Client {
- public:
-  virtual ~Client() = default;
-  virtual void SendText(SharedBytes text) = 0;
-  virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) = 0;
-  virtual void Close(CloseCode code, std::string reason) = 0;
-};
 
 class Hub {
  public:
   // `on_demand` is called, without the lock, whenever somebody came, went, subscribed or
-  // unsubscribed; it must return at once.
-  Hub(foxglove::ServerInfo info, std::function<void()> on_demand);
+  // unsubscribed; it must return at once. Without `operations` clients can do nothing but listen.
+  Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
+      std::shared_ptr<Operations> operations = nullptr);
 
   // The clients' side.
-  void Add(std::shared_ptr<Client> client);
+  void Add(std::shared_ptr<Client> client,
+           std::string_view subprotocol = foxglove::kSubprotocols.front());
   void Remove(Client* client);
-  // One text from a client. An error is what to close the connection with.
+  // One message from a client, text or binary. An error is what to close the connection with.
   base::Status Receive(Client* client, std::string_view text);
+  base::Status ReceiveBytes(Client* client, std::string_view bytes);
 
   // The publishers' side. Advertise() gives each channel a number that is never used again.
   std::vector<foxglove::ChannelId> Advertise(std::vector<foxglove::Channel> channels);
@@ -76,6 +61,10 @@ class Hub {
   void Welcome(foxglove::ChannelId channel, std::span<const Message> messages);
   void PublishTime(std::uint64_t time_ns);
   void SendStatus(foxglove::StatusLevel level, std::string_view message);
+  // Who publishes on a channel, for those who look at the graph; at first it is "gsv".
+  void SetPublishers(foxglove::ChannelId channel, std::set<std::string> publishers);
+  // Tells what has changed since the last call: the graph, parameters, a playback's state.
+  void PublishChanges(bool has_jumped = false);
 
   // No client is added any more; each that comes is closed with the same words.
   void Close(CloseCode code, const std::string& reason);
@@ -87,24 +76,37 @@ class Hub {
   };
   struct Member {
     std::shared_ptr<Client> client;
-    std::map<foxglove::SubscriptionId, foxglove::ChannelId> subscriptions;
+    std::string name;  // in the graph
+    bool watches_graph = false;
+    std::map<foxglove::SubscriptionId, foxglove::ChannelId> subscriptions{};
   };
   struct Topic {
     foxglove::Channel channel;
     std::map<Client*, Listener> listeners;
+    std::set<std::string> publishers{"gsv"};
   };
+
+  void Take(Client* client, const foxglove::ClientMessage& message);
 
   void Apply(Member& member, const foxglove::Subscribe& message);
   void Apply(Member& member, const foxglove::Unsubscribe& message);
+  void Apply(Member& member, const foxglove::WatchGraph& message);
   void Apply(Member& member, const foxglove::Unsupported& message);
   static void Complain(Member& member, std::string_view message);
+  bool IsGraphWatched() const;
+  foxglove::ConnectionGraph Graph() const;
+  void PublishGraph();
 
-  const foxglove::ServerInfo info_;
+  foxglove::ServerInfo info_;
   const std::function<void()> on_demand_;
   mutable std::mutex mutex_;
   foxglove::ChannelId next_channel_ = 1;
   std::map<foxglove::ChannelId, Topic> topics_;
   std::map<Client*, Member> members_;
+  std::uint64_t next_member_ = 1;
+  bool has_graph_changed_ = false;
+  foxglove::ConnectionGraph graph_;  // as it was told last
+  RequestDesk desk_;
   bool closed_ = false;
   CloseCode close_code_{};
   std::string close_reason_;

@@ -15,13 +15,14 @@ import readline from "node:readline";
 const [modulesRoot, devServer] = process.argv.slice(2);
 const require = createRequire(path.resolve(modulesRoot));
 const { parse } = require("@foxglove/rosmsg");
-const { MessageReader } = require("@foxglove/rosmsg2-serialization");
+const { MessageReader, MessageWriter } = require("@foxglove/rosmsg2-serialization");
 const { FoxgloveClient } = require("@foxglove/ws-protocol");
 const { WebSocket } = require("ws");
 
 const TURN_RATE = 0.2;
 const SONAR_X = 0.25;
-const TOPICS = ["/clock", "/gsv/poses", "/tf", "/tf_static", "/gsv/status", "/gsv/events", "/gsv/beams",
+const CAPABILITIES = ["time", "connectionGraph", "services", "parameters", "parametersSubscribe"];
+const TOPICS = ["/clock", "/gsv/commands", "/gsv/poses", "/tf", "/tf_static", "/gsv/status", "/gsv/events", "/gsv/beams",
   "/robot_0/front_sonar", "/robot_0/lidar", "/robot_0/camera"];
 
 const seconds = (stamp) => stamp.sec + stamp.nsec * 1e-9;
@@ -40,7 +41,8 @@ class Watcher {
     this.info = new Promise((resolve) => client.on("serverInfo", resolve));
     client.on("error", (error) => { throw error; });
     client.on("time", ({ timestamp }) => { this.serverTime = timestamp; });
-    client.on("status", ({ message }) => { throw new Error(message); });
+    this.services = new Promise((resolve) => client.on("advertiseServices", resolve));
+    client.on("status", ({ message }) => { this.onStatus(message); });
     client.on("advertise", (list) => {
       for (const channel of list) {
         if (!TOPICS.includes(channel.topic)) continue;
@@ -60,6 +62,35 @@ class Watcher {
     this.ws = ws;
   }
 
+  onStatus(message) {
+    throw new Error(message);
+  }
+
+  // The next event of that name.
+  next(name) {
+    return new Promise((resolve) => {
+      const once = (event) => {
+        this.client.off(name, once);
+        resolve(event);
+      };
+      this.client.on(name, once);
+    });
+  }
+
+  // Calls a service as its advertisement says; gives the decoded response.
+  async call(name, request = {}) {
+    const service = (await this.services).find((each) => each.name === name);
+    assert.equal(service.request.encoding, "cdr");
+    assert.equal(service.response.schemaEncoding, "ros2msg");
+    const definition = parse(service.request.schema, { ros2: true });
+    const response = this.next("serviceCallResponse");
+    this.client.sendServiceCallRequest({
+      serviceId: service.id, callId: 7, encoding: "cdr", data: new MessageWriter(definition).writeMessage(request) });
+    const { serviceId, callId, encoding, data } = await response;
+    assert.deepEqual([serviceId, callId, encoding], [service.id, 7, "cdr"]);
+    return new MessageReader(parse(service.response.schema, { ros2: true })).readMessage(data);
+  }
+
   async message(topic) {
     if (!this.first.has(topic)) await new Promise((resolve) => this.waiting.set(topic, resolve));
     return this.first.get(topic);
@@ -76,11 +107,63 @@ function robotPose(time) {
   return { x: Math.cos(angle), y: Math.sin(angle), yaw: angle + Math.PI / 2 };
 }
 
+async function checkServices(watcher, api) {
+  const status = async () => (await fetch(api)).json();
+  assert.deepEqual(await watcher.call("/gsv/pause"), { success: true, message: "" });
+  const { step } = await status();
+  assert.equal((await watcher.call("/gsv/step", { count: 3n })).success, true);
+  assert.equal((await status()).step, step + 3);
+  assert.equal((await watcher.call("/gsv/resume")).success, true);
+  const refused = await watcher.call("/gsv/start");
+  assert.equal(refused.success, false);
+  assert.match(refused.message, /cannot be started/);
+
+  const failure = watcher.next("serviceCallFailure");
+  watcher.client.sendServiceCallRequest({ serviceId: 99, callId: 8, encoding: "cdr", data: new Uint8Array(4) });
+  const { serviceId, callId, message } = await failure;
+  assert.deepEqual([serviceId, callId, message], [99, 8, "there is no service 99"]);
+}
+
+async function checkParameters(watcher) {
+  const values = watcher.next("parameterValues");
+  watcher.client.getParameters(["/gsv/name", "/gsv/step_size_s"], "a");
+  const { parameters, id } = await values;
+  assert.equal(id, "a");
+  assert.deepEqual(parameters, [{ name: "/gsv/name", value: "arena" },
+    { name: "/gsv/step_size_s", value: 0.01, type: "float64" }]);
+  let complaint = "";
+  watcher.onStatus = (message) => { complaint = message; };
+  const again = watcher.next("parameterValues");
+  watcher.client.setParameters([{ name: "/gsv/name", value: "other" }], "b");
+  assert.equal((await again).parameters[0].value, "arena");
+  assert.match(complaint, /cannot be changed/);
+  watcher.client.subscribeParameterUpdates(["/gsv/phase"]);
+  const paused = watcher.next("parameterValues");
+  await watcher.call("/gsv/pause");
+  assert.deepEqual((await paused).parameters, [{ name: "/gsv/phase", value: "paused" }]);
+  await watcher.call("/gsv/resume");
+}
+
+async function checkGraph(watcher) {
+  const update = watcher.next("connectionGraphUpdate");
+  watcher.client.subscribeConnectionGraph();
+  const graph = await update;
+  const published = new Map(graph.publishedTopics.map(({ name, publisherIds }) => [name, publisherIds]));
+  assert.deepEqual(published.get("/gsv/poses"), ["gsv"]);
+  assert.deepEqual(published.get("/robot_0/lidar"), ["robot_0"]);
+  assert.ok(published.get("/gsv/commands").includes("robot_1"));
+  const subscribed = new Map(graph.subscribedTopics.map(({ name, subscriberIds }) => [name, subscriberIds]));
+  assert.equal(subscribed.get("/robot_0/lidar").length, 1);
+  assert.deepEqual(graph.advertisedServices.find(({ name }) => name === "/gsv/stop").providerIds, ["gsv"]);
+  watcher.client.unsubscribeConnectionGraph();
+}
+
 async function check(origin, subprotocol) {
   const watcher = new Watcher(`${origin.replace("http", "ws")}ws?simulation=arena`, subprotocol);
   const info = await watcher.info;
   assert.equal(watcher.ws.protocol, subprotocol);
-  assert.deepEqual(info.capabilities, ["time"]);
+  assert.deepEqual(info.capabilities, CAPABILITIES);
+  assert.deepEqual(info.supportedEncodings, ["cdr"]);
 
   const scene = await (await fetch(`${origin}api/simulations/arena/scene`)).json();
   const names = scene.poses.map(({ body, link }) => [scene.bodies[body].name, link]);
@@ -113,6 +196,10 @@ async function check(origin, subprotocol) {
   assert.equal(picture.format, "jpeg");
   assert.deepEqual([...picture.data.slice(0, 3)], [0xff, 0xd8, 0xff]);
 
+  const command = (await watcher.message("/gsv/commands")).message;
+  assert.match(command.robot, /^robot_[0-2]$/);
+  near(command.angular_rad_s, TURN_RATE, "turning rate");
+
   const status = (await watcher.message("/gsv/status")).message;
   assert.equal(status.state, "running");
   assert.deepEqual(status.robots.map((robot) => robot.name), ["avatar", "robot_0", "robot_1", "robot_2"]);
@@ -122,6 +209,9 @@ async function check(origin, subprotocol) {
     clock.timestamp);
   if (watcher.serverTime === 0n) await new Promise((resolve) => watcher.client.on("time", resolve));
   assert.ok(watcher.serverTime > 0n);
+  await checkGraph(watcher);
+  await checkServices(watcher, `${origin}api/simulations/arena`);
+  await checkParameters(watcher);
   await watcher.close();
 }
 
@@ -130,7 +220,7 @@ try {
   const [origin] = await once(readline.createInterface({ input: server.stdout }), "line");
   for (const subprotocol of ["foxglove.sdk.v1", "foxglove.websocket.v1"]) {
     await check(origin, subprotocol);
-    console.log(`${subprotocol}: ${TOPICS.length} topics decoded`);
+    console.log(`${subprotocol}: ${TOPICS.length} topics decoded, services, parameters and graph used`);
   }
 } finally {
   server.kill("SIGTERM");

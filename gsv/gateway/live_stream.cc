@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gsv/gateway/channels.h"
+#include "gsv/gateway/live_operations.h"
 #include "gsv/messages/rosgraph_msgs.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/state_messages.h"
@@ -33,10 +34,13 @@ Hub::Message MessageOf(const simulation::Event& event) {
 }  // namespace
 
 LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation,
-                       WorkerPool& workers, std::function<void()> on_demand)
-    : hub_(std::make_shared<Hub>(InfoOf(*simulation), std::move(on_demand))),
+                       WorkerPool& watchers, WorkerPool& commanders,
+                       std::function<void()> on_demand)
+    : hub_(std::make_shared<Hub>(InfoOf(*simulation), std::move(on_demand),
+                                 std::make_shared<LiveOperations>(simulation, commanders))),
       status_pacing_(kStatusRate),
-      refresh_pacing_(kRefreshRate) {
+      refresh_pacing_(kRefreshRate),
+      commands_(hub_) {
   const std::vector<foxglove::ChannelId> channels =
       hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
                        ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
@@ -50,7 +54,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
   for (std::size_t i = 0; i < 3; ++i) snapshot_topics_[i].channel = channels[i];
   status_channel_ = channels[3];
   events_channel_ = channels[4];
-  sensors_ = std::make_shared<SensorTopics>(hub_, workers);
+  sensors_ = std::make_shared<SensorTopics>(hub_, watchers);
 }
 
 void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now) {
@@ -61,7 +65,9 @@ void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation
   for (SnapshotTopic& topic : snapshot_topics_) Publish(topic, snapshot, now);
   PublishStatus(*simulation, now);
   PublishEvents(*simulation);
+  commands_.Publish(*snapshot);
   sensors_->Publish(simulation, snapshot, now);
+  hub_->PublishChanges();
 }
 
 void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/gateway/command_topic.h"
 #include "gsv/gateway/hub.h"
 #include "gsv/gateway/pacing.h"
 #include "gsv/gateway/sensor_topics.h"
@@ -21,8 +22,9 @@ inline constexpr double kRoundRate = 30;
 class LiveStream {
  public:
   // Keeps the simulation alive only while a round or a reading is under way. `on_demand`: see Hub.
-  LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& workers,
-             std::function<void()> on_demand);
+  // Readings are taken on `watchers`, commands obeyed on `commanders`.
+  LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& watchers,
+             WorkerPool& commanders, std::function<void()> on_demand);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
@@ -68,6 +70,7 @@ class LiveStream {
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_
   Pacing refresh_pacing_;
   std::weak_ptr<const world::Snapshot> time_of_;  // the last whose time was published
+  CommandTopic commands_;
   std::shared_ptr<SensorTopics> sensors_;
 };
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ class LiveStreamTest : public ::testing::Test {
   WorkerPool workers_{1, 8};
   std::shared_ptr<ScriptedSimulation> simulation_ =
       std::make_shared<ScriptedSimulation>("arena", 1);
-  LiveStream stream_{simulation_, workers_, [] {}};
+  LiveStream stream_{simulation_, workers_, workers_, [] {}};
   std::shared_ptr<RecordingClient> client_ = std::make_shared<RecordingClient>();
 };
 
@@ -295,6 +296,47 @@ TEST_F(LiveStreamTest, TopicsFollowTheRobotsAndTheirSensors) {
   Round();
   EXPECT_EQ(Decoded<Poses>(client_->data(1).at(0)).layout_version, 2u);
   EXPECT_EQ(Decoded<Poses>(client_->data(1).at(0)).poses.size(), 7u * 9);
+}
+
+TEST_F(LiveStreamTest, CommandsAreToldWhenTheyChangeAndToNewcomers) {
+  simulation_->AddOneRobot();
+  Subscribe(1, "/gsv/commands");
+  Round();
+  EXPECT_TRUE(client_->data(1).empty());  // nobody was told anything
+  simulation_->Advance(seconds(1));
+  simulation_->Tell("robot_1", {0.5, 0, 0.25}, milliseconds(990));
+  Round();
+  Round();
+  ASSERT_EQ(client_->data(1).size(), 1u);
+  const auto command = Decoded<messages::gsv_msgs::Command>(client_->data(1)[0]);
+  EXPECT_EQ(command.robot, "robot_1");
+  EXPECT_EQ(command.linear_m_s, 0.5);
+  EXPECT_EQ(command.angular_rad_s, 0.25);
+  EXPECT_EQ(messages::ToSimTime(command.stamp), milliseconds(990));
+  EXPECT_EQ(command.step, 99u);
+  auto late = std::make_shared<RecordingClient>();
+  stream_.hub()->Add(late);
+  Subscribe(*late, 1, "/gsv/commands");
+  Round();
+  EXPECT_EQ(late->data(1).size(), 1u);
+}
+
+TEST_F(LiveStreamTest, ACrowdsCommandsAreSpreadOverRounds) {
+  for (int i = 1; i < 100; ++i) simulation_->AddOneRobot();
+  simulation_->Advance(seconds(1));
+  for (int i = 0; i < 100; ++i) {
+    simulation_->Tell("robot_" + std::to_string(i), {1, 0, 0}, milliseconds(10));
+  }
+  Subscribe(1, "/gsv/commands");
+  Round();
+  EXPECT_EQ(client_->data(1).size(), 64u);
+  Round();
+  ASSERT_EQ(client_->data(1).size(), 100u);
+  std::set<std::string> robots;
+  for (const ReceivedData& data : client_->data(1)) {
+    robots.insert(Decoded<messages::gsv_msgs::Command>(data).robot);
+  }
+  EXPECT_EQ(robots.size(), 100u);
 }
 
 TEST_F(LiveStreamTest, StaticTransformsPlaceTheSensors) {

@@ -10,8 +10,12 @@ constexpr double kDirectoryRate = 2;  // Hz: how soon it is seen that a simulati
 
 }  // namespace
 
-Publisher::Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& workers)
-    : directory_(std::move(directory)), workers_(workers), directory_pacing_(kDirectoryRate) {
+Publisher::Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
+                     WorkerPool& commanders)
+    : directory_(std::move(directory)),
+      watchers_(watchers),
+      commanders_(commanders),
+      directory_pacing_(kDirectoryRate) {
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -22,7 +26,8 @@ std::shared_ptr<Hub> Publisher::HubOf(const std::shared_ptr<simulation::Simulati
   for (const Entry& entry : entries_) {
     if (entry.simulation.lock() == simulation) return entry.stream->hub();
   }
-  auto stream = std::make_shared<LiveStream>(simulation, workers_, [this] { Wake(); });
+  auto stream =
+      std::make_shared<LiveStream>(simulation, watchers_, commanders_, [this] { Wake(); });
   if (is_stopping_) stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
   entries_.push_back({simulation->specification().name, simulation, stream});
   return stream->hub();

@@ -16,8 +16,10 @@ namespace gsv::gateway {
 
 class Publisher {
  public:
-  // `workers` outlives the publisher and all its streams.
-  Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& workers);
+  // Readings are taken on `watchers`, viewers' commands obeyed on `commanders`; both outlive the
+  // publisher and all its streams.
+  Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
+            WorkerPool& commanders);
   ~Publisher();
 
   // The hub of a simulation, made when it is first asked for.
@@ -42,7 +44,8 @@ class Publisher {
   std::vector<Entry> Entries() const;
 
   const std::shared_ptr<SimulationDirectory> directory_;
-  WorkerPool& workers_;
+  WorkerPool& watchers_;
+  WorkerPool& commanders_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Entry> entries_;

@@ -9,6 +9,7 @@
 
 #include "gsv/gateway/static_files.h"
 #include "gsv/gateway/upstream/fetch.h"
+#include "gsv/gateway/upstream/relayed_operations.h"
 #include "gsv/gateway/upstream/stream.h"
 #include "gsv/gateway/worker_pool.h"
 
@@ -102,7 +103,9 @@ class LocalRelay final : public Relay, private Handler {
       return base::Fail(base::ErrorCode::kUnavailable,
                         "too many simulations are watched through this relay; restart it");
     }
-    return streams_.emplace(name, upstream::Stream::Make(io_, address_, name)).first->second->hub();
+    auto operations = std::make_shared<upstream::RelayedOperations>(address_, name, commanders_);
+    auto stream = upstream::Stream::Make(io_, address_, name, std::move(operations));
+    return streams_.emplace(name, std::move(stream)).first->second->hub();
   }
 
   const upstream::Address address_;

@@ -98,6 +98,22 @@ TEST_F(RelayTest, PassesRequestsAndAnswersOn) {
   EXPECT_EQ(Fetch(port(), "GET", "/", "Origin: http://evil.example\r\n").status, 403);
 }
 
+TEST_F(RelayTest, ServicesArePassedOn) {
+  for (const char* target : {"/ws?simulation=arena", "/ws"}) {
+    Viewer viewer(port(), target);
+    EXPECT_TRUE(viewer.CallService("start").first);
+    EXPECT_EQ(simulation_->status().phase, simulation::Phase::kRunning);
+    const auto [again, why] = viewer.CallService("start");
+    EXPECT_FALSE(again);
+    EXPECT_NE(why.find("the simulation is running and cannot be started"), std::string::npos);
+    EXPECT_TRUE(viewer.CallService("reset").first);
+  }
+  Viewer viewer(port());
+  viewer.SendText(R"({"op":"setParameters","parameters":[{"name":"/gsv/seed","value":7}]})");
+  EXPECT_EQ(viewer.ReceiveText("status")["message"],
+            "a relay passes on no parameters; set them at the other instance");
+}
+
 TEST_F(RelayTest, SeveralViewersSeeTheRobotsMove) {
   Viewer first(port()), second(port(), "/ws?simulation=arena", "foxglove.websocket.v1");
   first.Subscribe(1, "/gsv/poses");

@@ -244,6 +244,95 @@ TEST_F(ReplayGatewayTest, SpeedAndLoopCanBeChanged) {
   }
 }
 
+// Opcode 3: what a viewer asks of the playback, written by hand.
+std::string ControlBytes(bool play, float speed, std::optional<std::uint64_t> seek_ns) {
+  std::string bytes = "\x03";
+  const auto put = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  put(static_cast<std::uint8_t>(play ? 0 : 1));
+  put(speed);
+  put(static_cast<std::uint8_t>(seek_ns ? 1 : 0));
+  put(seek_ns.value_or(0));
+  put(std::uint32_t{2});
+  return bytes + "me";
+}
+
+// Opcode 5: how the playback stands.
+struct StateReceived {
+  int status = 0;
+  std::uint64_t time_ns = 0;
+  float speed = 0;
+  bool did_seek = false;
+  std::string request;
+};
+StateReceived ReceiveState(Viewer& viewer) {
+  const std::string bytes = viewer.ReceiveBytes(5);
+  StateReceived state;
+  state.status = bytes.at(1);
+  std::memcpy(&state.time_ns, &bytes.at(2), 8);
+  std::memcpy(&state.speed, &bytes.at(10), 4);
+  state.did_seek = bytes.at(14) != 0;
+  state.request = bytes.substr(19);
+  return state;
+}
+
+TEST_F(ReplayGatewayTest, FoxglovesPlaybackControlMovesIt) {
+  Viewer viewer(port());
+  const json info = viewer.ReceiveText("serverInfo");
+  EXPECT_EQ(info["capabilities"].back(), "playbackControl");
+  EXPECT_EQ(info["dataStartTime"], (json{{"sec", 0}, {"nsec", 0}}));
+  EXPECT_EQ(info["dataEndTime"], (json{{"sec", 2}, {"nsec", 0}}));
+  EXPECT_EQ(ReceiveState(viewer).status, 1);  // paused, at the beginning
+
+  viewer.SendBinary(ControlBytes(false, 0.5, 1'000'000'000));
+  StateReceived state = ReceiveState(viewer);
+  EXPECT_EQ(state.request, "me");
+  EXPECT_EQ(state.status, 1);
+  EXPECT_EQ(state.time_ns, 1'000'000'000u);
+  EXPECT_EQ(state.speed, 0.5f);
+  EXPECT_TRUE(state.did_seek);
+  EXPECT_EQ(json::parse(Get("/api/simulations/simulation/replay").body)["time_s"], 1.0);
+
+  viewer.SendBinary(ControlBytes(true, 100, std::nullopt));
+  do {
+    state = ReceiveState(viewer);
+  } while (state.request.empty());
+  EXPECT_EQ(state.status, 0);
+  EXPECT_FALSE(state.did_seek);
+  do {
+    state = ReceiveState(viewer);
+  } while (state.status != 3);  // the end, which nobody asked for
+  EXPECT_EQ(state.time_ns, 2'000'000'000u);
+  EXPECT_EQ(state.request, "");
+
+  viewer.SendBinary(ControlBytes(true, -1, std::nullopt));
+  EXPECT_EQ(viewer.ReceiveText("status")["message"], "'speed' must be from 0.001 to 1000");
+}
+
+TEST_F(ReplayGatewayTest, HasTheServicesAndParametersOfItsOwn) {
+  Viewer viewer(port());
+  EXPECT_TRUE(viewer.CallService("start").first);
+  EXPECT_TRUE(viewer.CallService("pause").first);
+  EXPECT_FALSE(viewer.CallService("start").first);
+  EXPECT_TRUE(viewer.CallService("reset").first);
+  viewer.SendText(
+      R"({"op":"subscribeParameterUpdates","parameterNames":["/gsv/speed","/gsv/loop"]})");
+  viewer.SendText(R"({"op":"setParameters","id":"a","parameters":[
+      {"name":"/gsv/speed","value":4},{"name":"/gsv/loop","value":"yes"}]})");
+  EXPECT_NE(viewer.ReceiveText("status")["message"].get<std::string>().find("'/gsv/loop'"),
+            std::string::npos);
+  json values = viewer.ReceiveText("parameterValues");
+  while (!values.contains("id")) values = viewer.ReceiveText("parameterValues");
+  EXPECT_EQ(values["parameters"][0]["value"], 4.0);
+  EXPECT_EQ(values["parameters"][1]["value"], false);
+  Post("replay", R"({"loop":true})");
+  do {
+    values = viewer.ReceiveText("parameterValues");
+  } while (values["parameters"][0]["name"] != "/gsv/loop");
+  EXPECT_EQ(values["parameters"][0]["value"], true);
+}
+
 TEST_F(ReplayGatewayTest, TellsTheEventsOfTheRun) {
   const json events = json::parse(Get("/api/simulations/simulation/events").body);
   ASSERT_FALSE(events.empty());

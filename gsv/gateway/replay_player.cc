@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "gsv/gateway/replay_operations.h"
+
 namespace gsv::gateway {
 namespace {
 
@@ -70,7 +72,8 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
       timeline_(*reader_),
       problems_(reader_->summary().problems),
       clock_(reader_->summary().start, reader_->summary().end, options.speed, options.loop),
-      stream_(*reader_, name_, [this] { Wake(); }) {
+      stream_(
+          *reader_, name_, [this] { Wake(); }, std::make_shared<ReplayOperations>(*this)) {
   problems_.insert(problems_.end(), scene_.problems().begin(), scene_.problems().end());
   ReadMetadata();
   thread_ = std::thread([this] { Run(); });

@@ -18,12 +18,13 @@ constexpr int kMostWarnings = 10;
 
 std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
 
-foxglove::ServerInfo InfoOf(const std::string& name) {
+foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& summary) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return {"gsv replay: " + name,
           {"time"},
           {{"simulation", name}},
-          std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count())};
+          std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()),
+          foxglove::TimeRange{Nanoseconds(summary.start), Nanoseconds(summary.end)}};
 }
 
 // What belongs to the whole simulation goes first, lest the limit leave it out.
@@ -41,9 +42,10 @@ Message DecodedOrEmpty(const SharedBytes& bytes) {
 }  // namespace
 
 ReplayStream::ReplayStream(const recording::McapReader& reader, const std::string& name,
-                           std::function<void()> on_demand)
+                           std::function<void()> on_demand, std::shared_ptr<Operations> operations)
     : reader_(reader),
-      hub_(std::make_shared<Hub>(InfoOf(name), std::move(on_demand))),
+      hub_(std::make_shared<Hub>(InfoOf(name, reader.summary()), std::move(on_demand),
+                                 std::move(operations))),
       status_pacing_(kStatusRate) {
   const auto own =
       hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
@@ -81,6 +83,7 @@ void ReplayStream::Advertise(const recording::Summary& summary) {
 }
 
 void ReplayStream::JumpTo(base::SimTime time) {
+  has_jumped_ = true;
   for (auto& [id, track] : tracks_) {
     track.latest.reset();
     track.is_fresh = false;
@@ -131,6 +134,7 @@ const ReplayStream::Track* ReplayStream::Keep(std::uint16_t id, base::SimTime ti
 
 void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime now,
                            const std::function<simulation::SimulationStatus()>& status) {
+  hub_->PublishChanges(std::exchange(has_jumped_, false));
   const bool has_moved = published_time_ != time;
   // Only while it plays does another status follow one that came too soon.
   const bool is_paced = phase == simulation::Phase::kRunning;

@@ -24,9 +24,10 @@ namespace gsv::gateway {
 
 class ReplayStream {
  public:
-  // Advertises what the recording holds. `reader` must outlive this; `on_demand`: see Hub.
+  // Advertises what the recording holds. `reader` must outlive this; `on_demand` and
+  // `operations`: see Hub.
   ReplayStream(const recording::McapReader& reader, const std::string& name,
-               std::function<void()> on_demand);
+               std::function<void()> on_demand, std::shared_ptr<Operations> operations);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
@@ -70,6 +71,7 @@ class ReplayStream {
   std::optional<base::SimTime> published_time_;
   std::optional<simulation::Phase> published_phase_;
   Pacing status_pacing_;
+  bool has_jumped_ = false;  // since the last Publish()
   int warnings_ = 0;
 
   mutable std::mutex mutex_;

@@ -4,16 +4,16 @@
 
 namespace gsv::gateway {
 
-bool SendQueue::PushText(SharedBytes text) {
+bool SendQueue::PushControl(SharedBytes message, bool is_text) {
   const std::lock_guard lock(mutex_);
-  if (control_bytes_ + text.size() > limits_.control_bytes) return false;
-  control_bytes_ += text.size();
-  control_.push_back({true, {}, std::move(text)});
+  if (control_bytes_ + message.size() > limits_.control_bytes) return false;
+  control_bytes_ += message.size();
+  control_.push_back({is_text, false, {}, std::move(message)});
   return true;
 }
 
 void SendQueue::PushData(const foxglove::BinaryHeader& header, SharedBytes payload) {
-  Outgoing message{false, header, std::move(payload)};
+  Outgoing message{false, true, header, std::move(payload)};
   const std::lock_guard lock(mutex_);
   while (!data_.empty() && (data_.size() >= limits_.data_messages ||
                             data_bytes_ + message.size() > limits_.data_bytes)) {

@@ -1,6 +1,7 @@
 // What waits to be written to one client.
 //
-// Bounded  Control texts (what there is to subscribe to, errors) must all arrive: when too much of
+// Bounded  Control messages (what there is to subscribe to, answers) must all arrive: when too much
+// of
 //          them waits, the client is beyond help. Of the data the oldest makes room for the newest.
 // Threads  any.
 #pragma once
@@ -24,7 +25,8 @@ struct SendLimits {
 
 struct Outgoing {
   bool is_text = false;
-  foxglove::BinaryHeader header;  // of a text: empty
+  bool is_data = false;           // else control
+  foxglove::BinaryHeader header;  // of control: empty
   SharedBytes payload;
 
   std::size_t size() const { return header.size + payload.size(); }
@@ -34,8 +36,8 @@ class SendQueue {
  public:
   explicit SendQueue(const SendLimits& limits) : limits_(limits) {}
 
-  // False: too much waits already; the text was not queued.
-  [[nodiscard]] bool PushText(SharedBytes text);
+  // False: too much waits already; the message was not queued.
+  [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
   // The newest message is always kept, however large it is.
   void PushData(const foxglove::BinaryHeader& header, SharedBytes payload);
   // The next to be written: control before data, each in the order it came.

@@ -25,8 +25,8 @@ TEST(SendQueue, GivesControlBeforeDataEachInOrder) {
   SendQueue queue({});
   PushData(queue, 'a');
   PushData(queue, 'b');
-  EXPECT_TRUE(queue.PushText(Bytes(1, 'T')));
-  EXPECT_TRUE(queue.PushText(Bytes(1, 'U')));
+  EXPECT_TRUE(queue.PushControl(Bytes(1, 'T')));
+  EXPECT_TRUE(queue.PushControl(Bytes(1, 'U')));
   EXPECT_EQ(Order(queue), "TUab");
   EXPECT_TRUE(queue.empty());
 }
@@ -58,10 +58,10 @@ TEST(SendQueue, KeepsTheNewestHoweverLargeItIs) {
 
 TEST(SendQueue, RefusesControlThatDoesNotFit) {
   SendQueue queue({.control_bytes = 10, .data_bytes = 10, .data_messages = 1});
-  EXPECT_TRUE(queue.PushText(Bytes(6)));
-  EXPECT_FALSE(queue.PushText(Bytes(5)));
+  EXPECT_TRUE(queue.PushControl(Bytes(6)));
+  EXPECT_FALSE(queue.PushControl(Bytes(5)));
   ASSERT_TRUE(queue.Pop());
-  EXPECT_TRUE(queue.PushText(Bytes(5)));
+  EXPECT_TRUE(queue.PushControl(Bytes(5)));
 }
 
 }  // namespace

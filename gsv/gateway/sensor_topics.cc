@@ -117,7 +117,10 @@ void SensorTopics::Advertise(Sensors& found) {
     fresh.push_back(sensor);
   }
   const std::vector<foxglove::ChannelId> ids = hub_->Advertise(std::move(channels));
-  for (std::size_t i = 0; i < ids.size(); ++i) fresh[i]->channel = ids[i];
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    fresh[i]->channel = ids[i];
+    hub_->SetPublishers(ids[i], {fresh[i]->robot});
+  }
   topics_ += ids.size();
   if (!is_all && !std::exchange(told_of_limit_, true)) {
     hub_->SendStatus(foxglove::StatusLevel::kWarning,

@@ -208,11 +208,22 @@ TEST_F(ServerTest, ClosesWithASentenceOnNonsense) {
   EXPECT_EQ(talker.close_code(), 1008);
   EXPECT_NE(talker.close_reason().find("JSON object"), std::string::npos);
 
+  Viewer binary(port());
+  binary.SendBinary("\x09xxxx");
+  while (binary.Receive()) {
+  }
+  EXPECT_EQ(binary.close_code(), 1008);
+}
+
+TEST_F(ServerTest, PublishingIsRefusedAndTheConnectionGoesOn) {
+  Start();
   Viewer publisher(port());
   publisher.SendBinary("\x01xxxx");
-  while (publisher.Receive()) {
-  }
-  EXPECT_EQ(publisher.close_code(), 1008);
+  EXPECT_EQ(publisher.ReceiveText("status")["message"],
+            "this server does not offer the operation 'message data'");
+  publisher.SendText(R"({"op":"getParameters","parameterNames":[]})");
+  EXPECT_EQ(publisher.ReceiveText("status")["message"],
+            "this server offers neither services nor parameters");
 }
 
 TEST_F(ServerTest, ClosesWithASentenceOnMessagesThatAreTooLong) {

@@ -45,6 +45,7 @@ class WebSocketSession final : public Client,
         queue_(limits().send) {}
 
   void Accept(std::string_view subprotocol) {
+    subprotocol_ = subprotocol;
     websocket::stream_base::timeout timeout{};
     timeout.handshake_timeout = std::chrono::seconds(10);
     timeout.idle_timeout = limits().idle_time;
@@ -62,10 +63,8 @@ class WebSocketSession final : public Client,
     });
   }
 
-  void SendText(SharedBytes text) override {
-    if (queue_.PushText(std::move(text))) return Wake();
-    Close(CloseCode::kTryAgainLater, "this viewer does not take what it is told; connect again");
-  }
+  void SendText(SharedBytes text) override { SendControl(std::move(text), true); }
+  void SendBytes(SharedBytes bytes) override { SendControl(std::move(bytes), false); }
 
   void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
     queue_.PushData(header, std::move(payload));
@@ -85,10 +84,15 @@ class WebSocketSession final : public Client,
  private:
   const ServerLimits& limits() const { return context_->options.limits; }
 
+  void SendControl(SharedBytes message, bool is_text) {
+    if (queue_.PushControl(std::move(message), is_text)) return Wake();
+    Close(CloseCode::kTryAgainLater, "this viewer does not take what it is told; connect again");
+  }
+
   void OnAccepted() {
     request_ = {};
     is_open_ = true;
-    hub_->Add(shared_from_this());
+    hub_->Add(shared_from_this(), subprotocol_);
     if (close_reason_) return WriteNext();
     Read();
   }
@@ -113,21 +117,18 @@ class WebSocketSession final : public Client,
   }
 
   void TakeMessage() {
-    if (stream_.got_text()) {
-      const base::Status taken =
-          hub_->Receive(this, {static_cast<const char*>(buffer_.cdata().data()), buffer_.size()});
-      if (!taken) Refuse(CloseCode::kPolicyViolation, taken.error().Sentence());
-    } else {
-      Refuse(CloseCode::kPolicyViolation,
-             "binary messages are not taken: this server offers neither publishing nor services");
-    }
+    const std::string_view message(static_cast<const char*>(buffer_.cdata().data()),
+                                   buffer_.size());
+    const base::Status taken =
+        stream_.got_text() ? hub_->Receive(this, message) : hub_->ReceiveBytes(this, message);
+    if (!taken) Refuse(CloseCode::kPolicyViolation, taken.error().Sentence());
     buffer_.clear();
   }
 
   // The sentence goes out twice: whole as a status message, and as the reason, which is short.
   void Refuse(CloseCode code, const std::string& sentence) {
     buffer_.clear();
-    SendText(SharedBytes(foxglove::StatusText(foxglove::StatusLevel::kError, sentence)));
+    SendStatus(foxglove::StatusLevel::kError, sentence);
     BeginClose(code, sentence);
   }
 
@@ -144,7 +145,7 @@ class WebSocketSession final : public Client,
     if (!is_open_ || is_writing_) return;
     std::optional<Outgoing> message = queue_.Pop();
     // What is not control is of no use to somebody who leaves.
-    while (close_reason_ && message && !message->is_text) message = queue_.Pop();
+    while (close_reason_ && message && message->is_data) message = queue_.Pop();
     if (message) return Write(std::move(*message));
     if (close_reason_) SendCloseFrame();
   }
@@ -195,6 +196,7 @@ class WebSocketSession final : public Client,
   std::shared_ptr<Hub> hub_;
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
+  std::string subprotocol_;
   SendQueue queue_;
   Outgoing in_flight_;
   std::optional<websocket::close_reason> close_reason_;

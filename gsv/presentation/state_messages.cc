@@ -1,6 +1,7 @@
 #include "gsv/presentation/state_messages.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gsv/messages/time.h"
 
@@ -143,6 +144,21 @@ messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event) 
   message.event = event.kind;
   message.robot = event.robot;
   message.detail = event.detail;
+  return message;
+}
+
+messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world::DriveState& drive,
+                                           const world::State& state) {
+  messages::gsv_msgs::Command message;
+  message.stamp = messages::ToMessage(drive.command_time);
+  if (state.time.count() > 0) {
+    const double part = base::ToSeconds(drive.command_time) / base::ToSeconds(state.time);
+    message.step = StepNumber(std::llround(static_cast<double>(state.step) * part));
+  }
+  message.robot = robot;
+  message.linear_m_s = drive.command.linear;
+  message.lateral_m_s = drive.command.lateral;
+  message.angular_rad_s = drive.command.angular;
   return message;
 }
 

@@ -17,6 +17,7 @@
 #include "gsv/presentation/pose_list.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/simulation/types.h"
+#include "gsv/world/state.h"
 
 namespace gsv::presentation {
 
@@ -39,6 +40,10 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
 
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
+
+// What a robot's drive was told last, as `state`, at least a step later, shows it.
+messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world::DriveState& drive,
+                                           const world::State& state);
 
 // The lines that are drawn of a reading, as pairs of points in the world: the beams of a type that
 // is drawn as lines, and short dashes where beams end of one that is drawn as points and whose file

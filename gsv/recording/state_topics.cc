@@ -1,7 +1,5 @@
 #include "gsv/recording/state_topics.h"
 
-#include <cmath>
-
 #include "gsv/base/hash.h"
 #include "gsv/messages/time.h"
 
@@ -69,15 +67,7 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     world::DriveState& told = told_[body.name];
     if (drive.command == told.command && drive.command_time == told.command_time) continue;
     told = drive;
-    const double part = base::ToSeconds(drive.command_time) / base::ToSeconds(state.time);
-    messages::gsv_msgs::Command message;
-    message.stamp = messages::ToMessage(drive.command_time);
-    message.step = static_cast<std::uint64_t>(std::llround(static_cast<double>(state.step) * part));
-    message.robot = body.name;
-    message.linear_m_s = drive.command.linear;
-    message.lateral_m_s = drive.command.lateral;
-    message.angular_rad_s = drive.command.angular;
-    commands_.Write(state.time, message);
+    commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
   }
 }
 

@@ -74,6 +74,9 @@ int main(int argc, char** argv) {
     return 5;
   }
   if (!simulation->Start()) return 5;
+  for (int i = 0; i < robots; ++i) {
+    simulation->Tell("robot_" + std::to_string(i), ScriptedSimulation::CommandOf(i), {});
+  }
   std::printf("%s\n", (*gateway)->url().c_str());
   std::fflush(stdout);
   const std::jthread driver([&](std::stop_token stop) { Drive(simulation, stop); });

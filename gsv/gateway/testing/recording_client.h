@@ -44,6 +44,11 @@ class RecordingClient final : public Client {
     texts_.push_back(nlohmann::json::parse(text.view()));
   }
 
+  void SendBytes(SharedBytes bytes) override {
+    const std::lock_guard lock(mutex_);
+    answers_.emplace_back(bytes.view());
+  }
+
   void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
     const std::lock_guard lock(mutex_);
     std::string bytes(reinterpret_cast<const char*>(header.bytes.data()), header.size);
@@ -60,6 +65,12 @@ class RecordingClient final : public Client {
   std::vector<nlohmann::json> texts() const {
     const std::lock_guard lock(mutex_);
     return texts_;
+  }
+
+  // Binary control messages.
+  std::vector<std::string> answers() const {
+    const std::lock_guard lock(mutex_);
+    return answers_;
   }
 
   // The messages of one subscription.
@@ -106,6 +117,7 @@ class RecordingClient final : public Client {
  private:
   mutable std::mutex mutex_;
   std::vector<nlohmann::json> texts_;
+  std::vector<std::string> answers_;
   std::vector<ReceivedData> data_;
   CloseCode close_code_{};
   std::string close_reason_;

@@ -140,12 +140,27 @@ void ScriptedSimulation::PublishSnapshot() {
     snapshot->state.joint_positions[joint] = kWheelRate * seconds;
     snapshot->state.joint_positions[joint + 1] = kWheelRate * seconds;
   }
+  for (const auto& [robot, drive] : told_) {
+    snapshot->state.bodies[layout_->Find(robot)].drive = drive;
+  }
   snapshot_ = std::move(snapshot);
 }
 
 void ScriptedSimulation::Advance(base::SimTime time) {
   const std::lock_guard lock(mutex_);
   time_ += time;
+  PublishSnapshot();
+}
+
+world::DriveCommand ScriptedSimulation::CommandOf(int robot) {
+  return {RadiusOf(robot) * kTurnRate, 0, kTurnRate};
+}
+
+void ScriptedSimulation::Tell(const std::string& robot, const world::DriveCommand& command,
+                              base::SimTime time) {
+  const std::lock_guard lock(mutex_);
+  told_[robot].command = command;
+  told_[robot].command_time = time;
   PublishSnapshot();
 }
 

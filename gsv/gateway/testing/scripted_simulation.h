@@ -21,6 +21,10 @@ class ScriptedSimulation final : public simulation::Simulation {
 
   // Time passes, whatever the phase.
   void Advance(base::SimTime time);
+  // What would make robot i drive as it does.
+  static world::DriveCommand CommandOf(int robot);
+  // What the latest snapshot, and those after it, show of a robot's drive.
+  void Tell(const std::string& robot, const world::DriveCommand& command, base::SimTime time);
   // One robot more, at the end of the list: the layout changes.
   void AddOneRobot();
   // A sensor more on a robot, as by its behaviour: the layout does not change.
@@ -82,6 +86,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   std::shared_ptr<const world::Snapshot> snapshot_;
   std::vector<simulation::Event> events_;
   std::map<std::string, std::vector<model::SensorDescription>> mounted_;
+  std::map<std::string, world::DriveState> told_;  // by robot
   std::function<base::Status(const std::string&)> on_watch_;
 };
 

@@ -152,6 +152,35 @@ nlohmann::json Viewer::ReceiveText(const std::string& op) {
   throw std::runtime_error("the connection ended before a text '" + op + "'");
 }
 
+std::string Viewer::ReceiveBytes(char opcode) {
+  while (const std::optional<Frame> frame = Receive()) {
+    if (frame->is_text) continue;
+    if (frame->bytes.front() == opcode) return frame->bytes;
+    Keep(*frame);
+  }
+  throw std::runtime_error("the connection ended before an answer");
+}
+
+std::pair<bool, std::string> Viewer::CallService(const std::string& name,
+                                                 const std::string& request) {
+  if (services_.empty()) {
+    const nlohmann::json advertised = ReceiveText("advertiseServices");
+    for (const auto& service : advertised["services"]) services_[service["name"]] = service["id"];
+  }
+  const auto number = [](std::uint32_t value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  SendBinary("\x02" + number(services_.at("/gsv/" + name)) + number(1) + number(3) + "cdr" +
+             request);
+  const std::string response = ReceiveBytes(3).substr(1 + 4 + 4 + 4 + 3);
+  messages::CdrReader reader(std::as_bytes(std::span(response)));
+  std::pair<bool, std::string> outcome;
+  reader.Read(outcome.first);
+  reader.Read(outcome.second);
+  if (!reader.Finish()) throw std::runtime_error("the response is no CDR");
+  return outcome;
+}
+
 ReceivedData Viewer::ReceiveData(foxglove::SubscriptionId subscription) {
   std::deque<ReceivedData>& kept = kept_[subscription];
   while (kept.empty()) {

@@ -66,6 +66,13 @@ class Viewer {
   nlohmann::json ReceiveText(const std::string& op);
   // The next message of a subscription; those of others are kept until they are asked for.
   ReceivedData ReceiveData(foxglove::SubscriptionId subscription);
+  // The next binary message of that opcode; data are kept until they are asked for, others passed
+  // over.
+  std::string ReceiveBytes(char opcode);
+  // Calls a service (/gsv/NAME), whose advertisement is waited for, with a request in CDR; gives
+  // the response's `success` and `message`.
+  std::pair<bool, std::string> CallService(const std::string& name,
+                                           const std::string& request = "");
   // Waits for the advertisement of a topic, then subscribes.
   void Subscribe(foxglove::SubscriptionId id, const std::string& topic);
 
@@ -80,6 +87,7 @@ class Viewer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::map<std::string, foxglove::ChannelId> channels_;
+  std::map<std::string, std::uint32_t> services_;
   std::map<foxglove::SubscriptionId, std::deque<ReceivedData>> kept_;
 };
 

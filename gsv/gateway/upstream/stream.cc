@@ -66,10 +66,13 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   RemoteStream(asio::io_context& io, const Address& address, const std::string& simulation)
       : io_(io), address_(address), simulation_(simulation), pause_(io) {}
 
-  void Open() {
-    hub_ = std::make_shared<Hub>(InfoOf(address_, simulation_), [weak = weak_from_this()] {
-      if (const auto self = weak.lock()) self->OnDemand();
-    });
+  void Open(std::shared_ptr<Operations> operations) {
+    hub_ = std::make_shared<Hub>(
+        InfoOf(address_, simulation_),
+        [weak = weak_from_this()] {
+          if (const auto self = weak.lock()) self->OnDemand();
+        },
+        std::move(operations));
     channels_.emplace(hub_);
   }
 
@@ -95,6 +98,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   void FollowDemand() {
     if (is_stopped_ || has_ended_) return;
+    hub_->PublishChanges();
     if (!hub_->has_clients()) return Disconnect();
     if (state_ == State::kIdle) return Connect();
     if (state_ != State::kOpen) return;
@@ -212,7 +216,10 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     channels_->Take(message);
     FollowDemand();
   }
-  void Take(const Unadvertise& message) { channels_->Take(message); }
+  void Take(const Unadvertise& message) {
+    channels_->Take(message);
+    hub_->PublishChanges();
+  }
   void Take(const StatusMessage& message) { hub_->SendStatus(message.level, message.message); }
   void Take(const MessageData& message) { channels_->Take(message); }
   void Take(const Time& message) { hub_->PublishTime(message.time_ns); }
@@ -286,9 +293,10 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 }  // namespace
 
 std::shared_ptr<Stream> Stream::Make(asio::io_context& io, const Address& address,
-                                     const std::string& simulation) {
+                                     const std::string& simulation,
+                                     std::shared_ptr<Operations> operations) {
   auto stream = std::make_shared<RemoteStream>(io, address, simulation);
-  stream->Open();
+  stream->Open(std::move(operations));
   return stream;
 }
 

@@ -17,9 +17,11 @@ namespace gsv::gateway::upstream {
 
 class Stream {
  public:
-  // `simulation`: its name there; empty: the first. `io` outlives the stream.
+  // `simulation`: its name there; empty: the first. `operations` is what viewers can do. `io`
+  // outlives the stream.
   static std::shared_ptr<Stream> Make(boost::asio::io_context& io, const Address& address,
-                                      const std::string& simulation);
+                                      const std::string& simulation,
+                                      std::shared_ptr<Operations> operations);
   virtual ~Stream() = default;
 
   virtual const std::shared_ptr<Hub>& hub() const = 0;

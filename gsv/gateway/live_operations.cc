@@ -1,0 +1,76 @@
+#include "gsv/gateway/live_operations.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gsv/gateway/simulation_commands.h"
+
+namespace gsv::gateway {
+namespace {
+
+using simulation::Simulation;
+
+std::vector<CommandServices::Command> CommandsOf(const std::weak_ptr<Simulation>& simulation) {
+  std::vector<CommandServices::Command> commands;
+  for (const SimulationCommand& command : SimulationCommands()) {
+    commands.push_back({std::string(command.name), command.takes_count,
+                        [simulation, run = command.run](std::int64_t count) -> base::Status {
+                          if (const auto locked = simulation.lock()) return run(*locked, count);
+                          return base::Fail(base::ErrorCode::kEnded, "the simulation is gone");
+                        }});
+  }
+  return commands;
+}
+
+std::vector<foxglove::Parameter> ParametersOf(const Simulation& simulation) {
+  const simulation::Specification& specification = simulation.specification();
+  return {{"/gsv/name", specification.name},
+          {"/gsv/world", specification.world->name},
+          {"/gsv/mode", std::string(ToString(specification.mode))},
+          {"/gsv/factor", specification.factor},
+          // As a text: a number of JSON need not have so many digits.
+          {"/gsv/seed", std::to_string(specification.seed)},
+          {"/gsv/duration_s", base::ToSeconds(specification.duration)},
+          {"/gsv/step_size_s",
+           base::ToSeconds(specification.step.count() > 0 ? specification.step
+                                                          : specification.world->max_step_size)}};
+}
+
+}  // namespace
+
+LiveOperations::LiveOperations(const std::shared_ptr<Simulation>& simulation, WorkerPool& workers)
+    : simulation_(simulation),
+      workers_(workers),
+      services_(CommandsOf(simulation)),
+      fixed_(ParametersOf(*simulation)) {}
+
+void LiveOperations::Call(const foxglove::ServiceCall& call, Answer answer) {
+  auto command = services_.Prepare(call);
+  if (!command) return answer(base::Fail(command.error()));
+  const bool is_accepted = workers_.Submit([run = *std::move(command), answer] { answer(run()); });
+  if (!is_accepted) {
+    answer(base::Fail(base::ErrorCode::kUnavailable, "the server is busy; try again in a moment"));
+  }
+}
+
+std::vector<foxglove::Parameter> LiveOperations::parameters() const {
+  std::vector<foxglove::Parameter> parameters = fixed_;
+  if (const auto simulation = simulation_.lock()) {
+    const simulation::Phase phase = simulation->WaitForPhase({}, std::chrono::milliseconds(0));
+    parameters.push_back({"/gsv/phase", std::string(ToString(phase))});
+  }
+  return parameters;
+}
+
+base::Status LiveOperations::Set(const foxglove::Parameter& parameter) {
+  const std::vector<foxglove::Parameter> all = parameters();
+  const bool is_known = std::any_of(all.begin(), all.end(),
+                                    [&](const auto& each) { return each.name == parameter.name; });
+  const std::string name = "'" + parameter.name.substr(0, 100) + "'";
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    is_known
+                        ? "the parameter " + name + " cannot be changed while a simulation runs"
+                        : "there is no parameter " + name);
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,34 @@
+// What the viewers of a running simulation can do: its commands as services; how it was set up, to
+// look at.
+//
+// Threads  any.
+#pragma once
+
+#include <memory>
+
+#include "gsv/gateway/command_services.h"
+#include "gsv/gateway/operations.h"
+#include "gsv/gateway/worker_pool.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+class LiveOperations final : public Operations {
+ public:
+  // Commands, which may block, run on `workers`, which outlive the last call. Does not keep the
+  // simulation alive.
+  LiveOperations(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& workers);
+
+  std::vector<foxglove::Service> services() const override { return services_.list(); }
+  void Call(const foxglove::ServiceCall& call, Answer answer) override;
+  std::vector<foxglove::Parameter> parameters() const override;
+  base::Status Set(const foxglove::Parameter& parameter) override;
+
+ private:
+  const std::weak_ptr<simulation::Simulation> simulation_;
+  WorkerPool& workers_;
+  const CommandServices services_;
+  const std::vector<foxglove::Parameter> fixed_;  // parameters
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,24 @@
+// What people may tell a simulation, by name: the same over HTTP and as services.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+struct SimulationCommand {
+  std::string_view name;
+  bool takes_count = false;  // of steps; else `count` is of no account
+  base::Status (*run)(simulation::Simulation& simulation, std::int64_t count) = nullptr;
+};
+
+// start, pause, resume, stop, reset, step. May block: a reset calls behaviours.
+std::span<const SimulationCommand> SimulationCommands();
+
+// Null if there is none of that name.
+const SimulationCommand* FindSimulationCommand(std::string_view name);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,89 @@
+#include "gsv/gateway/upstream/relayed_operations.h"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "gsv/gateway/simulation_commands.h"
+#include "gsv/gateway/target.h"
+#include "gsv/gateway/upstream/fetch.h"
+
+namespace gsv::gateway::upstream {
+namespace {
+
+// A reset waits for behaviours.
+constexpr std::chrono::seconds kRequestTime{60};
+
+base::Result<Response> Ask(const Address& address, const char* method, std::string target,
+                           std::string body) {
+  Request request;
+  request.method = method;
+  request.raw_target = std::move(target);
+  request.content_type = "application/json";
+  request.body = std::move(body);
+  return Fetch(address, request, kRequestTime);
+}
+
+base::Result<std::string> FirstSimulation(const Address& address) {
+  const auto answer = Ask(address, "GET", "/api/simulations", "");
+  if (!answer) return base::Fail(answer.error());
+  const auto list = nlohmann::json::parse(answer->body.view(), nullptr, false);
+  const bool has_any = list.is_array() && !list.empty() && list[0].is_object();
+  const auto name = has_any ? list[0].value("name", nlohmann::json()) : nlohmann::json();
+  if (name.is_string()) return name.get<std::string>();
+  return base::Fail(base::ErrorCode::kNotFound, "there is no simulation", address.Url());
+}
+
+base::Status Command(const Address& address, std::string simulation, const std::string& command,
+                     std::int64_t count) {
+  if (simulation.empty()) {
+    auto first = FirstSimulation(address);
+    if (!first) return base::Fail(first.error());
+    simulation = *std::move(first);
+  }
+  const auto answer = Ask(address, "POST", "/api/simulations/" + Escape(simulation) + "/" + command,
+                          nlohmann::json{{"count", count}}.dump());
+  if (!answer) return base::Fail(answer.error());
+  if (answer->status == 200) return {};
+  const auto json = nlohmann::json::parse(answer->body.view(), nullptr, false);
+  const auto sentence = json.is_object() ? json.find("error") : json.end();
+  const bool has_sentence = json.is_object() && sentence != json.end() && sentence->is_string();
+  return base::Fail(base::ErrorCode::kNotRunning,
+                    has_sentence ? sentence->get<std::string>()
+                                 : "the other instance answers " + std::to_string(answer->status),
+                    address.Url());
+}
+
+std::vector<CommandServices::Command> CommandsOf(const Address& address,
+                                                 const std::string& simulation) {
+  std::vector<CommandServices::Command> commands;
+  for (const SimulationCommand& command : SimulationCommands()) {
+    std::string name(command.name);
+    commands.push_back({name, command.takes_count, [address, simulation, name](std::int64_t count) {
+                          return Command(address, simulation, name, count);
+                        }});
+  }
+  return commands;
+}
+
+}  // namespace
+
+RelayedOperations::RelayedOperations(const Address& address, const std::string& simulation,
+                                     WorkerPool& workers)
+    : workers_(workers), services_(CommandsOf(address, simulation)) {}
+
+void RelayedOperations::Call(const foxglove::ServiceCall& call, Answer answer) {
+  auto command = services_.Prepare(call);
+  if (!command) return answer(base::Fail(command.error()));
+  const bool is_accepted = workers_.Submit([run = *std::move(command), answer] { answer(run()); });
+  if (!is_accepted) {
+    answer(base::Fail(base::ErrorCode::kUnavailable, "the relay is busy; try again in a moment"));
+  }
+}
+
+base::Status RelayedOperations::Set(const foxglove::Parameter&) {
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "a relay passes on no parameters; set them at the other instance");
+}
+
+}  // namespace gsv::gateway::upstream

@@ -1,0 +1,32 @@
+// What the viewers of a relayed simulation can do: its commands as services, passed on to the other
+// instance as requests of its HTTP API.
+//
+// Threads  any.
+#pragma once
+
+#include <string>
+
+#include "gsv/gateway/command_services.h"
+#include "gsv/gateway/operations.h"
+#include "gsv/gateway/upstream/address.h"
+#include "gsv/gateway/worker_pool.h"
+
+namespace gsv::gateway::upstream {
+
+class RelayedOperations final : public Operations {
+ public:
+  // `simulation`: its name there; empty: the first. Requests are made on `workers`, which outlive
+  // the last call.
+  RelayedOperations(const Address& address, const std::string& simulation, WorkerPool& workers);
+
+  std::vector<foxglove::Service> services() const override { return services_.list(); }
+  void Call(const foxglove::ServiceCall& call, Answer answer) override;
+  std::vector<foxglove::Parameter> parameters() const override { return {}; }
+  base::Status Set(const foxglove::Parameter& parameter) override;
+
+ private:
+  WorkerPool& workers_;
+  const CommandServices services_;
+};
+
+}  // namespace gsv::gateway::upstream
