@@ -72,9 +72,11 @@ SimulationRecorder::SimulationRecorder(const std::shared_ptr<Simulation>& simula
       states_(*writer_, options.poses_rate),
       sensors_(*writer_, types_, simulation->specification().seed, options.sensors),
       scene_(*writer_, types_, std::move(options.write_glb)),
+      sources_(*writer_),
       feed_(std::make_shared<SimulationFeed>(
           *simulation, FeedOptions{.when_full = WhenFullFor(simulation->specification().mode)})) {
   writer_->AddMetadata(Describe(*simulation, options.metadata));
+  sources_.AttachWorld(*simulation->specification().world);
 }
 
 SimulationRecorder::~SimulationRecorder() {
@@ -140,6 +142,7 @@ void SimulationRecorder::Record(const Observation& observation) {
   if (latest_ && snapshot.layout != latest_->layout && !observation.sensors) return;
   if (observation.sensors) {
     scene_.Attach(snapshot, *observation.sensors);
+    sources_.AttachRobots(snapshot);
     sensors_.Mount(*observation.sensors, snapshot);
   }
   states_.Record(observation.snapshot);

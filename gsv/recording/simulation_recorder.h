@@ -17,6 +17,7 @@
 #include "gsv/recording/scene_attachments.h"
 #include "gsv/recording/sensor_topics.h"
 #include "gsv/recording/simulation_feed.h"
+#include "gsv/recording/source_attachments.h"
 #include "gsv/recording/state_topics.h"
 
 namespace gsv::recording {
@@ -64,6 +65,7 @@ class SimulationRecorder {
   StateTopics states_;
   SensorTopics sensors_;
   SceneAttachments scene_;
+  SourceAttachments sources_;
   std::shared_ptr<SimulationFeed> feed_;
   std::shared_ptr<const world::Snapshot> latest_;  // that was recorded
   std::atomic<bool> has_ended_ = false;
