@@ -1,0 +1,31 @@
+// The first octet chooses a type, the rest are its bytes: refused, or decoded to a message whose
+// encoding decodes to the same.
+#include <cstdint>
+
+#include "gsv/base/check.h"
+#include "samples.h"
+
+using namespace gsv;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(data + 1, size - 1));
+  const std::size_t wanted = data[0] % messages::AllSchemas().size();
+  std::size_t type = 0;
+  messages::ForEachType([&](const messages::Schema&, auto message) {
+    if (type++ != wanted) return;
+    using Message = decltype(message);
+    const auto decoded = messages::Decode<Message>(bytes);
+    if (!decoded) {
+      GSV_CHECK(!decoded.error().message.empty());
+      return;
+    }
+    messages::Bytes once, twice;
+    messages::Encode(*decoded, once);
+    const auto again = messages::Decode<Message>(once);
+    GSV_CHECK(again.has_value());
+    messages::Encode(*again, twice);
+    GSV_CHECK(once == twice);  // bytes, since a number may be none
+  });
+  return 0;
+}
