@@ -21,8 +21,9 @@ void AddBrokerCommands(const CommandLine& line);     // broker, offers, types, l
 void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor
 void AddDrawCommand(const CommandLine& line);        // world draw; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
-void AddControlCommands(const CommandLine& line);    // ps, pause, resume, step, stop, reset
-void AddBenchCommands(const CommandLine& line);      // bench
+void AddRecordCommands(const CommandLine& line);   // rec start, stop; after AddRecordingCommands()
+void AddControlCommands(const CommandLine& line);  // ps, pause, resume, step, stop, reset
+void AddBenchCommands(const CommandLine& line);    // bench
 void AddViewCommand(const CommandLine& line);
 
 }  // namespace gsv::app

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   AddCheckCommands(line);
   AddDrawCommand(line);
   AddRecordingCommands(line);
+  AddRecordCommands(line);
   AddControlCommands(line);
   AddBenchCommands(line);
   AddViewCommand(line);

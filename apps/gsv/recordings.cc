@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "gsv/formats/gltf_writer.h"
 #include "gsv/recording/bag_folder.h"
 #include "gsv/recording/simulation_recorder.h"
+#include "gsv/rendering/png.h"
 
 namespace gsv::app {
 namespace {
@@ -34,9 +37,13 @@ std::string Host() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-recording::RecorderOptions Options() {
+recording::RecorderOptions Options(const RecordingChoice& choice) {
   recording::RecorderOptions options;
   options.write_glb = &formats::WriteGlb;
+  options.topics = choice.topics;
+  options.poses_rate = choice.poses_rate;
+  options.sensors = {choice.readings_rate, choice.pictures_rate, choice.beams_rate};
+  if (choice.png) options.write_png = &rendering::EncodePng;
   const std::vector<std::string> arguments = ArgumentsOfThisProcess();
   std::error_code ignored;
   options.metadata = {
@@ -49,6 +56,8 @@ recording::RecorderOptions Options() {
   return options;
 }
 
+constexpr double kLeastRate = 0.001, kMostRate = 10'000;
+
 // What is there and no folder is a file, or a device.
 bool NamesAFile(const std::string& path) {
   std::error_code ignored;
@@ -58,11 +67,34 @@ bool NamesAFile(const std::string& path) {
 
 }  // namespace
 
+base::Status SetRate(const std::string& text, RecordingChoice& choice) {
+  const std::pair<std::string_view, double*> kinds[]{{"poses", &choice.poses_rate},
+                                                     {"readings", &choice.readings_rate},
+                                                     {"pictures", &choice.pictures_rate},
+                                                     {"beams", &choice.beams_rate}};
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string_view name = std::string_view(text).substr(0, equals);
+  const std::string_view number = std::string_view(text).substr(std::min(equals + 1, text.size()));
+  const auto* kind = std::find_if(std::begin(kinds), std::end(kinds),
+                                  [&](const auto& each) { return each.first == name; });
+  double rate = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), rate);
+  const bool is_number = error == std::errc() && end == number.data() + number.size();
+  if (kind == std::end(kinds) || !is_number || !(rate >= kLeastRate && rate <= kMostRate)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "expected poses=HZ, readings=HZ, pictures=HZ or beams=HZ, from 0.001 to "
+                      "10000 of simulated time",
+                      "--record-rate " + text);
+  }
+  *kind->second = rate;
+  return {};
+}
+
 Recordings::Recordings() = default;
 Recordings::~Recordings() = default;
 
 base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
-                               const std::string& path) {
+                               const std::string& path, const RecordingChoice& choice) {
   const std::string name = simulation->specification().name;
   const std::lock_guard lock(mutex_);
   const auto found = recordings_.find(name);
@@ -83,7 +115,8 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
     bag = *std::move(file);
   }
   auto recorder =
-      recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag, Options());
+      recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag,
+                                           Options(choice));
   if (!recorder) return base::Fail(recorder.error());
   recordings_.emplace(name, Recording{simulation, path, std::move(bag), *std::move(recorder)});
   return {};

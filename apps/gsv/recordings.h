@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gsv/base/error.h"
 
@@ -25,6 +26,16 @@ namespace gsv::app {
 inline constexpr std::string_view kArgumentsKey = "arguments";
 inline constexpr std::string_view kFolderKey = "folder";
 
+// What is recorded, and how; rates in Hz of simulated time.
+struct RecordingChoice {
+  std::vector<std::string> topics;  // empty: all; one that ends in "/" stands for all below it
+  double poses_rate = 50, readings_rate = 20, pictures_rate = 1, beams_rate = 10;
+  bool png = false;  // pictures, else JPEG
+};
+
+// Sets one rate, from "KIND=HZ" with poses, readings, pictures or beams.
+base::Status SetRate(const std::string& text, RecordingChoice& choice);
+
 class Recordings {
  public:
   Recordings();
@@ -32,7 +43,8 @@ class Recordings {
 
   // `path` ends in ".mcap": a bare file; else a folder that rosbag2 opens. kInvalidArgument when
   // the simulation is being recorded, or something of that name is there already.
-  base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path);
+  base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path,
+                     const RecordingChoice& choice = {});
   // kNotFound when that simulation is not recorded. Another error is why the recording ended early.
   base::Status Stop(const std::string& simulation);
   // The first error, if there is one; the others are logged.

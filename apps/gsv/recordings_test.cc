@@ -25,6 +25,21 @@ class RecordingsTest : public testing::Test {
   Recordings recordings_;
 };
 
+TEST(RecordingRate, IsSetByKind) {
+  RecordingChoice choice;
+  EXPECT_TRUE(SetRate("poses=10", choice));
+  EXPECT_TRUE(SetRate("pictures=0.5", choice));
+  EXPECT_EQ(choice.poses_rate, 10);
+  EXPECT_EQ(choice.pictures_rate, 0.5);
+  EXPECT_EQ(choice.readings_rate, 20);
+  for (const char* bad : {"", "poses", "poses=", "poses=x", "poses=0", "poses=-1", "poses=1e9",
+                          "poses=nan", "poses=1 ", "sounds=1", "=1"}) {
+    const base::Status set = SetRate(bad, choice);
+    ASSERT_FALSE(set) << bad;
+    EXPECT_NE(set.error().Sentence().find("expected poses=HZ"), std::string::npos);
+  }
+}
+
 TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
   ASSERT_TRUE(recordings_.Start(simulation_, path_));
   ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);

@@ -124,7 +124,8 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
   }
   std::fflush(notes);
   if (!options.record.empty()) {
-    if (auto ok = (*runtime)->recordings().Start(*simulation, options.record); !ok)
+    if (auto ok = (*runtime)->recordings().Start(*simulation, options.record, options.recording);
+        !ok)
       return base::Fail(ok.error());
   }
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());

@@ -53,9 +53,25 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
       ->capture_default_str();
   command.add_option("--wall-timeout", a.wall_timeout,
                      "wall seconds after which the run is given up with exit code 124");
-  command.add_option(
+  CLI::Option* record = command.add_option(
       "--record", a.record,
       "write a recording: NAME.mcap is a bare file, NAME a folder that rosbag2 opens");
+  command
+      .add_option("--record-topics", a.record_topics,
+                  "record these only, separated by commas; with a slash at its end a topic stands "
+                  "for all below it. A replay needs /gsv/poses")
+      ->delimiter(',')
+      ->needs(record);
+  command
+      .add_option("--record-rate", a.record_rates,
+                  "KIND=HZ of simulated time, separated by commas: poses=50, readings=20, "
+                  "pictures=1, beams=10 if not said otherwise")
+      ->delimiter(',')
+      ->needs(record);
+  command.add_option("--record-pictures", a.record_pictures, "jpeg or png")
+      ->needs(record)
+      ->check(CLI::IsMember({"jpeg", "png"}))
+      ->capture_default_str();
   command
       .add_option("--broker", a.broker,
                   "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
@@ -170,6 +186,11 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.runtime.port_given = a.port >= 0;
   if (a.port >= 0) options.runtime.port = a.port;
   options.record = a.record;
+  options.recording.topics = a.record_topics;
+  options.recording.png = a.record_pictures == "png";
+  for (const std::string& rate : a.record_rates) {
+    if (auto ok = SetRate(rate, options.recording); !ok) return base::Fail(ok.error());
+  }
   options.wall_timeout = a.wall_timeout;
   options.open_browser = a.open;
   options.json = a.json;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/gsv/recordings.h"
 #include "apps/gsv/runtime.h"
 #include "gsv/scenario/scenario.h"
 #include "gsv/simulation/behaviour_port.h"
@@ -31,7 +32,8 @@ struct RunOptions {
                                                            const std::string& behaviour)>
       make_behaviour;
   simulation::Specification specification;
-  std::string record;       // a file; empty: no recording
+  std::string record;  // a file; empty: no recording
+  RecordingChoice recording;
   double wall_timeout = 0;  // s; 0: none
   bool open_browser = false;
   bool json = false;
@@ -42,7 +44,8 @@ struct RunArguments {
   std::string world;
   std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
   formats::ReadLimits limits;
-  std::string broker, mode_on_failure = "go_on", record;
+  std::string broker, mode_on_failure = "go_on", record, record_pictures = "jpeg";
+  std::vector<std::string> record_topics, record_rates;
   double duration = 0, step = 0, factor = 1, deadline = 10, wall_timeout = 0;
   std::uint64_t seed = 0;
   int port = -1, threads = 0;

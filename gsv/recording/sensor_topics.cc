@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "gsv/base/log.h"
+#include "gsv/messages/sensor_msgs.h"
 #include "gsv/presentation/state_messages.h"
+#include "gsv/sensing/encoding.h"
 
 namespace gsv::recording {
 namespace {
@@ -31,20 +33,21 @@ struct SensorTopics::Sensor {
   const sensing::SensorType* type = nullptr;
   std::unique_ptr<sensing::Sensor> sensor;
   Instants instants;
+  bool is_wanted = true;             // else it is read for its beams alone
   std::optional<ChannelId> channel;  // once there was a reading
   std::optional<sensing::Reading> newest;
   bool has_failed = false;
 };
 
 SensorTopics::SensorTopics(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
-                           std::uint64_t seed, const SensorRates& rates)
+                           std::uint64_t seed, SensorTopicOptions options)
     : writer_(writer),
       types_(std::move(types)),
       seed_(seed),
-      rates_(rates),
-      beams_instants_(base::FromSeconds(1 / rates.beams)),
-      beams_(writer, "/gsv/beams"),
-      transforms_(writer, "/tf_static") {}
+      options_(std::move(options)),
+      beams_instants_(base::FromSeconds(1 / options_.rates.beams)),
+      beams_(writer, options_.selection, "/gsv/beams"),
+      transforms_(writer, options_.selection, "/tf_static") {}
 
 SensorTopics::~SensorTopics() = default;
 
@@ -70,17 +73,22 @@ std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
     const std::string& robot, const model::SensorDescription& description) {
   const sensing::SensorType* type = types_->Find(description.type);
   if (type == nullptr || type->schema == nullptr) return nullptr;
+  const bool is_wanted =
+      options_.selection.Has("/" + presentation::FrameOf(robot, description.name));
+  const bool has_beams = beams_.is_wanted() && presentation::HasLines(*type, description);
+  if (!is_wanted && !has_beams) return nullptr;
   auto sensor = type->create(description);
   if (!sensor) {
     Complain(sensor.error());
     return nullptr;
   }
-  const double rate = (*sensor)->TakesLong() ? rates_.pictures : rates_.readings;
+  const double rate = (*sensor)->TakesLong() ? options_.rates.pictures : options_.rates.readings;
   return std::make_shared<Sensor>(Sensor{robot,
                                          description,
                                          type,
                                          *std::move(sensor),
                                          Instants(PeriodOf(description, rate)),
+                                         is_wanted,
                                          {},
                                          {},
                                          false});
@@ -92,7 +100,7 @@ void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot
     const int body = snapshot->layout->Find(sensor->robot);
     if (body >= 0) Sample(topic, *sensor, snapshot, body);
   }
-  if (beams_instants_.Pass(snapshot->state.time)) WriteBeams(*snapshot);
+  if (beams_instants_.Pass(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
 }
 
 void SensorTopics::Sample(const std::string& topic, Sensor& sensor,
@@ -102,6 +110,10 @@ void SensorTopics::Sample(const std::string& topic, Sensor& sensor,
     sensor.has_failed = true;
     return Complain(reading.error());
   }
+  if (!sensor.is_wanted) {
+    sensor.newest = *std::move(reading);
+    return;
+  }
   if (!sensor.channel) {
     const auto channel = writer_.AddChannel(topic, *sensor.type->schema);
     if (!channel) {
@@ -110,10 +122,27 @@ void SensorTopics::Sample(const std::string& topic, Sensor& sensor,
     }
     sensor.channel = *channel;
   }
-  const std::vector<std::uint8_t> message = sensor.type->encode(
-      sensor.description, *reading, presentation::FrameOf(sensor.robot, sensor.description.name));
+  const std::vector<std::uint8_t> message = Encode(sensor, *reading);
   writer_.Write(*sensor.channel, reading->time, std::as_bytes(std::span(message)));
   sensor.newest = *std::move(reading);
+}
+
+std::vector<std::uint8_t> SensorTopics::Encode(const Sensor& sensor,
+                                               const sensing::Reading& reading) const {
+  using messages::sensor_msgs::CompressedImage;
+  const std::string frame = presentation::FrameOf(sensor.robot, sensor.description.name);
+  const bool is_picture = sensor.type->schema == &messages::SchemaOf<CompressedImage>() &&
+                          reading.picture != nullptr && options_.write_png;
+  if (is_picture) {
+    if (auto png = options_.write_png(*reading.picture)) {
+      CompressedImage message;
+      message.header = sensing::HeaderOf(reading, frame);
+      message.format = "png";
+      message.data = *std::move(png);
+      return sensing::Encoded(message);
+    }
+  }
+  return sensor.type->encode(sensor.description, reading, frame);
 }
 
 void SensorTopics::WriteTransforms(const world::Snapshot& snapshot) {

@@ -5,6 +5,7 @@
 // robot's behaviour gets, without leaving a trace in the simulation.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -28,11 +29,22 @@ struct SensorRates {
   double beams = 10;
 };
 
+// A picture as PNG.
+using WritePng =
+    std::function<base::Result<std::vector<std::uint8_t>>(const model::Image& picture)>;
+
+struct SensorTopicOptions {
+  SensorRates rates{};
+  Selection selection{};  // of topics
+  // For the pictures that their sensors send as JPEG; without it they are recorded so.
+  WritePng write_png{};
+};
+
 class SensorTopics {
  public:
   // `writer` must outlive this. `seed` is the simulation's.
   SensorTopics(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
-               std::uint64_t seed, const SensorRates& rates);
+               std::uint64_t seed, SensorTopicOptions options);
   ~SensorTopics();
 
   // These are the sensors from here on.
@@ -48,6 +60,7 @@ class SensorTopics {
                                const model::SensorDescription& description);
   void Sample(const std::string& topic, Sensor& sensor,
               const std::shared_ptr<const world::Snapshot>& snapshot, int body);
+  std::vector<std::uint8_t> Encode(const Sensor& sensor, const sensing::Reading& reading) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);
   // Of all sensors that cannot be recorded only the first is told of: there may be thousands.
@@ -56,7 +69,7 @@ class SensorTopics {
   McapWriter& writer_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const std::uint64_t seed_;
-  const SensorRates rates_;
+  const SensorTopicOptions options_;
   sensing::RaySceneCache rays_;
   Sensors sensors_;
   Instants beams_instants_;

@@ -69,8 +69,9 @@ SimulationRecorder::SimulationRecorder(const std::shared_ptr<Simulation>& simula
     : simulation_(simulation),
       writer_(std::move(writer)),
       types_(std::make_shared<sensing::SensorRegistry>(simulation->sensor_types())),
-      states_(*writer_, options.poses_rate),
-      sensors_(*writer_, types_, simulation->specification().seed, options.sensors),
+      states_(*writer_, options.poses_rate, {.topics = options.topics}),
+      sensors_(*writer_, types_, simulation->specification().seed,
+               {options.sensors, {.topics = options.topics}, std::move(options.write_png)}),
       scene_(*writer_, types_, std::move(options.write_glb)),
       sources_(*writer_),
       feed_(std::make_shared<SimulationFeed>(

@@ -26,7 +26,9 @@ struct RecorderOptions {
   WriteGlb write_glb;      // required
   double poses_rate = 50;  // Hz of simulated time, > 0
   SensorRates sensors;
-  bool replace = false;  // an existing file
+  std::vector<std::string> topics;  // as in Selection; empty: all
+  WritePng write_png;               // empty: pictures as their sensors send them
+  bool replace = false;             // an existing file
   // Added to the metadata record "gsv.simulation".
   StringMap metadata;
 };

@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/visualization_msgs.h"
 #include "gsv/presentation/model_identity.h"
 #include "gsv/recording/recording_info.h"
 #include "gsv/recording/test_simulation.h"
+#include "gsv/sensing/encoding.h"
 
 namespace gsv::recording {
 namespace {
@@ -135,6 +137,94 @@ TEST_F(SimulationRecorderTest, TellsWhoMetWhomAndHowHard) {
   EXPECT_NEAR(contacts[0].point.x, 2.9, 1e-3);
   EXPECT_NEAR(contacts[0].normal.x, 1, 1e-9);
   EXPECT_NEAR(contacts[0].closing_speed, 4, 1e-9);
+}
+
+TEST_F(SimulationRecorderTest, TopicsAndRatesCanBeChosen) {
+  auto simulation = MakeSimulation(1s, Drives(0.5));
+  RecorderOptions options = Options();
+  options.topics = {"/gsv/poses", "/robot/"};
+  options.poses_rate = 10;
+  options.sensors.readings = 5;
+  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
+  ASSERT_TRUE(recorder);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE((*recorder)->Stop());
+  std::map<std::string, std::uint64_t> counts;
+  for (const auto& channel : Info().channels) counts[channel.topic] = channel.messages;
+  EXPECT_EQ(counts, (std::map<std::string, std::uint64_t>{
+                        {"/gsv/poses", 11}, {"/robot/back", 5}, {"/robot/front", 6}}));
+}
+
+TEST_F(SimulationRecorderTest, BeamsAloneAreThoseOfSensorsWithoutATopic) {
+  auto simulation = MakeSimulation(1s, Drives(1.0));
+  RecorderOptions options = Options();
+  options.topics = {"/gsv/beams"};
+  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
+  ASSERT_TRUE(recorder);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE((*recorder)->Stop());
+  ASSERT_EQ(Info().channels.size(), 1u);
+  const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
+  ASSERT_EQ(beams.size(), 11u);
+  ASSERT_EQ(beams.back().markers.size(), 1u);
+  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // front and back
+}
+
+// A sensor whose picture is one pixel, sent as "jpeg" without data.
+sensing::SensorType PixelCamera() {
+  class Pixel final : public sensing::Sensor {
+   public:
+    using Sensor::Sensor;
+    base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
+      sensing::Reading reading = sampling.Stamped();
+      auto picture = std::make_shared<model::Image>();
+      picture->width = picture->height = 1;
+      picture->pixels = {1, 2, 3};
+      reading.picture = std::move(picture);
+      return reading;
+    }
+  };
+  sensing::SensorType type;
+  type.name = "pixel";
+  type.create = [](const model::SensorDescription& description) {
+    return base::Result<std::unique_ptr<sensing::Sensor>>(std::make_unique<Pixel>(description));
+  };
+  type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
+  type.encode = [](const model::SensorDescription&, const sensing::Reading& reading,
+                   const std::string& frame) {
+    messages::sensor_msgs::CompressedImage message;
+    message.header = sensing::HeaderOf(reading, frame);
+    message.format = "jpeg";
+    return sensing::Encoded(message);
+  };
+  return type;
+}
+
+TEST_F(SimulationRecorderTest, PicturesCanBePng) {
+  auto types = std::make_shared<sensing::SensorRegistry>();
+  sensing::AddBuiltInSensors(*types);
+  ASSERT_TRUE(types->Add(PixelCamera()));
+  auto simulation = simulation::Simulation::Create(simulation::Lockstep(100ms), types).value();
+  simulation::RobotSpecification robot = Robot("robot", 0, nullptr);
+  model::Model model = *robot.model;
+  model.sensors.resize(1);
+  model.sensors[0].name = "eye";
+  model.sensors[0].type = "pixel";
+  robot.model = std::make_shared<const model::Model>(std::move(model));
+  ASSERT_TRUE(simulation->AddRobot(robot));
+  RecorderOptions options = Options();
+  options.write_png = [](const model::Image& picture) {
+    return base::Result<std::vector<std::uint8_t>>(picture.pixels);
+  };
+  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
+  ASSERT_TRUE(recorder);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE((*recorder)->Stop());
+  const auto pictures = Read<messages::sensor_msgs::CompressedImage>("/robot/eye");
+  ASSERT_FALSE(pictures.empty());
+  EXPECT_EQ(pictures[0].format, "png");
+  EXPECT_EQ(pictures[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(pictures[0].header.frame_id, "robot/eye");
 }
 
 TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {

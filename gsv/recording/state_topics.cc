@@ -10,17 +10,17 @@ constexpr base::SimTime kHashPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
-StateTopics::StateTopics(McapWriter& writer, double poses_rate)
+StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection& selection)
     : poses_instants_(base::FromSeconds(1 / poses_rate)),
       hash_instants_(kHashPeriod),
-      clock_(writer, "/clock"),
-      poses_(writer, "/gsv/poses"),
-      transforms_(writer, "/tf"),
-      commands_(writer, "/gsv/commands"),
-      contacts_(writer, "/gsv/contacts"),
-      status_(writer, "/gsv/status", {.reproducible = false}),
-      events_(writer, "/gsv/events"),
-      hash_(writer, "/gsv/state_hash") {}
+      clock_(writer, selection, "/clock"),
+      poses_(writer, selection, "/gsv/poses"),
+      transforms_(writer, selection, "/tf"),
+      commands_(writer, selection, "/gsv/commands"),
+      contacts_(writer, selection, "/gsv/contacts"),
+      status_(writer, selection, "/gsv/status", {.reproducible = false}),
+      events_(writer, selection, "/gsv/events"),
+      hash_(writer, selection, "/gsv/state_hash") {}
 
 void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
   const base::SimTime time = snapshot->state.time;
@@ -29,10 +29,10 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
     layout_ = snapshot->layout;
     pose_list_ = presentation::PoseListOf(*layout_);
   }
-  WriteNewCommands(*snapshot);
-  WriteNewContacts(*snapshot);
+  if (commands_.is_wanted()) WriteNewCommands(*snapshot);
+  if (contacts_.is_wanted()) WriteNewContacts(*snapshot);
   if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
-  if (hash_instants_.Pass(time)) WriteHash(*snapshot);
+  if (hash_instants_.Pass(time) && hash_.is_wanted()) WriteHash(*snapshot);
 }
 
 void StateTopics::RecordAnyway(const world::Snapshot& snapshot) {
@@ -42,8 +42,10 @@ void StateTopics::RecordAnyway(const world::Snapshot& snapshot) {
 void StateTopics::WritePoses(const world::Snapshot& snapshot) {
   const base::SimTime time = snapshot.state.time;
   clock_.Write(time, {messages::ToMessage(time)});
-  poses_.Write(time, presentation::PosesMessage(snapshot, pose_list_));
-  transforms_.Write(time, presentation::TransformsMessage(snapshot, pose_list_));
+  if (poses_.is_wanted()) poses_.Write(time, presentation::PosesMessage(snapshot, pose_list_));
+  if (transforms_.is_wanted()) {
+    transforms_.Write(time, presentation::TransformsMessage(snapshot, pose_list_));
+  }
   poses_step_ = snapshot.state.step;
 }
 
@@ -80,7 +82,7 @@ void StateTopics::WriteNewContacts(const world::Snapshot& snapshot) {
 }
 
 void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
-  status_.Write(status.time, presentation::StatusMessage(status));
+  if (status_.is_wanted()) status_.Write(status.time, presentation::StatusMessage(status));
 }
 
 void StateTopics::RecordEvent(const simulation::Event& event) {

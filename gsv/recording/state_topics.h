@@ -18,7 +18,7 @@ namespace gsv::recording {
 class StateTopics {
  public:
   // `poses_rate`: Hz of simulated time, > 0. `writer` must outlive this.
-  StateTopics(McapWriter& writer, double poses_rate);
+  StateTopics(McapWriter& writer, double poses_rate, const Selection& selection);
 
   // Writes of a snapshot what is due at its time.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);

@@ -68,6 +68,25 @@ TEST_F(Control, PsListsSimulationsWithTheirRobots) {
   EXPECT_EQ(Gsv({"ps", "another"}).out, "");
 }
 
+TEST_F(Control, RecordsARunThatIsUnderWay) {
+  const auto run = StartRun();
+  const std::string path = folder_.path() / "part.mcap";
+  const Outcome started = Gsv({"rec", "start", path});
+  EXPECT_EQ(started.ending, "exit code 0") << started.err;
+  EXPECT_EQ(started.out, "simulation is recorded to " + path + "\n");
+  EXPECT_THAT(Gsv({"rec", "start", path + "2"}).err, HasSubstr("stop that first"));
+  EXPECT_EQ(Json({"pause"})["phase"], "paused");
+  const int from = Json({"ps"})["step"];
+  Json({"step", "100"});
+  const Outcome stopped = Gsv({"rec", "stop"});
+  EXPECT_EQ(stopped.ending, "exit code 0") << stopped.err;
+  EXPECT_EQ(Json({"ps"})["step"], from + 100);  // it goes on without
+  const auto info = Json({"rec", "info", path});
+  EXPECT_TRUE(info["indexed"]);
+  EXPECT_GE(info["duration_s"], 0.1);
+  EXPECT_THAT(Gsv({"rec", "stop"}).err, HasSubstr("is not being recorded"));
+}
+
 TEST_F(Control, PausesStepsResumesAndStops) {
   const auto run = StartRun();
   EXPECT_EQ(Json({"pause"})["phase"], "paused");
