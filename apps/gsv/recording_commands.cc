@@ -13,6 +13,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/resimulation.h"
+#include "apps/gsv/video_export.h"
 #include "gsv/gateway/replay_gateway.h"
 #include "gsv/recording/decoded_messages.h"
 #include "gsv/recording/recording_info.h"
@@ -26,7 +27,8 @@ struct RecordingArguments {
   std::string file, other, output;
   std::vector<std::string> topics;
   double from = -1e9, to = 1e9;  // s
-  bool json = false;
+  double frames_a_second = 25;
+  bool json = false, video = false;
 
   recording::Selection Selection() const {
     return {topics, base::FromSeconds(from), base::FromSeconds(to)};
@@ -83,9 +85,24 @@ int Cat(const RecordingArguments& arguments) {
   }
 }
 
+int Video(const RecordingArguments& arguments, const recording::McapReader& reader) {
+  if (arguments.output.empty()) {
+    return Complain({base::ErrorCode::kInvalidArgument, "a video needs a file: -o NAME.mp4", {}});
+  }
+  VideoOptions options;
+  options.output = arguments.output;
+  options.frames_a_second = arguments.frames_a_second;
+  const auto frames = ExportVideo(reader, arguments.Selection(), options);
+  if (!frames) return Refuse(frames.error());
+  std::printf("%s: %llu frames\n", options.output.c_str(),
+              static_cast<unsigned long long>(*frames));
+  return kOk;
+}
+
 int Export(const RecordingArguments& arguments) {
   const auto reader = recording::McapReader::Open(arguments.file);
   if (!reader) return Refuse(reader.error());
+  if (arguments.video) return Video(arguments, **reader);
   const auto csv = recording::ToCsv(**reader, arguments.Selection());
   if (!csv) return Refuse(csv.error());
   if (arguments.output.empty()) {
@@ -269,10 +286,17 @@ void AddRecordingCommands(const CommandLine& line) {
     add_selection(*command, *arguments);
   }
   {
-    const auto [command, arguments] = add("export", "Write a topic as a table (CSV)", Export);
+    const auto [command, arguments] =
+        add("export", "Write a topic as a table (CSV), or pictures as a video", Export);
     add_selection(*command, *arguments);
     command->get_option("--topic")->required()->expected(1);
     command->add_option("-o,--output", arguments->output, "the file; without it: stdout");
+    CLI::Option* video = command->add_flag("--video", arguments->video,
+                                           "the topic's pictures as a video, by ffmpeg");
+    command->add_option("--fps", arguments->frames_a_second, "the video's frames a second")
+        ->check(CLI::Range(0.1, 240.0))
+        ->needs(video)
+        ->capture_default_str();
   }
   {
     const auto [command, arguments] = add("filter", "Make a recording of part of one", Filter);

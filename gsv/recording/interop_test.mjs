@@ -1,9 +1,10 @@
 // Reads our recordings with other people's code: @mcap/core, by index and as a stream, and
 // @foxglove/rosmsg2-serialization for the messages. All checksums are compared.
 //
-//   node interop_test.mjs PACKAGE_JSON WRITE_RECORDINGS
+//   node interop_test.mjs PACKAGE_JSON WRITE_RECORDINGS DRAW_RECORDING
 //
-// PACKAGE_JSON is the one whose node_modules hold these packages.
+// PACKAGE_JSON is the one whose node_modules hold these packages. DRAW_RECORDING is
+// tools/draw_recording.mjs, which uses the same readers.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -11,7 +12,7 @@ import { createRequire } from "node:module";
 import os from "node:os";
 import path from "node:path";
 
-const [packageJson, writeRecordings] = process.argv.slice(2);
+const [packageJson, writeRecordings, drawRecording] = process.argv.slice(2);
 const require = createRequire(path.resolve(packageJson));
 const { crc32 } = createRequire(require.resolve("@mcap/core"))("@foxglove/crc");
 const { McapIndexedReader, McapStreamReader } = require("@mcap/core");
@@ -163,12 +164,47 @@ async function checkRecovered(bytes, whole) {
   return messages.length;
 }
 
+// A simulation's recording: every topic is decoded, and says what the run was.
+async function checkRun(bytes) {
+  const { reader, finding } = await readByIndex(bytes);
+  assertInOrder(finding.messages);
+  assert.deepEqual(readAsStream(bytes).messages, finding.messages);
+  const byTopic = (name) => finding.messages.filter(({ topic }) => topic === name);
+  const topics = [...finding.channels.values()].map(({ topic }) => topic).sort();
+  assert.deepEqual(topics, ["/clock", "/gsv/beams", "/gsv/commands", "/gsv/events", "/gsv/poses",
+    "/gsv/state_hash", "/gsv/status", "/robot/back", "/robot/front", "/tf", "/tf_static"]);
+  for (const topic of topics) assert.ok(byTopic(topic).length > 0, topic);
+  for (const { logTime, content } of byTopic("/robot/front")) {
+    assert.ok(Math.abs(content.range - (2.9 - 0.5e-9 * Number(logTime))) < 1e-6);
+  }
+  const last = byTopic("/tf").at(-1);
+  assert.equal(last.logTime, 2_000_000_000n);
+  const { translation } = last.content.transforms.find((each) => each.child_frame_id === "robot").transform;
+  assert.ok(Math.abs(translation.x - 1) < 1e-9);
+  assert.deepEqual(byTopic("/gsv/events").map(({ content }) => content.event), ["started", "finished"]);
+  const scenes = (await collect(reader.readAttachments())).filter(({ name }) => name === "scene.json");
+  const scene = JSON.parse(new TextDecoder().decode(scenes.at(-1).data));
+  assert.deepEqual(scene.bodies.map(({ name }) => name), ["robot", "wall"]);
+  return finding.messages.length;
+}
+
+function checkDrawing(file) {
+  const svg = `${file}.svg`;
+  execFileSync(process.execPath, [drawRecording, packageJson, file, svg]);
+  const text = readFileSync(svg, "utf8");
+  assert.match(text, /<text [^>]*>robot<\/text>/);
+  assert.match(text, /ends of sonar beams/);
+  assert.ok(!text.includes("NaN") && !text.includes("undefined"));
+}
+
 const folder = mkdtempSync(path.join(os.tmpdir(), "gsv-"));
 try {
   const info = JSON.parse(execFileSync(writeRecordings, [folder]).toString());
   const whole = await checkWhole(readFileSync(path.join(folder, "whole.mcap")), info);
   const recovered = await checkRecovered(readFileSync(path.join(folder, "recovered.mcap")), whole);
-  console.log(`${whole.length} messages read by index and as a stream; ${recovered} of half the file`);
+  const run = await checkRun(readFileSync(path.join(folder, "run.mcap")));
+  checkDrawing(path.join(folder, "run.mcap"));
+  console.log(`${whole.length} messages read by index and as a stream; ${recovered} of half the file; ${run} of a run`);
 } finally {
   rmSync(folder, { recursive: true });
 }

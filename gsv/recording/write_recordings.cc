@@ -1,6 +1,8 @@
 // Writes recordings for interop_test.mjs into the folder that is given:
 //   whole.mcap      messages of every type, written through the asynchronous writer
 //   recovered.mcap  what is recovered of it after it was cut off in the middle
+//   run.mcap        two seconds of a simulation: a robot drives from the origin along x at 0.5 m/s
+//                   towards a wall whose face is at 2.9 m
 // and prints what whole.mcap holds, as `gsv rec info --json` does.
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +12,8 @@
 #include "gsv/recording/mcap_writer.h"
 #include "gsv/recording/recording_info.h"
 #include "gsv/recording/recover.h"
+#include "gsv/recording/simulation_recorder.h"
+#include "gsv/recording/test_simulation.h"
 #include "samples.h"
 
 namespace gsv::recording {
@@ -43,6 +47,21 @@ base::Status WriteWhole(const std::string& path) {
   return (*writer)->Close();
 }
 
+base::Status WriteRun(const std::string& path) {
+  const auto simulation = MakeSimulation(2s, Drives(0.5));
+  RecorderOptions options;
+  options.write_glb = [](const model::Model& model) {
+    return base::Result<std::vector<std::uint8_t>>(
+        std::vector<std::uint8_t>(model.name.begin(), model.name.end()));
+  };
+  auto recorder = SimulationRecorder::Start(simulation, path, std::move(options));
+  if (!recorder) return base::Fail(recorder.error());
+  if (RunToEnd(*simulation) != simulation::Phase::kFinished) {
+    return base::Fail(base::ErrorCode::kNotRunning, "the simulation did not finish");
+  }
+  return (*recorder)->Stop();
+}
+
 base::Status Run(const std::filesystem::path& folder) {
   const std::string whole = folder / "whole.mcap";
   const std::string cut = folder / "cut.mcap";
@@ -53,6 +72,7 @@ base::Status Run(const std::filesystem::path& folder) {
   std::filesystem::resize_file(cut, info->size / 2);
   const auto recovery = Recover(cut, folder / "recovered.mcap");
   if (!recovery) return base::Fail(recovery.error());
+  if (base::Status status = WriteRun(folder / "run.mcap"); !status) return status;
   std::puts(ToJson(*info).c_str());
   return {};
 }
