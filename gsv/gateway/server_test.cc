@@ -290,6 +290,34 @@ TEST_F(ServerTest, AReaderThatStallsLosesTheOldestAndCostsNobodyElse) {
   EXPECT_LT(seen.size(), kMessages);
 }
 
+TEST_F(ServerTest, AStalledReaderAmongFiftyTakesNothingFromTheOthers) {
+  ServerOptions options;
+  options.limits.send.data_messages = 4;
+  Start(options);
+  // It subscribes, and reads no more.
+  Viewer stalled(port());
+  stalled.Subscribe(1, "/numbers");
+  std::vector<std::unique_ptr<Viewer>> others;
+  for (int i = 0; i < 50; ++i) {
+    others.push_back(std::make_unique<Viewer>(port()));
+    others.back()->Subscribe(1, "/numbers");
+    others.back()->SendText(R"({"op":"unsubscribe","subscriptionIds":[77]})");
+    others.back()->ReceiveText("status");  // what was sent before has been taken, too
+  }
+  constexpr std::uint64_t kMessages = 60;
+  const SharedBytes ballast(std::string(256 << 10, 'x'));
+  for (std::uint64_t i = 0; i < kMessages; ++i) {
+    echo_.hub().Publish(echo_.channel(), {i, ballast});
+    for (const auto& viewer : others) ASSERT_EQ(viewer->ReceiveData(1).time_ns, i);
+  }
+  others.clear();
+  std::vector<std::uint64_t> seen;
+  while (seen.empty() || seen.back() != kMessages - 1) {
+    seen.push_back(stalled.ReceiveData(1).time_ns);
+  }
+  EXPECT_LT(seen.size(), kMessages);
+}
+
 TEST_F(ServerTest, AReaderThatTakesNoControlTextsIsCutOff) {
   ServerOptions options;
   options.limits.send.control_bytes = 1 << 20;
