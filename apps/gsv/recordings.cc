@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -115,11 +117,39 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
     bag = *std::move(file);
   }
   auto recorder =
-      recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag,
-                                           Options(choice));
+      recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag, Options(choice));
   if (!recorder) return base::Fail(recorder.error());
   recordings_.emplace(name, Recording{simulation, path, std::move(bag), *std::move(recorder)});
   return {};
+}
+
+base::Status Recordings::Record(const std::shared_ptr<simulation::Simulation>& simulation) {
+  std::string name = simulation->specification().name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; },
+      '-');
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::current_path(ignored);
+  return Start(simulation, folder / fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}.mcap", name,
+                                                utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                                                utc.tm_hour, utc.tm_min, utc.tm_sec));
+}
+
+Recordings::State Recordings::RecordingOf(const std::string& simulation) {
+  const std::lock_guard lock(mutex_);
+  const auto found = recordings_.find(simulation);
+  if (found != recordings_.end()) return StateOf(found->second);
+  const auto last = last_.find(simulation);
+  return last == last_.end() ? State() : last->second;
+}
+
+Recordings::State Recordings::StateOf(const Recording& recording) {
+  const recording::McapWriter::Progress progress = recording.recorder->progress();
+  return {recording.recorder->is_recording(), recording.path, progress.messages, progress.dropped,
+          progress.bytes};
 }
 
 base::Status Recordings::Finish(Recording& recording) {
@@ -134,7 +164,12 @@ base::Status Recordings::Stop(const std::string& simulation) {
   if (node.empty()) {
     return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
   }
-  return Finish(node.mapped());
+  const base::Status finished = Finish(node.mapped());
+  State state = StateOf(node.mapped());
+  state.is_recording = false;
+  lock.lock();
+  last_[simulation] = std::move(state);
+  return finished;
 }
 
 base::Status Recordings::StopAll() {

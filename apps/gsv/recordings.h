@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/gateway/ports.h"
 
-namespace gsv::simulation {
-class Simulation;
-}
 namespace gsv::recording {
 class SimulationRecorder;
 }
@@ -36,15 +34,19 @@ struct RecordingChoice {
 // Sets one rate, from "KIND=HZ" with poses, readings, pictures or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
-class Recordings {
+class Recordings final : public gateway::RecordingSwitch {
  public:
   Recordings();
-  ~Recordings();
+  ~Recordings() override;
 
   // `path` ends in ".mcap": a bare file; else a folder that rosbag2 opens. kInvalidArgument when
   // the simulation is being recorded, or something of that name is there already.
   base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path,
                      const RecordingChoice& choice = {});
+  // To NAME-TIME.mcap in the current folder, with what is recorded if nothing else is said.
+  base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override;
+  base::Status StopRecording(const std::string& simulation) override { return Stop(simulation); }
+  State RecordingOf(const std::string& simulation) override;
   // kNotFound when that simulation is not recorded. Another error is why the recording ended early.
   base::Status Stop(const std::string& simulation);
   // The first error, if there is one; the others are logged.
@@ -58,9 +60,11 @@ class Recordings {
     std::unique_ptr<recording::SimulationRecorder> recorder;
   };
   static base::Status Finish(Recording& recording);
+  static State StateOf(const Recording& recording);
 
   std::mutex mutex_;
   std::map<std::string, Recording> recordings_;  // by the simulation's name
+  std::map<std::string, State> last_;            // that ended, by the simulation's name
 };
 
 }  // namespace gsv::app

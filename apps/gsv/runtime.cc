@@ -137,6 +137,7 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway.web_root = ShareFolder() / "web";
   gateway.broker = [page = std::make_shared<const BrokerPage>(orb_, broker_->reference())](
                        const gateway::Request& request) { return page->Handle(request); };
+  gateway.recordings = recordings_.get();
   auto directory = std::make_shared<HostDirectory>(host_);
   auto started = gateway::Gateway::Start(gateway, directory);
   if (!started && !options.port_given) {

@@ -49,8 +49,9 @@ Response Drive(const Simulation& simulation, const std::string& robot, const std
 
 }  // namespace
 
-Api::Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb)
-    : directory_(std::move(directory)), models_(std::move(write_glb)) {}
+Api::Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
+         RecordingSwitch* recordings)
+    : directory_(std::move(directory)), models_(std::move(write_glb)), recordings_(recordings) {}
 
 Response Api::Handle(const Request& request) {
   const std::vector<std::string>& path = request.target.segments;
@@ -77,6 +78,7 @@ Response Api::OfSimulation(const Request& request) {
   if (path.size() == 3) return is_get ? StatusOf(*simulation) : MethodNotAllowed("GET");
   if (path.size() > 4) return OfRobot(request, simulation);
   if (path[3] == "scene") return is_get ? Scene(*simulation) : MethodNotAllowed("GET");
+  if (path[3] == "recording") return Recording(request, simulation);
   const SimulationCommand* command = FindSimulationCommand(path[3]);
   if (command == nullptr) return NoSuchAddress();
   if (request.method != "POST") return MethodNotAllowed("POST");
@@ -84,6 +86,21 @@ Response Api::OfSimulation(const Request& request) {
     return ErrorResponse(done.error());
   }
   return StatusOf(*simulation);
+}
+
+Response Api::Recording(const Request& request, const SimulationPointer& simulation) const {
+  if (recordings_ == nullptr) return ErrorResponse(404, "this server does not record");
+  const std::string& name = simulation->specification().name;
+  if (request.method == "POST") {
+    const base::Result<bool> record = ParseRecordingSwitch(request.body);
+    if (!record) return ErrorResponse(record.error());
+    const base::Status done =
+        *record ? recordings_->Record(simulation) : recordings_->StopRecording(name);
+    if (!done) return ErrorResponse(done.error());
+  } else if (request.method != "GET") {
+    return MethodNotAllowed("GET, POST");
+  }
+  return JsonResponse(200, RecordingJson(recordings_->RecordingOf(name)));
 }
 
 Response Api::OfRobot(const Request& request, const SimulationPointer& simulation) const {

@@ -14,7 +14,9 @@ namespace gsv::gateway {
 
 class Api {
  public:
-  Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb);
+  // `recordings` may be null; else it outlives this.
+  Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
+      RecordingSwitch* recordings = nullptr);
 
   // `request.target` begins with "api".
   Response Handle(const Request& request);
@@ -26,10 +28,12 @@ class Api {
   Response OfSimulation(const Request& request);
   Response OfRobot(const Request& request, const SimulationPointer& simulation) const;
   Response Scene(const simulation::Simulation& simulation);
+  Response Recording(const Request& request, const SimulationPointer& simulation) const;
   Response Model(const Request& request);
 
   const std::shared_ptr<SimulationDirectory> directory_;
   ModelStore models_;
+  RecordingSwitch* const recordings_;
 };
 
 }  // namespace gsv::gateway

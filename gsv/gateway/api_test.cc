@@ -43,6 +43,48 @@ class ApiTest : public ::testing::Test {
   const std::string path_ = "/api/simulations/first%20light";
 };
 
+// Remembers what it was told.
+class FakeRecordings final : public RecordingSwitch {
+ public:
+  base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override {
+    if (state.is_recording) return base::Fail(base::ErrorCode::kInvalidArgument, "it is recorded");
+    state = {true, simulation->specification().name + ".mcap", 5, 1, 99};
+    return {};
+  }
+  base::Status StopRecording(const std::string&) override {
+    if (!state.is_recording) return base::Fail(base::ErrorCode::kNotFound, "it is not recorded");
+    state.is_recording = false;
+    return {};
+  }
+  State RecordingOf(const std::string&) override { return state; }
+
+  State state;
+};
+
+TEST_F(ApiTest, SwitchesTheRecordingOnAndOff) {
+  FakeRecordings recordings;
+  Api api(directory_, nullptr, &recordings);
+  const auto ask = [&](const std::string& method, const std::string& body = "") {
+    Request request;
+    request.method = method;
+    request.target = ParseTarget(path_ + "/recording").value();
+    request.body = body;
+    return api.Handle(request);
+  };
+  EXPECT_EQ(json::parse(ask("GET").body.view())["recording"], false);
+  EXPECT_EQ(json::parse(ask("POST", R"({"record":true})").body.view()),
+            json::parse(R"({"recording":true,"path":"first light.mcap","messages":5,
+                            "dropped_messages":1,"size_bytes":99})"));
+  EXPECT_EQ(ask("POST", R"({"record":true})").status, 400);
+  EXPECT_EQ(json::parse(ask("POST", R"({"record":false})").body.view())["recording"], false);
+  EXPECT_EQ(ask("POST", R"({"record":false})").status, 404);
+  for (const char* bad : {"", "[]", R"({"record":1})", R"({"path":"/etc/passwd"})"}) {
+    EXPECT_EQ(ask("POST", bad).status, 400) << bad;
+  }
+  EXPECT_EQ(ask("PUT").status, 405);
+  EXPECT_EQ(AskJson("GET", path_ + "/recording", 404)["error"], "this server does not record");
+}
+
 TEST_F(ApiTest, ListsTheSimulations) {
   const json list = AskJson("GET", "/api/simulations", 200);
   ASSERT_EQ(list.size(), 1u);

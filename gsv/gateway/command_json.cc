@@ -57,4 +57,12 @@ base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body) {
   return command;
 }
 
+base::Result<bool> ParseRecordingSwitch(std::string_view body) {
+  const base::Result<Json> json = ParseObject(body);
+  if (!json) return base::Fail(json.error());
+  const auto record = json->find("record");
+  if (record != json->end() && record->is_boolean()) return record->get<bool>();
+  return Invalid("to switch a recording, give {\"record\": true or false}");
+}
+
 }  // namespace gsv::gateway

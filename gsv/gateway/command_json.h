@@ -17,4 +17,7 @@ base::Result<std::int64_t> ParseStepCount(std::string_view body);
 // {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}; what is absent is 0.
 base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body);
 
+// {"record": true or false}.
+base::Result<bool> ParseRecordingSwitch(std::string_view body);
+
 }  // namespace gsv::gateway

@@ -19,7 +19,7 @@ class LocalGateway final : public Gateway, private Handler {
   LocalGateway(const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory)
       : directory_(directory),
         files_(options.web_root),
-        api_(directory, &formats::WriteGlb),
+        api_(directory, &formats::WriteGlb, options.recordings),
         broker_(options.broker),
         publisher_(std::move(directory), watchers_, commanders_) {}
 

@@ -17,6 +17,8 @@ namespace gsv::gateway {
 
 struct GatewayOptions : ServerOptions {
   std::filesystem::path web_root;  // the viewer's files; may be absent
+  // Null: nothing is recorded. Outlives the gateway.
+  RecordingSwitch* recordings = nullptr;
   // Answers what is below /api/broker; empty: nothing is there.
   std::function<Response(const Request&)> broker{};
 };

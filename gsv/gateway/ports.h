@@ -22,4 +22,24 @@ class SimulationDirectory {
   virtual std::shared_ptr<simulation::Simulation> Find(const std::string& name) = 0;
 };
 
+// Switches recordings on and off.
+//
+// Threads  any; starting writes models, stopping waits for the disk.
+class RecordingSwitch {
+ public:
+  struct State {
+    bool is_recording = false;
+    std::string path;            // of the recording under way, or of the last one
+    std::uint64_t messages = 0;  // so far
+    std::uint64_t dropped = 0;   // messages that the disk was too slow for
+    std::uint64_t bytes = 0;     // written
+  };
+
+  virtual ~RecordingSwitch() = default;
+  // To a new file, whose name the program chooses: who asks is a browser.
+  virtual base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) = 0;
+  virtual base::Status StopRecording(const std::string& simulation) = 0;
+  virtual State RecordingOf(const std::string& simulation) = 0;
+};
+
 }  // namespace gsv::gateway

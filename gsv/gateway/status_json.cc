@@ -66,6 +66,14 @@ std::string StatusJson(const simulation::SimulationStatus& status, const ReplayC
 
 std::string ReplayJson(const ReplayClock& clock) { return Dump(ToJson(clock)); }
 
+std::string RecordingJson(const RecordingSwitch::State& state) {
+  return Dump({{"recording", state.is_recording},
+               {"path", state.path},
+               {"messages", state.messages},
+               {"dropped_messages", state.dropped},
+               {"size_bytes", state.bytes}});
+}
+
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations) {
   OrderedJson list = OrderedJson::array();
   for (const simulation::SimulationStatus& status : simulations) {

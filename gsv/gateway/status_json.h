@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/gateway/ports.h"
 #include "gsv/gateway/replay_clock.h"
 #include "gsv/simulation/types.h"
 
@@ -14,6 +15,8 @@ std::string StatusJson(const simulation::SimulationStatus& status);
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
 // {"start_s", "end_s", "time_s", "speed", "loop"}
 std::string ReplayJson(const ReplayClock& clock);
+// {"recording", "path", "messages", "dropped_messages", "size_bytes"}
+std::string RecordingJson(const RecordingSwitch::State& state);
 // An array with a line for each simulation.
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations);
 
