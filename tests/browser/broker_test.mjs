@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage } from "./browser.mjs";
-import { startServer } from "./server.mjs";
+import { gsv, startServer } from "./server.mjs";
 
 let server;
 let browser;
@@ -55,6 +55,15 @@ test("a constraint that is wrong is answered with the broker's sentence", async 
   await find("cores >= ");
   assert.match(await page.getByRole("alert").innerText(), /cores/);
   faults.splice(0, faults.length, ...faults.filter((fault) => !/status of 400/.test(fault)));
+});
+
+test("links are there with whether they answer", async () => {
+  const { broker } = await (await fetch(`${server.url}api/broker/types`)).json();
+  const links = (...words) => gsv(["links", ...words, "--broker", broker]);
+  await links("add", "itself", broker);
+  await page.reload();
+  await page.locator(".link[data-answers='true']", { hasText: "itself" }).waitFor();
+  await links("remove", "itself");
 });
 
 test("the viewer leads to it and back, and nothing went wrong in its scripts", async () => {

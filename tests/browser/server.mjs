@@ -25,9 +25,16 @@ export async function startReplay(args) {
   return start(["replay", ...args]);
 }
 
+// Runs gsv with these arguments to its end.
+export async function gsv(args) {
+  const child = spawn(program(), args, { stdio: "inherit" });
+  const [code] = await withTimeout(once(child, "exit"), STOP_TIMEOUT_MS, `the end of gsv ${args[0]}`);
+  if (code !== 0) throw new Error(`gsv ${args.join(" ")} ended with ${code}`);
+}
+
 // Runs a simulation without a viewer to its end, and records it.
 export async function record(file, args) {
-  const child = spawn(gsv(), ["run", ...args, "--headless", "--record", file], {
+  const child = spawn(program(), ["run", ...args, "--headless", "--record", file], {
     stdio: ["ignore", "ignore", "pipe"],
     detached: true,
   });
@@ -48,7 +55,7 @@ async function start(command) {
   return server;
 }
 
-function gsv() {
+function program() {
   const build = process.env.GSV_BUILD_DIR;
   if (!build) throw new Error("GSV_BUILD_DIR must name the build whose bin/gsv is tested");
   return path.join(build, "bin", "gsv");
@@ -102,6 +109,6 @@ class Server {
   commandLine(port) {
     const other = process.env.GSV_RUN_COMMAND;
     if (other && this.command[0] === "run") return [...other.split(" "), "--port", String(port)];
-    return [gsv(), ...this.command, "--port", String(port)];
+    return [program(), ...this.command, "--port", String(port)];
   }
 }

@@ -119,6 +119,44 @@ TEST(CommandLine, ListsAddsAndRemovesLinks) {
   EXPECT_EQ(links({"list"}).out, "");
 }
 
+TEST(CommandLine, ListsAddsAndRemovesTypesAndOffers) {
+  const BrokerProcess broker;
+  const auto run = [&](const char* command, std::vector<std::string> words) {
+    words.insert(words.begin(), command);
+    words.insert(words.end(), {"--broker", broker.reference(), "--json"});
+    return RunProgram("gsv", words);
+  };
+  const std::string service = "corbaloc::1.2@127.0.0.1:9/Robot";
+  EXPECT_EQ(run("offers", {"add", "Robot", service}).ending, "exit code 3");
+  EXPECT_EQ(run("types", {"add", "Robot", "--property", "mandatory string name"}).ending,
+            "exit code 0");
+  const auto type = run("types", {}).LastLine();
+  EXPECT_EQ(type["name"], "Robot");
+  EXPECT_EQ(type["properties"][0]["mandatory"], true);
+
+  const Outcome added = run("offers", {"add", "Robot", service, "--property", "name=r2"});
+  ASSERT_EQ(added.ending, "exit code 0") << added.err;
+  const std::string id = added.LastLine()["id"];
+  const auto offer = run("offers", {"list"}).LastLine();
+  EXPECT_EQ(offer["id"], id);
+  EXPECT_EQ(offer["address"], "127.0.0.1:9");
+  EXPECT_EQ(offer["properties"]["name"], "r2");
+  EXPECT_EQ(run("offers", {"remove", id}).ending, "exit code 0");
+  EXPECT_EQ(run("offers", {}).out, "");
+  EXPECT_NE(run("offers", {"remove", id}).ending, "exit code 0");
+  EXPECT_EQ(run("types", {"remove", "Robot"}).ending, "exit code 0");
+  EXPECT_EQ(run("types", {}).out, "");
+}
+
+TEST(CommandLine, TheBrokerListensWhereItIsTold) {
+  const BrokerProcess elsewhere("127.0.0.2");
+  EXPECT_THAT(elsewhere.reference(), HasSubstr("@127.0.0.2:"));
+  EXPECT_EQ(RunProgram("gsv", {"types", "--broker", elsewhere.reference()}).ending, "exit code 0");
+  std::string here = elsewhere.reference();
+  here.replace(here.find("127.0.0.2"), 9, "127.0.0.1");
+  EXPECT_EQ(RunProgram("gsv", {"types", "--broker", here}).ending, "exit code 5");
+}
+
 TEST(CommandLine, RecordsAndReplays) {
   TemporaryFolder folder;
   const auto file = (folder.path() / "run.mcap").string();

@@ -3,8 +3,8 @@
 #
 #   trading_client.tcl BROKER OTHER_BROKER
 #
-# Exports, queries with every policy, iterates, links, follows the link, and withdraws; says what it
-# has done, a line each, and ends with 1 at the first answer that is not right.
+# Exports offers and a proxy, queries with every policy, iterates, links, follows the link, and
+# withdraws; says what it has done, a line each, and ends with 1 at the first answer that is not right.
 package require combat
 
 set id IDL:omg.org/CosTrading
@@ -13,6 +13,8 @@ set offer [list struct $id/Offer:1.0 [list reference Object properties [list seq
 set policy [list struct $id/Policy:1.0 {name string value any}]
 set desired [list union $id/Lookup/SpecifiedProps:1.0 {enum {none some all}} \
     {some {sequence string}}]
+set dynamic_property [list struct IDL:omg.org/CosTradingDynamic/DynamicProp:1.0 \
+    {eval_if Object returned_type TypeCode extra_info any}]
 set follow {enum {local_only if_no_local always}}
 set repository IDL:omg.org/CosTradingRepos/ServiceTypeRepository
 set declaration [list struct $repository/PropStruct:1.0 {
@@ -82,19 +84,33 @@ proc policies {args} {
     return $result
 }
 
-proc export {lookup n} {
+proc export {lookup n {type Robot} {properties {}}} {
     global property
     corba::dii [attribute $lookup register_if] [list string export \
         [list {in Object} {in string} [list in [list sequence $property]]]] \
-        $lookup Robot [list [list name n value [list long $n]]]
+        $lookup $type [linsert $properties 0 [list name n value [list long $n]]]
 }
 
-proc add_type {lookup} {
+proc withdraw {lookup id} {
+    corba::dii [attribute $lookup register_if] {void withdraw {{in string}}} $id
+}
+
+# The target's offers stand for the proxy's; all that an importer asks for is asked of it.
+proc export_proxy {lookup target} {
+    global property policy
+    corba::dii [attribute $lookup proxy_if] [list string export_proxy \
+        [list {in Object} {in string} [list in [list sequence $property]] {in boolean} \
+             {in string} [list in [list sequence $policy]]]] \
+        $target Robot {{name n value {long -1}}} 1 {$*} {}
+}
+
+proc add_type {lookup {type Robot} {properties {{name n value_type long mode PROP_MANDATORY}}} \
+                   {super_types {}}} {
     global declaration incarnation
     corba::dii [attribute $lookup type_repos] [list $incarnation add_type \
         [list {in string} {in string} [list in [list sequence $declaration]] \
              {in {sequence string}}]] \
-        Robot "" {{name n value_type long mode PROP_MANDATORY}} {}
+        $type "" $properties $super_types
 }
 
 corba::init
@@ -122,6 +138,29 @@ foreach {name type value constraint expected} [list \
     request_id {sequence octet} tcl "n < 2" {{0 1} {}}] {
     check "policy $name" [query $near $constraint "" [policies $name $type $value]] $expected
 }
+
+# What a policy leaves out.
+check "answers a request once" [query $near "n < 2" "" [policies request_id {sequence octet} tcl]] \
+    {{} {}}
+check "without what can be modified" \
+    [query $near "n < 2" "" [policies use_modifiable_properties boolean 0]] {{} {}}
+add_type $near Walker {} Robot
+set walker [export $near 50 Walker]
+check "finds sub types" [query $near "n > 4" "min n"] {{5 50} {}}
+check "finds the very type" \
+    [query $near "n > 4" "min n" [policies exact_type_match boolean 1]] {5 {}}
+withdraw $near $walker
+set dynamic [export $near 60 Robot [list [list name now value [list $dynamic_property \
+    [list eval_if $near returned_type long extra_info {long 0}]]]]]
+check "finds what has dynamic properties" [query $near "n > 4" "min n"] {{5 60} {}}
+check "finds what has none" \
+    [query $near "n > 4" "min n" [policies use_dynamic_properties boolean 0]] {5 {}}
+withdraw $near $dynamic
+set proxy [export_proxy $near $far]
+check "asks through a proxy" [query $near "n > 4" "min n"] {{5 100 101} {}}
+check "asks no proxy" [query $near "n > 4" "min n" [policies use_proxy_offers boolean 0]] {5 {}}
+corba::dii [attribute $near proxy_if] {void withdraw_proxy {{in string}}} $proxy
+
 check "refused constraint" [raised {query $near "n <" ""}] $id/IllegalConstraint:1.0
 check "refused policy" [raised {query $near "" "" [policies hop_count string x]}] \
     $id/Lookup/PolicyTypeMismatch:1.0
@@ -132,6 +171,8 @@ corba::dii $links [list void add_link [list {in string} {in Object} [list in $fo
 check "links" [corba::dii $links {{sequence string} list_links {}}] far
 check "follows the link" [query $near "n >= 5" "max n" [policies link_follow_rule $follow always]] \
     {{101 100 5} {}}
+check "makes no hop" [query $near "n >= 5" "max n" \
+    [policies link_follow_rule $follow always hop_count $ulong 0]] {5 hop_count}
 check "starts elsewhere" [query $near "" "min n" [policies starting_trader {sequence string} far]] \
     {{100 101} {}}
 corba::dii $links {void remove_link {{in string}}} far
@@ -141,7 +182,7 @@ check "unlinks" [raised {
     $id/Link/UnknownLinkName:1.0
 
 set register [attribute $near register_if]
-corba::dii $register {void withdraw {{in string}}} [lindex $ids 0]
+withdraw $near [lindex $ids 0]
 check "withdraws" [query $near "" "min n"] {{1 2 3 4 5} {}}
 corba::dii $register {void withdraw_using_constraint {{in string} {in string}}} Robot "n > 2"
 check "withdraws by constraint" [query $near "" "min n"] {{1 2} {}}
