@@ -1,6 +1,11 @@
 #include "gsv/broker/broker_administration.h"
 
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <optional>
 #include <ostream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +21,7 @@ using base::ErrorCode;
 using Repository = CosTradingRepos::ServiceTypeRepository;
 
 constexpr unsigned long kPingMs = 1000;
+constexpr std::uint32_t kAskedAtOnce = 16;  // links whose targets are asked whether they answer
 
 CORBA::ORB_ptr ProcessOrb() {
   int no_arguments = 0;
@@ -76,22 +82,49 @@ bool Answers(CosTrading::Lookup_ptr target) {
   }
 }
 
+// Calls `work` with 0 … count-1, a few at a time. Throws what one of them threw.
+template <typename Work>
+void ForEach(std::uint32_t count, const Work& work) {
+  std::atomic<std::uint32_t> next = 0;
+  std::vector<std::future<void>> workers;
+  for (std::uint32_t i = 0; i < std::min(count, kAskedAtOnce); ++i) {
+    workers.push_back(std::async(std::launch::async, [&] {
+      for (std::uint32_t k = next++; k < count; k = next++) work(k);
+    }));
+  }
+  for (auto& worker : workers) worker.wait();
+  for (auto& worker : workers) worker.get();
+}
+
+// Nothing when the link was removed meanwhile.
+std::optional<LinkDescription> Describe(CORBA::ORB_ptr orb, CosTrading::Link_ptr link,
+                                        const char* name) {
+  try {
+    const CosTrading::Link::LinkInfo_var info = link->describe_link(name);
+    const CORBA::String_var ior = orb->object_to_string(info->target);
+    const auto target = ReadReference(ior.in());
+    return LinkDescription{.name = name,
+                           .address = target ? target->Address() : std::string(),
+                           .def_pass_on = static_cast<FollowOption>(info->def_pass_on_follow_rule),
+                           .limiting = static_cast<FollowOption>(info->limiting_follow_rule),
+                           .answers = Answers(info->target)};
+  } catch (const CosTrading::Link::UnknownLinkName&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 base::Result<std::vector<LinkDescription>> BrokerAdministration::ListLinks() const {
   using Links = base::Result<std::vector<LinkDescription>>;
   return WithLink(broker_, timeout_, [](CORBA::ORB_ptr orb, CosTrading::Link_ptr link) -> Links {
+    const CosTrading::LinkNameSeq_var names = link->list_links();
+    std::vector<std::optional<LinkDescription>> described(names->length());
+    ForEach(names->length(),
+            [&](std::uint32_t i) { described[i] = Describe(orb, link, names.in()[i]); });
     std::vector<LinkDescription> links;
-    CosTrading::LinkNameSeq_var names = link->list_links();
-    for (CORBA::ULong i = 0; i < names->length(); ++i) {
-      const CosTrading::Link::LinkInfo_var info = link->describe_link(names[i]);
-      const CORBA::String_var ior = orb->object_to_string(info->target);
-      const auto target = ReadReference(ior.in());
-      links.push_back({.name = static_cast<const char*>(names[i]),
-                       .address = target ? target->Address() : std::string(),
-                       .def_pass_on = static_cast<FollowOption>(info->def_pass_on_follow_rule),
-                       .limiting = static_cast<FollowOption>(info->limiting_follow_rule),
-                       .answers = Answers(info->target)});
+    for (auto& each : described) {
+      if (each) links.push_back(std::move(*each));
     }
     return links;
   });

@@ -1,7 +1,12 @@
 #include "gsv/broker/broker_administration.h"
 
+#include <chrono>
 #include <csignal>
+#include <latch>
 #include <sstream>
+#include <thread>
+
+#include <COS/CosTradingDynamic.hh>
 
 #include "gsv/broker/broker_node.h"
 #include "gsv/broker/offer_listing.h"
@@ -30,6 +35,49 @@ TEST(BrokerAdministration, AddsListsAndRemovesLinks) {
                             "  local_only, at most if_no_local  (does not answer)\n");
   ASSERT_TRUE(administration.RemoveLink("north"));
   EXPECT_TRUE(administration.ListLinks()->empty());
+}
+
+// Says that it lives when so many are asked at once.
+class Sociable : public POA_CosTradingDynamic::DynamicPropEval {
+ public:
+  explicit Sociable(std::latch& others) : others_(others) {}
+  CORBA::Any* evalDP(const char*, CORBA::TypeCode_ptr, const CORBA::Any&) override {
+    return new CORBA::Any;
+  }
+  CORBA::Boolean _non_existent() override {
+    others_.count_down();
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!others_.try_wait()) {
+      if (std::chrono::steady_clock::now() > patience) throw CORBA::TRANSIENT();
+      std::this_thread::yield();
+    }
+    return false;
+  }
+
+ private:
+  std::latch& others_;
+};
+
+// It takes a silent trader's time only once.
+TEST(BrokerAdministration, AsksTheTargetsOfLinksAtTheSameTime) {
+  constexpr int kLinks = 4;
+  const BrokerNode node;
+  std::latch others(kLinks);
+  const CORBA::Object_var root = TestOrb()->resolve_initial_references("RootPOA");
+  const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
+  for (int i = 0; i < kLinks; ++i) {
+    const PortableServer::Servant_var<Sociable> target(new Sociable(others));
+    const PortableServer::ObjectId_var id = poa->activate_object(target);
+    const CORBA::Object_var object =
+        poa->create_reference_with_id(id, CosTrading::Lookup::_PD_repoId);
+    node.link_->add_link(("l" + std::to_string(i)).c_str(),
+                         CosTrading::Lookup_var(CosTrading::Lookup::_unchecked_narrow(object)),
+                         CosTrading::always, CosTrading::always);
+  }
+  const auto links = BrokerAdministration(node.broker_.reference()).ListLinks();
+  ASSERT_TRUE(links) << links.error().Sentence();
+  ASSERT_EQ(links->size(), kLinks);
+  for (const LinkDescription& link : *links) EXPECT_TRUE(link.answers) << link.name;
 }
 
 TEST(BrokerAdministration, SaysWhatIsWrongWithALink) {

@@ -1,5 +1,6 @@
 #include "gsv/broker/checked_transport.h"
 
+#include <atomic>
 #include <cerrno>
 #include <memory>
 #include <utility>
@@ -61,7 +62,7 @@ class CheckedEndpoint : public omni::tcpEndpoint {
   int accepted_ = -1;
   omni::giopConnection::notifyReadable_t readable_ = nullptr;
   void* cookie_ = nullptr;
-  bool poked_ = false;
+  std::atomic<bool> poked_ = false;  // by another thread
 };
 
 class CheckedAddress : public omni::tcpAddress {
