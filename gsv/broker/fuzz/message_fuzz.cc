@@ -1,5 +1,5 @@
-// Any bytes as a connection's messages, and as the arguments of a request: what is left of them
-// after the check, omniORB unmarshals or refuses without harm.
+// Any bytes as a connection's messages, as the arguments of a request, and as a reply: what is left
+// of them after the check, omniORB unmarshals or refuses without harm.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -54,6 +54,29 @@ void Unmarshal(std::string_view operation, const std::string& arguments) {
   }
 }
 
+// What a service or another trader answers.
+void TakeAsReply(const std::string& body, bool of_a_service) {
+  constexpr std::uint32_t kId = 7;
+  const std::string request = RawRequest("k", of_a_service ? "evalDP" : "next_n", "", kId);
+  ReplyCheck replies;
+  replies.Sending(request, request.size());
+  const std::string reply = RawReply(kId, body);
+  std::string checked = reply;
+  replies.Check(checked);
+  if (checked != reply) return;
+  cdrMemoryStream stream;
+  stream.put_octet_array(reinterpret_cast<const _CORBA_Octet*>(body.data()),
+                         static_cast<int>(body.size()), omni::ALIGN_8);
+  if (of_a_service) {
+    CORBA::Any value;
+    value <<= stream;
+  } else {
+    stream.unmarshalBoolean();
+    CosTrading::OfferSeq offers;
+    offers <<= stream;
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -69,6 +92,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   constexpr const char* kOperations[] = {"query", "modify", "add_type"};
   const char* const operation = kOperations[data[0] % 3];
   const std::string arguments(bytes.substr(1));
+  try {
+    TakeAsReply(arguments, data[0] % 2 == 0);
+  } catch (const CORBA::SystemException&) {
+  }
   const std::string request = RawRequest("k", operation, arguments);
   std::string checked = request;
   CheckRequest(checked);
