@@ -25,15 +25,15 @@ void SetTimeout(const Reference& reference, unsigned long timeout_ms) {
 CosTrading::PropertySeq ToCorba(const std::vector<Property>& properties) {
   CosTrading::PropertySeq result;
   result.length(static_cast<CORBA::ULong>(properties.size()));
-  for (CORBA::ULong i = 0; i < properties.size(); ++i) result[i] = ToCorba(properties[i]);
+  for (CORBA::ULong i = 0; i < properties.size(); ++i) {
+    FillProperty(properties[i].name, properties[i].value, result[i]);
+  }
   return result;
 }
 
 // Another trader might send a name twice; the last one counts.
 PropertyList ToList(const CosTrading::PropertySeq& properties) {
-  PropertyList list;
-  for (Property& property : ToProperties(properties)) list.Set(std::move(property));
-  return list;
+  return PropertyList::LastOfEachName(ToProperties(properties));
 }
 
 bool SameDefinition(ServiceType a, ServiceType b) {
@@ -68,6 +68,21 @@ void AppendOffers(const CosTrading::OfferSeq& offers, std::size_t limit,
   for (CORBA::ULong i = 0; i < offers.length() && found.size() < limit; ++i) {
     found.push_back({CORBA::Object::_duplicate(offers[i].reference), ToList(offers[i].properties)});
   }
+}
+
+// A service on this host's loopback cannot be reached from a broker elsewhere.
+base::Status CheckReachable(CORBA::ORB_ptr orb, CORBA::Object_ptr object,
+                            const std::string& broker) {
+  const std::string broker_host = HostOf(broker);
+  if (broker_host.empty() || IsLoopback(broker_host)) return {};
+  const CORBA::String_var ior = orb->object_to_string(object);
+  const auto service = ReadReference(ior.in());
+  if (!service || !IsLoopback(service->host)) return {};
+  return base::Fail(ErrorCode::kInvalidArgument,
+                    fmt::format("the service listens on {}, which the broker's host cannot reach; "
+                                "give it an -ORBendPoint on an outside address",
+                                service->Address()),
+                    broker);
 }
 
 }  // namespace
@@ -152,15 +167,8 @@ base::Status BrokerClient::EnsureServiceType(const ServiceType& type) {
 base::Result<std::string> BrokerClient::Export(const std::string& type, CORBA::Object_ptr object,
                                                const std::vector<Property>& properties) {
   return Guarded(reference_, [&]() -> base::Result<std::string> {
-    const CORBA::String_var ior = orb_->object_to_string(object);
-    const auto service = ReadReference(ior.in());
-    const std::string broker_host = HostOf(reference_);
-    if (service && IsLoopback(service->host) && !broker_host.empty() && !IsLoopback(broker_host)) {
-      return base::Fail(ErrorCode::kInvalidArgument,
-                        fmt::format("the service listens on {}, which the broker's host cannot "
-                                    "reach; give it an -ORBendPoint on an outside address",
-                                    service->Address()),
-                        reference_);
+    if (auto reachable = CheckReachable(orb_, object, reference_); !reachable) {
+      return base::Fail(reachable.error());
     }
     const CORBA::String_var id = registry_->_cxx_export(object, type.c_str(), ToCorba(properties));
     return std::string(id.in());

@@ -4,6 +4,7 @@
 // Source  CORBA 3.1 part 2, 7.3.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -31,7 +32,8 @@ class CdrReader {
   // Where the next byte lies.
   const char* here() const { return bytes_.data() + position_; }
 
-  void Align(std::size_t alignment) { Skip((alignment - position_ % alignment) % alignment); }
+  // To a power of two.
+  void Align(std::size_t alignment) { Skip((0 - position_) & (alignment - 1)); }
   void Skip(std::size_t count) {
     if (count > remaining()) return Fail();
     position_ += count;
@@ -85,19 +87,22 @@ class CdrReader {
 
  private:
   template <typename T>
+  static T Swapped(T value) {
+    T swapped = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i, value = static_cast<T>(value >> 7 >> 1)) {
+      swapped = static_cast<T>(static_cast<T>(swapped << 7 << 1) | (value & 0xFF));
+    }
+    return swapped;
+  }
+  template <typename T>
   T Number() {
     Align(sizeof(T));
     if (sizeof(T) > remaining()) Fail();
     if (!ok_) return 0;
-    unsigned char raw[sizeof(T)];
-    std::memcpy(raw, here(), sizeof(T));
-    position_ += sizeof(T);
     T value = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      const std::size_t shift = little_endian_ ? i : sizeof(T) - 1 - i;
-      value = static_cast<T>(value | static_cast<T>(static_cast<T>(raw[i]) << (8 * shift)));
-    }
-    return value;
+    std::memcpy(&value, here(), sizeof(T));
+    position_ += sizeof(T);
+    return little_endian_ == (std::endian::native == std::endian::little) ? value : Swapped(value);
   }
 
   std::string_view bytes_;

@@ -10,135 +10,6 @@
 namespace gsv::broker {
 namespace {
 
-CORBA::TypeCode_var WithoutAlias(CORBA::TypeCode_ptr type) {
-  CORBA::TypeCode_var plain = CORBA::TypeCode::_duplicate(type);
-  while (plain->kind() == CORBA::tk_alias) plain = plain->content_type();
-  return plain;
-}
-
-std::optional<Scalar> SimpleScalar(CORBA::TCKind kind) {
-  switch (kind) {
-    case CORBA::tk_boolean:
-      return Scalar::kBoolean;
-    case CORBA::tk_short:
-      return Scalar::kShort;
-    case CORBA::tk_ushort:
-      return Scalar::kUShort;
-    case CORBA::tk_long:
-      return Scalar::kLong;
-    case CORBA::tk_ulong:
-      return Scalar::kULong;
-    case CORBA::tk_float:
-      return Scalar::kFloat;
-    case CORBA::tk_double:
-      return Scalar::kDouble;
-    case CORBA::tk_char:
-      return Scalar::kChar;
-    case CORBA::tk_string:
-      return Scalar::kString;
-    default:
-      return std::nullopt;
-  }
-}
-
-CORBA::TypeCode_ptr SimpleTypeCode(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kBoolean:
-      return CORBA::_tc_boolean;
-    case Scalar::kShort:
-      return CORBA::_tc_short;
-    case Scalar::kUShort:
-      return CORBA::_tc_ushort;
-    case Scalar::kLong:
-      return CORBA::_tc_long;
-    case Scalar::kULong:
-      return CORBA::_tc_ulong;
-    case Scalar::kFloat:
-      return CORBA::_tc_float;
-    case Scalar::kDouble:
-      return CORBA::_tc_double;
-    case Scalar::kChar:
-      return CORBA::_tc_char;
-    case Scalar::kString:
-      return CORBA::_tc_string;
-    case Scalar::kOther:
-      break;
-  }
-  GSV_CHECK(!"a simple type was expected");
-  return CORBA::_tc_null;
-}
-
-// "sequence<octet>", "struct IDL:acme/Place:1.0": equal for types that CORBA calls equivalent.
-std::string OtherSpelling(CORBA::TypeCode_ptr type, int depth = 0) {
-  constexpr int kDepth = 16;
-  if (depth > kDepth) return "…";
-  const CORBA::TypeCode_var plain = WithoutAlias(type);
-  if (const auto scalar = SimpleScalar(plain->kind())) return std::string(Spelling(*scalar));
-  const auto named = [&](const char* kind) { return kind + std::string(plain->id()); };
-  const auto element = [&] {
-    const CORBA::TypeCode_var content = plain->content_type();
-    return OtherSpelling(content, depth + 1);
-  };
-  switch (plain->kind()) {
-    case CORBA::tk_null:
-      return "null";
-    case CORBA::tk_void:
-      return "void";
-    case CORBA::tk_octet:
-      return "octet";
-    case CORBA::tk_any:
-      return "any";
-    case CORBA::tk_TypeCode:
-      return "TypeCode";
-    case CORBA::tk_longlong:
-      return "long long";
-    case CORBA::tk_ulonglong:
-      return "unsigned long long";
-    case CORBA::tk_longdouble:
-      return "long double";
-    case CORBA::tk_wchar:
-      return "wchar";
-    case CORBA::tk_wstring:
-      return "wstring";
-    case CORBA::tk_struct:
-      return named("struct ");
-    case CORBA::tk_union:
-      return named("union ");
-    case CORBA::tk_enum:
-      return named("enum ");
-    case CORBA::tk_except:
-      return named("exception ");
-    case CORBA::tk_objref:
-      return named("interface ");
-    case CORBA::tk_sequence:
-      return "sequence<" + element() + ">";
-    case CORBA::tk_array:
-      return element() + "[" + std::to_string(plain->length()) + "]";
-    default:
-      return "kind " + std::to_string(plain->kind());
-  }
-}
-
-// The type as the constraint language sees it, `encoded` left empty.
-PropertyType Classify(CORBA::TypeCode_ptr type) {
-  PropertyType result;
-  const CORBA::TypeCode_var plain = WithoutAlias(type);
-  if (const auto scalar = SimpleScalar(plain->kind())) {
-    result.scalar = *scalar;
-    return result;
-  }
-  if (plain->kind() == CORBA::tk_sequence) {
-    const CORBA::TypeCode_var content = plain->content_type();
-    if (const auto scalar = SimpleScalar(WithoutAlias(content)->kind())) {
-      result.scalar = *scalar;
-      result.sequence = true;
-      return result;
-    }
-  }
-  result.name = OtherSpelling(plain);
-  return result;
-}
-
 ScalarValue ReadScalar(Scalar scalar, cdrStream& stream) {
   switch (scalar) {
     case Scalar::kBoolean:
@@ -246,13 +117,6 @@ Value ToSimpleValue(Scalar scalar, const ScalarValue& content) {
   }
 }
 
-ScalarValue Content(const Value& value) {
-  if (const auto* truth = value.As<bool>()) return *truth;
-  if (const auto* integer = value.As<std::int64_t>()) return *integer;
-  if (const auto* real = value.As<double>()) return *real;
-  return *value.As<std::string>();
-}
-
 Value ReadSequence(Scalar element, cdrStream& stream) {
   CORBA::ULong length = 0;
   length <<= stream;
@@ -261,16 +125,6 @@ Value ReadSequence(Scalar element, cdrStream& stream) {
   return Value::SequenceOf(element, std::move(elements));
 }
 
-CORBA::TypeCode_ptr SequenceTypeCode(Scalar element) {
-  int no_arguments = 0;
-  const CORBA::ORB_var orb = CORBA::ORB_init(no_arguments, nullptr);
-  return orb->create_sequence_tc(0, SimpleTypeCode(element));
-}
-
-}  // namespace
-
-namespace {
-
 // Null for a value that is no dynamic property.
 std::shared_ptr<const PropertyType> PromisedType(const CORBA::Any& any) {
   const CosTradingDynamic::DynamicProp* dynamic = nullptr;
@@ -278,9 +132,104 @@ std::shared_ptr<const PropertyType> PromisedType(const CORBA::Any& any) {
   return std::make_shared<const PropertyType>(ToPropertyType(dynamic->returned_type));
 }
 
+template <typename T, typename Make>
+std::optional<Value> Extract(const CORBA::Any& any, const Make& make) {
+  T content{};
+  if (!(any >>= content)) return std::nullopt;
+  return make(content);
+}
+
+template <typename T, typename Holder, typename Make>
+std::optional<Value> ExtractAs(const CORBA::Any& any, const Make& make) {
+  T content{};
+  if (!(any >>= Holder(content))) return std::nullopt;
+  return make(content);
+}
+
+// Without a copy of what the Any holds. Nothing where its type is not one of the simple ones.
+std::optional<Value> SimpleValue(const CORBA::Any& any) {
+  switch (any.NP_type()->kind()) {
+    case CORBA::tk_boolean:
+      return ExtractAs<CORBA::Boolean, CORBA::Any::to_boolean>(any, Value::Boolean);
+    case CORBA::tk_short:
+      return Extract<CORBA::Short>(any, Value::Short);
+    case CORBA::tk_ushort:
+      return Extract<CORBA::UShort>(any, Value::UShort);
+    case CORBA::tk_long:
+      return Extract<CORBA::Long>(any, Value::Long);
+    case CORBA::tk_ulong:
+      return Extract<CORBA::ULong>(any, Value::ULong);
+    case CORBA::tk_float:
+      return Extract<CORBA::Float>(any, Value::Float);
+    case CORBA::tk_double:
+      return Extract<CORBA::Double>(any, Value::Double);
+    case CORBA::tk_char:
+      return ExtractAs<CORBA::Char, CORBA::Any::to_char>(
+          any, [](CORBA::Char c) { return Value::Char(static_cast<char>(c)); });
+    case CORBA::tk_string:
+      return Extract<const char*>(any, [](const char* text) { return Value::String(text); });
+    default:
+      return std::nullopt;
+  }
+}
+
+void FillSimple(const Value& value, CORBA::Any& any) {
+  const auto integer = [&] { return *value.As<std::int64_t>(); };
+  switch (value.scalar()) {
+    case Scalar::kBoolean:
+      any <<= CORBA::Any::from_boolean(*value.As<bool>());
+      return;
+    case Scalar::kShort:
+      any <<= static_cast<CORBA::Short>(integer());
+      return;
+    case Scalar::kUShort:
+      any <<= static_cast<CORBA::UShort>(integer());
+      return;
+    case Scalar::kLong:
+      any <<= static_cast<CORBA::Long>(integer());
+      return;
+    case Scalar::kULong:
+      any <<= static_cast<CORBA::ULong>(integer());
+      return;
+    case Scalar::kFloat:
+      any <<= static_cast<CORBA::Float>(*value.As<double>());
+      return;
+    case Scalar::kDouble:
+      any <<= static_cast<CORBA::Double>(*value.As<double>());
+      return;
+    case Scalar::kChar:
+      any <<= CORBA::Any::from_char(static_cast<CORBA::Char>(value.As<std::string>()->at(0)));
+      return;
+    case Scalar::kString:
+      any <<= value.As<std::string>()->c_str();
+      return;
+    case Scalar::kOther:
+      break;
+  }
+  GSV_CHECK(!"a simple type was expected");
+}
+
+// `any` is empty.
+void FillAny(const Value& value, CORBA::Any& any) {
+  if (const OtherValue* other = value.AsOther()) {
+    cdrEncapsulationStream stream = StreamOf(other->encoded);
+    any <<= stream;
+  } else if (const Value::Sequence* sequence = value.AsSequence()) {
+    cdrMemoryStream stream;
+    const CORBA::TypeCode_var type = ToTypeCode(value.Type());
+    any.replace(type, nullptr);
+    static_cast<CORBA::ULong>(sequence->size()) >>= stream;
+    for (const ScalarValue& element : *sequence) WriteScalar(value.scalar(), element, stream);
+    any.NP_unmarshalDataOnly(stream);
+  } else {
+    FillSimple(value, any);
+  }
+}
+
 }  // namespace
 
 Value ToValue(const CORBA::Any& any) {
+  if (auto simple = SimpleValue(any)) return *std::move(simple);
   const CORBA::TypeCode_var type = any.type();
   const PropertyType kind = Classify(type);
   if (kind.scalar == Scalar::kOther) {
@@ -296,43 +245,8 @@ Value ToValue(const CORBA::Any& any) {
 
 CORBA::Any ToAny(const Value& value) {
   CORBA::Any any;
-  if (const OtherValue* other = value.AsOther()) {
-    cdrEncapsulationStream stream = StreamOf(other->encoded);
-    any <<= stream;
-    return any;
-  }
-  cdrMemoryStream stream;
-  if (const Value::Sequence* sequence = value.AsSequence()) {
-    const CORBA::TypeCode_var type = SequenceTypeCode(value.scalar());
-    any.replace(type, nullptr);
-    static_cast<CORBA::ULong>(sequence->size()) >>= stream;
-    for (const ScalarValue& element : *sequence) WriteScalar(value.scalar(), element, stream);
-  } else {
-    any.replace(SimpleTypeCode(value.scalar()), nullptr);
-    WriteScalar(value.scalar(), Content(value), stream);
-  }
-  any.NP_unmarshalDataOnly(stream);
+  FillAny(value, any);
   return any;
-}
-
-PropertyType ToPropertyType(CORBA::TypeCode_ptr type) {
-  PropertyType result = Classify(type);
-  const bool simple = result.scalar != Scalar::kOther;
-  const CORBA::TypeCode_var plain = simple ? ToTypeCode(result) : CORBA::TypeCode::_duplicate(type);
-  if (simple && plain->equal(type)) return result;
-  cdrEncapsulationStream stream;
-  CORBA::TypeCode::marshalTypeCode(type, stream);
-  result.encoded = BytesOf(stream);
-  return result;
-}
-
-CORBA::TypeCode_ptr ToTypeCode(const PropertyType& type) {
-  if (!type.encoded.empty()) {
-    cdrEncapsulationStream stream = StreamOf(type.encoded);
-    return CORBA::TypeCode::unmarshalTypeCode(stream);
-  }
-  return type.sequence ? SequenceTypeCode(type.scalar)
-                       : CORBA::TypeCode::_duplicate(SimpleTypeCode(type.scalar));
 }
 
 std::vector<Property> ToProperties(const CosTrading::PropertySeq& properties) {
@@ -346,9 +260,20 @@ std::vector<Property> ToProperties(const CosTrading::PropertySeq& properties) {
 
 CosTrading::Property ToCorba(const Property& property) {
   CosTrading::Property result;
-  result.name = property.name.c_str();
-  result.value = ToAny(property.value);
+  FillProperty(property.name, property.value, result);
   return result;
+}
+
+void FillProperty(const std::string& name, const Value& value, CosTrading::Property& property) {
+  property.name = name.c_str();
+  FillAny(value, property.value);
+}
+
+void FillProperties(const PropertyList& list, CosTrading::PropertySeq& properties) {
+  properties.length(static_cast<CORBA::ULong>(list.size()));
+  for (CORBA::ULong i = 0; i < properties.length(); ++i) {
+    FillProperty(list[i].name, list[i].value, properties[i]);
+  }
 }
 
 CosTradingRepos::ServiceTypeRepository::PropStruct ToCorba(const PropertyDefinition& definition) {

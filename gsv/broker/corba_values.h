@@ -9,6 +9,7 @@
 #include <COS/CosTrading.hh>
 #include <COS/CosTradingRepos.hh>
 
+#include "gsv/broker/corba_types.h"
 #include "gsv/broker/property.h"
 #include "gsv/broker/service_type.h"
 
@@ -18,12 +19,10 @@ namespace gsv::broker {
 Value ToValue(const CORBA::Any& any);
 CORBA::Any ToAny(const Value& value);
 
-PropertyType ToPropertyType(CORBA::TypeCode_ptr type);
-// A new reference.
-CORBA::TypeCode_ptr ToTypeCode(const PropertyType& type);
-
 std::vector<Property> ToProperties(const CosTrading::PropertySeq& properties);
 CosTrading::Property ToCorba(const Property& property);
+void FillProperty(const std::string& name, const Value& value, CosTrading::Property& property);
+void FillProperties(const PropertyList& list, CosTrading::PropertySeq& properties);
 
 CosTradingRepos::ServiceTypeRepository::PropStruct ToCorba(const PropertyDefinition& definition);
 PropertyDefinition ToDefinition(const CosTradingRepos::ServiceTypeRepository::PropStruct& prop);

@@ -9,23 +9,18 @@ DynamicValues::DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseco
 
 const Value* DynamicValues::FindStatic(const Offer& offer, std::string_view name) {
   constexpr std::size_t kPlaces = 16;
-  const std::vector<Property>& properties = offer.properties.all();
+  const PropertyList& properties = offer.properties;
   auto place = std::find_if(places_.begin(), places_.end(),
-                            [&](const Place& known) { return known.name == name.data(); });
-  if (place != places_.end() && place->index < properties.size() &&
-      properties[place->index].name == name) {
-    return &properties[place->index].value;
+                            [&](const Place& known) { return known.name == name; });
+  if (place == places_.end()) {
+    if (places_.size() == kPlaces) return properties.Find(name);
+    place = places_.insert(place, Place{.name = std::string(name)});
   }
-  const Value* value = offer.properties.Find(name);
-  if (value == nullptr) return nullptr;
-  std::size_t index = 0;
-  while (&properties[index].value != value) ++index;
-  if (place != places_.end()) {
-    place->index = index;
-  } else if (places_.size() < kPlaces) {
-    places_.push_back({name.data(), index});
+  if (place->names != properties.names()) {
+    place->names = properties.names();
+    place->index = properties.IndexOf(name);
   }
-  return value;
+  return place->index < properties.size() ? &properties.values()[place->index] : nullptr;
 }
 
 const Value* DynamicValues::Find(const Offer& offer, std::string_view name) {
@@ -49,9 +44,8 @@ bool IsDynamic(const Value& value) {
 }
 
 bool HasDynamicProperties(const Offer& offer) {
-  const std::vector<Property>& properties = offer.properties.all();
-  return std::any_of(properties.begin(), properties.end(),
-                     [](const Property& property) { return IsDynamic(property.value); });
+  const auto values = offer.properties.values();
+  return std::any_of(values.begin(), values.end(), IsDynamic);
 }
 
 }  // namespace gsv::broker

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,15 +46,16 @@ class DynamicValues {
 
   // The property's value, asked for when it is dynamic. Null when there is none. The pointer holds
   // as long as this and the offer. It is found at once where offers that are asked for one after
-  // the other have the same properties, and `name` stays where it is.
+  // the other have the same names of properties.
   const Value* Find(const Offer& offer, std::string_view name);
 
  private:
   using Key = std::pair<std::uint64_t, std::string>;
-  // Where the property of a name stood last.
+  // Where the property of a name stood last, in offers whose properties have these names.
   struct Place {
-    const char* name;
-    std::size_t index;
+    std::string name;
+    std::shared_ptr<const PropertyNames> names{};
+    std::size_t index = 0;
   };
 
   const Value* FindStatic(const Offer& offer, std::string_view name);

@@ -46,7 +46,7 @@ struct TraderState {
   std::uint64_t next_number = 1;       // above that of every offer there ever was
   std::uint64_t next_incarnation = 1;  // above that of every type there ever was
   std::vector<ServiceType> types{};
-  Offers offers{};
+  std::vector<Offer> offers{};
   std::vector<TraderLink> links{};
   TraderAttributes attributes{};
 };

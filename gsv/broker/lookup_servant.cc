@@ -41,8 +41,8 @@ std::size_t EncodedSize(const OfferPtr& offer, const DesiredProperties& desired,
   std::size_t size = kOverhead + offer->reference.size() / 2;
   if (!desired.all && desired.names.empty()) return size;
   size += offer->properties.EncodedSize();
-  for (const Property& property : offer->properties.all()) {
-    if (IsDynamic(property.value)) size += dynamic_bytes;
+  for (const Value& value : offer->properties.values()) {
+    if (IsDynamic(value)) size += dynamic_bytes;
   }
   return size;
 }
@@ -52,14 +52,15 @@ CosTrading::Offer ToCorba(CORBA::ORB_ptr orb, const Offer& offer, const DesiredP
                           DynamicValues& values) {
   CosTrading::Offer result;
   result.reference = orb->string_to_object(offer.reference.c_str());
-  for (const Property& property : offer.properties.all()) {
-    if (!IsDesired(desired, property.name)) continue;
-    const Value* value = values.Find(offer, property.name);
+  CORBA::ULong count = 0;
+  result.properties.length(static_cast<CORBA::ULong>(offer.properties.size()));
+  for (const auto& [name, kept] : offer.properties) {
+    if (!IsDesired(desired, name)) continue;
+    const Value* value = IsDynamic(kept) ? values.Find(offer, name) : &kept;
     if (value == nullptr) continue;
-    const CORBA::ULong count = result.properties.length();
-    result.properties.length(count + 1);
-    result.properties[count] = ToCorba(Property{property.name, *value});
+    FillProperty(name, *value, result.properties[count++]);
   }
+  result.properties.length(count);
   return result;
 }
 

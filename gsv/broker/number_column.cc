@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "gsv/broker/dynamic_values.h"
 
@@ -32,7 +33,6 @@ std::optional<double> ExactNumber(std::int64_t integer) {
 NumberColumn::NumberColumn(const Offers& offers, const std::string& property)
     : numbers_(offers.size()), known_(offers.size(), Choice::kNo) {
   for (std::size_t i = 0; i < offers.size(); ++i) {
-    if (offers[i] == nullptr) continue;
     if (offers[i]->proxy != nullptr) {
       known_[i] = Choice::kUnknown;
       continue;
@@ -50,6 +50,18 @@ NumberColumn::NumberColumn(const Offers& offers, const std::string& property)
       known_[i] = Choice::kUnknown;
     }
   }
+}
+
+std::optional<double> NumberColumn::At(std::size_t index) const {
+  switch (known_[index]) {
+    case Choice::kYes:
+      return numbers_[index];
+    case Choice::kNo:
+      return std::numeric_limits<double>::quiet_NaN();
+    case Choice::kUnknown:
+      break;
+  }
+  return std::nullopt;
 }
 
 void NumberColumn::Narrow(const NumberTerm& term, std::vector<Choice>& choices) const {

@@ -20,16 +20,18 @@ std::optional<double> ExactNumber(std::int64_t integer);
 
 // What is known of an offer after some terms.
 enum class Choice : std::uint8_t {
-  kNo,       // one of them is FALSE or has no value, or there is no offer
+  kNo,       // one of them is FALSE or has no value
   kYes,      // all of them are TRUE
   kUnknown,  // the expression must be evaluated
 };
 
 class NumberColumn {
  public:
-  // `offers` may have null entries.
   NumberColumn(const Offers& offers, const std::string& property);
 
+  // What min and max order the offer at `index` by: NaN for none. Nothing when the offer must be
+  // asked.
+  std::optional<double> At(std::size_t index) const;
   // Narrows `choices`, one for each offer, to those for which `term` is TRUE.
   void Narrow(const NumberTerm& term, std::vector<Choice>& choices) const;
 

@@ -1,5 +1,8 @@
 // Queries over many offers, whose numbers stand in columns, find what looking at each offer finds.
+#include <algorithm>
+#include <limits>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +106,70 @@ TEST(NumberColumns, FindWhatLookingAtEachFinds) {
     ASSERT_TRUE(trader.Modify(changed, {.set = {{"a", random.AnyValue()}}}));
     ASSERT_TRUE(trader.Withdraw(ids.back()));
     ids.pop_back();
+  }
+}
+
+// The offers with a number in `property`, the least (or greatest) first, then the others.
+std::vector<std::uint64_t> OneByOneInOrder(const Trader& trader, const std::string& property,
+                                           bool greatest_first) {
+  const auto expression = ParseConstraint(property, {});
+  std::vector<std::pair<long double, std::uint64_t>> with_number;
+  std::vector<std::uint64_t> without;
+  for (const OfferPtr& offer : trader.AllOffers()) {
+    const auto number = EvaluateNumber(*expression, offer->properties);
+    if (number) with_number.emplace_back(greatest_first ? -*number : *number, offer->number);
+    if (!number) without.push_back(offer->number);
+  }
+  std::sort(with_number.begin(), with_number.end());
+  std::vector<std::uint64_t> numbers;
+  for (const auto& [number, offer] : with_number) numbers.push_back(offer);
+  numbers.insert(numbers.end(), without.begin(), without.end());
+  return numbers;
+}
+
+TEST(NumberColumns, OrderAsAskingEachOrders) {
+  Random random;
+  Trader trader(TraderLimits{}, 1, 1);
+  ASSERT_TRUE(trader.AddType({.name = "Robot"}));
+  for (int i = 0; i < 2000; ++i) {
+    ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
+  }
+  for (int round = 0; round < 6; ++round) {
+    for (const bool greatest_first : {false, true}) {
+      const std::string preference = greatest_first ? "max b" : "min b";
+      const auto found = trader.Find({.type = "Robot", .preference = preference});
+      ASSERT_TRUE(found);
+      EXPECT_EQ(Numbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
+    }
+    // Other offers: the column is made by the second query that sees them.
+    if (round % 2 == 1) ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
+  }
+}
+
+// Answers 5.
+class Five : public DynamicEvaluator {
+ public:
+  std::optional<Value> Evaluate(const std::string&, const OtherValue&, Clock::time_point) override {
+    return Value::Long(5);
+  }
+};
+
+TEST(NumberColumns, OrderDynamicPropertiesAmongTheOthers) {
+  Trader trader(TraderLimits{}, 1, 1);
+  ASSERT_TRUE(trader.AddType({.name = "Robot"}));
+  const auto promised = std::make_shared<const PropertyType>(PropertyType{.scalar = Scalar::kLong});
+  for (int i = 0; i < 2000; ++i) {
+    const Value value = i == 3 ? Value::Other({"struct", "", promised}) : Value::Long(i % 10);
+    ASSERT_TRUE(trader.Export("Robot", "IOR:00", {{"b", value}}));
+  }
+  Five five;
+  for (int i = 0; i < 3; ++i) {
+    DynamicValues values(&five, std::chrono::seconds(1));
+    const auto found = trader.Find({.type = "Robot", .preference = "min b"}, values);
+    ASSERT_TRUE(found);
+    // The offers 1, 11, … have 0; those with 1 to 4 come before the dynamic one, but for its own.
+    EXPECT_EQ(found->offers[0]->number, 1u);
+    EXPECT_EQ(found->offers[200 + 200 + 200 + 199 + 200]->number, 4u);
   }
 }
 

@@ -1,5 +1,8 @@
 #include "gsv/broker/offer_column.h"
 
+#include <random>
+#include <set>
+
 #include <gtest/gtest.h>
 
 namespace gsv::broker {
@@ -11,8 +14,9 @@ OfferPtr Numbered(std::uint64_t number, const char* type = "T") {
 
 std::vector<std::uint64_t> Numbers(const OfferView& view) {
   std::vector<std::uint64_t> numbers;
-  for (const OfferPtr& offer : view.offers()) {
-    if (offer != nullptr) numbers.push_back(offer->number);
+  for (const auto& chunk : view.chunks()) {
+    EXPECT_LE(chunk->offers().size(), OfferColumn::kChunk);
+    for (const OfferPtr& offer : chunk->offers()) numbers.push_back(offer->number);
   }
   return numbers;
 }
@@ -39,18 +43,57 @@ TEST(OfferColumn, AViewStaysAsItWas) {
   column.Remove(2);
   column.Put(Numbered(3));
   EXPECT_EQ(Numbers(before), (Sequence{1, 2}));
-  EXPECT_EQ(before.offers()[0]->type, "before");
+  EXPECT_EQ(before.chunks()[0]->offers()[0]->type, "before");
   EXPECT_EQ(Numbers(column.View()), (Sequence{1, 3}));
-  EXPECT_EQ(column.View().offers()[0]->type, "after");
+  EXPECT_EQ(column.View().chunks()[0]->offers()[0]->type, "after");
 }
 
-TEST(OfferColumn, LetsGoOfWhatWasRemoved) {
+// Judged by a sorted list.
+TEST(OfferColumn, IsASortedListHoweverManyComeAndGo) {
+  std::mt19937 random(3);
   OfferColumn column;
-  for (std::uint64_t number = 1; number <= 1000; ++number) column.Put(Numbered(number));
-  for (std::uint64_t number = 1; number <= 999; ++number) column.Remove(number);
-  EXPECT_LE(column.View().offers().size(), 200u);
-  EXPECT_EQ(Numbers(column.View()), Sequence{1000});
-  EXPECT_EQ(column.size(), 1u);
+  std::set<std::uint64_t> expected;
+  const auto check = [&] {
+    EXPECT_EQ(Numbers(column.View()), Sequence(expected.begin(), expected.end()));
+    EXPECT_EQ(column.size(), expected.size());
+  };
+  const auto put = [&](std::uint64_t number) {
+    column.Put(Numbered(number));
+    expected.insert(number);
+  };
+  for (std::uint64_t number = 1; number <= 5000; ++number) put(2 * number);
+  check();
+  EXPECT_LE(column.View().chunks().size(), 6u);
+  for (int i = 0; i < 4000; ++i) put(1 + random() % 10'000);
+  check();
+  while (expected.size() > 10) {
+    auto gone = expected.lower_bound(random() % 10'000);
+    if (gone == expected.end()) gone = expected.begin();
+    column.Remove(*gone);
+    expected.erase(gone);
+    if (expected.size() % 500 == 0) check();
+  }
+  check();
+  EXPECT_LE(column.View().chunks().size(), 3u);
+  while (!expected.empty()) {
+    column.Remove(*expected.begin());
+    expected.erase(expected.begin());
+  }
+  EXPECT_TRUE(column.View().chunks().empty());
+  put(7);
+  check();
+}
+
+// What is known of numbers elsewhere stays.
+TEST(OfferColumn, AChangeTouchesOneChunk) {
+  OfferColumn column;
+  for (std::uint64_t number = 1; number <= 3000; ++number) column.Put(Numbered(number));
+  const OfferView before = column.View();
+  column.Put(Numbered(1500, "changed"));
+  const OfferView after = column.View();
+  EXPECT_EQ(before.chunks()[0], after.chunks()[0]);
+  EXPECT_NE(before.chunks()[1], after.chunks()[1]);
+  EXPECT_EQ(before.chunks()[2], after.chunks()[2]);
 }
 
 }  // namespace

@@ -114,11 +114,10 @@ base::Status OfferFile::LoadOffers(TraderState& state) {
     if (!*row) return {};
     auto properties = DecodeProperties(rows->Bytes(3));
     if (!properties) return base::Fail(properties.error());
-    state.offers.push_back(
-        std::make_shared<const Offer>(Offer{.number = static_cast<std::uint64_t>(rows->Integer(0)),
-                                            .type = rows->Bytes(1),
-                                            .reference = rows->Bytes(2),
-                                            .properties = std::move(*properties)}));
+    state.offers.push_back({.number = static_cast<std::uint64_t>(rows->Integer(0)),
+                            .type = rows->Bytes(1),
+                            .reference = rows->Bytes(2),
+                            .properties = std::move(*properties)});
   }
 }
 
@@ -135,14 +134,14 @@ base::Status OfferFile::LoadProxies(TraderState& state) {
     if (auto policies = DecodePolicies(rows->Bytes(6)); !policies) {
       return base::Fail(policies.error());
     }
-    state.offers.push_back(std::make_shared<const Offer>(Offer{
-        .number = static_cast<std::uint64_t>(rows->Integer(0)),
-        .type = rows->Bytes(1),
-        .reference = rows->Bytes(2),
-        .properties = std::move(*properties),
-        .proxy = std::make_shared<const ProxyPart>(ProxyPart{.if_match_all = rows->Integer(4) != 0,
-                                                             .recipe = rows->Bytes(5),
-                                                             .policies = rows->Bytes(6)})}));
+    state.offers.push_back(
+        {.number = static_cast<std::uint64_t>(rows->Integer(0)),
+         .type = rows->Bytes(1),
+         .reference = rows->Bytes(2),
+         .properties = std::move(*properties),
+         .proxy = std::make_shared<const ProxyPart>(ProxyPart{.if_match_all = rows->Integer(4) != 0,
+                                                              .recipe = rows->Bytes(5),
+                                                              .policies = rows->Bytes(6)})});
   }
 }
 

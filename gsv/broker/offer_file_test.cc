@@ -1,11 +1,11 @@
 #include "gsv/broker/offer_file.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/temporary_folder.h"
 #include "gsv/broker/broker_fixture.h"
 #include "gsv/broker/record_encoding.h"
 #include "gsv/broker/trader.h"
@@ -17,14 +17,9 @@ constexpr std::uint32_t kOwnStem = 0x1234abcd;
 
 class OfferFileTest : public testing::Test {
  protected:
-  OfferFileTest() {
-    TestOrb();
-    std::string name = testing::TempDir() + "/offer_file_XXXXXX";
-    folder_ = mkdtemp(name.data());
-  }
-  ~OfferFileTest() override { std::filesystem::remove_all(folder_); }
+  OfferFileTest() { TestOrb(); }
 
-  std::string Path() const { return folder_ / "broker.db"; }
+  std::string Path() const { return folder_.path() / "broker.db"; }
 
   // Everything that an earlier trader left in the file.
   std::unique_ptr<Trader> Reopen(std::uint32_t stem = kOwnStem) const {
@@ -46,7 +41,7 @@ class OfferFileTest : public testing::Test {
     return state ? base::Error{} : state.error();
   }
 
-  std::filesystem::path folder_;
+  const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
 TEST_F(OfferFileTest, KeepsEveryKindOfValue) {
@@ -70,10 +65,10 @@ TEST_F(OfferFileTest, KeepsEveryKindOfValue) {
   ASSERT_TRUE(offer);
   EXPECT_EQ((*offer)->type, "Robot");
   EXPECT_EQ((*offer)->reference, "IOR:00");
-  ASSERT_EQ((*offer)->properties.all().size(), properties.size());
+  ASSERT_EQ((*offer)->properties.size(), properties.size());
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    EXPECT_EQ((*offer)->properties.all()[i].name, properties[i].name);
-    EXPECT_EQ((*offer)->properties.all()[i].value, properties[i].value) << properties[i].name;
+    EXPECT_EQ((*offer)->properties[i].name, properties[i].name);
+    EXPECT_EQ((*offer)->properties[i].value, properties[i].value) << properties[i].name;
   }
 }
 
@@ -212,7 +207,7 @@ TEST_F(OfferFileTest, RefusesWhatIsNotItsOwn) {
             "the file has format 99, this gsv reads format 2; use the gsv that wrote it, or name "
             "another file with --data");
 
-  EXPECT_FALSE(OfferFile::Open(folder_ / "absent" / "broker.db", kOwnStem));
+  EXPECT_FALSE(OfferFile::Open(folder_.path() / "absent" / "broker.db", kOwnStem));
 }
 
 TEST_F(OfferFileTest, SaysThatItIsDamaged) {

@@ -42,9 +42,9 @@ Json ToJson(const PropertyDefinition& definition) {
 void PrintOffers(const std::vector<OfferDescription>& offers, std::ostream& out) {
   for (const OfferDescription& offer : offers) {
     out << offer.id << "  " << offer.type << "  " << offer.address << "\n";
-    for (const Property& property : offer.properties.all()) {
-      const std::string line = Line(ToJson(property.value));
-      out << "  " << property.name << " = " << line;
+    for (const auto& [name, value] : offer.properties) {
+      const std::string line = Line(ToJson(value));
+      out << "  " << name << " = " << line;
     }
   }
 }
@@ -64,9 +64,7 @@ void PrintServiceTypes(const std::vector<ServiceType>& types, std::ostream& out)
 void PrintOffersJson(const std::vector<OfferDescription>& offers, std::ostream& out) {
   for (const OfferDescription& offer : offers) {
     Json properties = Json::object();
-    for (const Property& property : offer.properties.all()) {
-      properties[property.name] = ToJson(property.value);
-    }
+    for (const auto& [name, value] : offer.properties) properties[name] = ToJson(value);
     out << Line({{"id", offer.id},
                  {"type", offer.type},
                  {"address", offer.address},

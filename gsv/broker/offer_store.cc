@@ -15,11 +15,13 @@ constexpr std::size_t kIndexedTerms = 4;  // of one constraint
 std::uint64_t OfferStore::Add(Offer offer) {
   offer.number = next_number_++;
   const std::uint64_t number = offer.number;
-  Restore(std::make_shared<const Offer>(std::move(offer)));
+  Restore(std::move(offer));
   return number;
 }
 
-void OfferStore::Restore(OfferPtr offer) {
+void OfferStore::Restore(Offer restored) {
+  names_.Share(restored.properties);
+  auto offer = std::make_shared<const Offer>(std::move(restored));
   const std::uint64_t number = offer->number;
   Bucket& bucket = by_type_[offer->type];
   bucket.offers.Put(offer);
@@ -31,6 +33,7 @@ void OfferStore::Restore(OfferPtr offer) {
 void OfferStore::SkipTo(std::uint64_t number) { next_number_ = std::max(next_number_, number); }
 
 void OfferStore::Replace(Offer offer) {
+  names_.Share(offer.properties);
   auto stored = std::make_shared<const Offer>(std::move(offer));
   const auto found = offers_.find(stored->number);
   GSV_CHECK(found != offers_.end() && found->second->type == stored->type);
@@ -125,8 +128,8 @@ void OfferStore::Index(const std::vector<std::string>& types,
       if (bucket.indices.size() == kIndicesOfType) bucket.indices.pop_front();
       PropertyIndex& index = bucket.indices.emplace_back(terms[i].property);
       const OfferView view = bucket.offers.View();
-      for (const OfferPtr& offer : view.offers()) {
-        if (offer != nullptr) index.Insert(offer);
+      for (const auto& chunk : view.chunks()) {
+        for (const OfferPtr& offer : chunk->offers()) index.Insert(offer);
       }
     }
   }

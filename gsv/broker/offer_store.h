@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gsv/broker/equality_terms.h"
+#include "gsv/broker/name_table.h"
 #include "gsv/broker/offer.h"
 #include "gsv/broker/offer_column.h"
 #include "gsv/broker/property_index.h"
@@ -25,7 +26,7 @@ class OfferStore {
   // Gives the offer its number.
   std::uint64_t Add(Offer offer);
   // Puts back an offer that has its number, which no other has.
-  void Restore(OfferPtr offer);
+  void Restore(Offer offer);
   // The next offer added has at least this number.
   void SkipTo(std::uint64_t number);
   // Puts `offer` in the place of the one with its number, which must be there, of the same type.
@@ -57,6 +58,7 @@ class OfferStore {
   };
 
   std::unordered_map<std::uint64_t, OfferPtr> offers_;
+  NameTable names_;
   std::map<std::string, Bucket> by_type_;
   std::uint64_t next_number_ = 1;
 };

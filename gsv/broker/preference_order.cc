@@ -1,50 +1,54 @@
 #include "gsv/broker/preference_order.h"
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "gsv/broker/evaluation.h"
+#include "gsv/broker/number_order.h"
 
 namespace gsv::broker {
 namespace {
 
-struct Ranked {
-  long double rank;     // smaller comes first
-  std::uint32_t index;  // in the order in which they were found
-  bool last;            // the expression has no value for this offer
-};
-
-Ranked RankOf(const Preference& preference, const Offer& offer, std::uint32_t index,
-              DynamicValues& values) {
+// What comes first is less; NaN for what comes last.
+long double RankOf(const Preference& preference, const Offer& offer, DynamicValues& values) {
+  constexpr long double kLast = std::numeric_limits<long double>::quiet_NaN();
   const EvaluatedOffer properties(offer, values);
   if (preference.kind == Preference::Kind::kWith) {
-    return {0, index, !Matches(preference.expression, properties)};
+    return Matches(preference.expression, properties) ? 0 : kLast;
   }
-  const auto number = EvaluateNumber(preference.expression, properties);
-  const long double sign = preference.kind == Preference::Kind::kMin ? 1 : -1;
-  return {sign * number.value_or(0), index, !number.has_value()};
+  const auto number = EvaluateNumber(preference.expression, properties).value_or(kLast);
+  return preference.kind == Preference::Kind::kMin ? number : -number;
 }
 
-void OrderByRank(const Preference& preference, DynamicValues& values, Offers& offers) {
-  std::vector<Ranked> ranked;
-  ranked.reserve(offers.size());
-  for (const OfferPtr& offer : offers) {
-    ranked.push_back(RankOf(preference, *offer, static_cast<std::uint32_t>(ranked.size()), values));
+void OrderByRank(const Preference& preference, const std::vector<double>& known,
+                 DynamicValues& values, Offers& offers) {
+  const double sign = preference.kind == Preference::Kind::kMin ? 1 : -1;
+  std::vector<long double> ranks;
+  ranks.reserve(offers.size());
+  for (const double number : known) ranks.push_back(sign * number);
+  for (std::size_t i = known.size(); i < offers.size(); ++i) {
+    ranks.push_back(RankOf(preference, *offers[i], values));
   }
-  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    if (a.last != b.last) return b.last;
-    return a.rank != b.rank ? a.rank < b.rank : a.index < b.index;
-  });
   Offers ordered;
   ordered.reserve(offers.size());
-  for (const Ranked& entry : ranked) ordered.push_back(std::move(offers[entry.index]));
+  for (const std::uint32_t index : AscendingOrder(ranks)) {
+    ordered.push_back(std::move(offers[index]));
+  }
   offers = std::move(ordered);
 }
 
 }  // namespace
 
-void OrderBy(const Preference& preference, std::uint64_t seed, DynamicValues& values,
-             Offers& offers) {
+const std::string* PropertyToOrderBy(const Preference& preference) {
+  const bool by_number =
+      preference.kind == Preference::Kind::kMin || preference.kind == Preference::Kind::kMax;
+  if (!by_number || preference.expression.root().op != Operator::kProperty) return nullptr;
+  return &preference.expression.root().property;
+}
+
+void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
+             DynamicValues& values, Offers& offers) {
   switch (preference.kind) {
     case Preference::Kind::kFirst:
       return;
@@ -52,7 +56,7 @@ void OrderBy(const Preference& preference, std::uint64_t seed, DynamicValues& va
       std::shuffle(offers.begin(), offers.end(), std::mt19937_64(seed));
       return;
     default:
-      OrderByRank(preference, values, offers);
+      OrderByRank(preference, known, values, offers);
   }
 }
 

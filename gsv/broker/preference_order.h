@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "gsv/broker/dynamic_values.h"
 #include "gsv/broker/expression.h"
@@ -14,8 +16,12 @@
 
 namespace gsv::broker {
 
-// `seed` decides what random does.
-void OrderBy(const Preference& preference, std::uint64_t seed, DynamicValues& values,
-             Offers& offers);
+// The property whose number min or max orders by; null when it is not one property's alone.
+const std::string* PropertyToOrderBy(const Preference& preference);
+
+// `seed` decides what random does. `known` are the numbers of the first few offers, where min or
+// max orders by a property: NaN when an offer has none.
+void OrderBy(const Preference& preference, std::uint64_t seed, const std::vector<double>& known,
+             DynamicValues& values, Offers& offers);
 
 }  // namespace gsv::broker

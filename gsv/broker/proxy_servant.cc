@@ -46,11 +46,7 @@ CosTrading::Proxy::ProxyInfo* ProxyServant::describe_proxy(const char* id) {
   info->type = offer->type.c_str();
   const CORBA::Object_var target = objects_.orb->string_to_object(offer->reference.c_str());
   info->target = CosTrading::Lookup::_unchecked_narrow(target);
-  const std::vector<Property>& properties = offer->properties.all();
-  info->properties.length(static_cast<CORBA::ULong>(properties.size()));
-  for (CORBA::ULong i = 0; i < properties.size(); ++i) {
-    info->properties[i] = ToCorba(properties[i]);
-  }
+  FillProperties(offer->properties, info->properties);
   info->if_match_all = offer->proxy->if_match_all;
   info->recipe = offer->proxy->recipe.c_str();
   if (const auto policies = DecodePolicies(offer->proxy->policies)) {

@@ -46,11 +46,9 @@ Lookup::SpecifiedProps ToCorba(const DesiredProperties& desired) {
 
 // Another trader might send a name twice: the last one counts. It has evaluated what is dynamic.
 PropertyList ToList(const CosTrading::PropertySeq& properties) {
-  PropertyList list;
-  for (Property& property : ToProperties(properties)) {
-    if (!IsDynamic(property.value)) list.Set(std::move(property));
-  }
-  return list;
+  std::vector<Property> taken = ToProperties(properties);
+  std::erase_if(taken, [](const Property& property) { return IsDynamic(property.value); });
+  return PropertyList::LastOfEachName(std::move(taken));
 }
 
 // Takes what another trader answers until there is enough of it.

@@ -39,8 +39,7 @@ bool HasDuplicates(const std::vector<Property>& properties) {
 
 std::string EncodeProperties(const PropertyList& properties) {
   CosTrading::PropertySeq sequence;
-  sequence.length(static_cast<CORBA::ULong>(properties.all().size()));
-  for (CORBA::ULong i = 0; i < sequence.length(); ++i) sequence[i] = ToCorba(properties.all()[i]);
+  FillProperties(properties, sequence);
   return Encode(sequence);
 }
 

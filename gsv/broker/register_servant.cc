@@ -13,6 +13,7 @@ namespace {
 // The standard knows no exception for a service that cannot be asked: its reference is as good as
 // invalid.
 void CheckService(CORBA::Object_ptr reference, const std::string& ior, const ServiceType& type) {
+  if (type.interface_name.empty()) return;
   const auto parts = ReadReference(ior);
   const std::string type_id = parts ? parts->type_id : std::string();
   switch (CheckInterface(reference, type_id, type.interface_name)) {
@@ -34,7 +35,7 @@ char* RegisterServant::_cxx_export(CORBA::Object_ptr reference, const char* type
   const CORBA::String_var ior = objects_.orb->object_to_string(reference);
   CheckService(reference, ior.in(), service_type);
   const std::string id =
-      ValueOrRaise(objects_.trader.Export(type, ior.in(), ToProperties(properties)));
+      ValueOrRaise(objects_.trader.Export(service_type, ior.in(), ToProperties(properties)));
   return CORBA::string_dup(id.c_str());
 }
 
@@ -45,11 +46,7 @@ CosTrading::Register::OfferInfo* RegisterServant::describe(const char* id) {
   CosTrading::Register::OfferInfo_var info = new CosTrading::Register::OfferInfo;
   info->reference = objects_.orb->string_to_object(offer->reference.c_str());
   info->type = offer->type.c_str();
-  const std::vector<Property>& properties = offer->properties.all();
-  info->properties.length(static_cast<CORBA::ULong>(properties.size()));
-  for (CORBA::ULong i = 0; i < properties.size(); ++i) {
-    info->properties[i] = ToCorba(properties[i]);
-  }
+  FillProperties(offer->properties, info->properties);
   return info._retn();
 }
 

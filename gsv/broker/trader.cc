@@ -37,7 +37,7 @@ base::Status Trader::Restore(TraderState state, std::unique_ptr<Journal> journal
   if (auto restored = types_.Restore(std::move(state.types), state.next_incarnation); !restored) {
     return restored;
   }
-  for (OfferPtr& offer : state.offers) offers_.Restore(std::move(offer));
+  for (Offer& offer : state.offers) offers_.Restore(std::move(offer));
   offers_.SkipTo(state.next_number);
   for (TraderLink& link : state.links) links_.Restore(std::move(link));
   attributes_ = std::move(state.attributes);
@@ -129,11 +129,15 @@ Traded<std::string> Trader::Export(const std::string& type, std::string referenc
                                    std::vector<Property> properties) {
   const auto described = TypeForExport(type);
   if (!described) return Refuse(described.error());
-  auto checked =
-      CheckExport(*described, std::move(properties), attributes().supports_dynamic_properties);
+  return Export(*described, std::move(reference), std::move(properties));
+}
+
+Traded<std::string> Trader::Export(const ServiceType& type, std::string reference,
+                                   std::vector<Property> properties) {
+  auto checked = CheckExport(type, std::move(properties), attributes().supports_dynamic_properties);
   if (!checked) return Refuse(checked.error());
   return Store(
-      {.type = type, .reference = std::move(reference), .properties = std::move(*checked)});
+      {.type = type.name, .reference = std::move(reference), .properties = std::move(*checked)});
 }
 
 Traded<std::string> Trader::Store(Offer offer) {
@@ -254,15 +258,14 @@ Traded<OfferPtr> Trader::FindAny(const std::string& id) const {
 }
 
 Traded<void> Trader::CheckSize(const PropertyList& properties, const std::string& reference) const {
-  if (properties.all().size() > limits_.properties_per_offer) {
+  if (properties.size() > limits_.properties_per_offer) {
     return Refuse({.refusal = Refusal::kLimit,
                    .detail = fmt::format("an offer has more than {} properties",
                                          limits_.properties_per_offer)});
   }
-  const auto& all = properties.all();
-  if (std::count_if(all.begin(), all.end(), [](const Property& property) {
-        return IsDynamic(property.value);
-      }) > static_cast<std::ptrdiff_t>(limits_.dynamic.per_offer)) {
+  const auto values = properties.values();
+  if (std::count_if(values.begin(), values.end(), IsDynamic) >
+      static_cast<std::ptrdiff_t>(limits_.dynamic.per_offer)) {
     return Refuse({.refusal = Refusal::kLimit,
                    .detail = fmt::format("an offer has more than {} dynamic properties",
                                          limits_.dynamic.per_offer)});

@@ -44,6 +44,7 @@ struct MatchingOffers {
   Offers offers{};
   Offers proxies{};  // other traders may have offers for the query
   Preference preference{};
+  std::vector<double> known{};  // see OrderBy()
   Cardinalities cardinalities{};
   std::vector<std::string> limits_applied{};
 };
@@ -92,6 +93,9 @@ class Trader {
   Traded<ServiceType> TypeForExport(const std::string& type) const;
   // `reference` is not looked at. Returns the offer's id.
   Traded<std::string> Export(const std::string& type, std::string reference,
+                             std::vector<Property> properties);
+  // `type` is as TypeForExport() has just described it.
+  Traded<std::string> Export(const ServiceType& type, std::string reference,
                              std::vector<Property> properties);
   Traded<void> Withdraw(const std::string& id);
   Traded<OfferPtr> Describe(const std::string& id) const;
@@ -142,6 +146,7 @@ class Trader {
   void RecordType(const std::string& name);
 
   struct Candidates;
+  class Search;
   // `terms` are those of the query's constraint.
   Candidates SelectCandidates(const Query& query, const std::vector<EqualityTerm>& terms) const;
   void MakeIndex(const std::vector<std::string>& types,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <shared_mutex>
 
 #include "gsv/broker/equality_terms.h"
@@ -20,17 +21,17 @@ constexpr std::size_t kWorthATurn = 20'000;
 // Fewer offers are looked through as fast as they are found in an index.
 constexpr std::size_t kWorthAnIndex = 256;
 
-bool IsReadonlyIn(const ServiceType& type, const Property& property) {
+bool IsReadonlyIn(const ServiceType& type, const std::string& name) {
   return std::any_of(type.properties.begin(), type.properties.end(),
                      [&](const PropertyDefinition& definition) {
-                       return definition.name == property.name && IsReadonly(definition.mode);
+                       return definition.name == name && IsReadonly(definition.mode);
                      });
 }
 
 bool HasModifiableProperties(const ServiceType& type, const Offer& offer) {
-  const std::vector<Property>& properties = offer.properties.all();
-  return !std::all_of(properties.begin(), properties.end(),
-                      [&](const Property& property) { return IsReadonlyIn(type, property); });
+  const PropertyNames& names = *offer.properties.names();
+  return !std::all_of(names.begin(), names.end(),
+                      [&](const std::string& name) { return IsReadonlyIn(type, name); });
 }
 
 bool IsMatch(const Expression& constraint, const Offer& offer, DynamicValues& values) {
@@ -53,12 +54,76 @@ struct Trader::Candidates {
 
   // What it may take to look through them.
   std::size_t Steps(const Expression& constraint) const;
-  void Search(const Expression& constraint, DynamicValues& values, MatchingOffers& matches) const;
   bool Admit(const Offer& offer) const {
     return (with_proxies || offer.proxy == nullptr) &&
            (with_dynamic || !HasDynamicProperties(offer)) &&
            (with_modifiable || !HasModifiableProperties(types.at(offer.type), offer));
   }
+};
+
+// One query's way through the candidates.
+class Trader::Search {
+ public:
+  Search(const Candidates& candidates, const Expression& constraint, DynamicValues& values,
+         MatchingOffers& matches)
+      : candidates_(candidates),
+        constraint_(constraint),
+        terms_(NumberTermsOf(constraint)),
+        ordered_by_(PropertyToOrderBy(matches.preference)),
+        values_(values),
+        matches_(matches),
+        left_(candidates.cardinalities.search) {}
+
+  void Run() {
+    for (const OfferView& view : candidates_.views) {
+      for (const auto& chunk : view.chunks()) {
+        if (!LookThrough(*chunk)) return;
+      }
+    }
+  }
+
+ private:
+  // False when enough was searched or found.
+  bool LookThrough(const OfferChunk& chunk) {
+    // What is cut off depends on every offer before it.
+    const std::vector<Choice> choices =
+        candidates_.cut ? std::vector<Choice>() : chunk.Choose(terms_.terms);
+    const auto order = ordered_by_ != nullptr ? chunk.ColumnOf(*ordered_by_) : nullptr;
+    for (std::size_t i = 0; i < chunk.offers().size(); ++i) {
+      const Choice choice = choices.empty() ? Choice::kUnknown : choices[i];
+      if (choice == Choice::kNo) continue;
+      if (left_-- == 0) return false;
+      const OfferPtr& offer = chunk.offers()[i];
+      const bool known = choice == Choice::kYes && terms_.complete;
+      if (!candidates_.Admit(*offer) || !(known || IsMatch(constraint_, *offer, values_))) continue;
+      if (matches_.offers.size() + matches_.proxies.size() == candidates_.cardinalities.match) {
+        matches_.limits_applied.emplace_back("match_card");
+        return false;
+      }
+      Take(offer, order != nullptr ? order->At(i) : std::nullopt);
+    }
+    return true;
+  }
+
+  void Take(const OfferPtr& offer, std::optional<double> number) {
+    if (offer->proxy != nullptr) {
+      matches_.proxies.push_back(offer);
+      return;
+    }
+    // Those after one whose number is not known are asked for it.
+    if (number && matches_.known.size() == matches_.offers.size()) {
+      matches_.known.push_back(*number);
+    }
+    matches_.offers.push_back(offer);
+  }
+
+  const Candidates& candidates_;
+  const Expression& constraint_;
+  const NumberTerms terms_;
+  const std::string* const ordered_by_;
+  DynamicValues& values_;
+  MatchingOffers& matches_;
+  std::size_t left_;
 };
 
 Traded<QueryResult> Trader::Find(const Query& query) const {
@@ -86,43 +151,19 @@ Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& v
                          .limits_applied = std::move(candidates.limits_applied)};
   ScanTurn turn(candidates.Steps(*constraint) > kWorthATurn ? &scan_turns_ : nullptr);
   values.set_turn(&turn);
-  candidates.Search(*constraint, values, matches);
+  Search(candidates, *constraint, values, matches).Run();
   values.set_turn(nullptr);
   return matches;
 }
 
 std::size_t Trader::Candidates::Steps(const Expression& constraint) const {
   std::size_t offers = 0;
-  for (const OfferView& view : views) offers += view.offers().size();
+  for (const OfferView& view : views) offers += view.size();
   return offers * constraint.nodes.size();
 }
 
-void Trader::Candidates::Search(const Expression& constraint, DynamicValues& values,
-                                MatchingOffers& matches) const {
-  const NumberTerms terms = NumberTermsOf(constraint);
-  std::size_t to_search = cardinalities.search;
-  for (const OfferView& view : views) {
-    // What is cut off depends on every offer before it.
-    const std::vector<Choice> choices = cut ? std::vector<Choice>() : view.Choose(terms.terms);
-    for (std::size_t i = 0; i < view.offers().size(); ++i) {
-      const Choice choice = choices.empty() ? Choice::kUnknown : choices[i];
-      if (choice == Choice::kNo) continue;
-      const OfferPtr& offer = view.offers()[i];
-      if (offer == nullptr) continue;
-      if (to_search-- == 0) return;
-      const bool known = choice == Choice::kYes && terms.complete;
-      if (!Admit(*offer) || !(known || IsMatch(constraint, *offer, values))) continue;
-      if (matches.offers.size() + matches.proxies.size() == cardinalities.match) {
-        matches.limits_applied.emplace_back("match_card");
-        return;
-      }
-      (offer->proxy != nullptr ? matches.proxies : matches.offers).push_back(offer);
-    }
-  }
-}
-
 QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
-  OrderBy(matches.preference, seed_++, values, matches.offers);
+  OrderBy(matches.preference, seed_++, matches.known, values, matches.offers);
   if (matches.offers.size() > matches.cardinalities.returned) {
     matches.offers.resize(matches.cardinalities.returned);
     matches.limits_applied.emplace_back("return_card");
@@ -189,9 +230,11 @@ Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std:
   DynamicValues values(evaluator, limits_.dynamic.query_budget);
   Offers matching;
   for (const OfferView& view : views) {
-    for (const OfferPtr& offer : view.offers()) {
-      if (offer == nullptr || offer->proxy != nullptr) continue;
-      if (IsMatch(*compiled, *offer, values)) matching.push_back(offer);
+    for (const auto& chunk : view.chunks()) {
+      for (const OfferPtr& offer : chunk->offers()) {
+        if (offer->proxy != nullptr) continue;
+        if (IsMatch(*compiled, *offer, values)) matching.push_back(offer);
+      }
     }
   }
 

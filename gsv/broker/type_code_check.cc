@@ -215,8 +215,26 @@ void TypeCodeCheck::AddPart(Type& type, CdrReader& in, std::size_t depth) {
 
 void TypeCodeCheck::ReadAny(CdrReader& in, std::size_t depth) {
   if (depth >= limits_.depth) return in.Fail();
+  if (ReadSimpleAny(in)) return;
   const std::size_t type = ReadTypeCode(in, 0);
   ReadValue(type, in, depth + 1);
+}
+
+// Of a type that is nothing but its kind, as most are. False for any other, which is not read.
+bool TypeCodeCheck::ReadSimpleAny(CdrReader& in) {
+  CdrReader behind = in;
+  const std::uint32_t kind = behind.ULong();
+  const FixedSize fixed = SizeOf(kind);
+  if (fixed.size == 0 && kind != kString) return false;
+  in = behind;
+  if (++type_count_ > limits_.types || ++value_count_ > limits_.values) in.Fail();
+  if (kind == kString) {
+    in.ULong();
+    in.String();
+  } else {
+    in.SkipValues(1, fixed.size, fixed.alignment);
+  }
+  return true;
 }
 
 void TypeCodeCheck::ReadValue(std::size_t index, CdrReader& in, std::size_t depth) {

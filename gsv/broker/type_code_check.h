@@ -51,6 +51,7 @@ class TypeCodeCheck {
   void AddPart(Type& type, CdrReader& in, std::size_t depth);
 
   void ReadAny(CdrReader& in, std::size_t depth);
+  bool ReadSimpleAny(CdrReader& in);
   void ReadValue(std::size_t type, CdrReader& in, std::size_t depth);
   void ReadUnionValue(std::size_t type, CdrReader& in, std::size_t depth);
   void ReadElements(std::size_t element, std::size_t count, CdrReader& in, std::size_t depth);

@@ -118,6 +118,26 @@ TEST(TypeCodeCheckTest, ReadsTheValueByItsType) {
   EXPECT_FALSE(IsAny(RawCdr(colour).ULong(2)));
 }
 
+TEST(TypeCodeCheckTest, ReadsValuesOfSimpleTypes) {
+  EXPECT_TRUE(IsAny(RawCdr().ULong(kString).ULong(0).String("text")));
+  EXPECT_FALSE(IsAny(RawCdr().ULong(kString).ULong(0).Octets("text")));
+  EXPECT_FALSE(IsAny(RawCdr().ULong(kString).ULong(0)));
+  EXPECT_TRUE(IsAny(RawCdr().ULong(kOctet).Octet(1)));
+  constexpr std::uint32_t kDouble = 7;
+  EXPECT_TRUE(IsAny(RawCdr().ULong(kDouble).Align(8).ULong(0).ULong(0)));
+  EXPECT_FALSE(IsAny(RawCdr().ULong(kDouble).ULong(0)));
+}
+
+TEST(TypeCodeCheckTest, CountsTheTypesOfAMessage) {
+  const auto longs = [](std::uint32_t count) {
+    RawCdr any = SequenceOf(kAny).ULong(count);
+    for (std::uint32_t i = 0; i < count; ++i) any.ULong(kLong).ULong(i);
+    return any;
+  };
+  EXPECT_TRUE(IsAny(longs(4000)));
+  EXPECT_FALSE(IsAny(longs(4100)));
+}
+
 TEST(TypeCodeCheckTest, ReadsTheMemberThatTheDiscriminatorChooses) {
   RawCdr members = Named().ULong(kLong).ULong(1).ULong(2);
   members.ULong(5).String("text").ULong(kString).ULong(0);

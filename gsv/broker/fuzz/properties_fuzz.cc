@@ -29,13 +29,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!properties) return 0;
   const std::string encoded = EncodeProperties(*properties);
   const auto again = DecodeProperties(encoded);
-  GSV_CHECK(again && again->all().size() == properties->all().size());
-  for (const Property& property : properties->all()) {
-    const Value* value = again->Find(property.name);
-    GSV_CHECK(value != nullptr && value->Type() == property.value.Type());
+  GSV_CHECK(again && *again->names() == *properties->names());
+  for (const auto& [name, value] : *properties) {
+    const Value* read = again->Find(name);
+    GSV_CHECK(read != nullptr && read->Type() == value.Type());
     // NaN is not equal to itself.
-    const bool comparable = property.value.AsOther() == nullptr && property.value == property.value;
-    GSV_CHECK(!comparable || *value == property.value);
+    const bool comparable = value.AsOther() == nullptr && value == value;
+    GSV_CHECK(!comparable || *read == value);
   }
   return 0;
 }
