@@ -2,12 +2,11 @@
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <mutex>
 #include <set>
 #include <thread>
 
+#include "gsv/base/temporary_folder.h"
 #include "gsv/broker/broker_fixture.h"
 
 namespace gsv::broker {
@@ -15,17 +14,12 @@ namespace {
 
 class Folder {
  public:
-  Folder() {
-    std::string name = testing::TempDir() + "/durability_XXXXXX";
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
   std::vector<std::string> Arguments() const {
-    return {"0", "data=" + (path_ / "broker.db").string()};
+    return {"0", "data=" + (folder_.path() / "broker.db").string()};
   }
 
  private:
-  std::filesystem::path path_;
+  const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
 class Broker : public BrokerFixture {

@@ -1,10 +1,9 @@
 // Several brokers that are linked, each in a process of its own.
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <set>
 
+#include "gsv/base/temporary_folder.h"
 #include "gsv/broker/broker_node.h"
 
 namespace gsv::broker {
@@ -280,9 +279,10 @@ TEST_F(FederationTest, AHangingTraderCostsAQueryItsTimeOutAtMost) {
 
 TEST_F(FederationTest, LinksAndAttributesSurviveAKill) {
   Start(1);
-  std::string folder = testing::TempDir() + "/federation_XXXXXX";
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  const std::vector<std::string> arguments = {"0", "data=" + folder + "/broker.db"};
+  const auto folder = base::TemporaryFolder::Make("gsv-test");
+  ASSERT_TRUE(folder);
+  const std::vector<std::string> arguments = {"0",
+                                              "data=" + (folder->path() / "broker.db").string()};
   {
     BrokerNode linked(arguments);
     linked.LinkTo(Node(0), "gone");
@@ -303,7 +303,6 @@ TEST_F(FederationTest, LinksAndAttributesSurviveAKill) {
   EXPECT_EQ(info->limiting_follow_rule, CosTrading::if_no_local);
   EXPECT_EQ(again.lookup_->max_list(), 7u);
   EXPECT_EQ(again.lookup_->def_follow_policy(), CosTrading::local_only);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

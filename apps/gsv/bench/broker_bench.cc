@@ -3,8 +3,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -22,6 +20,7 @@
 #include "apps/gsv/child_process.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
+#include "gsv/base/temporary_folder.h"
 #include "gsv/broker/broker_client.h"
 #include "gsv/broker/offer_file.h"
 #include "gsv/broker/trader.h"
@@ -262,21 +261,18 @@ base::Status RunBench(std::uint32_t offers, bool json) {
       {"maxGIOPConnectionPerServer", "64"}, {"traceLevel", "0"}, {nullptr, nullptr}};
   int no_arguments = 0;
   const CORBA::ORB_var orb = CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
-  std::string folder = (std::filesystem::temp_directory_path() / "gsv_bench_XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) {
-    return base::Fail(base::ErrorCode::kUnavailable, "no temporary folder can be made", folder);
-  }
+  const auto folder = base::TemporaryFolder::Make("gsv-bench");
+  if (!folder) return base::Fail(folder.error());
   base::Status end;
   for (const bool tcp : {false, true}) {
     ordered_json figures = {{"bench", "broker"},
                             {"where", tcp ? "tcp" : "in_process"},
                             {"offers", offers},
                             {"properties", PropertiesOf(0).size()}};
-    end = (tcp ? MeasureOverTcp : MeasureInProcess)(orb, offers, folder, figures);
+    end = (tcp ? MeasureOverTcp : MeasureInProcess)(orb, offers, folder->path(), figures);
     if (!end) break;
     std::cout << (json ? figures.dump() : figures.dump(2)) << std::endl;
   }
-  std::filesystem::remove_all(folder);
   return end;
 }
 
