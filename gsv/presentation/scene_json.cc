@@ -75,6 +75,17 @@ Json LookJson(const model::SceneLook& look) {
           {"sky", look.sky}};
 }
 
+// What a camera sees, with the cameras' own defaults (docs/sensors.md). A logical camera is told
+// its aspect ratio, others the size of their pictures.
+void AddView(const model::SensorDescription& sensor, Json& json) {
+  const model::Parameters& parameters = sensor.parameters;
+  const double width = model::NumberOr(parameters, "image.width", 320);
+  const double height = model::NumberOr(parameters, "image.height", 240);
+  const double aspect = model::NumberOr(parameters, "aspect_ratio", width / height);
+  json["horizontal_fov_rad"] = model::NumberOr(parameters, "horizontal_fov", 1.047);
+  json["aspect_ratio"] = aspect;
+}
+
 Json SensorsJson(const SceneSource& source, const world::Body& body) {
   Json sensors = Json::array();
   if (!body.is_robot && !body.is_avatar) return sensors;
@@ -83,11 +94,13 @@ Json SensorsJson(const SceneSource& source, const world::Body& body) {
     const bool has_link =
         sensor.link >= 0 && sensor.link < static_cast<int>(body.model->links.size());
     if (type == nullptr || !has_link) continue;
-    sensors.push_back({{"name", sensor.name},
-                       {"type", type->name},
-                       {"overlay", OverlayName(type->overlay)},
-                       {"link", body.model->links[sensor.link].name},
-                       {"topic", "/" + FrameOf(body.name, sensor.name)}});
+    Json json{{"name", sensor.name},
+              {"type", type->name},
+              {"overlay", OverlayName(type->overlay)},
+              {"link", body.model->links[sensor.link].name},
+              {"topic", "/" + FrameOf(body.name, sensor.name)}};
+    if (type->name.find("camera") != std::string::npos) AddView(sensor, json);
+    sensors.push_back(std::move(json));
   }
   return sensors;
 }
