@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { count, formatDistance, formatFactor, formatNumber, formatTime } from "./format";
+import { count, formatDistance, formatFactor, formatNumber, formatTime, formatValue } from "./format";
 
 test.each([
   [0, "0:00.00"],
@@ -37,6 +37,20 @@ test.each([
 test("a zero has no sign", () => {
   expect(formatNumber(-0.0001, 2)).toBe("0.00");
   expect(formatNumber(-0.1, 2)).toBe("-0.10");
+});
+
+test.each([
+  [1.23456, "m", "1.235 m"],
+  [-0.0001, "", "-1.000e-4"],
+  [0, "m", "0.000 m"],
+  [12, "", "12"],
+  [4321.98, "m", "4322.0 m"],
+  [47.1234567, "°", "47.1234567°"],
+  [0.0000482, "T", "4.820e-5 T"],
+  [Infinity, "m", "∞ m"],
+  [NaN, "V", "–"],
+])("%f %s reads %s", (value, unit, text) => {
+  expect(formatValue(value, unit)).toBe(text);
 });
 
 test("one of a thing is singular", () => {

@@ -29,6 +29,18 @@ export function formatNumber(value: number, digits: number): string {
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
+// A measured value with its unit: as many digits as are read at a glance, degrees on the earth to
+// the centimetre.
+export function formatValue(value: number, unit: string): string {
+  const tail = unit === "" ? "" : unit === "°" ? unit : ` ${unit}`;
+  if (Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return `${value < 0 ? "−" : ""}∞${tail}`;
+  const size = Math.abs(value);
+  if (Number.isInteger(value) && unit === "") return `${value}`;
+  if (size > 0 && (size < 1e-3 || size >= 1e7)) return value.toExponential(3) + tail;
+  return formatNumber(value, unit === "°" ? 7 : size >= 1000 ? 1 : 3) + tail;
+}
+
 export function count(number: number, one: string, many = `${one}s`): string {
   return `${number} ${number === 1 ? one : many}`;
 }

@@ -1,0 +1,61 @@
+import { expect, test } from "vitest";
+import { MOST_POINTS, contactsOf, pointsOf } from "./clouds";
+
+const SCAN = { angle_min: -Math.PI / 2, angle_increment: Math.PI / 2, range_min: 0.1, range_max: 5 };
+
+test("a scan's points lie where its beams ended; beams that met nothing have none", () => {
+  const points = pointsOf({ ...SCAN, ranges: new Float32Array([1, 2, Infinity, 0.05, NaN]) });
+  const expected = [0, -1, 0, 2, 0, 0];
+  expect(points).toHaveLength(expected.length);
+  points.forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 6));
+});
+
+function cloud(points: number[][], more: object = {}) {
+  const data = new Uint8Array(16 * points.length);
+  const view = new DataView(data.buffer);
+  points.forEach((point, i) => point.forEach((value, k) => view.setFloat32(16 * i + 4 * k, value, true)));
+  const field = (name: string, offset: number) => ({ name, offset, datatype: 7, count: 1 });
+  return {
+    height: 1,
+    width: points.length,
+    fields: [field("x", 0), field("y", 4), field("z", 8)],
+    is_bigendian: false,
+    point_step: 16,
+    row_step: data.length,
+    data,
+    ...more,
+  };
+}
+
+test("a cloud's points are its own, without those that are nowhere", () => {
+  const message = cloud([
+    [1, 2, 3],
+    [NaN, 0, 0],
+    [4, 5, 6],
+  ]);
+  expect([...pointsOf(message)]).toEqual([1, 2, 3, 4, 5, 6]);
+});
+
+test("of a large cloud every nth point is taken", () => {
+  const many = cloud(Array.from({ length: 3 * MOST_POINTS }, (_, i) => [i, 0, 0]));
+  const points = pointsOf(many);
+  expect(points).toHaveLength(3 * MOST_POINTS);
+  expect(points[3]).toBe(3);
+});
+
+test("a cloud that lies about its size or has no places gives what can be read", () => {
+  expect([...pointsOf(cloud([[1, 2, 3]], { width: 1000, height: 1000 }))]).toEqual([1, 2, 3]);
+  expect(pointsOf(cloud([[1, 2, 3]], { fields: [] }))).toHaveLength(0);
+  expect(pointsOf(cloud([[1, 2, 3]], { point_step: 0 }))).toHaveLength(0);
+  expect(pointsOf({ range: 1 })).toHaveLength(0);
+  expect(pointsOf(null)).toHaveLength(0);
+});
+
+test("a bumper's contacts are read, others' messages hold none", () => {
+  const contact = { other: "wall", point: { x: 1, y: 2, z: 3 }, normal: { x: 1, y: 0, z: 0 }, depth: 0 };
+  expect(
+    contactsOf({ contacts: [contact, { point: { x: NaN, y: 0, z: 0 }, normal: contact.normal }] }),
+  ).toEqual([{ point: [1, 2, 3], normal: [1, 0, 0] }]);
+  expect(contactsOf({ range: 1 })).toEqual([]);
+  expect(contactsOf(null)).toEqual([]);
+});

@@ -1,0 +1,114 @@
+// Points in space from the messages of lidars and depth cameras, in the sensor's frame: x forward,
+// y left, z up; metres.
+
+export interface LaserScan {
+  angle_min: number;
+  angle_increment: number;
+  range_min: number;
+  range_max: number;
+  ranges: Float32Array;
+}
+
+export interface PointCloud {
+  height: number;
+  width: number;
+  fields: { name: string; offset: number; datatype: number; count: number }[];
+  is_bigendian: boolean;
+  point_step: number;
+  row_step: number;
+  data: Uint8Array;
+}
+
+export const MOST_POINTS = 20_000; // of one sensor; of more every nth is taken
+
+const FLOAT32 = 7;
+const FLOAT64 = 8;
+
+// x y z of each point; empty when the message is neither, or broken.
+export function pointsOf(message: unknown): Float32Array {
+  if (typeof message !== "object" || message === null) return new Float32Array(0);
+  if ("ranges" in message) return pointsOfScan(message as LaserScan);
+  if ("point_step" in message) return pointsOfCloud(message as PointCloud);
+  return new Float32Array(0);
+}
+
+function pointsOfScan({ angle_min, angle_increment, range_min, range_max, ranges }: LaserScan): Float32Array {
+  const points = new PointList(ranges.length);
+  for (let i = 0; i < ranges.length; i += points.stride) {
+    const range = ranges[i]!;
+    if (!(range >= range_min && range <= range_max)) continue;
+    const angle = angle_min + i * angle_increment;
+    points.add(range * Math.cos(angle), range * Math.sin(angle), 0);
+  }
+  return points.taken();
+}
+
+function pointsOfCloud(cloud: PointCloud): Float32Array {
+  const offsets = ["x", "y", "z"].map((name) => cloud.fields.find((field) => field.name === name));
+  const [x, y, z] = offsets;
+  const isReadable =
+    x && y && z && [FLOAT32, FLOAT64].includes(x.datatype) && cloud.point_step > 0 && cloud.row_step >= 0;
+  if (!isReadable) return new Float32Array(0);
+  const view = new DataView(cloud.data.buffer, cloud.data.byteOffset, cloud.data.byteLength);
+  const bytes = x.datatype === FLOAT64 ? 8 : 4;
+  const little = !cloud.is_bigendian;
+  const read = (at: number) =>
+    at + bytes > view.byteLength
+      ? NaN
+      : bytes === 8
+        ? view.getFloat64(at, little)
+        : view.getFloat32(at, little);
+  const count = Math.min(cloud.width * cloud.height, Math.floor(view.byteLength / cloud.point_step));
+  const points = new PointList(count);
+  for (let i = 0; i < count; i += points.stride) {
+    const row = Math.floor(i / cloud.width);
+    const at = row * cloud.row_step + (i - row * cloud.width) * cloud.point_step;
+    points.add(read(at + x.offset), read(at + y.offset), read(at + z.offset));
+  }
+  return points.taken();
+}
+
+class PointList {
+  readonly stride: number;
+  private readonly numbers: Float32Array;
+  private used = 0;
+
+  constructor(count: number) {
+    this.stride = Math.max(1, Math.ceil(count / MOST_POINTS));
+    this.numbers = new Float32Array(3 * Math.ceil(count / this.stride));
+  }
+
+  add(x: number, y: number, z: number): void {
+    if (!Number.isFinite(x + y + z)) return;
+    this.numbers.set([x, y, z], this.used);
+    this.used += 3;
+  }
+
+  taken(): Float32Array {
+    return this.numbers.subarray(0, this.used);
+  }
+}
+
+export interface TouchPoint {
+  point: [number, number, number];
+  normal: [number, number, number]; // from the robot to what it touches
+}
+
+const MOST_CONTACTS = 200;
+
+// What a bumper's message tells; empty when it is none.
+export function contactsOf(message: unknown): TouchPoint[] {
+  const contacts = (message as { contacts?: unknown } | null)?.contacts;
+  if (!Array.isArray(contacts)) return [];
+  return contacts.slice(0, MOST_CONTACTS).flatMap((contact: unknown) => {
+    const { point, normal } = contact as { point?: unknown; normal?: unknown };
+    const [at, along] = [triple(point), triple(normal)];
+    return at && along ? [{ point: at, normal: along }] : [];
+  });
+}
+
+function triple(value: unknown): [number, number, number] | null {
+  const { x, y, z } = (value ?? {}) as Record<string, unknown>;
+  const isPoint = typeof x === "number" && typeof y === "number" && typeof z === "number";
+  return isPoint && Number.isFinite(x + y + z) ? [x, y, z] : null;
+}

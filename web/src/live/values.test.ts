@@ -1,0 +1,113 @@
+import { expect, test } from "vitest";
+import { anglesOf, stampOf, unitOf, valuesOf } from "./values";
+
+const header = { stamp: { sec: 2, nsec: 500_000_000 }, frame_id: "a/sonar" };
+
+function asText(message: unknown): string[] {
+  return valuesOf(message).map(({ key, unit, value }) => `${key} = ${value} ${unit}`.trim());
+}
+
+test("a sonar's message gives its range in metres, and not how it is made", () => {
+  const range = { header, radiation_type: 0, field_of_view: 0.25, min_range: 0, max_range: 5, range: 1.5 };
+  expect(asText(range)).toEqual(["range = 1.5 m"]);
+});
+
+test("a long list is summed up by what is finite in it", () => {
+  const ranges = new Float32Array([2, Infinity, 1, 4, 1, 2, 2, 2, NaN]);
+  expect(asText({ header, ranges })).toEqual(["ranges.min = 1 m", "ranges.max = 4 m", "ranges.mean = 2 m"]);
+  expect(valuesOf({ ranges: new Float32Array(9).fill(Infinity) }).map(({ value }) => value)).toEqual([
+    NaN,
+    NaN,
+    NaN,
+  ]);
+});
+
+test("joints are called by their names", () => {
+  const joints = {
+    header,
+    name: ["left", "right"],
+    position: new Float64Array([0.5, -0.5]),
+    effort: new Float64Array(0),
+  };
+  expect(asText(joints)).toEqual(["position[left] = 0.5", "position[right] = -0.5"]);
+});
+
+test("a turn is told as angles, covariances are left out", () => {
+  const half = Math.SQRT1_2;
+  const imu = {
+    header,
+    orientation: { x: 0, y: 0, z: half, w: half },
+    orientation_covariance: new Float64Array(9),
+    angular_velocity: { x: 0, y: 0, z: 0.25 },
+  };
+  const values = valuesOf(imu);
+  expect(values.map(({ key }) => key)).toEqual([
+    "orientation.roll",
+    "orientation.pitch",
+    "orientation.yaw",
+    "angular_velocity.x",
+    "angular_velocity.y",
+    "angular_velocity.z",
+  ]);
+  expect(values[2]!.value).toBeCloseTo(Math.PI / 2, 12);
+  expect(values.map(({ unit }) => unit)).toEqual(["rad", "rad", "rad", "rad/s", "rad/s", "rad/s"]);
+});
+
+test("of a list of things their number and the first one", () => {
+  const contact = { other: "wall", point: { x: 0.25, y: 0, z: 0 }, depth: 0.001 };
+  expect(asText({ header, contacts: [contact, contact] })).toEqual([
+    "contacts.count = 2",
+    "contacts[0].point.x = 0.25 m",
+    "contacts[0].point.y = 0 m",
+    "contacts[0].point.z = 0 m",
+    "contacts[0].depth = 0.001 m",
+  ]);
+  expect(asText({ contacts: [] })).toEqual(["contacts.count = 0"]);
+});
+
+test("pictures and clouds have no values, whatever a stranger sends is bounded", () => {
+  expect(valuesOf({ header, format: "jpeg", data: new Uint8Array(20) })).toEqual([]);
+  expect(valuesOf("text")).toEqual([]);
+  expect(valuesOf(null)).toEqual([]);
+  const wide = Object.fromEntries(Array.from({ length: 500 }, (_, i) => [`f${i}`, i]));
+  expect(valuesOf(wide)).toHaveLength(64);
+  const deep: Record<string, unknown> = {};
+  deep.deeper = deep;
+  expect(valuesOf(deep)).toEqual([]);
+});
+
+test("large integers and flags are numbers too", () => {
+  expect(asText({ step: 12n, present: true })).toEqual(["step = 12", "present = 1"]);
+});
+
+test("a unit is that of the field, wherever it stands", () => {
+  expect(unitOf("pose.pose.position.x")).toBe("m");
+  expect(unitOf("twist.twist.linear.x")).toBe("m/s");
+  expect(unitOf("twist.twist.angular.z")).toBe("rad/s");
+  expect(unitOf("ranges[3]")).toBe("m");
+  expect(unitOf("latitude")).toBe("°");
+  expect(unitOf("percentage")).toBe("");
+});
+
+test("angles are those of the order roll, pitch, yaw", () => {
+  // Rz(0.3) Ry(0.2) Rx(0.1), multiplied out as half angles.
+  const [cr, sr] = [Math.cos(0.05), Math.sin(0.05)];
+  const [cp, sp] = [Math.cos(0.1), Math.sin(0.1)];
+  const [cy, sy] = [Math.cos(0.15), Math.sin(0.15)];
+  const angles = anglesOf({
+    w: cr * cp * cy + sr * sp * sy,
+    x: sr * cp * cy - cr * sp * sy,
+    y: cr * sp * cy + sr * cp * sy,
+    z: cr * cp * sy - sr * sp * cy,
+  });
+  expect(angles.roll).toBeCloseTo(0.1, 12);
+  expect(angles.pitch).toBeCloseTo(0.2, 12);
+  expect(angles.yaw).toBeCloseTo(0.3, 12);
+});
+
+test("the instant of a message is its own or its header's", () => {
+  expect(stampOf({ header })).toBe(2.5);
+  expect(stampOf({ stamp: { sec: 1, nsec: 0 } })).toBe(1);
+  expect(stampOf({ clock: 1 })).toBeNull();
+  expect(stampOf(null)).toBeNull();
+});
