@@ -41,6 +41,9 @@ export function changedPixels(before, after, isWanted = () => true) {
 }
 
 export const isRed = (r, g, b) => r > 120 && r > 1.6 * g && r > 1.6 * b;
+export const isOrange = (r, g, b) => r > 180 && g > 90 && g < 200 && b < 90;
+export const isBlue = (r, g, b) => b > 150 && b > 1.3 * r && b > 1.1 * g;
+export const isGreen = (r, g, b) => g > 110 && g > 1.5 * r && g > 1.5 * b;
 export const isYellow = (r, g, b) => r > 120 && g > 100 && r > 1.5 * b && g > 1.4 * b;
 
 // A square of `size` pixels around a place on the page.

@@ -43,8 +43,11 @@ async function press(name, of = page) {
 }
 
 async function show(part, shown) {
+  await press("Overlays");
   const button = page.getByRole("button", { name: part, exact: true });
   if ((await button.getAttribute("aria-pressed")) !== String(shown)) await button.click();
+  await page.keyboard.press("Escape");
+  await button.waitFor({ state: "hidden" });
 }
 
 // What the page's server says, past the page's own code.

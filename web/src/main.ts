@@ -4,6 +4,7 @@ import "./style/panels.css";
 import { SimulationApi } from "./api/SimulationApi";
 import { robotsOf } from "./api/scene";
 import { App } from "./app/App";
+import { OverlayFeed } from "./app/OverlayFeed";
 import { SHORTEST_UPDATE_MS, SelectedPose } from "./app/SelectedPose";
 import { Session } from "./app/Session";
 import { notify } from "./app/notices";
@@ -14,11 +15,13 @@ import { createHelpSheet } from "./panels/HelpSheet";
 import { createInspector } from "./panels/Inspector";
 import { createNotices } from "./panels/Notices";
 import { createOverlay } from "./panels/Overlay";
+import { createPlotPanel } from "./panels/PlotPanel";
 import { createSceneTree } from "./panels/SceneTree";
 import { createStatusBar } from "./panels/StatusBar";
 import { createTimeline } from "./panels/Timeline";
 import { createToolbar } from "./panels/Toolbar";
 import { World3D } from "./scene/World3D";
+import { browserStorage, keepShown, loadShown } from "./state/overlays";
 import type { State } from "./state/State";
 import { initialState } from "./state/State";
 import { Store } from "./state/Store";
@@ -28,7 +31,8 @@ import { element } from "./ui/element";
 // The page's address may carry: simulation=NAME, which one to join; quality=high, which keeps the
 // picture sharp however slow it gets.
 const parameters = new URLSearchParams(location.search);
-const store = new Store<State>(initialState);
+const storage = browserStorage();
+const store = new Store<State>({ ...initialState, shown: loadShown(storage) });
 const api = new SimulationApi(document.baseURI);
 
 function createWorld(host: HTMLElement): World3D | null {
@@ -58,6 +62,7 @@ const session = new Session(
   {
     onPoses: (message) => {
       world?.setPoses(message);
+      app.plots.takePoses(message);
       showSelectedPose();
     },
     onBeams: (message) => world?.setBeams(message),
@@ -89,16 +94,17 @@ function connectWorld(world: World3D): void {
     (shown) => world.show(shown),
   );
   store.watch(
-    ({ following }) => following,
-    (following) => world.follow(following),
-  );
-  store.watch(
     ({ selection }) => selection,
     (selection) => {
       world.select(selection);
       showSelectedPose();
     },
   );
+  store.watch(
+    ({ viewMode }) => viewMode,
+    (mode) => world.setViewMode(mode),
+  );
+  new OverlayFeed(store, session, world).start();
 }
 
 // The selected avatar, or else the first one. What was recorded cannot be steered.
@@ -123,9 +129,10 @@ view.append(
   createNotices(app),
 );
 page.append(
-  createToolbar(app, toggleSidebar),
+  createToolbar(app, world !== null, toggleSidebar),
   createSceneTree(app),
   view,
+  createPlotPanel(app),
   createTimeline(app),
   createStatusBar(app),
   createHelpSheet(app),
@@ -134,8 +141,14 @@ store.watch(
   ({ simulation }) => simulation,
   (simulation) => (document.title = simulation ? `${simulation} · GSV` : "GSV"),
 );
+store.watch(
+  ({ shown }) => shown,
+  (shown) => keepShown(storage, shown),
+);
 if (world) connectWorld(world);
 listenForKeys(app);
 new AvatarSteering(avatarToDrive, drive).listen(window);
 exposeForTests(store, world);
+app.plots.start();
+app.link.start(window);
 session.start();

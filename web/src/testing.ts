@@ -12,6 +12,8 @@ export interface PageHandle {
   // Simulated seconds, as shown.
   readonly time: number;
   readonly phase: string | null;
+  // Where the eye stands and what it looks at: x y z of each, in metres; null without a 3D view.
+  readonly view: number[] | null;
   // The names of the robots.
   readonly robots: string[];
   // Where the robot was last reported, in metres, and at which simulated second; null while unknown.
@@ -37,6 +39,9 @@ export function exposeForTests(store: Store<State>, world: World3D | null): void
     },
     get phase() {
       return store.get().status?.phase ?? null;
+    },
+    get view() {
+      return world?.viewpoint ?? null;
     },
     get robots() {
       return store.get().status?.robots.map(({ name }) => name) ?? [];

@@ -21,12 +21,19 @@ export interface SceneLight {
 
 export type Overlay = "none" | "lines" | "points" | "picture";
 
+// What a camera sees: radians, and the picture's width by its height.
+export interface CameraView {
+  horizontalFov: number;
+  aspect: number;
+}
+
 export interface SceneSensor {
   name: string;
   type: string;
   overlay: Overlay;
   link: string;
   topic: string;
+  view: CameraView | null; // null: it is no camera, or its angles are not told
 }
 
 export interface SceneBody {
@@ -120,7 +127,14 @@ function parseSensor(sensor: JsonObject, where: string): SceneSensor {
     overlay: overlay === "lines" || overlay === "points" || overlay === "picture" ? overlay : "none",
     link: textOr(sensor.link, ""),
     topic: textAt(sensor.topic, `${where}.topic`),
+    view: parseView(sensor),
   };
+}
+
+function parseView(sensor: JsonObject): CameraView | null {
+  const horizontalFov = numberOr(sensor.horizontal_fov_rad, 0);
+  const aspect = numberOr(sensor.aspect_ratio, 0);
+  return horizontalFov > 0 && horizontalFov < Math.PI && aspect > 0 ? { horizontalFov, aspect } : null;
 }
 
 function parseLight(value: unknown, where: string): SceneLight {

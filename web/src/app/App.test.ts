@@ -84,10 +84,32 @@ test("what the phase does not allow is not even asked for", () => {
   expect(act).not.toHaveBeenCalled();
 });
 
-test("following takes the first robot when none is selected, and ends with the selection", () => {
+test("a robot's view takes the first robot when none is selected, and ends with the selection", () => {
   const { store, app } = appIn("running", vi.fn());
-  app.toggleFollowing();
-  expect(store.get()).toMatchObject({ selection: "robbie", following: true });
+  app.toggleViewMode("follow");
+  expect(store.get()).toMatchObject({ selection: "robbie", viewMode: "follow" });
+  app.toggleViewMode("chase");
+  expect(store.get().viewMode).toBe("chase");
+  app.toggleViewMode("chase");
+  expect(store.get()).toMatchObject({ selection: "robbie", viewMode: "orbit" });
+  app.toggleViewMode("eye");
   app.select(null);
-  expect(store.get()).toMatchObject({ selection: null, following: false });
+  expect(store.get()).toMatchObject({ selection: null, viewMode: "orbit" });
+});
+
+test("a view from above is none out of a robot's eye", () => {
+  const { store, app } = appIn("running", vi.fn());
+  app.toggleViewMode("eye");
+  app.topView();
+  expect(store.get().viewMode).toBe("orbit");
+  app.toggleViewMode("follow");
+  app.topView();
+  expect(store.get().viewMode).toBe("follow");
+});
+
+test("without robots there is nobody to look at", () => {
+  const { store, app } = appIn("running", vi.fn());
+  store.set({ status: { ...store.get().status!, robots: [] } });
+  app.toggleViewMode("chase");
+  expect(store.get()).toMatchObject({ selection: null, viewMode: "orbit" });
 });

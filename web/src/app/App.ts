@@ -3,14 +3,26 @@ import type { Action, SimulationApi } from "../api/SimulationApi";
 import { camerasOf } from "../api/scene";
 import type { World3D } from "../scene/World3D";
 import { isAllowed, mainAction } from "../state/actions";
-import type { State } from "../state/State";
+import type { CameraChoice } from "../api/scene";
+import type { Source } from "../state/plots";
+import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
+import type { OverlayName } from "../state/overlays";
+import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
+import { download, fileName } from "./files";
+import { Filming } from "./Filming";
+import { LinkControl } from "./LinkControl";
 import { dismiss, notify } from "./notices";
+import { PlotFeed } from "./PlotFeed";
 import { ReplayControl } from "./ReplayControl";
 import type { Session } from "./Session";
 
 export class App {
   readonly replay: ReplayControl;
+  readonly link: LinkControl;
+  readonly plots: PlotFeed;
+  onPlotData: () => void = () => {};
+  private readonly filming: Filming | null;
 
   constructor(
     readonly store: Store<State>,
@@ -19,6 +31,9 @@ export class App {
     private readonly world: World3D | null, // null where the browser cannot draw in 3D
   ) {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
+    this.link = new LinkControl(this, world);
+    this.plots = new PlotFeed(store, session, () => this.onPlotData());
+    this.filming = world && new Filming(store, () => world.video());
   }
 
   // Sends one action. What comes of it arrives with the stream: the answer may come later than what
@@ -50,38 +65,98 @@ export class App {
 
   // The camera pane turns to the selected robot's camera, if it has one.
   select(robot: string | null): void {
-    this.store.set(({ selection, selectedPose, following, scene, camera }) => ({
+    this.store.set(({ selection, selectedPose, viewMode, scene, camera }) => ({
       selection: robot,
       selectedPose: robot === selection ? selectedPose : null,
-      following: following && robot !== null,
+      viewMode: robot === null ? "orbit" : viewMode,
       camera:
         camera?.robot === robot ? camera : (camerasOf(scene).find((each) => each.robot === robot) ?? camera),
     }));
   }
 
-  // Follows the selected robot, or the first one when none is; a second time ends it.
-  toggleFollowing(): void {
-    const { selection, following, status } = this.store.get();
+  // Looks that way at the selected robot, or the first one when none is; a second time ends it.
+  toggleViewMode(mode: ViewMode): void {
+    const { selection, viewMode, status } = this.store.get();
     const robot = selection ?? status?.robots[0]?.name ?? null;
     if (robot && !selection) this.select(robot);
-    this.store.set({ following: robot !== null && !following });
+    this.store.set({ viewMode: robot === null || viewMode === mode ? "orbit" : mode });
   }
 
-  toggle(part: keyof State["shown"]): void {
-    this.store.set(({ shown }) => ({ shown: { ...shown, [part]: !shown[part] } }));
+  toggle(overlay: OverlayName): void {
+    this.store.set(({ shown }) => ({ shown: { ...shown, [overlay]: !shown[overlay] } }));
   }
 
   topView(): void {
+    this.leaveEye();
     this.world?.topView();
   }
 
   resetView(): void {
-    this.store.set({ following: false });
+    this.store.set({ viewMode: "orbit" });
     this.world?.resetView();
+  }
+
+  // What turns the view by hand needs an eye of its own.
+  private leaveEye(): void {
+    if (this.store.get().viewMode === "eye") this.store.set({ viewMode: "orbit" });
+  }
+
+  orbit(): void {
+    this.store.set({ viewMode: "orbit" });
+  }
+
+  showCamera(camera: CameraChoice): void {
+    this.store.set({ camera, cameraOpen: true });
+  }
+
+  openPlots(open: boolean): void {
+    this.store.set(({ plots }) => ({ plots: { ...plots, open } }));
+  }
+
+  // Draws a value against simulated time from now on.
+  plot(source: Source, key: string, unit?: string): void {
+    const known = [...ROBOT_VALUES, ...SIMULATION_VALUES].find((value) => value.key === key)?.unit ?? "";
+    this.store.set((state) => ({ plots: withCurve(state, source, key, unit ?? known) }));
+  }
+
+  unplot(curve: string): void {
+    this.store.set((state) => ({ plots: withoutCurve(state, curve) }));
+  }
+
+  async savePicture(): Promise<void> {
+    const { simulation, time } = this.store.get();
+    try {
+      const picture = await this.world?.picture();
+      if (picture) download(fileName(simulation, time, "view", "png"), picture);
+    } catch (error) {
+      notify(this.store, "error", (error as Error).message);
+    }
+  }
+
+  // Begins a video of the view, or ends it.
+  film(): void {
+    this.filming?.toggle();
+  }
+
+  // The address bar shows the link as well.
+  copyLink(): void {
+    const link = this.link.linkTo(location.href);
+    history.replaceState(null, "", link);
+    void this.copy(link, "The link is copied.");
   }
 
   openHelp(open: boolean): void {
     this.store.set({ helpOpen: open });
+  }
+
+  // To the clipboard; says that it is there, or what to copy where the browser does not allow it.
+  async copy(text: string, done: string): Promise<void> {
+    try {
+      await navigator.clipboard.writeText(text);
+      notify(this.store, "note", done);
+    } catch {
+      notify(this.store, "note", text);
+    }
   }
 
   dismiss(notice: number): void {

@@ -1,6 +1,6 @@
 import { Matrix4 } from "three";
 import { expect, test } from "vitest";
-import { SelectedPose, yawOf } from "./SelectedPose";
+import { SelectedPose, rotationOf, shortWay } from "./SelectedPose";
 
 function at(x: number, stamp: number) {
   return { pose: new Matrix4().makeRotationZ(0.5).setPosition(x, 2, 0), stamp };
@@ -12,8 +12,11 @@ test("it gives position and heading, and the speed in simulated time", () => {
     x: 1,
     y: 2,
     z: 0,
+    roll: expect.closeTo(0),
+    pitch: expect.closeTo(0),
     yaw: expect.closeTo(0.5),
     speed: 0,
+    turnRate: 0,
   });
   expect(selected.update("a", at(1.25, 10.5), 100)?.speed).toBeCloseTo(0.5);
 });
@@ -37,7 +40,17 @@ test("a jump in a recording does not count as speed", () => {
   expect(selected.update("a", at(9, 31), 200)?.speed).toBe(0);
 });
 
+test("a turn over the back of the circle is a small one", () => {
+  const facing = (yaw: number, stamp: number) => ({ pose: new Matrix4().makeRotationZ(yaw), stamp });
+  const selected = new SelectedPose();
+  selected.update("a", facing(3.1, 0), 0);
+  const { turnRate } = selected.update("a", facing(-3.1, 0.5), 200)!;
+  expect(turnRate).toBeCloseTo((2 * Math.PI - 6.2) / 0.5);
+  expect(shortWay(-2 * Math.PI)).toBeCloseTo(0);
+});
+
 test("a heading of a tilted robot is that of its x axis", () => {
   const tilted = new Matrix4().makeRotationZ(-2).multiply(new Matrix4().makeRotationY(0.3));
-  expect(yawOf(tilted)).toBeCloseTo(-2);
+  const { roll, pitch, yaw } = rotationOf(tilted);
+  expect([roll, pitch, yaw]).toEqual([expect.closeTo(0), expect.closeTo(0.3), expect.closeTo(-2)]);
 });

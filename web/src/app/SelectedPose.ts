@@ -1,6 +1,7 @@
 // Follows the pose of the selected robot for the inspector, at a pace that can be read.
 import { Quaternion, Vector3 } from "three";
 import type { Matrix4 } from "three";
+import { anglesOf } from "../live/values";
 import type { RobotPose } from "../state/State";
 
 export const SHORTEST_UPDATE_MS = 100;
@@ -15,8 +16,9 @@ export interface StampedPose {
 export class SelectedPose {
   private robot: string | null = null;
   private updatedMs = -Infinity;
-  private from: { position: Vector3; stamp: number } | null = null;
+  private from: { position: Vector3; yaw: number; stamp: number } | null = null;
   private speed = 0;
+  private turnRate = 0;
 
   // Gives what to show, or null when it is too early for the next value.
   update(robot: string, latest: StampedPose, nowMs: number): RobotPose | null {
@@ -24,30 +26,37 @@ export class SelectedPose {
     if (nowMs - this.updatedMs < SHORTEST_UPDATE_MS) return null;
     this.updatedMs = nowMs;
     const position = new Vector3().setFromMatrixPosition(latest.pose);
-    this.measureSpeed(position, latest.stamp);
-    return { x: position.x, y: position.y, z: position.z, yaw: yawOf(latest.pose), speed: this.speed };
+    const { roll, pitch, yaw } = rotationOf(latest.pose);
+    this.measureSpeed(position, yaw, latest.stamp);
+    const { x, y, z } = position;
+    return { x, y, z, roll, pitch, yaw, speed: this.speed, turnRate: this.turnRate };
   }
 
   private start(robot: string): void {
     this.robot = robot;
     this.updatedMs = -Infinity;
     this.from = null;
-    this.speed = 0;
+    this.speed = this.turnRate = 0;
   }
 
-  private measureSpeed(position: Vector3, stamp: number): void {
+  private measureSpeed(position: Vector3, yaw: number, stamp: number): void {
     const isJump = this.from && (stamp < this.from.stamp || stamp - this.from.stamp > LONGEST_WINDOW_S);
-    if (!this.from || isJump) this.from = { position, stamp };
+    if (!this.from || isJump) this.from = { position, yaw, stamp };
     const elapsed = stamp - this.from.stamp;
-    if (elapsed === 0) this.speed = 0;
+    if (elapsed === 0) this.speed = this.turnRate = 0;
     if (elapsed < SPEED_WINDOW_S) return;
     this.speed = position.distanceTo(this.from.position) / elapsed;
-    this.from = { position, stamp };
+    this.turnRate = shortWay(yaw - this.from.yaw) / elapsed;
+    this.from = { position, yaw, stamp };
   }
 }
 
-// The heading of a pose's x axis in the world's plane.
-export function yawOf(pose: Matrix4): number {
-  const ahead = new Vector3(1, 0, 0).applyQuaternion(new Quaternion().setFromRotationMatrix(pose));
-  return Math.atan2(ahead.y, ahead.x);
+export function rotationOf(pose: Matrix4): { roll: number; pitch: number; yaw: number } {
+  const { x, y, z, w } = new Quaternion().setFromRotationMatrix(pose);
+  return anglesOf({ x, y, z, w });
+}
+
+// The same turn, at most half a one.
+export function shortWay(angle: number): number {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 }

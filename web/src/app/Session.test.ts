@@ -39,6 +39,7 @@ class Fixture {
           type: "camera",
           overlay: "picture",
           link: "",
+          view: null,
           topic: "/a/eye",
         } as const;
         const visitor = body("visitor", { isAvatar: true, sensors: [{ ...camera, topic: "/visitor/eye" }] });

@@ -9,6 +9,7 @@ import { statusFromMessage } from "../api/status";
 import { backoffMs } from "../protocol/Backoff";
 import type { ClientEvents } from "../protocol/FoxgloveClient";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
+import { SharedTopics } from "../protocol/SharedTopics";
 import type {
   ClockMessage,
   LifecycleEventMessage,
@@ -37,6 +38,7 @@ export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
 
 export class Session {
   private client: LiveClient | null = null;
+  private topics: SharedTopics | null = null; // of the client
   private timer: ReturnType<typeof setTimeout> | undefined;
   private attempt = 0;
   private sceneText = "";
@@ -63,8 +65,7 @@ export class Session {
   }
 
   join(name: string): void {
-    this.client?.close();
-    this.client = null;
+    this.leave();
     this.wasOpen = false;
     this.sceneText = "";
     this.store.set({
@@ -77,15 +78,22 @@ export class Session {
       wishedTime: null,
       selection: null,
       selectedPose: null,
-      following: false,
+      viewMode: "orbit",
       camera: null,
     });
     this.connect(name);
   }
 
+  private leave(): void {
+    this.client?.close();
+    this.client = null;
+    this.topics = null;
+  }
+
   // Hears a topic of the present simulation; gives the function that ends it.
+  // Who asks for one that others hear already is handed its newest message at once.
   subscribe<Message>(topic: string, handler: (message: Message) => void): () => void {
-    return this.client?.subscribe(topic, handler) ?? (() => {});
+    return this.topics?.subscribe(topic, handler) ?? (() => {});
   }
 
   takeStatus(status: SimulationStatus): void {
@@ -138,6 +146,7 @@ export class Session {
       onProblem: (sentence) => notify(this.store, "error", sentence),
     });
     this.client = client;
+    this.topics = new SharedTopics(client);
     client.subscribe<PosesMessage>("/gsv/poses", (message) => this.takePoses(name, message));
     client.subscribe<MarkerArrayMessage>("/gsv/beams", (message) => this.live.onBeams(message), {
       newestOnly: true,
@@ -168,8 +177,7 @@ export class Session {
     } catch (error) {
       if (!(error instanceof ApiError && error.httpStatus === 404)) return;
       if (this.store.get().simulation !== name) return;
-      this.client?.close();
-      this.client = null;
+      this.leave();
       this.store.set({
         simulation: null,
         scene: null,

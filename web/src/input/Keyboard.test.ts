@@ -1,16 +1,34 @@
 // @vitest-environment jsdom
 import { expect, test, vi } from "vitest";
+import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
 import { commandOf, isTyping, replayCommandOf } from "./Keyboard";
 
 const plain = { ctrlKey: false, altKey: false, metaKey: false };
 
+function pressed(key: string) {
+  const app = {
+    startPauseOrResume: vi.fn(),
+    topView: vi.fn(),
+    select: vi.fn(),
+    toggleViewMode: vi.fn(),
+    toggle: vi.fn(),
+  };
+  commandOf({ ...plain, key })?.(app as unknown as App);
+  return Object.entries(app).flatMap(([name, { mock }]) => mock.calls.map((call) => [name, ...call]));
+}
+
 test("keys have their commands in either case", () => {
-  expect(commandOf({ ...plain, key: "t" })).toBe("top-view");
-  expect(commandOf({ ...plain, key: "T" })).toBe("top-view");
-  expect(commandOf({ ...plain, key: " " })).toBe("start-pause-resume");
-  expect(commandOf({ ...plain, key: "Escape" })).toBe("deselect");
-  expect(commandOf({ ...plain, key: "x" })).toBeNull();
+  expect(pressed("t")).toEqual([["topView"]]);
+  expect(pressed("T")).toEqual([["topView"]]);
+  expect(pressed(" ")).toEqual([["startPauseOrResume"]]);
+  expect(pressed("Escape")).toEqual([["select", null]]);
+  expect(pressed("c")).toEqual([["toggleViewMode", "chase"]]);
+  expect(pressed("5")).toEqual([["toggle", "trails"]]);
+});
+
+test("other keys have none", () => {
+  for (const key of ["z", "9", "toString", "constructor"]) expect(commandOf({ ...plain, key })).toBeNull();
 });
 
 test("the browser keeps its own shortcuts", () => {

@@ -2,6 +2,7 @@
 // open; a focused button keeps Space and Enter for itself.
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
+import { OVERLAYS } from "../state/overlays";
 
 const MANY_POSES = 10; // of a step with Shift
 
@@ -13,22 +14,28 @@ export interface Key {
   shiftKey?: boolean;
 }
 
-export type Command =
-  "start-pause-resume" | "step" | "top-view" | "reset-view" | "follow" | "deselect" | "help";
-
-const COMMANDS: Record<string, Command> = {
-  " ": "start-pause-resume",
-  n: "step",
-  t: "top-view",
-  r: "reset-view",
-  f: "follow",
-  escape: "deselect",
-  "?": "help",
+// Each in lower case, with what it asks for.
+const COMMANDS: Record<string, (app: App) => void> = {
+  " ": (app) => app.startPauseOrResume(),
+  n: (app) => app.stepOnce(),
+  t: (app) => app.topView(),
+  r: (app) => app.resetView(),
+  f: (app) => app.toggleViewMode("follow"),
+  c: (app) => app.toggleViewMode("chase"),
+  v: (app) => app.toggleViewMode("eye"),
+  o: (app) => app.orbit(),
+  p: (app) => app.openPlots(!app.store.get().plots.open),
+  l: (app) => app.copyLink(),
+  x: (app) => void app.savePicture(),
+  m: (app) => app.film(),
+  escape: (app) => app.select(null),
+  "?": (app) => app.openHelp(true),
 };
+for (const { key, name } of OVERLAYS) COMMANDS[key] = (app) => app.toggle(name);
 
-export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): Command | null {
+export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) => void) | null {
   if (ctrlKey || altKey || metaKey) return null;
-  return COMMANDS[key.toLowerCase()] ?? null;
+  return Object.hasOwn(COMMANDS, key.toLowerCase()) ? COMMANDS[key.toLowerCase()]! : null;
 }
 
 // What only a recording's keys ask for: held, they repeat.
@@ -74,25 +81,6 @@ export function listenForKeys(app: App): void {
     const isOnButton = event.target instanceof Element && event.target.closest("button, summary") !== null;
     if (isOnButton && event.key === " ") return;
     event.preventDefault();
-    run(app, command);
+    command(app);
   });
-}
-
-function run(app: App, command: Command): void {
-  switch (command) {
-    case "start-pause-resume":
-      return app.startPauseOrResume();
-    case "step":
-      return app.stepOnce();
-    case "top-view":
-      return app.topView();
-    case "reset-view":
-      return app.resetView();
-    case "follow":
-      return app.toggleFollowing();
-    case "deselect":
-      return app.select(null);
-    case "help":
-      return app.openHelp(true);
-  }
 }

@@ -34,7 +34,6 @@ export function createCameraPane(app: App): HTMLElement {
   );
   const pane = element("div", { class: "camera-place" }, card, reopen);
 
-  let isOpen = true;
   let unsubscribe = () => {};
   let shownTime = -Infinity; // s, of the picture
   // A recording may have been moved to before its first picture.
@@ -56,19 +55,17 @@ export function createCameraPane(app: App): HTMLElement {
     setText(caption, "");
     waiting.hidden = false;
     setText(waiting, "Waiting for a picture…");
-    card.hidden = !camera || !isOpen;
-    reopen.hidden = !camera || isOpen;
-    if (camera && isOpen) {
+    const { cameraOpen } = app.store.get();
+    card.hidden = !camera || !cameraOpen;
+    reopen.hidden = !camera || cameraOpen;
+    if (camera && cameraOpen) {
       choice.value = camera.topic;
       unsubscribe = app.session.subscribe<CompressedImageMessage>(camera.topic, (image) =>
         painter.take(image),
       );
     }
   };
-  const open = (value: boolean) => {
-    isOpen = value;
-    listen(app.store.get().camera);
-  };
+  const open = (cameraOpen: boolean) => app.store.set({ cameraOpen });
 
   choice.addEventListener("change", () => {
     const camera = camerasOf(app.store.get().scene).find(({ topic }) => topic === choice.value);
@@ -92,8 +89,9 @@ export function createCameraPane(app: App): HTMLElement {
   );
   // Another simulation has another stream, even under the same topic's name.
   app.store.watch(
-    ({ simulation }) => simulation,
+    ({ simulation, cameraOpen }) => ({ simulation, cameraOpen }),
     () => listen(app.store.get().camera),
+    shallowEqual,
   );
   return pane;
 }

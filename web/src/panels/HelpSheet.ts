@@ -1,20 +1,56 @@
 // The sheet of keys and gestures.
 import type { App } from "../app/App";
+import { OVERLAYS } from "../state/overlays";
 import { element } from "../ui/element";
 import { icon } from "../ui/icons";
 
-const KEYS: [keys: string[], meaning: string][] = [
-  [["Space"], "Start, pause, resume"],
-  [["N"], "One step while paused (recording: one pose on)"],
-  [["T"], "Top view"],
-  [["R"], "Reset view"],
-  [["F"], "Follow the selected robot"],
-  [["Esc"], "Deselect, close"],
-  [["W", "A", "S", "D"], "Drive the avatar (or the arrow keys; Q and E sideways, Shift faster)"],
-  [["←", "→"], "Recording: one pose back or on (Shift: ten)"],
-  [["Home", "End"], "Recording: to the start or the end"],
-  [[",", "."], "Recording: to the last or next event"],
-  [["?"], "This sheet"],
+type Line = [keys: string[], meaning: string];
+
+const KEYS: [heading: string, lines: Line[]][] = [
+  [
+    "Run",
+    [
+      [["Space"], "Start, pause, resume"],
+      [["N"], "One step while paused (recording: one pose on)"],
+      [["W", "A", "S", "D"], "Drive the avatar (or the arrow keys; Q and E sideways, Shift faster)"],
+    ],
+  ],
+  [
+    "Look",
+    [
+      [["T"], "Top view"],
+      [["R"], "Reset view"],
+      [["F"], "Follow the selected robot"],
+      [["C"], "Chase it: from behind, turning with it"],
+      [["V"], "Look out of its eye"],
+      [["O"], "Turn the view freely again"],
+      [["Esc"], "Deselect, close"],
+      [["?"], "This sheet"],
+    ],
+  ],
+  [
+    "Show",
+    [
+      ...OVERLAYS.map(({ key, label, hint }): Line => [[key], `${label}: ${lowered(hint)}`]),
+      [["P"], "Plots against simulated time"],
+    ],
+  ],
+  [
+    "Take along",
+    [
+      [["L"], "Copy a link to this view (recording: at this instant)"],
+      [["X"], "Save a picture"],
+      [["M"], "Film the view, until the next press"],
+    ],
+  ],
+  [
+    "Recording",
+    [
+      [["←", "→"], "One pose back or on (Shift: ten)"],
+      [["Home", "End"], "To the start or the end"],
+      [[",", "."], "To the last or next event"],
+    ],
+  ],
 ];
 
 const GESTURES: [gesture: string, meaning: string][] = [
@@ -25,14 +61,8 @@ const GESTURES: [gesture: string, meaning: string][] = [
 ];
 
 export function createHelpSheet(app: App): HTMLElement {
-  const keys = KEYS.flatMap(([names, meaning]) => [
-    element("dt", {}, ...names.map((name) => element("kbd", {}, name))),
-    element("dd", {}, meaning),
-  ]);
-  const gestures = GESTURES.flatMap(([gesture, meaning]) => [
-    element("dt", {}, gesture),
-    element("dd", {}, meaning),
-  ]);
+  const keys = KEYS.map(([heading, lines]) => section(heading, lines.map(keyLine)));
+  const gestures = GESTURES.map(([gesture, meaning]) => line([gesture], meaning));
   const close = element(
     "button",
     { class: "button plain small", type: "button", "aria-label": "Close help" },
@@ -42,7 +72,7 @@ export function createHelpSheet(app: App): HTMLElement {
     "dialog",
     { class: "card help", "aria-label": "Help" },
     element("div", { class: "card-head" }, element("h2", {}, "Keys and gestures"), close),
-    element("dl", {}, ...keys, ...gestures),
+    element("div", { class: "help-sections" }, ...keys, section("Mouse and touch", gestures)),
   );
   close.addEventListener("click", () => sheet.close());
   sheet.addEventListener("close", () => app.openHelp(false));
@@ -55,4 +85,28 @@ export function createHelpSheet(app: App): HTMLElement {
     },
   );
   return sheet;
+}
+
+function lowered(text: string): string {
+  return text.charAt(0).toLowerCase() + text.slice(1);
+}
+
+function section(heading: string, lines: Node[][]): HTMLElement {
+  return element(
+    "section",
+    {},
+    heading !== "" && element("h3", {}, heading),
+    element("dl", {}, ...lines.flat()),
+  );
+}
+
+function keyLine([names, meaning]: Line): Node[] {
+  return line(
+    names.map((name) => element("kbd", {}, name)),
+    meaning,
+  );
+}
+
+function line(terms: (string | Node)[], meaning: string): Node[] {
+  return [element("dt", {}, ...terms), element("dd", {}, meaning)];
 }

@@ -1,29 +1,55 @@
-// The selected robot: where it is, what it does, what it senses with.
+// The selected robot: where it is, what it does, what it senses.
 import type { App } from "../app/App";
 import type { RobotStatus } from "../api/status";
 import type { RobotPose } from "../state/State";
 import { element, setText } from "../ui/element";
 import { formatDistance, formatNumber } from "../ui/format";
 import { icon } from "../ui/icons";
+import { plotButton } from "./plotButton";
 import { agentLabel } from "./SceneTree";
+import { createSensorList } from "./SensorList";
 
-const ROWS = ["Position", "Heading", "Speed", "Behaviour", "Agent", "Driven", "Collisions", "Model"] as const;
+const ROWS = [
+  "Position",
+  "Heading",
+  "Speed",
+  "Turning",
+  "Behaviour",
+  "Agent",
+  "Driven",
+  "Collisions",
+  "Model",
+] as const;
 type Row = (typeof ROWS)[number];
+
+// What is plotted of a row.
+const PLOTTED: Partial<Record<Row, string[]>> = {
+  Position: ["x", "y"],
+  Heading: ["yaw"],
+  Speed: ["speed"],
+  Turning: ["turn_rate"],
+  Driven: ["distance"],
+  Collisions: ["collisions"],
+};
+
+const DEGREES = 180 / Math.PI;
 
 export function createInspector(app: App): HTMLElement {
   const title = element("h2", {});
-  const values = new Map<Row, HTMLElement>(ROWS.map((row) => [row, element("dd", {})]));
-  const list = element("dl", {});
-  for (const [row, value] of values) list.append(element("dt", {}, row), value);
-  const sensors = element("ul", { class: "sensors", "aria-label": "Sensors" });
+  const values = new Map<Row, HTMLElement>(ROWS.map((row) => [row, element("span", {})]));
+  const list = element("dl", { class: "inspector-rows" });
+  for (const [row, value] of values) {
+    list.append(element("dt", {}, row), element("dd", {}, value, plotOf(app, row)));
+  }
   const detail = element("p", { class: "detail" });
   const panel = element(
     "section",
     { class: "card inspector", "aria-label": "Selected robot" },
-    element("div", { class: "card-head" }, title, copyButton(app), closeButton(app)),
+    element("div", { class: "card-head" }, title, closeButton(app)),
     list,
+    copyButtons(app),
     detail,
-    sensors,
+    createSensorList(app),
   );
   const set = (row: Row, text: string) => setText(values.get(row)!, text);
 
@@ -45,23 +71,24 @@ export function createInspector(app: App): HTMLElement {
       setText(detail, robot?.detail ?? "");
     },
   );
-  app.store.watch(
-    ({ selection, scene }) => scene?.bodies.find(({ name }) => name === selection) ?? null,
-    (body) => {
-      const items = (body?.sensors ?? []).map(({ name, type }) =>
-        element("li", {}, element("span", {}, name), element("span", { class: "dim" }, type)),
-      );
-      sensors.replaceChildren(...items);
-    },
-  );
   return panel;
+}
+
+function plotOf(app: App, row: Row): HTMLElement | null {
+  const keys = PLOTTED[row];
+  if (!keys) return null;
+  return plotButton(`Plot ${row.toLowerCase()}`, () => {
+    const { selection } = app.store.get();
+    if (selection !== null) for (const key of keys) app.plot({ kind: "robot", robot: selection }, key);
+  });
 }
 
 function showPose(pose: RobotPose | null, set: (row: Row, text: string) => void): void {
   const metres = (value: number) => formatNumber(value, 2);
   set("Position", pose ? `${metres(pose.x)}, ${metres(pose.y)}, ${metres(pose.z)} m` : "…");
-  set("Heading", pose ? `${formatNumber((pose.yaw * 180) / Math.PI, 1)}°` : "…");
+  set("Heading", pose ? `${formatNumber(pose.yaw * DEGREES, 1)}°` : "…");
   set("Speed", pose ? `${formatNumber(pose.speed, 2)} m/s` : "…");
+  set("Turning", pose ? `${formatNumber(pose.turnRate * DEGREES, 1)}°/s` : "…");
 }
 
 function showStatus(robot: RobotStatus, set: (row: Row, text: string) => void): void {
@@ -72,24 +99,37 @@ function showStatus(robot: RobotStatus, set: (row: Row, text: string) => void): 
   set("Model", robot.model || "…");
 }
 
-// The pose as gsv's --robot option takes it: x,y,yaw.
-function copyButton(app: App): HTMLElement {
-  const copy = () => {
-    const pose = app.store.get().selectedPose;
-    if (!pose) return;
-    const text = [pose.x, pose.y, pose.yaw].map((value) => formatNumber(value, 4)).join(",");
-    void navigator.clipboard?.writeText(text);
-  };
+// As a <pose> of SDFormat: metres and radians.
+export function poseText({ x, y, z, roll, pitch, yaw }: RobotPose): string {
+  return [x, y, z, roll, pitch, yaw].map((value) => formatNumber(value, 4)).join(" ");
+}
+
+// As gsv's --robot option takes it.
+export function startText({ x, y, yaw }: RobotPose): string {
+  return [x, y, yaw].map((value) => formatNumber(value, 4)).join(",");
+}
+
+function copyButtons(app: App): HTMLElement {
+  const button = (label: string, title: string, textOf: (pose: RobotPose) => string) =>
+    element(
+      "button",
+      {
+        class: "button small",
+        type: "button",
+        title,
+        onclick: () => {
+          const pose = app.store.get().selectedPose;
+          if (pose) void app.copy(textOf(pose), "The pose is copied.");
+        },
+      },
+      icon("copy"),
+      label,
+    );
   return element(
-    "button",
-    {
-      class: "button plain small",
-      type: "button",
-      "aria-label": "Copy pose",
-      title: "Copy pose as x,y,yaw",
-      onclick: copy,
-    },
-    icon("copy"),
+    "div",
+    { class: "inspector-actions" },
+    button("Copy pose", "x y z roll pitch yaw, in metres and radians, as in a <pose>", poseText),
+    button("As --robot", "x,y,yaw, as gsv run --robot MODEL@x,y,yaw takes it", startText),
   );
 }
 

@@ -68,7 +68,7 @@ class RobotRow {
       this.behaviour,
       this.collisions,
     );
-    this.button.addEventListener("dblclick", () => app.toggleFollowing());
+    this.button.addEventListener("dblclick", () => app.toggleViewMode("follow"));
     this.item = element("li", {}, this.button);
     this.setSelected(app.store.get().selection === robot);
   }

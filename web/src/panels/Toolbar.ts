@@ -1,14 +1,16 @@
 // The bar at the top: which simulation, the buttons that run it, and the views.
 import type { App } from "../app/App";
 import type { Action } from "../api/SimulationApi";
-import type { State } from "../state/State";
+import type { State, ViewMode } from "../state/State";
 import { isAllowed, mainAction } from "../state/actions";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon, setIcon } from "../ui/icons";
+import { createOverlayMenu } from "./OverlayMenu";
+import { createShareMenu } from "./ShareMenu";
 
-export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement {
+export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => void): HTMLElement {
   return element(
     "header",
     { class: "toolbar" },
@@ -25,11 +27,13 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
       { class: "toolbar-views", role: "group", "aria-label": "View" },
       viewButton("home", "Reset view", "R", () => app.resetView()),
       viewButton("top", "Top view", "T", () => app.topView()),
-      followButton(app),
+      modeButton(app, "follow", "follow", "Follow", "F"),
+      modeButton(app, "chase", "chase", "Chase", "C"),
+      modeButton(app, "eye", "eye", "Robot's eye", "V"),
       element("span", { class: "divider", "aria-hidden": "true" }),
-      toggleButton(app, "beams", "beams", "Beams"),
-      toggleButton(app, "labels", "label", "Names"),
-      toggleButton(app, "grid", "grid", "Grid"),
+      createOverlayMenu(app),
+      plotsButton(app),
+      createShareMenu(app, hasView),
       element("span", { class: "divider", "aria-hidden": "true" }),
       brokerLink(app),
       viewButton("help", "Help", "?", () => app.openHelp(true)),
@@ -168,30 +172,20 @@ function viewButton(picture: IconName, label: string, key: string, onclick: () =
   );
 }
 
-function followButton(app: App): HTMLElement {
-  const button = viewButton("follow", "Follow", "F", () => app.toggleFollowing());
+function modeButton(app: App, mode: ViewMode, picture: IconName, label: string, key: string): HTMLElement {
+  const button = viewButton(picture, label, key, () => app.toggleViewMode(mode));
   app.store.watch(
-    ({ following }) => following,
-    (following) => button.setAttribute("aria-pressed", String(following)),
+    ({ viewMode }) => viewMode === mode,
+    (isOn) => button.setAttribute("aria-pressed", String(isOn)),
   );
   return button;
 }
 
-function toggleButton(app: App, part: keyof State["shown"], picture: IconName, label: string): HTMLElement {
-  const button = element(
-    "button",
-    {
-      class: "button plain",
-      type: "button",
-      "aria-label": label,
-      title: label,
-      onclick: () => app.toggle(part),
-    },
-    icon(picture),
-  );
+function plotsButton(app: App): HTMLElement {
+  const button = viewButton("plot", "Plots", "P", () => app.openPlots(!app.store.get().plots.open));
   app.store.watch(
-    ({ shown }) => shown[part],
-    (shown) => button.setAttribute("aria-pressed", String(shown)),
+    ({ plots }) => plots.open,
+    (open) => button.setAttribute("aria-pressed", String(open)),
   );
   return button;
 }

@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { beforeAll, expect, test, vi } from "vitest";
 import { body, scene } from "../scene/testScene";
-import { createInspector } from "./Inspector";
+import { createInspector, poseText, startText } from "./Inspector";
 import { createNotices } from "./Notices";
 import { createSceneTree } from "./SceneTree";
 import { createStatusBar } from "./StatusBar";
@@ -11,6 +11,17 @@ import { createToolbar } from "./Toolbar";
 beforeAll(() => {
   Element.prototype.scrollIntoView = () => {}; // jsdom has no layout
 });
+
+const POSE = {
+  x: 1.234,
+  y: -0.001,
+  z: 0,
+  roll: 0.1,
+  pitch: -0.2,
+  yaw: Math.PI / 2,
+  speed: 0.3,
+  turnRate: -Math.PI / 6,
+};
 
 function enabledButtons(toolbar: HTMLElement): string[] {
   const buttons = toolbar.querySelectorAll<HTMLButtonElement>(".toolbar-transport button:not(:disabled)");
@@ -26,19 +37,19 @@ test.each([
   ["failed", ["Reset"]],
 ] as const)("while it is %s these buttons can be pressed: %s", (phase, names) => {
   const { app } = testApp({ status: simulationStatus(phase) });
-  expect(enabledButtons(createToolbar(app, () => {}))).toEqual(names);
+  expect(enabledButtons(createToolbar(app, true, () => {}))).toEqual(names);
 });
 
 test("buttons follow what another viewer pressed", () => {
   const { app, store } = testApp({ status: simulationStatus("running") });
-  const toolbar = createToolbar(app, () => {});
+  const toolbar = createToolbar(app, true, () => {});
   store.set({ status: simulationStatus("paused") });
   expect(toolbar.querySelector(".main-action")?.textContent).toBe("Resume");
 });
 
 test("nothing can be pressed while the connection is lost or an answer is awaited", () => {
   const { app, store } = testApp({ status: simulationStatus("running"), pending: "pause" });
-  const toolbar = createToolbar(app, () => {});
+  const toolbar = createToolbar(app, true, () => {});
   expect(enabledButtons(toolbar)).toEqual([]);
   store.set({ pending: null, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } });
   expect(enabledButtons(toolbar)).toEqual([]);
@@ -48,7 +59,7 @@ test("several simulations can be chosen from", () => {
   const simulations = ["house", "yard"].map((name) => ({ name, phase: "running", robots: 0 }) as const);
   const { app } = testApp({ simulations });
   const join = vi.spyOn(app.session, "join").mockImplementation(() => {});
-  const choice = createToolbar(app, () => {}).querySelector("select")!;
+  const choice = createToolbar(app, true, () => {}).querySelector("select")!;
   expect(choice.value).toBe("house");
   choice.value = "yard";
   choice.dispatchEvent(new Event("change"));
@@ -97,10 +108,15 @@ test("a press on a row selects its robot, and the inspector shows where it is", 
   expect(inspector.hidden).toBe(true);
   tree.querySelector<HTMLButtonElement>(".robot")!.click();
   expect(tree.querySelector(".robot")?.getAttribute("aria-pressed")).toBe("true");
-  store.set({ selectedPose: { x: 1.234, y: -0.001, z: 0, yaw: Math.PI / 2, speed: 0.3 } });
+  store.set({ selectedPose: POSE });
   expect(inspector.hidden).toBe(false);
-  const values = [...inspector.querySelectorAll("dd")].slice(0, 3).map((value) => value.textContent);
-  expect(values).toEqual(["1.23, 0.00, 0.00 m", "90.0°", "0.30 m/s"]);
+  const values = [...inspector.querySelectorAll("dd")].slice(0, 4).map((value) => value.textContent);
+  expect(values).toEqual(["1.23, 0.00, 0.00 m", "90.0°", "0.30 m/s", "-30.0°/s"]);
+});
+
+test("a pose is copied as files and the command line take it", () => {
+  expect(poseText(POSE)).toBe("1.2340 -0.0010 0.0000 0.1000 -0.2000 1.5708");
+  expect(startText(POSE)).toBe("1.2340,-0.0010,1.5708");
 });
 
 test("the status bar shows phase, time, pace, late steps and who is waited for", () => {

@@ -70,6 +70,16 @@ export interface MarkerArrayMessage {
   markers: MarkerMessage[];
 }
 
+export interface TransformMessage {
+  header: { stamp: Time; frame_id: string };
+  child_frame_id: string;
+  transform: { translation: Point; rotation: Point & { w: number } };
+}
+
+export interface TransformsMessage {
+  transforms: TransformMessage[];
+}
+
 export interface CompressedImageMessage {
   header: { stamp: Time; frame_id: string };
   format: string;

@@ -1,12 +1,13 @@
 // The beams of range sensors as lines, all in one draw call. A beam is measured at one instant and
 // shown over several frames: it moves along with its robot as that is shown.
 import type { Matrix4 } from "three";
-import { DynamicDrawUsage, InstancedInterleavedBuffer, InterleavedBufferAttribute, Vector3 } from "three";
+import { Vector3 } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import type { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { MarkerMessage } from "../protocol/messages";
 import { LINE_LIST } from "../protocol/messages";
+import { segmentsGeometry, uploadSegments } from "./segments";
 
 const WIDTH_PX = 1.5;
 const OPACITY = 0.85;
@@ -35,7 +36,7 @@ export class BeamLayer {
   private colours = new Float32Array(0);
 
   constructor() {
-    this.lines = new LineSegments2(new LineSegmentsGeometry(), this.material);
+    this.lines = new LineSegments2(segmentsGeometry(this.positions, this.colours), this.material);
     this.lines.frustumCulled = false;
     this.lines.raycast = () => {};
     this.grow(SMALLEST_CAPACITY);
@@ -88,7 +89,7 @@ export class BeamLayer {
         at += 3;
       }
     }
-    this.upload(at / 6);
+    uploadSegments(this.lines.geometry as LineSegmentsGeometry, at / 6);
   }
 
   dispose(): void {
@@ -97,29 +98,11 @@ export class BeamLayer {
     this.lines.removeFromParent();
   }
 
-  private upload(segments: number): void {
-    const geometry = this.lines.geometry as LineSegmentsGeometry;
-    geometry.instanceCount = segments;
-    for (const name of ["instanceStart", "instanceColorStart"]) {
-      (geometry.getAttribute(name) as InterleavedBufferAttribute).data.needsUpdate = true;
-    }
-  }
-
   private grow(segments: number): void {
     this.capacity = Math.max(SMALLEST_CAPACITY, 2 ** Math.ceil(Math.log2(segments)));
     this.positions = new Float32Array(6 * this.capacity);
     this.colours = new Float32Array(6 * this.capacity);
-    const geometry = new LineSegmentsGeometry();
-    const attach = (array: Float32Array, start: string, end: string) => {
-      const buffer = new InstancedInterleavedBuffer(array, 6, 1);
-      buffer.setUsage(DynamicDrawUsage);
-      geometry.setAttribute(start, new InterleavedBufferAttribute(buffer, 3, 0));
-      geometry.setAttribute(end, new InterleavedBufferAttribute(buffer, 3, 3));
-    };
-    attach(this.positions, "instanceStart", "instanceEnd");
-    attach(this.colours, "instanceColorStart", "instanceColorEnd");
-    geometry.instanceCount = 0;
     this.lines.geometry.dispose();
-    this.lines.geometry = geometry;
+    this.lines.geometry = segmentsGeometry(this.positions, this.colours);
   }
 }

@@ -74,6 +74,16 @@ export class BodyLayer {
     return this.worldFromBody[body] ?? null;
   }
 
+  // world_from_link of a link that moves against its body, as shown now.
+  linkPoseOf(body: number, link: string): Matrix4 | null {
+    return this.worldFromLink[body]?.get(link) ?? null;
+  }
+
+  // The links that move against their bodies.
+  movingLinksOf(body: number): Matrix4[] {
+    return [...(this.worldFromLink[body]?.values() ?? [])];
+  }
+
   templateOf(body: number): ModelTemplate | null {
     const model = this.scene.bodies[body]?.model;
     return (model !== undefined && this.templates.get(model)) || null;

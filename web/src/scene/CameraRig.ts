@@ -1,7 +1,8 @@
-// The eye: orbits, flies to views, follows a robot. The world's z is up.
+// The eye: orbits, flies to views, goes along with a robot, or looks out of it. The world's z is up.
 import type { Box3 } from "three";
-import { PerspectiveCamera, Vector3 } from "three";
+import { Matrix4, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { cameraRotation } from "./eye";
 import { fittingDistance } from "./framing";
 
 const FIELD_OF_VIEW_DEG = 50;
@@ -13,12 +14,24 @@ const FIRST_DIRECTION = new Vector3(0.35, 0.72, -0.85).normalize();
 const DOWN = new Vector3(0, 0.001, -1).normalize();
 const FOLLOWING_DISTANCE = 5; // m
 const FOLLOWING_STEEPNESS = Math.tan((68 * Math.PI) / 180); // over the walls beside a robot
+const BEHIND = 2.4; // m, of a chase
+const ABOVE = 1.5;
+const AHEAD = 2; // m: where one looks who leaves a robot's eye
+
+// A robot that is watched: its middle, and where its x axis points (radians about the world's z).
+export interface Subject {
+  position: Vector3;
+  yaw: number;
+}
+
+export interface Viewpoint {
+  position: Vector3;
+  target: Vector3;
+}
 
 interface Flight {
-  fromPosition: Vector3;
-  fromTarget: Vector3;
-  toPosition: Vector3;
-  toTarget: Vector3;
+  from: Viewpoint;
+  to: Viewpoint;
   startMs: number;
 }
 
@@ -26,7 +39,9 @@ export class CameraRig {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.05, 500);
   readonly controls: OrbitControls;
   private flight: Flight | null = null;
-  private followed: Vector3 | null = null;
+  private subject: Subject | null = null;
+  private turning = false; // with the subject
+  private beforeEye: Viewpoint | null = null; // not null: it looks out of a robot
   private readonly still: boolean;
 
   constructor(canvas: HTMLElement, onChange: () => void) {
@@ -48,6 +63,26 @@ export class CameraRig {
     this.camera.updateProjectionMatrix();
   }
 
+  // Where it stands and looks, or will when it has arrived.
+  get viewpoint(): Viewpoint {
+    const { position, target } = this.flight?.to ??
+      this.beforeEye ?? { position: this.camera.position, target: this.controls.target };
+    return { position: position.clone(), target: target.clone() };
+  }
+
+  // Stands there at once, or as soon as it leaves a robot's eye.
+  set viewpoint({ position, target }: Viewpoint) {
+    this.flight = null;
+    if (this.beforeEye) {
+      this.beforeEye = { position: position.clone(), target: target.clone() };
+      return;
+    }
+    this.camera.position.copy(position);
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.controls.dispatchEvent({ type: "change" });
+  }
+
   // Shows the box from above at an angle; at once when `fly` is false.
   frame(box: Box3, fly: boolean): void {
     this.lookAt(box, FIRST_DIRECTION, fly);
@@ -57,42 +92,78 @@ export class CameraRig {
     this.lookAt(box, DOWN, true);
   }
 
-  // Keeps `position` in the picture from now on as it moves; null ends it.
-  follow(position: Vector3 | null): void {
-    if (!position) {
-      this.followed = null;
+  // Flies to the subject and goes along with it from now on; `turning`: behind it, turning as it
+  // turns. null ends it.
+  follow(subject: Subject | null, turning = false): void {
+    if (!subject) {
+      this.subject = null;
       return;
     }
-    if (this.followed) return;
-    this.followed = position.clone();
-    const back = steepened(this.camera.position.clone().sub(this.controls.target));
-    const distance = Math.min(back.length(), FOLLOWING_DISTANCE);
-    this.fly(position.clone().add(back.setLength(distance)), position.clone());
+    if (this.subject && this.turning === turning) return;
+    this.subject = { position: subject.position.clone(), yaw: subject.yaw };
+    this.turning = turning;
+    const target = subject.position.clone();
+    this.fly({ position: target.clone().add(turning ? behind(subject.yaw) : this.overhead()), target });
   }
 
   // Moves along with the followed robot.
-  moveTo(position: Vector3): void {
-    if (!this.followed) return;
-    const shift = position.clone().sub(this.followed);
-    this.followed.copy(position);
-    if (shift.lengthSq() === 0) return;
-    this.camera.position.add(shift);
-    this.controls.target.add(shift);
-    for (const point of [
-      this.flight?.fromPosition,
-      this.flight?.fromTarget,
-      this.flight?.toPosition,
-      this.flight?.toTarget,
-    ]) {
-      point?.add(shift);
-    }
+  moveTo({ position, yaw }: Subject): void {
+    const { subject } = this;
+    if (!subject) return;
+    const turn = this.turning ? yaw - subject.yaw : 0;
+    const isStill = turn === 0 && subject.position.equals(position);
+    const motion = new Matrix4()
+      .makeTranslation(position)
+      .multiply(new Matrix4().makeRotationZ(turn))
+      .multiply(new Matrix4().makeTranslation(subject.position.clone().negate()));
+    this.subject = { position: position.clone(), yaw };
+    if (isStill) return;
+    for (const point of this.points()) point.applyMatrix4(motion);
+  }
+
+  // Sees what an eye at that pose sees, until it is told null.
+  lookFrom(worldFromEye: Matrix4 | null): void {
+    if (!worldFromEye) return this.leaveEye();
+    this.beforeEye ??= this.viewpoint;
+    this.flight = null;
+    this.controls.enabled = false;
+    this.camera.position.setFromMatrixPosition(worldFromEye);
+    this.camera.quaternion.copy(cameraRotation(worldFromEye));
+    this.camera.updateMatrixWorld();
   }
 
   // Whether the camera still moves by itself after this frame.
   update(nowMs: number): boolean {
+    if (this.beforeEye) return false;
     if (this.flight) this.advanceFlight(this.flight, nowMs);
     const moved = this.controls.update();
     return moved || this.flight !== null;
+  }
+
+  private leaveEye(): void {
+    const { beforeEye } = this;
+    if (!beforeEye) return;
+    this.beforeEye = null;
+    this.controls.enabled = true;
+    const ahead = new Vector3(0, 0, -AHEAD).applyQuaternion(this.camera.quaternion);
+    this.controls.target.copy(this.camera.position).add(ahead);
+    this.fly(beforeEye);
+  }
+
+  private overhead(): Vector3 {
+    const { position, target } = this.viewpoint;
+    const back = steepened(position.sub(target));
+    return back.setLength(Math.min(back.length(), FOLLOWING_DISTANCE));
+  }
+
+  private *points(): Generator<Vector3> {
+    yield this.camera.position;
+    yield this.controls.target;
+    if (!this.flight) return;
+    for (const { position, target } of [this.flight.from, this.flight.to]) {
+      yield position;
+      yield target;
+    }
   }
 
   private lookAt(box: Box3, direction: Vector3, fly: boolean): void {
@@ -103,32 +174,21 @@ export class CameraRig {
     this.camera.far = 3 * this.controls.maxDistance;
     this.camera.near = Math.min(0.1, distance / 100);
     this.camera.updateProjectionMatrix();
-    if (fly) {
-      this.fly(position, target);
-      return;
-    }
-    this.flight = null;
-    this.camera.position.copy(position);
-    this.controls.target.copy(target);
-    this.controls.update();
+    if (fly) this.fly({ position, target });
+    else this.viewpoint = { position, target };
   }
 
-  private fly(toPosition: Vector3, toTarget: Vector3): void {
-    this.flight = {
-      fromPosition: this.camera.position.clone(),
-      fromTarget: this.controls.target.clone(),
-      toPosition,
-      toTarget,
-      startMs: this.still ? -Infinity : performance.now(),
-    };
+  private fly(to: Viewpoint): void {
+    const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
+    this.flight = { from, to, startMs: this.still ? -Infinity : performance.now() };
     this.controls.dispatchEvent({ type: "change" });
   }
 
-  private advanceFlight(flight: Flight, nowMs: number): void {
-    const share = Math.min(1, (nowMs - flight.startMs) / FLIGHT_MS);
+  private advanceFlight({ from, to, startMs }: Flight, nowMs: number): void {
+    const share = Math.min(1, (nowMs - startMs) / FLIGHT_MS);
     const eased = share < 0.5 ? 4 * share ** 3 : 1 - (-2 * share + 2) ** 3 / 2;
-    this.camera.position.lerpVectors(flight.fromPosition, flight.toPosition, eased);
-    this.controls.target.lerpVectors(flight.fromTarget, flight.toTarget, eased);
+    this.camera.position.lerpVectors(from.position, to.position, eased);
+    this.controls.target.lerpVectors(from.target, to.target, eased);
     if (share >= 1) this.flight = null;
   }
 }
@@ -137,4 +197,8 @@ export class CameraRig {
 function steepened(back: Vector3): Vector3 {
   back.z = Math.max(back.z, FOLLOWING_STEEPNESS * Math.hypot(back.x, back.y));
   return back;
+}
+
+function behind(yaw: number): Vector3 {
+  return new Vector3(-BEHIND * Math.cos(yaw), -BEHIND * Math.sin(yaw), ABOVE);
 }

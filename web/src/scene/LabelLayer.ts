@@ -4,6 +4,7 @@ import type { Camera } from "three";
 import { Vector3 } from "three";
 
 const MOST_LABELS = 40;
+const TEXT_PX = 11.5; // as style/panels.css has it
 
 export interface Labelled {
   name: string;
@@ -33,6 +34,27 @@ export class LabelLayer {
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;
       label.classList.toggle("selected", robot.name === selection);
     }
+  }
+
+  // The labels as they are placed now, on a picture of the view whose width is `width` on the page.
+  paint(context: CanvasRenderingContext2D, width: number): void {
+    const scale = context.canvas.width / width;
+    context.save();
+    context.scale(scale, scale);
+    context.font = getComputedStyle(this.element).font.replace(/\d+(\.\d+)?px/, `${TEXT_PX}px`);
+    context.textBaseline = "middle";
+    const frame = this.element.getBoundingClientRect();
+    for (const label of this.labels.values()) {
+      const box = label.getBoundingClientRect();
+      const [x, y] = [box.left - frame.left, box.top - frame.top];
+      context.fillStyle = getComputedStyle(label).backgroundColor;
+      context.beginPath();
+      context.roundRect(x, y, box.width, box.height, 5);
+      context.fill();
+      context.fillStyle = getComputedStyle(label).color;
+      context.fillText(label.textContent ?? "", x + 6, y + box.height / 2);
+    }
+    context.restore();
   }
 
   private labelOf(name: string): HTMLElement {

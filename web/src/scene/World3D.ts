@@ -3,9 +3,11 @@
 import type { Group, LineSegments, Matrix4 } from "three";
 import { Box3, NeutralToneMapping, PCFShadowMap, Scene, Vector3, WebGLRenderer } from "three";
 import type { SceneDescription } from "../api/scene";
-import type { MarkerArrayMessage, PosesMessage } from "../protocol/messages";
+import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
-import { BeamLayer } from "./BeamLayer";
+import type { Shown } from "../state/overlays";
+import { FIRST_SHOWN } from "../state/overlays";
+import type { ViewMode } from "../state/State";
 import { BodyLayer, matrixOf } from "./BodyLayer";
 import { CameraRig } from "./CameraRig";
 import { focusOf } from "./framing";
@@ -13,11 +15,14 @@ import { SelectionRing, disposeGrid, makeGrid } from "./Ground";
 import { LabelLayer } from "./LabelLayer";
 import { disposeLights, makeLights } from "./LightRig";
 import { ModelLibrary } from "./ModelLibrary";
+import { OverlayLayers } from "./OverlayLayers";
 import { PoseInterpolator } from "./PoseInterpolator";
 import type { ScreenPlace } from "./picking";
 import { nearest, onClick, rayThrough } from "./picking";
+import { pngOf, videoOf } from "./capture";
 import { Quality, drawsInSoftware } from "./Quality";
 import { RenderLoop } from "./RenderLoop";
+import { RobotPlaces } from "./RobotPlaces";
 import { Sky } from "./Sky";
 
 export interface WorldEvents {
@@ -32,14 +37,10 @@ export interface WorldOptions {
   fixedQuality: boolean;
 }
 
-interface Shown {
-  beams: boolean;
-  labels: boolean;
-  grid: boolean;
-}
-
-const SMALLEST_RING = 0.16; // m
 const FRAME_RATE_WINDOW_MS = 1000;
+
+// x y z of where one stands and of what one looks at.
+export type Viewpoint = [number, number, number, number, number, number];
 
 export class World3D {
   private readonly renderer: WebGLRenderer;
@@ -49,7 +50,7 @@ export class World3D {
   private readonly loop: RenderLoop;
   private readonly quality: Quality;
   private readonly interpolator = new PoseInterpolator();
-  private readonly beams = new BeamLayer();
+  private readonly overlays = new OverlayLayers();
   private readonly labels: LabelLayer;
   private readonly ring = new SelectionRing();
   private bodies: BodyLayer | null = null;
@@ -60,10 +61,10 @@ export class World3D {
   private shownPoses = new Float64Array(0);
   private lastPoses: PosesMessage | null = null;
   private lastBeams: MarkerArrayMessage | null = null;
-  private robots: { name: string; body: number }[] = [];
+  private robots: RobotPlaces | null = null;
   private selection: string | null = null;
-  private following = false;
-  private shown: Shown = { beams: true, labels: true, grid: true };
+  private viewMode: ViewMode = "orbit";
+  private shown: Shown = FIRST_SHOWN;
   private framedFor = ""; // the name of the scene that the camera was set up for
   private width = 1;
   private height = 1;
@@ -92,7 +93,7 @@ export class World3D {
       (took) => this.quality.frameTook(took) && this.resize(),
     );
     this.rig = new CameraRig(canvas, () => this.loop.request());
-    this.scene.add(this.beams.lines, this.ring.mesh);
+    this.scene.add(this.overlays.group, this.ring.mesh);
     host.append(canvas, this.labels.element);
     canvas.addEventListener("webglcontextrestored", () => this.refresh());
     onClick(canvas, (place) => events.onPick(this.robotAt(place)));
@@ -117,8 +118,9 @@ export class World3D {
     this.lastPoses = message;
     if (!this.bodies || this.bodies.scene.layoutVersion !== message.layout_version) return;
     if (message.poses.length !== this.shownPoses.length) return;
-    const { step, stamp, poses } = message;
-    this.interpolator.push({ step: Number(step), stamp: seconds(stamp), poses }, performance.now());
+    const sample = { step: Number(message.step), stamp: seconds(message.stamp), poses: message.poses };
+    this.interpolator.push(sample, performance.now());
+    this.overlays.takePoses(sample);
     this.loop.request();
   }
 
@@ -128,21 +130,40 @@ export class World3D {
     this.loop.request();
   }
 
-  select(robot: string | null): void {
-    if (robot !== this.selection) this.rig.follow(null); // the next one is flown to
-    this.selection = robot;
-    this.updateFollowing();
+  setSensorFrames(message: TransformsMessage): void {
+    this.overlays.takeFrames(message);
+    this.updateRig();
     this.loop.request();
   }
 
-  follow(following: boolean): void {
-    this.following = following;
-    this.updateFollowing();
+  // A reading that is drawn in the world: points, contacts.
+  setReading(topic: string, message: unknown): void {
+    this.overlays.takeReading(topic, message);
+    this.loop.request();
+  }
+
+  keepReadings(topics: ReadonlySet<string>): void {
+    this.overlays.keepReadings(topics);
+    this.loop.request();
+  }
+
+  select(robot: string | null): void {
+    if (robot !== this.selection) this.rig.follow(null); // the next one is flown to
+    this.selection = robot;
+    this.overlays.select(robot);
+    this.updateRig();
+    this.loop.request();
+  }
+
+  setViewMode(mode: ViewMode): void {
+    this.viewMode = mode;
+    this.updateRig();
     this.loop.request();
   }
 
   show(shown: Shown): void {
     this.shown = shown;
+    this.overlays.show(shown);
     this.labels.element.hidden = !shown.labels;
     this.loop.request();
   }
@@ -155,6 +176,30 @@ export class World3D {
     this.rig.frame(this.focus, true);
   }
 
+  // Where the eye stands and what it looks at, in metres; it stands there at once.
+  get viewpoint(): Viewpoint {
+    const { position, target } = this.rig.viewpoint;
+    return [...position.toArray(), ...target.toArray()];
+  }
+
+  set viewpoint([x, y, z, tx, ty, tz]: Viewpoint) {
+    this.rig.viewpoint = { position: new Vector3(x, y, z), target: new Vector3(tx, ty, tz) };
+    this.loop.request();
+  }
+
+  // What is seen at present, with the names, as PNG.
+  picture(): Promise<Blob> {
+    this.draw(performance.now());
+    return pngOf(this.renderer.domElement, (context) => {
+      if (this.shown.labels) this.labels.paint(context, this.width);
+    });
+  }
+
+  // What is seen from now on, without the names.
+  video(): MediaStream {
+    return videoOf(this.renderer.domElement);
+  }
+
   // world_from_robot as last reported and its simulated time; null while unknown.
   latestPose(robot: string): { pose: Matrix4; stamp: number } | null {
     const { latest } = this.interpolator;
@@ -165,7 +210,7 @@ export class World3D {
 
   // Where a robot's middle is drawn on the page; null when it is not in the picture.
   screenPosition(robot: string): ScreenPlace | null {
-    const middle = this.middleOf(robot);
+    const middle = this.robots?.middleOf(robot);
     if (!middle) return null;
     const { x, y, z } = middle.project(this.rig.camera);
     if (z > 1 || Math.abs(x) > 1 || Math.abs(y) > 1) return null;
@@ -186,16 +231,15 @@ export class World3D {
     this.sky?.dispose();
     this.sky = null;
     this.interpolator.clear();
-    this.beams.keepOnly(new Set());
-    this.robots = [];
+    this.overlays.setScene(null);
+    this.robots = null;
   }
 
   private build(scene: SceneDescription): void {
     const bodies = new BodyLayer(scene);
     this.bodies = bodies;
-    this.robots = scene.bodies.flatMap(({ name, isRobot, isAvatar }, body) =>
-      isRobot || isAvatar ? [{ name, body }] : [],
-    );
+    this.robots = new RobotPlaces(bodies, this.overlays.frames);
+    this.overlays.setScene(bodies);
     this.focus = focusOf(scene);
     this.lights = makeLights(scene, this.focus);
     this.grid = makeGrid(this.focus);
@@ -207,7 +251,7 @@ export class World3D {
     if (this.lastPoses) this.setPoses(this.lastPoses);
     if (this.lastBeams) this.takeBeams(this.lastBeams);
     this.loadModels(bodies);
-    this.updateFollowing();
+    this.updateRig();
   }
 
   private loadModels(bodies: BodyLayer): void {
@@ -228,30 +272,25 @@ export class World3D {
     }
   }
 
-  // Beams hang on their robots as these stood when the beams were measured.
-  private takeBeams({ markers }: MarkerArrayMessage): void {
-    const { bodies, interpolator } = this;
-    if (!bodies) return;
-    for (const marker of markers) {
-      const poses = interpolator.at(seconds(marker.header.stamp)) ?? interpolator.latest?.poses;
-      const entry = bodies.poseEntryOf(marker.ns);
-      if (poses && entry !== null) this.beams.setRobot(marker.ns, marker, matrixOf(poses, 7 * entry));
-    }
+  private takeBeams(message: MarkerArrayMessage): void {
+    const { interpolator } = this;
+    this.overlays.takeBeams(message, (at) => interpolator.at(at) ?? interpolator.latest?.poses ?? null);
   }
 
-  private updateFollowing(): void {
-    const position = this.following && this.selection ? this.middleOf(this.selection) : null;
-    this.rig.follow(position);
+  // Lets the eye do what the mode asks for, with the selected robot as it is shown now.
+  private updateRig(): void {
+    const { robots, selection, viewMode } = this;
+    const robot = viewMode === "orbit" ? null : selection;
+    const isEye = viewMode === "eye";
+    this.rig.lookFrom((isEye && robot && robots?.eyeOf(robot)) || null);
+    this.rig.follow((!isEye && robot && robots?.subjectOf(robot)) || null, viewMode === "chase");
   }
 
-  private middleOf(robot: string): Vector3 | null {
-    const { bodies } = this;
-    const body = bodies?.indexOf(robot) ?? -1;
-    const pose = bodies?.poseOf(body);
-    if (!bodies || !pose) return null;
-    const bounds = bodies.templateOf(body)?.bounds;
-    const middle = bounds && !bounds.isEmpty() ? bounds.getCenter(new Vector3()) : new Vector3();
-    return middle.applyMatrix4(pose);
+  private moveRig(robots: RobotPlaces): void {
+    if (this.selection === null || this.viewMode === "orbit") return;
+    const subject = robots.subjectOf(this.selection);
+    if (this.viewMode === "eye") this.rig.lookFrom(robots.eyeOf(this.selection));
+    else if (subject) this.rig.moveTo(subject);
   }
 
   private refresh(): void {
@@ -271,7 +310,7 @@ export class World3D {
   private draw(now: number): boolean {
     if (this.bodies && this.interpolator.read(now, this.shownPoses)) this.showPoses(this.bodies);
     const isFlying = this.rig.update(now);
-    this.beams.lines.visible = this.shown.beams;
+    this.overlays.place();
     if (this.grid) this.grid.visible = this.shown.grid;
     this.placeRing();
     this.renderer.render(this.scene, this.rig.camera);
@@ -283,32 +322,18 @@ export class World3D {
   private showPoses(bodies: BodyLayer): void {
     bodies.setPoses(this.shownPoses);
     this.renderer.shadowMap.needsUpdate = true;
-    this.beams.place((robot) => bodies.poseOf(bodies.indexOf(robot)));
-    const followed = this.following && this.selection ? this.middleOf(this.selection) : null;
-    if (followed) this.rig.moveTo(followed);
+    if (this.robots) this.moveRig(this.robots);
   }
 
   private placeRing(): void {
-    const body = this.selection === null ? -1 : (this.bodies?.indexOf(this.selection) ?? -1);
-    const pose = this.bodies?.poseOf(body);
-    if (!pose) {
-      this.ring.hide();
-      return;
-    }
-    const size = this.bodies?.templateOf(body)?.bounds.getSize(new Vector3());
-    const radius = size ? 0.6 * Math.hypot(size.x, size.y) : 0;
-    this.ring.place(new Vector3().setFromMatrixPosition(pose), Math.max(SMALLEST_RING, radius));
+    const ring = this.selection === null ? null : this.robots?.ringOf(this.selection);
+    if (ring && this.viewMode !== "eye") this.ring.place(ring.position, ring.radius);
+    else this.ring.hide();
   }
 
   private placeLabels(): void {
-    if (!this.shown.labels || !this.bodies) return;
-    const { bodies } = this;
-    const robots = this.robots.map(({ name, body }) => {
-      const position = new Vector3().setFromMatrixPosition(bodies.poseOf(body)!);
-      position.z += Math.max(0.15, bodies.templateOf(body)?.bounds.max.z ?? 0);
-      return { name, position };
-    });
-    this.labels.place(this.rig.camera, this.width, this.height, robots, this.selection);
+    if (!this.shown.labels || !this.robots) return;
+    this.labels.place(this.rig.camera, this.width, this.height, this.robots.labels(), this.selection);
   }
 
   private countFrame(now: number): void {
@@ -324,7 +349,7 @@ export class World3D {
     if (hit && (hit.isRobot || hit.isAvatar)) return hit.name;
     return nearest(
       place,
-      this.robots.map(({ name }) => ({ name, at: this.screenPosition(name) })),
+      (this.robots?.names ?? []).map((name) => ({ name, at: this.screenPosition(name) })),
     );
   }
 }

@@ -5,6 +5,10 @@ import type { RecordedEvent, Replay } from "../api/replay";
 import type { CameraChoice, SceneDescription } from "../api/scene";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
+import type { Shown } from "./overlays";
+import { FIRST_SHOWN } from "./overlays";
+import type { Plots } from "./plots";
+import { NO_PLOTS } from "./plots";
 
 export interface Notice {
   id: number;
@@ -17,9 +21,15 @@ export interface RobotPose {
   x: number;
   y: number;
   z: number;
+  roll: number;
+  pitch: number;
   yaw: number;
   speed: number; // m/s
+  turnRate: number; // rad/s about the world's z
 }
+
+// How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
+export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {
   connection: ConnectionState;
@@ -35,12 +45,15 @@ export interface State {
   modelsMissing: number; // shapes that are still being fetched
   selection: string | null; // a robot's name
   selectedPose: RobotPose | null;
-  following: boolean;
-  shown: { beams: boolean; labels: boolean; grid: boolean };
+  viewMode: ViewMode;
+  shown: Shown;
   camera: CameraChoice | null;
+  cameraOpen: boolean; // whether its picture is shown
+  plots: Plots;
   pending: Action | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
+  filming: boolean;
   framesPerSecond: number;
 }
 
@@ -57,11 +70,14 @@ export const initialState: State = {
   modelsMissing: 0,
   selection: null,
   selectedPose: null,
-  following: false,
-  shown: { beams: true, labels: true, grid: true },
+  viewMode: "orbit",
+  shown: FIRST_SHOWN,
   camera: null,
+  cameraOpen: true,
+  plots: NO_PLOTS,
   pending: null,
   notices: [],
   helpOpen: false,
+  filming: false,
   framesPerSecond: 0,
 };

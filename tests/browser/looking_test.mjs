@@ -1,0 +1,265 @@
+// Looking at a simulation: overlays, views, the inspector's live values, plots, and what one takes
+// along. One robot has a sensor of each kind.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { openBrowser, openPage, requireFromWeb, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { changedPixels, isBlank, isBlue, isGreen, isOrange, isRed, isYellow, picture } from "./pixels.mjs";
+import { startServer } from "./server.mjs";
+import { ask, phaseIs, settled, until, viewClip } from "./viewing.mjs";
+
+const { PNG } = requireFromWeb("pngjs");
+const SURVEYOR = path.join(path.dirname(fileURLToPath(import.meta.url)), "models", "surveyor.sdf");
+const SIMULATION = [
+  "playground",
+  ...["--robot", `${SURVEYOR}@3.2,0`, "--behaviour", "surveyor=cruise"],
+  ...["--robot", "pebble@0,-1.5", "--behaviour", "pebble=wander"],
+];
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer(SIMULATION);
+  browser = await openBrowser({ width: 1100, height: 700 });
+  await browser.context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const inspector = () => page.getByRole("region", { name: "Selected robot" });
+
+async function press(name) {
+  await page.getByRole("button", { name, exact: true }).click();
+}
+
+// Runs what makes the browser download a file; gives its name and bytes.
+async function downloaded(act) {
+  const [file] = await Promise.all([page.waitForEvent("download"), act()]);
+  return { name: file.suggestedFilename(), bytes: fs.readFileSync(await file.path()) };
+}
+
+test("the menu of overlays shows what is on, and keys do the same", async () => {
+  await press("Overlays");
+  const trails = page.getByRole("button", { name: "Trails", exact: true });
+  assert.equal(await trails.getAttribute("aria-pressed"), "false");
+  await trails.click();
+  assert.equal(await trails.getAttribute("aria-pressed"), "true");
+  await page.keyboard.press("Escape");
+  assert.equal(await trails.isVisible(), false);
+  assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "Overlays");
+});
+
+test("a chase follows the robot that was chosen, and a pause holds all still", async () => {
+  await page.locator('[data-robot="surveyor"]').click();
+  await page.keyboard.press("c");
+  const then = await page.evaluate(() => window.gsv.time);
+  await page.waitForFunction((time) => window.gsv.time > time + 3, then); // trails grow
+  await press("Pause");
+  await phaseIs(page, "paused");
+  await settled(page);
+});
+
+// Each is switched on alone, in a picture that stands still.
+for (const [name, key, isWanted, least] of [
+  ["points of lidar and depth camera", "2", isOrange, 60],
+  ["what a camera sees", "4", (...colour) => isYellow(...colour) || isOrange(...colour), 15],
+  ["trails", "5", (...colour) => isBlue(...colour) || isOrange(...colour), 40],
+  ["frames", "6", (...colour) => [isRed, isGreen, isBlue].some((is) => is(...colour)), 40],
+]) {
+  test(`overlays: ${name}`, async () => {
+    const clip = await viewClip(page);
+    const button = page.locator(`.menu-item[aria-keyshortcuts="${key}"]`);
+    const isOn = async () => (await button.getAttribute("aria-pressed")) === "true";
+    if (!(await isOn())) await page.keyboard.press(key);
+    // Its readings may be under way.
+    let drawn = 0;
+    await until(async () => {
+      await settled(page);
+      const shown = await picture(page, clip);
+      await page.keyboard.press(key);
+      await settled(page);
+      const without = await picture(page, clip);
+      drawn = changedPixels(without, shown, isWanted);
+      await page.keyboard.press(key);
+      return drawn >= least;
+    }, `${least} pixels of ${name}, ${drawn} at last,`);
+    if (key === "5") return; // kept for the next test
+    await page.keyboard.press(key);
+    assert.equal(await isOn(), false);
+  });
+}
+
+test("the browser remembers what is shown", async () => {
+  await page.keyboard.press("2");
+  await page.reload();
+  await waitUntilDrawn(page);
+  const pressed = await page
+    .locator(".menu-item[aria-keyshortcuts]")
+    .evaluateAll((items) =>
+      items.filter((item) => item.ariaPressed === "true").map((item) => item.ariaLabel),
+    );
+  assert.deepEqual(pressed, ["Beams", "Points", "Contacts", "Trails", "Names", "Grid"]);
+});
+
+test("the inspector tells what each sensor reads", async () => {
+  await page.locator('[data-robot="surveyor"]').click();
+  const values = (sensor) => inspector().locator(`[data-sensor="${sensor}"] .values`);
+  await values("sonar")
+    .getByText(/^\d\.\d\d\d m$/)
+    .waitFor();
+  await values("imu")
+    .getByText(/^9\.8\d\d m\/s²$/)
+    .waitFor();
+  await values("lidar").getByText("ranges min").waitFor();
+  assert.equal(await values("camera").textContent(), "");
+  await keepPicture(page, "inspector");
+});
+
+test("the pose is copied as files have it", async () => {
+  await press("Copy pose");
+  const text = await page.evaluate(() => navigator.clipboard.readText());
+  const numbers = text.split(" ").map(Number);
+  const { pose } = (await ask(page, "")).robots.find(({ name }) => name === "surveyor");
+  assert.equal(numbers.length, 6);
+  assert.ok(Math.abs(numbers[0] - pose.x_m) < 1e-3 && Math.abs(numbers[1] - pose.y_m) < 1e-3, text);
+});
+
+test("a chase looks from behind, a robot's eye ahead, and afterwards the view is as it was", async () => {
+  const view = () => page.evaluate(() => window.gsv.view);
+  const robot = await page.evaluate(() => window.gsv.robotPosition("surveyor"));
+  await page.keyboard.press("c");
+  await settled(page);
+  const [x, y, , tx, ty] = await view();
+  const away = Math.hypot(x - robot.x, y - robot.y);
+  assert.ok(away > 1 && away < 4, `it stands ${away} m away`);
+  assert.ok(Math.hypot(tx - robot.x, ty - robot.y) < 0.2, `it looks at ${tx}, ${ty}`);
+  const behind = await picture(page, await viewClip(page));
+  await page.keyboard.press("v");
+  await settled(page);
+  const eye = await picture(page, await viewClip(page));
+  const share = changedPixels(behind, eye) / (eye.width * eye.height);
+  assert.ok(share > 0.3, `only ${share} of the picture changed`);
+  assert.equal(await page.getByRole("button", { name: "Robot's eye" }).getAttribute("aria-pressed"), "true");
+  await page.keyboard.press("o");
+  await settled(page);
+  const again = await view();
+  assert.ok(Math.hypot(again[0] - x, again[1] - y) < 0.05, `it came back to ${again}`);
+  await page.keyboard.press("r");
+});
+
+test("values are plotted against simulated time, and saved as a table", async () => {
+  await page.locator('[data-robot="pebble"]').click();
+  await press("Plot speed");
+  await inspector().locator('[data-sensor="sonar_00"] dd').waitFor();
+  await press("Plot sonar_00 range");
+  const legend = page.getByRole("list", { name: "Curves" });
+  await legend.getByText("pebble sonar_00 range").waitFor();
+  await press("Resume");
+  await phaseIs(page, "running");
+  const then = await page.evaluate(() => window.gsv.time);
+  await page.waitForFunction((time) => window.gsv.time > time + 3, then);
+  await press("Pause");
+  await phaseIs(page, "paused");
+  await legend.getByText(/m\/s$/).waitFor();
+  await keepPicture(page, "plots");
+  const canvas = page.getByRole("img", { name: "Plot", exact: true });
+  const drawn = await canvas.evaluate((each) => {
+    const { data } = each.getContext("2d").getImageData(0, 0, each.width, each.height);
+    let blue = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] > 200 && data[i + 2] > 180 && data[i] < 120) blue += 1;
+    }
+    return blue;
+  });
+  assert.ok(drawn > 50, `${drawn} pixels of a curve`);
+  const { name, bytes } = await downloaded(() => press("Save as CSV"));
+  assert.match(name, /^simulation plot .*\.csv$/);
+  const [head, ...rows] = bytes.toString().trim().split("\r\n");
+  assert.equal(head, "time_s,pebble speed [m/s],pebble sonar_00 range [m]");
+  const times = rows.map((row) => Number(row.split(",")[0]));
+  assert.ok(rows.length > 20, `${rows.length} rows`);
+  assert.deepEqual(
+    times,
+    [...times].sort((a, b) => a - b),
+  );
+  const ranges = rows.map((row) => row.split(",")[2]).filter((text) => text !== "");
+  assert.ok(ranges.length > 5 && ranges.every((text) => Number(text) >= 0 && Number(text) <= 3), `${ranges}`);
+});
+
+test("while it is paused no plot goes on", async () => {
+  const rows = async () =>
+    (await downloaded(() => press("Save as CSV"))).bytes.toString().split("\r\n").length;
+  const then = await rows();
+  await settled(page);
+  assert.equal(await rows(), then);
+  await press("Close plots");
+});
+
+test("a picture of the view is saved as it is seen", async () => {
+  const { name, bytes } = await downloaded(() => page.keyboard.press("x"));
+  assert.match(name, /^simulation view .*\.png$/);
+  assert.equal(isBlank(PNG.sync.read(bytes)), false);
+});
+
+test("a video of the view is saved", async () => {
+  await page.keyboard.press("m");
+  await press("Resume");
+  await phaseIs(page, "running");
+  const frames = await page.evaluate(() => window.gsv.frames);
+  await page.waitForFunction((then) => window.gsv.frames > then + 15, frames);
+  const { name, bytes } = await downloaded(() => page.keyboard.press("m"));
+  assert.match(name, /^simulation video .*\.webm$/);
+  assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3); // EBML
+  assert.ok(bytes.length > 5000, `${bytes.length} bytes`);
+});
+
+test("a link shows the same robot from the same place", async () => {
+  await press("Pause");
+  await phaseIs(page, "paused");
+  await page.keyboard.press("f");
+  await settled(page);
+  await page.keyboard.press("l");
+  await page.getByText("The link is copied.").waitFor();
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  assert.equal(link, page.url());
+  const other = await openBrowser({ width: 1100, height: 700 });
+  try {
+    const there = await openPage(other, link);
+    await waitUntilDrawn(there.page);
+    await settled(there.page);
+    const seen = (of) =>
+      of.evaluate(() => ({ view: window.gsv.view, at: window.gsv.robotScreenPosition("pebble") }));
+    const [here, again] = [await seen(page), await seen(there.page)];
+    here.view.forEach((value, i) =>
+      assert.ok(Math.abs(value - again.view[i]) < 0.01, `${here.view}; ${again.view}`),
+    );
+    assert.ok(Math.hypot(here.at.x - again.at.x, here.at.y - again.at.y) < 3);
+    assert.equal(await there.page.getByRole("heading", { name: "pebble" }).isVisible(), true);
+    assert.deepEqual(there.faults, []);
+  } finally {
+    await other.close();
+  }
+});
+
+test("the sheet of keys knows them all", async () => {
+  await page.keyboard.press("?");
+  const sheet = page.getByRole("dialog");
+  for (const text of ["Chase it", "Trails", "Film the view", "Plots against"]) {
+    await sheet.getByText(text).first().waitFor();
+  }
+  await keepPicture(page, "keys");
+  await page.keyboard.press("Escape");
+});
+
+test("all this needed no other host and raised no error", () => assert.deepEqual(faults, []));

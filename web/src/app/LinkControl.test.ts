@@ -1,0 +1,79 @@
+// @vitest-environment jsdom
+import { beforeEach, expect, test, vi } from "vitest";
+import { robotStatus, simulationStatus, testApp } from "../panels/testApp";
+import { body, scene } from "../scene/testScene";
+import type { Viewpoint } from "../scene/World3D";
+import type { State } from "../state/State";
+import { LinkControl } from "./LinkControl";
+
+const REPLAY = { start: 0, end: 20, speed: 1, loop: false };
+const SCENE = scene({ bodies: [body("a"), body("b")] });
+const THERE: Viewpoint = [1, 2, 3, 0, 0, 0];
+
+beforeEach(() => void (location.hash = ""));
+
+function page(state: Partial<State> = {}) {
+  const { app, store } = testApp({
+    scene: SCENE,
+    status: simulationStatus("paused", { robots: [robotStatus("a")] }),
+    ...state,
+  });
+  const place = { viewpoint: [9, 9, 9, 0, 0, 0] as Viewpoint };
+  const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
+  const act = vi.spyOn(app, "act").mockResolvedValue();
+  return { app, store, place, seek, act, control: new LinkControl(app, place) };
+}
+
+test("a link shows the same instant from the same place with the same robot", async () => {
+  const from = page({ replay: REPLAY, time: 12.5, selection: "b", viewMode: "chase" });
+  from.place.viewpoint = THERE;
+  const link = from.control.linkTo("http://127.0.0.1:8080/");
+  expect(link).toBe(
+    "http://127.0.0.1:8080/#t=12.5&view=1,2,3,0,0,0&select=b&mode=chase&show=beams,contacts,labels,grid",
+  );
+  location.hash = new URL(link).hash;
+  const to = page({ replay: REPLAY });
+  to.control.start(window);
+  expect(to.store.get()).toMatchObject({ selection: "b", viewMode: "chase" });
+  expect(to.place.viewpoint).toEqual(THERE);
+  await vi.waitFor(() => expect(to.seek).toHaveBeenCalledWith(12.5));
+  expect(to.act).not.toHaveBeenCalled();
+});
+
+test("what plays is stopped at the instant that was asked for", async () => {
+  location.hash = "#t=3";
+  const { control, act, seek } = page({ replay: REPLAY, status: simulationStatus("running") });
+  control.start(window);
+  await vi.waitFor(() => expect(seek).toHaveBeenCalledWith(3));
+  expect(act).toHaveBeenCalledWith("pause");
+});
+
+test("a link waits for the scene, and is shown once", () => {
+  location.hash = "#view=1,2,3,0,0,0&select=a";
+  const { control, store, place } = page({ scene: null, status: null });
+  control.start(window);
+  expect(store.get().selection).toBeNull();
+  store.set({ scene: SCENE, status: simulationStatus("running") });
+  expect(store.get().selection).toBe("a");
+  expect(place.viewpoint).toEqual(THERE);
+  place.viewpoint = [5, 5, 5, 0, 0, 0];
+  store.set({ scene: null });
+  store.set({ scene: SCENE });
+  expect(place.viewpoint).toEqual([5, 5, 5, 0, 0, 0]);
+});
+
+test("a link to a robot that is gone, or to an instant of what runs, shows what is there", () => {
+  location.hash = "#t=3&select=ghost&mode=eye";
+  const { control, store, seek } = page();
+  control.start(window);
+  expect(store.get()).toMatchObject({ selection: null, viewMode: "orbit" });
+  expect(seek).not.toHaveBeenCalled();
+});
+
+test("of several simulations the link names its own", () => {
+  const simulations = ["house", "yard"].map((name) => ({ name, phase: "running", robots: 0 }) as const);
+  const { control } = page({ simulations, simulation: "house" });
+  expect(new URL(control.linkTo("http://127.0.0.1:8080/?quality=high#old")).search).toBe(
+    "?quality=high&simulation=house",
+  );
+});

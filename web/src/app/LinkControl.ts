@@ -1,0 +1,64 @@
+// Links to what is seen: makes them, and shows what the page's address asks for.
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+import type { LinkedView } from "../state/link";
+import { hashOf, linkedView } from "../state/link";
+import type { Viewpoint } from "../scene/World3D";
+import type { App } from "./App";
+
+export interface Place {
+  viewpoint: Viewpoint;
+}
+
+export class LinkControl {
+  private wanted: LinkedView | null = null;
+
+  constructor(
+    private readonly app: App,
+    private readonly place: Place | null, // null where there is no 3D view
+  ) {}
+
+  // Shows what the address asks for, now or as soon as it is there, and whenever it changes.
+  start(window: Window): void {
+    const read = () => {
+      this.wanted = linkedView(window.location.hash);
+      this.show(this.app.store);
+    };
+    window.addEventListener("hashchange", read);
+    this.app.store.watch(
+      ({ scene, status }) => scene !== null && status !== null,
+      () => this.show(this.app.store),
+    );
+    read();
+  }
+
+  // The address that shows this; `page` is the page's own.
+  linkTo(page: string): string {
+    const { simulations, simulation, replay, time, selection, viewMode, shown } = this.app.store.get();
+    const url = new URL(page);
+    if (simulation !== null && (simulations?.length ?? 0) > 1) url.searchParams.set("simulation", simulation);
+    const viewpoint = this.place?.viewpoint ?? null;
+    url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown });
+    return url.href;
+  }
+
+  private show(store: Store<State>): void {
+    const { scene, status } = store.get();
+    if (!this.wanted || !scene || !status) return;
+    const { time, viewpoint, selection, viewMode, shown } = this.wanted;
+    this.wanted = null;
+    if (shown) store.set({ shown });
+    if (selection !== null && scene.bodies.some(({ name }) => name === selection)) this.app.select(selection);
+    if (viewMode && store.get().selection !== null) store.set({ viewMode });
+    if (viewpoint && this.place) this.place.viewpoint = viewpoint;
+    if (time !== null) void this.goTo(time);
+  }
+
+  // An instant is looked at standing still.
+  private async goTo(time: number): Promise<void> {
+    const { replay, status } = this.app.store.get();
+    if (!replay) return;
+    if (status?.phase === "running") await this.app.act("pause");
+    await this.app.replay.seek(time);
+  }
+}

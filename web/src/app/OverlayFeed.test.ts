@@ -1,0 +1,77 @@
+import { expect, test, vi } from "vitest";
+import type { SceneSensor } from "../api/scene";
+import { body, scene } from "../scene/testScene";
+import type { State } from "../state/State";
+import { initialState } from "../state/State";
+import { Store } from "../state/Store";
+import { OverlayFeed, topicsToDraw } from "./OverlayFeed";
+import type { Session } from "./Session";
+
+function sensor(robot: string, name: string, type: string, overlay: SceneSensor["overlay"]): SceneSensor {
+  return { name, type, overlay, link: "base", topic: `/${robot}/${name}`, view: null };
+}
+
+function robot(name: string) {
+  return body(name, {
+    sensors: [
+      sensor(name, "scan", "lidar", "points"),
+      sensor(name, "bumper", "contact", "lines"),
+      sensor(name, "sonar", "sonar", "lines"),
+    ],
+  });
+}
+
+const SCENE = scene({ bodies: [robot("a"), robot("b")] });
+
+function showing(names: (keyof State["shown"])[], more: Partial<State> = {}): State {
+  const shown = { ...initialState.shown };
+  for (const name of Object.keys(shown) as (keyof State["shown"])[]) shown[name] = names.includes(name);
+  return { ...initialState, simulation: "house", scene: SCENE, shown, ...more };
+}
+
+test("only what is shown is asked for", () => {
+  expect(topicsToDraw(showing(["beams", "labels"]))).toEqual([]);
+  expect(topicsToDraw(showing(["points"]))).toEqual(["/tf_static", "/a/scan", "/b/scan"]);
+  expect(topicsToDraw(showing(["contacts"]))).toEqual(["/tf_static", "/a/bumper", "/b/bumper"]);
+  expect(topicsToDraw(showing(["frames"]))).toEqual(["/tf_static"]);
+  expect(topicsToDraw(showing([], { viewMode: "eye" }))).toEqual(["/tf_static"]);
+  expect(topicsToDraw({ ...showing(["points", "frames"]), scene: null })).toEqual([]);
+});
+
+test("of a crowd's sensors only so many are heard, the selected robot's first", () => {
+  const crowd = scene({ bodies: Array.from({ length: 100 }, (_, i) => robot(`r${i}`)) });
+  const topics = topicsToDraw(showing(["points"], { scene: crowd, selection: "r70" }));
+  expect(topics).toHaveLength(17);
+  expect(topics[1]).toBe("/r70/scan");
+});
+
+test("what is no longer shown is no longer heard, and forgotten", () => {
+  const store = new Store<State>(showing([]));
+  const heard = new Map<string, (message: unknown) => void>();
+  const session = {
+    subscribe: (topic: string, handler: (message: unknown) => void) => {
+      heard.set(topic, handler);
+      return () => heard.delete(topic);
+    },
+  };
+  const view = { setSensorFrames: vi.fn(), setReading: vi.fn(), keepReadings: vi.fn() };
+  new OverlayFeed(store, session as unknown as Session, view).start();
+  expect(heard.size).toBe(0);
+  store.set(showing(["points", "contacts"]));
+  expect([...heard.keys()].sort()).toEqual(["/a/bumper", "/a/scan", "/b/bumper", "/b/scan", "/tf_static"]);
+  heard.get("/a/scan")!({ ranges: [] });
+  expect(view.setReading).toHaveBeenCalledWith("/a/scan", { ranges: [] });
+  store.set(showing(["contacts"]));
+  expect([...heard.keys()].sort()).toEqual(["/a/bumper", "/b/bumper", "/tf_static"]);
+  expect(view.keepReadings).toHaveBeenLastCalledWith(new Set(["/tf_static", "/a/bumper", "/b/bumper"]));
+});
+
+test("another simulation's topics are heard anew, even where they are called the same", () => {
+  const store = new Store<State>(showing(["points"]));
+  const subscribe = vi.fn((_topic: string, _handler: unknown) => () => {});
+  const view = { setSensorFrames: vi.fn(), setReading: vi.fn(), keepReadings: vi.fn() };
+  new OverlayFeed(store, { subscribe } as unknown as Session, view).start();
+  subscribe.mockClear();
+  store.set({ simulation: "yard" });
+  expect(subscribe.mock.calls.map(([topic]) => topic)).toEqual(["/tf_static", "/a/scan", "/b/scan"]);
+});

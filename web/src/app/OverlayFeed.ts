@@ -1,0 +1,77 @@
+// Subscribes what the overlays draw, and no more than is shown: where sensors are mounted, and the
+// readings of lidars, depth cameras and bumpers.
+import { robotsOf } from "../api/scene";
+import type { SceneDescription, SceneSensor } from "../api/scene";
+import type { TransformsMessage } from "../protocol/messages";
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+import { shallowEqual } from "../state/Store";
+import type { Session } from "./Session";
+
+const MOST_READINGS = 16; // sensors at once
+const FRAMES_TOPIC = "/tf_static";
+const BUMPERS = ["contact", "bumper"];
+
+// The part of the 3D view that it feeds.
+export interface OverlayView {
+  setSensorFrames(message: TransformsMessage): void;
+  setReading(topic: string, message: unknown): void;
+  keepReadings(topics: ReadonlySet<string>): void;
+}
+
+// The topics that the overlays need at present.
+export function topicsToDraw({ scene, shown, selection, viewMode }: State): string[] {
+  const wants = (sensor: SceneSensor) =>
+    (shown.points && sensor.overlay === "points") || (shown.contacts && BUMPERS.includes(sensor.type));
+  const readings = sensorsOf(scene, selection).filter(wants).slice(0, MOST_READINGS);
+  const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
+  return [...(needsFrames && scene ? [FRAMES_TOPIC] : []), ...readings.map(({ topic }) => topic)];
+}
+
+// Those of the selected robot first.
+function sensorsOf(scene: SceneDescription | null, selection: string | null): SceneSensor[] {
+  const robots = robotsOf(scene);
+  const first = robots.filter(({ name }) => name === selection);
+  return [...first, ...robots.filter(({ name }) => name !== selection)].flatMap(({ sensors }) => sensors);
+}
+
+export class OverlayFeed {
+  private readonly ends = new Map<string, () => void>(); // by topic
+  private simulation: string | null = null;
+
+  constructor(
+    private readonly store: Store<State>,
+    private readonly session: Session,
+    private readonly view: OverlayView,
+  ) {}
+
+  start(): void {
+    this.store.watch(
+      (state) => [state.simulation, ...topicsToDraw(state)],
+      ([simulation, ...topics]) => this.listen(simulation ?? null, topics as string[]),
+      shallowEqual,
+    );
+  }
+
+  private listen(simulation: string | null, topics: string[]): void {
+    // Another simulation has other streams, even under the same topic's name.
+    const kept = new Set(simulation === this.simulation ? topics : []);
+    this.simulation = simulation;
+    for (const [topic, end] of [...this.ends]) {
+      if (kept.has(topic)) continue;
+      end();
+      this.ends.delete(topic);
+    }
+    this.view.keepReadings(kept);
+    for (const topic of topics) if (!this.ends.has(topic)) this.ends.set(topic, this.subscribe(topic));
+  }
+
+  private subscribe(topic: string): () => void {
+    if (topic === FRAMES_TOPIC) {
+      return this.session.subscribe<TransformsMessage>(topic, (message) =>
+        this.view.setSensorFrames(message),
+      );
+    }
+    return this.session.subscribe<unknown>(topic, (message) => this.view.setReading(topic, message));
+  }
+}

@@ -1,0 +1,162 @@
+// Collects the values of the plots' curves as they arrive, each by its simulated instant. Sensors
+// are subscribed only while one of their values is plotted.
+import { robotsOf } from "../api/scene";
+import { anglesOf, stampOf, valuesOf } from "../live/values";
+import { Series } from "../live/Series";
+import type { PosesMessage } from "../protocol/messages";
+import { seconds } from "../protocol/messages";
+import type { Curve } from "../state/plots";
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+import { shallowEqual } from "../state/Store";
+import { shortWay } from "./SelectedPose";
+import type { Session } from "./Session";
+
+const LONGEST_GAP_S = 1; // between two poses of which a speed is made
+
+interface PlacedAt {
+  time: number;
+  x: number;
+  y: number;
+  z: number;
+  yaw: number;
+}
+
+export class PlotFeed {
+  private readonly series = new Map<string, Series>(); // by curve
+  private readonly ends = new Map<string, () => void>(); // by topic
+  private readonly last = new Map<string, PlacedAt>(); // by robot
+  private simulation: string | null = null;
+  private newest = -Infinity; // s, simulated
+
+  // `onData`: there is something new to draw.
+  constructor(
+    private readonly store: Store<State>,
+    private readonly session: Session,
+    private readonly onData: () => void,
+  ) {}
+
+  start(): void {
+    this.store.watch(
+      ({ simulation, plots, scene }) => ({ simulation, curves: plots.curves, hasScene: scene !== null }),
+      () => this.listen(),
+      shallowEqual,
+    );
+    this.store.watch(
+      ({ status }) => status,
+      () => this.takeStatus(),
+    );
+  }
+
+  seriesOf(id: string): Series | null {
+    return this.series.get(id) ?? null;
+  }
+
+  takePoses({ stamp, layout_version, poses }: PosesMessage): void {
+    const { scene, plots } = this.store.get();
+    if (!scene || scene.layoutVersion !== layout_version) return;
+    const time = seconds(stamp);
+    this.goOn(time);
+    for (const robot of new Set(
+      plots.curves.flatMap(({ source: s }) => (s.kind === "robot" ? [s.robot] : [])),
+    )) {
+      const entry = scene.poses.findIndex(
+        ({ body, link }) => link === null && scene.bodies[body]!.name === robot,
+      );
+      if (entry >= 0 && poses.length >= 7 * entry + 7) this.takePose(robot, time, poses, 7 * entry);
+    }
+  }
+
+  private takePose(robot: string, time: number, poses: Float64Array, at: number): void {
+    const [x, y, z, qx, qy, qz, qw] = poses.subarray(at, at + 7) as unknown as number[] & { length: 7 };
+    const { roll, pitch, yaw } = anglesOf({ x: qx!, y: qy!, z: qz!, w: qw! });
+    const now: PlacedAt = { time, x: x!, y: y!, z: z!, yaw };
+    const before = this.last.get(robot);
+    if (before?.time !== time) this.last.set(robot, now);
+    const values: Record<string, number> = { x: now.x, y: now.y, z: now.z, roll, pitch, yaw };
+    const elapsed = before ? time - before.time : 0;
+    if (before && elapsed > 0 && elapsed < LONGEST_GAP_S) {
+      values.speed = Math.hypot(now.x - before.x, now.y - before.y, now.z - before.z) / elapsed;
+      values.turn_rate = shortWay(yaw - before.yaw) / elapsed;
+    }
+    this.add(({ source }) => source.kind === "robot" && source.robot === robot, time, values);
+  }
+
+  private takeStatus(): void {
+    const { status } = this.store.get();
+    if (!status) return;
+    this.goOn(status.time);
+    const simulation = { real_time_factor: status.realTimeFactor, late_steps: status.lateSteps };
+    this.add(({ source }) => source.kind === "simulation", status.time, simulation);
+    for (const { name, distance, collisions } of status.robots) {
+      this.add(({ source }) => source.kind === "robot" && source.robot === name, status.time, {
+        distance,
+        collisions,
+      });
+    }
+  }
+
+  private takeReading(topic: string, message: unknown): void {
+    const time = stampOf(message) ?? this.store.get().time;
+    this.goOn(time);
+    const values = Object.fromEntries(valuesOf(message).map(({ key, value }) => [key, value]));
+    this.add(({ source }) => source.kind === "sensor" && source.topic === topic, time, values);
+  }
+
+  private add(isMeant: (curve: Curve) => boolean, time: number, values: Record<string, number>): void {
+    let isNews = false;
+    for (const curve of this.store.get().plots.curves) {
+      const value = isMeant(curve) ? values[curve.key] : undefined;
+      if (value === undefined) continue;
+      this.series.get(curve.id)?.push(time, value);
+      isNews = true;
+    }
+    if (isNews) this.onData();
+  }
+
+  // What runs never goes back, unless it was reset; a recording does, and its values stay true.
+  private goOn(time: number): void {
+    const wasReset = time < this.newest - LONGEST_GAP_S && this.store.get().replay === null;
+    if (wasReset) {
+      for (const series of this.series.values()) series.clear();
+      this.last.clear();
+      this.newest = time;
+    }
+    this.newest = Math.max(this.newest, time);
+  }
+
+  private listen(): void {
+    const { simulation, plots, scene } = this.store.get();
+    const isOther = simulation !== this.simulation;
+    this.simulation = simulation;
+    if (isOther) this.forget();
+    const ids = new Set(plots.curves.map(({ id }) => id));
+    for (const id of [...this.series.keys()]) if (!ids.has(id)) this.series.delete(id);
+    for (const id of ids) if (!this.series.has(id)) this.series.set(id, new Series());
+    const topics = new Set(plots.curves.flatMap(({ source: s }) => (s.kind === "sensor" ? [s.topic] : [])));
+    const present = scene ? robotsOf(scene).flatMap(({ sensors }) => sensors.map(({ topic }) => topic)) : [];
+    const wanted = present.filter((topic) => topics.has(topic));
+    for (const [topic, end] of [...this.ends]) {
+      if (wanted.includes(topic)) continue;
+      end();
+      this.ends.delete(topic);
+    }
+    for (const topic of wanted) {
+      if (this.ends.has(topic)) continue;
+      this.ends.set(
+        topic,
+        this.session.subscribe<unknown>(topic, (message) => this.takeReading(topic, message)),
+      );
+    }
+    this.takeStatus();
+    this.onData();
+  }
+
+  private forget(): void {
+    for (const end of this.ends.values()) end();
+    this.ends.clear();
+    this.series.clear();
+    this.last.clear();
+    this.newest = -Infinity;
+  }
+}

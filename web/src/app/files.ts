@@ -1,0 +1,16 @@
+// Files that the page makes for the person in front of it.
+
+export function download(name: string, content: Blob): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(content);
+  link.download = name;
+  link.click();
+  // The browser reads it after the click.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+// "office at 12.3 s.png": letters that every file system takes.
+export function fileName(simulation: string | null, time: number, kind: string, ending: string): string {
+  const name = (simulation ?? "gsv").replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
+  return `${name} ${kind} ${time.toFixed(2)}s.${ending}`;
+}

@@ -1,0 +1,220 @@
+// The panel of plots: values against simulated time, several curves, as a table for other programs.
+import { download, fileName } from "../app/files";
+import type { App } from "../app/App";
+import { csvOf } from "../live/csv";
+import type { DrawnCurve, PlotView } from "../plot/strips";
+import { drawPlot, timeAt, timeRange } from "../plot/strips";
+import type { Curve } from "../state/plots";
+import { MOST_CURVES, ROBOT_VALUES, SIMULATION_VALUES, SPANS, curveName } from "../state/plots";
+import { shallowEqual } from "../state/Store";
+import { element, setText } from "../ui/element";
+import { formatTime, formatValue } from "../ui/format";
+import type { IconName } from "../ui/icons";
+import { icon } from "../ui/icons";
+
+const DRAWING_MS = 100; // between two pictures: as fast as curves can be read
+
+export function createPlotPanel(app: App): HTMLElement {
+  const canvas = element("canvas", { class: "plot-canvas", role: "img", "aria-label": "Plot" });
+  const legend = element("ul", { class: "plot-legend", "aria-label": "Curves" });
+  const empty = element(
+    "p",
+    { class: "plot-empty" },
+    "Nothing is plotted yet. Choose a value above, or press the curve beside one in the inspector.",
+  );
+  const panel = element(
+    "section",
+    { class: "plots", "aria-label": "Plots" },
+    head(app),
+    element("div", { class: "plot-body" }, legend, element("div", { class: "plot-place" }, canvas, empty)),
+  );
+  const drawing = new Drawing(app, canvas, legend);
+
+  app.store.watch(
+    ({ plots }) => plots.open,
+    (open) => {
+      panel.hidden = !open;
+      drawing.request();
+    },
+  );
+  app.store.watch(
+    ({ plots }) => plots.curves,
+    (curves) => {
+      empty.hidden = curves.length > 0;
+      drawing.showLegend(curves);
+    },
+  );
+  app.store.watch(
+    ({ time, plots }) => ({ time, span: plots.span }),
+    () => drawing.request(),
+    shallowEqual,
+  );
+  app.onPlotData = () => drawing.request();
+  if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => drawing.request()).observe(canvas);
+  return panel;
+}
+
+function head(app: App): HTMLElement {
+  return element(
+    "div",
+    { class: "plot-head" },
+    element("h2", {}, "Plots"),
+    addChoice(app),
+    spanChoice(app),
+    element("span", { class: "spacer" }),
+    headButton("save", "Save as CSV", () => saveTable(app)),
+    headButton("close", "Close plots", () => app.openPlots(false)),
+  );
+}
+
+function headButton(picture: IconName, label: string, onclick: () => void): HTMLElement {
+  return element(
+    "button",
+    { class: "button plain small", type: "button", "aria-label": label, title: label, onclick },
+    icon(picture),
+  );
+}
+
+// The values of the simulation and of the selected robot; those of sensors are in the inspector.
+function addChoice(app: App): HTMLElement {
+  const choice = element("select", { "aria-label": "Add a curve" });
+  const fill = ({ selection, isFull }: { selection: string | null; isFull: boolean }) => {
+    choice.replaceChildren(new Option(isFull ? `At most ${MOST_CURVES} curves` : "Add a curve…", ""));
+    const group = (label: string, kind: string, values: readonly { key: string; label: string }[]) => {
+      const options = element("optgroup", { label });
+      options.append(...values.map(({ key, label: name }) => new Option(name, `${kind} ${key}`)));
+      choice.append(options);
+    };
+    if (selection !== null) group(selection, "robot", ROBOT_VALUES);
+    group("Simulation", "simulation", SIMULATION_VALUES);
+    choice.disabled = isFull;
+  };
+  choice.addEventListener("change", () => {
+    const [kind, key] = choice.value.split(" ");
+    choice.value = "";
+    const { selection } = app.store.get();
+    if (kind === "simulation") app.plot({ kind: "simulation" }, key!);
+    else if (kind === "robot" && selection !== null) app.plot({ kind: "robot", robot: selection }, key!);
+  });
+  app.store.watch(
+    ({ selection, plots }) => ({ selection, isFull: plots.curves.length >= MOST_CURVES }),
+    fill,
+    shallowEqual,
+  );
+  return choice;
+}
+
+function spanChoice(app: App): HTMLElement {
+  const choice = element("select", { "aria-label": "Time shown" });
+  choice.append(
+    ...SPANS.map((span) => new Option(span === null ? "All" : `Last ${spanLabel(span)}`, String(span))),
+  );
+  choice.addEventListener("change", () => {
+    const span = choice.value === "null" ? null : Number(choice.value);
+    app.store.set(({ plots }) => ({ plots: { ...plots, span } }));
+  });
+  app.store.watch(
+    ({ plots }) => plots.span,
+    (span) => (choice.value = String(span)),
+  );
+  return choice;
+}
+
+function spanLabel(seconds: number): string {
+  return seconds < 120 ? `${seconds} s` : `${seconds / 60} min`;
+}
+
+function saveTable(app: App): void {
+  const { plots, simulation, time } = app.store.get();
+  const columns = plots.curves.flatMap((curve) => {
+    const series = app.plots.seriesOf(curve.id);
+    return series ? [{ name: curveName(curve), unit: curve.unit, series }] : [];
+  });
+  download(fileName(simulation, time, "plot", "csv"), new Blob([csvOf(columns)], { type: "text/csv" }));
+}
+
+class Drawing {
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private pointed: number | null = null; // CSS pixels from the canvas' left
+  private readonly values = new Map<string, HTMLElement>();
+  private readonly instant = element("span", { class: "plot-instant number" });
+
+  constructor(
+    private readonly app: App,
+    private readonly canvas: HTMLCanvasElement,
+    private readonly legend: HTMLElement,
+  ) {
+    canvas.addEventListener("pointermove", (event) => this.point(event.offsetX));
+    canvas.addEventListener("pointerleave", () => this.point(null));
+  }
+
+  request(): void {
+    if (!this.app.store.get().plots.open) return;
+    this.timer ??= setTimeout(() => {
+      this.timer = undefined;
+      this.draw();
+    }, DRAWING_MS);
+  }
+
+  showLegend(curves: Curve[]): void {
+    this.values.clear();
+    const items = curves.map((curve) => {
+      const value = element("span", { class: "number" });
+      this.values.set(curve.id, value);
+      const swatch = element("span", { class: "swatch" });
+      swatch.style.background = curve.colour;
+      const label = `Remove ${curveName(curve)}`;
+      const remove = headButton("close", label, () => this.app.unplot(curve.id));
+      const name = element("span", { class: "plot-name", title: curveName(curve) }, curveName(curve));
+      return element("li", {}, swatch, name, value, remove);
+    });
+    this.legend.replaceChildren(...(curves.length > 0 ? [element("li", {}, this.instant)] : []), ...items);
+    this.request();
+  }
+
+  private point(x: number | null): void {
+    this.pointed = x;
+    this.request();
+  }
+
+  private draw(): void {
+    const { plots, time, replay } = this.app.store.get();
+    const context = this.canvas.getContext("2d");
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    const curves = plots.curves.flatMap((curve): (DrawnCurve & Curve)[] => {
+      const series = this.app.plots.seriesOf(curve.id);
+      return series ? [{ ...curve, series }] : [];
+    });
+    const span = timeRange(curves, plots.span, time);
+    const view = { width, height, time: span };
+    const pointed = this.pointed === null ? null : timeAt(this.pointed, view);
+    this.showValues(curves, pointed ?? time);
+    if (!context || width === 0) return;
+    this.fit(context, width, height);
+    // A recording goes on to both sides of the present instant.
+    const cursor = pointed ?? (replay && plots.span === null ? time : null);
+    drawPlot(context, curves, { ...view, cursor } satisfies PlotView, lookOf(this.canvas));
+  }
+
+  private fit(context: CanvasRenderingContext2D, width: number, height: number): void {
+    const [w, h] = [Math.round(width * devicePixelRatio), Math.round(height * devicePixelRatio)];
+    if (this.canvas.width !== w || this.canvas.height !== h) [this.canvas.width, this.canvas.height] = [w, h];
+    context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+  }
+
+  private showValues(curves: (DrawnCurve & Curve)[], time: number): void {
+    setText(this.instant, `at ${formatTime(time)}`);
+    for (const { id, unit, series } of curves) {
+      const value = series.newestAt(time);
+      const cell = this.values.get(id);
+      if (cell) setText(cell, value === null ? "–" : formatValue(value, unit));
+    }
+  }
+}
+
+// The page's colours, which follow light and dark.
+function lookOf(canvas: HTMLElement) {
+  const style = getComputedStyle(canvas);
+  const of = (name: string) => style.getPropertyValue(name).trim() || "grey";
+  return { ink: of("--ink"), dim: of("--ink-dim"), line: of("--line"), font: `11.5px ${style.fontFamily}` };
+}

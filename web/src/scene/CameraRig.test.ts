@@ -1,0 +1,66 @@
+// @vitest-environment jsdom
+import { Matrix4, Vector3 } from "three";
+import { beforeEach, expect, test, vi } from "vitest";
+import { CameraRig } from "./CameraRig";
+
+beforeEach(() => {
+  vi.stubGlobal("matchMedia", () => ({ matches: true })); // flights arrive at once
+});
+
+function rigAt(position: Vector3, target: Vector3): CameraRig {
+  const rig = new CameraRig(document.createElement("canvas"), () => {});
+  rig.viewpoint = { position, target };
+  return rig;
+}
+
+function expectNear(actual: Vector3, x: number, y: number, z: number): void {
+  expect(actual.distanceTo(new Vector3(x, y, z))).toBeLessThan(1e-3);
+}
+
+const HERE = { position: new Vector3(1, 2, 0.5), yaw: 0 };
+
+test("following keeps the direction of the view while the robot moves and turns", () => {
+  const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
+  rig.follow(HERE);
+  rig.update(0);
+  const offset = rig.camera.position.clone().sub(HERE.position);
+  rig.moveTo({ position: new Vector3(3, 2, 0.5), yaw: 1 });
+  rig.update(0);
+  expectNear(rig.controls.target, 3, 2, 0.5);
+  expectNear(rig.camera.position.clone().sub(rig.controls.target), offset.x, offset.y, offset.z);
+});
+
+test("a chase stays behind the robot, however it turns", () => {
+  const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
+  rig.follow(HERE, true);
+  rig.update(0);
+  expect(rig.camera.position.x).toBeLessThan(HERE.position.x - 1);
+  expect(rig.camera.position.y).toBeCloseTo(HERE.position.y, 3);
+  rig.moveTo({ position: HERE.position, yaw: Math.PI / 2 });
+  rig.update(0);
+  expect(rig.camera.position.y).toBeLessThan(HERE.position.y - 1);
+  expect(rig.camera.position.x).toBeCloseTo(HERE.position.x, 3);
+});
+
+test("from following to a chase it flies behind", () => {
+  const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
+  rig.follow(HERE);
+  rig.update(0);
+  rig.follow(HERE, true);
+  rig.update(0);
+  expect(rig.camera.position.x).toBeLessThan(HERE.position.x - 1);
+});
+
+test("out of a robot's eye one sees what lies ahead of it, and afterwards all is as before", () => {
+  const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
+  rig.lookFrom(new Matrix4().makeRotationZ(Math.PI / 2).setPosition(5, 6, 0.7));
+  rig.update(0);
+  expectNear(rig.camera.position, 5, 6, 0.7);
+  expectNear(new Vector3(0, 0, -1).applyQuaternion(rig.camera.quaternion), 0, 1, 0);
+  expect(rig.controls.enabled).toBe(false);
+  expectNear(rig.viewpoint.position, 0, -4, 12);
+  rig.lookFrom(null);
+  rig.update(0);
+  expectNear(rig.camera.position, 0, -4, 12);
+  expect(rig.controls.enabled).toBe(true);
+});

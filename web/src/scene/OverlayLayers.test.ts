@@ -1,0 +1,131 @@
+import type { InterleavedBufferAttribute, Points } from "three";
+import type { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import type { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+import { expect, test } from "vitest";
+import type { SceneSensor } from "../api/scene";
+import type { OverlayName, Shown } from "../state/overlays";
+import { FIRST_SHOWN, OVERLAY_NAMES } from "../state/overlays";
+import { BodyLayer } from "./BodyLayer";
+import { OverlayLayers } from "./OverlayLayers";
+import { body, scene } from "./testScene";
+
+function sensor(name: string, type: string, more: Partial<SceneSensor> = {}): SceneSensor {
+  return { name, type, overlay: "none", link: "arm", topic: `/a/${name}`, view: null, ...more };
+}
+
+const SENSORS = [
+  sensor("scan", "lidar", { overlay: "points" }),
+  sensor("bumper", "contact"),
+  sensor("eye", "camera", { view: { horizontalFov: Math.PI / 2, aspect: 2 } }),
+];
+const SCENE = scene({
+  bodies: [body("a", { links: ["base", "arm"], sensors: SENSORS })],
+  poses: [
+    { body: 0, link: null },
+    { body: 0, link: "arm" },
+  ],
+});
+
+// The robot at (10, 0, 0), its arm at (10, 0, 1), turned to the left.
+const QUARTER = Math.SQRT1_2;
+const POSES = new Float64Array([10, 0, 0, 0, 0, 0, 1, 10, 0, 1, 0, 0, QUARTER, QUARTER]);
+
+function frame(parent: string, child: string) {
+  const translation = { x: 1, y: 0, z: 0 };
+  const stamp = { sec: 0, nsec: 0 };
+  return {
+    header: { stamp, frame_id: parent },
+    child_frame_id: child,
+    transform: { translation, rotation: { x: 0, y: 0, z: 0, w: 1 } },
+  };
+}
+
+function only(...names: OverlayName[]): Shown {
+  const shown = { ...FIRST_SHOWN };
+  for (const name of OVERLAY_NAMES) shown[name] = names.includes(name);
+  return shown;
+}
+
+function layers(shown: Shown) {
+  const overlays = new OverlayLayers();
+  const bodies = new BodyLayer(SCENE);
+  overlays.setScene(bodies);
+  bodies.setPoses(POSES);
+  overlays.takeFrames({ transforms: ["scan", "bumper", "eye"].map((name) => frame("a/arm", `a/${name}`)) });
+  overlays.show(shown);
+  const [, points, lines, trails] = overlays.group.children as [
+    unknown,
+    Points,
+    LineSegments2,
+    LineSegments2,
+  ];
+  const segments = (of: LineSegments2) => (of.geometry as LineSegmentsGeometry).instanceCount;
+  return { overlays, points, lines, trails, segments };
+}
+
+test("points stand where their sensor is mounted, on a link that has turned", () => {
+  const { overlays, points } = layers(only("points"));
+  const scan = {
+    angle_min: 0,
+    angle_increment: 1,
+    range_min: 0,
+    range_max: 9,
+    ranges: new Float32Array([2]),
+  };
+  overlays.takeReading("/a/scan", scan);
+  overlays.place();
+  expect(points.geometry.drawRange.count).toBe(1);
+  const place = Array.from(points.geometry.getAttribute("position").array.slice(0, 3));
+  // One metre along the arm to the sensor, two more to the point: the arm looks along y.
+  [10, 3, 1].forEach((value, i) => expect(place[i]).toBeCloseTo(value, 5));
+  overlays.keepReadings(new Set());
+  overlays.place();
+  expect(points.geometry.drawRange.count).toBe(0);
+});
+
+test("what a camera sees is a pyramid of its own angles", () => {
+  const { overlays, lines, segments } = layers(only("cameras"));
+  overlays.place();
+  expect(segments(lines)).toBe(8);
+  const ends = lines.geometry.getAttribute("instanceEnd") as InterleavedBufferAttribute;
+  // The first edge ends at the upper left corner: a metre ahead, a metre left, half a metre up.
+  [9, 2, 1.5].forEach((value, i) => expect(ends.getComponent(0, i)).toBeCloseTo(value, 5));
+});
+
+test("contacts are drawn while they last", () => {
+  const { overlays, lines, segments } = layers(only("contacts"));
+  const contact = { other: "wall", point: { x: 0, y: 0, z: 0 }, normal: { x: 1, y: 0, z: 0 }, depth: 0 };
+  overlays.takeReading("/a/bumper", { contacts: [contact] });
+  overlays.place();
+  expect(segments(lines)).toBe(4);
+  overlays.takeReading("/a/bumper", { contacts: [] });
+  overlays.place();
+  expect(lines.visible).toBe(false);
+});
+
+test("frames are those of the robots, and of the selected one all", () => {
+  const { overlays, lines, segments } = layers(only("frames"));
+  overlays.place();
+  expect(segments(lines)).toBe(3);
+  overlays.select("a");
+  overlays.place();
+  expect(segments(lines)).toBe(3 * (1 + 1 + SENSORS.length));
+});
+
+test("trails grow unseen, stay over a change of the layout, and go with the scene", () => {
+  const { overlays, trails, segments } = layers(only());
+  const moved = POSES.slice();
+  moved[0] = 11;
+  overlays.takePoses({ step: 1, stamp: 1, poses: POSES });
+  overlays.takePoses({ step: 2, stamp: 2, poses: moved });
+  overlays.setScene(null);
+  overlays.setScene(new BodyLayer(SCENE));
+  overlays.place();
+  expect(trails.visible).toBe(false);
+  overlays.show(only("trails"));
+  overlays.place();
+  expect(segments(trails)).toBe(1);
+  overlays.setScene(new BodyLayer({ ...SCENE, name: "other" }));
+  overlays.place();
+  expect(segments(trails)).toBe(0);
+});

@@ -1,0 +1,179 @@
+// What is drawn over the world: beams, points, contacts, camera views, trails, axes.
+import type { Matrix4 } from "three";
+import { Group } from "three";
+import type { SceneSensor } from "../api/scene";
+import { robotsOf } from "../api/scene";
+import type { TouchPoint } from "../live/clouds";
+import { contactsOf, pointsOf } from "../live/clouds";
+import type { MarkerArrayMessage, TransformsMessage } from "../protocol/messages";
+import { seconds } from "../protocol/messages";
+import type { Shown } from "../state/overlays";
+import { FIRST_SHOWN } from "../state/overlays";
+import { BeamLayer } from "./BeamLayer";
+import type { BodyLayer } from "./BodyLayer";
+import { matrixOf } from "./BodyLayer";
+import { LineLayer } from "./LineLayer";
+import { drawAxes, drawContact, drawView } from "./markings";
+import { PointLayer } from "./PointLayer";
+import type { PoseSample } from "./PoseInterpolator";
+import { SensorFrames } from "./SensorFrames";
+import { Trails } from "./Trails";
+
+const ROBOT_AXES = 0.45; // m
+const LINK_AXES = 0.2;
+const SENSOR_AXES = 0.14;
+const MOST_VIEWS = 40; // cameras
+const MOST_AXES = 400; // frames
+
+export interface MountedSensor extends SceneSensor {
+  robot: string;
+}
+
+export class OverlayLayers {
+  readonly group = new Group();
+  readonly frames = new SensorFrames();
+  private readonly beams = new BeamLayer();
+  private readonly points = new PointLayer();
+  private readonly lines = new LineLayer({ widthPx: 2, onTop: true });
+  private readonly trailLines = new LineLayer({ widthPx: 2.5 });
+  private readonly trails = new Trails();
+  private trailsOf = ""; // the scene's name
+  private readonly contacts = new Map<string, TouchPoint[]>(); // by topic, in the sensor's frame
+  private bodies: BodyLayer | null = null;
+  private sensors = new Map<string, MountedSensor>(); // by topic
+  private robots: { name: string; entry: number }[] = [];
+  private shown: Shown = FIRST_SHOWN;
+  private selection: string | null = null;
+
+  constructor() {
+    this.group.add(this.beams.lines, this.points.points, this.lines.lines, this.trailLines.lines);
+  }
+
+  setScene(bodies: BodyLayer | null): void {
+    this.bodies = bodies;
+    const robots = robotsOf(bodies?.scene ?? null);
+    const names = new Set(robots.map(({ name }) => name));
+    this.sensors = new Map(
+      robots.flatMap(({ name, sensors }) =>
+        sensors.map((sensor) => [sensor.topic, { ...sensor, robot: name }] as const),
+      ),
+    );
+    this.robots = robots.flatMap(({ name }) => {
+      const entry = bodies?.poseEntryOf(name) ?? null;
+      return entry === null ? [] : [{ name, entry }];
+    });
+    this.beams.keepOnly(new Set());
+    if (!bodies) return;
+    if (bodies.scene.name === this.trailsOf) this.trails.keepOnly(names);
+    else this.trails.clear();
+    this.trailsOf = bodies.scene.name;
+  }
+
+  show(shown: Shown): void {
+    this.shown = shown;
+  }
+
+  select(robot: string | null): void {
+    this.selection = robot;
+  }
+
+  takeFrames(message: TransformsMessage): void {
+    this.frames.take(message);
+  }
+
+  // A reading of a lidar, a depth camera or a bumper.
+  takeReading(topic: string, message: unknown): void {
+    this.points.set(topic, pointsOf(message));
+    this.contacts.set(topic, contactsOf(message));
+  }
+
+  // Forgets the readings of all other topics.
+  keepReadings(topics: ReadonlySet<string>): void {
+    this.points.keepOnly(topics);
+    for (const topic of [...this.contacts.keys()]) if (!topics.has(topic)) this.contacts.delete(topic);
+  }
+
+  // Trails grow unseen as well: who asks for them wants to know where robots have been.
+  takePoses({ stamp, poses }: PoseSample): void {
+    this.trails.push(
+      stamp,
+      this.robots.map(({ name, entry }) => {
+        const at = 7 * entry;
+        return { name, x: poses[at]!, y: poses[at + 1]!, z: poses[at + 2]! };
+      }),
+    );
+  }
+
+  // Beams hang on their robots as these stood when the beams were measured.
+  takeBeams({ markers }: MarkerArrayMessage, posesAt: (stamp: number) => Float64Array | null): void {
+    for (const marker of markers) {
+      const poses = posesAt(seconds(marker.header.stamp));
+      const entry = this.bodies?.poseEntryOf(marker.ns) ?? null;
+      if (poses && entry !== null) this.beams.setRobot(marker.ns, marker, matrixOf(poses, 7 * entry));
+    }
+  }
+
+  // Places everything with the bodies as they are shown now.
+  place(): void {
+    const { bodies, shown } = this;
+    this.beams.lines.visible = shown.beams;
+    this.points.points.visible = shown.points;
+    this.trailLines.lines.visible = shown.trails;
+    if (!bodies) return;
+    if (shown.beams) this.beams.place((robot) => bodies.poseOf(bodies.indexOf(robot)));
+    if (shown.points) this.points.place((topic) => this.worldFromSensor(topic, bodies));
+    this.drawLines(bodies);
+    if (shown.trails) {
+      this.trailLines.begin();
+      this.trails.draw(this.trailLines);
+      this.trailLines.finish();
+    }
+  }
+
+  private drawLines(bodies: BodyLayer): void {
+    const { lines, shown } = this;
+    lines.begin();
+    if (shown.contacts) this.drawContacts(bodies);
+    if (shown.cameras) this.drawViews(bodies);
+    if (shown.frames) this.drawFrames(bodies);
+    lines.finish();
+    lines.lines.visible = lines.segments > 0;
+  }
+
+  private drawContacts(bodies: BodyLayer): void {
+    for (const [topic, contacts] of this.contacts) {
+      const frame = this.worldFromSensor(topic, bodies);
+      if (frame) for (const contact of contacts) drawContact(this.lines, frame, contact);
+    }
+  }
+
+  private drawViews(bodies: BodyLayer): void {
+    const cameras = [...this.sensors.values()].filter(
+      ({ robot, type }) => type.includes("camera") && (this.selection ?? robot) === robot,
+    );
+    for (const { topic, view } of cameras.slice(0, MOST_VIEWS)) {
+      const frame = this.worldFromSensor(topic, bodies);
+      if (frame) drawView(this.lines, frame, view);
+    }
+  }
+
+  // Of the selected robot all, else the robots' own.
+  private drawFrames(bodies: BodyLayer): void {
+    const robots = this.robots.filter(({ name }) => (this.selection ?? name) === name);
+    for (const { name } of robots.slice(0, MOST_AXES)) {
+      const body = bodies.indexOf(name);
+      drawAxes(this.lines, bodies.poseOf(body)!, ROBOT_AXES);
+      if (name !== this.selection) continue;
+      for (const link of bodies.movingLinksOf(body)) drawAxes(this.lines, link, LINK_AXES);
+      for (const sensor of bodies.scene.bodies[body]!.sensors) {
+        const frame = this.frames.worldFrom(name, sensor.name, bodies);
+        if (frame) drawAxes(this.lines, frame, SENSOR_AXES);
+      }
+    }
+  }
+
+  private worldFromSensor(topic: string, bodies: BodyLayer): Matrix4 | null {
+    const sensor = this.sensors.get(topic);
+    return sensor ? this.frames.worldFrom(sensor.robot, sensor.name, bodies) : null;
+  }
+}

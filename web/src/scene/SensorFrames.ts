@@ -1,0 +1,42 @@
+// Where the sensors are mounted, as /tf_static tells it: under their robot, or under a link of it
+// that moves.
+import { Matrix4, Quaternion, Vector3 } from "three";
+import type { TransformsMessage } from "../protocol/messages";
+import type { BodyLayer } from "./BodyLayer";
+
+interface Mount {
+  parent: string; // "ROBOT" or "ROBOT/LINK"
+  parentFromSensor: Matrix4;
+}
+
+const UNIT_SCALE = new Vector3(1, 1, 1);
+
+export class SensorFrames {
+  private mounts = new Map<string, Mount>(); // by "ROBOT/SENSOR"
+
+  take({ transforms }: TransformsMessage): void {
+    this.mounts = new Map(
+      transforms.map(({ header, child_frame_id: child, transform: { translation: t, rotation: q } }) => [
+        child,
+        {
+          parent: header.frame_id,
+          parentFromSensor: new Matrix4().compose(
+            new Vector3(t.x, t.y, t.z),
+            new Quaternion(q.x, q.y, q.z, q.w),
+            UNIT_SCALE,
+          ),
+        },
+      ]),
+    );
+  }
+
+  // world_from_sensor with the bodies as they are shown now; null while it is not known.
+  worldFrom(robot: string, sensor: string, bodies: BodyLayer): Matrix4 | null {
+    const mount = this.mounts.get(`${robot}/${sensor}`);
+    const body = bodies.indexOf(robot);
+    if (!mount || body < 0) return null;
+    const link = mount.parent.slice(robot.length + 1);
+    const parent = mount.parent === robot ? bodies.poseOf(body) : bodies.linkPoseOf(body, link);
+    return parent && new Matrix4().multiplyMatrices(parent, mount.parentFromSensor);
+  }
+}

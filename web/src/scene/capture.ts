@@ -1,0 +1,27 @@
+// Pictures and video of what the view shows.
+
+const PICTURES_PER_SECOND = 30;
+
+// Of a canvas that was drawn in this very task: the browser clears it afterwards. `paint` adds to it.
+export async function pngOf(
+  canvas: HTMLCanvasElement,
+  paint: (context: CanvasRenderingContext2D) => void,
+): Promise<Blob> {
+  const copy = document.createElement("canvas");
+  copy.width = canvas.width;
+  copy.height = canvas.height;
+  const context = copy.getContext("2d");
+  if (!context) throw new Error("This browser gives no picture of the view.");
+  context.drawImage(canvas, 0, 0);
+  paint(context);
+  return new Promise((resolve, reject) => {
+    copy.toBlob((blob) => {
+      if (blob) resolve(blob);
+      else reject(new Error("This browser gives no picture of the view."));
+    }, "image/png");
+  });
+}
+
+export function videoOf(canvas: HTMLCanvasElement): MediaStream {
+  return canvas.captureStream(PICTURES_PER_SECOND);
+}

@@ -1,0 +1,53 @@
+// Figures made of lines: axes, what a camera sees, where something is touched.
+import type { Matrix4 } from "three";
+import type { CameraView } from "../api/scene";
+import type { TouchPoint } from "../live/clouds";
+import type { LineLayer } from "./LineLayer";
+import { rgb } from "./LineLayer";
+
+const RED = rgb(0xe02b2b);
+const GREEN = rgb(0x1f9d3a);
+const BLUE = rgb(0x2f6df6);
+const VIEW_COLOUR = rgb(0xf2b90f);
+const CONTACT_COLOUR = rgb(0xff1fd0);
+const VIEW_DEPTH = 1; // m
+const NORMAL_LENGTH = 0.3; // m
+const CROSS = 0.06; // m
+const ORIGIN = [0, 0, 0] as const;
+
+// x red, y green, z blue.
+export function drawAxes(lines: LineLayer, worldFromFrame: Matrix4, length: number): void {
+  lines.add(worldFromFrame, ORIGIN, [length, 0, 0], RED);
+  lines.add(worldFromFrame, ORIGIN, [0, length, 0], GREEN);
+  lines.add(worldFromFrame, ORIGIN, [0, 0, length], BLUE);
+}
+
+// The pyramid that a camera sees, one metre deep; where its angles are not known, where it looks.
+export function drawView(lines: LineLayer, worldFromCamera: Matrix4, view: CameraView | null): void {
+  if (!view) {
+    lines.add(worldFromCamera, ORIGIN, [VIEW_DEPTH, 0, 0], VIEW_COLOUR);
+    return;
+  }
+  const y = VIEW_DEPTH * Math.tan(view.horizontalFov / 2);
+  const z = y / view.aspect;
+  const corners = [
+    [VIEW_DEPTH, y, z],
+    [VIEW_DEPTH, -y, z],
+    [VIEW_DEPTH, -y, -z],
+    [VIEW_DEPTH, y, -z],
+  ];
+  corners.forEach((corner, i) => {
+    lines.add(worldFromCamera, ORIGIN, corner, VIEW_COLOUR);
+    lines.add(worldFromCamera, corner, corners[(i + 1) % 4]!, VIEW_COLOUR);
+  });
+}
+
+// A cross where it is touched, and the normal towards what touches it.
+export function drawContact(lines: LineLayer, worldFromSensor: Matrix4, { point, normal }: TouchPoint): void {
+  const [x, y, z] = point;
+  const tip = point.map((value, i) => value + NORMAL_LENGTH * normal[i]!);
+  lines.add(worldFromSensor, point, tip, CONTACT_COLOUR);
+  lines.add(worldFromSensor, [x - CROSS, y, z], [x + CROSS, y, z], CONTACT_COLOUR);
+  lines.add(worldFromSensor, [x, y - CROSS, z], [x, y + CROSS, z], CONTACT_COLOUR);
+  lines.add(worldFromSensor, [x, y, z - CROSS], [x, y, z + CROSS], CONTACT_COLOUR);
+}

@@ -1,0 +1,62 @@
+// A view as the end of an address: #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid.
+// Any part may be missing, and is then as it would be without a link.
+import type { Viewpoint } from "../scene/World3D";
+import type { OverlayName, Shown } from "./overlays";
+import { OVERLAY_NAMES } from "./overlays";
+import type { ViewMode } from "./State";
+
+export interface LinkedView {
+  time: number | null; // s, simulated: of a recording
+  viewpoint: Viewpoint | null;
+  selection: string | null;
+  viewMode: ViewMode | null;
+  shown: Shown | null;
+}
+
+const MODES: readonly ViewMode[] = ["orbit", "follow", "chase", "eye"];
+const FARTHEST = 1e6; // m
+
+export function hashOf({ time, viewpoint, selection, viewMode, shown }: LinkedView): string {
+  const parts: string[] = [];
+  if (time !== null) parts.push(`t=${short(time, 6)}`);
+  if (viewpoint) parts.push(`view=${viewpoint.map((value) => short(value, 3)).join(",")}`);
+  if (selection !== null) parts.push(`select=${encodeURIComponent(selection)}`);
+  if (viewMode !== null && viewMode !== "orbit") parts.push(`mode=${viewMode}`);
+  if (shown) parts.push(`show=${OVERLAY_NAMES.filter((name) => shown[name]).join(",")}`);
+  return `#${parts.join("&")}`;
+}
+
+// What is not a view in it is left out: a link may come from anywhere.
+export function linkedView(hash: string): LinkedView {
+  const parts = new URLSearchParams(hash.replace(/^#/, ""));
+  const time = parts.get("t");
+  const mode = MODES.find((each) => each === parts.get("mode"));
+  return {
+    time: time !== null && time !== "" && Number.isFinite(Number(time)) ? Number(time) : null,
+    viewpoint: viewpointOf(parts.get("view")),
+    selection: parts.get("select") || null,
+    viewMode: mode ?? null,
+    shown: shownOf(parts.get("show")),
+  };
+}
+
+function short(value: number, digits: number): string {
+  return String(Number(value.toFixed(digits)));
+}
+
+function viewpointOf(text: string | null): Viewpoint | null {
+  const numbers = (text ?? "").split(",").map((part) => (part === "" ? NaN : Number(part)));
+  const isView = numbers.length === 6 && numbers.every((each) => Math.abs(each) < FARTHEST);
+  if (!isView) return null;
+  const [x, y, z, tx, ty, tz] = numbers as Viewpoint;
+  return Math.hypot(x - tx, y - ty, z - tz) > 1e-3 ? [x, y, z, tx, ty, tz] : null;
+}
+
+function shownOf(text: string | null): Shown | null {
+  if (text === null) return null;
+  const names = text.split(",");
+  return Object.fromEntries(OVERLAY_NAMES.map((name) => [name, names.includes(name)])) as Record<
+    OverlayName,
+    boolean
+  >;
+}

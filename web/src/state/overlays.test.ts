@@ -1,0 +1,32 @@
+import { expect, test, vi } from "vitest";
+import { FIRST_SHOWN, OVERLAYS, OVERLAY_NAMES, keepShown, loadShown } from "./overlays";
+
+const holding = (text: string | null) => ({ getItem: () => text });
+
+test("what was kept is there again", () => {
+  const kept = new Map<string, string>();
+  keepShown({ setItem: (key, value) => void kept.set(key, value) }, { ...FIRST_SHOWN, trails: true });
+  const shown = loadShown({ getItem: (key) => kept.get(key) ?? null });
+  expect(shown).toEqual({ ...FIRST_SHOWN, trails: true });
+});
+
+test.each([null, "", "[1]", "{", '"text"', '{"beams":"no","wings":true}'])(
+  "with %j in its place it is as at first",
+  (text) => {
+    expect(loadShown(holding(text))).toEqual(FIRST_SHOWN);
+  },
+);
+
+test("without a storage, or a full one, nothing breaks", () => {
+  expect(loadShown(null)).toEqual(FIRST_SHOWN);
+  const setItem = vi.fn(() => {
+    throw new DOMException("full", "QuotaExceededError");
+  });
+  keepShown({ setItem }, FIRST_SHOWN);
+  expect(setItem).toHaveBeenCalledOnce();
+});
+
+test("each overlay has a key of its own", () => {
+  expect(OVERLAYS.map(({ name }) => name)).toEqual([...OVERLAY_NAMES]);
+  expect(new Set(OVERLAYS.map(({ key }) => key)).size).toBe(OVERLAYS.length);
+});

@@ -1,0 +1,77 @@
+// What can be drawn over the world: each can be switched by itself, by menu or key, and the browser
+// remembers the choice.
+
+export interface OverlayKind {
+  name: OverlayName;
+  label: string;
+  key: string;
+  hint: string;
+}
+
+export const OVERLAY_NAMES = [
+  "beams",
+  "points",
+  "contacts",
+  "cameras",
+  "trails",
+  "frames",
+  "labels",
+  "grid",
+] as const;
+export type OverlayName = (typeof OVERLAY_NAMES)[number];
+export type Shown = Record<OverlayName, boolean>;
+
+export const OVERLAYS: readonly OverlayKind[] = [
+  { name: "beams", label: "Beams", key: "1", hint: "What sonars and their like measure" },
+  { name: "points", label: "Points", key: "2", hint: "What lidars and depth cameras measure" },
+  { name: "contacts", label: "Contacts", key: "3", hint: "Where bumpers are touched" },
+  { name: "cameras", label: "Camera views", key: "4", hint: "What cameras see of the world" },
+  { name: "trails", label: "Trails", key: "5", hint: "Where robots have been" },
+  { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
+  { name: "labels", label: "Names", key: "7", hint: "The robots' names" },
+  { name: "grid", label: "Grid", key: "8", hint: "Metres on the floor" },
+];
+
+export const FIRST_SHOWN: Shown = {
+  beams: true,
+  points: false,
+  contacts: true,
+  cameras: false,
+  trails: false,
+  frames: false,
+  labels: true,
+  grid: true,
+};
+
+const KEY = "gsv.overlays";
+
+// What was kept last; what is missing or no flag is as at first.
+export function loadShown(storage: Pick<Storage, "getItem"> | null): Shown {
+  let kept: unknown = null;
+  try {
+    kept = JSON.parse(storage?.getItem(KEY) ?? "null");
+  } catch {
+    // Written by something else.
+  }
+  const flags = (typeof kept === "object" && kept !== null ? kept : {}) as Record<string, unknown>;
+  const shown = { ...FIRST_SHOWN };
+  for (const name of OVERLAY_NAMES) if (typeof flags[name] === "boolean") shown[name] = flags[name];
+  return shown;
+}
+
+export function keepShown(storage: Pick<Storage, "setItem"> | null, shown: Shown): void {
+  try {
+    storage?.setItem(KEY, JSON.stringify(shown));
+  } catch {
+    // A full or forbidden storage: it is forgotten, as in a private window.
+  }
+}
+
+// null where the browser forbids it.
+export function browserStorage(): Storage | null {
+  try {
+    return localStorage;
+  } catch {
+    return null;
+  }
+}

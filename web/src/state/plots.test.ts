@@ -1,0 +1,31 @@
+import { expect, test } from "vitest";
+import type { Plots, Source } from "./plots";
+import { MOST_CURVES, NO_PLOTS, curveName, withCurve, withoutCurve } from "./plots";
+
+const ROBOT: Source = { kind: "robot", robot: "a" };
+
+test("a curve is added once, and opens the panel", () => {
+  const once = withCurve({ plots: NO_PLOTS }, ROBOT, "x", "m");
+  const twice = withCurve({ plots: once }, ROBOT, "x", "m");
+  expect(once.open).toBe(true);
+  expect(twice.curves).toEqual(once.curves);
+  expect(withoutCurve({ plots: twice }, once.curves[0]!.id).curves).toEqual([]);
+});
+
+test("each curve has a colour of its own, and there are only so many", () => {
+  let plots: Plots = NO_PLOTS;
+  for (let i = 0; i < MOST_CURVES + 3; i++) plots = withCurve({ plots }, ROBOT, `v${i}`, "");
+  expect(plots.curves).toHaveLength(MOST_CURVES);
+  expect(new Set(plots.curves.map(({ colour }) => colour)).size).toBe(MOST_CURVES);
+  const freed = plots.curves[3]!.colour;
+  const again = withCurve({ plots: withoutCurve({ plots }, plots.curves[3]!.id) }, ROBOT, "new", "");
+  expect(again.curves.at(-1)!.colour).toBe(freed);
+});
+
+test("a curve's name says whose value it is", () => {
+  expect(curveName({ source: ROBOT, key: "yaw" })).toBe("a heading");
+  expect(curveName({ source: { kind: "sensor", topic: "/a/sonar_03" }, key: "range" })).toBe(
+    "a sonar_03 range",
+  );
+  expect(curveName({ source: { kind: "simulation" }, key: "real_time_factor" })).toBe("real-time factor");
+});

@@ -1,0 +1,69 @@
+// Which values are drawn against simulated time.
+import type { State } from "./State";
+
+export type Source =
+  { kind: "simulation" } | { kind: "robot"; robot: string } | { kind: "sensor"; topic: string };
+
+export interface Curve {
+  id: string;
+  source: Source;
+  key: string; // of the value in its source
+  unit: string;
+  colour: string;
+}
+
+export interface Plots {
+  open: boolean;
+  curves: Curve[];
+  span: number | null; // s, the newest so many; null: all
+}
+
+export const NO_PLOTS: Plots = { open: false, curves: [], span: 30 };
+export const SPANS: readonly (number | null)[] = [10, 30, 120, 600, null];
+export const MOST_CURVES = 8;
+
+// Told apart on white and on black.
+const COLOURS = ["#2f81e0", "#e0701a", "#2a9d4a", "#c2399b", "#d0453e", "#12938f", "#8a63d2", "#9a7d0a"];
+
+export const ROBOT_VALUES: readonly { key: string; label: string; unit: string }[] = [
+  { key: "x", label: "x", unit: "m" },
+  { key: "y", label: "y", unit: "m" },
+  { key: "z", label: "z", unit: "m" },
+  { key: "yaw", label: "heading", unit: "rad" },
+  { key: "speed", label: "speed", unit: "m/s" },
+  { key: "turn_rate", label: "turning", unit: "rad/s" },
+  { key: "distance", label: "driven", unit: "m" },
+  { key: "collisions", label: "collisions", unit: "" },
+];
+
+export const SIMULATION_VALUES: readonly { key: string; label: string; unit: string }[] = [
+  { key: "real_time_factor", label: "real-time factor", unit: "×" },
+  { key: "late_steps", label: "late steps", unit: "" },
+];
+
+export function curveId(source: Source, key: string): string {
+  const of = source.kind === "simulation" ? "" : source.kind === "robot" ? source.robot : source.topic;
+  return `${source.kind} ${of} ${key}`;
+}
+
+// "b21r speed", "b21r sonar_03 range", "real-time factor".
+export function curveName({ source, key }: Pick<Curve, "source" | "key">): string {
+  if (source.kind === "sensor") return `${source.topic.replace(/^\//, "").replaceAll("/", " ")} ${key}`;
+  const values = source.kind === "robot" ? ROBOT_VALUES : SIMULATION_VALUES;
+  const label = values.find((value) => value.key === key)?.label ?? key;
+  return source.kind === "robot" ? `${source.robot} ${label}` : label;
+}
+
+// With the curve, unless it is there or there are too many; the panel opens.
+export function withCurve({ plots }: Pick<State, "plots">, source: Source, key: string, unit: string): Plots {
+  const id = curveId(source, key);
+  const isThere = plots.curves.some((curve) => curve.id === id);
+  if (isThere || plots.curves.length >= MOST_CURVES) return { ...plots, open: true };
+  const used = plots.curves.map(({ colour }) => colour);
+  const colour = COLOURS.find((each) => !used.includes(each)) ?? COLOURS[0]!;
+  return { ...plots, open: true, curves: [...plots.curves, { id, source, key, unit, colour }] };
+}
+
+export function withoutCurve({ plots }: Pick<State, "plots">, id: string): Plots {
+  return { ...plots, curves: plots.curves.filter((curve) => curve.id !== id) };
+}

@@ -1,0 +1,62 @@
+// A button that opens a small sheet of choices. A press elsewhere or Esc closes it.
+import { element } from "./element";
+import type { IconName } from "./icons";
+import { icon } from "./icons";
+
+export interface Menu {
+  element: HTMLElement;
+  button: HTMLButtonElement;
+  sheet: HTMLElement;
+}
+
+export function createMenu(label: string, picture: IconName, ...items: HTMLElement[]): Menu {
+  const button = element(
+    "button",
+    { class: "button plain", type: "button", "aria-label": label, title: label, "aria-expanded": "false" },
+    icon(picture),
+  );
+  const sheet = element("div", { class: "card menu-sheet", role: "group", "aria-label": label }, ...items);
+  sheet.hidden = true;
+  const place = element("div", { class: "menu" }, button, sheet);
+
+  const open = (value: boolean) => {
+    sheet.hidden = !value;
+    button.setAttribute("aria-expanded", String(value));
+    if (value) addEventListener("pointerdown", closeOutside, true);
+    else removeEventListener("pointerdown", closeOutside, true);
+  };
+  const closeOutside = (event: Event) => {
+    if (!(event.target instanceof Node && place.contains(event.target))) open(false);
+  };
+  button.addEventListener("click", () => open(sheet.hidden));
+  place.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || sheet.hidden) return;
+    event.stopPropagation();
+    open(false);
+    button.focus();
+  });
+  return { element: place, button, sheet };
+}
+
+export function menuItem(
+  label: string,
+  key: string,
+  hint: string,
+  onclick: () => void,
+  picture: IconName | null = null,
+): HTMLButtonElement {
+  return element(
+    "button",
+    {
+      class: "menu-item",
+      type: "button",
+      "aria-label": label,
+      "aria-keyshortcuts": key,
+      title: hint,
+      onclick,
+    },
+    picture ? icon(picture) : element("span", { class: "check", "aria-hidden": "true" }),
+    element("span", {}, label),
+    element("kbd", {}, key),
+  );
+}
