@@ -107,7 +107,7 @@ test("the browser remembers what is shown", async () => {
   const pressed = await page
     .locator(".menu-item[aria-keyshortcuts]")
     .evaluateAll((items) =>
-      items.filter((item) => item.ariaPressed === "true").map((item) => item.ariaLabel),
+      items.filter((item) => item.ariaPressed === "true").map((item) => item.children[1].textContent),
     );
   assert.deepEqual(pressed, ["Beams", "Points", "Contacts", "Trails", "Names", "Grid"]);
 });

@@ -113,9 +113,9 @@ export class BrokerPage {
     try {
       const links = await this.api.links();
       this.links.replaceChildren(...links.map(linkRow));
-      if (links.length === 0) this.links.replaceChildren(hint("None."));
+      if (links.length === 0) this.links.replaceChildren(element("li", {}, hint("None.")));
     } catch (error) {
-      this.links.replaceChildren(hint((error as Error).message));
+      this.links.replaceChildren(element("li", {}, hint((error as Error).message)));
     }
   }
 

@@ -17,10 +17,8 @@ export function createShareMenu(app: App, hasView: boolean): HTMLElement {
     menuItem("Save picture", "X", "What is seen now, as PNG", () => void app.savePicture(), "camera"),
     film,
   );
-  for (const item of menu.sheet.querySelectorAll("button")) {
-    const needsView = item.getAttribute("aria-label") !== "Copy link";
-    item.disabled = needsView && !hasView;
-  }
+  // Without a picture there is still a link.
+  for (const item of [...menu.sheet.querySelectorAll("button")].slice(1)) item.disabled = !hasView;
   app.store.watch(
     ({ filming }) => filming,
     (filming) => {

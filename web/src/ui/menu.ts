@@ -50,13 +50,12 @@ export function menuItem(
     {
       class: "menu-item",
       type: "button",
-      "aria-label": label,
       "aria-keyshortcuts": key,
       title: hint,
       onclick,
     },
     picture ? icon(picture) : element("span", { class: "check", "aria-hidden": "true" }),
     element("span", {}, label),
-    element("kbd", {}, key),
+    element("kbd", { "aria-hidden": "true" }, key),
   );
 }
