@@ -1,0 +1,95 @@
+// axe-core on every page, light and dark: names, roles, contrast, and what else it knows.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, requireFromWeb, waitUntilDrawn } from "./browser.mjs";
+import { record, startReplay, startServer } from "./server.mjs";
+
+const AXE = fs.readFileSync(requireFromWeb.resolve("axe-core/axe.min.js"), "utf8");
+const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
+
+let folder;
+let live;
+let replay;
+let browser;
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-accessibility-"));
+  const file = path.join(folder, "run.mcap");
+  await record(file, [...RUN, "--lockstep", "--duration", "2"]);
+  live = await startServer(RUN);
+  await pauseAt(live.url);
+  replay = await startReplay([file, "--paused"]);
+  browser = await openBrowser({ width: 1100, height: 700 });
+});
+
+after(async () => {
+  await browser?.close();
+  await live?.stop();
+  await replay?.stop();
+  if (folder) fs.rmSync(folder, { recursive: true, force: true });
+});
+
+async function pauseAt(url) {
+  const [{ name }] = await (await fetch(`${url}api/simulations`)).json();
+  const headers = { "content-type": "application/json" };
+  const answer = await fetch(`${url}api/simulations/${name}/pause`, { method: "POST", headers, body: "{}" });
+  assert.equal(answer.status, 200);
+}
+
+// What axe-core finds wrong, a line each.
+async function faultsOf(page) {
+  await page.evaluate(AXE); // past the page's Content-Security-Policy
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  return violations.flatMap(({ id, nodes }) =>
+    nodes.map(
+      ({ target, failureSummary }) => `${id} at ${target}: ${failureSummary.replaceAll(/\s+/g, " ")}`,
+    ),
+  );
+}
+
+async function judge(page) {
+  const found = {};
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+    found[colorScheme] = await faultsOf(page);
+  }
+  assert.deepEqual(found, { light: [], dark: [] });
+}
+
+// A robot is selected, its sensors read, something is plotted. All stands still: pictures of a
+// running world keep a browser without a graphics card busy.
+async function openFilled(url) {
+  const { page } = await openPage(browser, url);
+  await waitUntilDrawn(page);
+  await page.locator("[data-robot]").first().click();
+  await page.getByRole("button", { name: "Plot speed" }).click();
+  await page.locator('[data-sensor="sonar_00"] dd').waitFor();
+  return page;
+}
+
+test("the viewer, with all its panels, and the sheet of keys", async () => {
+  const page = await openFilled(live.url);
+  await page.getByRole("button", { name: "Overlays", exact: true }).click();
+  await judge(page);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("?");
+  await page.getByRole("dialog").waitFor();
+  await judge(page);
+  await page.close();
+});
+
+test("a recording", async () => {
+  const page = await openFilled(replay.url);
+  await judge(page);
+  await page.close();
+});
+
+test("the broker's page", async () => {
+  const { page } = await openPage(browser, `${live.url}broker.html`);
+  await page.locator('[data-type="gsv::SimulationService"]').click();
+  await page.locator(".offer").first().waitFor();
+  await judge(page);
+});
