@@ -17,17 +17,26 @@ function expectNear(actual: Vector3, x: number, y: number, z: number): void {
   expect(actual.distanceTo(new Vector3(x, y, z))).toBeLessThan(1e-3);
 }
 
-const HERE = { position: new Vector3(1, 2, 0.5), yaw: 0 };
+const HERE = { position: new Vector3(1, 2, 0.5), middle: new Vector3(1, 2, 0.5), yaw: 0 };
 
 test("following keeps the direction of the view while the robot moves and turns", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow(HERE);
   rig.update(0);
   const offset = rig.camera.position.clone().sub(HERE.position);
-  rig.moveTo({ position: new Vector3(3, 2, 0.5), yaw: 1 });
+  rig.moveTo({ ...HERE, position: new Vector3(3, 2, 0.5), yaw: 1 });
   rig.update(0);
   expectNear(rig.controls.target, 3, 2, 0.5);
   expectNear(rig.camera.position.clone().sub(rig.controls.target), offset.x, offset.y, offset.z);
+});
+
+// A link's view had risen by half the robot's height when its model arrived.
+test("the view stays where it is when the shape of the robot becomes known", () => {
+  const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
+  rig.follow({ ...HERE, middle: HERE.position });
+  rig.viewpoint = { position: new Vector3(1, 2, 6), target: new Vector3(1, 2, 0.7) };
+  rig.moveTo({ ...HERE, middle: new Vector3(1, 2, 0.9) });
+  expectNear(rig.controls.target, 1, 2, 0.7);
 });
 
 test("a chase stays behind the robot, however it turns", () => {
@@ -36,7 +45,7 @@ test("a chase stays behind the robot, however it turns", () => {
   rig.update(0);
   expect(rig.camera.position.x).toBeLessThan(HERE.position.x - 1);
   expect(rig.camera.position.y).toBeCloseTo(HERE.position.y, 3);
-  rig.moveTo({ position: HERE.position, yaw: Math.PI / 2 });
+  rig.moveTo({ ...HERE, yaw: Math.PI / 2 });
   rig.update(0);
   expect(rig.camera.position.y).toBeLessThan(HERE.position.y - 1);
   expect(rig.camera.position.x).toBeCloseTo(HERE.position.x, 3);

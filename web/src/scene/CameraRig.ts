@@ -18,9 +18,11 @@ const BEHIND = 2.4; // m, of a chase
 const ABOVE = 1.5;
 const AHEAD = 2; // m: where one looks who leaves a robot's eye
 
-// A robot that is watched: its middle, and where its x axis points (radians about the world's z).
+// A robot that is watched: where it is, the middle of its shape (which is its place until the shape
+// is known), and where its x axis points (radians about the world's z).
 export interface Subject {
   position: Vector3;
+  middle: Vector3;
   yaw: number;
 }
 
@@ -100,14 +102,14 @@ export class CameraRig {
       return;
     }
     if (this.subject && this.turning === turning) return;
-    this.subject = { position: subject.position.clone(), yaw: subject.yaw };
+    this.subject = { ...subject, position: subject.position.clone() };
     this.turning = turning;
-    const target = subject.position.clone();
+    const target = subject.middle.clone();
     this.fly({ position: target.clone().add(turning ? behind(subject.yaw) : this.overhead()), target });
   }
 
   // Moves along with the followed robot.
-  moveTo({ position, yaw }: Subject): void {
+  moveTo({ position, middle, yaw }: Subject): void {
     const { subject } = this;
     if (!subject) return;
     const turn = this.turning ? yaw - subject.yaw : 0;
@@ -116,7 +118,7 @@ export class CameraRig {
       .makeTranslation(position)
       .multiply(new Matrix4().makeRotationZ(turn))
       .multiply(new Matrix4().makeTranslation(subject.position.clone().negate()));
-    this.subject = { position: position.clone(), yaw };
+    this.subject = { position: position.clone(), middle, yaw };
     if (isStill) return;
     for (const point of this.points()) point.applyMatrix4(motion);
   }

@@ -38,11 +38,11 @@ export class RobotPlaces {
   }
 
   subjectOf(robot: string): Subject | null {
-    const position = this.middleOf(robot);
+    const middle = this.middleOf(robot);
     const pose = this.bodies.poseOf(this.bodies.indexOf(robot));
-    if (!position || !pose) return null;
+    if (!middle || !pose) return null;
     const [x, y] = pose.elements; // its x axis
-    return { position, yaw: Math.atan2(y!, x!) };
+    return { position: new Vector3().setFromMatrixPosition(pose), middle, yaw: Math.atan2(y!, x!) };
   }
 
   // world_from_eye: that of its first camera, else at the front of its top.
