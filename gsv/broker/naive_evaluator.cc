@@ -290,7 +290,11 @@ class Reader {
     const std::string digits(start, static_cast<std::size_t>(end - start));
     at_ += digits.size();
     Skip();
-    if (digits.find_first_not_of("0123456789") != std::string::npos) return {false, 0, real};
+    constexpr std::size_t kMostDigits = 30;  // of what Integer can hold
+    if (digits.size() > kMostDigits ||
+        digits.find_first_not_of("0123456789") != std::string::npos) {
+      return {false, 0, real};
+    }
     Integer whole = 0;
     for (const char digit : digits) whole = whole * 10 + (digit - '0');
     const Number number = Whole(whole);

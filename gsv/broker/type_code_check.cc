@@ -106,11 +106,13 @@ std::size_t TypeCodeCheck::ReadTypeCode(CdrReader& in, std::size_t depth) {
     case kWString:
       in.ULong();
       break;
-    case kFixed:
+    case kFixed: {
+      // omniORB ends the program over one of more decimals than digits.
       type.length = in.UShort();
-      in.UShort();
-      if (type.length == 0 || type.length > 31) in.Fail();
+      const std::uint16_t scale = in.UShort();
+      if (type.length == 0 || type.length > 31 || scale > type.length) in.Fail();
       break;
+    }
     case kObject:
     case kStruct:
     case kUnion:

@@ -17,6 +17,7 @@ constexpr std::uint32_t kString = 18;
 constexpr std::uint32_t kSequence = 19;
 constexpr std::uint32_t kArray = 20;
 constexpr std::uint32_t kAlias = 21;
+constexpr std::uint32_t kFixed = 28;
 
 // The encapsulated parameters of a TypeCode.
 RawCdr Parameters() { return RawCdr().Octet(1); }
@@ -64,6 +65,16 @@ TEST(TypeCodeCheckTest, RefusesKindsThatNobodyCanUse) {
   for (const std::uint32_t kind : {13u, 29u, 30u, 31u, 32u, 33u, 1000u, 0xFFFFFFFEu}) {
     EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kind))) << kind;
   }
+}
+
+// One with a scale of 108 ended the broker.
+TEST(TypeCodeCheckTest, RefusesFixedOfMoreDecimalsThanDigits) {
+  EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(4)));
+  EXPECT_TRUE(IsTypeCode(RawCdr().ULong(kFixed).UShort(31).UShort(31)));
+  EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(0x6c)));
+  EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(20)));
+  EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kFixed).UShort(19).UShort(0xFFFF)));
+  EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kFixed).UShort(0).UShort(0)));
 }
 
 TEST(TypeCodeCheckTest, RefusesNamesWithoutAnEnd) {
