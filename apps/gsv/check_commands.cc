@@ -7,6 +7,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/limit_option.h"
+#include "apps/gsv/sensor_types.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/rendering/renderer.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 struct CheckArguments {
   std::string file;
-  std::vector<std::string> model_path;
+  std::vector<std::string> model_path, sensor_plugins;
   formats::ReadLimits limits;
   bool json = false;
   bool strict = false;
@@ -57,11 +58,21 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   auto arguments = std::make_shared<CheckArguments>();
   command->add_option("file", arguments->file, "its file, folder or name")->required();
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  AddSensorPluginOption(*command, arguments->sensor_plugins);
   AddLimitOption(*command, arguments->limits);
   command->add_flag("--json", arguments->json, "one JSON object a line");
   command->add_flag("--strict", arguments->strict, "warnings count as errors");
   command->callback([arguments, line, read] {
+    SensorTypeOptions sensors;
+    sensors.plugins.assign(arguments->sensor_plugins.begin(), arguments->sensor_plugins.end());
+    auto types = MakeSensorTypes(
+        sensors, base::Fail(base::ErrorCode::kUnavailable, "a check needs no pictures"));
+    if (!types) {
+      line.exit_code = Complain(types.error());
+      return;
+    }
     formats::ReadOptions options;
+    options.check_sensor = CheckBy(*std::move(types));
     options.limits = arguments->limits;
     options.model_path.assign(arguments->model_path.begin(), arguments->model_path.end());
     formats::ModelLibrary library(std::move(options));

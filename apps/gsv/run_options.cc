@@ -6,6 +6,7 @@
 
 #include "apps/gsv/installation.h"
 #include "apps/gsv/limit_option.h"
+#include "apps/gsv/sensor_types.h"
 
 namespace gsv::app {
 
@@ -77,9 +78,7 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
                   "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
       ->envname("GSV_BROKER");
   command.add_option("--model-path", a.model_path, "a folder to look for models in");
-  command.add_option("--sensor-plugin", a.sensor_plugins,
-                     "a library that brings sensor types, gsv-sensor-NAME.so; those in the folders "
-                     "of GSV_SENSOR_PLUGIN_PATH are there anyway");
+  AddSensorPluginOption(command, a.sensor_plugins);
   AddLimitOption(command, a.limits);
   command
       .add_option("--port", a.port,
@@ -180,7 +179,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.in_process = a.in_process;
   options.runtime.broker = a.broker;
   options.runtime.model_path.assign(a.model_path.begin(), a.model_path.end());
-  options.runtime.sensor_plugins.assign(a.sensor_plugins.begin(), a.sensor_plugins.end());
+  options.runtime.sensors.plugins.assign(a.sensor_plugins.begin(), a.sensor_plugins.end());
   options.runtime.limits = a.limits;
   options.runtime.viewer = !a.headless;
   options.runtime.port_given = a.port >= 0;

@@ -3,23 +3,18 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <thread>
 
 #include "apps/gsv/broker_page.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/recordings.h"
-#include "gsv/base/check.h"
 #include "gsv/base/log.h"
 #include "gsv/broker/corbaloc.h"
 #include "gsv/broker/gsv_service_types.h"
 #include "gsv/gateway/gateway.h"
 #include "gsv/orb/orb.h"
-#include "gsv/rendering/camera_sensor.h"
 #include "gsv/rendering/renderer.h"
-#include "gsv/rendering/survey_sensors.h"
 #include "gsv/scenario/scenario.h"
-#include "gsv/services/sensor_plugins.h"
 
 namespace gsv::app {
 namespace {
@@ -29,40 +24,6 @@ constexpr std::chrono::seconds kBrokerStartTimeout{15};
 std::string HostName() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "localhost";
-}
-
-base::Status LoadSensorPlugins(const RuntimeOptions& options, sensing::SensorRegistry& sensors) {
-  const char* const folders = std::getenv("GSV_SENSOR_PLUGIN_PATH");
-  auto files = services::FindSensorPlugins(folders == nullptr ? "" : folders);
-  files.insert(files.end(), options.sensor_plugins.begin(), options.sensor_plugins.end());
-  for (const std::filesystem::path& file : files) {
-    if (auto ok = services::LoadSensorPlugin(file, sensors); !ok) return ok;
-  }
-  return {};
-}
-
-base::Result<std::shared_ptr<const sensing::SensorRegistry>> MakeSensors(
-    const RuntimeOptions& options) {
-  auto sensors = std::make_shared<sensing::SensorRegistry>();
-  sensing::AddBuiltInSensors(*sensors);
-  auto renderer = rendering::Renderer::Start();
-  if (!renderer) spdlog::warn("no cameras: {}", renderer.error().Sentence());
-  const auto surveys_added = rendering::AddSurveySensors(*sensors, renderer);
-  GSV_CHECK(surveys_added.has_value());
-  if (!options.adapt_camera) {
-    const auto added = rendering::AddCameraSensor(*sensors, std::move(renderer));
-    GSV_CHECK(added.has_value());
-  } else {
-    sensing::SensorRegistry cameras;
-    const auto camera_added = rendering::AddCameraSensor(cameras, std::move(renderer));
-    GSV_CHECK(camera_added.has_value());
-    sensing::SensorType camera = *cameras.Find("camera");
-    options.adapt_camera(camera);
-    const auto added = sensors->Add(std::move(camera));
-    GSV_CHECK(added.has_value());
-  }
-  if (auto ok = LoadSensorPlugins(options, *sensors); !ok) return base::Fail(ok.error());
-  return sensors;
 }
 
 class HostDirectory final : public gateway::SimulationDirectory {
@@ -81,12 +42,15 @@ class HostDirectory final : public gateway::SimulationDirectory {
 
 base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& options) {
   std::unique_ptr<Runtime> runtime(new Runtime);
-  auto sensors = MakeSensors(options);
+  auto renderer = rendering::Renderer::Start();
+  if (!renderer) spdlog::warn("no cameras: {}", renderer.error().Sentence());
+  auto sensors = MakeSensorTypes(options.sensors, std::move(renderer));
   if (!sensors) return base::Fail(sensors.error());
   if (auto ok = runtime->StartBroker(options); !ok) return base::Fail(ok.error());
   formats::ReadOptions reading;
   reading.model_path = options.model_path;
   reading.limits = options.limits;
+  reading.check_sensor = CheckBy(*sensors);
   runtime->host_ = std::make_shared<services::SimulationHost>(
       *std::move(sensors), std::make_shared<formats::ModelLibrary>(std::move(reading)));
   runtime->recordings_ = std::make_unique<Recordings>();

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "apps/gsv/behaviour_launcher.h"
 #include "apps/gsv/child_process.h"
 #include "apps/gsv/running_instances.h"
+#include "apps/gsv/sensor_types.h"
 #include "gsv/formats/read_limits.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
@@ -29,12 +29,10 @@ class Recordings;
 struct RuntimeOptions {
   std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
   std::vector<std::filesystem::path> model_path;
-  std::vector<std::filesystem::path> sensor_plugins;  // besides those of GSV_SENSOR_PLUGIN_PATH
+  SensorTypeOptions sensors;
   formats::ReadLimits limits;
   bool viewer = true;
-  int port = 8080;  // of the viewer; 0: the system chooses
-  // Changes the camera type before it is registered; may be empty.
-  std::function<void(sensing::SensorType&)> adapt_camera;
+  int port = 8080;          // of the viewer; 0: the system chooses
   bool port_given = false;  // else another port is taken when this one is in use
 };
 

@@ -6,6 +6,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/limit_option.h"
 #include "apps/gsv/runtime.h"
+#include "apps/gsv/sensor_types.h"
 
 namespace gsv::app {
 namespace {
@@ -22,7 +23,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   RuntimeOptions options;
   options.broker = arguments.broker;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
-  options.sensor_plugins.assign(arguments.sensor_plugins.begin(), arguments.sensor_plugins.end());
+  options.sensors.plugins.assign(arguments.sensor_plugins.begin(), arguments.sensor_plugins.end());
   options.limits = arguments.limits;
   options.viewer = !arguments.headless;
   options.port_given = arguments.port >= 0;
@@ -49,10 +50,7 @@ void AddServeCommand(const CommandLine& line) {
       ->envname("GSV_BROKER");
   command->add_option("--name", arguments->name, "the name in the offer")->capture_default_str();
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
-  command->add_option(
-      "--sensor-plugin", arguments->sensor_plugins,
-      "a library that brings sensor types, gsv-sensor-NAME.so; those in the folders "
-      "of GSV_SENSOR_PLUGIN_PATH are there anyway");
+  AddSensorPluginOption(*command, arguments->sensor_plugins);
   AddLimitOption(*command, arguments->limits);
   command
       ->add_option("--port", arguments->port,

@@ -32,6 +32,7 @@ class ModelStore {
   explicit ModelStore(const ReadOptions& options)
       : finder_(options.model_path, options.allow_absolute_paths),
         limits_(options.limits),
+        check_sensor_(options.check_sensor),
         textures_(limits_),
         meshes_(limits_, textures_) {}
 
@@ -42,7 +43,7 @@ class ModelStore {
   const ResourceFinder& finder() const { return finder_; }
   const ReadLimits& limits() const { return limits_; }
   ReadingContext ContextFor(const std::filesystem::path& file, base::Problems& problems) {
-    return {finder_, limits_, textures_, meshes_, problems, file};
+    return {finder_, limits_, textures_, meshes_, problems, check_sensor_, file};
   }
 
  private:
@@ -54,6 +55,7 @@ class ModelStore {
 
   ResourceFinder finder_;
   ReadLimits limits_;
+  SensorCheck check_sensor_;
   TextureReader textures_;
   MeshReader meshes_;
   std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;

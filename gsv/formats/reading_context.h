@@ -24,7 +24,8 @@ struct ReadingContext {
   TextureReader& textures;
   MeshReader& meshes;
   base::Problems& problems;
-  std::filesystem::path source;  // the file being read
+  const SensorCheck& check_sensor;  // may be empty
+  std::filesystem::path source;     // the file being read
 
   void Warn(std::string message, std::string where) const {
     problems.push_back({base::Problem::Severity::kWarning, std::move(message), std::move(where)});

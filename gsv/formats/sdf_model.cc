@@ -162,6 +162,19 @@ class ModelReader {
     }
   }
 
+  void Check(const model::SensorDescription& sensor, const std::string& place) const {
+    if (!context_.check_sensor) return;
+    const auto checked = context_.check_sensor(sensor);
+    if (checked) return;
+    const std::string sentence =
+        "the " + sensor.type + " " + sensor.name + " gives no readings: " + checked.error().message;
+    if (checked.error().code == base::ErrorCode::kNotFound) {
+      context_.Warn(sentence, place);
+    } else {
+      context_.Complain(sentence, place);
+    }
+  }
+
   // `frame` is the link or the joint that holds the sensor; a joint's sensor sits on its child.
   void AddSensor(const sdf::ElementPtr& element, const std::string& frame) {
     model::SensorDescription sensor = ReadSensor(element);
@@ -186,6 +199,7 @@ class ModelReader {
       return;
     }
     sensor.name = UniqueSensorName(sensor.name, frame);
+    Check(sensor, place);
     model_.sensors.push_back(std::move(sensor));
   }
 

@@ -10,12 +10,14 @@
 // Errors   kBadModel with one sentence when nothing usable could be read: no such file, malformed
 //          XML, no world or model inside, includes that go round, a file too large. Everything
 //          else is appended to `problems`: a warning for what can be lived with (a missing mesh, a
-//          model on the web), an error for what makes the simulation unfaithful (a negative mass,
-//          an axis of length zero, inverted limits).
+//          model on the web, a sensor of a type nobody knows), an error for what makes the
+//          simulation unfaithful (a negative mass, an axis of length zero, inverted limits, a
+//          sensor whose parameters are refused).
 // Threads  all members may be called concurrently; one file is read at a time.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,10 +28,14 @@
 
 namespace gsv::formats {
 
+// What is wrong with a sensor, if anything: kNotFound when nobody knows its type.
+using SensorCheck = std::function<base::Status(const model::SensorDescription&)>;
+
 struct ReadOptions {
   std::vector<std::filesystem::path> model_path;  // as of --model-path
   bool allow_absolute_paths = true;               // in the names that files contain
   ReadLimits limits;
+  SensorCheck check_sensor;  // may be empty: then a sensor's parameters are taken as they are
 };
 
 class ModelLibrary {

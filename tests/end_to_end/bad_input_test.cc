@@ -88,6 +88,54 @@ TEST(BadInput, MeshThatClaimsABillionTrianglesIsRefusedWithoutReadingThem) {
   EXPECT_THAT(outcome.ending, ::testing::AnyOf("exit code 0", "exit code 3"));
 }
 
+std::string RobotWithSensor(const std::string& sensor) {
+  return "<sdf version='1.9' xmlns:gsv='https://gsv.example'>\n<model name='r'><link name='l'>\n" +
+         sensor +
+         "</link><plugin filename='gz-sim-velocity-control-system' "
+         "name='gz::sim::systems::VelocityControl'/></model></sdf>";
+}
+
+TEST(BadInput, SensorWhoseParametersAreRefusedIsAnErrorWithItsLine) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"<sensor name='eye' type='camera'><camera><image><width>0</width></image></camera></sensor>",
+       "image.width is 0"},
+      {"<sensor name='eye' type='wideanglecamera'><camera><lens><type>fish</type></lens></camera>"
+       "</sensor>",
+       "fish"},
+      {"<sensor name='eye' type='camera'><camera><distortion><k1>nan</k1></distortion></camera>"
+       "</sensor>",
+       "distortion.k1 is nan"},
+      {"<sensor name='eye' type='imu'><update_rate>10</update_rate><gsv:latency>99</gsv:latency>"
+       "</sensor>",
+       "latency"},
+      {"<sensor name='eye' type='lidar'><lidar><range><min>5</min><max>2</max></range></lidar>"
+       "</sensor>",
+       "range"}};
+  TemporaryFolder folder;
+  for (const auto& [sensor, part] : cases) {
+    const auto robot = folder.Write("r.sdf", RobotWithSensor(sensor));
+    const Outcome checked = RunProgram("gsv", {"model", "check", robot.string(), "--json"});
+    EXPECT_EQ(checked.ending, "exit code 3") << checked.out;
+    const auto line = checked.LastLine();
+    EXPECT_EQ(line["severity"], "error") << sensor;
+    EXPECT_THAT(line["where"].get<std::string>(), HasSubstr("r.sdf:3"));
+    EXPECT_THAT(line["message"].get<std::string>(), AllOf(HasSubstr("eye"), HasSubstr(part)));
+    ExpectOneSentence(Headless(kPlayground, {"--robot", robot.string() + "@0,0"}), 3, part);
+  }
+}
+
+TEST(BadInput, SensorOfATypeNobodyKnowsIsAWarningAndTheRestRuns) {
+  TemporaryFolder folder;
+  const auto robot =
+      folder.Write("r.sdf", RobotWithSensor("<sensor name='nose' type='gas'></sensor>"));
+  const Outcome checked = RunProgram("gsv", {"model", "check", robot.string(), "--json"});
+  EXPECT_EQ(checked.ending, "exit code 0") << checked.out;
+  EXPECT_THAT(checked.out, AllOf(HasSubstr("warning"), HasSubstr("nose"), HasSubstr("gas")));
+  const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_THAT(outcome.LastLine()["warnings"].dump(), HasSubstr("nose"));
+}
+
 TEST(BadInput, TwoRobotsAtOnePlace) {
   ExpectOneSentence(Headless(kPlayground, {"--robot", "pebble@0,0", "--robot", "pebble@0.1,0"}), 3,
                     "no room at (0.1, 0)");

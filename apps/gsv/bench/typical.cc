@@ -128,7 +128,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   row.behaviour = arguments.behaviour;
   RunOptions options;
   options.runtime.viewer = false;
-  options.runtime.adapt_camera = [times = row.pictures](sensing::SensorType& camera) {
+  options.runtime.sensors.adapt_camera = [times = row.pictures](sensing::SensorType& camera) {
     camera.create = [create = camera.create, times](const model::SensorDescription& description)
         -> base::Result<std::unique_ptr<sensing::Sensor>> {
       auto sensor = create(description);
