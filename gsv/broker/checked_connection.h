@@ -8,6 +8,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <semaphore>
+#include <thread>
 
 // Each of omniORB's own headers needs those before it.
 // clang-format off
@@ -40,6 +42,21 @@ class IncomingMessage {
   std::size_t handed_out_ = 0;
 };
 
+// How many requests are worked on at once: about as many as there are processors. Dozens of threads
+// that stand in line for the ORB's one lock and the trader's would change places at each lock. Who
+// has waited for a millisecond goes on anyway, so that one that waits for another broker holds up
+// nobody.
+//
+// Threads: all may call.
+class Turns {
+ public:
+  bool Take() { return free_.try_acquire_for(std::chrono::milliseconds(1)); }
+  void End() { free_.release(); }
+
+ private:
+  std::counting_semaphore<> free_{1 + static_cast<int>(std::thread::hardware_concurrency())};
+};
+
 class CheckedConnection;
 using Clock = std::chrono::steady_clock;
 
@@ -54,12 +71,14 @@ class ConnectionTable {
   // There are bytes to be read: whether the ORB shall read now. If not, they were taken, and more
   // are needed.
   bool Readable(CheckedConnection* connection);
+  Turns& turns() { return turns_; }
 
  private:
   void DropLate(Clock::time_point now);
   void DropSilent();
 
   std::size_t limit_;
+  Turns turns_;
   std::mutex mutex_;
   // With the time since when its message has been coming, or the epoch.
   std::map<CheckedConnection*, Clock::time_point> connections_;
@@ -73,6 +92,7 @@ class CheckedConnection : public omni::tcpConnection {
   ~CheckedConnection() override;
 
   int Recv(void* buffer, std::size_t size, const omni_time_t& deadline) override;
+  int Send(void* buffer, std::size_t size, const omni_time_t& deadline) override;
   // Takes what has come, without waiting. True when the ORB would not have to wait.
   bool Gather();
   // Ends it; the ORB then lets go of it.
@@ -82,12 +102,15 @@ class CheckedConnection : public omni::tcpConnection {
 
  private:
   void Hear() { heard_ = Clock::now().time_since_epoch().count(); }
+  void TakeTurn();
+  void EndTurn();
 
   std::shared_ptr<ConnectionTable> table_;
   std::atomic<Clock::rep> heard_ = Clock::now().time_since_epoch().count();
   std::mutex mutex_;
   IncomingMessage incoming_;
   bool checked_ = false;
+  std::atomic<bool> has_turn_ = false;  // from a request to its reply
 };
 
 // One that the broker made.
