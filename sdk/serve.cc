@@ -51,6 +51,7 @@ sigset_t BlockSignals() {
 
 base::Result<CORBA::ORB_var> StartOrb(const std::string& broker) {
   orb::OrbOptions options;
+  options.local_socket = true;
   auto reference = broker::NormaliseReference(broker);
   if (!reference) return base::Fail(reference.error());
   if (const std::string host = broker::HostOf(*reference); !host.empty()) {

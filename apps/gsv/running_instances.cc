@@ -1,17 +1,15 @@
 #include "apps/gsv/running_instances.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
+
+#include "gsv/base/user_folder.h"
 
 namespace gsv::app {
 namespace {
@@ -19,24 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::streamsize kMaxFile = 16 * 1024;
-
-fs::path Folder() {
-  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime == '/')
-    return fs::path(runtime) / "gsv";
-  return "/tmp/gsv-" + std::to_string(geteuid());
-}
-
-// Anybody may make a folder in /tmp: only one that nobody else can write to is believed.
-base::Status CheckIsOurs(const fs::path& folder) {
-  struct stat status {};
-  if (lstat(folder.c_str(), &status) != 0)
-    return base::Fail(base::ErrorCode::kUnavailable, std::strerror(errno), folder);
-  if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid() || (status.st_mode & 022) != 0) {
-    return base::Fail(base::ErrorCode::kUnavailable,
-                      "expected a folder that only this user can write to; remove it", folder);
-  }
-  return {};
-}
 
 // Field 22 of /proc/PID/stat, see proc(5); nothing when there is no such process.
 std::optional<std::uint64_t> StartOf(pid_t pid) {
@@ -71,11 +51,10 @@ std::optional<Instance> ReadInstance(const fs::path& file) {
 }  // namespace
 
 base::Result<std::unique_ptr<InstanceRecord>> InstanceRecord::Write(const std::string& broker) {
-  const fs::path folder = Folder();
-  mkdir(folder.c_str(), 0700);  // it may be there already; the check tells
-  if (auto ok = CheckIsOurs(folder); !ok) return base::Fail(ok.error());
-  const fs::path file = folder / (std::to_string(getpid()) + ".json");
-  const fs::path draft = folder / (std::to_string(getpid()) + ".draft");
+  const auto folder = base::UserFolder();
+  if (!folder) return base::Fail(folder.error());
+  const fs::path file = *folder / (std::to_string(getpid()) + ".json");
+  const fs::path draft = *folder / (std::to_string(getpid()) + ".draft");
   const nlohmann::json json = {
       {"pid", getpid()}, {"started", StartOf(getpid()).value_or(0)}, {"broker", broker}};
   // Renamed into place, so that nobody reads half of it.
@@ -93,10 +72,10 @@ InstanceRecord::~InstanceRecord() {
 
 std::vector<Instance> RunningInstances() {
   std::vector<Instance> instances;
-  const fs::path folder = Folder();
-  if (!CheckIsOurs(folder)) return instances;
+  const auto folder = base::UserFolder();
+  if (!folder) return instances;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(*folder, error)) {
     if (entry.path().extension() != ".json") continue;
     const auto instance = ReadInstance(entry.path());
     if (instance && StartOf(instance->pid) == instance->started) {

@@ -81,6 +81,7 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
   auto normalised = broker::NormaliseReference(reference);
   if (!normalised) return base::Fail(normalised.error());
   orb::OrbOptions orb_options;
+  orb_options.local_socket = true;
   if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
     auto local = orb::LocalAddressTowards(host);
     if (!local) return base::Fail(local.error());

@@ -8,11 +8,14 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <omniORB4/giopEndpoint.h>
 #include <omniORB4/omniIOR.h>
 #include <omniORB4/omniObjRef.h>
+
+#include "gsv/orb/local_socket.h"
 
 namespace gsv::orb {
 
@@ -24,6 +27,10 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   const std::string connections = std::to_string(options.max_connections_per_server);
   // A client closes an idle connection (60 s) before the server does (180 s); a message that
   // stops half-way is given up after 30 s.
+  std::string local_endpoint;
+  if (options.local_socket) {
+    if (const auto socket = NewLocalSocket()) local_endpoint = "giop:unix:" + socket->native();
+  }
   const char* settings[][2] = {
       {"endPoint", endpoint.c_str()},
       {"giopMaxMsgSize", max_message.c_str()},
@@ -40,6 +47,8 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"supportPerThreadTimeOut", "1"},
       {"lcdMode", "0"},
       {"traceLevel", "0"},
+      {"unixTransportPermission", "0600"},
+      {local_endpoint.empty() ? nullptr : "endPoint", local_endpoint.c_str()},  // or the end
       {nullptr, nullptr},
   };
   try {
@@ -91,11 +100,12 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
 std::string AddressOf(CORBA::Object_ptr object) {
   if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return {};
   omniIOR_var ior = object->_PR_getobj()->_getIOR();
-  auto& addresses = ior->getIORInfo()->addresses();
-  if (addresses.empty()) return {};
-  const std::string address = addresses.front()->address();  // "giop:tcp:127.0.0.1:40123"
-  const std::size_t start = address.find(':', address.find(':') + 1);
-  return start == std::string::npos ? address : address.substr(start + 1);
+  constexpr std::string_view kTcp = "giop:tcp:";
+  for (const omni::giopAddress* each : ior->getIORInfo()->addresses()) {
+    const std::string_view address = each->address();  // "giop:tcp:127.0.0.1:40123"
+    if (address.starts_with(kTcp)) return std::string(address.substr(kTcp.size()));
+  }
+  return {};
 }
 
 void LimitCalls(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {

@@ -17,6 +17,7 @@ namespace gsv::orb {
 struct OrbOptions {
   std::string host = "127.0.0.1";  // the address to listen on
   int port = 0;                    // 0: the system chooses
+  bool local_socket = false;       // besides, see local_socket.h; where that is possible
   std::uint64_t max_message_bytes = 64u << 20;
   std::chrono::milliseconds call_timeout{10'000};
   // A call in progress occupies its connection: at least as many as agents that wait at once.
@@ -32,7 +33,7 @@ PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);  // the caller owns the ref
 // loopback host.
 base::Result<std::string> LocalAddressTowards(const std::string& host);
 
-// The host and port that a reference points to, "127.0.0.1:40123"; empty when it names none.
+// The host and port that a reference points to by TCP, "127.0.0.1:40123"; empty when it names none.
 std::string AddressOf(CORBA::Object_ptr object);
 
 // Limits how long calls through this reference may take, from all threads.

@@ -28,6 +28,20 @@ TEST(Behaviours, WanderTravels) {
   EXPECT_EQ(robot["readings"]["camera"], 30);  // one a second
 }
 
+TEST(Behaviours, OneWhoseLocalSocketIsGoneIsReachedByTcp) {
+  const BrokerProcess broker;
+  const TemporaryFolder runtime;
+  Running program("gsv-wander", {"--broker", broker.reference()},
+                  {"env", "XDG_RUNTIME_DIR=" + runtime.path().string()});
+  program.AwaitLine("offered at");
+  const auto folder = runtime.path() / "gsv";
+  ASSERT_FALSE(std::filesystem::is_empty(folder)) << "no local socket";
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    std::filesystem::remove(entry.path());
+  const auto robot = RobotAfter(broker.reference(), "office", "b21r@-3,0", "wander", 5);
+  EXPECT_GT(robot["distance_m"], 0.5);
+}
+
 TEST(Behaviours, FollowWallKeepsItsDistance) {
   const BrokerProcess broker;
   Running program("gsv-follow-wall", {"--broker", broker.reference()});

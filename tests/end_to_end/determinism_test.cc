@@ -2,12 +2,12 @@
 // processes. See docs/determinism.md. GSV_SOAK says how often each case is run (once in make test,
 // 20 times in make soak); GSV_DEBUG_BUILD_DIR names a debug build to compare with.
 #include <cstdlib>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/end_to_end/fleet.h"
+#include "tests/support/other_host.h"
 
 namespace gsv::testing {
 namespace {
@@ -83,23 +83,14 @@ TEST(Determinism, CallsDelayedAtRandomLeaveNoTrace) {
   }
 }
 
-// Another host: a network namespace, 20 ms further away with every round trip.
+// 20 ms further away with every round trip.
 TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
-  Running link(std::string(std::getenv("GSV_SOURCE_DIR")) + "/tests/end_to_end/slow_link.py",
-               {"20"});
-  const auto line = link.process().ReadLine(kPatience);
-  if (!line) {
-    const Outcome outcome = link.AwaitEnd();
-    ASSERT_EQ(outcome.ending, "exit code 77") << outcome.err;
-    GTEST_SKIP() << outcome.err;
-  }
-  std::istringstream words(*line);
-  std::string ready, network, here;
-  ASSERT_TRUE(words >> ready >> network >> here) << *line;
+  const OtherHost host(20);
+  if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
   const std::string expected = UndisturbedHash();
   for (int round = 0; round < Rounds(); ++round) {
-    const BrokerProcess broker(here);
-    const Fleet fleet(broker.reference(), {.wrapper = {"ip", "netns", "exec", network}});
+    const BrokerProcess broker(host.address_here());
+    const Fleet fleet(broker.reference(), {.wrapper = host.wrapper()});
     const auto report = ReportOf(broker.reference());
     ASSERT_EQ(HashOf(report), expected) << "round " << round;
     // Twelve cycles of eight readings, each at least 20 ms away.

@@ -1,0 +1,64 @@
+#include "gsv/orb/local_socket.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "gsv/base/temporary_folder.h"
+
+namespace gsv::orb {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LocalSocket : public ::testing::Test {
+ protected:
+  void SetUp() override { PutInto(folder_.path()); }
+  static void PutInto(const fs::path& folder) {
+    setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  }
+  fs::path folder() const { return folder_.path() / "gsv"; }
+
+ private:
+  base::TemporaryFolder folder_ = *base::TemporaryFolder::Make("local-socket");
+};
+
+TEST_F(LocalSocket, IsBelowAFolderThatIsThisUsersAlone) {
+  const auto socket = NewLocalSocket();
+  ASSERT_TRUE(socket.has_value()) << socket.error().Sentence();
+  EXPECT_EQ(socket->parent_path(), folder());
+  EXPECT_EQ(fs::status(folder()).permissions(), fs::perms::owner_all);
+  EXPECT_NE(*socket, *NewLocalSocket());
+}
+
+TEST_F(LocalSocket, WhatEndedProcessesLeftGoesAndWhatOthersUseStays) {
+  fs::create_directory(folder());
+  fs::permissions(folder(), fs::perms::owner_all);
+  // No process has a number beyond 2^22, see proc(5).
+  const fs::path left = folder() / "99999999-0000abcd.socket";
+  const fs::path used = folder() / (std::to_string(getpid()) + "-0000abcd.socket");
+  const fs::path other = folder() / "99999999.json";
+  for (const fs::path& each : {left, used, other}) std::ofstream(each) << "";
+  ASSERT_TRUE(NewLocalSocket().has_value());
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(used));
+  EXPECT_TRUE(fs::exists(other));
+}
+
+TEST_F(LocalSocket, IsRefusedWhereOthersMayWriteOrTheNameIsTooLong) {
+  fs::create_directory(folder());
+  fs::permissions(folder(), fs::perms::all);
+  EXPECT_FALSE(NewLocalSocket().has_value());
+  fs::permissions(folder(), fs::perms::owner_all);
+  const fs::path deep = folder() / std::string(100, 'x');
+  fs::create_directory(deep);
+  PutInto(deep);
+  EXPECT_FALSE(NewLocalSocket().has_value());
+}
+
+}  // namespace
+}  // namespace gsv::orb
