@@ -17,8 +17,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/errors.h"
 #include "gsv/orb/orb.h"
 #include "idl/behaviour.hh"

@@ -10,9 +10,9 @@
 #include <CLI/CLI.hpp>
 
 #include "gsv/base/log.h"
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/corbaloc.h"
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/corbaloc.h"
+#include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/orb.h"
 #include "sdk/behaviour_servant.h"
 #include "sdk/fault_delay.h"

@@ -86,10 +86,10 @@ TEST = re.compile(r"^TEST(?:_F)?\((\w+), (\w+)\)(.*?)^}", re.M | re.S)
 
 def read_tests(root):
     """SUITE.NAME -> (its body, its file and the fixtures)"""
-    fixtures = "".join((root / "gsv/broker" / name).read_text()
+    fixtures = "".join((root / "gsv/broker/testing" / name).read_text()
                        for name in ("broker_fixture.cc", "broker_node.h"))
     tests = {}
-    for file in sorted(root.glob("gsv/broker/*_test.cc")):
+    for file in sorted(root.glob("gsv/broker/**/*_test.cc")):
         text = file.read_text()
         for suite, name, body in TEST.findall(text):
             tests[f"{suite}.{name}"] = (body, text + fixtures)

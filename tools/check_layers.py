@@ -67,6 +67,8 @@ class Table:
 
     def may_include(self, path, folder, included_folder):
         if TEST_SOURCE.search(path):
+            if library_of(included_folder) == library_of(folder):
+                return True
             return self.folders.index(included_folder) <= self.folders.index(folder)
         return included_folder in self.allowed[folder]
 
@@ -75,6 +77,11 @@ class Table:
             use == allowed_use and (path == place or path.startswith(place + "/"))
             for place, allowed_use in self.exceptions
         )
+
+
+def library_of(folder):
+    """gsv/broker of gsv/broker/storage"""
+    return "/".join(folder.split("/")[:2])
 
 
 def sources_below(root, tops):

@@ -17,6 +17,8 @@ gsv/base
 gsv/model     gsv/base   # a remark
 gsv/world     gsv/model
 gsv/services  gsv/world idl
+gsv/broker/storage  gsv/base
+gsv/broker    gsv/broker/storage
 apps/gsv      *
 core gsv/base gsv/model gsv/world
 except gsv/world/pacer.h wall-clock
@@ -64,6 +66,14 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assert_violation(
             {"gsv/base/b_test.cc": '#include "gsv/model/a.h"\n'}, "gsv/base/b_test.cc:1", "gsv/model"
+        )
+
+    def test_a_test_may_include_all_of_its_library_and_other_sources_may_not(self):
+        include = '#include "gsv/broker/broker.h"\n'
+        code, _ = self.run_on({"gsv/broker/storage/a_test.cc": include})
+        self.assertEqual(code, 0)
+        self.assert_violation(
+            {"gsv/broker/storage/a.cc": include}, "gsv/broker/storage/a.cc:1: ", "gsv/broker"
         )
 
     def test_the_core_sees_no_orb_socket_or_opengl(self):

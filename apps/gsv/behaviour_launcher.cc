@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "apps/gsv/installation.h"
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/services/behaviour_source.h"
 
 namespace gsv::app {

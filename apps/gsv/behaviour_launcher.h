@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/gsv/child_process.h"
-#include "gsv/broker/broker_client.h"
+#include "gsv/broker/client/broker_client.h"
 
 namespace gsv::app {
 

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/exit_code.h"
-#include "gsv/broker/broker_administration.h"
-#include "gsv/broker/offer_listing.h"
+#include "gsv/broker/client/broker_administration.h"
+#include "gsv/broker/client/offer_listing.h"
 
 namespace gsv::app {
 namespace {

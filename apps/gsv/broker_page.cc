@@ -7,10 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gsv/broker/broker_administration.h"
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/explanation.h"
-#include "gsv/broker/offer_listing.h"
+#include "gsv/broker/client/broker_administration.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/offer_listing.h"
+#include "gsv/broker/language/explanation.h"
 #include "gsv/orb/orb.h"
 
 namespace gsv::app {

@@ -4,9 +4,9 @@
 #include <chrono>
 
 #include "apps/gsv/running_instances.h"
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/corbaloc.h"
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/corbaloc.h"
+#include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/errors.h"
 #include "gsv/orb/orb.h"
 #include "gsv/services/conversions.h"

@@ -16,18 +16,18 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "gsv/broker/admin_servant.h"
-#include "gsv/broker/checked_transport.h"
-#include "gsv/broker/link_servant.h"
-#include "gsv/broker/lookup_servant.h"
-#include "gsv/broker/offer_file.h"
-#include "gsv/broker/process_limits.h"
-#include "gsv/broker/proxy_servant.h"
-#include "gsv/broker/pulse.h"
-#include "gsv/broker/register_servant.h"
-#include "gsv/broker/service_reference.h"
-#include "gsv/broker/trading_objects.h"
-#include "gsv/broker/type_repository_servant.h"
+#include "gsv/broker/service/admin_servant.h"
+#include "gsv/broker/service/link_servant.h"
+#include "gsv/broker/service/lookup_servant.h"
+#include "gsv/broker/service/proxy_servant.h"
+#include "gsv/broker/service/pulse.h"
+#include "gsv/broker/service/register_servant.h"
+#include "gsv/broker/service/trading_objects.h"
+#include "gsv/broker/service/type_repository_servant.h"
+#include "gsv/broker/storage/offer_file.h"
+#include "gsv/broker/trader/service_reference.h"
+#include "gsv/broker/transport/checked_transport.h"
+#include "gsv/broker/transport/process_limits.h"
 
 namespace gsv::broker {
 namespace {

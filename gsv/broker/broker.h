@@ -14,8 +14,8 @@
 #include <string>
 
 #include "gsv/base/error.h"
-#include "gsv/broker/limits.h"
-#include "gsv/broker/liveness_monitor.h"
+#include "gsv/broker/language/limits.h"
+#include "gsv/broker/trader/liveness_monitor.h"
 
 namespace gsv::broker {
 

@@ -4,7 +4,7 @@
 #include <sys/types.h>
 
 #include "gsv/broker/broker.h"
-#include "gsv/broker/process_limits.h"
+#include "gsv/broker/transport/process_limits.h"
 
 namespace gsv::broker {
 

@@ -11,8 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/broker_fixture.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/testing/broker_fixture.h"
 
 namespace gsv::broker {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/errors.h"
 #include "gsv/orb/orb.h"
 #include "gsv/services/remote_behaviour.h"

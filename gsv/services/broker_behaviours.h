@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "gsv/broker/broker_client.h"
+#include "gsv/broker/client/broker_client.h"
 #include "gsv/services/behaviour_source.h"
 
 namespace gsv::services {

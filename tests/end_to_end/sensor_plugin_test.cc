@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/orb.h"
 #include "idl/simulation.hh"
 #include "tests/support/programs.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/orb.h"
 
 namespace gsv::testing {

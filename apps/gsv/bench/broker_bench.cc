@@ -21,9 +21,9 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "gsv/base/temporary_folder.h"
-#include "gsv/broker/broker_client.h"
-#include "gsv/broker/offer_file.h"
-#include "gsv/broker/trader.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/storage/offer_file.h"
+#include "gsv/broker/trader/trader.h"
 
 namespace gsv::app {
 namespace {

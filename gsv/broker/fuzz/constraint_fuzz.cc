@@ -4,10 +4,10 @@
 #include <string>
 
 #include "gsv/base/check.h"
-#include "gsv/broker/equality_terms.h"
-#include "gsv/broker/evaluation.h"
-#include "gsv/broker/expression.h"
-#include "gsv/broker/naive_evaluator.h"
+#include "gsv/broker/language/equality_terms.h"
+#include "gsv/broker/language/evaluation.h"
+#include "gsv/broker/language/expression.h"
+#include "gsv/broker/testing/naive_evaluator.h"
 
 using namespace gsv::broker;
 

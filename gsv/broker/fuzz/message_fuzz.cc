@@ -9,9 +9,9 @@
 #include <COS/CosTradingRepos.hh>
 
 #include "gsv/base/check.h"
-#include "gsv/broker/message_assembly.h"
-#include "gsv/broker/message_check.h"
-#include "gsv/broker/raw_message.h"
+#include "gsv/broker/testing/raw_message.h"
+#include "gsv/broker/transport/message_assembly.h"
+#include "gsv/broker/transport/message_check.h"
 
 using namespace gsv::broker;
 

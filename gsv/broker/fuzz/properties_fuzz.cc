@@ -7,7 +7,7 @@
 #include <omniORB4/CORBA.h>
 
 #include "gsv/base/check.h"
-#include "gsv/broker/record_encoding.h"
+#include "gsv/broker/encoding/record_encoding.h"
 
 using namespace gsv::broker;
 

@@ -1,0 +1,74 @@
+// What `gsv links`, `gsv types` and `gsv offers` change at a broker, and the links that it has.
+//
+// They use the process's ORB, which they start where there is none.
+// Errors  see BrokerClient; kUnavailable when the broker has no links.
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/broker/language/property.h"
+#include "gsv/broker/offers/import_policies.h"
+#include "gsv/broker/offers/service_type.h"
+
+namespace gsv::broker {
+
+struct LinkDescription {
+  std::string name;
+  std::string address;  // "host:port" of the other trader; empty when it has none on TCP
+  FollowOption def_pass_on = FollowOption::kAlways;
+  FollowOption limiting = FollowOption::kAlways;
+  bool answers = false;  // when it was asked, for a second at most
+};
+
+// "local_only", "if_no_local", "always".
+std::string_view Spelling(FollowOption option);
+
+class BrokerAdministration {
+ public:
+  explicit BrokerAdministration(std::string broker,
+                                std::chrono::milliseconds timeout = std::chrono::seconds(5))
+      : broker_(std::move(broker)), timeout_(timeout) {}
+
+  // In the order of their names. Each target is asked from here, not by the broker.
+  [[nodiscard]] base::Result<std::vector<LinkDescription>> ListLinks() const;
+  // `target`: another broker's address. It need not answer if it is an "IOR:…" that says what it
+  // is.
+  [[nodiscard]] base::Status AddLink(const std::string& name, const std::string& target,
+                                     FollowOption def_pass_on, FollowOption limiting) const;
+  [[nodiscard]] base::Status RemoveLink(const std::string& name) const;
+
+  [[nodiscard]] base::Status AddServiceType(const ServiceType& type) const;
+  [[nodiscard]] base::Status RemoveServiceType(const std::string& name) const;
+
+  // `properties`: "name=value" with the value as JSON, read as the type that the service type
+  // declares; text needs no quotes. Returns the offer's id.
+  [[nodiscard]] base::Result<std::string> AddOffer(
+      const std::string& type, const std::string& reference,
+      const std::vector<std::string>& properties) const;
+  [[nodiscard]] base::Status RemoveOffer(const std::string& id) const;
+
+ private:
+  const std::string broker_;
+  const std::chrono::milliseconds timeout_;
+};
+
+void PrintLinks(const std::vector<LinkDescription>& links, std::ostream& out);
+// {"name":…, "address":…, "def_pass_on_follow_rule":…, "limiting_follow_rule":…, "answers":…} a
+// line.
+void PrintLinksJson(const std::vector<LinkDescription>& links, std::ostream& out);
+
+// "mandatory readonly sequence<string> name", as PrintServiceTypes writes it.
+// Errors  kInvalidArgument.
+[[nodiscard]] base::Result<PropertyDefinition> ParsePropertyDefinition(const std::string& text);
+
+// "name=value", see AddOffer. A property that `type` does not declare has the type that JSON
+// says: boolean, long, double, string, or a sequence of these.
+// Errors  kInvalidArgument.
+[[nodiscard]] base::Result<Property> ParseProperty(const std::string& text,
+                                                   const ServiceType& type);
+
+}  // namespace gsv::broker

@@ -1,0 +1,84 @@
+// A program's side of a broker: register service types, export offers, find them.
+//
+// Works with any Trading Service. Every call ends within the time-out; every failure is an Error
+// whose sentence names the broker's address.
+//
+// Errors   kInvalidArgument: what was asked for is wrong (a constraint: with its position).
+//          kNotFound: no such service type, offer or property.
+//          kUnavailable, kTimeout: nobody answers at the address, or not in time.
+// Threads  every member may be called at any time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <COS/CosTrading.hh>
+#include <COS/CosTradingRepos.hh>
+
+#include "gsv/base/error.h"
+#include "gsv/broker/language/property.h"
+#include "gsv/broker/offers/service_type.h"
+
+namespace gsv::broker {
+
+struct FoundOffer {
+  CORBA::Object_var object;
+  PropertyList properties;
+};
+
+// An offer as its broker knows it.
+struct DescribedOffer {
+  std::string id;
+  std::string type;
+  CORBA::Object_var object;
+  PropertyList properties;
+};
+
+class BrokerClient {
+ public:
+  // `reference`: "corbaloc::host:port/TradingService" ("1.2@" is put in where it lacks), an
+  // "IOR:…", or nothing for what omniORB's -ORBInitRef TradingService=… says.
+  [[nodiscard]] static base::Result<BrokerClient> Connect(
+      CORBA::ORB_ptr orb, const std::string& reference,
+      std::chrono::milliseconds timeout = std::chrono::seconds(5));
+
+  // The broker's address as it should be shown and passed on.
+  const std::string& reference() const { return reference_; }
+
+  // Adds the type. One that is there already and says the same is fine.
+  [[nodiscard]] base::Status EnsureServiceType(const ServiceType& type);
+  // Returns the offer's id. Refuses a service that listens on loopback while the broker is on
+  // another host: nobody there could call it.
+  [[nodiscard]] base::Result<std::string> Export(const std::string& type, CORBA::Object_ptr object,
+                                                 const std::vector<Property>& properties);
+  [[nodiscard]] base::Status Withdraw(const std::string& id);
+  // Sets `properties`, leaving the others as they are.
+  [[nodiscard]] base::Status Modify(const std::string& id, const std::vector<Property>& properties);
+  // At most `limit` offers with all their properties, in the order of `preference`.
+  [[nodiscard]] base::Result<std::vector<FoundOffer>> Query(const std::string& type,
+                                                            const std::string& constraint,
+                                                            const std::string& preference,
+                                                            std::size_t limit);
+
+  [[nodiscard]] base::Result<std::vector<std::string>> ServiceTypeNames();
+  // With every inherited property.
+  [[nodiscard]] base::Result<ServiceType> DescribeServiceType(const std::string& name);
+  [[nodiscard]] base::Result<std::vector<std::string>> OfferIds();
+  [[nodiscard]] base::Result<DescribedOffer> Describe(const std::string& id);
+
+ private:
+  BrokerClient() = default;
+  base::Status Resolve(CORBA::ORB_ptr orb, unsigned long timeout_ms);
+
+  std::string reference_;
+  unsigned long timeout_ms_ = 0;
+  CORBA::ORB_var orb_;
+  CosTrading::Lookup_var lookup_;
+  CosTrading::Register_var registry_;
+  CosTrading::Admin_var admin_;  // nil where the broker has none
+  CosTradingRepos::ServiceTypeRepository_var types_;
+};
+
+}  // namespace gsv::broker

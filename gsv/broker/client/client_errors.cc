@@ -1,0 +1,191 @@
+#include "gsv/broker/client/client_errors.h"
+
+#include <fmt/format.h>
+#include <COS/CosTrading.hh>
+#include <COS/CosTradingRepos.hh>
+
+#include "gsv/broker/language/expression.h"
+
+namespace gsv::broker {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using Register = CosTrading::Register;
+using Repository = CosTradingRepos::ServiceTypeRepository;
+
+constexpr ErrorCode kWrong = ErrorCode::kInvalidArgument;
+constexpr ErrorCode kMissing = ErrorCode::kNotFound;
+
+// The exception says only what was refused; where it is wrong we find out ourselves. It may be
+// right in form, and wrong in type.
+std::string WhyRefused(const base::Status& parsed) {
+  return parsed ? "its operands do not have the types that the service type declares"
+                : parsed.error().Sentence();
+}
+
+std::string WhyConstraint(const char* text) {
+  const auto parsed = ParseConstraint(text, {});
+  return WhyRefused(parsed ? base::Status() : base::Fail(parsed.error()));
+}
+
+std::string WhyPreference(const char* text) {
+  const auto parsed = ParsePreference(text, {});
+  return WhyRefused(parsed ? base::Status() : base::Fail(parsed.error()));
+}
+
+Error OfQuery(const std::string& where) {
+  try {
+    throw;
+  } catch (const CosTrading::IllegalServiceType& e) {
+    return {kWrong, fmt::format("\"{}\" cannot be a service type's name", e.type.in()), where};
+  } catch (const CosTrading::UnknownServiceType& e) {
+    return {kMissing, fmt::format("the broker knows no service type {}", e.type.in()), where};
+  } catch (const CosTrading::IllegalConstraint& e) {
+    return {kWrong,
+            fmt::format("the constraint \"{}\" is refused: {}", e.constr.in(),
+                        WhyConstraint(e.constr.in())),
+            where};
+  } catch (const CosTrading::Lookup::IllegalPreference& e) {
+    return {kWrong,
+            fmt::format("the preference \"{}\" is refused: {}", e.pref.in(),
+                        WhyPreference(e.pref.in())),
+            where};
+  }
+}
+
+Error OfOffer(const std::string& where) {
+  try {
+    throw;
+  } catch (const Register::InvalidObjectRef&) {
+    return {kWrong, "the offered service is nil, or does not answer the broker", where};
+  } catch (const Register::InterfaceTypeMismatch& e) {
+    return {kWrong,
+            fmt::format("the offered service does not have the interface that the service type "
+                        "{} demands",
+                        e.type.in()),
+            where};
+  } catch (const CosTrading::IllegalPropertyName& e) {
+    return {kWrong, fmt::format("\"{}\" cannot be a property's name", e.name.in()), where};
+  } catch (const CosTrading::DuplicatePropertyName& e) {
+    return {kWrong, fmt::format("the property {} is given twice", e.name.in()), where};
+  } catch (const CosTrading::PropertyTypeMismatch& e) {
+    return {kWrong,
+            fmt::format("the property {} has another type than {} declares", e.prop.name.in(),
+                        e.type.in()),
+            where};
+  } catch (const CosTrading::MissingMandatoryProperty& e) {
+    return {kWrong, fmt::format("{} demands the property {}", e.type.in(), e.name.in()), where};
+  } catch (const CosTrading::ReadonlyDynamicProperty& e) {
+    return {kWrong,
+            fmt::format("the property {} of {} is read-only and cannot be dynamic", e.name.in(),
+                        e.type.in()),
+            where};
+  } catch (const Register::ReadonlyProperty& e) {
+    return {kWrong, fmt::format("the property {} of {} is read-only", e.name.in(), e.type.in()),
+            where};
+  } catch (const Register::MandatoryProperty& e) {
+    return {kWrong, fmt::format("the property {} of {} is mandatory", e.name.in(), e.type.in()),
+            where};
+  } catch (const CosTrading::IllegalOfferId& e) {
+    return {kWrong, fmt::format("\"{}\" cannot be an offer's id", e.id.in()), where};
+  } catch (const CosTrading::UnknownOfferId& e) {
+    return {kMissing, fmt::format("the broker has no offer {}", e.id.in()), where};
+  } catch (const CORBA::UserException&) {
+    return OfQuery(where);
+  }
+}
+
+Error OfLink(const std::string& where) {
+  try {
+    throw;
+  } catch (const CosTrading::Link::IllegalLinkName& e) {
+    return {kWrong, fmt::format("\"{}\" cannot be a link's name", e.name.in()), where};
+  } catch (const CosTrading::Link::DuplicateLinkName& e) {
+    return {kWrong, fmt::format("there is a link {} already", e.name.in()), where};
+  } catch (const CosTrading::Link::UnknownLinkName& e) {
+    return {kMissing, fmt::format("the broker has no link {}", e.name.in()), where};
+  } catch (const CosTrading::Link::DefaultFollowTooPermissive&) {
+    return {kWrong, "a link cannot pass on more than it may follow itself", where};
+  } catch (const CosTrading::Link::LimitingFollowTooPermissive&) {
+    return {kWrong, "a link cannot follow more than the broker's max_link_follow_policy", where};
+  } catch (const CosTrading::InvalidLookupRef&) {
+    return {kWrong, "the link's target is no broker, or does not answer this one", where};
+  } catch (const CORBA::UserException&) {
+    return OfOffer(where);
+  }
+}
+
+Error OfType(const std::string& where) {
+  try {
+    throw;
+  } catch (const Repository::ServiceTypeExists& e) {
+    return {
+        kWrong,
+        fmt::format("the service type {} is known already, with another definition", e.name.in()),
+        where};
+  } catch (const Repository::InterfaceTypeMismatch& e) {
+    return {kWrong,
+            fmt::format("the interface of {} is not one of its super type {}",
+                        e.derived_service.in(), e.base_service.in()),
+            where};
+  } catch (const Repository::ValueTypeRedefinition& e) {
+    return {kWrong,
+            fmt::format("{} and {} define the property {} differently", e.type_1.in(),
+                        e.type_2.in(), e.definition_1.name.in()),
+            where};
+  } catch (const Repository::DuplicateServiceTypeName& e) {
+    return {kWrong, fmt::format("the super type {} is named twice", e.name.in()), where};
+  } catch (const Repository::HasSubTypes& e) {
+    return {kWrong,
+            fmt::format("the service type {} has a sub type, {}; remove that first",
+                        e.the_type.in(), e.sub_type.in()),
+            where};
+  } catch (const CORBA::UserException&) {
+    return OfLink(where);
+  }
+}
+
+Error OfSystem(const std::string& where) {
+  try {
+    throw;
+  } catch (const CORBA::TIMEOUT&) {
+    return {ErrorCode::kTimeout, "the broker does not answer in time", where};
+  } catch (const CORBA::TRANSIENT& e) {
+    if (e.minor() == omni::TRANSIENT_CallTimedout) {
+      return {ErrorCode::kTimeout, "the broker does not answer in time", where};
+    }
+    return {ErrorCode::kUnavailable,
+            "no broker answers at this address; start one with `gsv broker`", where};
+  } catch (const CORBA::COMM_FAILURE&) {
+    return {ErrorCode::kUnavailable, "the connection to the broker broke", where};
+  } catch (const CORBA::OBJECT_NOT_EXIST&) {
+    return {ErrorCode::kUnavailable, "what answers at this address is not a broker", where};
+  } catch (const CORBA::IMP_LIMIT&) {
+    return {kWrong, "the request goes beyond the broker's limits", where};
+  } catch (const CORBA::SystemException& e) {
+    const char* minor = e.NP_minorString();
+    return {
+        ErrorCode::kUnavailable,
+        fmt::format("the broker cannot be asked: {} {}", e._name(), minor != nullptr ? minor : ""),
+        where};
+  }
+}
+
+}  // namespace
+
+base::Error ErrorOfCurrentException(const std::string& where) {
+  try {
+    try {
+      throw;
+    } catch (const CORBA::SystemException&) {
+      return OfSystem(where);
+    } catch (const CORBA::UserException&) {
+      return OfType(where);
+    }
+  } catch (const CORBA::Exception& e) {
+    return {ErrorCode::kUnavailable, fmt::format("the broker raised {}", e._name()), where};
+  }
+}
+
+}  // namespace gsv::broker

@@ -1,0 +1,38 @@
+// The service types under which GSV's own services are offered; docs/services.md says the same in
+// a table.
+#pragma once
+
+#include <string>
+
+#include "gsv/broker/language/property.h"
+#include "gsv/broker/offers/service_type.h"
+
+namespace gsv::broker {
+
+// sba::AgentBehaviourFactory.
+const ServiceType& AgentBehaviourFactoryType();
+// sba::SimulationService.
+const ServiceType& SimulationServiceType();
+
+struct BehaviourOffer {
+  std::string name;  // "wander"
+  std::string description;
+  std::string host;
+  std::int32_t pid = 0;
+  bool time_managed = true;  // tells the time by the robot's clock, so that it may be waited for
+};
+std::vector<Property> PropertiesOf(const BehaviourOffer& offer);
+// Properties that are missing keep their defaults.
+BehaviourOffer BehaviourOfferFrom(const PropertyList& properties);
+
+struct SimulationServiceOffer {
+  std::string name;  // of the server
+  std::string host;
+  std::int32_t pid = 0;
+  std::string viewer_url;        // empty: nowhere
+  std::int32_t simulations = 0;  // how many it runs now
+  std::int32_t cores = 1;
+};
+std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer);
+
+}  // namespace gsv::broker

@@ -1,0 +1,86 @@
+// The named values that describe an offer.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/broker/language/value.h"
+
+namespace gsv::broker {
+
+struct Property {
+  std::string name;
+  Value value;
+};
+
+// Where an evaluator gets properties from: an offer's own, or, for a dynamic property, another
+// service. The pointer holds until the next call.
+class PropertySource {
+ public:
+  virtual ~PropertySource() = default;
+  // Null when the offer has no such property, or its value cannot be had.
+  virtual const Value* Find(std::string_view name) const = 0;
+};
+
+// In their order, each once.
+using PropertyNames = std::vector<std::string>;
+
+// Properties in the order of their names, each name once. The names are kept apart from the
+// values, so that offers that say the same things of themselves share them.
+class PropertyList : public PropertySource {
+ public:
+  // One property as a list shows it.
+  struct Entry {
+    const std::string& name;
+    const Value& value;
+  };
+  class Iterator {
+   public:
+    Iterator(const PropertyList& list, std::size_t index) : list_(&list), index_(index) {}
+    Entry operator*() const { return (*list_)[index_]; }
+    Iterator& operator++() {
+      ++index_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return index_ == other.index_; }
+
+   private:
+    const PropertyList* list_;
+    std::size_t index_;
+  };
+
+  PropertyList();
+  // `properties` in any order, each name at most once.
+  explicit PropertyList(std::vector<Property> properties);
+  // In any order; of those with one name the last one counts.
+  static PropertyList LastOfEachName(std::vector<Property> properties);
+
+  const Value* Find(std::string_view name) const override;
+  void Set(Property property);
+  // False when there was none.
+  bool Remove(std::string_view name);
+
+  std::size_t size() const { return values_.size(); }
+  Entry operator[](std::size_t index) const { return {(*names_)[index], values_[index]}; }
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size()}; }
+  // Where the property of that name stands; size() when there is none.
+  std::size_t IndexOf(std::string_view name) const;
+
+  // As many, in the same order. Lists with the same pointer have the same names.
+  const std::shared_ptr<const PropertyNames>& names() const { return names_; }
+  std::span<const Value> values() const { return values_; }
+  // `names` are equal to its own.
+  void ShareNames(std::shared_ptr<const PropertyNames> names) { names_ = std::move(names); }
+
+  std::size_t EncodedSize() const;
+
+ private:
+  std::shared_ptr<const PropertyNames> names_;
+  std::vector<Value> values_;
+};
+
+}  // namespace gsv::broker

@@ -1,0 +1,24 @@
+// Whether the operands of an expression's operators have the types that the standard demands, as
+// far as that can be told before any offer is seen.
+//
+// Source  OMG Trading Object Service (formal/00-06-27), annex B, "operator restrictions".
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "gsv/base/error.h"
+#include "gsv/broker/language/expression.h"
+
+namespace gsv::broker {
+
+// The declared type of a property; nothing for one that the service type does not declare, which
+// an offer may hold with any type.
+using DeclaredTypes = std::function<std::optional<PropertyType>(std::string_view name)>;
+
+// Errors  kInvalidArgument with the position of the operator whose operands never fit.
+base::Status CheckConstraintTypes(const Expression& constraint, const DeclaredTypes& types);
+base::Status CheckPreferenceTypes(const Preference& preference, const DeclaredTypes& types);
+
+}  // namespace gsv::broker

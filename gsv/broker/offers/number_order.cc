@@ -1,0 +1,86 @@
+#include "gsv/broker/offers/number_order.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace gsv::broker {
+namespace {
+
+struct Keyed {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
+constexpr int kDigitBits = 11;
+constexpr int kDigits = 6;  // 66 bits
+constexpr std::size_t kDigitValues = std::size_t{1} << kDigitBits;
+
+std::size_t Digit(std::uint64_t key, int digit) {
+  return (key >> (kDigitBits * digit)) % kDigitValues;
+}
+
+// Grows with the number, and is the same for both zeros.
+std::uint64_t KeyOf(double number) {
+  if (std::isnan(number)) return std::numeric_limits<std::uint64_t>::max();
+  constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+  const auto bits = std::bit_cast<std::uint64_t>(number + 0.0);
+  return (bits & kSign) != 0 ? ~bits : bits | kSign;
+}
+
+// By its digits from the last one on.
+void SortByKey(std::vector<Keyed>& entries) {
+  std::array<std::vector<std::uint32_t>, kDigits> places;
+  for (auto& place : places) place.resize(kDigitValues);
+  for (const Keyed& entry : entries) {
+    for (int digit = 0; digit < kDigits; ++digit) {
+      ++places[static_cast<std::size_t>(digit)][Digit(entry.key, digit)];
+    }
+  }
+  std::vector<Keyed> sorted(entries.size());
+  for (int digit = 0; digit < kDigits; ++digit) {
+    auto& place = places[static_cast<std::size_t>(digit)];
+    if (place[Digit(entries.front().key, digit)] == entries.size()) continue;
+    std::uint32_t next = 0;
+    for (std::uint32_t& count : place) next += std::exchange(count, next);
+    for (const Keyed& entry : entries) sorted[place[Digit(entry.key, digit)]++] = entry;
+    entries.swap(sorted);
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> AscendingOrder(const std::vector<long double>& numbers) {
+  constexpr std::size_t kFew = 512;
+  std::vector<Keyed> entries;
+  entries.reserve(numbers.size());
+  bool exact = true;
+  for (const long double number : numbers) {
+    const auto rounded = static_cast<double>(number);
+    exact = exact && (static_cast<long double>(rounded) == number || std::isnan(rounded));
+    entries.push_back({KeyOf(rounded), static_cast<std::uint32_t>(entries.size())});
+  }
+  const auto by_key = [](const Keyed& a, const Keyed& b) { return a.key < b.key; };
+  if (entries.size() < kFew) {
+    std::stable_sort(entries.begin(), entries.end(), by_key);
+  } else {
+    SortByKey(entries);
+  }
+  // Rounding keeps the order, but makes some equal that are not.
+  for (auto run = entries.begin(); !exact && run != entries.end();) {
+    const auto end = std::upper_bound(run, entries.end(), *run, by_key);
+    std::stable_sort(run, end, [&](const Keyed& a, const Keyed& b) {
+      return numbers[a.index] < numbers[b.index];
+    });
+    run = end;
+  }
+  std::vector<std::uint32_t> order;
+  order.reserve(entries.size());
+  for (const Keyed& entry : entries) order.push_back(entry.index);
+  return order;
+}
+
+}  // namespace gsv::broker

@@ -1,0 +1,61 @@
+#include "gsv/broker/offers/number_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace gsv::broker {
+namespace {
+
+using Numbers = std::vector<long double>;
+using Order = std::vector<std::uint32_t>;
+
+constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
+constexpr long double kNone = std::numeric_limits<long double>::quiet_NaN();
+
+TEST(NumberOrder, EqualNumbersKeepTheirOrderAndWhatIsNoneComesLast) {
+  EXPECT_EQ(AscendingOrder({}), Order());
+  EXPECT_EQ(AscendingOrder({2, kNone, -1, 2, kInfinity, -kInfinity, kNone, 0}),
+            (Order{5, 2, 7, 0, 3, 4, 1, 6}));
+  EXPECT_EQ(AscendingOrder({0.0L, -0.0L, 0.0L}), (Order{0, 1, 2}));
+}
+
+TEST(NumberOrder, TellsIntegersApartThatADoubleCannot) {
+  const long double large = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(AscendingOrder({large, large - 2, large - 1, large - 2, 1}), (Order{4, 1, 3, 2, 0}));
+}
+
+// Judged by the standard library's sort.
+TEST(NumberOrder, IsThatOfAComparisonForManyNumbers) {
+  std::mt19937_64 random(7);
+  for (const bool large : {false, true}) {
+    Numbers numbers;
+    for (int i = 0; i < 5000; ++i) {
+      const auto integer = static_cast<std::int64_t>(random());
+      if (i % 50 == 0) {
+        numbers.push_back(kNone);
+      } else if (i % 3 == 0) {
+        numbers.push_back(static_cast<long double>(integer % 100) / 8);
+      } else {
+        numbers.push_back(large ? static_cast<long double>(integer)
+                                : static_cast<long double>(std::ldexp(integer, -(i % 200))));
+      }
+    }
+    Order expected(numbers.size());
+    std::iota(expected.begin(), expected.end(), 0);
+    std::stable_sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
+      if (std::isnan(numbers[a]) || std::isnan(numbers[b]))
+        return std::isnan(numbers[b]) && !std::isnan(numbers[a]);
+      return numbers[a] < numbers[b];
+    });
+    EXPECT_EQ(AscendingOrder(numbers), expected);
+  }
+}
+
+}  // namespace
+}  // namespace gsv::broker

@@ -1,0 +1,138 @@
+#include "gsv/broker/offers/offer_store.h"
+
+#include <algorithm>
+
+#include "gsv/base/check.h"
+
+namespace gsv::broker {
+namespace {
+
+constexpr std::size_t kIndicesOfType = 8;
+constexpr std::size_t kIndexedTerms = 4;  // of one constraint
+
+}  // namespace
+
+std::uint64_t OfferStore::Add(Offer offer) {
+  offer.number = next_number_++;
+  const std::uint64_t number = offer.number;
+  Restore(std::move(offer));
+  return number;
+}
+
+void OfferStore::Restore(Offer restored) {
+  names_.Share(restored.properties);
+  auto offer = std::make_shared<const Offer>(std::move(restored));
+  const std::uint64_t number = offer->number;
+  Bucket& bucket = by_type_[offer->type];
+  bucket.offers.Put(offer);
+  for (PropertyIndex& index : bucket.indices) index.Insert(offer);
+  offers_.emplace(number, std::move(offer));
+  SkipTo(number + 1);
+}
+
+void OfferStore::SkipTo(std::uint64_t number) { next_number_ = std::max(next_number_, number); }
+
+void OfferStore::Replace(Offer offer) {
+  names_.Share(offer.properties);
+  auto stored = std::make_shared<const Offer>(std::move(offer));
+  const auto found = offers_.find(stored->number);
+  GSV_CHECK(found != offers_.end() && found->second->type == stored->type);
+  Bucket& bucket = by_type_.at(stored->type);
+  for (PropertyIndex& index : bucket.indices) {
+    index.Remove(*found->second);
+    index.Insert(stored);
+  }
+  bucket.offers.Put(stored);
+  found->second = std::move(stored);
+}
+
+bool OfferStore::Remove(std::uint64_t number) {
+  const auto found = offers_.find(number);
+  if (found == offers_.end()) return false;
+  const auto bucket = by_type_.find(found->second->type);
+  for (PropertyIndex& index : bucket->second.indices) index.Remove(*found->second);
+  bucket->second.offers.Remove(number);
+  if (bucket->second.offers.size() == 0) by_type_.erase(bucket);
+  offers_.erase(found);
+  return true;
+}
+
+OfferPtr OfferStore::Find(std::uint64_t number) const {
+  const auto found = offers_.find(number);
+  return found != offers_.end() ? found->second : nullptr;
+}
+
+std::vector<OfferView> OfferStore::OfTypes(const std::vector<std::string>& types) const {
+  std::vector<OfferView> views;
+  for (const std::string& type : types) {
+    const auto bucket = by_type_.find(type);
+    if (bucket != by_type_.end()) views.push_back(bucket->second.offers.View());
+  }
+  return views;
+}
+
+std::size_t OfferStore::CountOfTypes(const std::vector<std::string>& types) const {
+  std::size_t count = 0;
+  for (const std::string& type : types) {
+    const auto bucket = by_type_.find(type);
+    if (bucket != by_type_.end()) count += bucket->second.offers.size();
+  }
+  return count;
+}
+
+Offers OfferStore::All() const {
+  Offers all;
+  all.reserve(offers_.size());
+  for (const auto& [number, offer] : offers_) all.push_back(offer);
+  std::sort(all.begin(), all.end(),
+            [](const OfferPtr& a, const OfferPtr& b) { return a->number < b->number; });
+  return all;
+}
+
+const PropertyIndex* OfferStore::Bucket::FindIndex(const std::string& property) const {
+  const auto found = std::find_if(indices.begin(), indices.end(), [&](const PropertyIndex& index) {
+    return index.property() == property;
+  });
+  return found != indices.end() ? &*found : nullptr;
+}
+
+std::optional<std::vector<OfferView>> OfferStore::OfTypesWith(
+    const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms) const {
+  std::vector<OfferView> views;
+  for (const std::string& type : types) {
+    const auto bucket = by_type_.find(type);
+    if (bucket == by_type_.end()) continue;
+    const PropertyIndex* best = nullptr;
+    const ScalarValue* value = nullptr;
+    for (const EqualityTerm& term : terms) {
+      const PropertyIndex* index = bucket->second.FindIndex(term.property);
+      if (index == nullptr) continue;
+      if (best != nullptr && best->Count(*value) <= index->Count(term.value)) continue;
+      best = index;
+      value = &term.value;
+    }
+    if (best == nullptr) return std::nullopt;
+    views.emplace_back(best->Find(*value));
+  }
+  return views;
+}
+
+void OfferStore::Index(const std::vector<std::string>& types,
+                       const std::vector<EqualityTerm>& terms) {
+  for (const std::string& type : types) {
+    const auto found = by_type_.find(type);
+    if (found == by_type_.end()) continue;
+    Bucket& bucket = found->second;
+    for (std::size_t i = 0; i < std::min(terms.size(), kIndexedTerms); ++i) {
+      if (bucket.FindIndex(terms[i].property) != nullptr) continue;
+      if (bucket.indices.size() == kIndicesOfType) bucket.indices.pop_front();
+      PropertyIndex& index = bucket.indices.emplace_back(terms[i].property);
+      const OfferView view = bucket.offers.View();
+      for (const auto& chunk : view.chunks()) {
+        for (const OfferPtr& offer : chunk->offers()) index.Insert(offer);
+      }
+    }
+  }
+}
+
+}  // namespace gsv::broker

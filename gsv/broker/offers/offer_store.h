@@ -1,0 +1,66 @@
+// The offers, by number, by service type, and by the values of properties that queries ask for.
+//
+// Threads  not safe; Trader serialises. What a view shows stays as it is.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "gsv/broker/language/equality_terms.h"
+#include "gsv/broker/language/name_table.h"
+#include "gsv/broker/language/offer.h"
+#include "gsv/broker/offers/offer_column.h"
+#include "gsv/broker/offers/property_index.h"
+
+namespace gsv::broker {
+
+class OfferStore {
+ public:
+  std::size_t size() const { return offers_.size(); }
+
+  // Gives the offer its number.
+  std::uint64_t Add(Offer offer);
+  // Puts back an offer that has its number, which no other has.
+  void Restore(Offer offer);
+  // The next offer added has at least this number.
+  void SkipTo(std::uint64_t number);
+  // Puts `offer` in the place of the one with its number, which must be there, of the same type.
+  void Replace(Offer offer);
+  // False when there is none.
+  bool Remove(std::uint64_t number);
+  // Null when there is none.
+  OfferPtr Find(std::uint64_t number) const;
+
+  // The offers of `types`: type by type, in the order of export within one.
+  std::vector<OfferView> OfTypes(const std::vector<std::string>& types) const;
+  std::size_t CountOfTypes(const std::vector<std::string>& types) const;
+  // In the order of export.
+  Offers All() const;
+
+  // Of OfTypes(), in the same order, at least those for which one of `terms` is TRUE: the one that
+  // leaves the fewest. Nothing when there is no index for one of them in every type.
+  std::optional<std::vector<OfferView>> OfTypesWith(const std::vector<std::string>& types,
+                                                    const std::vector<EqualityTerm>& terms) const;
+  // Makes indices for the first few of `terms`. Each type has a few; the oldest goes first.
+  void Index(const std::vector<std::string>& types, const std::vector<EqualityTerm>& terms);
+
+ private:
+  struct Bucket {
+    OfferColumn offers{};
+    std::deque<PropertyIndex> indices{};  // in the order in which they were made
+
+    const PropertyIndex* FindIndex(const std::string& property) const;
+  };
+
+  std::unordered_map<std::uint64_t, OfferPtr> offers_;
+  NameTable names_;
+  std::map<std::string, Bucket> by_type_;
+  std::uint64_t next_number_ = 1;
+};
+
+}  // namespace gsv::broker

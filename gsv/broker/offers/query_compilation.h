@@ -1,0 +1,20 @@
+// A query's constraint and preference, parsed and checked against the service type.
+#pragma once
+
+#include <string>
+
+#include "gsv/broker/language/expression.h"
+#include "gsv/broker/language/limits.h"
+#include "gsv/broker/offers/service_type.h"
+#include "gsv/broker/offers/trading_error.h"
+
+namespace gsv::broker {
+
+// `type` is fully described.
+// Errors  kIllegalConstraint, kIllegalPreference.
+Traded<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
+                                     const ExpressionLimits& limits);
+Traded<Preference> CompilePreference(const std::string& text, const ServiceType& type,
+                                     const ExpressionLimits& limits);
+
+}  // namespace gsv::broker

@@ -1,0 +1,104 @@
+// What the trader refuses: one value for each exception of the standard, with that exception's
+// members.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <tl/expected.hpp>
+
+#include "gsv/broker/language/property.h"
+#include "gsv/broker/offers/import_policies.h"
+#include "gsv/broker/offers/service_type.h"
+
+namespace gsv::broker {
+
+// The exceptions of CosTrading and CosTradingRepos, kLimit for a request that goes beyond the
+// trader's limits (CORBA::IMP_LIMIT), and kNotStored when the disk fails (CORBA::PERSIST_STORE).
+enum class Refusal {
+  // Members: type
+  kIllegalServiceType,
+  kUnknownServiceType,
+  kServiceTypeExists,
+  kDuplicateServiceTypeName,
+  kAlreadyMasked,
+  kNotMasked,
+  // Members: type (the type), name (its sub type)
+  kHasSubTypes,
+  // Members: name
+  kIllegalPropertyName,
+  kDuplicatePropertyName,
+  kUnknownPropertyName,
+  kIllegalOfferId,
+  kUnknownOfferId,
+  kProxyOfferId,
+  kNotProxyOfferId,
+  // Members: type, name
+  kMissingMandatoryProperty,
+  kMandatoryProperty,
+  kReadonlyProperty,
+  kReadonlyDynamicProperty,
+  // Members: type, property
+  kPropertyTypeMismatch,
+  // Members: name (the text that was refused)
+  kIllegalConstraint,
+  kIllegalPreference,
+  kIllegalRecipe,
+  kNoMatchingOffers,
+  kIllegalLinkName,
+  kUnknownLinkName,
+  kDuplicateLinkName,
+  // Members: follow
+  kDefaultFollowTooPermissive,
+  kLimitingFollowTooPermissive,
+  // Members: redefinition
+  kValueTypeRedefinition,
+  // Members: interfaces
+  kInterfaceTypeMismatch,
+  // No members.
+  kNotImplemented,
+  kLimit,
+  kNotStored,
+};
+
+struct Redefinition {
+  std::string type_1;
+  PropertyDefinition definition_1;
+  std::string type_2;
+  PropertyDefinition definition_2;
+};
+
+struct InterfaceMismatch {
+  std::string base_service;
+  std::string base_interface;
+  std::string derived_service;
+  std::string derived_interface;
+};
+
+// A follow rule that goes beyond what bounds it.
+struct FollowConflict {
+  FollowOption rule;
+  FollowOption bound;
+};
+
+struct TradingError {
+  Refusal refusal = Refusal::kLimit;
+  std::string type{};
+  std::string name{};
+  std::string detail{};  // for people: why, and where
+  std::optional<Property> property{};
+  std::optional<Redefinition> redefinition{};
+  std::optional<InterfaceMismatch> interfaces{};
+  std::optional<FollowConflict> follow{};
+};
+
+template <typename T>
+using Traded = tl::expected<T, TradingError>;
+
+inline tl::unexpected<TradingError> Refuse(TradingError error) {
+  return tl::unexpected<TradingError>(std::move(error));
+}
+
+}  // namespace gsv::broker

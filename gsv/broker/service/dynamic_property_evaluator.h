@@ -1,0 +1,42 @@
+// Asks services for the values of dynamic properties (CosTradingDynamic::DynamicPropEval).
+//
+// A value, or that there is none, is remembered for a while, so that many queries make few calls.
+//
+// Threads  any; no lock is held during a call.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "gsv/broker/language/limits.h"
+#include "gsv/broker/offers/dynamic_values.h"
+
+namespace gsv::broker {
+
+class DynamicPropertyEvaluator : public DynamicEvaluator {
+ public:
+  explicit DynamicPropertyEvaluator(const DynamicLimits& limits) : limits_(limits) {}
+
+  std::optional<Value> Evaluate(const std::string& name, const OtherValue& property,
+                                Clock::time_point deadline) override;
+
+ private:
+  // A property's name, and whom to ask what as CDR: equal for equal questions.
+  using Question = std::pair<std::string, std::string>;
+  struct Answer {
+    std::optional<Value> value;
+    Clock::time_point expires;
+  };
+
+  void Remember(Question question, Answer answer);
+
+  const DynamicLimits limits_;
+  std::mutex mutex_;  // guards all that follows
+  std::map<Question, Answer> answers_;
+};
+
+}  // namespace gsv::broker

@@ -1,0 +1,61 @@
+#include "gsv/broker/service/interface_check.h"
+
+#include <algorithm>
+
+namespace gsv::broker {
+namespace {
+
+constexpr unsigned long kAnswerWithinMs = 1000;
+constexpr std::string_view kObject = "IDL:omg.org/CORBA/Object:1.0";
+
+bool IsRepositoryId(std::string_view name) { return name.starts_with("IDL:"); }
+
+// "IDL:omg.org/CosTrading/Lookup:1.0" → "omg.org/CosTrading/Lookup".
+std::string_view Path(std::string_view id) {
+  if (IsRepositoryId(id)) id.remove_prefix(4);
+  return id.substr(0, id.rfind(':'));
+}
+
+// "::CosTrading::Lookup" → "CosTrading/Lookup".
+std::string PathOfScopedName(std::string_view name) {
+  if (name.starts_with("::")) name.remove_prefix(2);
+  std::string path(name);
+  for (std::size_t at = path.find("::"); at != std::string::npos; at = path.find("::", at)) {
+    path.replace(at, 2, "/");
+  }
+  return path;
+}
+
+// A scoped name leaves out the prefix ("omg.org") that an identifier has.
+bool EndsWithPath(std::string_view path, std::string_view end) {
+  return path == end || (path.size() > end.size() && path.ends_with(end) &&
+                         path[path.size() - end.size() - 1] == '/');
+}
+
+}  // namespace
+
+Conformance CompareInterface(std::string_view type_id, std::string_view interface_name) {
+  if (interface_name.empty() || interface_name == kObject) return Conformance::kConforms;
+  if (type_id.empty()) return Conformance::kUnknown;
+  const bool same = IsRepositoryId(interface_name)
+                        ? type_id == interface_name
+                        : EndsWithPath(Path(type_id), PathOfScopedName(interface_name));
+  return same ? Conformance::kConforms : Conformance::kUnknown;
+}
+
+Conformance CheckInterface(CORBA::Object_ptr service, std::string_view type_id,
+                           const std::string& interface_name) {
+  const Conformance compared = CompareInterface(type_id, interface_name);
+  if (compared != Conformance::kUnknown) return compared;
+  const std::string id = IsRepositoryId(interface_name)
+                             ? interface_name
+                             : "IDL:" + PathOfScopedName(interface_name) + ":1.0";
+  try {
+    omniORB::setClientCallTimeout(service, kAnswerWithinMs);
+    return service->_is_a(id.c_str()) ? Conformance::kConforms : Conformance::kDiffers;
+  } catch (const CORBA::SystemException&) {
+    return Conformance::kUnknown;
+  }
+}
+
+}  // namespace gsv::broker

@@ -1,0 +1,35 @@
+// CosTrading::Link.
+#pragma once
+
+#include <COS/CosTrading.hh>
+
+#include "gsv/broker/service/attribute_servants.h"
+
+namespace gsv::broker {
+
+class LinkServant : public POA_CosTrading::Link, public ComponentsServant, public SupportServant {
+ public:
+  explicit LinkServant(TradingObjects& objects)
+      : ComponentsServant(objects), SupportServant(objects) {}
+
+  CosTrading::FollowOption max_link_follow_policy() override;
+
+  void add_link(const char* name, CosTrading::Lookup_ptr target,
+                CosTrading::FollowOption def_pass_on_follow_rule,
+                CosTrading::FollowOption limiting_follow_rule) override;
+  void remove_link(const char* name) override;
+  // Asks the target for its Register, for a second at most; a nil reference when there is none.
+  CosTrading::Link::LinkInfo* describe_link(const char* name) override;
+  CosTrading::LinkNameSeq* list_links() override;
+  void modify_link(const char* name, CosTrading::FollowOption def_pass_on_follow_rule,
+                   CosTrading::FollowOption limiting_follow_rule) override;
+};
+
+// The Register of the trader at `target`. Nil when it has none, or does not answer in a second.
+CosTrading::Register_ptr RegisterOf(CORBA::ORB_ptr orb, const std::string& target);
+
+// The reference to another trader's Lookup as a string.
+// Errors  throws InvalidLookupRef when it is nil or another interface's.
+std::string CheckLookup(CORBA::ORB_ptr orb, CosTrading::Lookup_ptr target);
+
+}  // namespace gsv::broker

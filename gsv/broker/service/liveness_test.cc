@@ -1,0 +1,75 @@
+// Offers of real services that die, hang and come back.
+#include <csignal>
+#include <thread>
+
+#include "gsv/broker/testing/broker_fixture.h"
+
+namespace gsv::broker {
+namespace {
+
+class LivenessTest : public BrokerFixture {
+ protected:
+  explicit LivenessTest(const std::string& patience_ms = "3600000")
+      : BrokerFixture({"0", "liveness_ms=20", "patience_ms=" + patience_ms}) {}
+
+  bool IsOffered(const std::string& id) {
+    try {
+      const Register::OfferInfo_var info = register_->describe(id.c_str());
+      return true;
+    } catch (const CosTrading::UnknownOfferId&) {
+      return false;
+    }
+  }
+  void AwaitWithdrawal(const std::string& id) {
+    while (IsOffered(id)) std::this_thread::yield();
+  }
+};
+
+class ImpatientLivenessTest : public LivenessTest {
+ protected:
+  ImpatientLivenessTest() : LivenessTest("500") {}
+};
+
+TEST_F(LivenessTest, TheOfferOfAKilledProgramGoesAwayAndNoOther) {
+  ServiceProcess living(broker_.reference());
+  ServiceProcess killed(broker_.reference());
+  ASSERT_TRUE(IsOffered(killed.offer_id()));
+  killed.Send(SIGKILL);
+  killed.Wait();
+  AwaitWithdrawal(killed.offer_id());
+  EXPECT_TRUE(IsOffered(living.offer_id()));
+  EXPECT_EQ(Query("Service").offers->length(), 1u);
+}
+
+TEST_F(LivenessTest, TheOfferOfAnObjectThatIsGoneGoesAway) {
+  ServiceProcess living(broker_.reference());
+  const CORBA::Object_var root = TestOrb()->resolve_initial_references("RootPOA");
+  const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
+  const CORBA::Object_var object = poa->create_reference(kServiceInterface);
+  const CORBA::String_var id = register_->_cxx_export(object, "Service", {});
+  AwaitWithdrawal(id.in());
+  EXPECT_TRUE(IsOffered(living.offer_id()));
+}
+
+// Others are killed while the first stands still; each that is gone was asked in another round.
+TEST_F(LivenessTest, TheOfferOfAProgramThatStandsStillStaysForAWhile) {
+  ServiceProcess still(broker_.reference());
+  still.Stop();
+  for (int i = 0; i < 3; ++i) {
+    ServiceProcess killed(broker_.reference());
+    killed.Send(SIGKILL);
+    killed.Wait();
+    AwaitWithdrawal(killed.offer_id());
+  }
+  EXPECT_TRUE(IsOffered(still.offer_id()));
+  still.Send(SIGCONT);
+}
+
+TEST_F(ImpatientLivenessTest, TheOfferOfAProgramThatStandsStillTooLongGoesAway) {
+  ServiceProcess still(broker_.reference());
+  still.Stop();
+  AwaitWithdrawal(still.offer_id());
+}
+
+}  // namespace
+}  // namespace gsv::broker

@@ -1,0 +1,21 @@
+// The trader's refusals as the standard's exceptions.
+#pragma once
+
+#include "gsv/broker/offers/trading_error.h"
+
+namespace gsv::broker {
+
+// Throws the exception of CosTrading or CosTradingRepos, or CORBA::IMP_LIMIT.
+[[noreturn]] void Raise(const TradingError& error);
+
+template <typename T>
+T ValueOrRaise(Traded<T> traded) {
+  if (!traded) Raise(traded.error());
+  return std::move(*traded);
+}
+
+inline void ValueOrRaise(const Traded<void>& traded) {
+  if (!traded) Raise(traded.error());
+}
+
+}  // namespace gsv::broker

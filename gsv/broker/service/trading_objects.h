@@ -1,0 +1,57 @@
+// What the servants of the Trading Service share: the trader, the open iterators, and each
+// other's references.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <COS/CosTrading.hh>
+#include <COS/CosTradingRepos.hh>
+
+#include "gsv/broker/service/dynamic_property_evaluator.h"
+#include "gsv/broker/service/query_forwarder.h"
+#include "gsv/broker/trader/cursor_table.h"
+#include "gsv/broker/trader/request_history.h"
+#include "gsv/broker/trader/trader.h"
+
+namespace gsv::broker {
+
+// A reply fits a GIOP message of 64 KiB with this many bytes of offers or names.
+constexpr std::size_t kReplyBytes = 48 * 1024;
+
+using OfferCursors = CursorTable<OfferPtr, DesiredProperties>;
+struct NoContext {};
+using OfferIdCursors = CursorTable<std::string, NoContext>;
+
+struct TradingObjects {
+  explicit TradingObjects(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
+
+  Trader trader;
+  DynamicPropertyEvaluator dynamic;
+  QueryForwarder forwarder;
+  RequestHistory requests;
+  OfferCursors offer_cursors;
+  OfferIdCursors id_cursors;
+
+  // No other query of any trader has the same.
+  std::string NewRequestId();
+
+  // Set before the first request is served.
+  CORBA::ORB_var orb;
+  PortableServer::POA_var offer_iterators;
+  PortableServer::POA_var id_iterators;
+  CosTrading::Lookup_var lookup;
+  CosTrading::Register_var registry;
+  CosTrading::Link_var link;
+  CosTrading::Proxy_var proxy;
+  CosTrading::Admin_var admin;
+  CosTradingRepos::ServiceTypeRepository_var types;
+
+ private:
+  const std::string process_;  // another each time that the trader starts
+  std::atomic<std::uint64_t> next_request_ = 0;
+};
+
+}  // namespace gsv::broker

@@ -1,0 +1,22 @@
+// The tables of a broker's file, and whether a file is one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "gsv/base/error.h"
+#include "gsv/broker/storage/database.h"
+
+namespace gsv::broker {
+
+// The rows of the table `broker`.
+constexpr std::string_view kStem = "stem";
+constexpr std::string_view kNextNumber = "next_number";
+constexpr std::string_view kNextIncarnation = "next_incarnation";
+
+// Opens `path` for this process alone, sound and with every table; makes what is not there.
+// Errors  see OfferFile::Open.
+[[nodiscard]] base::Result<Database> OpenOfferDatabase(const std::string& path, std::uint32_t stem);
+
+}  // namespace gsv::broker

@@ -1,0 +1,78 @@
+// For tests over TCP: a broker in another process, and this process's ORB as its client and as
+// the host of offered services.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <COS/CosTrading.hh>
+#include <COS/CosTradingRepos.hh>
+
+#include "gsv/broker/language/property.h"
+#include "gsv/broker/testing/broker_process.h"
+
+namespace gsv::broker {
+
+// This process's ORB; it serves.
+CORBA::ORB_ptr TestOrb();
+
+// A living service with the interface kServiceInterface.
+CORBA::Object_ptr TestService();
+constexpr const char* kServiceInterface = "IDL:omg.org/CosTradingDynamic/DynamicPropEval:1.0";
+
+class BrokerFixture : public testing::Test {
+ protected:
+  using Repository = CosTradingRepos::ServiceTypeRepository;
+  using Register = CosTrading::Register;
+  using Lookup = CosTrading::Lookup;
+
+  explicit BrokerFixture(std::vector<std::string> arguments = {"0"});
+
+  // A service type with the given properties.
+  Repository::IncarnationNumber AddType(const std::string& name,
+                                        const std::vector<Repository::PropStruct>& properties = {},
+                                        const std::vector<std::string>& super_types = {},
+                                        const std::string& interface_name = "");
+  static Repository::PropStruct Define(const char* name, CORBA::TypeCode_ptr type,
+                                       Repository::PropertyMode mode);
+  // Exports TestService(); the offer's id.
+  std::string Export(const std::string& type, const std::vector<Property>& properties = {});
+  static CosTrading::PropertySeq Sequence(const std::vector<Property>& properties);
+  static CosTrading::Policy Policy(const char* name, const CORBA::Any& value);
+
+  struct Answer {
+    CosTrading::OfferSeq_var offers;
+    CosTrading::OfferIterator_var rest;
+    CosTrading::PolicyNameSeq_var limits_applied;
+  };
+  Answer Query(const std::string& type, const std::string& constraint = "",
+               const std::string& preference = "",
+               const std::vector<CosTrading::Policy>& policies = {}, CORBA::ULong how_many = 100);
+  Answer Query(const std::string& type, const std::string& constraint,
+               const std::string& preference, const std::vector<CosTrading::Policy>& policies,
+               CORBA::ULong how_many, const Lookup::SpecifiedProps& desired);
+
+  BrokerProcess broker_;
+  CosTrading::Lookup_var lookup_;
+  CosTrading::Register_var register_;
+  CosTrading::Admin_var admin_;
+  CosTradingRepos::ServiceTypeRepository_var types_;
+};
+
+// Runs `call`, which must raise `Exception`; returns it.
+template <typename Exception, typename Call>
+Exception Raised(const Call& call) {
+  try {
+    call();
+  } catch (const Exception& exception) {
+    return exception;
+  } catch (const CORBA::Exception& other) {
+    ADD_FAILURE() << "raised " << other._name() << " instead of " << Exception()._name();
+    return Exception();
+  }
+  ADD_FAILURE() << "did not raise " << Exception()._name();
+  return Exception();
+}
+
+}  // namespace gsv::broker

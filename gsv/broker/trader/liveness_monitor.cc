@@ -1,0 +1,116 @@
+#include "gsv/broker/trader/liveness_monitor.h"
+
+#include <cstdio>
+#include <new>
+#include <utility>
+
+#include "gsv/broker/trader/service_reference.h"
+
+namespace gsv::broker {
+
+LivenessMonitor::LivenessMonitor(const LivenessOptions& options, Trader& trader, Ask ask)
+    : options_(options), trader_(trader), ask_(std::move(ask)), round_start_(Clock::now()) {
+  if (options_.period <= std::chrono::milliseconds::zero()) return;
+  for (int i = 0; i < options_.concurrent; ++i) workers_.emplace_back([this] { Work(); });
+}
+
+LivenessMonitor::~LivenessMonitor() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  ending_changed_.notify_all();
+  for (std::thread& worker : workers_) worker.join();
+}
+
+void LivenessMonitor::Work() {
+  while (true) {
+    try {
+      AskThoseDue();
+      return;
+    } catch (const std::bad_alloc&) {
+      // The address space is limited, and others may need it for a moment.
+      std::unique_lock lock(mutex_);
+      ending_changed_.wait_for(lock, options_.timeout, [this] { return ending_; });
+    }
+  }
+}
+
+void LivenessMonitor::AskThoseDue() {
+  std::unique_lock lock(mutex_);
+  while (const auto service = Next(lock)) {
+    Pulse pulse = Pulse::kSilent;
+    if (!silent_addresses_.contains(service->address)) {
+      lock.unlock();
+      pulse = ask_(service->reference, options_.timeout);
+      lock.lock();
+    }
+    const bool is_dead = Judge(*service, pulse);
+    if (!is_dead) continue;
+    lock.unlock();
+    Withdraw(*service, pulse);
+    lock.lock();
+  }
+}
+
+std::shared_ptr<const LivenessMonitor::Service> LivenessMonitor::Next(
+    std::unique_lock<std::mutex>& lock) {
+  while (!ending_) {
+    const bool is_over = next_ == round_.size();
+    Clock::duration share = options_.period;
+    if (!is_over) share = share / static_cast<int>(round_.size()) * static_cast<int>(next_);
+    const auto due = round_start_ + share;
+    if (Clock::now() < due) {
+      // Another may have taken the service, or begun a round, meanwhile: look again.
+      ending_changed_.wait_until(lock, due, [this] { return ending_; });
+    } else if (is_over) {
+      StartRound();
+    } else {
+      return round_[next_++];
+    }
+  }
+  return nullptr;
+}
+
+void LivenessMonitor::StartRound() {
+  std::map<std::string, std::shared_ptr<Service>> services;
+  for (const OfferPtr& offer : trader_.AllOffers()) {
+    auto& service = services[offer->reference];
+    if (service == nullptr) {
+      const auto reference = ReadReference(offer->reference);
+      service = std::make_shared<Service>();
+      service->reference = offer->reference;
+      if (reference) service->address = reference->Address();
+    }
+    service->offers.push_back(offer->number);
+  }
+  round_.clear();
+  for (auto& [reference, service] : services) round_.push_back(std::move(service));
+  next_ = 0;
+  round_start_ = Clock::now();
+  silent_addresses_.clear();
+  std::erase_if(silent_since_,
+                [&](const auto& silent) { return !services.contains(silent.first); });
+}
+
+bool LivenessMonitor::Judge(const Service& service, Pulse pulse) {
+  if (pulse != Pulse::kSilent) {
+    silent_since_.erase(service.reference);
+    return pulse == Pulse::kGone;
+  }
+  if (!service.address.empty()) silent_addresses_.insert(service.address);
+  const auto now = Clock::now();
+  const auto since = silent_since_.emplace(service.reference, now).first->second;
+  return now - since >= options_.patience;
+}
+
+void LivenessMonitor::Withdraw(const Service& service, Pulse pulse) {
+  const std::size_t count = trader_.WithdrawAll(service.offers);
+  if (count == 0) return;
+  std::fprintf(stderr, "broker: %zu offer%s of a service at %s withdrawn: it %s\n", count,
+               count == 1 ? "" : "s",
+               service.address.empty() ? "an unknown address" : service.address.c_str(),
+               pulse == Pulse::kGone ? "is gone" : "has not answered for too long");
+}
+
+}  // namespace gsv::broker

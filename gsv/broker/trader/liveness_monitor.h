@@ -1,0 +1,88 @@
+// Withdraws the offers of services that are gone.
+//
+// Every offered service is asked once a period whether it still exists. The questions are spread
+// over the period, few are underway at a time, and each ends with its timeout. A service that says
+// that it is gone, or whose port nobody listens on, is dead at once; one that does not answer is
+// dead when it has not answered for `patience`. An address that does not answer is asked once a
+// period, for all services there.
+//
+// A dead offer is seen for at most two periods, and as long as it takes to ask the silent
+// addresses: their number times `timeout` over `concurrent`.
+//
+// Threads  its own.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gsv/broker/trader/trader.h"
+
+namespace gsv::broker {
+
+struct LivenessOptions {
+  std::chrono::milliseconds period{60'000};     // zero: nobody is asked
+  std::chrono::milliseconds patience{600'000};  // how long a service may be silent
+  std::chrono::milliseconds timeout{1'000};     // of one question
+  int concurrent = 4;                           // questions underway
+};
+
+enum class Pulse {
+  kAlive,
+  kGone,    // it said so, or nobody listens at its address
+  kSilent,  // nothing came back in time
+};
+
+class LivenessMonitor {
+ public:
+  // Asks the service behind a stringified reference, for at most the time given. Called by
+  // several threads at once.
+  using Ask = std::function<Pulse(const std::string& reference, std::chrono::milliseconds timeout)>;
+
+  LivenessMonitor(const LivenessOptions& options, Trader& trader, Ask ask);
+  // Waits for the questions that are underway.
+  ~LivenessMonitor();
+  LivenessMonitor(const LivenessMonitor&) = delete;
+  LivenessMonitor& operator=(const LivenessMonitor&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Service {
+    std::string reference;
+    std::string address;
+    std::vector<std::uint64_t> offers;
+  };
+
+  void Work();
+  void AskThoseDue();
+  // The next service that is due, or null at the end. Waits for it.
+  std::shared_ptr<const Service> Next(std::unique_lock<std::mutex>& lock);
+  void StartRound();
+  // True when it is dead.
+  bool Judge(const Service& service, Pulse pulse);
+  void Withdraw(const Service& service, Pulse pulse);
+
+  const LivenessOptions options_;
+  Trader& trader_;
+  const Ask ask_;
+
+  std::mutex mutex_;  // guards all that follows
+  std::condition_variable ending_changed_;
+  bool ending_ = false;
+  std::vector<std::shared_ptr<const Service>> round_;
+  std::size_t next_ = 0;
+  Clock::time_point round_start_;
+  std::set<std::string> silent_addresses_;                 // in this round
+  std::map<std::string, Clock::time_point> silent_since_;  // by reference
+  std::vector<std::thread> workers_;                       // last: they use the others
+};
+
+}  // namespace gsv::broker

@@ -1,0 +1,85 @@
+#include "gsv/broker/trader/service_reference.h"
+
+#include <gtest/gtest.h>
+
+#include "gsv/broker/client/corbaloc.h"
+
+namespace gsv::broker {
+namespace {
+
+// Written by hand from CORBA 3.1 part 2, 7.6 and 9.3: big-endian, type id "IDL:A:1.0", one IIOP
+// 1.2 profile for host "h", port 0x1234 and an object key of one byte.
+constexpr std::string_view kBigEndian =
+    "IOR:"
+    "00000000"                      // byte order, padding
+    "0000000a49444c3a413a312e3000"  // "IDL:A:1.0"
+    "0000"                          // padding
+    "00000001"                      // profiles
+    "00000000"                      // TAG_INTERNET_IOP
+    "00000011"                      // its size: 17
+    "000102"                        // byte order, IIOP 1.2
+    "00"                            // padding
+    "000000026800"                  // "h"
+    "1234"                          // port
+    "000000016b"                    // object key
+    "000000";                       // rest
+
+TEST(ServiceReference, ReadsTypeHostAndPort) {
+  const auto reference = ReadReference(kBigEndian);
+  ASSERT_TRUE(reference);
+  EXPECT_EQ(reference->type_id, "IDL:A:1.0");
+  EXPECT_EQ(reference->host, "h");
+  EXPECT_EQ(reference->port, 0x1234);
+  EXPECT_EQ(reference->Address(), "h:4660");
+}
+
+TEST(ServiceReference, RefusesEveryTruncation) {
+  // The last three bytes belong to nothing that is read.
+  for (std::size_t length = 0; length + 6 < kBigEndian.size(); ++length) {
+    const auto reference = ReadReference(kBigEndian.substr(0, length));
+    EXPECT_FALSE(reference) << length;
+  }
+}
+
+TEST(ServiceReference, RefusesWhatIsNoReference) {
+  for (const char* text :
+       {"", "IOR", "IOR:0", "IOR:zz", "corbaloc::h:1/K", "IOR:00000000ffffffff"}) {
+    EXPECT_FALSE(ReadReference(text)) << text;
+  }
+}
+
+TEST(ServiceReference, KnowsLoopback) {
+  EXPECT_TRUE(IsLoopback("127.0.0.1"));
+  EXPECT_TRUE(IsLoopback("::1"));
+  EXPECT_TRUE(IsLoopback("localhost"));
+  EXPECT_FALSE(IsLoopback("10.0.0.1"));
+}
+
+TEST(Corbaloc, PutsTheVersionInWhereItLacks) {
+  EXPECT_EQ(*NormaliseReference("corbaloc::h:1/TradingService"),
+            "corbaloc::1.2@h:1/TradingService");
+  EXPECT_EQ(*NormaliseReference("corbaloc:iiop:h:1/TradingService"),
+            "corbaloc::1.2@h:1/TradingService");
+  EXPECT_EQ(*NormaliseReference("corbaloc::1.1@h:1/TradingService"),
+            "corbaloc::1.1@h:1/TradingService");
+  EXPECT_EQ(*NormaliseReference(kBigEndian), kBigEndian);
+}
+
+TEST(Corbaloc, RefusesWhatIsNoAddressAndShowsOne) {
+  for (const char* text : {"", "localhost:2809", "corbaloc::h:1", "corbaloc::/K", "corbaloc::h:1/",
+                           "IOR:12", "http://h/"}) {
+    const auto refused = NormaliseReference(text);
+    ASSERT_FALSE(refused) << text;
+    EXPECT_NE(refused.error().message.find("corbaloc::1.2@host:port/TradingService"),
+              std::string::npos);
+  }
+}
+
+TEST(Corbaloc, KnowsTheHost) {
+  EXPECT_EQ(HostOf("corbaloc::1.2@h:1/K"), "h");
+  EXPECT_EQ(HostOf("corbaloc::1.2@[fe80::1]:1/K"), "fe80::1");
+  EXPECT_EQ(HostOf(kBigEndian), "h");
+}
+
+}  // namespace
+}  // namespace gsv::broker

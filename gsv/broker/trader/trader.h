@@ -1,0 +1,195 @@
+// The Trading Service without CORBA: service types, offers, and the queries that find them.
+//
+// Source   OMG Trading Object Service (formal/00-06-27).
+// Errors   those of the standard, see Refusal. What is refused changes nothing.
+// Threads  every member may be called at any time; queries run side by side and evaluate their
+//          constraint without a lock.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/broker/language/expression.h"
+#include "gsv/broker/language/limits.h"
+#include "gsv/broker/language/offer.h"
+#include "gsv/broker/offers/dynamic_values.h"
+#include "gsv/broker/offers/import_policies.h"
+#include "gsv/broker/offers/offer_store.h"
+#include "gsv/broker/offers/scan_turns.h"
+#include "gsv/broker/offers/trading_error.h"
+#include "gsv/broker/trader/journal.h"
+#include "gsv/broker/trader/link_table.h"
+#include "gsv/broker/trader/type_repository.h"
+
+namespace gsv::broker {
+
+struct Query {
+  std::string type;
+  std::string constraint{};
+  std::string preference{};
+  ImportPolicies policies{};
+};
+
+// What a query found before it is ordered and cut.
+struct MatchingOffers {
+  Offers offers{};
+  Offers proxies{};  // other traders may have offers for the query
+  Preference preference{};
+  std::vector<double> known{};  // see OrderBy()
+  Cardinalities cardinalities{};
+  std::vector<std::string> limits_applied{};
+};
+
+struct QueryResult {
+  Offers offers;
+  // The names of the policies that kept the query from returning more.
+  std::vector<std::string> limits_applied{};
+};
+
+// What Modify changes.
+struct Modification {
+  std::vector<std::string> remove{};
+  std::vector<Property> set{};
+};
+
+class Trader {
+ public:
+  // `stem` is part of every offer's id, so that an id of another trader is unknown to this one;
+  // `seed` decides what the preference random does.
+  Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t seed);
+
+  // Takes over what an earlier trader knew, its stem too, and has `journal` remember every change
+  // from now on. Before anything else, by one thread.
+  // Errors  kCorrupt: the state contradicts itself.
+  [[nodiscard]] base::Status Restore(TraderState state, std::unique_ptr<Journal> journal);
+
+  std::uint32_t stem() const { return stem_; }
+  const TraderLimits& limits() const { return limits_; }
+  TraderAttributes attributes() const;
+  // `change` is called once, under the lock.
+  Traded<void> ChangeAttributes(const std::function<void(TraderAttributes&)>& change);
+
+  // ---- Service types, see TypeRepository
+  std::uint64_t NextIncarnation() const;
+  Traded<std::uint64_t> AddType(ServiceType type);
+  Traded<void> RemoveType(const std::string& name);
+  std::vector<std::string> ListTypes(std::optional<std::uint64_t> since) const;
+  Traded<ServiceType> DescribeType(const std::string& name) const;
+  Traded<ServiceType> FullyDescribeType(const std::string& name) const;
+  Traded<void> MaskType(const std::string& name);
+  Traded<void> UnmaskType(const std::string& name);
+
+  // ---- Offers
+  // The type that an offer may be exported for: known and not masked.
+  Traded<ServiceType> TypeForExport(const std::string& type) const;
+  // `reference` is not looked at. Returns the offer's id.
+  Traded<std::string> Export(const std::string& type, std::string reference,
+                             std::vector<Property> properties);
+  // `type` is as TypeForExport() has just described it.
+  Traded<std::string> Export(const ServiceType& type, std::string reference,
+                             std::vector<Property> properties);
+  Traded<void> Withdraw(const std::string& id);
+  Traded<OfferPtr> Describe(const std::string& id) const;
+  Traded<void> Modify(const std::string& id, Modification modification);
+  // Withdraws the offers that a query without policies would find; returns how many.
+  Traded<std::size_t> WithdrawMatching(const std::string& type, const std::string& constraint,
+                                       DynamicEvaluator* evaluator = nullptr);
+  // Withdraws those of the offers that are still there; returns how many.
+  std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
+  // In the order of export; without proxies.
+  std::vector<std::string> OfferIds() const;
+  Offers AllOffers() const;
+  std::string IdOf(const Offer& offer) const { return IdOf(offer.number); }
+
+  // ---- Proxy offers: what is said of offers above does not see them
+  // `target`, another trader's Lookup, is not looked at. Returns the proxy's id.
+  Traded<std::string> ExportProxy(const std::string& type, std::string target,
+                                  std::vector<Property> properties, ProxyPart part);
+  Traded<void> WithdrawProxy(const std::string& id);
+  Traded<OfferPtr> DescribeProxy(const std::string& id) const;
+  // In the order of export.
+  std::vector<std::string> ProxyIds() const;
+
+  // ---- Links, see LinkTable
+  Traded<void> AddLink(TraderLink link);
+  Traded<void> RemoveLink(const std::string& name);
+  Traded<TraderLink> DescribeLink(const std::string& name) const;
+  Traded<void> ModifyLink(const std::string& name, FollowOption def_pass_on, FollowOption limiting);
+  // In the order of their names.
+  std::vector<TraderLink> links() const;
+
+  // ---- Queries
+  // Those of this trader alone. Find() is both steps; other traders' offers may be added between.
+  Traded<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
+  QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
+  Traded<QueryResult> Find(const Query& query, DynamicValues& values) const;
+  // Without dynamic properties.
+  Traded<QueryResult> Find(const Query& query) const;
+
+ private:
+  // Calls `apply` under the lock; returns when what it recorded is durable. kNotStored when it
+  // cannot become so: nothing is changed then, but for the very change that failed.
+  template <typename Apply>
+  std::invoke_result_t<Apply> Change(const Apply& apply);
+  void Record(StateChange change) {
+    if (journal_ != nullptr) last_ticket_ = journal_->Append(std::move(change));
+  }
+  void RecordType(const std::string& name);
+
+  struct Candidates;
+  class Search;
+  // `terms` are those of the query's constraint.
+  Candidates SelectCandidates(const Query& query, const std::vector<EqualityTerm>& terms) const;
+  void MakeIndex(const std::vector<std::string>& types,
+                 const std::vector<EqualityTerm>& terms) const;
+  Traded<std::uint64_t> NumberOf(const std::string& id) const;
+  std::string IdOf(std::uint64_t number) const;
+  // An offer or a proxy.
+  Traded<OfferPtr> FindAny(const std::string& id) const;
+  Traded<OfferPtr> FindOffer(const std::string& id) const;
+  Traded<OfferPtr> FindProxy(const std::string& id) const;
+  // Checks the size, and gives the offer its number.
+  Traded<std::string> Store(Offer offer);
+  void Remove(std::vector<std::uint64_t> numbers);
+  Traded<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
+
+  const TraderLimits limits_;
+  std::uint32_t stem_;
+  std::unique_ptr<Journal> journal_;  // null: everything is in memory
+  mutable std::atomic<std::uint64_t> seed_;
+  mutable ScanTurns scan_turns_{ScanTurns::ForThisMachine()};
+  mutable std::shared_mutex mutex_;  // guards all that follows
+  TraderAttributes attributes_;
+  TypeRepository types_;
+  mutable OfferStore offers_;  // a query may make it an index
+  LinkTable links_;
+  Journal::Ticket last_ticket_ = 0;
+};
+
+// What is changed under the lock is durable when it is answered, yet nobody waits for the disk
+// with the lock held: the changes of many callers become one transaction.
+template <typename Apply>
+std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
+  const TradingError not_stored{.refusal = Refusal::kNotStored};
+  if (journal_ != nullptr && !journal_->works()) return Refuse(not_stored);
+  Journal::Ticket ticket = 0;
+  auto result = [&] {
+    const std::unique_lock lock(mutex_);
+    auto applied = apply();
+    ticket = last_ticket_;
+    return applied;
+  }();
+  if (journal_ != nullptr && result && !journal_->Wait(ticket)) return Refuse(not_stored);
+  return result;
+}
+
+}  // namespace gsv::broker

@@ -1,0 +1,42 @@
+#include <shared_mutex>
+
+#include "gsv/broker/trader/trader.h"
+
+namespace gsv::broker {
+
+Traded<void> Trader::AddLink(TraderLink link) {
+  return Change([&]() -> Traded<void> {
+    auto added = links_.Add(link, attributes_.max_link_follow_policy);
+    if (added) Record(LinkStored{link});
+    return added;
+  });
+}
+
+Traded<void> Trader::RemoveLink(const std::string& name) {
+  return Change([&]() -> Traded<void> {
+    auto removed = links_.Remove(name);
+    if (removed) Record(LinkRemoved{name});
+    return removed;
+  });
+}
+
+Traded<void> Trader::ModifyLink(const std::string& name, FollowOption def_pass_on,
+                                FollowOption limiting) {
+  return Change([&]() -> Traded<void> {
+    auto modified = links_.Modify(name, def_pass_on, limiting, attributes_.max_link_follow_policy);
+    if (modified) Record(LinkStored{*links_.Describe(name)});
+    return modified;
+  });
+}
+
+Traded<TraderLink> Trader::DescribeLink(const std::string& name) const {
+  const std::shared_lock lock(mutex_);
+  return links_.Describe(name);
+}
+
+std::vector<TraderLink> Trader::links() const {
+  const std::shared_lock lock(mutex_);
+  return links_.All();
+}
+
+}  // namespace gsv::broker

@@ -1,0 +1,256 @@
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <shared_mutex>
+
+#include "gsv/broker/language/equality_terms.h"
+#include "gsv/broker/language/evaluation.h"
+#include "gsv/broker/offers/number_terms.h"
+#include "gsv/broker/offers/preference_order.h"
+#include "gsv/broker/offers/query_compilation.h"
+#include "gsv/broker/trader/trader.h"
+
+namespace gsv::broker {
+namespace {
+
+using ReadLock = std::shared_lock<std::shared_mutex>;
+
+// As many steps of an evaluation are over soon.
+constexpr std::size_t kWorthATurn = 20'000;
+
+// Fewer offers are looked through as fast as they are found in an index.
+constexpr std::size_t kWorthAnIndex = 256;
+
+bool IsReadonlyIn(const ServiceType& type, const std::string& name) {
+  return std::any_of(type.properties.begin(), type.properties.end(),
+                     [&](const PropertyDefinition& definition) {
+                       return definition.name == name && IsReadonly(definition.mode);
+                     });
+}
+
+bool HasModifiableProperties(const ServiceType& type, const Offer& offer) {
+  const PropertyNames& names = *offer.properties.names();
+  return !std::all_of(names.begin(), names.end(),
+                      [&](const std::string& name) { return IsReadonlyIn(type, name); });
+}
+
+bool IsMatch(const Expression& constraint, const Offer& offer, DynamicValues& values) {
+  return (offer.proxy != nullptr && offer.proxy->if_match_all) ||
+         Matches(constraint, EvaluatedOffer(offer, values));
+}
+
+}  // namespace
+
+// The offers to be searched, without those that the policies leave out.
+struct Trader::Candidates {
+  std::vector<OfferView> views{};
+  Cardinalities cardinalities{};
+  std::vector<std::string> limits_applied{};
+  bool cut = false;  // there are more of them than may be searched
+  bool with_proxies = true;
+  bool with_dynamic = true;
+  bool with_modifiable = true;
+  std::map<std::string, ServiceType> types{};  // described if without modifiable ones
+
+  // What it may take to look through them.
+  std::size_t Steps(const Expression& constraint) const;
+  bool Admit(const Offer& offer) const {
+    return (with_proxies || offer.proxy == nullptr) &&
+           (with_dynamic || !HasDynamicProperties(offer)) &&
+           (with_modifiable || !HasModifiableProperties(types.at(offer.type), offer));
+  }
+};
+
+// One query's way through the candidates.
+class Trader::Search {
+ public:
+  Search(const Candidates& candidates, const Expression& constraint, DynamicValues& values,
+         MatchingOffers& matches)
+      : candidates_(candidates),
+        constraint_(constraint),
+        terms_(NumberTermsOf(constraint)),
+        ordered_by_(PropertyToOrderBy(matches.preference)),
+        values_(values),
+        matches_(matches),
+        left_(candidates.cardinalities.search) {}
+
+  void Run() {
+    for (const OfferView& view : candidates_.views) {
+      for (const auto& chunk : view.chunks()) {
+        if (!LookThrough(*chunk)) return;
+      }
+    }
+  }
+
+ private:
+  // False when enough was searched or found.
+  bool LookThrough(const OfferChunk& chunk) {
+    // What is cut off depends on every offer before it.
+    const std::vector<Choice> choices =
+        candidates_.cut ? std::vector<Choice>() : chunk.Choose(terms_.terms);
+    const auto order = ordered_by_ != nullptr ? chunk.ColumnOf(*ordered_by_) : nullptr;
+    for (std::size_t i = 0; i < chunk.offers().size(); ++i) {
+      const Choice choice = choices.empty() ? Choice::kUnknown : choices[i];
+      if (choice == Choice::kNo) continue;
+      if (left_-- == 0) return false;
+      const OfferPtr& offer = chunk.offers()[i];
+      const bool known = choice == Choice::kYes && terms_.complete;
+      if (!candidates_.Admit(*offer) || !(known || IsMatch(constraint_, *offer, values_))) continue;
+      if (matches_.offers.size() + matches_.proxies.size() == candidates_.cardinalities.match) {
+        matches_.limits_applied.emplace_back("match_card");
+        return false;
+      }
+      Take(offer, order != nullptr ? order->At(i) : std::nullopt);
+    }
+    return true;
+  }
+
+  void Take(const OfferPtr& offer, std::optional<double> number) {
+    if (offer->proxy != nullptr) {
+      matches_.proxies.push_back(offer);
+      return;
+    }
+    // Those after one whose number is not known are asked for it.
+    if (number && matches_.known.size() == matches_.offers.size()) {
+      matches_.known.push_back(*number);
+    }
+    matches_.offers.push_back(offer);
+  }
+
+  const Candidates& candidates_;
+  const Expression& constraint_;
+  const NumberTerms terms_;
+  const std::string* const ordered_by_;
+  DynamicValues& values_;
+  MatchingOffers& matches_;
+  std::size_t left_;
+};
+
+Traded<QueryResult> Trader::Find(const Query& query) const {
+  DynamicValues none(nullptr, {});
+  return Find(query, none);
+}
+
+Traded<QueryResult> Trader::Find(const Query& query, DynamicValues& values) const {
+  auto matches = FindMatching(query, values);
+  if (!matches) return Refuse(matches.error());
+  return Rank(std::move(*matches), values);
+}
+
+Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& values) const {
+  const auto type = FullyDescribeType(query.type);
+  if (!type) return Refuse(type.error());
+  const auto constraint = CompileConstraint(query.constraint, *type, limits_.expression);
+  if (!constraint) return Refuse(constraint.error());
+  auto preference = CompilePreference(query.preference, *type, limits_.expression);
+  if (!preference) return Refuse(preference.error());
+
+  Candidates candidates = SelectCandidates(query, EqualityTerms(*constraint));
+  MatchingOffers matches{.preference = std::move(*preference),
+                         .cardinalities = candidates.cardinalities,
+                         .limits_applied = std::move(candidates.limits_applied)};
+  ScanTurn turn(candidates.Steps(*constraint) > kWorthATurn ? &scan_turns_ : nullptr);
+  values.set_turn(&turn);
+  Search(candidates, *constraint, values, matches).Run();
+  values.set_turn(nullptr);
+  return matches;
+}
+
+std::size_t Trader::Candidates::Steps(const Expression& constraint) const {
+  std::size_t offers = 0;
+  for (const OfferView& view : views) offers += view.size();
+  return offers * constraint.nodes.size();
+}
+
+QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
+  OrderBy(matches.preference, seed_++, matches.known, values, matches.offers);
+  if (matches.offers.size() > matches.cardinalities.returned) {
+    matches.offers.resize(matches.cardinalities.returned);
+    matches.limits_applied.emplace_back("return_card");
+  }
+  return {std::move(matches.offers), std::move(matches.limits_applied)};
+}
+
+Trader::Candidates Trader::SelectCandidates(const Query& query,
+                                            const std::vector<EqualityTerm>& terms) const {
+  ReadLock lock(mutex_);
+  const ImportPolicies& policies = query.policies;
+  Candidates candidates{
+      .cardinalities = EffectiveCardinalities(policies, attributes_),
+      .with_proxies = policies.use_proxy_offers && attributes_.supports_proxy_offers,
+      .with_dynamic = policies.use_dynamic_properties && attributes_.supports_dynamic_properties,
+      .with_modifiable =
+          policies.use_modifiable_properties || !attributes_.supports_modifiable_properties};
+  std::vector<std::string> types = {query.type};
+  if (!policies.exact_type_match) types = types_.WithSubTypes(query.type).value_or(types);
+  if (!candidates.with_modifiable) {
+    for (const std::string& name : types) {
+      candidates.types.emplace(name,
+                               types_.FullyDescribe(name).value_or(ServiceType{.name = name}));
+    }
+  }
+  const std::size_t count = offers_.CountOfTypes(types);
+  candidates.cut = count > candidates.cardinalities.search;
+  if (candidates.cut) candidates.limits_applied.emplace_back("search_card");
+  if (!candidates.cut && !terms.empty() && count >= kWorthAnIndex) {
+    if (auto chosen = offers_.OfTypesWith(types, terms)) {
+      candidates.views = std::move(*chosen);
+      return candidates;
+    }
+    lock.unlock();
+    MakeIndex(types, terms);
+    lock.lock();
+    if (auto chosen = offers_.OfTypesWith(types, terms)) {
+      candidates.views = std::move(*chosen);
+      return candidates;
+    }
+  }
+  candidates.views = offers_.OfTypes(types);
+  return candidates;
+}
+
+void Trader::MakeIndex(const std::vector<std::string>& types,
+                       const std::vector<EqualityTerm>& terms) const {
+  const std::unique_lock lock(mutex_);
+  offers_.Index(types, terms);
+}
+
+Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std::string& constraint,
+                                             DynamicEvaluator* evaluator) {
+  const auto described = FullyDescribeType(type);
+  if (!described) return Refuse(described.error());
+  const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
+  if (!compiled) return Refuse(compiled.error());
+
+  // Services are asked for dynamic properties without the lock.
+  const std::vector<OfferView> views = [&] {
+    const ReadLock lock(mutex_);
+    return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}));
+  }();
+  DynamicValues values(evaluator, limits_.dynamic.query_budget);
+  Offers matching;
+  for (const OfferView& view : views) {
+    for (const auto& chunk : view.chunks()) {
+      for (const OfferPtr& offer : chunk->offers()) {
+        if (offer->proxy != nullptr) continue;
+        if (IsMatch(*compiled, *offer, values)) matching.push_back(offer);
+      }
+    }
+  }
+
+  return Change([&]() -> Traded<std::size_t> {
+    OffersRemoved removed;
+    for (const OfferPtr& offer : matching) {
+      // One that was modified meanwhile may not match any more.
+      if (offers_.Find(offer->number) != offer) continue;
+      offers_.Remove(offer->number);
+      removed.numbers.push_back(offer->number);
+    }
+    const std::size_t count = removed.numbers.size();
+    if (count == 0) return Refuse({.refusal = Refusal::kNoMatchingOffers, .name = constraint});
+    Record(std::move(removed));
+    return count;
+  });
+}
+
+}  // namespace gsv::broker

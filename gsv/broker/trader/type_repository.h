@@ -1,0 +1,64 @@
+// The service types that are known, and how they derive from each other.
+//
+// Source   OMG Trading Object Service (formal/00-06-27), "ServiceTypeRepository".
+// Errors   those of the standard, see Refusal.
+// Threads  not safe; Trader serialises.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/broker/language/limits.h"
+#include "gsv/broker/offers/service_type.h"
+#include "gsv/broker/offers/trading_error.h"
+
+namespace gsv::broker {
+
+class TypeRepository {
+ public:
+  explicit TypeRepository(const TraderLimits& limits) : limits_(limits) {}
+
+  // The incarnation that the next type added will bear.
+  std::uint64_t next_incarnation() const { return next_incarnation_; }
+
+  // Puts back the types of an earlier repository, in any order.
+  // Errors  kCorrupt: a super type is missing, or younger than its sub type.
+  [[nodiscard]] base::Status Restore(std::vector<ServiceType> types,
+                                     std::uint64_t next_incarnation);
+
+  // `type` says name, interface, properties and super types; the rest is ignored. Returns its
+  // incarnation.
+  Traded<std::uint64_t> Add(ServiceType type);
+  Traded<void> Remove(const std::string& name);
+  // The names of all types, or of those with an incarnation not below `since`, sorted.
+  std::vector<std::string> List(std::optional<std::uint64_t> since) const;
+  // As it was added.
+  Traded<ServiceType> Describe(const std::string& name) const;
+  // With every inherited property and all its super types, direct or not.
+  Traded<ServiceType> FullyDescribe(const std::string& name) const;
+  Traded<void> Mask(const std::string& name);
+  Traded<void> Unmask(const std::string& name);
+
+  // `name` and every type that derives from it, sorted.
+  Traded<std::vector<std::string>> WithSubTypes(const std::string& name) const;
+
+ private:
+  Traded<const ServiceType*> Find(const std::string& name) const;
+  Traded<void> CheckNew(const ServiceType& type) const;
+  Traded<void> CheckSuperTypes(const ServiceType& type) const;
+  Traded<void> CheckInheritedProperties(const ServiceType& type) const;
+  // Every super type of `type`, nearest first, each once.
+  std::vector<const ServiceType*> Ancestors(const ServiceType& type) const;
+  bool DerivesFrom(const ServiceType& type, const std::string& ancestor) const;
+
+  TraderLimits limits_;
+  std::map<std::string, ServiceType> types_;
+  std::uint64_t next_incarnation_ = 1;
+};
+
+}  // namespace gsv::broker

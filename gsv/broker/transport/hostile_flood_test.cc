@@ -1,0 +1,226 @@
+// A broker that is flooded: it answers others, and does not grow.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "gsv/broker/testing/broker_fixture.h"
+#include "gsv/broker/testing/raw_connection.h"
+#include "gsv/broker/testing/raw_message.h"
+
+namespace gsv::broker {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Another client, which asks all the time and must be answered each time.
+class Bystander {
+ public:
+  explicit Bystander(CosTrading::Lookup_ptr lookup)
+      : lookup_(CosTrading::Lookup::_duplicate(lookup)) {
+    omniORB::setClientCallTimeout(lookup_, 10'000);
+    thread_ = std::jthread([this](const std::stop_token& stop) { Ask(stop); });
+  }
+  // The longest of 99 in 100 waits, in milliseconds.
+  double End() {
+    thread_.request_stop();
+    thread_.join();
+    std::sort(waits_.begin(), waits_.end());
+    return waits_.empty() ? 0 : waits_[waits_.size() * 99 / 100];
+  }
+
+ private:
+  void Ask(const std::stop_token& stop) {
+    CosTrading::Lookup::SpecifiedProps desired;
+    desired._d(CosTrading::Lookup::all);
+    while (!stop.stop_requested()) {
+      CosTrading::OfferSeq_var offers;
+      CosTrading::OfferIterator_var rest;
+      CosTrading::PolicyNameSeq_var limits;
+      const auto start = Clock::now();
+      try {
+        lookup_->query("Robot", "", "", {}, desired, 1, offers, rest, limits);
+        EXPECT_EQ(offers->length(), 1u);
+      } catch (const CORBA::SystemException& exception) {
+        ADD_FAILURE() << "was not answered: " << exception._name();
+      }
+      waits_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+  }
+
+  CosTrading::Lookup_var lookup_;
+  std::vector<double> waits_;
+  std::jthread thread_;
+};
+
+class HostileFloodTest : public BrokerFixture {
+ protected:
+  HostileFloodTest() {
+    AddType("Robot");
+    Export("Robot", {{"n", Value::Long(1)}});
+  }
+
+  // -1 when the broker takes no more.
+  int Connect() {
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(broker_.port())));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) return socket;
+    close(socket);
+    return -1;
+  }
+  void Send(const std::string& bytes) {
+    const int socket = Connect();
+    if (socket < 0) return;
+    send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    close(socket);
+  }
+
+  // What happened to the bystander and to the broker's size.
+  void Judge(Bystander& bystander, const char* what) {
+    const double wait_ms = bystander.End();
+    std::ifstream statm("/proc/" + std::to_string(broker_.pid()) + "/statm");
+    std::size_t pages = 0;
+    std::size_t resident = 0;
+    statm >> pages >> resident;
+    const std::size_t mib = resident * 4096 >> 20;
+    RecordProperty(std::string(what) + "_p99_ms", std::to_string(wait_ms));
+    RecordProperty(std::string(what) + "_resident_mib", std::to_string(mib));
+    std::printf("%s: others waited %.2f ms (p99), the broker takes %zu MiB\n", what, wait_ms, mib);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    EXPECT_LT(mib, 200u);
+#endif
+    // Another client that comes now is served as well.
+    const CORBA::Object_var object = TestOrb()->string_to_object(broker_.reference().c_str());
+    EXPECT_FALSE(object->_non_existent());
+  }
+};
+
+// A header that is right, most often, and a body that is not.
+std::string RandomMessage(std::mt19937& random) {
+  const std::size_t size = random() % 600;
+  std::string message = "GIOP";
+  message += '\x01';
+  message += static_cast<char>(random() % 4);  // the minor version
+  message += static_cast<char>(random() % 4);  // byte order, fragments
+  message += static_cast<char>(random() % 9);  // the kind
+  const std::size_t claimed = random() % 4 == 0 ? random() : size;
+  for (int i = 0; i < 4; ++i) message += static_cast<char>(claimed >> (8 * i));
+  for (std::size_t i = 0; i < size; ++i) {
+    message += static_cast<char>(random() % 3 == 0 ? random() : random() % 5);
+  }
+  if (random() % 8 == 0) message[random() % message.size()] = static_cast<char>(random());
+  if (random() % 4 == 0) message.resize(random() % message.size());
+  return message;
+}
+
+TEST_F(HostileFloodTest, RandomMessages) {
+  Bystander bystander(lookup_);
+  std::mt19937 random(6);
+  for (int i = 0; i < 3000; ++i) Send(RandomMessage(random));
+  Judge(bystander, "random_messages");
+}
+
+TEST_F(HostileFloodTest, TenThousandConnections) {
+  Bystander bystander(lookup_);
+  std::vector<int> open;
+  for (int i = 0; i < 10'000; ++i) {
+    const int socket = Connect();
+    if (socket >= 0) open.push_back(socket);
+    if (open.size() < 100) continue;
+    for (const int each : open) close(each);
+    open.clear();
+  }
+  for (const int each : open) close(each);
+  Judge(bystander, "connections");
+}
+
+// More connections than the broker keeps: it lets go of those that have been silent longest.
+TEST_F(HostileFloodTest, ConnectionsThatAreHeld) {
+  rlimit descriptors{};
+  getrlimit(RLIMIT_NOFILE, &descriptors);
+  descriptors.rlim_cur = descriptors.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &descriptors);
+  constexpr int kMoreThanKept = 4500;
+  if (descriptors.rlim_cur < 2 * kMoreThanKept) GTEST_SKIP() << "too few descriptors";
+  Bystander bystander(lookup_);
+  std::vector<int> held;
+  for (int i = 0; i < kMoreThanKept; ++i) held.push_back(Connect());
+  char byte = 0;
+  EXPECT_EQ(recv(held.front(), &byte, 1, 0), 0);
+  Judge(bystander, "held_connections");
+  for (const int each : held) close(each);
+}
+
+TEST_F(HostileFloodTest, SlowSenders) {
+  Bystander bystander(lookup_);
+  std::vector<int> slow;
+  for (int i = 0; i < 200; ++i) slow.push_back(Connect());
+  const std::string message = std::string("GIOP\x01\x02\x01\x00\x40\x00\x00\x00", 12);
+  for (const char byte : message) {
+    for (const int socket : slow) send(socket, &byte, 1, MSG_NOSIGNAL);
+    EXPECT_EQ(Query("Robot").offers->length(), 1u);
+  }
+  Judge(bystander, "slow_senders");
+  for (const int socket : slow) close(socket);
+}
+
+// More slow connections than the broker has threads for, and yet who comes after them is served.
+TEST_F(HostileFloodTest, SlowSendersBeyondTheThreads) {
+  Bystander bystander(lookup_);
+  std::vector<int> slow;
+  for (int i = 0; i < 700; ++i) slow.push_back(Connect());
+  const std::string message = std::string("GIOP\x01\x02\x01\x00\x40\x00\x00\x00", 12);
+  const auto drip = [&](char byte) {
+    for (const int socket : slow) send(socket, &byte, 1, MSG_NOSIGNAL);
+  };
+  for (const char byte : message.substr(0, 4)) drip(byte);
+
+  const RawCdr arguments =
+      RawCdr().String("Robot").String("").String("").ULong(0).ULong(0).ULong(1);
+  const std::string query = RawRequest("TradingService", "query", arguments.bytes());
+  std::vector<double> waits;
+  for (int i = 0; i < 50; ++i) {
+    const auto start = Clock::now();
+    const RawConnection newcomer(std::stoi(broker_.port()));
+    newcomer.Send(query);
+    EXPECT_NE(newcomer.Read().find("IDL:omg.org/CosTradingDynamic"), std::string::npos);
+    waits.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
+  RecordProperty("newcomers_max_ms", std::to_string(*std::max_element(waits.begin(), waits.end())));
+  Judge(bystander, "many_slow_senders");
+  for (const int socket : slow) close(socket);
+}
+
+// Those who ask for much again and again.
+TEST_F(HostileFloodTest, GreedyQueries) {
+  for (std::int32_t i = 0; i < 2000; ++i) Export("Robot", {{"n", Value::Long(i)}});
+  std::string constraint = "n + 1 == 0";
+  for (int i = 0; i < 150; ++i) constraint += " or n * 2 == -1";
+  Bystander bystander(lookup_);
+  std::vector<std::jthread> greedy;
+  for (int i = 0; i < 4; ++i) {
+    greedy.emplace_back([&] {
+      // They wait for each other, and on a slow machine longer than a client does.
+      try {
+        for (int k = 0; k < 5; ++k) EXPECT_EQ(Query("Robot", constraint).offers->length(), 0u);
+      } catch (const CORBA::TIMEOUT&) {
+      }
+    });
+  }
+  greedy.clear();
+  Judge(bystander, "greedy_queries");
+}
+
+}  // namespace
+}  // namespace gsv::broker

@@ -1,0 +1,178 @@
+// What a broker does with requests that are meant to hurt it: it refuses them and answers on.
+#include <array>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "gsv/broker/testing/broker_fixture.h"
+
+namespace gsv::broker {
+namespace {
+
+class HostileInputTest : public BrokerFixture {
+ protected:
+  explicit HostileInputTest(std::vector<std::string> arguments = {"0"})
+      : BrokerFixture(std::move(arguments)) {
+    AddType("Robot");
+  }
+
+  void ExpectAlive() {
+    Export("Robot", {{"n", Value::Long(1)}});
+    EXPECT_GE(Query("Robot", "n == 1").offers->length(), 1u);
+  }
+
+  // An empty sequence of sequences of …
+  static CORBA::Any Nested(int depth) {
+    CORBA::TypeCode_var type = CORBA::TypeCode::_duplicate(CORBA::_tc_long);
+    for (int i = 0; i < depth; ++i) type = TestOrb()->create_sequence_tc(0, type);
+    cdrMemoryStream content;
+    CORBA::ULong(0) >>= content;
+    CORBA::Any any;
+    any.replace(type, nullptr);
+    any.NP_unmarshalDataOnly(content);
+    return any;
+  }
+
+  void ExportValue(const CORBA::Any& value) {
+    CosTrading::PropertySeq properties;
+    properties.length(1);
+    properties[0].name = "p";
+    properties[0].value = value;
+    const CORBA::String_var id = register_->_cxx_export(TestService(), "Robot", properties);
+  }
+
+  // A connection to the broker that knows nothing of CORBA.
+  int Connect() {
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(broker_.port())));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    return socket;
+  }
+};
+
+TEST_F(HostileInputTest, RefusesTypeCodesThatAreTooDeep) {
+  ExportValue(Nested(63));
+  for (const int depth : {64, 300, 4000}) {
+    Raised<CORBA::MARSHAL>([&] { ExportValue(Nested(depth)); });
+  }
+  ExpectAlive();
+}
+
+TEST_F(HostileInputTest, RefusesMessagesThatAreTooLong) {
+  CORBA::Any text;
+  text <<= std::string(200'000, 'x').c_str();
+  EXPECT_THROW(ExportValue(text), CORBA::SystemException);
+  ExpectAlive();
+  EXPECT_THROW(Query("Robot", std::string(200'000, '(')), CORBA::SystemException);
+  ExpectAlive();
+}
+
+TEST_F(HostileInputTest, RefusesConstraintsThatAreTooLongOrTooDeep) {
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", std::string(20'000, ' ')); });
+  Raised<CosTrading::IllegalConstraint>(
+      [&] { Query("Robot", std::string(2'000, '(') + "n" + std::string(2'000, ')')); });
+  std::string chain = "n == 0";
+  for (int i = 0; i < 400; ++i) chain += " or n == 1";
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", chain); });
+  ExpectAlive();
+}
+
+// Each limit of a constraint, reached and gone beyond by one.
+TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
+  const auto padded = [](std::size_t length) { return "TRUE" + std::string(length - 4, ' '); };
+  EXPECT_NO_THROW(Query("Robot", padded(8192)));
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", padded(8193)); });
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '(') + "TRUE" + std::string(depth, ')');
+  };
+  EXPECT_NO_THROW(Query("Robot", nested(64)));
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", nested(65)); });
+  // A comparison takes three nodes and one to join it, a literal one, `not` one.
+  std::string thousand = "n == 0";
+  for (int i = 1; i < 249; ++i) thousand += " or n == 1";
+  thousand += " or not TRUE or TRUE";
+  EXPECT_NO_THROW(Query("Robot", thousand));
+  Raised<CosTrading::IllegalConstraint>([&] { Query("Robot", thousand + " or TRUE"); });
+}
+
+TEST_F(HostileInputTest, TakesAsManyPropertiesAsItMay) {
+  std::vector<Property> properties;
+  for (int i = 0; i < 128; ++i) properties.push_back({"p" + std::to_string(i), Value::Long(i)});
+  EXPECT_NO_THROW(Export("Robot", properties));
+  properties.push_back({"one_more", Value::Long(1)});
+  Raised<CORBA::IMP_LIMIT>([&] { Export("Robot", properties); });
+  EXPECT_NO_THROW(Export("Robot", {{"text", Value::String(std::string(32'000, 'x'))}}));
+  Raised<CORBA::IMP_LIMIT>([&] {
+    Export("Robot", {{"text", Value::String(std::string(32'768, 'x'))}});
+  });
+}
+
+TEST_F(HostileInputTest, RefusesOffersThatAreTooLarge) {
+  CORBA::Any text;
+  text <<= std::string(40'000, 'x').c_str();
+  Raised<CORBA::IMP_LIMIT>([&] { ExportValue(text); });
+  std::vector<Property> many;
+  for (int i = 0; i < 200; ++i) many.push_back({"p" + std::to_string(i), Value::Long(i)});
+  Raised<CORBA::IMP_LIMIT>([&] { Export("Robot", many); });
+  ExpectAlive();
+}
+
+TEST_F(HostileInputTest, AnswersOthersWhileConnectionsSendRubbishOrNothing) {
+  std::array<int, 40> silent{};
+  for (int& socket : silent) socket = Connect();
+  const std::string half_a_header = "GIOP\x01\x02";
+  for (const int socket : silent) {
+    ASSERT_EQ(send(socket, half_a_header.data(), half_a_header.size(), MSG_NOSIGNAL),
+              static_cast<ssize_t>(half_a_header.size()));
+  }
+  const int rude = Connect();
+  const std::string rubbish(4096, '\xFF');
+  send(rude, rubbish.data(), rubbish.size(), MSG_NOSIGNAL);
+  const int huge = Connect();
+  const std::string claims_two_gigabytes("GIOP\x01\x02\x01\x00\xFF\xFF\xFF\x7F", 12);
+  send(huge, claims_two_gigabytes.data(), claims_two_gigabytes.size(), MSG_NOSIGNAL);
+  ExpectAlive();
+  for (const int socket : silent) close(socket);
+  close(rude);
+  close(huge);
+  ExpectAlive();
+}
+
+TEST_F(HostileInputTest, ServesManyClientsAtOnce) {
+  constexpr int kClients = 16;
+  std::vector<std::thread> clients;
+  for (int client = 0; client < kClients; ++client) {
+    clients.emplace_back([this, client] {
+      const std::string mine = "n == " + std::to_string(client);
+      for (int i = 0; i < 20; ++i) {
+        const std::string id = Export("Robot", {{"n", Value::Long(client)}});
+        EXPECT_EQ(Query("Robot", mine).offers->length(), 1u);
+        register_->withdraw(id.c_str());
+      }
+    });
+  }
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(Query("Robot").offers->length(), 0u);
+}
+
+class ScarceMemoryTest : public HostileInputTest {
+ protected:
+  ScarceMemoryTest() : HostileInputTest({"0", "address_space_mib=256"}) {}
+};
+
+TEST_F(ScarceMemoryTest, OutlivesOffersThatWantMoreMemoryThanThereIs) {
+  const std::vector<Property> large = {{"text", Value::String(std::string(32'000, 'x'))}};
+  constexpr int kMoreThanFit = 12'000;
+  int exported = 0;
+  EXPECT_THROW(for (; exported < kMoreThanFit; ++exported) Export("Robot", large),
+               CORBA::SystemException);
+  EXPECT_EQ(Query("Robot", "", "", {}, 1).offers->length(), 1u);
+}
+
+}  // namespace
+}  // namespace gsv::broker
