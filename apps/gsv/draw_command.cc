@@ -17,6 +17,7 @@
 #include "apps/gsv/limit_option.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/rendering/jpeg.h"
+#include "gsv/rendering/png.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::app {
@@ -106,12 +107,20 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
   return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
 }
 
+bool IsPng(const std::string& path) { return path.ends_with(".png"); }
+
+std::string CheckPictureName(const std::string& path) {
+  if (IsPng(path) || path.ends_with(".jpg") || path.ends_with(".jpeg")) return {};
+  return "a picture's name ends with .jpg, .jpeg or .png, and " + path + " does not";
+}
+
 base::Status Write(const model::Image& picture, const std::string& path) {
-  const auto jpeg = rendering::EncodeJpeg(picture, 88);
-  if (!jpeg) return base::Fail(jpeg.error());
+  const auto bytes =
+      IsPng(path) ? rendering::EncodePng(picture) : rendering::EncodeJpeg(picture, 88);
+  if (!bytes) return base::Fail(bytes.error());
   std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(jpeg->data()),
-             static_cast<std::streamsize>(jpeg->size()));
+  file.write(reinterpret_cast<const char*>(bytes->data()),
+             static_cast<std::streamsize>(bytes->size()));
   if (file.flush()) return {};
   return base::Fail(base::ErrorCode::kUnavailable,
                     "cannot be written; name a file in a folder that is there", path);
@@ -162,7 +171,9 @@ void AddDrawCommand(const CommandLine& line) {
       line.app.get_subcommand("world")->add_subcommand("draw", "A picture of a world or a model");
   auto arguments = std::make_shared<DrawArguments>();
   command->add_option("file", arguments->file, "its file, folder or name")->required();
-  command->add_option("picture", arguments->picture, "the JPEG file to write")->required();
+  command->add_option("picture", arguments->picture, "the file to write, .jpg or .png")
+      ->required()
+      ->check(CheckPictureName);
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
   AddLimitOption(*command, arguments->limits);
   command->add_option("--width", arguments->width, "pixels")

@@ -230,6 +230,14 @@ TEST(CommandLine, DrawWritesAPictureOfAWorldAndSaysWhatItHolds) {
   std::ifstream file(picture, std::ios::binary);
   EXPECT_EQ(file.get(), 0xff);  // a JPEG file begins so
   EXPECT_EQ(file.get(), 0xd8);
+  const std::string png = folder.path() / "office.png";
+  ASSERT_EQ(RunProgram("gsv", {"world", "draw", "office", png}).ending, "exit code 0");
+  std::string signature(4, '\0');
+  std::ifstream(png, std::ios::binary).read(signature.data(), 4);
+  EXPECT_EQ(signature, "\x89PNG");
+  const Outcome refused = RunProgram("gsv", {"world", "draw", "office", folder.path() / "x.gif"});
+  EXPECT_EQ(refused.ending, "exit code 2");
+  EXPECT_THAT(refused.err, HasSubstr("x.gif"));
 }
 
 TEST(CommandLine, LimitsAreRaisedByName) {
