@@ -14,7 +14,7 @@
 #include <numbers>
 
 #include "gsv/base/random.h"
-#include "gsv/sensing/sample_all.h"
+#include "gsv/base/thread_team.h"
 #include "gsv/sensing/sonar.h"
 #include "gsv/sensing/test_snapshot.h"
 
@@ -164,15 +164,21 @@ void CrowdSonars(benchmark::State& bench) {
   for (const model::SensorDescription& description : crowd.model().sensors) {
     sonars.push_back(*SonarType().create(description));
   }
-  std::vector<SensorAt> sensors;
-  for (const int robot : crowd.robots()) {
-    for (const auto& sonar : sonars) sensors.push_back({sonar.get(), robot});
-  }
   base::ThreadTeam team(static_cast<int>(bench.range(2)));
   RaySceneCache cache;
   cache.At(crowd.snapshot());
-  std::vector<base::Result<Reading>> readings(sensors.size());
-  RunCrowd(bench, crowd, [&] { SampleAll(crowd.snapshot(), 1, cache, sensors, team, readings); });
+  constexpr std::size_t kRobotsAtOnce = 32;
+  RunCrowd(bench, crowd, [&] {
+    const auto scene = cache.At(crowd.snapshot(), &team);
+    team.Share(crowd.robots().size(), kRobotsAtOnce, [&](std::size_t begin, std::size_t end) {
+      Sampling sampling(crowd.snapshot(), -1, 1, cache);
+      for (std::size_t i = begin; i < end; ++i) {
+        sampling.MoveTo(crowd.robots()[i]);
+        sampling.ExpectRays(sonars.size());
+        for (const auto& sonar : sonars) benchmark::DoNotOptimize(sonar->Sample(sampling));
+      }
+    });
+  });
 }
 BENCHMARK(CrowdSonars)
     ->ArgNames({"robots", "box", "threads"})

@@ -23,7 +23,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kMostBeams = 1'000'000;
 
 // Beams at evenly spaced angles, both ends included.
-struct Fan {
+struct Angles {
   int count = 1;
   double first = 0, last = 0;
 
@@ -32,15 +32,15 @@ struct Fan {
 };
 
 struct LidarSettings {
-  Fan horizontal, vertical;
+  Angles horizontal, vertical;
   double min = 0, max = 0;
   double noise_mean = 0, noise_stddev = 0;  // of white noise alone, drawn beam after beam
   std::optional<NoiseModel> full_noise;     // any other
 };
 
-Fan ReadFan(ParameterReader& reader, const std::string& name, int samples, double min_angle,
-            double max_angle, double furthest) {
-  Fan fan;
+Angles ReadAngles(ParameterReader& reader, const std::string& name, int samples, double min_angle,
+                  double max_angle, double furthest) {
+  Angles fan;
   fan.count = reader.Count(name + ".samples", samples, 1, kMostBeams);
   const double resolution = reader.Number(name + ".resolution", 1, 1e-6, 1e3);
   const double beams = std::max(1.0, std::floor(fan.count * resolution + 0.5));
@@ -60,8 +60,9 @@ Fan ReadFan(ParameterReader& reader, const std::string& name, int samples, doubl
 base::Result<LidarSettings> ReadSettings(const model::SensorDescription& description) {
   ParameterReader reader(description);
   LidarSettings settings;
-  settings.horizontal = ReadFan(reader, "scan.horizontal", 360, -kPi, kPi - 2 * kPi / 360, 4 * kPi);
-  settings.vertical = ReadFan(reader, "scan.vertical", 1, 0, 0, kPi / 2 + 1e-6);
+  settings.horizontal =
+      ReadAngles(reader, "scan.horizontal", 360, -kPi, kPi - 2 * kPi / 360, 4 * kPi);
+  settings.vertical = ReadAngles(reader, "scan.vertical", 1, 0, 0, kPi / 2 + 1e-6);
   if (double{1} * settings.horizontal.count * settings.vertical.count > kMostBeams) {
     reader.Refuse(fmt::format("the scan has {} by {} beams; the most are {}",
                               settings.horizontal.count, settings.vertical.count, kMostBeams));
@@ -108,15 +109,16 @@ class Lidar final : public Sensor {
     Reading reading = sampling.Stamped();
     reading.values.reserve(directions_.size());
     base::Noise noise = sampling.NoiseOf(description());
-    sampling.ExpectRays(directions_.size());
     std::optional<NoisyReading> noisy;
     if (settings_.full_noise) noisy.emplace(sampling, description());
-    for (const Vector3& direction : directions_) {
-      const Ray beam{world_from_lidar.position, world_from_lidar.orientation * direction,
-                     settings_.max};
-      double distance = sampling.Range(beam);
-      if (noisy) distance = Disturbed(*noisy, reading.values.size(), distance);
-      reading.values.push_back(Measured(distance, noise));
+    const auto beams = static_cast<std::size_t>(settings_.horizontal.count);
+    std::vector<double> ranges(beams);
+    for (int row = 0; row < settings_.vertical.count; ++row) {
+      sampling.Rays().Scan(FanOf(row, world_from_lidar), sampling.body(), ranges);
+      for (double distance : ranges) {
+        if (noisy) distance = Disturbed(*noisy, reading.values.size(), distance);
+        reading.values.push_back(Measured(distance, noise));
+      }
     }
     return reading;
   }
@@ -124,6 +126,17 @@ class Lidar final : public Sensor {
   bool CastsRays() const override { return true; }
 
  private:
+  Fan FanOf(int row, const geometry::Pose& world_from_lidar) const {
+    const auto beams = static_cast<std::size_t>(settings_.horizontal.count);
+    const std::span all(directions_);
+    return {world_from_lidar,
+            settings_.horizontal.first,
+            settings_.horizontal.increment(),
+            settings_.vertical.angle(row),
+            settings_.max,
+            all.subspan(static_cast<std::size_t>(row) * beams, beams)};
+  }
+
   // A dropout is an echo that is missed.
   double Disturbed(const NoisyReading& noisy, std::size_t beam, double distance) const {
     if (distance == kInfinity) return distance;
@@ -146,7 +159,7 @@ class Lidar final : public Sensor {
 };
 
 // The fan nearest to the horizontal.
-int LevelRow(const Fan& vertical) {
+int LevelRow(const Angles& vertical) {
   int best = 0;
   for (int row = 1; row < vertical.count; ++row) {
     if (std::abs(vertical.angle(row)) < std::abs(vertical.angle(best))) best = row;
@@ -159,7 +172,7 @@ std::vector<std::uint8_t> Encode(const model::SensorDescription& description,
   messages::sensor_msgs::LaserScan message;
   message.header = HeaderOf(reading, frame_id);
   if (const auto settings = ReadSettings(description)) {
-    const Fan& fan = settings->horizontal;
+    const Angles& fan = settings->horizontal;
     message.angle_min = static_cast<float>(fan.first);
     message.angle_max = static_cast<float>(fan.angle(fan.count - 1));
     message.angle_increment = static_cast<float>(fan.increment());

@@ -135,6 +135,78 @@ double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
   return DistanceOf(Find(ray, ignored_body));
 }
 
+struct PlacedSolids::Shading {
+  Sector sector;
+  bool is_standing = false;
+  std::uint32_t number = 0;  // of the standing shape, or of the part
+};
+
+bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
+                                std::vector<Shading>& shadings) const {
+  const Vector3& place = fan.world_from_fan.position;
+  const double reach = fan.max_distance;
+  const auto is_near = [&](const Ball& ball) {
+    const Vector3 gap = ball.centre - place;
+    const double furthest = reach + ball.radius;
+    return Dot(gap, gap) <= furthest * furthest;
+  };
+  FoundBoxes found;
+  if (!solids_->standing.Near(place, reach, found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const std::uint32_t shape = found.boxes[i];
+    const SolidSet& standing = solids_->standing;
+    if (standing.BodyOfShape(shape) == ignored_body) continue;
+    if (!is_near(standing.BallOfShape(shape))) continue;
+    const auto sector = SectorOf(fan, standing.ShapeFromSet(shape) * fan.world_from_fan,
+                                 standing.OwnBoundsOfShape(shape));
+    if (sector) shadings.push_back({*sector, true, shape});
+  }
+  found.count = 0;
+  if (!index_.Near(place, reach, found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const std::uint32_t part = found.boxes[i];
+    const auto& [ball, body] = balls_[part];
+    if (body == ignored_body || !is_near(ball)) continue;
+    const auto sector = SectorOf(fan, parts_[part].part_from_world * fan.world_from_fan,
+                                 parts_[part].part->solids.bounds());
+    if (sector) shadings.push_back({*sector, false, part});
+  }
+  std::sort(shadings.begin(), shadings.end(),
+            [](const Shading& a, const Shading& b) { return a.sector.nearest < b.sector.nearest; });
+  return true;
+}
+
+void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const {
+  GSV_CHECK(ranges.size() == fan.directions.size());
+  const geometry::Pose& world_from_fan = fan.world_from_fan;
+  const auto ray = [&](std::size_t i) -> Ray {
+    return {world_from_fan.position, world_from_fan.orientation * fan.directions[i],
+            fan.max_distance};
+  };
+  std::vector<Shading> shadings;
+  const bool is_sound = geometry::IsFinite(world_from_fan) && fan.max_distance >= 0;
+  if (!is_sound || !FindShadings(fan, ignored_body, shadings)) {
+    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(ray(i), ignored_body);
+    return;
+  }
+  std::vector<Nearest> nearest(ranges.size());
+  for (Nearest& n : nearest) n.distance = fan.max_distance;
+  for (const Shading& shading : shadings) {
+    ForRaysIn(shading.sector, fan, [&](std::size_t i) {
+      if (nearest[i].distance < shading.sector.nearest) return;
+      if (shading.is_standing) {
+        solids_->standing.CastAtShape(shading.number, ray(i), ignored_body, nearest[i]);
+      } else {
+        CastAtPart(shading.number, ray(i), nearest[i]);
+      }
+    });
+  }
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    CastAtRest(ray(i), ignored_body, nearest[i]);
+    ranges[i] = DistanceOf(nearest[i]);
+  }
+}
+
 bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
                           Surroundings& surroundings) const {
   if (!IsFinite(place) || !(reach >= 0)) return false;

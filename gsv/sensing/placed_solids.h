@@ -24,6 +24,7 @@ class PlacedSolids final : public RayScene {
   void Cast(std::span<const Ray> rays, int ignored_body,
             std::span<std::optional<Hit>> hits) const override;
   double Range(const Ray& ray, int ignored_body) const override;
+  void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const override;
   bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
               Surroundings& surroundings) const override;
   double Range(const Ray& ray, int ignored_body, const Surroundings& surroundings) const override;
@@ -42,6 +43,9 @@ class PlacedSolids final : public RayScene {
   Nearest Find(const Ray& ray, int ignored_body) const;
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
+  struct Shading;  // a solid and the rays of a fan that it may stop
+  // Of all bounded solids within the fan's reach, the nearest first; false if they are too many.
+  bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
   void CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const;
 
   std::shared_ptr<const LayoutSolids> solids_;

@@ -126,6 +126,7 @@ void SolidSet::Add(const Shape& shape, const Pose& set_from_shape, int body) {
   Include(bounds);
   shape_bounds_.push_back(Padded(bounds));
   shape_balls_.push_back(Padded(Ball{set_from_shape.position, std::visit(Reach{}, shape)}));
+  shape_own_bounds_.push_back(geometry::BoundsOf(shape));
   shapes_.push_back(std::move(solid));
 }
 

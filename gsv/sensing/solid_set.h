@@ -75,6 +75,21 @@ class SolidSet {
            into.min.y <= b.max.y && b.min.z <= into.max.z && into.min.z <= b.max.z;
   }
 
+  // Adds to `found` the shapes that come within `reach` of the place, and some others; false if
+  // that cannot be done quickly.
+  bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
+    return shape_index_.Near(place, reach, found);
+  }
+  int BodyOfShape(std::uint32_t shape) const { return shapes_[shape].body; }
+  const Ball& BallOfShape(std::uint32_t shape) const { return shape_balls_[shape]; }
+  const geometry::Pose& ShapeFromSet(std::uint32_t shape) const {
+    return shapes_[shape].shape_from_set;
+  }
+  // Around the shape, in its own frame.
+  const geometry::Bounds& OwnBoundsOfShape(std::uint32_t shape) const {
+    return shape_own_bounds_[shape];
+  }
+
   // Adds the shapes within `surroundings`, their numbers marked by `mark`; false if that cannot be
   // done quickly.
   bool Gather(Surroundings& surroundings, std::uint32_t mark) const;
@@ -111,8 +126,9 @@ class SolidSet {
   std::vector<SolidTriangle> triangles_;
   std::unique_ptr<BoxTree> triangle_tree_;  // null for a handful
   std::vector<SolidShape> shapes_;
-  std::vector<geometry::Bounds> shape_bounds_;  // padded, in the set's frame
-  std::vector<Ball> shape_balls_;               // padded, in the set's frame
+  std::vector<geometry::Bounds> shape_bounds_;      // padded, in the set's frame
+  std::vector<Ball> shape_balls_;                   // padded, in the set's frame
+  std::vector<geometry::Bounds> shape_own_bounds_;  // in the shape's frame
   BoxIndex shape_index_;
   std::vector<SolidPlane> planes_;
   std::uint32_t primitives_ = 0;

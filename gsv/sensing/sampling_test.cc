@@ -1,7 +1,8 @@
-#include "gsv/sensing/sample_all.h"
-
+// Readings of a crowd: those of sensors that share a sampling, and of any number of threads, are
+// those that each takes alone, and what brute force finds.
 #include <gtest/gtest.h>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/sensing/test_rays.h"
 #include "gsv/sensing/test_snapshot.h"
@@ -54,9 +55,9 @@ std::shared_ptr<world::Snapshot> MakeCrowd(int robots, double room) {
   return testing::MakeSnapshot(bodies);
 }
 
-class SampleAllTest : public ::testing::Test {
+class SamplingTest : public ::testing::Test {
  protected:
-  SampleAllTest() {
+  SamplingTest() {
     SensorRegistry registry;
     AddBuiltInSensors(registry);
     for (int i = 0; i < 8; ++i) Add(registry, "sonar", 0.785 * i);
@@ -64,14 +65,33 @@ class SampleAllTest : public ::testing::Test {
     Add(registry, "positioning", 0.2);
   }
 
-  // All sensors on all robots, that they share.
-  std::vector<SensorAt> Everywhere(const world::Snapshot& snapshot) const {
-    std::vector<SensorAt> all;
+  static std::vector<int> Robots(const world::Snapshot& snapshot) {
+    std::vector<int> robots;
     for (int body = 0; body < static_cast<int>(snapshot.layout->bodies.size()); ++body) {
-      if (snapshot.layout->bodies[body].is_static) continue;
-      for (const auto& sensor : sensors_) all.push_back({sensor.get(), body});
+      if (!snapshot.layout->bodies[body].is_static) robots.push_back(body);
     }
-    return all;
+    return robots;
+  }
+
+  // Robot by robot, those of one with a sampling in common.
+  std::vector<Reading> ReadAll(const std::shared_ptr<const world::Snapshot>& snapshot,
+                               int threads) const {
+    const std::vector<int> robots = Robots(*snapshot);
+    std::vector<Reading> readings(robots.size() * sensors_.size());
+    base::ThreadTeam team(threads);
+    RaySceneCache rays;
+    const auto scene = rays.At(snapshot, &team);
+    team.Share(robots.size(), 16, [&](std::size_t begin, std::size_t end) {
+      Sampling sampling(snapshot, -1, 7, rays);
+      for (std::size_t i = begin; i < end; ++i) {
+        sampling.MoveTo(robots[i]);
+        sampling.ExpectRays(sensors_.size());
+        for (std::size_t k = 0; k < sensors_.size(); ++k) {
+          readings[i * sensors_.size() + k] = *sensors_[k]->Sample(sampling);
+        }
+      }
+    });
+    return readings;
   }
 
   std::vector<std::unique_ptr<Sensor>> sensors_;
@@ -82,54 +102,43 @@ class SampleAllTest : public ::testing::Test {
   }
 };
 
-TEST_F(SampleAllTest, IsTheSameAsOneByOneForAnyNumberOfThreads) {
+TEST_F(SamplingTest, IsTheSameAsOneByOneForAnyNumberOfThreads) {
   for (const double room : {10.0, 0.5}) {  // as in a hall; too many around to be gathered
     const auto snapshot = MakeCrowd(120, room);
     RaySceneCache rays;
-    const std::vector<SensorAt> all = Everywhere(*snapshot);
+    const std::vector<int> robots = Robots(*snapshot);
     for (const int threads : {1, 2, 5}) {
-      base::ThreadTeam team(threads);
-      std::vector<base::Result<Reading>> readings(all.size());
-      RaySceneCache own;
-      SampleAll(snapshot, 7, own, all, team, readings);
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        const auto alone = all[i].sensor->Sample(Sampling(snapshot, all[i].body, 7, rays));
-        ASSERT_TRUE(readings[i]);
-        ASSERT_EQ(readings[i]->values, alone->values) << threads << " " << i;
+      const std::vector<Reading> readings = ReadAll(snapshot, threads);
+      for (std::size_t i = 0; i < readings.size(); ++i) {
+        const Sampling alone(snapshot, robots[i / sensors_.size()], 7, rays);
+        ASSERT_EQ(readings[i].values, sensors_[i % sensors_.size()]->Sample(alone)->values)
+            << threads << " " << i;
       }
     }
   }
 }
 
-TEST_F(SampleAllTest, SonarsMeasureWhatLookingAtEverythingFinds) {
+TEST_F(SamplingTest, SonarsMeasureWhatLookingAtEverythingFinds) {
   for (const double room : {10.0, 0.5}) {
     const auto snapshot = MakeCrowd(60, room);
-    RaySceneCache rays;
-    base::ThreadTeam team(2);
-    const std::vector<SensorAt> all = Everywhere(*snapshot);
-    std::vector<base::Result<Reading>> readings(all.size());
-    SampleAll(snapshot, 7, rays, all, team, readings);
+    const std::vector<Reading> readings = ReadAll(snapshot, 2);
+    const std::vector<int> robots = Robots(*snapshot);
     int echoes = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const model::SensorDescription& sonar = all[i].sensor->description();
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      const int body = robots[i / sensors_.size()];
+      const model::SensorDescription& sonar = sensors_[i % sensors_.size()]->description();
       if (sonar.type != "sonar") continue;
       const geometry::Pose world_from_sonar =
-          world::LinkPose(*snapshot, all[i].body, sonar.link) * sonar.link_from_sensor;
+          world::LinkPose(*snapshot, body, sonar.link) * sonar.link_from_sensor;
       const auto hit = testing::BruteForce(
           *snapshot,
           {world_from_sonar.position, world_from_sonar.orientation * Vector3{1, 0, 0}, kReach},
-          all[i].body);
+          body);
       echoes += hit.has_value();
-      ASSERT_NEAR(readings[i]->values[0], hit ? hit->distance : kReach, 1e-9) << i;
+      ASSERT_NEAR(readings[i].values[0], hit ? hit->distance : kReach, 1e-9) << i;
     }
     EXPECT_GT(echoes, 100);
   }
-}
-
-TEST_F(SampleAllTest, OfNoSensorsDoesNothing) {
-  RaySceneCache rays;
-  base::ThreadTeam team(2);
-  SampleAll(MakeCrowd(1, 10), 7, rays, {}, team, {});
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+// The rays of a scanner's row: from one place, at even azimuths.
+//
+// Exactness  none that touches a solid is left out of the sector that the solid shades; what a ray
+//            really meets is for others to find.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "gsv/geometry/pose.h"
+#include "gsv/geometry/triangle_mesh.h"
+
+namespace gsv::sensing {
+
+// Ray i has the azimuth first + i step about the z axis of the fan's frame, from its x axis, and
+// the elevation over its xy plane.
+struct Fan {
+  geometry::Pose world_from_fan;
+  double first = 0, step = 0;                     // rad; step > 0 unless there is one ray
+  double elevation = 0;                           // rad
+  double max_distance = 0;                        // m
+  std::span<const geometry::Vector3> directions;  // of the rays, in the fan's frame, unit length
+};
+
+// What a solid may hide of a fan: azimuths between `from` and `to`, or all of them.
+struct Sector {
+  double nearest = 0;  // m from the fan's origin to the solid's box: nothing of it is nearer
+  double from = 0, to = 0;
+  bool is_all = false;
+};
+
+// Of what lies within `box`, in a frame of its own. Nothing if no ray comes near.
+std::optional<Sector> SectorOf(const Fan& fan, const geometry::Pose& box_from_fan,
+                               const geometry::Bounds& box);
+
+// Calls visit(ray) for the rays in a sector; for each once.
+template <class Visit>
+void ForRaysIn(const Sector& sector, const Fan& fan, const Visit& visit) {
+  const auto count = static_cast<std::ptrdiff_t>(fan.directions.size());
+  if (sector.is_all || !(fan.step > 0)) {
+    for (std::ptrdiff_t i = 0; i < count; ++i) visit(static_cast<std::size_t>(i));
+    return;
+  }
+  constexpr double kTurn = 2 * std::numbers::pi;
+  constexpr double kRounding = 1e-6;  // of a step
+  const double last = fan.first + static_cast<double>(count - 1) * fan.step;
+  const double width = sector.to - sector.from;
+  const double slack = kRounding * fan.step;
+  // A fan may turn more than once.
+  double from = sector.from + kTurn * std::ceil((fan.first - sector.to - slack) / kTurn);
+  for (; from <= last + slack; from += kTurn) {
+    const double begin = std::ceil((from - fan.first) / fan.step - kRounding);
+    const double end = std::floor((from + width - fan.first) / fan.step + kRounding);
+    const auto low = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(begin));
+    const auto high = std::min<std::ptrdiff_t>(count - 1, static_cast<std::ptrdiff_t>(end));
+    for (std::ptrdiff_t i = low; i <= high; ++i) visit(static_cast<std::size_t>(i));
+  }
+}
+
+}  // namespace gsv::sensing
