@@ -7,7 +7,8 @@ namespace gsv::app {
 
 // Adds the scenario's robots and the avatars, and gives behaviours to all, those that came with
 // the world included. A robot without a place gets the first free one on a spiral about the origin.
-base::Status Populate(Runtime& runtime, simulation::Simulation& simulation,
-                      const RunOptions& options, base::Problems& problems);
+// Gives the scenario as it came to be, which run again places the same robots at the same bits.
+base::Result<scenario::Scenario> Populate(Runtime& runtime, simulation::Simulation& simulation,
+                                          const RunOptions& options, base::Problems& problems);
 
 }  // namespace gsv::app

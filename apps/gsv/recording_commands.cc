@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -113,6 +116,34 @@ int Export(const RecordingArguments& arguments) {
   file << *csv << std::flush;
   if (file) return kOk;
   return Complain({base::ErrorCode::kUnavailable, "cannot write the file", arguments.output});
+}
+
+// Of several that have the name, the last.
+int Extract(const RecordingArguments& arguments) {
+  const auto reader = recording::McapReader::Open(arguments.file);
+  if (!reader) return Refuse(reader.error());
+  const auto& attachments = (*reader)->summary().attachments;
+  const auto found = std::find_if(attachments.rbegin(), attachments.rend(),
+                                  [&](const auto& each) { return each.name == arguments.other; });
+  if (found == attachments.rend()) {
+    return Refuse(
+        {base::ErrorCode::kNotFound,
+         "holds no attachment \"" + arguments.other + "\"; gsv rec info lists what it holds",
+         arguments.file});
+  }
+  const auto attachment = (*reader)->Read(*found);
+  if (!attachment) return Refuse(attachment.error());
+  std::FILE* const file =
+      arguments.output.empty() ? stdout : std::fopen(arguments.output.c_str(), "wbx");
+  const std::string where = arguments.output.empty() ? "stdout" : arguments.output;
+  if (file == nullptr) {
+    return Complain({base::ErrorCode::kUnavailable, std::strerror(errno), where});
+  }
+  const std::size_t written =
+      std::fwrite(attachment->data.data(), 1, attachment->data.size(), file);
+  const bool is_flushed = (arguments.output.empty() ? std::fflush(file) : std::fclose(file)) == 0;
+  if (written == attachment->data.size() && is_flushed) return kOk;
+  return Complain({base::ErrorCode::kUnavailable, "cannot write all of it", where});
 }
 
 int Diff(const RecordingArguments& arguments) {
@@ -302,6 +333,13 @@ void AddRecordingCommands(const CommandLine& line) {
     const auto [command, arguments] = add("filter", "Make a recording of part of one", Filter);
     add_selection(*command, *arguments);
     command->add_option("-o,--output", arguments->output, "the file to write")->required();
+  }
+  {
+    const auto [command, arguments] =
+        add("extract", "Write an attachment, such as scenario.yaml, as it is", Extract);
+    command->add_option("attachment", arguments->other, "its name, as gsv rec info lists it")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "a new file; without it: stdout");
   }
   {
     const auto [command, arguments] =

@@ -20,6 +20,7 @@
 #include "gsv/formats/gltf_writer.h"
 #include "gsv/recording/bag_folder.h"
 #include "gsv/recording/simulation_recorder.h"
+#include "gsv/recording/topics.h"
 #include "gsv/rendering/png.h"
 
 namespace gsv::app {
@@ -45,6 +46,7 @@ recording::RecorderOptions Options(const RecordingChoice& choice) {
   options.topics = choice.topics;
   options.poses_rate = choice.poses_rate;
   options.sensors = {choice.readings_rate, choice.pictures_rate, choice.beams_rate};
+  options.scenario = choice.scenario;
   if (choice.png) options.write_png = &rendering::EncodePng;
   const std::vector<std::string> arguments = ArgumentsOfThisProcess();
   std::error_code ignored;
@@ -68,6 +70,25 @@ bool NamesAFile(const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
+                                         const std::vector<std::string>& topics) {
+  constexpr std::size_t kMostListed = 24;
+  std::vector<std::string> sentences;
+  for (const std::string& pattern : recording::PatternsWithout(topics, choice.topics)) {
+    // Whoever names a robot, or /gsv, means what is below.
+    const bool is_folder = recording::PatternsWithout(topics, {pattern + "/"}).empty();
+    const std::size_t listed = std::min(topics.size(), kMostListed);
+    std::string there = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + listed, ", "));
+    if (listed < topics.size()) there += fmt::format(" and {} more", topics.size() - listed);
+    sentences.push_back(fmt::format(
+        "--record-topics {}: {}", pattern,
+        is_folder
+            ? fmt::format("no topic has this name; all below it are \"{}/\"", pattern)
+            : "no topic of this simulation has this name or lies below it; there are " + there));
+  }
+  return sentences;
+}
 
 base::Status SetRate(const std::string& text, RecordingChoice& choice) {
   const std::pair<std::string_view, double*> kinds[]{{"poses", &choice.poses_rate},
@@ -95,21 +116,27 @@ base::Status SetRate(const std::string& text, RecordingChoice& choice) {
 Recordings::Recordings() = default;
 Recordings::~Recordings() = default;
 
+base::Status Recordings::FinishThatWhichIsOver(
+    const std::shared_ptr<simulation::Simulation>& simulation) {
+  const std::string& name = simulation->specification().name;
+  std::unique_lock lock(mutex_);
+  const auto found = recordings_.find(name);
+  if (found == recordings_.end()) return {};
+  // A recording is over when its simulation is gone, was reset, or the disk failed.
+  if (found->second.simulation.lock() == simulation && found->second.recorder->is_recording()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "it is being recorded to " + found->second.path + "; stop that first", name);
+  }
+  auto node = recordings_.extract(found);
+  lock.unlock();
+  if (const auto ok = Finish(node.mapped()); !ok) spdlog::error("{}", ok.error().Sentence());
+  return {};
+}
+
 base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
                                const std::string& path, const RecordingChoice& choice) {
-  const std::string name = simulation->specification().name;
-  const std::lock_guard lock(mutex_);
-  const auto found = recordings_.find(name);
-  if (found != recordings_.end()) {
-    // A recording is over when its simulation is gone, was reset, or the disk failed.
-    if (found->second.simulation.lock() == simulation && found->second.recorder->is_recording()) {
-      return base::Fail(base::ErrorCode::kInvalidArgument,
-                        "it is being recorded to " + found->second.path + "; stop that first",
-                        name);
-    }
-    if (const auto ok = Finish(found->second); !ok) spdlog::error("{}", ok.error().Sentence());
-    recordings_.erase(found);
-  }
+  const std::lock_guard starting(starting_);
+  if (auto ok = FinishThatWhichIsOver(simulation); !ok) return ok;
   std::string bag;
   if (!NamesAFile(path)) {
     auto file = recording::MakeBagFolder(path);
@@ -119,7 +146,9 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
   auto recorder =
       recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag, Options(choice));
   if (!recorder) return base::Fail(recorder.error());
-  recordings_.emplace(name, Recording{simulation, path, std::move(bag), *std::move(recorder)});
+  const std::lock_guard lock(mutex_);
+  recordings_.emplace(simulation->specification().name,
+                      Recording{simulation, path, std::move(bag), *std::move(recorder)});
   return {};
 }
 

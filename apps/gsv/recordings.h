@@ -1,17 +1,20 @@
 // The recordings under way in this process, one a simulation at most.
 //
-// Threads  any; starting writes the models, stopping waits for the disk.
+// Threads  any; starting writes the models, stopping waits for the disk. Whoever asks how a
+//          recording stands waits for neither.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gsv/base/error.h"
 #include "gsv/gateway/ports.h"
+#include "gsv/scenario/scenario.h"
 
 namespace gsv::recording {
 class SimulationRecorder;
@@ -29,7 +32,14 @@ struct RecordingChoice {
   std::vector<std::string> topics;  // empty: all; one that ends in "/" stands for all below it
   double poses_rate = 50, readings_rate = 20, pictures_rate = 1, beams_rate = 10;
   bool png = false;  // pictures, else JPEG
+  // What is attached as the scenario; without it what can be seen of the simulation.
+  std::optional<scenario::Scenario> scenario{};
 };
+
+// Of a choice of topics that some would stand for none of `topics`: a sentence for each such one,
+// with what there is instead.
+std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
+                                         const std::vector<std::string>& topics);
 
 // Sets one rate, from "KIND=HZ" with poses, readings, pictures or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
@@ -59,10 +69,13 @@ class Recordings final : public gateway::RecordingSwitch {
     std::string bag;  // the file in a rosbag2 folder; empty: a bare file
     std::unique_ptr<recording::SimulationRecorder> recorder;
   };
+  // Makes room for a new one. kInvalidArgument when the simulation is being recorded.
+  base::Status FinishThatWhichIsOver(const std::shared_ptr<simulation::Simulation>& simulation);
   static base::Status Finish(Recording& recording);
   static State StateOf(const Recording& recording);
 
-  std::mutex mutex_;
+  std::mutex starting_;                          // one at a time; taken before mutex_
+  std::mutex mutex_;                             // never held while the disk is waited for
   std::map<std::string, Recording> recordings_;  // by the simulation's name
   std::map<std::string, State> last_;            // that ended, by the simulation's name
 };

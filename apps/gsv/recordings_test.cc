@@ -51,10 +51,11 @@ TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
   for (const auto& record : info->metadata) metadata[record.name] = record.values;
   EXPECT_FALSE(metadata["gsv.simulation"]["gsv_version"].empty());
   EXPECT_NE(metadata["gsv.simulation"]["command"].find("recordings_test"), std::string::npos);
-  // The scene, and the models of the disc and the wall.
-  ASSERT_EQ(info->attachments.size(), 3u);
-  EXPECT_TRUE(info->attachments[1].name.starts_with("models/"));
-  EXPECT_GT(info->attachments[1].size, 20u);
+  // The scenario, the scene, and the models of the disc and the wall.
+  ASSERT_EQ(info->attachments.size(), 4u);
+  EXPECT_EQ(info->attachments[0].name, "scenario.yaml");
+  EXPECT_TRUE(info->attachments[2].name.starts_with("models/"));
+  EXPECT_GT(info->attachments[2].size, 20u);
 }
 
 TEST_F(RecordingsTest, ASimulationIsRecordedOnceAtATime) {

@@ -8,10 +8,13 @@
 
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
+#include "apps/gsv/installation.h"
 #include "apps/gsv/population.h"
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/run.h"
 #include "apps/gsv/run_report.h"
+#include "gsv/recording/mcap_reader.h"
+#include "gsv/recording/topics.h"
 
 namespace gsv::app {
 namespace {
@@ -30,6 +33,12 @@ std::vector<std::string> Sentences(const base::Problems& problems,
       sentences.push_back(sentence);
   }
   return sentences;
+}
+
+bool TellErrors(const base::Problems& problems) {
+  const auto errors = Sentences(problems, base::Problem::Severity::kError);
+  for (const std::string& error : errors) std::fprintf(stderr, "gsv: error: %s\n", error.c_str());
+  return !errors.empty();
 }
 
 void OpenBrowser(const std::string& url) {
@@ -91,24 +100,43 @@ int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   return exit_code;
 }
 
+void Warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) {
+    std::fprintf(stderr, "gsv: warning: %s\n", sentence.c_str());
+  }
+}
+
+// Of topics that were asked for and never came: what is wrong with them. A robot that was added in
+// mid-run may have brought what was not there at the start.
+std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
+                                            std::vector<std::string> topics_at_start) {
+  const auto recorded = recording::McapReader::Open(options.record);
+  if (!recorded) return {};  // the disk failed, and that has been told
+  for (const auto& [id, channel] : (*recorded)->summary().channels) {
+    topics_at_start.push_back(channel.topic);
+  }
+  std::sort(topics_at_start.begin(), topics_at_start.end());
+  topics_at_start.erase(std::unique(topics_at_start.begin(), topics_at_start.end()),
+                        topics_at_start.end());
+  return ComplaintsAbout(options.recording, topics_at_start);
+}
+
 }  // namespace
 
 base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet) {
+  if (TellErrors(options.problems)) return kBadModel;
   auto runtime = Runtime::Start(options.runtime);
   if (!runtime) return base::Fail(runtime.error());
   base::Problems problems;
-  auto simulation =
-      (*runtime)->host().Create(options.specification, options.scenario.world, problems);
+  auto simulation = (*runtime)->host().Create(options.specification,
+                                              ResolveWorld(options.scenario.world), problems);
   if (!simulation) return base::Fail(simulation.error());
-  if (auto ok = Populate(**runtime, **simulation, options, problems); !ok)
-    return base::Fail(ok.error());
+  auto told = Populate(**runtime, **simulation, options, problems);
+  if (!told) return base::Fail(told.error());
 
-  const auto errors = Sentences(problems, base::Problem::Severity::kError);
-  for (const std::string& error : errors) std::fprintf(stderr, "gsv: error: %s\n", error.c_str());
-  if (!errors.empty()) return kBadModel;
-  const auto warnings = Sentences(problems, base::Problem::Severity::kWarning);
-  for (const std::string& warning : warnings)
-    std::fprintf(stderr, "gsv: warning: %s\n", warning.c_str());
+  if (TellErrors(problems)) return kBadModel;
+  auto warnings = Sentences(problems, base::Problem::Severity::kWarning);
+  Warn(warnings);
 
   for (const simulation::Event& event : (*simulation)->events(0)) {
     if (event.kind == "robot_moved" && !is_quiet)
@@ -123,15 +151,24 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
     if (options.open_browser) OpenBrowser(url);
   }
   std::fflush(notes);
+  std::vector<std::string> topics;  // that can be recorded
   if (!options.record.empty()) {
-    if (auto ok = (*runtime)->recordings().Start(*simulation, options.record, options.recording);
-        !ok)
+    topics = recording::TopicsOf(**simulation);
+    Warn(ComplaintsAbout(options.recording, topics));
+    RecordingChoice choice = options.recording;
+    choice.scenario = *std::move(told);
+    if (auto ok = (*runtime)->recordings().Start(*simulation, options.record, choice); !ok)
       return base::Fail(ok.error());
   }
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
   int exit_code = JudgeBehaviours(**simulation, Await(**simulation, options, signals));
   if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
   if (is_quiet) return exit_code;
+  if (!options.recording.topics.empty()) {
+    for (std::string& sentence : ComplaintsAtTheEnd(options, std::move(topics))) {
+      warnings.push_back(std::move(sentence));
+    }
+  }
   const std::string report =
       options.json ? JsonReport(**simulation, warnings) + "\n" : TextReport(**simulation);
   std::fputs(report.c_str(), stdout);

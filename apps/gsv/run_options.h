@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ namespace gsv::app {
 
 struct RunOptions {
   RuntimeOptions runtime;
-  scenario::Scenario scenario;
-  std::vector<scenario::RobotEntry> avatars;
+  scenario::Scenario scenario;                         // as it was told, overrides included
+  base::Problems problems;                             // of the scenario's file
   std::string behaviour;                               // of all robots that have none of their own
   std::map<std::string, std::string> behaviour_of;     // by robot
   std::map<std::string, model::Movement> movement_of;  // by robot
@@ -44,12 +45,15 @@ struct RunArguments {
   std::string world;
   std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
   formats::ReadLimits limits;
-  std::string broker, mode_on_failure = "go_on", record, record_pictures = "jpeg";
+  std::string broker, name, mode_on_failure, record, record_pictures;
   std::vector<std::string> record_topics, record_rates;
-  double duration = 0, step = 0, factor = 1, deadline = 10, wall_timeout = 0;
-  std::uint64_t seed = 0;
+  // Those that a scenario's file may say as well are empty where they were not given.
+  std::optional<double> duration, step, factor, deadline;
+  std::optional<std::uint64_t> seed;
+  double wall_timeout = 0;
   int port = -1, threads = 0;
-  bool lockstep = false, headless = false, json = false, open = false, in_process = false;
+  bool lockstep = false, real_time = false, headless = false, json = false, open = false,
+       in_process = false;
 };
 
 void AddRunOptions(CLI::App& command, RunArguments& arguments);

@@ -4,6 +4,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/base/log.h"
+#include "gsv/scenario/scenario_file.h"
 
 namespace gsv::recording {
 namespace {
@@ -77,6 +78,13 @@ SimulationRecorder::SimulationRecorder(const std::shared_ptr<Simulation>& simula
       feed_(std::make_shared<SimulationFeed>(
           *simulation, FeedOptions{.when_full = WhenFullFor(simulation->specification().mode)})) {
   writer_->AddMetadata(Describe(*simulation, options.metadata));
+  const std::string scenario =
+      scenario::ToYaml(options.scenario ? *options.scenario : ScenarioOf(*simulation));
+  writer_->Attach({simulation->snapshot()->state.time,
+                   {},
+                   std::string(kScenarioAttachment),
+                   std::string(kScenarioMediaType),
+                   std::as_bytes(std::span(scenario))});
   sources_.AttachWorld(*simulation->specification().world);
 }
 

@@ -11,9 +11,11 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "gsv/recording/scenario_attachment.h"
 #include "gsv/recording/scene_attachments.h"
 #include "gsv/recording/sensor_topics.h"
 #include "gsv/recording/simulation_feed.h"
@@ -29,6 +31,8 @@ struct RecorderOptions {
   std::vector<std::string> topics;  // as in Selection; empty: all
   WritePng write_png;               // empty: pictures as their sensors send them
   bool replace = false;             // an existing file
+  // What is attached as the scenario; without it: ScenarioOf() the simulation.
+  std::optional<scenario::Scenario> scenario{};
   // Added to the metadata record "gsv.simulation".
   StringMap metadata;
 };

@@ -6,96 +6,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "gsv/messages/sensor_msgs.h"
-#include "gsv/messages/visualization_msgs.h"
-#include "gsv/presentation/model_identity.h"
-#include "gsv/recording/recording_info.h"
-#include "gsv/recording/test_simulation.h"
-#include "gsv/sensing/encoding.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/recording/recorder_fixture.h"
 
 namespace gsv::recording {
 namespace {
 
 using simulation::Phase;
-
-// The name, as bytes: who writes models is no concern of the recorder.
-base::Result<std::vector<std::uint8_t>> NameAsGlb(const model::Model& model) {
-  return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
-}
-
-RecorderOptions Options() {
-  RecorderOptions options;
-  options.write_glb = &NameAsGlb;
-  options.replace = true;
-  return options;
-}
-
-class SimulationRecorderTest : public testing::Test {
- protected:
-  SimulationRecorderTest()
-      : path_(testing::TempDir() + "gsv_recorder_" +
-              testing::UnitTest::GetInstance()->current_test_info()->name() + ".mcap") {}
-  ~SimulationRecorderTest() override { std::filesystem::remove(path_); }
-
-  std::unique_ptr<SimulationRecorder> Start(
-      const std::shared_ptr<simulation::Simulation>& simulation) {
-    auto recorder = SimulationRecorder::Start(simulation, path_, Options());
-    EXPECT_TRUE(recorder) << recorder.error().Sentence();
-    return *std::move(recorder);
-  }
-
-  // Records a whole run of a second and reads the file.
-  RecordingInfo Record(double speed, std::chrono::microseconds dawdling = 0us) {
-    auto simulation = MakeSimulation(1s, Drives(speed, dawdling));
-    auto recorder = Start(simulation);
-    EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
-    hash_ = simulation->state_hash();
-    EXPECT_TRUE(recorder->Stop());
-    return Info();
-  }
-
-  RecordingInfo Info() const {
-    auto info = ReadInfo(path_);
-    EXPECT_TRUE(info) << info.error().Sentence();
-    for (const base::Problem& problem : info->problems) ADD_FAILURE() << problem.Sentence();
-    return *info;
-  }
-
-  // All of one topic, decoded.
-  template <typename Message>
-  std::vector<Message> Read(const std::string& topic) const {
-    const auto reader = McapReader::Open(path_);
-    EXPECT_TRUE(reader) << reader.error().Sentence();
-    std::vector<Message> messages;
-    MessageCursor cursor = (*reader)->Messages();
-    for (auto next = cursor.Next(); next && *next; next = cursor.Next()) {
-      if ((*reader)->summary().channels.at((*next)->channel_id).topic != topic) continue;
-      const auto message = messages::Decode<Message>((*next)->data);
-      EXPECT_TRUE(message);
-      messages.push_back(*message);
-    }
-    return messages;
-  }
-
-  std::vector<Attachment> Attachments(const std::string& name) const {
-    const auto reader = McapReader::Open(path_);
-    EXPECT_TRUE(reader) << reader.error().Sentence();
-    std::vector<Attachment> found;
-    for (const AttachmentIndexRecord& index : (*reader)->summary().attachments) {
-      if (index.name == name) found.push_back((*reader)->Read(index).value());
-    }
-    return found;
-  }
-
-  nlohmann::json Scene(const Attachment& attachment) const {
-    return nlohmann::json::parse(
-        reinterpret_cast<const char*>(attachment.data.data()),
-        reinterpret_cast<const char*>(attachment.data.data()) + attachment.data.size());
-  }
-
-  const std::string path_;
-  std::string hash_;  // of the last run that was recorded
-};
 
 TEST_F(SimulationRecorderTest, RunsThatGoAlikeHaveTheSameContentHoweverSlowTheBehaviourIs) {
   const std::string first = Record(0.5).content_hash;
@@ -139,132 +56,6 @@ TEST_F(SimulationRecorderTest, TellsWhoMetWhomAndHowHard) {
   EXPECT_NEAR(contacts[0].closing_speed, 4, 1e-9);
 }
 
-TEST_F(SimulationRecorderTest, TopicsAndRatesCanBeChosen) {
-  auto simulation = MakeSimulation(1s, Drives(0.5));
-  RecorderOptions options = Options();
-  options.topics = {"/gsv/poses", "/robot/"};
-  options.poses_rate = 10;
-  options.sensors.readings = 5;
-  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
-  ASSERT_TRUE(recorder);
-  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  ASSERT_TRUE((*recorder)->Stop());
-  std::map<std::string, std::uint64_t> counts;
-  for (const auto& channel : Info().channels) counts[channel.topic] = channel.messages;
-  EXPECT_EQ(counts, (std::map<std::string, std::uint64_t>{
-                        {"/gsv/poses", 11}, {"/robot/back", 5}, {"/robot/front", 6}}));
-}
-
-TEST_F(SimulationRecorderTest, BeamsAloneAreThoseOfSensorsWithoutATopic) {
-  auto simulation = MakeSimulation(1s, Drives(1.0));
-  RecorderOptions options = Options();
-  options.topics = {"/gsv/beams"};
-  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
-  ASSERT_TRUE(recorder);
-  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  ASSERT_TRUE((*recorder)->Stop());
-  ASSERT_EQ(Info().channels.size(), 1u);
-  const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
-  ASSERT_EQ(beams.size(), 11u);
-  ASSERT_EQ(beams.back().markers.size(), 1u);
-  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // front and back
-}
-
-// A sensor whose picture is one pixel, sent as "jpeg" without data.
-sensing::SensorType PixelCamera() {
-  class Pixel final : public sensing::Sensor {
-   public:
-    using Sensor::Sensor;
-    base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
-      sensing::Reading reading = sampling.Stamped();
-      auto picture = std::make_shared<model::Image>();
-      picture->width = picture->height = 1;
-      picture->pixels = {1, 2, 3};
-      reading.picture = std::move(picture);
-      return reading;
-    }
-  };
-  sensing::SensorType type;
-  type.name = "pixel";
-  type.create = [](const model::SensorDescription& description) {
-    return base::Result<std::unique_ptr<sensing::Sensor>>(std::make_unique<Pixel>(description));
-  };
-  type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
-  type.encode = [](const model::SensorDescription&, const sensing::Reading& reading,
-                   const std::string& frame) {
-    messages::sensor_msgs::CompressedImage message;
-    message.header = sensing::HeaderOf(reading, frame);
-    message.format = "jpeg";
-    return sensing::Encoded(message);
-  };
-  return type;
-}
-
-TEST_F(SimulationRecorderTest, PicturesCanBePng) {
-  auto types = std::make_shared<sensing::SensorRegistry>();
-  sensing::AddBuiltInSensors(*types);
-  ASSERT_TRUE(types->Add(PixelCamera()));
-  auto simulation = simulation::Simulation::Create(simulation::Lockstep(100ms), types).value();
-  simulation::RobotSpecification robot = Robot("robot", 0, nullptr);
-  model::Model model = *robot.model;
-  model.sensors.resize(1);
-  model.sensors[0].name = "eye";
-  model.sensors[0].type = "pixel";
-  robot.model = std::make_shared<const model::Model>(std::move(model));
-  ASSERT_TRUE(simulation->AddRobot(robot));
-  RecorderOptions options = Options();
-  options.write_png = [](const model::Image& picture) {
-    return base::Result<std::vector<std::uint8_t>>(picture.pixels);
-  };
-  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
-  ASSERT_TRUE(recorder);
-  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  ASSERT_TRUE((*recorder)->Stop());
-  const auto pictures = Read<messages::sensor_msgs::CompressedImage>("/robot/eye");
-  ASSERT_FALSE(pictures.empty());
-  EXPECT_EQ(pictures[0].format, "png");
-  EXPECT_EQ(pictures[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
-  EXPECT_EQ(pictures[0].header.frame_id, "robot/eye");
-}
-
-TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {
-  Record(1.0);
-  const auto readings = Read<messages::sensor_msgs::Range>("/robot/front");
-  ASSERT_EQ(readings.size(), 21u);
-  // From the origin at 1 m/s towards a face at 2.9 m.
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    EXPECT_NEAR(readings[i].range, 2.9 - 0.05 * static_cast<double>(i), 1e-6) << i;
-    EXPECT_EQ(readings[i].header.frame_id, "robot/front");
-  }
-}
-
-TEST_F(SimulationRecorderTest, TheSceneSaysWhatThePosesMean) {
-  Record(0.5);
-  const auto scenes = Attachments("scene.json");
-  ASSERT_EQ(scenes.size(), 2u);  // with "back" and before
-  const nlohmann::json scene = Scene(scenes.back());
-  ASSERT_EQ(scene["bodies"].size(), 2u);
-  EXPECT_EQ(scene["bodies"][0]["name"], "robot");
-  EXPECT_EQ(scene["bodies"][0]["sensors"].size(), 2u);
-  const auto poses = Read<messages::gsv_msgs::Poses>("/gsv/poses");
-  ASSERT_FALSE(poses.empty());
-  EXPECT_EQ(poses.back().layout_version, scene["layout_version"]);
-  ASSERT_EQ(poses.back().poses.size(), 7 * scene["poses"].size());
-  EXPECT_NEAR(poses.back().poses[0], 0.5, 1e-9);  // m, after a second at 0.5 m/s
-}
-
-TEST_F(SimulationRecorderTest, EachModelIsAttachedOnce) {
-  Record(0.5);
-  for (const auto& model : {simulation::Disc(0.2), simulation::Wall()}) {
-    const auto files = Attachments(ModelAttachment(presentation::ModelIdentity(*model)));
-    ASSERT_EQ(files.size(), 1u) << model->name;
-    EXPECT_EQ(
-        std::string(reinterpret_cast<const char*>(files[0].data.data()), files[0].data.size()),
-        model->name);
-    EXPECT_EQ(files[0].media_type, "model/gltf-binary");
-  }
-}
-
 TEST_F(SimulationRecorderTest, TheMetadataSayHowToRunItAgainAndHowItEnded) {
   auto info = Record(0.5);
   std::map<std::string, StringMap> metadata;
@@ -300,7 +91,7 @@ TEST_F(SimulationRecorderTest, ARobotThatComesLaterBringsItsScene) {
 TEST_F(SimulationRecorderTest, AFullDiskEndsTheRecordingAndNotTheSimulation) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   auto simulation = MakeSimulation(1s, Drives(0.5));
-  auto recorder = SimulationRecorder::Start(simulation, "/dev/full", Options());
+  auto recorder = SimulationRecorder::Start(simulation, "/dev/full", NamingOptions());
   ASSERT_TRUE(recorder) << recorder.error().Sentence();
   EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(simulation->status().step, 100);
@@ -314,7 +105,7 @@ TEST_F(SimulationRecorderTest, AFullDiskEndsTheRecordingAndNotTheSimulation) {
 
 TEST_F(SimulationRecorderTest, AnExistingFileIsNotOverwrittenUnasked) {
   Record(0.5);
-  RecorderOptions options = Options();
+  RecorderOptions options = NamingOptions();
   options.replace = false;
   const auto recorder = SimulationRecorder::Start(MakeSimulation(1s, nullptr), path_, options);
   ASSERT_FALSE(recorder);

@@ -7,6 +7,22 @@
 namespace gsv::scenario {
 namespace {
 
+std::vector<std::string_view> SplitAtCommas(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    parts.push_back(text.substr(0, comma));
+    if (comma == std::string_view::npos) return parts;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+RobotEntry Robot(const char* model, double x, double y, double yaw, const char* behaviour) {
+  return {.model = model, .start = Place{x, y, {}, yaw}, .behaviour = behaviour};
+}
+
+}  // namespace
+
 std::optional<double> ParseNumber(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
@@ -22,22 +38,6 @@ std::optional<double> ParseAngle(std::string_view text) {
   const auto degrees = ParseNumber(text);
   return degrees ? std::optional(*degrees * std::numbers::pi / 180) : std::nullopt;
 }
-
-std::vector<std::string_view> SplitAtCommas(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    parts.push_back(text.substr(0, comma));
-    if (comma == std::string_view::npos) return parts;
-    text.remove_prefix(comma + 1);
-  }
-}
-
-RobotEntry Robot(const char* model, double x, double y, double yaw, const char* behaviour) {
-  return {model, "", geometry::PlanarPose(x, y, 0, yaw), behaviour};
-}
-
-}  // namespace
 
 base::Result<RobotEntry> ParseRobot(const std::string& text) {
   const auto refuse = [&](const std::string& why) {
@@ -56,17 +56,18 @@ base::Result<RobotEntry> ParseRobot(const std::string& text) {
   const auto y = ParseNumber(parts[1]);
   const auto yaw = parts.size() == 3 ? ParseAngle(parts[2]) : 0.0;
   if (!x || !y || !yaw) return refuse("the place is not made of numbers");
-  robot.start = geometry::PlanarPose(*x, *y, 0, *yaw);
+  robot.start = Place{*x, *y, {}, *yaw};
   return robot;
 }
 
 Scenario DefaultScenario() {
   constexpr double kQuarter = std::numbers::pi / 2;
-  return {
-      "office",
-      {Robot("b21r", -3.0, 0.0, 0.0, "wander"), Robot("b21r", 0.0, -3.0, kQuarter, "wander"),
-       Robot("pebble", 2.5, 0.0, 2 * kQuarter, "follow-wall"),
-       Robot("pebble", -5.0, 3.0, -kQuarter, "wander"), Robot("rover4", 4.8, 3.5, 0.0, "wander")}};
+  return {.world = "office",
+          .robots = {Robot("b21r", -3.0, 0.0, 0.0, "wander"),
+                     Robot("b21r", 0.0, -3.0, kQuarter, "wander"),
+                     Robot("pebble", 2.5, 0.0, 2 * kQuarter, "follow-wall"),
+                     Robot("pebble", -5.0, 3.0, -kQuarter, "wander"),
+                     Robot("rover4", 4.8, 3.5, 0.0, "wander")}};
 }
 
 }  // namespace gsv::scenario

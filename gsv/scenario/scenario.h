@@ -1,30 +1,71 @@
-// What to run: a world, robots and their behaviours. Plain data, and its short forms on the command
-// line.
+// What to run: a world, robots and their behaviours, and how. Plain data, and its short forms on
+// the command line; scenario_file.h reads and writes it as YAML (docs/formats/scenario.md).
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gsv/base/error.h"
 #include "gsv/geometry/pose.h"
+#include "gsv/model/model.h"
 
 namespace gsv::scenario {
 
-struct RobotEntry {
-  std::string model;                    // a file, folder or name
-  std::string name;                     // empty: after its model
-  std::optional<geometry::Pose> start;  // planar; without one a free place is looked for
-  std::string behaviour;                // empty: none
+// Where a robot starts, in the world: metres and radians. The numbers stay as they were given, so
+// that a run that is repeated begins with the same bits.
+struct Place {
+  double x = 0;
+  double y = 0;
+  std::optional<double> z;  // of the model's origin; without it: it stands on the floor
+  double yaw = 0;
+
+  geometry::Pose pose() const { return geometry::PlanarPose(x, y, z.value_or(0), yaw); }
+  friend bool operator==(const Place&, const Place&) = default;
 };
 
+struct RobotEntry {
+  std::string model;                        // a file, folder or name; empty: the world brings it
+  std::string name;                         // empty: after its model
+  std::optional<Place> start;               // without one a free place is looked for
+  std::string behaviour;                    // its name and options; empty: none
+  std::optional<model::Movement> movement;  // without one: as its model says
+
+  friend bool operator==(const RobotEntry&, const RobotEntry&) = default;
+};
+
+// What is not said is left to whoever runs it.
 struct Scenario {
   std::string world;  // a file, folder or name
   std::vector<RobotEntry> robots;
+  std::vector<RobotEntry> avatars;  // without behaviour and movement
+  std::string name;                 // of the simulation
+  std::optional<std::uint64_t> seed;
+  std::optional<bool> lockstep;          // else in real time
+  std::optional<double> factor;          // simulated seconds a wall second, > 0
+  std::optional<double> step, duration;  // s, simulated
+  std::optional<double> deadline;        // s of wall time that a behaviour may run for
+  std::optional<bool> fails_with_behaviour;
+  std::optional<bool> in_process;  // behaviours are plug-ins, not programs
+  std::vector<std::string> model_path;
+  std::string record;  // a file or folder; empty: no recording
+  std::vector<std::string> record_topics;
+  std::map<std::string, double> record_rates;  // Hz of simulated time, by kind
+  std::optional<bool> record_png;              // pictures, else JPEG
+
+  friend bool operator==(const Scenario&, const Scenario&) = default;
 };
 
 // Reads "MODEL[@x,y[,yaw]]": metres; yaw in radians, or in degrees when it ends in "deg".
 base::Result<RobotEntry> ParseRobot(const std::string& text);
+
+// A finite number, whole; nothing if the text is anything else.
+std::optional<double> ParseNumber(std::string_view text);
+// Radians, or degrees when it ends in "deg".
+std::optional<double> ParseAngle(std::string_view text);
 
 // Our own default world with five robots of four kinds, each with a behaviour.
 Scenario DefaultScenario();

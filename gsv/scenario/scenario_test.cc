@@ -18,11 +18,11 @@ TEST(ParseRobot, TakesMetresAndRadiansOrDegrees) {
   const auto radians = ParseRobot("models/burger@-2,-0.5,1.5");
   ASSERT_TRUE(radians && radians->start);
   EXPECT_EQ(radians->model, "models/burger");
-  EXPECT_EQ(radians->start->position, (geometry::Vector3{-2, -0.5, 0}));
-  EXPECT_NEAR(geometry::Yaw(radians->start->orientation), 1.5, 1e-12);
+  EXPECT_EQ(*radians->start, (Place{-2, -0.5, {}, 1.5}));
+  EXPECT_NEAR(geometry::Yaw(radians->start->pose().orientation), 1.5, 1e-12);
   const auto degrees = ParseRobot("b@1,1,90deg");
   ASSERT_TRUE(degrees && degrees->start);
-  EXPECT_NEAR(geometry::Yaw(degrees->start->orientation), std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(degrees->start->yaw, std::numbers::pi / 2, 1e-12);
 }
 
 TEST(ParseRobot, AnAtSignInAFolderDoesNotEndTheModel) {

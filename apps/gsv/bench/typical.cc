@@ -116,9 +116,12 @@ void PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& opti
   }
   const auto places = CrowdRobots(robots, 1);
   for (int i = 0; i < robots; ++i) {
-    std::optional<geometry::Pose> start;
-    if (on_the_square) start = places[static_cast<std::size_t>(i)].world_from_robot;
-    options.scenario.robots.push_back({arguments.model, "", start, ""});
+    std::optional<scenario::Place> start;
+    if (on_the_square) {
+      const geometry::Pose& place = places[static_cast<std::size_t>(i)].world_from_robot;
+      start = {place.position.x, place.position.y, {}, geometry::Yaw(place.orientation)};
+    }
+    options.scenario.robots.push_back({.model = arguments.model, .start = start});
   }
 }
 

@@ -1,0 +1,146 @@
+// What a recording of a simulation holds, and what of it can be chosen.
+#include <map>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/visualization_msgs.h"
+#include "gsv/presentation/model_identity.h"
+#include "gsv/recording/recorder_fixture.h"
+#include "gsv/sensing/encoding.h"
+
+namespace gsv::recording {
+namespace {
+
+using simulation::Phase;
+
+TEST_F(SimulationRecorderTest, TopicsAndRatesCanBeChosen) {
+  auto simulation = MakeSimulation(1s, Drives(0.5));
+  RecorderOptions options = NamingOptions();
+  options.topics = {"/gsv/poses", "/robot/"};
+  options.poses_rate = 10;
+  options.sensors.readings = 5;
+  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
+  ASSERT_TRUE(recorder);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE((*recorder)->Stop());
+  std::map<std::string, std::uint64_t> counts;
+  for (const auto& channel : Info().channels) counts[channel.topic] = channel.messages;
+  EXPECT_EQ(counts, (std::map<std::string, std::uint64_t>{
+                        {"/gsv/poses", 11}, {"/robot/back", 5}, {"/robot/front", 6}}));
+}
+
+TEST_F(SimulationRecorderTest, BeamsAloneAreThoseOfSensorsWithoutATopic) {
+  auto simulation = MakeSimulation(1s, Drives(1.0));
+  RecorderOptions options = NamingOptions();
+  options.topics = {"/gsv/beams"};
+  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
+  ASSERT_TRUE(recorder);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE((*recorder)->Stop());
+  ASSERT_EQ(Info().channels.size(), 1u);
+  const auto beams = Read<messages::visualization_msgs::MarkerArray>("/gsv/beams");
+  ASSERT_EQ(beams.size(), 11u);
+  ASSERT_EQ(beams.back().markers.size(), 1u);
+  EXPECT_EQ(beams.back().markers[0].points.size(), 4u);  // front and back
+}
+
+// A sensor whose picture is one pixel, sent as "jpeg" without data.
+sensing::SensorType PixelCamera() {
+  class Pixel final : public sensing::Sensor {
+   public:
+    using Sensor::Sensor;
+    base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
+      sensing::Reading reading = sampling.Stamped();
+      auto picture = std::make_shared<model::Image>();
+      picture->width = picture->height = 1;
+      picture->pixels = {1, 2, 3};
+      reading.picture = std::move(picture);
+      return reading;
+    }
+  };
+  sensing::SensorType type;
+  type.name = "pixel";
+  type.create = [](const model::SensorDescription& description) {
+    return base::Result<std::unique_ptr<sensing::Sensor>>(std::make_unique<Pixel>(description));
+  };
+  type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
+  type.encode = [](const model::SensorDescription&, const sensing::Reading& reading,
+                   const std::string& frame) {
+    messages::sensor_msgs::CompressedImage message;
+    message.header = sensing::HeaderOf(reading, frame);
+    message.format = "jpeg";
+    return sensing::Encoded(message);
+  };
+  return type;
+}
+
+TEST_F(SimulationRecorderTest, PicturesCanBePng) {
+  auto types = std::make_shared<sensing::SensorRegistry>();
+  sensing::AddBuiltInSensors(*types);
+  ASSERT_TRUE(types->Add(PixelCamera()));
+  auto simulation = simulation::Simulation::Create(simulation::Lockstep(100ms), types).value();
+  simulation::RobotSpecification robot = Robot("robot", 0, nullptr);
+  model::Model model = *robot.model;
+  model.sensors.resize(1);
+  model.sensors[0].name = "eye";
+  model.sensors[0].type = "pixel";
+  robot.model = std::make_shared<const model::Model>(std::move(model));
+  ASSERT_TRUE(simulation->AddRobot(robot));
+  RecorderOptions options = NamingOptions();
+  options.write_png = [](const model::Image& picture) {
+    return base::Result<std::vector<std::uint8_t>>(picture.pixels);
+  };
+  auto recorder = SimulationRecorder::Start(simulation, path_, std::move(options));
+  ASSERT_TRUE(recorder);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE((*recorder)->Stop());
+  const auto pictures = Read<messages::sensor_msgs::CompressedImage>("/robot/eye");
+  ASSERT_FALSE(pictures.empty());
+  EXPECT_EQ(pictures[0].format, "png");
+  EXPECT_EQ(pictures[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(pictures[0].header.frame_id, "robot/eye");
+}
+
+TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {
+  Record(1.0);
+  const auto readings = Read<messages::sensor_msgs::Range>("/robot/front");
+  ASSERT_EQ(readings.size(), 21u);
+  // From the origin at 1 m/s towards a face at 2.9 m.
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    EXPECT_NEAR(readings[i].range, 2.9 - 0.05 * static_cast<double>(i), 1e-6) << i;
+    EXPECT_EQ(readings[i].header.frame_id, "robot/front");
+  }
+}
+
+TEST_F(SimulationRecorderTest, TheSceneSaysWhatThePosesMean) {
+  Record(0.5);
+  const auto scenes = Attachments("scene.json");
+  ASSERT_EQ(scenes.size(), 2u);  // with "back" and before
+  const nlohmann::json scene = Scene(scenes.back());
+  ASSERT_EQ(scene["bodies"].size(), 2u);
+  EXPECT_EQ(scene["bodies"][0]["name"], "robot");
+  EXPECT_EQ(scene["bodies"][0]["sensors"].size(), 2u);
+  const auto poses = Read<messages::gsv_msgs::Poses>("/gsv/poses");
+  ASSERT_FALSE(poses.empty());
+  EXPECT_EQ(poses.back().layout_version, scene["layout_version"]);
+  ASSERT_EQ(poses.back().poses.size(), 7 * scene["poses"].size());
+  EXPECT_NEAR(poses.back().poses[0], 0.5, 1e-9);  // m, after a second at 0.5 m/s
+}
+
+TEST_F(SimulationRecorderTest, EachModelIsAttachedOnce) {
+  Record(0.5);
+  for (const auto& model : {simulation::Disc(0.2), simulation::Wall()}) {
+    const auto files = Attachments(ModelAttachment(presentation::ModelIdentity(*model)));
+    ASSERT_EQ(files.size(), 1u) << model->name;
+    EXPECT_EQ(
+        std::string(reinterpret_cast<const char*>(files[0].data.data()), files[0].data.size()),
+        model->name);
+    EXPECT_EQ(files[0].media_type, "model/gltf-binary");
+  }
+}
+
+}  // namespace
+}  // namespace gsv::recording

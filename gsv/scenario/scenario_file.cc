@@ -1,0 +1,165 @@
+#include "gsv/scenario/scenario_file.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "gsv/scenario/yaml_mapping.h"
+
+namespace gsv::scenario {
+namespace {
+
+constexpr std::size_t kMostRobots = 100'000;
+constexpr double kFarthest = 1e6;  // m
+constexpr double kLongest = 1e9;   // s
+constexpr double kMostFactor = 1e6;
+constexpr double kLeastRate = 0.001, kMostRate = 10'000;  // Hz
+
+std::optional<Place> ReadPlace(YamlMapping& mapping, const YamlPlace& place) {
+  const auto x = mapping.Number("x", -kFarthest, kFarthest);
+  const auto y = mapping.Number("y", -kFarthest, kFarthest);
+  const auto z = mapping.Number("z", -kFarthest, kFarthest);
+  const auto yaw = mapping.Angle("yaw");
+  if (x && y) return Place{*x, *y, z, yaw.value_or(0)};
+  const bool has_any = mapping.Had("x") || mapping.Had("y") || z || yaw;
+  if (has_any && !(mapping.Had("x") && mapping.Had("y"))) {
+    place.Complain(mapping.mark(), "a place needs both x and y");
+  }
+  return std::nullopt;
+}
+
+std::optional<model::Movement> ReadMovement(YamlMapping& mapping) {
+  const auto is_rigid = mapping.IsSecond("movement", "planar", "rigid");
+  if (!is_rigid) return std::nullopt;
+  return *is_rigid ? model::Movement::kRigid : model::Movement::kPlanar;
+}
+
+RobotEntry ReadRobot(const YAML::Node& node, bool is_avatar, const YamlPlace& place) {
+  YamlMapping mapping(node, place);
+  RobotEntry robot;
+  robot.name = mapping.Text("name").value_or("");
+  robot.model = mapping.Text("model").value_or("");
+  robot.start = ReadPlace(mapping, place);
+  if (!is_avatar) {
+    robot.behaviour = mapping.Text("behaviour").value_or("");
+    robot.movement = ReadMovement(mapping);
+  }
+  if (!node.IsMap() || !robot.model.empty()) return robot;
+  if (is_avatar) {
+    place.Complain(mapping.mark(), "an avatar needs a model");
+  } else if (robot.name.empty()) {
+    place.Complain(mapping.mark(),
+                   "a robot needs a model, or the name of one that stands in the world's file");
+  } else if (robot.start || robot.movement) {
+    place.Complain(mapping.mark(),
+                   "a robot without a model stands in the world's file, which says where it starts "
+                   "and how it moves");
+  }
+  return robot;
+}
+
+std::vector<RobotEntry> ReadRobots(YamlMapping& mapping, const std::string& key,
+                                   const YamlPlace& place) {
+  const std::vector<YAML::Node> list = mapping.List(key);
+  std::vector<RobotEntry> robots;
+  if (list.size() > kMostRobots) {
+    place.Complain(list[kMostRobots].Mark(),
+                   key + " has at most " + std::to_string(kMostRobots) + " entries");
+    return robots;
+  }
+  for (const YAML::Node& node : list) robots.push_back(ReadRobot(node, key == "avatars", place));
+  return robots;
+}
+
+std::map<std::string, double> ReadRates(const YAML::Node& node, const YamlPlace& place) {
+  std::map<std::string, double> rates;
+  YamlMapping mapping(node, place);
+  for (const char* kind : {"poses", "readings", "pictures", "beams"}) {
+    if (const auto rate = mapping.Number(kind, kLeastRate, kMostRate)) rates[kind] = *rate;
+  }
+  return rates;
+}
+
+Scenario ReadAll(const YAML::Node& node, const YamlPlace& place) {
+  YamlMapping mapping(node, place);
+  Scenario scenario;
+  scenario.world = mapping.Text("world").value_or("");
+  scenario.name = mapping.Text("name").value_or("");
+  scenario.seed = mapping.Count("seed");
+  scenario.lockstep = mapping.IsSecond("mode", "real_time", "lockstep");
+  scenario.factor = mapping.Number("factor", 1e-6, kMostFactor);
+  scenario.step = mapping.Number("step", 1e-6, 10);
+  scenario.duration = mapping.Number("duration", 0, kLongest);
+  scenario.deadline = mapping.Number("deadline", 0, kLongest);
+  scenario.fails_with_behaviour = mapping.IsSecond("on_failure", "go_on", "fail");
+  scenario.in_process = mapping.Flag("in_process");
+  scenario.model_path = mapping.Texts("model_path");
+  scenario.robots = ReadRobots(mapping, "robots", place);
+  scenario.avatars = ReadRobots(mapping, "avatars", place);
+  scenario.record = mapping.Text("record").value_or("");
+  scenario.record_topics = mapping.Texts("record_topics");
+  if (const auto rates = mapping.Any("record_rates")) {
+    scenario.record_rates = ReadRates(*rates, place);
+  }
+  scenario.record_png = mapping.IsSecond("record_pictures", "jpeg", "png");
+  return scenario;
+}
+
+// Seen from the file's folder, if it is there.
+std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code ignored;
+  const std::filesystem::path path = folder / name;
+  if (name.empty() || !std::filesystem::exists(path, ignored)) return name;
+  return std::filesystem::absolute(path, ignored).lexically_normal().string();
+}
+
+}  // namespace
+
+base::Result<Scenario> ParseScenario(const std::string& text, const std::string& file,
+                                     base::Problems& problems) {
+  const auto refuse = [&](std::string message, std::string where) {
+    return base::Fail(base::ErrorCode::kBadModel, std::move(message), std::move(where));
+  };
+  if (text.size() > kLargestScenario) {
+    return refuse("a scenario has at most " + std::to_string(kLargestScenario) + " bytes", file);
+  }
+  const YamlPlace place(file, problems);
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.empty() || documents.front().IsNull()) {
+      return refuse("it is empty; a scenario is a mapping with keys such as world and robots",
+                    file);
+    }
+    if (documents.size() > 1) {
+      place.Complain(documents[1].Mark(), "a file holds one scenario; this is a second one");
+    }
+    return ReadAll(documents.front(), place);
+  } catch (const YAML::Exception& error) {
+    return refuse("it is no YAML: " + error.msg, place.Of(error.mark));
+  }
+}
+
+base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Problems& problems) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    return base::Fail(base::ErrorCode::kNotFound, "the scenario's file cannot be opened", file);
+  }
+  std::string text;
+  text.resize(kLargestScenario + 1);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  auto scenario = ParseScenario(text, file, problems);
+  if (!scenario) return scenario;
+  const std::filesystem::path folder = file.parent_path();
+  scenario->world = SeenFrom(folder, scenario->world);
+  for (auto* entries : {&scenario->robots, &scenario->avatars}) {
+    for (RobotEntry& entry : *entries) entry.model = SeenFrom(folder, entry.model);
+  }
+  for (std::string& path : scenario->model_path) path = SeenFrom(folder, path);
+  return scenario;
+}
+
+bool NamesAScenario(const std::string& name) {
+  return name.ends_with(".yaml") || name.ends_with(".yml");
+}
+
+}  // namespace gsv::scenario

@@ -1,0 +1,199 @@
+#include "gsv/scenario/scenario_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gsv/base/temporary_folder.h"
+
+namespace gsv::scenario {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> Sentences(const base::Problems& problems) {
+  std::vector<std::string> sentences;
+  for (const base::Problem& problem : problems) sentences.push_back(problem.Sentence());
+  return sentences;
+}
+
+// What is wrong with a text, one sentence each.
+std::vector<std::string> Complaints(const std::string& text) {
+  base::Problems problems;
+  const auto scenario = ParseScenario(text, "room.yaml", problems);
+  if (!scenario) return {scenario.error().Sentence()};
+  return Sentences(problems);
+}
+
+Scenario Parsed(const std::string& text) {
+  base::Problems problems;
+  const auto scenario = ParseScenario(text, "room.yaml", problems);
+  EXPECT_TRUE(scenario) << scenario.error().Sentence();
+  EXPECT_THAT(Sentences(problems), IsEmpty());
+  return scenario.value_or(Scenario());
+}
+
+TEST(ScenarioFile, ReadsWhatPeopleWrite) {
+  const Scenario scenario = Parsed(R"(
+# A room with two robots.
+world: office
+seed: 18446744073709551615
+mode: lockstep
+duration: 60
+in_process: true
+robots:
+  - model: b21r
+    name: tall one
+    x: -3
+    y: 0.5
+    yaw: 90deg
+    behaviour: goto --goal-x 3
+  - {model: pebble, movement: rigid}
+  - {name: turtlebot, behaviour: wander}
+avatars:
+  - {model: avatar, x: 1, y: 1}
+record: run.mcap
+record_topics: [/gsv/poses, /tall one/]
+record_rates: {poses: 10, pictures: 0.5}
+record_pictures: png
+)");
+  EXPECT_EQ(scenario.world, "office");
+  EXPECT_EQ(scenario.seed, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(scenario.lockstep, true);
+  EXPECT_EQ(scenario.duration, 60);
+  EXPECT_EQ(scenario.in_process, true);
+  EXPECT_EQ(scenario.factor, std::nullopt);
+  ASSERT_EQ(scenario.robots.size(), 3u);
+  EXPECT_EQ(scenario.robots[0].name, "tall one");
+  EXPECT_EQ(scenario.robots[0].behaviour, "goto --goal-x 3");
+  ASSERT_TRUE(scenario.robots[0].start);
+  EXPECT_EQ(scenario.robots[0].start->y, 0.5);
+  EXPECT_NEAR(scenario.robots[0].start->yaw, 1.5707963267948966, 1e-15);
+  EXPECT_EQ(scenario.robots[1].start, std::nullopt);
+  EXPECT_EQ(scenario.robots[1].movement, model::Movement::kRigid);
+  EXPECT_EQ(scenario.robots[2].model, "");
+  EXPECT_EQ(scenario.avatars.at(0).start, (Place{1, 1, {}, 0}));
+  EXPECT_EQ(scenario.record, "run.mcap");
+  EXPECT_THAT(scenario.record_topics, ElementsAre("/gsv/poses", "/tall one/"));
+  EXPECT_EQ(scenario.record_rates,
+            (std::map<std::string, double>{{"poses", 10}, {"pictures", 0.5}}));
+  EXPECT_EQ(scenario.record_png, true);
+}
+
+TEST(ScenarioFile, ReadsJson) {
+  const Scenario scenario = Parsed(
+      R"({"world": "yard", "factor": 2.5, "robots": [{"model": "pebble", "x": 1, "y": -2}]})");
+  EXPECT_EQ(scenario.world, "yard");
+  EXPECT_EQ(scenario.factor, 2.5);
+  EXPECT_EQ(scenario.robots.at(0).start, (Place{1, -2, {}, 0}));
+}
+
+TEST(ScenarioFile, WhatIsWrittenIsReadBackToTheBit) {
+  Scenario scenario;
+  scenario.world = "my worlds/room: \"2\" #1.sdf";
+  scenario.name = "true";
+  scenario.seed = 1;
+  scenario.lockstep = false;
+  scenario.factor = 1.0 / 3;
+  scenario.step = 0.001;
+  scenario.duration = 3600;
+  scenario.deadline = 10;
+  scenario.fails_with_behaviour = true;
+  scenario.in_process = false;
+  scenario.model_path = {"/models", "-x", "a\tb\n\\c", "ä{1}", ""};
+  scenario.robots = {
+      {"b21r", "r,1", Place{0.1, -1e-300, 2.5, 3.0000000000000004}, "goto --goal-x 3", {}},
+      {"pebble", "0x10", Place{1e6, 0, {}, 0}, "", model::Movement::kPlanar},
+      {"", "null", {}, "wander", {}},
+      {"~", "", {}, "", model::Movement::kRigid}};
+  scenario.avatars = {{"avatar", "Ann", Place{1, 2, {}, 3}, "", {}}};
+  scenario.record = "no";
+  scenario.record_topics = {"/gsv/", "/a b"};
+  scenario.record_rates = {{"beams", 0.001}};
+  scenario.record_png = false;
+  EXPECT_EQ(Parsed(ToYaml(scenario)), scenario) << ToYaml(scenario);
+  EXPECT_EQ(Parsed(ToYaml(DefaultScenario())), DefaultScenario());
+}
+
+TEST(ScenarioFile, EachMistakeIsNamedWithLineAndColumn) {
+  EXPECT_THAT(
+      Complaints("world: office\n"
+                 "wrold: office\n"
+                 "mode: fast\n"
+                 "seed: -1\n"
+                 "factor: 0\n"
+                 "robots:\n"
+                 "  - {model: pebble, x: 1}\n"
+                 "  - {model: pebble, x: 1, y: far}\n"
+                 "  - {behaviour: wander}\n"
+                 "  - {name: r, x: 1, y: 1}\n"
+                 "  - pebble\n"
+                 "avatars:\n"
+                 "  - {name: Ann, behaviour: wander}\n"
+                 "record_topics: /clock\n"
+                 "world: yard\n"),
+      ElementsAre("room.yaml:15:1: the key \"world\" comes twice",
+                  "room.yaml:4:7: seed must be a whole number from 0 to 18446744073709551615, "
+                  "found \"-1\"",
+                  "room.yaml:3:7: mode must be real_time or lockstep, found \"fast\"",
+                  "room.yaml:5:9: factor must be a number from 1e-06 to 1e+06, found \"0\"",
+                  "room.yaml:7:5: a place needs both x and y",
+                  "room.yaml:8:30: y must be a number from -1e+06 to 1e+06, found \"far\"",
+                  "room.yaml:9:5: a robot needs a model, or the name of one that stands in the "
+                  "world's file",
+                  "room.yaml:10:5: a robot without a model stands in the world's file, which says "
+                  "where it starts and how it moves",
+                  "room.yaml:11:5: expected a mapping (key: value), found \"pebble\"",
+                  "room.yaml:13:5: an avatar needs a model",
+                  "room.yaml:13:17: there is no key \"behaviour\" here; known are name, model, x, "
+                  "y, z, yaw",
+                  "room.yaml:14:16: record_topics must be a list, found \"/clock\"",
+                  HasSubstr("room.yaml:2:1: there is no key \"wrold\" here; known are world, ")));
+}
+
+TEST(ScenarioFile, WhatIsNoScenarioIsRefused) {
+  EXPECT_THAT(Complaints(""), ElementsAre(HasSubstr("room.yaml: it is empty")));
+  EXPECT_THAT(Complaints("world: a\nrobots: ]\n"),
+              ElementsAre("room.yaml:2:9: it is no YAML: illegal flow end"));
+  EXPECT_THAT(Complaints("a text"),
+              ElementsAre("room.yaml:1:1: expected a mapping (key: value), found \"a text\""));
+  EXPECT_THAT(Complaints("world: a\n---\nworld: b\n"),
+              ElementsAre("room.yaml:3:1: a file holds one scenario; this is a second one"));
+  EXPECT_THAT(Complaints(std::string(kLargestScenario + 1, ' ')),
+              ElementsAre(HasSubstr("at most 4194304 bytes")));
+  EXPECT_THAT(Complaints(std::string(100'000, '[')), ElementsAre(HasSubstr("it is no YAML")));
+}
+
+TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
+  std::string robots = "robots:\n  - &r {";
+  for (int i = 0; i < 10'000; ++i) robots += "k" + std::to_string(i) + ": 1, ";
+  robots += "}\n";
+  for (int i = 0; i < 90'000; ++i) robots += "  - *r\n";
+  EXPECT_EQ(Complaints(robots).size(), 100u);
+  EXPECT_THAT(Complaints(robots + robots.substr(robots.find("  - *r"))),
+              ElementsAre(HasSubstr("robots has at most 100000 entries")));
+}
+
+TEST(ScenarioFile, FilesBesideItAreFound) {
+  const auto folder = base::TemporaryFolder::Make("gsv-scenario");
+  ASSERT_TRUE(folder);
+  std::ofstream(folder->path() / "room.sdf") << "<sdf/>";
+  const std::filesystem::path file = folder->path() / "room.yaml";
+  std::ofstream(file) << "world: room.sdf\nrobots: [{model: pebble}]\n";
+  base::Problems problems;
+  const auto scenario = ReadScenario(file, problems);
+  ASSERT_TRUE(scenario);
+  EXPECT_EQ(scenario->world, folder->path() / "room.sdf");
+  EXPECT_EQ(scenario->robots.at(0).model, "pebble");
+  const auto missing = ReadScenario(folder->path() / "none.yaml", problems);
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, base::ErrorCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace gsv::scenario

@@ -1,0 +1,143 @@
+// Writes scenarios.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <string_view>
+
+#include "gsv/scenario/scenario_file.h"
+
+namespace gsv::scenario {
+namespace {
+
+bool IsPlainCharacter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         std::string_view("_./-+").find(c) != std::string_view::npos;
+}
+
+// What YAML readers take for something else than a text.
+bool IsReserved(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const char* word : {"true", "false", "yes", "no", "on", "off", "null", "y", "n"}) {
+    if (text == word) return true;
+  }
+  return false;
+}
+
+std::string Text(const std::string& text) {
+  const bool begins_plainly =
+      !text.empty() && (std::isalpha(static_cast<unsigned char>(text.front())) != 0 ||
+                        text.front() == '/' || text.front() == '_');
+  if (begins_plainly && !IsReserved(text) &&
+      std::all_of(text.begin(), text.end(), IsPlainCharacter)) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      quoted += {'\\', c};
+    } else if (byte < 0x20 || byte == 0x7f) {
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\x%02x", byte);
+      quoted += escape;
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+// The shortest that reads back as the same.
+std::string Number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+std::string List(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + Text(text);
+  return "[" + list + "]";
+}
+
+class Writer {
+ public:
+  void Put(const char* key, const std::string& value) {
+    yaml_ += std::string(key) + ": " + value + "\n";
+  }
+  void PutText(const char* key, const std::string& value) {
+    if (!value.empty()) Put(key, Text(value));
+  }
+  void PutNumber(const char* key, const std::optional<double>& value) {
+    if (value) Put(key, Number(*value));
+  }
+  void PutChoice(const char* key, const std::optional<bool>& value, const char* no,
+                 const char* yes) {
+    if (value) Put(key, *value ? yes : no);
+  }
+  void PutRobots(const char* key, const std::vector<RobotEntry>& robots) {
+    if (robots.empty()) return;
+    yaml_ += std::string(key) + ":\n";
+    for (const RobotEntry& robot : robots) yaml_ += "  - {" + Fields(robot) + "}\n";
+  }
+  std::string Take() { return std::move(yaml_); }
+
+ private:
+  static std::string Fields(const RobotEntry& robot) {
+    std::string fields;
+    const auto add = [&](const char* key, const std::string& value) {
+      fields += (fields.empty() ? "" : ", ") + std::string(key) + ": " + value;
+    };
+    if (!robot.name.empty()) add("name", Text(robot.name));
+    if (!robot.model.empty()) add("model", Text(robot.model));
+    if (robot.start) {
+      add("x", Number(robot.start->x));
+      add("y", Number(robot.start->y));
+      if (robot.start->z) add("z", Number(*robot.start->z));
+      add("yaw", Number(robot.start->yaw));
+    }
+    if (!robot.behaviour.empty()) add("behaviour", Text(robot.behaviour));
+    if (robot.movement) {
+      add("movement", *robot.movement == model::Movement::kRigid ? "rigid" : "planar");
+    }
+    return fields;
+  }
+
+  std::string yaml_;
+};
+
+std::string Rates(const std::map<std::string, double>& rates) {
+  std::string list;
+  for (const auto& [kind, rate] : rates) {
+    list += (list.empty() ? "" : ", ") + Text(kind) + ": " + Number(rate);
+  }
+  return "{" + list + "}";
+}
+
+}  // namespace
+
+std::string ToYaml(const Scenario& scenario) {
+  Writer writer;
+  writer.PutText("world", scenario.world);
+  writer.PutText("name", scenario.name);
+  if (scenario.seed) writer.Put("seed", std::to_string(*scenario.seed));
+  writer.PutChoice("mode", scenario.lockstep, "real_time", "lockstep");
+  writer.PutNumber("factor", scenario.factor);
+  writer.PutNumber("step", scenario.step);
+  writer.PutNumber("duration", scenario.duration);
+  writer.PutNumber("deadline", scenario.deadline);
+  writer.PutChoice("on_failure", scenario.fails_with_behaviour, "go_on", "fail");
+  writer.PutChoice("in_process", scenario.in_process, "false", "true");
+  if (!scenario.model_path.empty()) writer.Put("model_path", List(scenario.model_path));
+  writer.PutRobots("robots", scenario.robots);
+  writer.PutRobots("avatars", scenario.avatars);
+  writer.PutText("record", scenario.record);
+  if (!scenario.record_topics.empty()) writer.Put("record_topics", List(scenario.record_topics));
+  if (!scenario.record_rates.empty()) writer.Put("record_rates", Rates(scenario.record_rates));
+  writer.PutChoice("record_pictures", scenario.record_png, "jpeg", "png");
+  return writer.Take();
+}
+
+}  // namespace gsv::scenario

@@ -1,0 +1,168 @@
+#include "gsv/scenario/yaml_mapping.h"
+
+#include <charconv>
+#include <cstdio>
+
+#include "gsv/scenario/scenario.h"
+
+namespace gsv::scenario {
+namespace {
+
+constexpr std::size_t kLongestQuote = 80;
+
+std::string Quoted(const std::string& text) {
+  return "\"" + text.substr(0, kLongestQuote) + (text.size() > kLongestQuote ? "…" : "") + "\"";
+}
+
+std::string KindOf(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Map:
+      return "a mapping";
+    case YAML::NodeType::Scalar:
+      return Quoted(node.Scalar());
+    default:
+      return "nothing";
+  }
+}
+
+std::string Short(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+}  // namespace
+
+std::string YamlPlace::Of(const YAML::Mark& mark) const {
+  if (mark.is_null()) return file_;
+  return file_ + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+}
+
+void YamlPlace::Complain(const YAML::Mark& mark, std::string message) const {
+  if (problems_.size() >= kMostComplaints) return;
+  problems_.push_back({base::Problem::Severity::kError, std::move(message), Of(mark)});
+}
+
+YamlMapping::YamlMapping(const YAML::Node& node, const YamlPlace& place)
+    : place_(place), mark_(node.Mark()) {
+  if (!node.IsMap()) {
+    place_.Complain(mark_, "expected a mapping (key: value), found " + KindOf(node));
+    return;
+  }
+  if (node.size() > kMostKeys) {
+    place_.Complain(mark_, "a mapping has at most 64 keys here");
+    return;
+  }
+  for (const auto& entry : node) {
+    if (!entry.first.IsScalar()) {
+      place_.Complain(entry.first.Mark(), "a key is a word, found " + KindOf(entry.first));
+      continue;
+    }
+    const std::string& key = entry.first.Scalar();
+    const bool is_new = left_.try_emplace(key, Entry{entry.first.Mark(), entry.second}).second;
+    if (!is_new) place_.Complain(entry.first.Mark(), "the key " + Quoted(key) + " comes twice");
+  }
+}
+
+YamlMapping::~YamlMapping() {
+  if (left_.empty()) return;
+  std::string known;
+  for (const std::string& key : known_) known += (known.empty() ? "" : ", ") + key;
+  for (const auto& [key, entry] : left_) {
+    place_.Complain(entry.mark, "there is no key " + Quoted(key) + " here; known are " + known);
+  }
+}
+
+std::optional<YAML::Node> YamlMapping::Any(const std::string& key) {
+  known_.push_back(key);
+  const auto entry = left_.extract(key);
+  if (entry.empty() || entry.mapped().value.IsNull()) return std::nullopt;
+  marks_[key] = entry.mapped().value.Mark();
+  return entry.mapped().value;
+}
+
+void YamlMapping::Expect(const std::string& key, const std::string& expected,
+                         const std::string& found) {
+  place_.Complain(marks_.at(key), key + " must be " + expected + ", found " + found);
+}
+
+std::optional<std::string> YamlMapping::Scalar(const std::string& key,
+                                               const std::string& expected) {
+  const auto node = Any(key);
+  if (!node) return std::nullopt;
+  if (node->IsScalar()) return node->Scalar();
+  Expect(key, expected, KindOf(*node));
+  return std::nullopt;
+}
+
+std::optional<std::string> YamlMapping::Text(const std::string& key) {
+  return Scalar(key, "a text");
+}
+
+std::optional<double> YamlMapping::Number(const std::string& key, double least, double most) {
+  const std::string expected = "a number from " + Short(least) + " to " + Short(most);
+  const auto text = Scalar(key, expected);
+  if (!text) return std::nullopt;
+  const auto number = ParseNumber(*text);
+  if (number && *number >= least && *number <= most) return number;
+  Expect(key, expected, Quoted(*text));
+  return std::nullopt;
+}
+
+std::optional<double> YamlMapping::Angle(const std::string& key) {
+  const std::string expected = "an angle in radians, or as 90deg";
+  const auto text = Scalar(key, expected);
+  if (!text) return std::nullopt;
+  const auto angle = ParseAngle(*text);
+  if (!angle) Expect(key, expected, Quoted(*text));
+  return angle;
+}
+
+std::optional<std::uint64_t> YamlMapping::Count(const std::string& key) {
+  const std::string expected = "a whole number from 0 to 18446744073709551615";
+  const auto text = Scalar(key, expected);
+  if (!text) return std::nullopt;
+  std::uint64_t count = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), count);
+  if (error == std::errc() && end == text->data() + text->size()) return count;
+  Expect(key, expected, Quoted(*text));
+  return std::nullopt;
+}
+
+std::optional<bool> YamlMapping::Flag(const std::string& key) {
+  return IsSecond(key, "false", "true");
+}
+
+std::optional<bool> YamlMapping::IsSecond(const std::string& key, const std::string& first,
+                                          const std::string& second) {
+  const std::string expected = first + " or " + second;
+  const auto text = Scalar(key, expected);
+  if (!text) return std::nullopt;
+  if (*text == first || *text == second) return *text == second;
+  Expect(key, expected, Quoted(*text));
+  return std::nullopt;
+}
+
+std::vector<YAML::Node> YamlMapping::List(const std::string& key) {
+  const auto node = Any(key);
+  if (!node) return {};
+  if (node->IsSequence()) return {node->begin(), node->end()};
+  Expect(key, "a list", KindOf(*node));
+  return {};
+}
+
+std::vector<std::string> YamlMapping::Texts(const std::string& key) {
+  std::vector<std::string> texts;
+  for (const YAML::Node& node : List(key)) {
+    if (node.IsScalar()) {
+      texts.push_back(node.Scalar());
+    } else {
+      place_.Complain(node.Mark(), key + " must be a list of texts, found " + KindOf(node));
+    }
+  }
+  return texts;
+}
+
+}  // namespace gsv::scenario

@@ -1,0 +1,66 @@
+// Recordings as `gsv run` makes them and `gsv rec` shows them.
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Strings = std::vector<std::string>;
+
+class Record : public ::testing::Test {
+ protected:
+  // Half a second of the playground with one robot, recorded.
+  Outcome Run(const Strings& more) const {
+    Strings arguments{"run",        "playground", "--headless", "--lockstep", "--json", "--robot",
+                      "pebble@0,0", "--duration", "0.5",        "--record",   file_};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunProgram("gsv", arguments);
+  }
+  std::set<std::string> Topics() const {
+    std::set<std::string> topics;
+    const auto info = RunProgram("gsv", {"rec", "info", file_, "--json"}).LastLine();
+    for (const auto& channel : info["channels"]) topics.insert(channel["topic"]);
+    return topics;
+  }
+
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.path() / "run.mcap";
+};
+
+TEST_F(Record, TopicsThatAreNoneAreToldOfWithThoseThatThereAre) {
+  const Outcome run = Run({"--record-topics", "/nonsense,/pebble,/clock"});
+  EXPECT_EQ(run.ending, "exit code 0") << run.err;
+  const std::string nonsense =
+      "--record-topics /nonsense: no topic of this simulation has this name or lies below it; "
+      "there are /clock, /gsv/beams, ";
+  const std::string pebble =
+      "--record-topics /pebble: no topic has this name; all below it are \"/pebble/\"";
+  EXPECT_THAT(run.LastLine()["warnings"].get<Strings>(), ElementsAre(HasSubstr(nonsense), pebble));
+  EXPECT_THAT(run.err, HasSubstr("gsv: warning: " + nonsense));
+  EXPECT_THAT(run.err, HasSubstr("gsv: warning: " + pebble));
+  EXPECT_EQ(Topics(), (std::set<std::string>{"/clock"}));
+}
+
+TEST_F(Record, TopicsThatMatchGiveNoWarning) {
+  const Outcome run = Run({"--record-topics", "/gsv/contacts,/pebble/"});
+  EXPECT_EQ(run.ending, "exit code 0") << run.err;
+  EXPECT_EQ(run.LastLine()["warnings"].size(), 0u) << run.out;
+}
+
+TEST_F(Record, ATopicWithoutASlashIsRefused) {
+  const Outcome run = Run({"--record-topics", "nonsense"});
+  EXPECT_EQ(run.ending, "exit code 2");
+  EXPECT_EQ(run.err,
+            "gsv: --record-topics nonsense: a topic begins with a slash, as /gsv/poses and "
+            "/ROBOT/SENSOR do\n");
+  EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+}  // namespace
+}  // namespace gsv::testing
