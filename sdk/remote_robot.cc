@@ -1,7 +1,9 @@
 #include "sdk/remote_robot.h"
 
+#include <algorithm>
 #include <charconv>
 
+#include "idl/sensors.hh"
 #include "sdk/remote_joint.h"
 
 namespace gsv::sdk {
@@ -90,6 +92,17 @@ class RemotePort final : public SensorPort {
       picture.rgb.assign(rgb.get_buffer(), rgb.get_buffer() + rgb.length());
     });
     return picture;
+  }
+
+  base::Status Send(const std::string& receiver, const std::string& content) override {
+    return robot_.Ask([&] {
+      const sba::Radio_var radio = sba::Radio::_narrow(sensor_);
+      if (CORBA::is_nil(radio)) throw sba::Refused("only a radio sends messages");
+      sba::Octets octets(static_cast<CORBA::ULong>(content.size()));
+      octets.length(octets.maximum());
+      std::copy(content.begin(), content.end(), octets.get_buffer());
+      radio->send(receiver.c_str(), octets);
+    });
   }
 
  private:

@@ -40,6 +40,15 @@ class RemoteRobot final : public Robot {
   bool IsRunning() const override { return running_; }
   std::string error() const override;
 
+  // Calls `call` unless the run is over. What is refused is the caller's to handle; any other
+  // failure ends the run.
+  template <typename Function>
+  base::Status Ask(Function call) {
+    if (!running_) return base::Fail(base::ErrorCode::kEnded, "the run is over", name_);
+    auto status = orb::Call(name_, call);
+    if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
+    return status;
+  }
   // Calls `call` unless the run is over; notes why it failed. True when it succeeded.
   template <typename Function>
   bool Try(Function call) {

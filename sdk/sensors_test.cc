@@ -42,7 +42,7 @@ class ReadsAll final : public Behaviour {
     for (const base::Status& status :
          {open(sonar_), open(lidar_), open(position_), open(imu_), open(odometer_),
           open(satellites_), open(magnetometer_), open(altimeter_), open(bumper_), open(joints_),
-          open(battery_), open(logical_camera_)}) {
+          open(battery_), open(logical_camera_), open(radio_)}) {
       if (!status) return status;
     }
     const auto wrong = robot.Open<Imu>("sonar");
@@ -55,6 +55,13 @@ class ReadsAll final : public Behaviour {
 
   void Run(Robot& robot) override {
     robot.Drive(1, 0);
+    if (const auto sent = radio_->Send("speaker", std::string("\0 me", 4)); !sent) {
+      read_.error = sent.error().message;
+    }
+    const auto refused = radio_->Broadcast(std::string(2000, 'x'));
+    // The hardware's sentence, wherever it comes through.
+    const std::string why = refused ? "" : refused.error().Sentence();
+    read_.names["refused"] = {why.substr(std::min(why.size(), why.find("a message of")))};
     if (!robot.SleepFor(50ms)) return;
     auto& values = read_.values;
     values["sonar"] = {sonar_->Range(), sonar_->max_range()};
@@ -85,6 +92,13 @@ class ReadsAll final : public Behaviour {
       read_.names["logical_camera"].push_back(sighting.name);
       values["logical_camera"] = Numbers(sighting.sensor_from_model);
     }
+    for (const Radio::Message& message : radio_->Receive()) {
+      read_.names["radio"].push_back(message.sender);
+      read_.names["radio"].push_back(message.content);
+      values["radio"] = {base::ToSeconds(message.sent), message.strength};
+    }
+    values["radio missed"] = {static_cast<double>(radio_->missed()),
+                              static_cast<double>(radio_->Receive().size())};
   }
 
  private:
@@ -101,6 +115,7 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<JointEncoders> joints_;
   std::unique_ptr<Battery> battery_;
   std::unique_ptr<LogicalCamera> logical_camera_;
+  std::unique_ptr<Radio> radio_;
 };
 
 // A disc at the wall's foot with a lever and one sensor of each type, named after it.
@@ -116,7 +131,7 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   model->sensors.clear();
   for (const char* type :
        {"sonar", "lidar", "positioning", "imu", "odometry", "navsat", "magnetometer", "altimeter",
-        "contact", "joint_encoders", "battery", "logical_camera"}) {
+        "contact", "joint_encoders", "battery", "logical_camera", "radio"}) {
     model::SensorDescription sensor;
     sensor.name = sensor.type = type;
     sensor.link_from_sensor.position = {0, 0, 0.25};
@@ -133,12 +148,33 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   return robot;
 }
 
+// Says 20 things at 20 ms, of which a radio keeps 16, behind the robot.
+simulation::RobotSpecification Speaker() {
+  auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
+  model::SensorDescription radio;
+  radio.name = radio.type = "radio";
+  model->sensors.push_back(radio);
+  auto behaviour = std::make_shared<simulation::ThreadBehaviour>(
+      [](simulation::Agent& agent, simulation::ClockId clock) {
+        ASSERT_TRUE(agent.OpenSensor("radio"));
+        if (!simulation::SleepFor(agent, clock, 20ms)) return;
+        EXPECT_EQ(agent.Read("radio")->labels->at(1), "ACBtZQ==");  // the robot's "\0 me"
+        for (int i = 1; i <= 20; ++i) {
+          ASSERT_TRUE(agent.Send("radio", "robot", std::string("\0 word ", 7) + std::to_string(i)));
+        }
+      });
+  simulation::RobotSpecification robot = simulation::Robot("speaker", -2.32, 0, behaviour);
+  robot.model = std::move(model);
+  return robot;
+}
+
 void RunWith(std::shared_ptr<simulation::BehaviourPort> behaviour) {
   auto specification = simulation::Lockstep(100ms);
   auto world = std::make_shared<model::WorldDescription>(*specification.world);
   world->origin = model::GeodeticOrigin{0.8, 0.1, 50, 0};
   specification.world = world;
   auto simulation = simulation::Make(specification);
+  ASSERT_TRUE(simulation->AddRobot(Speaker()));
   ASSERT_TRUE(simulation->AddRobot(RobotWithAll(std::move(behaviour))));
   ASSERT_EQ(simulation::RunToEnd(*simulation), simulation::Phase::kFinished);
 }
@@ -232,6 +268,16 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
       Opened<sba::LogicalCamera>(factory, "logical_camera")->look();
   ASSERT_EQ(sightings->length(), 1u);
   EXPECT_STREQ(sightings.in()[0].name, "wall");
+  const sba::Radio_var radio = Opened<sba::Radio>(factory, "radio");
+  const sba::RadioMessages_var heard = radio->receive(18);
+  ASSERT_EQ(heard->length(), 2u);
+  EXPECT_STREQ(heard.in()[1].sender, "speaker");
+  EXPECT_EQ(heard.in()[1].number, 20u);
+  EXPECT_EQ(heard.in()[1].sent_ns, 20'000'000);
+  EXPECT_EQ(heard.in()[1].strength_dbm, values.at("radio")[1]);
+  EXPECT_EQ(heard.in()[1].content.length(), 9u);
+  EXPECT_THROW(radio->send("", sba::Octets(2000, 2000, sba::Octets::allocbuf(2000), true)),
+               sba::Refused);
 }
 
 TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
@@ -249,7 +295,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   (*orb)->destroy();
   EXPECT_EQ(local.values, remote.values);
   EXPECT_EQ(local.names, remote.names);
-  EXPECT_EQ(local.values.size(), 13u);
+  EXPECT_EQ(local.values.size(), 15u);
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);
@@ -258,6 +304,12 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   EXPECT_NEAR(values.at("altimeter")[2], 0.25, 1e-9);
   EXPECT_GT(values.at("navsat")[0], 45);
   EXPECT_EQ(local.names.at("contact"), std::vector<std::string>{"wall"});
+  EXPECT_EQ(values.at("radio")[0], 0.02);
+  EXPECT_EQ(values.at("radio missed"), (std::vector<double>{4, 0}));
+  ASSERT_EQ(local.names.at("radio").size(), 32u);
+  EXPECT_EQ(local.names.at("radio").back(), std::string("\0 word 20", 9));
+  EXPECT_EQ(local.names.at("refused").front(),
+            "a message of 2000 bytes is longer than the radio's max_size, 1024");
   EXPECT_EQ(local.error, "the sensor \"sonar\" is no imu");
   EXPECT_EQ(remote.error, "the sensor \"sonar\" is no imu");
 }

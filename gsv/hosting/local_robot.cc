@@ -59,6 +59,10 @@ class LocalPort final : public SensorPort {
     return picture;
   }
 
+  base::Status Send(const std::string& receiver, const std::string& content) override {
+    return robot_.Send(*sensor_, receiver, content);
+  }
+
  private:
   LocalRobot& robot_;
   const SensorPtr sensor_;
@@ -87,6 +91,15 @@ std::optional<sensing::Reading> LocalRobot::Read(MountedSensor& sensor) {
   if (reading && is_running_) return *reading;
   if (!reading) Note(reading.error());
   return std::nullopt;
+}
+
+base::Status LocalRobot::Send(const MountedSensor& radio, const std::string& receiver,
+                              const std::string& content) {
+  if (!is_running_) return base::Fail(base::ErrorCode::kEnded, "the run is over", name());
+  auto status = turn_ != nullptr ? turn_->Send(radio, receiver, content)
+                                 : agent_->Send(radio.name(), receiver, content);
+  if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
+  return status;
 }
 
 base::Result<sensing::Reading> LocalRobot::ReadBlocked(const MountedSensor& sensor) {

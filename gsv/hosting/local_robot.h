@@ -51,6 +51,10 @@ class LocalRobot final : public Robot {
   // Empty when the run is over or the sensor fails, which ends the run.
   std::optional<sensing::Reading> Read(simulation::MountedSensor& sensor);
 
+  // What is refused is the caller's to handle; any other failure ends the run.
+  base::Status Send(const simulation::MountedSensor& radio, const std::string& receiver,
+                    const std::string& content);
+
   // Of the robot's model, by index. Nothing comes of either when the run is over; a command that is
   // refused ends it.
   void CommandJoint(int joint, const world::JointCommand& command);

@@ -125,6 +125,20 @@ messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationS
   message.stamp = messages::ToMessage(status.time);
   message.step = StepNumber(status.step);
   message.state = simulation::ToString(status.phase);
+messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
+                                                     const world::Transmission& transmission) {
+  const world::RadioMessage& sent = *transmission.message;
+  messages::gsv_msgs::Transmission message;
+  message.stamp = messages::ToMessage(snapshot.state.time);
+  message.step = StepNumber(snapshot.state.step);
+  message.sender = sent.sender;
+  message.radio = sent.radio;
+  message.receiver = sent.receiver;
+  message.content.assign(sent.content.begin(), sent.content.end());
+  message.heard_by = transmission.heard_by;
+  return message;
+}
+
   message.mode = simulation::ToString(status.mode);
   message.real_time_factor = status.real_time_factor;
   message.target_factor = status.target_factor;

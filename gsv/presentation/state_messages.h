@@ -39,6 +39,9 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
                                            const world::Contact& contact);
 
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
+messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
+                                                     const world::Transmission& transmission);
+
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
 // What a robot's drive was told last, as `state`, at least a step later, shows it.

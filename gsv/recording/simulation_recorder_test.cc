@@ -56,6 +56,40 @@ TEST_F(SimulationRecorderTest, TellsWhoMetWhomAndHowHard) {
   EXPECT_NEAR(contacts[0].closing_speed, 4, 1e-9);
 }
 
+TEST_F(SimulationRecorderTest, TellsWhoSaidWhatToWhomByRadio) {
+  auto simulation = simulation::Make(simulation::Lockstep(200ms));
+  const auto with_radio = [](std::string name, double x, std::string says) {
+    auto robot = simulation::Robot(std::move(name), x, 0);
+    auto model = std::make_shared<model::Model>(*robot.model);
+    model->sensors[0] = {};
+    model->sensors[0].name = model->sensors[0].type = "radio";
+    model->sensors[0].parameters = {{"range", 2.5}};
+    robot.model = std::move(model);
+    robot.behaviour = std::make_shared<ThreadBehaviour>(
+        [says](simulation::Agent& agent, simulation::ClockId clock) {
+          ASSERT_TRUE(agent.OpenSensor("radio"));
+          if (!SleepFor(agent, clock, 50ms) || says.empty()) return;
+          EXPECT_TRUE(agent.Send("radio", "", says));
+        });
+    return robot;
+  };
+  for (auto& robot : {with_radio("a", 0, "hello"), with_radio("b", -2, ""), with_radio("c", -4, ""),
+                      with_radio("d", 2, "")}) {
+    ASSERT_TRUE(simulation->AddRobot(robot));
+  }
+  auto recorder = Start(simulation);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE(recorder->Stop());
+  const auto said = Read<messages::gsv_msgs::Transmission>("/gsv/radio");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].sender, "a");
+  EXPECT_EQ(said[0].radio, "radio");
+  EXPECT_EQ(said[0].receiver, "");
+  EXPECT_EQ(std::string(said[0].content.begin(), said[0].content.end()), "hello");
+  EXPECT_EQ(said[0].heard_by, (std::vector<std::string>{"b", "d"}));
+  EXPECT_EQ(said[0].stamp.nanosec, 60'000'000u);  // heard with the step after 50 ms
+}
+
 TEST_F(SimulationRecorderTest, TheMetadataSayHowToRunItAgainAndHowItEnded) {
   auto info = Record(0.5);
   std::map<std::string, StringMap> metadata;

@@ -18,6 +18,7 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
       transforms_(writer, selection, "/tf"),
       commands_(writer, selection, "/gsv/commands"),
       contacts_(writer, selection, "/gsv/contacts"),
+      radio_(writer, selection, "/gsv/radio"),
       status_(writer, selection, "/gsv/status", {.reproducible = false}),
       events_(writer, selection, "/gsv/events"),
       hash_(writer, selection, "/gsv/state_hash") {}
@@ -31,6 +32,7 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
   }
   if (commands_.is_wanted()) WriteNewCommands(*snapshot);
   if (contacts_.is_wanted()) WriteNewContacts(*snapshot);
+  if (radio_.is_wanted()) WriteTransmissions(*snapshot);
   if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
   if (hash_instants_.Pass(time) && hash_.is_wanted()) WriteHash(*snapshot);
 }
@@ -78,6 +80,12 @@ void StateTopics::WriteNewContacts(const world::Snapshot& snapshot) {
     if (contact.began) {
       contacts_.Write(snapshot.state.time, presentation::ContactMessage(snapshot, contact));
     }
+  }
+}
+
+void StateTopics::WriteTransmissions(const world::Snapshot& snapshot) {
+  for (const world::Transmission& transmission : snapshot.transmissions) {
+    radio_.Write(snapshot.state.time, presentation::TransmissionMessage(snapshot, transmission));
   }
 }
 

@@ -1,5 +1,5 @@
 // The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
-// /gsv/contacts, /gsv/status, /gsv/events, /gsv/state_hash (docs/formats/messages.md).
+// /gsv/contacts, /gsv/radio, /gsv/status, /gsv/events, /gsv/state_hash (docs/formats/messages.md).
 #pragma once
 
 #include <map>
@@ -33,6 +33,7 @@ class StateTopics {
   void WriteHash(const world::Snapshot& snapshot);
   void WriteNewCommands(const world::Snapshot& snapshot);
   void WriteNewContacts(const world::Snapshot& snapshot);
+  void WriteTransmissions(const world::Snapshot& snapshot);
 
   Instants poses_instants_;
   Instants hash_instants_;
@@ -46,6 +47,7 @@ class StateTopics {
   TopicWriter<messages::tf2_msgs::TFMessage> transforms_;
   TopicWriter<messages::gsv_msgs::Command> commands_;
   TopicWriter<messages::gsv_msgs::Contact> contacts_;
+  TopicWriter<messages::gsv_msgs::Transmission> radio_;
   TopicWriter<messages::gsv_msgs::SimulationStatus> status_;
   TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
   TopicWriter<messages::gsv_msgs::StateHash> hash_;

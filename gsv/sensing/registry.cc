@@ -14,6 +14,7 @@
 #include "gsv/sensing/navsat.h"
 #include "gsv/sensing/odometer.h"
 #include "gsv/sensing/positioning.h"
+#include "gsv/sensing/radio.h"
 #include "gsv/sensing/sonar.h"
 
 namespace gsv::sensing {
@@ -49,7 +50,7 @@ std::vector<std::string> SensorRegistry::names() const {
 void AddBuiltInSensors(SensorRegistry& registry) {
   for (SensorType (*make)() :
        {SonarType, LidarType, PositioningType, ImuType, OdometerType, NavsatType, MagnetometerType,
-        AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType}) {
+        AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType, RadioType}) {
     GSV_CHECK(registry.Add(make()));
   }
 }

@@ -100,6 +100,9 @@ class Sensor {
   // Whether Sample() casts rays: then who samples many has the scene made ready for all beforehand.
   virtual bool CastsRays() const { return false; }
 
+  // What a radio is able to: messages can be sent with it. Null for all other sensors.
+  virtual world::RadioSetupPtr radio() const { return nullptr; }
+
  private:
   model::SensorDescription description_;
 };

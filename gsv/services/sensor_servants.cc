@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "gsv/base/base64.h"
 #include "idl/sensors.hh"
 
 namespace gsv::services {
@@ -167,6 +168,34 @@ class LogicalCameraServant final : public SensorServant<POA_sba::LogicalCamera> 
   }
 };
 
+class RadioServant final : public SensorServant<POA_sba::Radio> {
+ public:
+  using SensorServant::SensorServant;
+  void send(const char* receiver, const sba::Octets& content) override {
+    const auto* const bytes = reinterpret_cast<const char*>(content.get_buffer());
+    orb::ValueOrThrow(
+        agent().Send(description().name, receiver, std::string(bytes, content.length())));
+  }
+  sba::RadioMessages* receive(CORBA::ULongLong after) override {
+    const Reading reading = Read();
+    sba::RadioMessages_var messages = new sba::RadioMessages;
+    for (std::size_t i = 0; i < reading.values.size() / 3; ++i) {
+      const auto number = static_cast<CORBA::ULongLong>(reading.values[3 * i]);
+      if (number <= after) continue;
+      messages->length(messages->length() + 1);
+      sba::RadioMessage& message = messages[messages->length() - 1];
+      message.sender = reading.labels->at(2 * i).c_str();
+      message.number = number;
+      message.sent_ns = base::FromSeconds(reading.values[3 * i + 1]).count();
+      message.strength_dbm = reading.values[3 * i + 2];
+      const auto content = base::FromBase64(reading.labels->at(2 * i + 1));
+      message.content.length(static_cast<CORBA::ULong>(content->size()));
+      std::copy(content->begin(), content->end(), message.content.get_buffer());
+    }
+    return messages._retn();
+  }
+};
+
 class DepthCameraServant final : public SensorServant<POA_sba::DepthCamera> {
  public:
   using SensorServant::SensorServant;
@@ -233,6 +262,7 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {"joint_encoders", MakeSensorServant<JointEncodersServant>},
       {"battery", MakeSensorServant<BatteryServant>},
       {"logical_camera", MakeSensorServant<LogicalCameraServant>},
+      {"radio", MakeSensorServant<RadioServant>},
       {"depth_camera", MakeSensorServant<DepthCameraServant>},
       {"segmentation_camera", MakeSensorServant<SegmentationCameraServant>},
       {"boundingbox_camera", MakeSensorServant<BoundingBoxCameraServant>},

@@ -42,6 +42,7 @@ class SensorServant : public Skeleton {
                              orb::kNotRunning | orb::kEnded | orb::kFailed);
   }
   const model::SensorDescription& description() const { return description_; }
+  simulation::Agent& agent() { return *agent_; }
 
  private:
   const std::shared_ptr<simulation::Agent> agent_;

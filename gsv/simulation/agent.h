@@ -94,6 +94,10 @@ class Agent {
   virtual base::Status CreateSensor(model::SensorDescription description) = 0;
   virtual base::Status CloseSensor(const std::string& name) = 0;
   virtual base::Result<sensing::Reading> Read(const std::string& sensor) = 0;
+  // By a radio, to the robot `receiver`; empty: to all. Goes out at this instant, and is heard with
+  // the next step.
+  virtual base::Status Send(const std::string& radio, const std::string& receiver,
+                            std::string content) = 0;
   // For the turns of a local behaviour.
   virtual base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const = 0;
 };

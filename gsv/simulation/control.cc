@@ -76,7 +76,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       step_(specification_.step),
       sensors_(std::move(sensors)),
       shared_(std::make_shared<SharedState>(std::make_shared<world::Snapshot>(world::Snapshot{
-                                                layout, world::InitialState(*layout), {}, {}}),
+                                                layout, world::InitialState(*layout), {}, {}, {}}),
                                             specification_.mode, specification_.seed, sensors_)),
       team_(std::move(team)),
       engine_(std::move(engine)),
@@ -289,7 +289,7 @@ base::Status SteppingSimulation::Reset() {
     shared_->commanded.clear();
     shared_->ready.clear();
     shared_->history.Restart(
-        std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}}));
+        std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}, {}}));
     shared_->now = SimTime(0);
     shared_->end_reason.clear();
     for (const auto& [name, agent] : agents_) {

@@ -29,6 +29,14 @@ base::Status Turn::CommandJoint(int joint, const world::JointCommand& command) {
   return {};
 }
 
+base::Status Turn::Send(const MountedSensor& radio, const std::string& receiver,
+                        std::string content) {
+  auto sending = MakeSending(radio, receiver, std::move(content), radio_, sampling_->robot().name);
+  if (!sending) return base::Fail(sending.error());
+  radio_.sendings.push_back(*std::move(sending));
+  return {};
+}
+
 JointReading Turn::ReadJoint(int joint) const {
   return JointReadingIn(*sampling_->snapshot(), sampling_->body(), joint);
 }

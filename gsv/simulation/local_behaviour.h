@@ -17,6 +17,7 @@
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/behaviour_port.h"
 #include "gsv/simulation/mounted_sensor.h"
+#include "gsv/simulation/radio_channel.h"
 #include "gsv/simulation/snapshot_history.h"
 
 namespace gsv::simulation {
@@ -57,6 +58,8 @@ class Turn {
   // The same for a joint of the robot's model.
   base::Status CommandJoint(int joint, const world::JointCommand& command);
   JointReading ReadJoint(int joint) const;  // at this instant
+  // By a radio, to the robot `receiver`; empty: to all.
+  base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content);
   // The command belongs to an exchange on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 
@@ -82,6 +85,7 @@ class Turn {
   const sensing::Sampling* sampling_ = nullptr;
   std::optional<world::DriveCommand> command_;
   std::vector<std::pair<int, world::JointCommand>> joint_commands_;
+  RadioActs radio_;
   std::uint64_t exchanges_ = 0;
   std::variant<Finished, Waiting, Blocked> end_;
 };

@@ -59,6 +59,11 @@ class MountedSensor {
   bool casts_rays() const { return design_->sensor != nullptr && design_->sensor->CastsRays(); }
   bool takes_long() const { return design_->sensor != nullptr && design_->sensor->TakesLong(); }
 
+  // See sensing::Sensor.
+  world::RadioSetupPtr radio() const {
+    return design_->sensor != nullptr ? design_->sensor->radio() : nullptr;
+  }
+
   // The sample of `sampling`'s instant: taken now if nobody has asked for it before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
 

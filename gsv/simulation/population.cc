@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 
 #include "gsv/dynamics/world_engine.h"
@@ -137,7 +138,7 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
   if (auto ok = engine_->SetLayout(layout_); !ok) return ok;
   wheel_odometry_.SetLayout(*layout_);
   shared_->history.Restart(
-      std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}}));
+      std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}, {}}));
   return {};
 }
 
@@ -159,6 +160,12 @@ world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {
     state.joint_commands.resize(static_cast<std::size_t>(layout.joint_count));
     std::copy_n(state_.joint_commands.begin() + old_body.first_joint, body.model->joints.size(),
                 state.joint_commands.begin() + body.first_joint);
+  }
+  if (state_.radios != nullptr) {
+    auto radios = std::make_shared<world::Radios>();
+    std::copy_if(state_.radios->begin(), state_.radios->end(), std::back_inserter(*radios),
+                 [&](const auto& radio) { return layout.Find(radio->robot) >= 0; });
+    state.radios = std::move(radios);
   }
   return state;
 }

@@ -1,5 +1,7 @@
 #include "gsv/simulation/robot_agent.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace gsv::simulation {
@@ -221,7 +223,20 @@ base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
 base::Status RobotAgent::OpenSensor(const std::string& name) {
   std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
-  return rack_.Open(name);
+  if (auto ok = rack_.Open(name); !ok) return ok;
+  SwitchOn(**rack_.Find(name));
+  return {};
+}
+
+void RobotAgent::SwitchOn(const MountedSensor& sensor) {
+  const world::RadioSetupPtr setup = sensor.radio();
+  if (setup == nullptr) return;
+  // What a radio that is on already would not notice is left out, so that the list stays short.
+  const auto last = std::find_if(radio_acts_.switches.rbegin(), radio_acts_.switches.rend(),
+                                 [&](const RadioSwitch& s) { return s.sensor == sensor.name(); });
+  if (last != radio_acts_.switches.rend() && last->setup != nullptr) return;
+  radio_acts_.switches.push_back({sensor.name(), setup});
+  Announce();
 }
 
 base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
@@ -230,11 +245,36 @@ base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
   const std::string name = description.name;
   auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
   if (!created) return created;
-  shared_->history.Use((*rack_.Find(name))->design().cadence);
+  const MountedSensorPtr sensor = *rack_.Find(name);
+  shared_->history.Use(sensor->design().cadence);
+  SwitchOn(*sensor);
   return {};
 }
 
-base::Status RobotAgent::CloseSensor(const std::string& name) { return rack_.Close(name); }
+base::Status RobotAgent::CloseSensor(const std::string& name) {
+  std::unique_lock lock = shared_->LockForAgent();
+  const auto sensor = rack_.Find(name);
+  if (auto ok = rack_.Close(name); !ok) return ok;
+  if ((*sensor)->radio() != nullptr && CheckAlive(lock)) {
+    std::erase_if(radio_acts_.switches, [&](const RadioSwitch& s) { return s.sensor == name; });
+    radio_acts_.switches.push_back({name, nullptr});
+    Announce();
+  }
+  return {};
+}
+
+base::Status RobotAgent::Send(const std::string& radio, const std::string& receiver,
+                              std::string content) {
+  const auto mounted = rack_.Find(radio);
+  if (!mounted) return base::Fail(mounted.error());
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  auto sending = MakeSending(**mounted, receiver, std::move(content), radio_acts_, robot_);
+  if (!sending) return base::Fail(sending.error());
+  radio_acts_.sendings.push_back(*std::move(sending));
+  Announce();
+  return {};
+}
 
 base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
   const auto snapshot = shared_->history.At(sensor.design().cadence);
@@ -334,6 +374,11 @@ std::function<void()> RobotAgent::Settle() {
                            turn_.joint_commands_.end());
     Announce();
   }
+  if (!turn_.radio_.sendings.empty()) {
+    auto& sendings = turn_.radio_.sendings;
+    std::move(sendings.begin(), sendings.end(), std::back_inserter(radio_acts_.sendings));
+    Announce();
+  }
   if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
     is_blocked_ = true;
     return std::move(blocked->work);
@@ -369,6 +414,7 @@ void RobotAgent::ResetClocks() {
   clocks_ = AgentClocks();
   pending_.reset();
   pending_joints_.clear();
+  radio_acts_ = {};
   is_commanded_ = false;
   started_ = false;
   death_reported_ = false;

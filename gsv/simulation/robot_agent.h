@@ -8,6 +8,7 @@
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/agent_clocks.h"
 #include "gsv/simulation/local_behaviour.h"
+#include "gsv/simulation/radio_channel.h"
 #include "gsv/simulation/shared_state.h"
 #include "gsv/simulation/wait_gate.h"
 #include "gsv/simulation/wall_clock.h"
@@ -47,6 +48,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     return rack_.Find(sensor);
   }
   base::Result<sensing::Reading> Read(const std::string& sensor) override;
+  base::Status Send(const std::string& radio, const std::string& receiver,
+                    std::string content) override;
 
   // A reading for somebody who watches.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
@@ -82,6 +85,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::optional<world::DriveCommand> TakeCommand();
   // The same for its joints, each with its index in the robot's model; the last of a joint holds.
   std::vector<std::pair<int, world::JointCommand>> TakeJointCommands();
+  // What it has done with its radios.
+  RadioActs TakeRadioActs() { return std::exchange(radio_acts_, {}); }
   void MarkGone();
   bool is_gone() const { return is_gone_; }
   void ResetClocks();
@@ -121,6 +126,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void Pend(const PendingCommand& command);
   void Announce();  // that there are commands to take
   void StopDriving() { Pend({}); }
+  // From the next step on it hears, if it is a radio.
+  void SwitchOn(const MountedSensor& sensor);
 
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;
@@ -135,6 +142,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   AgentClocks clocks_;
   std::optional<PendingCommand> pending_;
   std::vector<std::pair<int, world::JointCommand>> pending_joints_;
+  RadioActs radio_acts_;
   int body_ = -1;
   bool is_counted_ = false;    // in shared_->running
   bool is_commanded_ = false;  // in shared_->commanded

@@ -160,10 +160,17 @@ void SteppingSimulation::TakeStep() {
           if (!layout_->bodies[agent->body()].is_rigid) continue;
           world::CommandJoint(*layout_, agent->body(), joint, command, state_);
         }
+        if (RadioActs acts = agent->TakeRadioActs(); !acts.empty()) {
+          radio_acts_.emplace_back(agent->robot(), std::move(acts));
+        }
       }
       shared_->commanded.clear();
       stepped_run_ = run_;
       if (shared_->mode == Mode::kRealTime) pacer_.StepStarts(start);
+    }
+    if (!radio_acts_.empty()) {
+      transmissions_ = Communicate(shared_->history.latest(), std::exchange(radio_acts_, {}),
+                                   shared_->rays, team_.get(), state_);
     }
     snapshot = MoveWorld();
     AfterStep(snapshot, start);
@@ -190,6 +197,7 @@ std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
   state_.time = state_.step * step_;
   snapshot->layout = layout_;
   snapshot->state = state_;
+  snapshot->transmissions = std::exchange(transmissions_, {});
   return snapshot;
 }
 

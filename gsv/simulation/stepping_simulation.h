@@ -142,6 +142,9 @@ class SteppingSimulation final : public Simulation {
   std::unique_ptr<dynamics::Engine> engine_;
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;
+  // Since the last step; stepping thread only.
+  std::vector<std::pair<std::string, RadioActs>> radio_acts_;
+  std::vector<world::Transmission> transmissions_;
   SnapshotPool snapshots_;
   world::WheelOdometry wheel_odometry_;
   Turn::Instant instant_;           // of the turns being taken

@@ -32,6 +32,8 @@ struct Snapshot {
   State state;
   std::vector<Contact> contacts;            // of the step that led here, by (first, second)
   std::vector<Acceleration> accelerations;  // as Layout::bodies; empty where no step led here
+  std::vector<Transmission>
+      transmissions;  // that were heard with this step, in the order of sender
 };
 
 // Around a step: keeps the velocities before it, and after it makes closing speeds and

@@ -13,6 +13,7 @@
 #include "gsv/geometry/planar_motion.h"
 #include "gsv/geometry/pose.h"
 #include "gsv/world/layout.h"
+#include "gsv/world/radio.h"
 
 namespace gsv::world {
 
@@ -73,6 +74,7 @@ struct State {
   // Those of a ball joint are its angular velocity about its three axes, as the child carries them.
   std::vector<double> joint_velocities;
   std::vector<JointCommand> joint_commands;  // as joint_positions; empty: none was ever given
+  std::shared_ptr<const Radios> radios;      // null: none was ever switched on
 };
 
 // Everything where it starts and at rest; joints have their models' targets.

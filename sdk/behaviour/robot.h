@@ -54,6 +54,9 @@ class Robot {
   base::Result<std::unique_ptr<Camera>> OpenCamera(const std::string& sensor) {
     return Open<Camera>(sensor);
   }
+  base::Result<std::unique_ptr<Radio>> OpenRadio(const std::string& sensor) {
+    return Open<Radio>(sensor);
+  }
   base::Result<std::unique_ptr<Sonar>> CreateSonar(const std::string& sensor,
                                                    const Placement& robot_from_sonar,
                                                    double min_range, double max_range) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gsv/base/base64.h"
+
 namespace gsv {
 namespace {
 
@@ -99,6 +101,22 @@ std::vector<LogicalCamera::Sighting> LogicalCamera::Look() {
     sightings.push_back({reading.labels[i], PlacementAt(reading.values, 6 * i)});
   }
   return sightings;
+}
+
+std::vector<Radio::Message> Radio::Receive() {
+  const Reading& reading = Measure();
+  std::vector<Message> messages;
+  const std::size_t count = std::min(reading.labels.size() / 2, reading.values.size() / 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const v = &reading.values[3 * i];
+    const auto number = static_cast<std::uint64_t>(v[0]);
+    auto content = base::FromBase64(reading.labels[2 * i + 1]);
+    if (number <= received_ || !content) continue;
+    missed_ += number - received_ - 1;
+    received_ = number;
+    messages.push_back({reading.labels[2 * i], *std::move(content), base::FromSeconds(v[1]), v[2]});
+  }
+  return messages;
 }
 
 DepthCamera::Image DepthCamera::TakeDepth() {

@@ -17,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "gsv/base/error.h"
 #include "gsv/base/sim_time.h"
 
 namespace gsv {
@@ -64,6 +65,8 @@ class SensorPort {
   virtual bool Measure(Reading& reading) = 0;
   // Empty in the same cases, and of sensors that take none.
   virtual Picture TakePicture() = 0;
+  // Of a radio: see Radio::Send(). An error of any other sensor.
+  virtual base::Status Send(const std::string& receiver, const std::string& content) = 0;
 };
 
 // Any sensor.
@@ -240,6 +243,38 @@ class LogicalCamera : public Sensor {
     Placement sensor_from_model;
   };
   std::vector<Sighting> Look();
+};
+
+// Sends to other robots and hears them. What is sent at an instant is heard with the next step, in
+// the order of the senders' names and, of each, in that of sending, by those that are near enough.
+class Radio : public Sensor {
+ public:
+  static constexpr const char* kType = "radio";
+  using Sensor::Sensor;
+
+  struct Message {
+    std::string sender;  // robot
+    std::string content;
+    SimTime sent{0};
+    double strength = 0;  // dBm
+  };
+
+  // To the robot of that name; nobody says whether it hears. Fails when the message is longer than
+  // the radio's max_size, when too many are sent in one step, and after the end of the run.
+  base::Status Send(const std::string& receiver, const std::string& content) {
+    return port().Send(receiver, content);
+  }
+  // To all.
+  base::Status Broadcast(const std::string& content) { return port().Send("", content); }
+
+  // What was heard since the last time, the oldest first.
+  std::vector<Message> Receive();
+  // Messages that were pushed out of the radio's inbox by later ones before Receive() came.
+  std::uint64_t missed() const { return missed_; }
+
+ private:
+  std::uint64_t received_ = 0;  // the number of the last
+  std::uint64_t missed_ = 0;
 };
 
 class DepthCamera : public Sensor {

@@ -71,6 +71,9 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
   base::Result<sensing::Reading> Read(const std::string&) override {
     return base::Fail(Refused().error());
   }
+  base::Status Send(const std::string&, const std::string&, std::string) override {
+    return Refused();
+  }
   base::Result<std::shared_ptr<simulation::MountedSensor>> Mounted(
       const std::string&) const override {
     return base::Fail(Refused().error());

@@ -1,0 +1,15 @@
+// Bytes as text and back, RFC 4648, section 4 (with padding).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gsv::base {
+
+std::string ToBase64(std::string_view bytes);
+
+// Nothing if it is not what ToBase64() writes.
+std::optional<std::string> FromBase64(std::string_view text);
+
+}  // namespace gsv::base

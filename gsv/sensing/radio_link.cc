@@ -1,0 +1,44 @@
+#include "gsv/sensing/radio_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gsv::sensing {
+namespace {
+
+constexpr double kSpeedOfLight = 299'792'458;  // m/s
+constexpr double kNearest = 0.01;              // m
+constexpr double kPastASurface = 1e-6;         // m
+constexpr int kMostCrossings = 64;
+
+}  // namespace
+
+double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup& receiver,
+                        double distance, int walls) {
+  const double first_metre =
+      20 * std::log10(4 * std::numbers::pi * sender.frequency / kSpeedOfLight);
+  const double beyond = 10 * sender.path_loss_exponent * std::log10(std::max(distance, kNearest));
+  return sender.power + sender.gain + receiver.gain - first_metre - beyond -
+         walls * sender.wall_loss;
+}
+
+int WallsBetween(const RayScene& scene, const Antenna& from, const Antenna& to) {
+  const geometry::Vector3 gap = to.place - from.place;
+  double left = Norm(gap);
+  if (left <= kPastASurface) return 0;
+  Ray ray{from.place, (1 / left) * gap, left};
+  int crossings = 0;
+  for (int i = 0; i < kMostCrossings; ++i) {
+    const auto hit = scene.Cast(ray, from.body);
+    if (!hit) break;
+    if (hit->body != to.body) ++crossings;
+    const double step = hit->distance + kPastASurface;
+    left -= step;
+    if (left <= 0) break;
+    ray = {ray.origin + step * ray.direction, ray.direction, left};
+  }
+  return (crossings + 1) / 2;
+}
+
+}  // namespace gsv::sensing
