@@ -20,6 +20,7 @@ struct CameraParameters {
   double horizontal_fov = 1.047;
   double near = 0.1;
   double far = 100;
+  friend bool operator==(const CameraParameters&, const CameraParameters&) = default;
 };
 
 inline constexpr int kMaxPictureSide = 4096;

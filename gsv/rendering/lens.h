@@ -31,6 +31,7 @@ struct Distortion {
   geometry::Vector2 centre{0.5, 0.5};  // in parts of the picture's width and height
 
   bool is_none() const { return k1 == 0 && k2 == 0 && k3 == 0 && p1 == 0 && p2 == 0; }
+  friend bool operator==(const Distortion&, const Distortion&) = default;
 };
 
 // Pixels.
@@ -38,6 +39,7 @@ struct Intrinsics {
   double fx = 0, fy = 0;
   double cx = 0, cy = 0;
   double skew = 0;
+  friend bool operator==(const Intrinsics&, const Intrinsics&) = default;
 };
 
 struct WideView {
@@ -45,6 +47,7 @@ struct WideView {
   Function function = Function::kTangent;
   double c1 = 1, c2 = 1, c3 = 0, f = 1;
   double cutoff_angle = 1.5707963267948966;
+  friend bool operator==(const WideView&, const WideView&) = default;
 };
 
 // "gnomonical", "stereographic", "equidistant", "solid_angle" or "orthographic".
@@ -73,7 +76,10 @@ class Lens {
   int height() const { return height_; }
   const Intrinsics& intrinsics() const { return intrinsics_; }  // of a pinhole
   const Distortion& distortion() const { return distortion_; }
-  bool is_wide() const { return wide_.has_value(); }
+  const std::optional<WideView>& wide_view() const { return wide_; }
+  // RayAt() is a formula, and not a search.
+  bool has_quick_rays() const { return wide_ || distortion_.is_none(); }
+  friend bool operator==(const Lens&, const Lens&) = default;
 
  private:
   geometry::Vector2 Distorted(const geometry::Vector2& p) const;

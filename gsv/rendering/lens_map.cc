@@ -167,6 +167,15 @@ void LensMap::FindReach() {
   }
 }
 
+std::optional<Vector3> LensMap::RayOfPixel(std::size_t pixel) const {
+  const Source& source = sources_[pixel];
+  if (source.face < 0) return std::nullopt;
+  const Face& face = faces_[static_cast<std::size_t>(source.face)];
+  const double f = FocalLength(face.camera);
+  return Normalized(face.camera_from_face * Vector3{f, 0.5 * face.camera.width - source.u,
+                                                    0.5 * face.camera.height - source.v});
+}
+
 std::vector<CameraView> LensMap::Views(const geometry::Pose& world_from_camera) const {
   std::vector<CameraView> views;
   for (const Face& face : faces_) {

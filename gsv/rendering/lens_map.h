@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,13 @@ class LensMap {
   // `camera` gives near and far. The pinhole pictures have as many pixels an angle as the lens has
   // where it has most, but at most four times as many as in its middle, and kMaxPictureSide a side.
   LensMap(const Lens& lens, const CameraParameters& camera);
+
+  // So large a picture may be: a map takes 20 bytes a pixel.
+  static constexpr int kMostPixels = 4'194'304;
+
+  // Where the middle of a pixel looks, in the camera's frame and of unit length, as Lens::RayAt()
+  // but for rounding (1e-6 rad); pixels count in rows from the top.
+  std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
   // The pinhole pictures that are needed.
   std::vector<CameraView> Views(const geometry::Pose& world_from_camera) const;

@@ -94,23 +94,6 @@ Vector2 MiddleOfBall(const Lens& lens, const Vector3& centre, double radius) {
   return {u / (3 * area), v / (3 * area)};
 }
 
-// The centre of what is red, by how red it is: whatever light gleams on it besides.
-Blob RedOf(const model::Image& picture) {
-  Blob blob;
-  double weight = 0;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const std::uint8_t* p =
-          &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
-      if (p[0] <= std::max(p[1], p[2])) continue;
-      ++blob.pixels;
-      weight += p[0], blob.u += p[0] * (x + 0.5), blob.v += p[0] * (y + 0.5);
-    }
-  }
-  if (weight > 0) blob.u /= weight, blob.v /= weight;
-  return blob;
-}
-
 // Edges are drawn to the pixel: several balls of different sizes tell where their middle is.
 TEST_P(LensPicture, ShowsThingsWhereTheEquationsSay) {
   const Optics optics = Read();
@@ -137,7 +120,7 @@ TEST_P(LensPicture, ShowsThingsWhereTheEquationsSay) {
         const auto picture = optics.Draw(**renderer_, scene.Snapshot(), {});
         ASSERT_TRUE(picture) << picture.error().Sentence();
         ASSERT_EQ((*picture)->width, 640);
-        const Blob ball = RedOf(**picture);
+        const Blob ball = FindBlob(**picture, 0, 0, BlobWeight::kChannel);
         EXPECT_GT(ball.pixels, 50);
         const Vector2 expected = MiddleOfBall(optics.lens(), centre, radius);
         error = error + (1.0 / std::size(kSizes)) * (Vector2{ball.u, ball.v} - expected);
@@ -178,6 +161,38 @@ INSTANTIATE_TEST_SUITE_P(Lenses, LensPicture, testing::ValuesIn(Cases()), [](con
   std::erase(name, ' ');
   return name;
 });
+
+TEST_P(LensPicture, ItsMapKnowsTheRayOfEachPixel) {
+  const Optics optics = Read();
+  for (std::size_t i = 0; i < 640 * 480; i += 97) {
+    const auto expected =
+        optics.lens().RayAt(static_cast<double>(i % 640) + 0.5, static_cast<double>(i / 640) + 0.5);
+    const auto ray = optics.RayOfPixel(i);
+    ASSERT_EQ(ray.has_value(), expected.has_value()) << i;
+    if (ray) {
+      ASSERT_LT(Norm(*ray - *expected), 1e-6) << i;
+    }
+  }
+}
+
+TEST(Optics, RefusesAPictureThroughALensThatIsTooLarge) {
+  model::SensorDescription description;
+  description.parameters = {
+      {"image.width", 4096.0}, {"image.height", 1024.0}, {"distortion.k1", -0.1}};
+  sensing::ParameterReader fits(description);
+  (void)Optics::Read(fits);
+  EXPECT_TRUE(fits.status());
+  description.parameters["image.height"] = 1025.0;
+  sensing::ParameterReader too_large(description);
+  (void)Optics::Read(too_large);
+  ASSERT_FALSE(too_large.status());
+  EXPECT_NE(too_large.status().error().message.find("4096 by 1025"), std::string::npos);
+  // Without a lens it is a picture like any other.
+  description.parameters.erase("distortion.k1");
+  sensing::ParameterReader plain(description);
+  (void)Optics::Read(plain);
+  EXPECT_TRUE(plain.status());
+}
 
 TEST(LensMap, LooksNoFurtherThanItsLens) {
   EXPECT_EQ(LensMap(Lens(CameraParameters{}), {}).Views({}).size(), 1u);

@@ -53,7 +53,28 @@ Lens ReadPinhole(sensing::ParameterReader& reader, const CameraParameters& camer
 }  // namespace
 
 Optics::Optics(const CameraParameters& camera, Lens lens)
-    : camera_(camera), lens_(std::move(lens)), joining_(std::make_shared<Joining>()) {}
+    : camera_(camera), lens_(std::move(lens)), joining_(JoiningOf(camera_, lens_)) {}
+
+std::shared_ptr<Optics::Joining> Optics::JoiningOf(const CameraParameters& camera,
+                                                   const Lens& lens) {
+  struct Known {
+    CameraParameters camera;
+    Lens lens;
+    std::weak_ptr<Joining> joining;
+  };
+  static std::mutex mutex;
+  static std::vector<Known> all;
+  if (lens.is_plain()) return nullptr;
+  const std::lock_guard lock(mutex);
+  std::erase_if(all, [](const Known& known) { return known.joining.expired(); });
+  for (const Known& known : all) {
+    if (!(known.camera == camera && known.lens == lens)) continue;
+    if (auto joining = known.joining.lock()) return joining;
+  }
+  auto joining = std::make_shared<Joining>();
+  all.push_back({camera, lens, joining});
+  return joining;
+}
 
 Optics Optics::Read(sensing::ParameterReader& reader, const std::string& lens_type) {
   CameraParameters camera;
@@ -67,21 +88,37 @@ Optics Optics::Read(sensing::ParameterReader& reader, const std::string& lens_ty
   if (reader.status()) {
     if (base::Status fits = Check(camera); !fits) reader.Refuse(fits.error().message);
   }
+  const auto fitting = [&](Lens lens) -> Optics {
+    if (!lens.is_plain() && camera.width > LensMap::kMostPixels / camera.height) {
+      reader.Refuse("a picture through a lens has at most 4194304 pixels (2048 by 2048), and " +
+                    std::to_string(camera.width) + " by " + std::to_string(camera.height) +
+                    " are more");
+      lens = Lens(CameraParameters());
+    }
+    return {camera, std::move(lens)};
+  };
   if (type == "gnomonical") {
     camera.horizontal_fov = fov;
-    return {camera, ReadPinhole(reader, camera)};
+    return fitting(ReadPinhole(reader, camera));
   }
   const WideView view = ReadWideView(reader, type);
   const bool scaled = reader.Flag("lens.scale_to_hfov", true);
   auto lens = Lens::Wide(camera, view, scaled ? fov : 0);
   if (!lens) reader.Refuse(lens.error().message);
-  return {camera, lens ? *std::move(lens) : Lens(camera)};
+  return fitting(lens ? *std::move(lens) : Lens(camera));
 }
 
 const LensMap& Optics::Map() const {
   std::call_once(joining_->made,
                  [this] { joining_->map = std::make_unique<const LensMap>(lens_, camera_); });
   return *joining_->map;
+}
+
+std::optional<geometry::Vector3> Optics::RayOfPixel(std::size_t pixel) const {
+  if (!lens_.has_quick_rays()) return Map().RayOfPixel(pixel);
+  const auto width = static_cast<std::size_t>(camera_.width);
+  return lens_.RayAt(static_cast<double>(pixel % width) + 0.5,
+                     static_cast<double>(pixel / width) + 0.5);
 }
 
 base::Result<std::shared_ptr<const model::Image>> Optics::Draw(

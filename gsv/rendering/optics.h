@@ -1,7 +1,7 @@
 // What all cameras have in common: a picture's size, a lens, and how pictures come through it.
 //
 // Parameters (of SDFormat's <camera>; lengths in m, angles in rad, sizes in pixels)
-//   image.width, image.height   320 by 240, at most 4096
+//   image.width, image.height   320 by 240, at most 4096; through a lens at most 4,194,304 pixels
 //   horizontal_fov              1.047; at most 3.0, of a wide lens 2 pi
 //   clip.near, clip.far         0.1 and 100
 //   lens.type                   gnomonical (a pinhole), stereographic, equidistant, solid_angle,
@@ -15,6 +15,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "gsv/base/error.h"
 #include "gsv/rendering/lens.h"
@@ -32,6 +33,9 @@ class Optics {
 
   const CameraParameters& camera() const { return camera_; }
   const Lens& lens() const { return lens_; }
+  // Where the middle of a pixel looks, of unit length; nothing where the lens shows nothing. Pixels
+  // count in rows from the top.
+  std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
   base::Result<std::shared_ptr<const model::Image>> Draw(
       Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
@@ -41,13 +45,15 @@ class Optics {
       const geometry::Pose& world_from_camera) const;
 
  private:
-  Optics(const CameraParameters& camera, Lens lens);
-  const LensMap& Map() const;
-
   struct Joining {
     std::once_flag made;
     std::unique_ptr<const LensMap> map;  // made for the first picture
   };
+
+  Optics(const CameraParameters& camera, Lens lens);
+  // Equal cameras have one map: those of all robots of a model, and of who records them.
+  static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
+  const LensMap& Map() const;
 
   CameraParameters camera_;
   Lens lens_;

@@ -27,23 +27,16 @@ using RendererResult = Result<std::shared_ptr<Renderer>>;
 constexpr std::size_t kHead = 2;          // values before the pixels': width and height
 constexpr std::size_t kMostDrawn = 2000;  // points of a cloud in the viewer
 
-// To what is seen at a place in the picture, for one metre along the view; nothing where the lens
-// shows nothing, or what lies straight beside the camera.
-std::optional<Vector3> RayOf(const Lens& lens, double u, double v) {
-  const auto ray = lens.RayAt(u, v);
+// For one metre along the view; nothing where the lens shows nothing, or what lies straight beside
+// the camera.
+std::optional<Vector3> OneMetreOn(const std::optional<Vector3>& ray) {
   if (!ray || std::abs(ray->x) < 1e-6) return std::nullopt;
   return (1 / ray->x) * *ray;
 }
 
-// The same in the middle of a pixel, by its place in the rows one after the other.
-std::optional<Vector3> RayOfPixel(const Lens& lens, std::size_t pixel, std::size_t width) {
-  return RayOf(lens, static_cast<double>(pixel % width) + 0.5,
-               static_cast<double>(pixel / width) + 0.5);
-}
-
-Lens LensOf(const model::SensorDescription& description) {
+Optics OpticsOf(const model::SensorDescription& description) {
   sensing::ParameterReader reader(description);
-  return Optics::Read(reader).lens();
+  return Optics::Read(reader);
 }
 
 class SurveySensor : public sensing::Sensor {
@@ -93,14 +86,14 @@ class DepthCamera final : public SurveySensor {
     }
     cloud.point_step = 12;
     if (reading.values.size() < kHead) return cloud;
-    const Lens lens = LensOf(description);
+    const Optics optics = OpticsOf(description);
     cloud.width = static_cast<std::uint32_t>(reading.values[0]);
     cloud.height = static_cast<std::uint32_t>(reading.values[1]);
     cloud.row_step = cloud.point_step * cloud.width;
     cloud.data.resize(std::size_t{cloud.row_step} * cloud.height);
     for (std::size_t i = 0; i + kHead < reading.values.size(); ++i) {
       const double depth = reading.values[kHead + i];
-      const auto ray = RayOfPixel(lens, i, cloud.width);
+      const auto ray = OneMetreOn(optics.RayOfPixel(i));
       const Vector3 point = ray && std::isfinite(depth)
                                 ? depth * *ray
                                 : Vector3{1, 1, 1} * std::numeric_limits<double>::quiet_NaN();
@@ -130,13 +123,12 @@ std::vector<Segment> CloudPoints(const model::SensorDescription& description,
                                  const Reading& reading) {
   std::vector<Segment> beams;
   if (reading.values.size() <= kHead) return beams;
-  const Lens lens = LensOf(description);
-  const auto width = static_cast<std::size_t>(reading.values[0]);
+  const Optics optics = OpticsOf(description);
   const std::size_t pixels = reading.values.size() - kHead;
   for (std::size_t i = 0; i < pixels; i += 1 + pixels / kMostDrawn) {
     const double depth = reading.values[kHead + i];
     if (!std::isfinite(depth)) continue;
-    const auto ray = RayOfPixel(lens, i, width);
+    const auto ray = OneMetreOn(optics.RayOfPixel(i));
     if (ray) beams.push_back({{}, depth * *ray});
   }
   return beams;
@@ -240,12 +232,13 @@ class BoundingBoxCamera final : public SurveySensor {
 // Each box as a frame at a distance of 1 m.
 std::vector<Segment> BoxFrames(const model::SensorDescription& description,
                                const Reading& reading) {
-  const Lens lens = LensOf(description);
+  const Optics optics = OpticsOf(description);
+  const auto corner = [&](double u, double v) { return OneMetreOn(optics.lens().RayAt(u, v)); };
   std::vector<Segment> lines;
   for (std::size_t i = 0; i + 4 <= reading.values.size(); i += 4) {
     const double* const v = &reading.values[i];
-    const std::optional<Vector3> corners[] = {RayOf(lens, v[0], v[1]), RayOf(lens, v[2], v[1]),
-                                              RayOf(lens, v[2], v[3]), RayOf(lens, v[0], v[3])};
+    const std::optional<Vector3> corners[] = {corner(v[0], v[1]), corner(v[2], v[1]),
+                                              corner(v[2], v[3]), corner(v[0], v[3])};
     for (int k = 0; k < 4; ++k) {
       const auto &from = corners[k], &to = corners[(k + 1) % 4];
       if (from && to) lines.push_back({*from, *to});
