@@ -6,6 +6,7 @@
 #include "gsv/rendering/exposure.h"
 #include "gsv/rendering/jpeg.h"
 #include "gsv/rendering/optics.h"
+#include "gsv/rendering/shutter.h"
 #include "gsv/sensing/encoding.h"
 
 namespace gsv::rendering {
@@ -22,13 +23,17 @@ class Camera final : public sensing::Sensor {
          const std::string& lens_type, Result<std::shared_ptr<Renderer>> renderer)
       : Sensor(description),
         optics_(Optics::Read(reader, lens_type)),
+        shutter_(reader),
         exposure_(reader),
         renderer_(std::move(renderer)) {}
 
   Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
     if (!renderer_) return Fail(renderer_.error());
-    auto picture =
-        optics_.Draw(**renderer_, sampling.snapshot(), sampling.WorldFromSensor(description()));
+    auto picture = shutter_.Take(sampling.snapshot(), [&](const auto& snapshot) {
+      const geometry::Pose world_from_link =
+          world::LinkPose(*snapshot, sampling.body(), description().link);
+      return optics_.Draw(**renderer_, snapshot, world_from_link * description().link_from_sensor);
+    });
     if (!picture) return Fail(picture.error());
     sensing::Reading reading = sampling.Stamped();
     reading.values = {static_cast<double>((*picture)->width),
@@ -45,6 +50,7 @@ class Camera final : public sensing::Sensor {
 
  private:
   Optics optics_;
+  Shutter shutter_;
   Exposure exposure_;
   Result<std::shared_ptr<Renderer>> renderer_;
 };

@@ -2,7 +2,7 @@
 //
 // Frame       sensor frame: x along the view, y left, z up.
 // Parameters  those of every camera, see optics.h (a "wideangle_camera" has a stereographic lens),
-//             and those of exposure.h.
+//             and those of shutter.h and exposure.h.
 // Readings    values {width, height} in pixels; the picture is RGB. As a message:
 //             sensor_msgs/CompressedImage, JPEG of quality 80.
 // Errors      Sample(): kUnavailable with the reason where there is no renderer; everything that

@@ -1,41 +1,11 @@
 #include "gsv/rendering/exposure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "gsv/rendering/light_encoding.h"
+
 namespace gsv::rendering {
-namespace {
-
-// sRGB (IEC 61966-2-1).
-double Linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-// Of a number from 0 to 255.
-std::array<float, 256> LinearTable() {
-  std::array<float, 256> table;
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    table[i] = static_cast<float>(Linear(static_cast<double>(i) / 255));
-  }
-  return table;
-}
-
-// The number whose light is nearest: thresholds[i] lies in the middle between i and i + 1.
-std::uint8_t Encoded(float light, const std::array<float, 256>& thresholds) {
-  const auto above = std::upper_bound(thresholds.begin(), thresholds.end() - 1, light);
-  return static_cast<std::uint8_t>(above - thresholds.begin());
-}
-
-std::array<float, 256> Thresholds() {
-  std::array<float, 256> table;
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    table[i] = static_cast<float>(Linear((static_cast<double>(i) + 0.5) / 255));
-  }
-  return table;
-}
-
-}  // namespace
 
 Exposure::Exposure(sensing::ParameterReader& reader)
     : light_(std::exp2(reader.Number("exposure", 0, -20, 20))),
@@ -55,7 +25,6 @@ void Exposure::Apply(const sensing::Sampling& sampling, const model::SensorDescr
 
 void Exposure::ApplyLight(model::Image& picture) const {
   if (light_ == 1 && gain_ == 1 && vignetting_ == 0) return;
-  static const std::array<float, 256> kLinear = LinearTable(), kThresholds = Thresholds();
   const double middle_x = 0.5 * picture.width, middle_y = 0.5 * picture.height;
   const double corner = middle_x * middle_x + middle_y * middle_y;
   std::uint8_t* at = picture.pixels.data();
@@ -64,7 +33,7 @@ void Exposure::ApplyLight(model::Image& picture) const {
       const double dx = x + 0.5 - middle_x, dy = y + 0.5 - middle_y;
       const double left = 1 - vignetting_ * (dx * dx + dy * dy) / corner;
       const auto factor = static_cast<float>(light_ * gain_ * left);
-      for (int c = 0; c < 3; ++c, ++at) *at = Encoded(factor * kLinear[*at], kThresholds);
+      for (int c = 0; c < 3; ++c, ++at) *at = NumberFor(factor * LightOf(*at));
     }
   }
 }
