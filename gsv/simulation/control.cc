@@ -150,6 +150,9 @@ base::Status SteppingSimulation::Go(SimTime until, std::int64_t steps) {
   run_until_ = until;
   steps_left_ = steps;
   if (shared_->phase == Phase::kPaused) {
+    std::vector<AgentPtr> newcomers = AgentsWithBehaviour();
+    std::erase_if(newcomers, [](const AgentPtr& agent) { return agent->is_started(); });
+    StartAgents(newcomers);
     SetPhase(starts_pending_ > 0 ? Phase::kStarting : Phase::kRunning);
     return {};
   }

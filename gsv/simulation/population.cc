@@ -47,6 +47,17 @@ base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
   return CheckBehaviour(*robot.behaviour, mode, where);
 }
 
+// At its initial pose, as somebody has put it down there by hand.
+void PutAtRest(const world::Layout& layout, int body, world::State& state) {
+  world::BodyState& placed = state.bodies[body];
+  placed.world_from_model = layout.bodies[body].initial_pose;
+  placed.linear_velocity = placed.angular_velocity = {};
+  placed.drive.actual = {};
+  placed.in_contact = false;
+  const auto first = state.joint_velocities.begin() + layout.bodies[body].first_joint;
+  std::fill_n(first, layout.bodies[body].model->joints.size(), 0.0);
+}
+
 }  // namespace
 
 base::Status SteppingSimulation::NameRobots(std::vector<RobotSpecification>& robots) const {
@@ -76,12 +87,14 @@ base::Status SteppingSimulation::NameRobots(std::vector<RobotSpecification>& rob
   return {};
 }
 
-geometry::Pose SteppingSimulation::StandingPose(const RobotSpecification& robot) const {
-  geometry::Pose pose = robot.world_from_robot;
-  const auto is_no_robot = [this](int body) { return !layout_->bodies[body].is_robot; };
+geometry::Pose SteppingSimulation::StandingPose(const model::Model& model, geometry::Pose pose,
+                                                int own) const {
+  const auto may_carry = [this, own](int body) {
+    return body != own && !layout_->bodies[body].is_robot;
+  };
   const auto solids = shared_->rays.At(shared_->history.latest());
-  const double floor = sensing::FloorHeight(*solids, pose.position.x, pose.position.y, is_no_robot);
-  pose.position.z = floor - model::LowestPoint(*robot.model);
+  const double floor = sensing::FloorHeight(*solids, pose.position.x, pose.position.y, may_carry);
+  pose.position.z = floor - model::LowestPoint(model);
   return pose;
 }
 
@@ -95,7 +108,8 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
     world::Body body;
     body.name = robot.name;
     body.model = robot.model;
-    body.initial_pose = robot.on_ground ? StandingPose(robot) : robot.world_from_robot;
+    body.initial_pose = robot.on_ground ? StandingPose(*robot.model, robot.world_from_robot)
+                                        : robot.world_from_robot;
     body.is_robot = true;
     body.is_avatar = robot.is_avatar;
     body.is_rigid =
@@ -117,21 +131,25 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
 }
 
 base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
-                                              const std::vector<std::string>& added) {
+                                              const std::vector<std::string>& placed) {
   const std::uint32_t version = layout_->version + 1;
   auto layout = world::MakeLayout(version, std::move(bodies), layout_->description);
   auto status = engine_->SetLayout(layout);
   world::State state = CarryOver(*layout);
-  if (status && !added.empty()) status = MakeRoom(*layout, added, state);
+  for (const std::string& name : placed) PutAtRest(*layout, layout->Find(name), state);
+  if (status && !placed.empty()) status = MakeRoom(*layout, placed, state);
   if (!status) {
     if (const auto back = engine_->SetLayout(layout_); !back) return back;
     return status;
   }
-  // A robot starts where there was room for it, also after a reset.
+  // A robot starts where there was room for it, also after a reset; one that was put elsewhere in
+  // mid-run, where it did.
   std::vector<world::Body> settled = layout->bodies;
-  for (const std::string& name : added) {
+  for (const std::string& name : placed) {
     const int body = layout->Find(name);
-    settled[body].initial_pose = state.bodies[body].world_from_model;
+    const int old = state.step > 0 ? layout_->Find(name) : -1;
+    settled[body].initial_pose =
+        old >= 0 ? layout_->bodies[old].initial_pose : state.bodies[body].world_from_model;
   }
   layout_ = world::MakeLayout(version, std::move(settled), layout->description);
   state_ = std::move(state);
@@ -180,23 +198,23 @@ int SteppingSimulation::Intruded(const world::Layout& layout, const world::State
 }
 
 base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
-                                          const std::vector<std::string>& added,
+                                          const std::vector<std::string>& placed,
                                           world::State& state) {
   // Most of a crowd stand free, and who steps aside steps into nobody.
   std::vector<bool> stands_free(layout.bodies.size(), true);
   for (const world::Contact& overlap : engine_->Overlaps(state, kPlacingTolerance)) {
     stands_free[overlap.first] = stands_free[overlap.second] = false;
   }
-  for (std::size_t i = 0; i < added.size(); ++i) {
-    const std::string& name = added[i];
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const std::string& name = placed[i];
     const int body = layout.Find(name);
     if (stands_free[body]) continue;
     const geometry::Pose wanted = layout.bodies[body].initial_pose;
     const int intruded = Intruded(layout, state, body);
     if (intruded < 0) continue;
     // Of two newcomers at one place the second is the one too many.
-    const auto rest = added.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-    if (std::find(rest, added.end(), layout.bodies[intruded].name) != added.end()) continue;
+    const auto rest = placed.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    if (std::find(rest, placed.end(), layout.bodies[intruded].name) != placed.end()) continue;
     // What stands more outside of a wall than in it is put before it.
     if (!layout.bodies[intruded].is_robot && StepAside(layout, body, state)) {
       AddEvent("robot_moved", name,
@@ -303,6 +321,33 @@ base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
   }
   if (auto ok = RemoveFromWorld({name}); !ok) return ok;
   AddEvent("robot_removed", name);
+  return {};
+}
+
+base::Status SteppingSimulation::PlaceBody(const std::string& name,
+                                           const geometry::Pose& world_from_body, bool on_ground) {
+  const std::lock_guard control(control_mutex_);
+  if (!geometry::IsFinite(world_from_body)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the pose is not finite", name);
+  }
+  const auto world_lock = LockWorld();
+  if (!world_lock) return RefuseStuck();
+  {
+    const std::lock_guard lock(shared_->mutex);
+    const char* const action = "move what stands in it";
+    if (auto ok = RefuseUnless({Phase::kCreated, Phase::kPaused}, action); !ok) return ok;
+  }
+  const int body = layout_->Find(name);
+  if (body < 0 || layout_->bodies[body].is_static) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      body < 0 ? "there is nothing of that name" : "it is fixed to the world",
+                      name);
+  }
+  std::vector<world::Body> bodies = layout_->bodies;
+  bodies[body].initial_pose =
+      on_ground ? StandingPose(*bodies[body].model, world_from_body, body) : world_from_body;
+  if (auto ok = ChangeLayout(std::move(bodies), {name}); !ok) return ok;
+  AddEvent("body_placed", name, "at " + PlaceText(state_.bodies[body].world_from_model));
   return {};
 }
 

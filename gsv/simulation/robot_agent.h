@@ -62,6 +62,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Its behaviour is in this process: it takes turns, and no thread waits for it.
   bool is_hosted() const { return behaviour_ != nullptr && behaviour_->local() != nullptr; }
   void MarkStarted();
+  bool is_started() const { return started_; }
   // The simulation must not step: the agent is waited for and runs.
   bool HoldsUp() const;
   // It holds up the simulation, and not only because others have their turn before it.

@@ -64,6 +64,12 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Result<std::vector<std::string>> AddRobots(
       std::vector<RobotSpecification> robots) = 0;
   virtual base::Status RemoveRobot(const std::string& name) = 0;
+  // Puts a body that can move (a robot, an avatar, an object) elsewhere, at rest, while the
+  // simulation is created or paused; `on_ground` as for robots. Before the first step that is where
+  // it starts, also after a reset. What its wheels have measured and its behaviour believes stays
+  // as it was. Fails when the place is taken.
+  virtual base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
+                                 bool on_ground) = 0;
   // Gives a behaviour to a robot that has none, such as one that came with the world.
   virtual base::Status SetBehaviour(const std::string& robot,
                                     std::shared_ptr<BehaviourPort> behaviour) = 0;

@@ -38,6 +38,8 @@ class SteppingSimulation final : public Simulation {
 
   base::Result<std::vector<std::string>> AddRobots(std::vector<RobotSpecification> robots) override;
   base::Status RemoveRobot(const std::string& name) override;
+  base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
+                         bool on_ground) override;
   base::Status SetBehaviour(const std::string& robot,
                             std::shared_ptr<BehaviourPort> behaviour) override;
 
@@ -89,14 +91,17 @@ class SteppingSimulation final : public Simulation {
   // population.cc: who stands in the world.
   base::Status PlaceRobots(std::vector<RobotSpecification>& robots);
   base::Status NameRobots(std::vector<RobotSpecification>& robots) const;
-  geometry::Pose StandingPose(const RobotSpecification& robot) const;
-  base::Status ChangeLayout(std::vector<world::Body> bodies, const std::vector<std::string>& added);
+  // `pose`, lowered or lifted to where the model stands; `own`: its body, if it has one already.
+  geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const;
+  // `placed`: bodies that are new, or put elsewhere, at their initial poses.
+  base::Status ChangeLayout(std::vector<world::Body> bodies,
+                            const std::vector<std::string>& placed);
   // The state of those who stay, and the start of those who come.
   world::State CarryOver(const world::Layout& layout) const;
   // Who stands where `body` does, or -1.
   int Intruded(const world::Layout& layout, const world::State& state, int body);
   // Refuses robots that would stand in others, or deep in walls.
-  base::Status MakeRoom(const world::Layout& layout, const std::vector<std::string>& added,
+  base::Status MakeRoom(const world::Layout& layout, const std::vector<std::string>& placed,
                         world::State& state);
   // Moves the body to the nearest free place, no farther than its own radius. False: none there.
   bool StepAside(const world::Layout& layout, int body, world::State& state);

@@ -238,6 +238,9 @@ base::Result<std::vector<std::string>> ScriptedSimulation::AddRobots(
   return base::Fail(Refused().error());
 }
 base::Status ScriptedSimulation::RemoveRobot(const std::string&) { return Refused(); }
+base::Status ScriptedSimulation::PlaceBody(const std::string&, const geometry::Pose&, bool) {
+  return Refused();
+}
 base::Status ScriptedSimulation::SetBehaviour(const std::string&,
                                               std::shared_ptr<simulation::BehaviourPort>) {
   return Refused();

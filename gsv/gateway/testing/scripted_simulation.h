@@ -37,6 +37,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Result<std::vector<std::string>> AddRobots(
       std::vector<simulation::RobotSpecification> robots) override;
   base::Status RemoveRobot(const std::string& name) override;
+  base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
+                         bool on_ground) override;
   base::Status SetBehaviour(const std::string& robot,
                             std::shared_ptr<simulation::BehaviourPort> behaviour) override;
   base::Status CommandJoint(const std::string& body, const std::string& joint,

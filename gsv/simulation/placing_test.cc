@@ -1,0 +1,81 @@
+// Who stands in a simulation, and where, is changed while it stands still.
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::simulation {
+namespace {
+
+geometry::Vector3 PositionOf(const Simulation& simulation, const std::string& name) {
+  return StatusOf(simulation, name).world_from_robot.position;
+}
+
+void RunUntilPaused(Simulation& simulation, SimTime instant) {
+  ASSERT_TRUE(simulation.RunUntil(instant));
+  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+}
+
+TEST(Placing, BeforeTheFirstStepItIsWhereABodyStarts) {
+  auto simulation = Make(Lockstep(100ms));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
+  ASSERT_TRUE(simulation->PlaceBody("robot", PlanarPose(1, -2, 0, 0.5), true));
+  EXPECT_EQ(PositionOf(*simulation, "robot"), (geometry::Vector3{1, -2, 0}));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE(simulation->Reset());
+  const auto pose = StatusOf(*simulation, "robot").world_from_robot;
+  EXPECT_EQ(pose.position, (geometry::Vector3{1, -2, 0}));
+  EXPECT_NEAR(geometry::Yaw(pose.orientation), 0.5, 1e-12);
+}
+
+TEST(Placing, InAPauseARobotGoesOnFromThereAndAResetBringsItBack) {
+  auto simulation = Make(Lockstep(1s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Drives(0.5))));
+  RunUntilPaused(*simulation, 500ms);
+  ASSERT_TRUE(simulation->PlaceBody("robot", PlanarPose(-1, 2, 0, 0), true));
+  EXPECT_EQ(PositionOf(*simulation, "robot"), (geometry::Vector3{-1, 2, 0}));
+  ASSERT_TRUE(simulation->Resume());
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  // Half a second at 0.5 m/s, without a limit on acceleration.
+  EXPECT_NEAR(PositionOf(*simulation, "robot").x, -1 + 0.25, 1e-9);
+  ASSERT_TRUE(simulation->Reset());
+  EXPECT_EQ(PositionOf(*simulation, "robot"), (geometry::Vector3{0, 0, 0}));
+}
+
+TEST(Placing, WhereSomethingStandsIsRefusedAndNothingMoves) {
+  auto simulation = Make(Lockstep(0s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("first", 0, 0)));
+  ASSERT_TRUE(simulation->AddRobot(Robot("second", 1, 0)));
+  const auto into_another = simulation->PlaceBody("second", PlanarPose(0.1, 0, 0, 0), true);
+  ASSERT_FALSE(into_another);
+  EXPECT_NE(into_another.error().Sentence().find("\"first\""), std::string::npos);
+  EXPECT_FALSE(simulation->PlaceBody("second", PlanarPose(3, 0, 0, 0), true));
+  EXPECT_EQ(PositionOf(*simulation, "second"), (geometry::Vector3{1, 0, 0}));
+  // Its own place is free for it.
+  EXPECT_TRUE(simulation->PlaceBody("second", PlanarPose(1.05, 0, 0, 0), true));
+}
+
+TEST(Placing, WhatIsFixedOrAbsentOrRunsIsRefused) {
+  auto simulation = Make(Lockstep(0s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));
+  const auto wall = simulation->PlaceBody("wall", PlanarPose(1, 0, 0, 0), true);
+  ASSERT_FALSE(wall);
+  EXPECT_NE(wall.error().message.find("fixed"), std::string::npos);
+  EXPECT_EQ(simulation->PlaceBody("nobody", {}, true).error().code, base::ErrorCode::kNotFound);
+  ASSERT_TRUE(simulation->Start());
+  const auto running = simulation->PlaceBody("robot", PlanarPose(1, 0, 0, 0), true);
+  ASSERT_FALSE(running);
+  EXPECT_EQ(running.error().code, base::ErrorCode::kNotRunning);
+  EXPECT_TRUE(simulation->Stop());
+}
+
+TEST(Placing, ARobotThatCameInAPauseDrivesAfterIt) {
+  auto simulation = Make(Lockstep(1s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("first", 0, 0, Drives(0.5))));
+  RunUntilPaused(*simulation, 500ms);
+  ASSERT_TRUE(simulation->AddRobot(Robot("second", 0, 2, Drives(0.5))));
+  ASSERT_TRUE(simulation->Resume());
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  EXPECT_NEAR(PositionOf(*simulation, "first").x, 0.5, 1e-9);
+  EXPECT_NEAR(PositionOf(*simulation, "second").x, 0.25, 1e-9);
+}
+
+}  // namespace
+}  // namespace gsv::simulation
