@@ -2,7 +2,10 @@
 // `gsv run`.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <ctime>
+#include <vector>
 
 #include "apps/gsv/commands.h"
 
@@ -13,12 +16,28 @@ void AddLockstepBench(const CommandLine& bench);
 void AddCrowdBench(const CommandLine& bench);
 void AddBrokerBench(const CommandLine& bench);
 void AddCameraBench(const CommandLine& bench);
+void AddLidarBench(const CommandLine& bench);
 
 inline double Seconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double>(duration).count();
 }
 inline double Milliseconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+// Of all threads of this process, s.
+inline double ProcessorTime() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// The value that the fraction `q` of all do not exceed (nearest rank); 0 of none.
+inline double QuantileOf(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(q * static_cast<double>(values.size()));
+  return values[std::min(rank, values.size() - 1)];
 }
 
 }  // namespace gsv::app

@@ -13,6 +13,7 @@ void AddBenchCommands(const CommandLine& line) {
   AddCrowdBench(inner);
   AddBrokerBench(inner);
   AddCameraBench(inner);
+  AddLidarBench(inner);
 }
 
 }  // namespace gsv::app

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <mutex>
 #include <string>
@@ -33,21 +32,6 @@ struct CameraArguments {
   std::string save;
   bool opengl = false, json = false;
 };
-
-// Of all threads of this process, s.
-double ProcessorTime() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-// The value that the fraction `q` of all do not exceed (nearest rank).
-double Quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(q * static_cast<double>(values.size()));
-  return values[std::min(rank, values.size() - 1)];
-}
 
 // Hands over snapshots and times the intervals between them.
 class SnapshotWatch final : public simulation::Observer {
@@ -140,7 +124,11 @@ base::Status Save(const std::string& folder, const Pictures& pictures) {
 
 base::Result<Figures> Measure(const CameraArguments& arguments,
                               const rendering::CameraParameters& camera) {
-  auto scene = MovingScene::Create(arguments.world, arguments.model, arguments.robots);
+  MovingSceneOptions scene_options;
+  scene_options.world = arguments.world;
+  scene_options.model = arguments.model;
+  scene_options.robots = arguments.robots;
+  auto scene = MovingScene::Create(scene_options);
   if (!scene) return base::Fail(scene.error());
   simulation::Simulation& simulation = *scene->simulation;
   rendering::RendererOptions options;
@@ -218,10 +206,10 @@ int Run(const CameraArguments& arguments) {
       {"triangles", figures->triangles},
       {"pictures", figures->pictures},
       {"pictures_per_s", figures->pictures / figures->wall},
-      {"p50_ms", Quantile(figures->latencies, 0.5)},
-      {"p99_ms", Quantile(figures->latencies, 0.99)},
-      {"step_p50_ms", Quantile(figures->intervals, 0.5)},
-      {"step_p99_ms", Quantile(figures->intervals, 0.99)},
+      {"p50_ms", QuantileOf(figures->latencies, 0.5)},
+      {"p99_ms", QuantileOf(figures->latencies, 0.99)},
+      {"step_p50_ms", QuantileOf(figures->intervals, 0.5)},
+      {"step_p99_ms", QuantileOf(figures->intervals, 0.99)},
       {"cpu_ms_a_picture", 1e3 * figures->processor / figures->pictures},
       {"least_cpu_ms_a_picture", 1e3 * figures->least_processor / arguments.cameras},
       {"renderer", figures->renderer}};

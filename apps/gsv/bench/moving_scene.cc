@@ -53,6 +53,24 @@ std::shared_ptr<const model::WorldDescription> VisibleSquare(int robots) {
   return world;
 }
 
+void CollideWithVisuals(model::WorldDescription& world) {
+  for (model::PlacedModel& placed : world.models) {
+    if (!placed.is_static) continue;
+    auto model = std::make_shared<model::Model>(*placed.model);
+    for (model::Link& link : model->links) {
+      // Those without an end would be drawn as far as they are long, and are met everywhere.
+      std::erase_if(link.collisions, [](const model::Collision& collision) {
+        return !std::holds_alternative<geometry::Plane>(collision.shape);
+      });
+      for (const model::Visual& visual : link.visuals) {
+        if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
+        link.collisions.push_back({visual.name, visual.link_from_visual, visual.shape, {}});
+      }
+    }
+    placed.model = std::move(model);
+  }
+}
+
 base::Status PlaceOnTheSquare(MovingScene& scene, std::shared_ptr<const model::Model> model,
                               int count) {
   auto robots = CrowdRobots(count, 1);
@@ -86,23 +104,24 @@ base::Status PlaceInASpiral(MovingScene& scene, std::shared_ptr<const model::Mod
 
 }  // namespace
 
-base::Result<MovingScene> MovingScene::Create(const std::string& world, const std::string& model,
-                                              int robots) {
+base::Result<MovingScene> MovingScene::Create(const MovingSceneOptions& options) {
   formats::ReadOptions reading;
   reading.model_path = {ShareFolder() / "models"};
   formats::ModelLibrary library(reading);
   base::Problems problems;
   simulation::Specification specification;
-  if (world == "square") {
-    specification.world = VisibleSquare(robots);
+  if (options.world == "square") {
+    specification.world = VisibleSquare(options.robots);
   } else {
-    auto read = library.ReadWorld(ResolveWorld(world), problems);
+    auto read = library.ReadWorld(ResolveWorld(options.world), problems);
     if (!read) return base::Fail(read.error());
+    if (options.collide_with_visuals) CollideWithVisuals(*read);
     specification.world = std::make_shared<model::WorldDescription>(*std::move(read));
   }
-  const auto robot = library.ReadModel(model, problems);
+  const auto robot = library.ReadModel(options.model, problems);
   if (!robot) return base::Fail(robot.error());
-  specification.name = "camera bench";
+  specification.name = "bench";
+  specification.mode = options.mode;
   specification.step = std::chrono::milliseconds(10);
   auto sensors = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*sensors);
@@ -110,8 +129,8 @@ base::Result<MovingScene> MovingScene::Create(const std::string& world, const st
   if (!simulation) return base::Fail(simulation.error());
   MovingScene scene;
   scene.simulation = *std::move(simulation);
-  const auto placed = world == "square" ? PlaceOnTheSquare(scene, *robot, robots)
-                                        : PlaceInASpiral(scene, *robot, robots);
+  const auto placed = options.world == "square" ? PlaceOnTheSquare(scene, *robot, options.robots)
+                                                : PlaceInASpiral(scene, *robot, options.robots);
   if (!placed) return base::Fail(placed.error());
   return scene;
 }
@@ -170,6 +189,20 @@ std::uint64_t TrianglesIn(const world::Layout& layout) {
     }
   }
   return triangles;
+}
+
+Solids SolidsIn(const world::Layout& layout) {
+  Solids solids;
+  for (const world::Body& body : layout.bodies) {
+    for (const model::Link& link : body.model->links) {
+      for (const model::Collision& collision : link.collisions) {
+        const auto* mesh = std::get_if<geometry::Mesh>(&collision.shape);
+        if (mesh == nullptr) ++solids.shapes;
+        if (mesh != nullptr) solids.triangles += mesh->triangles->triangles.size();
+      }
+    }
+  }
+  return solids;
 }
 
 }  // namespace gsv::app

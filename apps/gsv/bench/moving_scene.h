@@ -1,5 +1,5 @@
-// What `gsv bench camera` takes pictures of: robots that drive in circles about a world, in real
-// time, and the cameras that look at it.
+// What `gsv bench camera` and `gsv bench lidar` look at: robots that drive in circles about a
+// world, and the cameras that look at them.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,20 @@
 
 namespace gsv::app {
 
+struct MovingSceneOptions {
+  std::string world = "office";  // as of `gsv run`, or "square": that of the crowd, with a floor
+  std::string model = "b21r";
+  int robots = 50;
+  simulation::Mode mode = simulation::Mode::kRealTime;
+  // What stands still is collided with as it is drawn, mesh by mesh, instead of by the simpler
+  // shapes that stand for it.
+  bool collide_with_visuals = false;
+};
+
 struct MovingScene {
-  // `world` as of `gsv run`, or "square": that of the crowd, with a floor. Robots get the first
-  // free places on a spiral about the origin, on the square those of the crowd.
-  static base::Result<MovingScene> Create(const std::string& world, const std::string& model,
-                                          int robots);
+  // Robots get the first free places on a spiral about the origin, on the square those of the
+  // crowd.
+  static base::Result<MovingScene> Create(const MovingSceneOptions& options);
 
   // From the robots' heads, looking about; a robot with several cameras looks several ways.
   std::vector<rendering::CameraView> RobotViews(const world::Snapshot& snapshot, int count,
@@ -30,5 +39,10 @@ struct MovingScene {
 
 // Of all that can be seen.
 std::uint64_t TrianglesIn(const world::Layout& layout);
+// What rays can meet: the triangles of meshes, and the shapes that are none.
+struct Solids {
+  std::uint64_t triangles = 0, shapes = 0;
+};
+Solids SolidsIn(const world::Layout& layout);
 
 }  // namespace gsv::app

@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/bench/bench.h"
+#include "apps/gsv/bench/moving_scene.h"
+#include "apps/gsv/exit_code.h"
+#include "gsv/base/thread_team.h"
+
+namespace gsv::app {
+namespace {
+
+using Stopwatch = std::chrono::steady_clock;
+using Readings = std::vector<sensing::Reading>;
+
+// Where the robots' own drums are behind it.
+constexpr double kScannerHeight = 0.4;  // m
+
+struct LidarArguments {
+  int rays = 360;
+  double range = 10;  // m
+  int threads = 0;
+  MovingSceneOptions scene;
+  double duration = 5;  // s
+  bool json = false;
+};
+
+// Refuses scans of nothing, scans that were there before, and robots that stand still.
+class ScanCheck {
+ public:
+  base::Status Check(const world::Snapshot& snapshot, const std::vector<std::string>& robots,
+                     const Readings& scans) {
+    std::size_t moved = 0;
+    std::vector<geometry::Pose> poses;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      const auto body = static_cast<std::size_t>(snapshot.layout->Find(robots[i]));
+      poses.push_back(snapshot.state.bodies[body].world_from_model);
+      const auto hits = std::count_if(scans[i].values.begin(), scans[i].values.end(),
+                                      [](double range) { return std::isfinite(range); });
+      if (hits * 10 < static_cast<std::ptrdiff_t>(scans[i].values.size()))
+        return Fail("a scan is blank");
+      if (i > 0 && scans[i].values == scans[i - 1].values)
+        return Fail("two lidars' scans are the same");
+      const bool has_moved = i < last_.size() && !(poses[i] == poses_[i]);
+      moved += has_moved;
+      if (has_moved && last_[i].values == scans[i].values)
+        return Fail("a moving lidar's scan is the same as the one before");
+    }
+    if (!last_.empty() && 2 * moved < scans.size())
+      return Fail("more than half of the robots stand still; place fewer of them");
+    last_ = scans;
+    poses_ = std::move(poses);
+    return {};
+  }
+
+ private:
+  static base::Status Fail(const std::string& what) {
+    return base::Fail(base::ErrorCode::kUnavailable, what, "bench lidar");
+  }
+  Readings last_;
+  std::vector<geometry::Pose> poses_;  // of the same robots
+};
+
+struct ScanFigures {
+  std::uint64_t triangles = 0;
+  Solids solids;
+  std::int64_t scans = 0, rays = 0;
+  double wall = 0, processor = 0;  // s that readings took, ray scenes included
+  double least_processor = 1e9;    // s, of one instant
+  std::vector<double> instants;    // ms that the readings of one instant took
+};
+
+base::Result<std::unique_ptr<sensing::Sensor>> MakeLidar(const simulation::Simulation& simulation,
+                                                         const LidarArguments& arguments) {
+  model::SensorDescription description;
+  description.name = "scanner";
+  description.type = "lidar";
+  description.link_from_sensor.position.z = kScannerHeight;
+  description.parameters = {{"scan.horizontal.samples", static_cast<double>(arguments.rays)},
+                            {"range.max", arguments.range}};
+  return simulation.sensor_types().Find("lidar")->create(description);
+}
+
+// All robots' readings at one instant, as an exchange of each would take them.
+class Scanning {
+ public:
+  Scanning(const sensing::Sensor& lidar, std::vector<std::string> robots, base::ThreadTeam& team)
+      : lidar_(lidar), robots_(std::move(robots)), team_(team), readings_(robots_.size()) {}
+
+  const Readings& Scan(const std::shared_ptr<const world::Snapshot>& snapshot) {
+    const auto scene = rays_.At(snapshot, &team_);  // held until all have read
+    team_.Share(robots_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const sensing::Sampling sampling(snapshot, snapshot->layout->Find(robots_[i]), 1, rays_);
+        readings_[i] = *lidar_.Sample(sampling);
+      }
+    });
+    return readings_;
+  }
+
+ private:
+  const sensing::Sensor& lidar_;
+  const std::vector<std::string> robots_;
+  base::ThreadTeam& team_;
+  sensing::RaySceneCache rays_;
+  Readings readings_;
+};
+
+base::Result<std::shared_ptr<const world::Snapshot>> NextSnapshot(
+    simulation::Simulation& simulation, int steps) {
+  if (auto ok = simulation.Step(steps); !ok) return base::Fail(ok.error());
+  const auto phase = simulation.WaitForPhase(
+      {simulation::Phase::kPaused, simulation::Phase::kFailed}, std::chrono::seconds(10));
+  if (phase == simulation::Phase::kPaused) return simulation.snapshot();
+  return base::Fail(base::ErrorCode::kTimeout, "the simulation stands still", "bench lidar");
+}
+
+base::Result<ScanFigures> MeasureScans(const LidarArguments& arguments) {
+  auto scene = MovingScene::Create(arguments.scene);
+  if (!scene) return base::Fail(scene.error());
+  simulation::Simulation& simulation = *scene->simulation;
+  const auto lidar = MakeLidar(simulation, arguments);
+  if (!lidar) return base::Fail(lidar.error());
+  base::ThreadTeam team(arguments.threads);
+  Scanning scanning(**lidar, scene->robots, team);
+  ScanFigures figures;
+  figures.triangles = TrianglesIn(*simulation.snapshot()->layout);
+  figures.solids = SolidsIn(*simulation.snapshot()->layout);
+  ScanCheck check;
+  // What is done once for a world is not measured, and the robots get going.
+  constexpr int kStepsToBegin = 100;
+  for (int round = -1; figures.wall < arguments.duration; ++round) {
+    const auto snapshot = NextSnapshot(simulation, round < 0 ? kStepsToBegin : 1);
+    if (!snapshot) return base::Fail(snapshot.error());
+    const double processor_start = ProcessorTime();
+    const auto start = Stopwatch::now();
+    const Readings& scans = scanning.Scan(*snapshot);
+    const auto took = Stopwatch::now() - start;
+    const double processor = ProcessorTime() - processor_start;
+    if (auto ok = check.Check(**snapshot, scene->robots, scans); !ok) return base::Fail(ok.error());
+    if (round < 0) continue;
+    figures.wall += Seconds(took);
+    figures.processor += processor;
+    figures.least_processor = std::min(figures.least_processor, processor);
+    figures.instants.push_back(Milliseconds(took));
+    figures.scans += static_cast<std::int64_t>(scans.size());
+    for (const sensing::Reading& scan : scans) {
+      figures.rays += static_cast<std::int64_t>(scan.values.size());
+    }
+  }
+  return figures;
+}
+
+int RunLidarBench(LidarArguments arguments) {
+  if (arguments.threads == 0) arguments.threads = base::ThreadTeam::DefaultThreads();
+  const auto figures = MeasureScans(arguments);
+  if (!figures) return Complain(figures.error());
+  const nlohmann::ordered_json json{
+      {"world", arguments.scene.world},
+      {"robots", arguments.scene.robots},
+      {"rays", arguments.rays},
+      {"range_m", arguments.range},
+      {"triangles", figures->triangles},
+      {"solid_triangles", figures->solids.triangles},
+      {"solid_shapes", figures->solids.shapes},
+      {"threads", arguments.threads},
+      {"scans", figures->scans},
+      {"scans_per_s", static_cast<double>(figures->scans) / figures->wall},
+      {"rays_per_s", static_cast<double>(figures->rays) / figures->wall},
+      {"cpu_ns_a_ray", 1e9 * figures->processor / static_cast<double>(figures->rays)},
+      {"least_cpu_ns_a_ray",
+       1e9 * figures->least_processor / (arguments.scene.robots * arguments.rays)},
+      {"instant_p50_ms", QuantileOf(figures->instants, 0.5)},
+      {"instant_p99_ms", QuantileOf(figures->instants, 0.99)}};
+  if (arguments.json) {
+    std::printf("%s\n", json.dump().c_str());
+  } else {
+    for (const auto& [name, value] : json.items()) {
+      std::printf("%-18s %s\n", name.c_str(), value.dump().c_str());
+    }
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void AddLidarBench(const CommandLine& bench) {
+  CLI::App* command = bench.app.add_subcommand(
+      "lidar",
+      "Scans of robots that drive about, all robots' at each instant, each checked: rays and scans "
+      "a second, from the moved world to the reading; processor time a ray");
+  auto arguments = std::make_shared<LidarArguments>();
+  arguments->scene.mode = simulation::Mode::kLockstep;
+  command->add_option("--rays", arguments->rays, "of a scan, all around")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 100'000));
+  command->add_option("--range", arguments->range, "metres")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1000.0));
+  command->add_option("--robots", arguments->scene.robots)
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10'000));
+  command->add_option("--world", arguments->scene.world, "\"square\": that of bench crowd")
+      ->capture_default_str();
+  command->add_option("--model", arguments->scene.model)->capture_default_str();
+  command->add_flag("--meshes", arguments->scene.collide_with_visuals,
+                    "rays meet the world as it is drawn, instead of its collision shapes");
+  command->add_option("--threads", arguments->threads, "that read; 0: one a processor")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 64));
+  command->add_option("--duration", arguments->duration, "seconds of reading")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+  command->add_flag("--json", arguments->json, "one JSON object");
+  command->callback([arguments, bench] { bench.exit_code = RunLidarBench(*arguments); });
+}
+
+}  // namespace gsv::app
