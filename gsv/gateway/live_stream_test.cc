@@ -238,6 +238,24 @@ TEST_F(LiveStreamTest, PicturesComeAtMostFiveTimesASecond) {
   EXPECT_LE(client_->data(1).size(), 6u);
 }
 
+TEST_F(LiveStreamTest, WhatGoesWithPicturesComesWithoutThemAndWithEach) {
+  std::atomic<int> readings{0};
+  simulation_->set_on_watch([&](const std::string&) -> base::Status {
+    ++readings;
+    return {};
+  });
+  Round();
+  Subscribe(1, "/robot_0/camera/camera_info");
+  const auto info = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 1));
+  EXPECT_EQ(info.header.frame_id, "robot_0/camera");
+  EXPECT_EQ(readings, 0);  // no picture is taken for that
+  Subscribe(2, "/robot_0/camera");
+  const auto picture = Decoded<messages::sensor_msgs::CompressedImage>(RoundUntil(2, 1));
+  const auto beside = Decoded<messages::sensor_msgs::CameraInfo>(RoundUntil(1, 2));
+  EXPECT_EQ(beside.header.stamp.nanosec, picture.header.stamp.nanosec);
+  workers_.Stop();
+}
+
 TEST_F(LiveStreamTest, BeamsAreLinesFromTheSensorAsLongAsTheReading) {
   Subscribe(1, "/gsv/beams");
   const auto markers = Decoded<MarkerArray>(RoundUntil(1, 1)).markers;

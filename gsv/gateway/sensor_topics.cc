@@ -36,7 +36,10 @@ struct SensorTopics::Sensor {
   const std::string robot;
   const model::SensorDescription description;
   const sensing::SensorType* const type;
-  foxglove::ChannelId channel = 0;  // 0: none
+  std::string frame() const { return presentation::FrameOf(robot, description.name); }
+
+  foxglove::ChannelId channel = 0;            // 0: none
+  foxglove::ChannelId companion_channel = 0;  // the same
   Pacing pacing;
   std::optional<std::int64_t> asked_at_step;  // of the latest snapshot when it was last read
   std::atomic<bool> is_busy{false};
@@ -97,7 +100,9 @@ void SensorTopics::Withdraw(const Sensors& found) {
   for (const auto& [topic, sensor] : sensors_) {
     const auto still = found.find(topic);
     if (still != found.end() && still->second == sensor) continue;
-    if (sensor->channel != 0) gone.push_back(sensor->channel);
+    for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
+      if (channel != 0) gone.push_back(channel);
+    }
   }
   hub_->Unadvertise(gone);
   topics_ -= gone.size();
@@ -105,7 +110,7 @@ void SensorTopics::Withdraw(const Sensors& found) {
 
 void SensorTopics::Advertise(Sensors& found) {
   std::vector<foxglove::Channel> channels;
-  SensorList fresh;
+  std::vector<std::pair<std::shared_ptr<Sensor>, foxglove::ChannelId Sensor::*>> fresh;
   bool is_all = true;
   for (const auto& [topic, sensor] : found) {
     if (sensor->channel != 0 || sensor->type->schema == nullptr) continue;
@@ -114,12 +119,17 @@ void SensorTopics::Advertise(Sensors& found) {
       break;
     }
     channels.push_back(ChannelFor(topic, *sensor->type->schema));
-    fresh.push_back(sensor);
+    fresh.emplace_back(sensor, &Sensor::channel);
+    if (const auto& companion = sensor->type->companion) {
+      channels.push_back(ChannelFor(topic + "/" + companion->topic, *companion->schema));
+      fresh.emplace_back(sensor, &Sensor::companion_channel);
+    }
   }
   const std::vector<foxglove::ChannelId> ids = hub_->Advertise(std::move(channels));
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    fresh[i]->channel = ids[i];
-    hub_->SetPublishers(ids[i], {fresh[i]->robot});
+    const auto& [sensor, channel] = fresh[i];
+    (*sensor).*channel = ids[i];
+    hub_->SetPublishers(ids[i], {sensor->robot});
   }
   topics_ += ids.size();
   if (!is_all && !std::exchange(told_of_limit_, true)) {
@@ -132,6 +142,7 @@ void SensorTopics::Advertise(Sensors& found) {
 void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                            const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now) {
   PublishTransforms(*snapshot);
+  WelcomeToCompanions(*snapshot);
   PublishReadings(simulation, *snapshot, now);
   PublishBeams(simulation, snapshot, now);
 }
@@ -144,11 +155,26 @@ void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
   for (const auto& [topic, sensor] : sensors_) {
     const int body = snapshot.layout->Find(sensor->robot);
     if (body < 0) continue;
-    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description,
+    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description, *sensor->type,
                                         snapshot.state.time, message);
   }
   hub_->Publish(transforms_channel_, {Nanoseconds(snapshot.state.time), Encoded(message)});
   transforms_changed_ = false;
+}
+
+// What goes with readings is the same each time: who comes gets it, whether or not anybody wants
+// the readings.
+void SensorTopics::WelcomeToCompanions(const world::Snapshot& snapshot) {
+  sensing::Reading now;
+  now.step = snapshot.state.step;
+  now.time = snapshot.state.time;
+  for (const auto& [topic, sensor] : sensors_) {
+    if (sensor->companion_channel == 0 || !hub_->HasNewcomers(sensor->companion_channel)) continue;
+    const Hub::Message message{
+        Nanoseconds(now.time),
+        SharedBytes(sensor->type->companion->encode(sensor->description, now, sensor->frame()))};
+    hub_->Welcome(sensor->companion_channel, {&message, 1});
+  }
 }
 
 void SensorTopics::PublishReadings(const std::shared_ptr<simulation::Simulation>& simulation,
@@ -183,12 +209,16 @@ void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& senso
   }
   const bool is_new = sensor.published_step.exchange(reading->step) != reading->step;
   if (!is_new && !hub_->HasNewcomers(sensor.channel)) return;
-  const Hub::Message message{Nanoseconds(reading->time),
-                             SharedBytes(sensor.type->encode(
-                                 sensor.description, *reading,
-                                 presentation::FrameOf(sensor.robot, sensor.description.name)))};
+  const Hub::Message message{
+      Nanoseconds(reading->time),
+      SharedBytes(sensor.type->encode(sensor.description, *reading, sensor.frame()))};
   if (is_new) {
     hub_->Publish(sensor.channel, message);
+    if (sensor.companion_channel != 0 && hub_->IsSubscribed(sensor.companion_channel)) {
+      hub_->Publish(sensor.companion_channel, {Nanoseconds(reading->time),
+                                               SharedBytes(sensor.type->companion->encode(
+                                                   sensor.description, *reading, sensor.frame()))});
+    }
   } else {
     hub_->Welcome(sensor.channel, {&message, 1});
   }

@@ -46,6 +46,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   void Advertise(Sensors& found);
 
   void PublishTransforms(const world::Snapshot& snapshot);
+  void WelcomeToCompanions(const world::Snapshot& snapshot);
   void PublishReadings(const std::shared_ptr<simulation::Simulation>& simulation,
                        const world::Snapshot& snapshot, WallTime now);
   void PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,

@@ -92,8 +92,8 @@ messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
 }
 
 void AppendSensorTransform(const world::Layout& layout, int body,
-                           const model::SensorDescription& sensor, base::SimTime time,
-                           messages::tf2_msgs::TFMessage& message) {
+                           const model::SensorDescription& sensor, const sensing::SensorType& type,
+                           base::SimTime time, messages::tf2_msgs::TFMessage& message) {
   const world::Body& robot = layout.bodies[body];
   const model::Link& link = robot.model->links[sensor.link];
   const std::vector<int> moving = world::MovingLinks(*robot.model);
@@ -101,6 +101,11 @@ void AppendSensorTransform(const world::Layout& layout, int body,
   message.transforms.push_back(Stamped(
       moves ? FrameOf(robot.name, link.name) : robot.name, FrameOf(robot.name, sensor.name), time,
       moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
+  if (!type.companion) return;
+  const std::string frame = FrameOf(robot.name, sensor.name);
+  const geometry::Pose sensor_from_optical{{}, {0.5, -0.5, 0.5, -0.5}};
+  message.transforms.push_back(
+      Stamped(frame, frame + sensing::kOpticalFrame, time, sensor_from_optical));
 }
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
@@ -120,11 +125,6 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
   return message;
 }
 
-messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status) {
-  messages::gsv_msgs::SimulationStatus message;
-  message.stamp = messages::ToMessage(status.time);
-  message.step = StepNumber(status.step);
-  message.state = simulation::ToString(status.phase);
 messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
                                                      const world::Transmission& transmission) {
   const world::RadioMessage& sent = *transmission.message;
@@ -139,6 +139,11 @@ messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snap
   return message;
 }
 
+messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status) {
+  messages::gsv_msgs::SimulationStatus message;
+  message.stamp = messages::ToMessage(status.time);
+  message.step = StepNumber(status.step);
+  message.state = simulation::ToString(status.phase);
   message.mode = simulation::ToString(status.mode);
   message.real_time_factor = status.real_time_factor;
   message.target_factor = status.target_factor;

@@ -30,18 +30,19 @@ messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list);
 
-// Appends the transform of one sensor, against its robot or the moving link it sits on.
+// Appends the transform of one sensor, against its robot or the moving link it sits on; of a camera
+// that of its optical frame as well.
 void AppendSensorTransform(const world::Layout& layout, int body,
-                           const model::SensorDescription& sensor, base::SimTime time,
-                           messages::tf2_msgs::TFMessage& message);
+                           const model::SensorDescription& sensor, const sensing::SensorType& type,
+                           base::SimTime time, messages::tf2_msgs::TFMessage& message);
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
                                            const world::Contact& contact);
 
-messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
                                                      const world::Transmission& transmission);
 
+messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
 // What a robot's drive was told last, as `state`, at least a step later, shows it.

@@ -74,6 +74,16 @@ sensing::SensorType PixelCamera() {
     message.format = "jpeg";
     return sensing::Encoded(message);
   };
+  type.companion.emplace();
+  type.companion->topic = "camera_info";
+  type.companion->schema = &messages::SchemaOf<messages::sensor_msgs::CameraInfo>();
+  type.companion->encode = [](const model::SensorDescription&, const sensing::Reading& reading,
+                              const std::string& frame) {
+    messages::sensor_msgs::CameraInfo message;
+    message.header = sensing::HeaderOf(reading, frame);
+    message.width = 1;
+    return sensing::Encoded(message);
+  };
   return type;
 }
 
@@ -102,6 +112,11 @@ TEST_F(SimulationRecorderTest, PicturesCanBePng) {
   EXPECT_EQ(pictures[0].format, "png");
   EXPECT_EQ(pictures[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
   EXPECT_EQ(pictures[0].header.frame_id, "robot/eye");
+  // What goes with them comes with each, at its instant.
+  const auto infos = Read<messages::sensor_msgs::CameraInfo>("/robot/eye/camera_info");
+  ASSERT_EQ(infos.size(), pictures.size());
+  EXPECT_EQ(infos.back().header.stamp.nanosec, pictures.back().header.stamp.nanosec);
+  EXPECT_EQ(infos.back().width, 1u);
 }
 
 TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {

@@ -33,8 +33,9 @@ struct SensorTopics::Sensor {
   const sensing::SensorType* type = nullptr;
   std::unique_ptr<sensing::Sensor> sensor;
   Instants instants;
-  bool is_wanted = true;             // else it is read for its beams alone
-  std::optional<ChannelId> channel;  // once there was a reading
+  bool is_wanted = true;                       // else it is read for its beams alone
+  std::optional<ChannelId> channel;            // once there was a reading
+  std::optional<ChannelId> companion_channel;  // the same, where the type has one
   std::optional<sensing::Reading> newest;
   bool has_failed = false;
 };
@@ -91,6 +92,7 @@ std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
                                          is_wanted,
                                          {},
                                          {},
+                                         {},
                                          false});
 }
 
@@ -121,10 +123,27 @@ void SensorTopics::Sample(const std::string& topic, Sensor& sensor,
       return Complain(channel.error());
     }
     sensor.channel = *channel;
+    sensor.companion_channel = AddCompanion(topic, *sensor.type);
   }
   const std::vector<std::uint8_t> message = Encode(sensor, *reading);
   writer_.Write(*sensor.channel, reading->time, std::as_bytes(std::span(message)));
+  if (sensor.companion_channel) {
+    const std::vector<std::uint8_t> companion = sensor.type->companion->encode(
+        sensor.description, *reading, presentation::FrameOf(sensor.robot, sensor.description.name));
+    writer_.Write(*sensor.companion_channel, reading->time, std::as_bytes(std::span(companion)));
+  }
   sensor.newest = *std::move(reading);
+}
+
+std::optional<ChannelId> SensorTopics::AddCompanion(const std::string& topic,
+                                                    const sensing::SensorType& type) {
+  if (!type.companion) return std::nullopt;
+  const std::string companion = topic + "/" + type.companion->topic;
+  if (!options_.selection.Has(companion)) return std::nullopt;
+  const auto channel = writer_.AddChannel(companion, *type.companion->schema);
+  if (channel) return *channel;
+  Complain(channel.error());
+  return std::nullopt;
 }
 
 std::vector<std::uint8_t> SensorTopics::Encode(const Sensor& sensor,
@@ -150,7 +169,7 @@ void SensorTopics::WriteTransforms(const world::Snapshot& snapshot) {
   for (const auto& [topic, sensor] : sensors_) {
     const int body = snapshot.layout->Find(sensor->robot);
     if (body < 0) continue;
-    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description,
+    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description, *sensor->type,
                                         snapshot.state.time, message);
   }
   transforms_.Write(snapshot.state.time, message);

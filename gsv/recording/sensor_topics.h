@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -60,6 +61,9 @@ class SensorTopics {
                                const model::SensorDescription& description);
   void Sample(const std::string& topic, Sensor& sensor,
               const std::shared_ptr<const world::Snapshot>& snapshot, int body);
+  // The channel of what goes with the readings on `topic`; nothing where nothing does, or it is not
+  // selected.
+  std::optional<ChannelId> AddCompanion(const std::string& topic, const sensing::SensorType& type);
   std::vector<std::uint8_t> Encode(const Sensor& sensor, const sensing::Reading& reading) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);

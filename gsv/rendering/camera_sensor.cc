@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "gsv/messages/sensor_msgs.h"
+#include "gsv/rendering/camera_info.h"
 #include "gsv/rendering/exposure.h"
 #include "gsv/rendering/jpeg.h"
 #include "gsv/rendering/optics.h"
@@ -92,6 +93,7 @@ base::Status AddCameraSensor(sensing::SensorRegistry& registry,
     };
     type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
     type.encode = Encode;
+    type.companion = CameraInfoCompanion(lens_type);
     type.overlay = sensing::Overlay::kPicture;
     if (auto added = registry.Add(std::move(type)); !added) return added;
   }

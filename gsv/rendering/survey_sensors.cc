@@ -9,6 +9,7 @@
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/vision_msgs.h"
+#include "gsv/rendering/camera_info.h"
 #include "gsv/rendering/optics.h"
 #include "gsv/rendering/png.h"
 #include "gsv/sensing/noise.h"
@@ -279,6 +280,7 @@ base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererR
   boxes.overlay = sensing::Overlay::kLines;
   boxes.beams = BoxFrames;
   for (sensing::SensorType* type : {&depth, &segmentation, &boxes}) {
+    type->companion = CameraInfoCompanion();
     if (auto ok = registry.Add(std::move(*type)); !ok) return ok;
   }
   return {};

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,20 @@ struct Segment {
   geometry::Vector3 from, to;
 };
 
+// A message that goes with a reading and hangs on how the sensor is made, not on what it reads: how
+// a camera's picture is to be understood. On the topic /ROBOT/SENSOR/`topic`, at the reading's
+// instant.
+struct Companion {
+  std::string topic;
+  const messages::Schema* schema = nullptr;
+  std::function<std::vector<std::uint8_t>(const model::SensorDescription&, const Reading&,
+                                          const std::string& frame_id)>
+      encode;
+};
+
+// After a sensor's frame: that of its pictures, z along the view, x to the right, y down.
+inline constexpr const char* kOpticalFrame = "/optical";
+
 struct SensorType {
   std::string name;                  // the service's and the recording's name: "lidar"
   std::vector<std::string> aliases;  // further names in model files: "ray", "gpu_lidar"
@@ -35,6 +50,8 @@ struct SensorType {
   std::function<std::vector<std::uint8_t>(const model::SensorDescription&, const Reading&,
                                           const std::string& frame_id)>
       encode;
+
+  std::optional<Companion> companion;  // of cameras alone, which have an optical frame as well
 
   Overlay overlay = Overlay::kNone;
   // kLines and kPoints: the beams of a reading (a point is drawn at each beam's end).

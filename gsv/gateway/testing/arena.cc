@@ -6,6 +6,7 @@
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/time.h"
+#include "gsv/sensing/encoding.h"
 
 namespace gsv::gateway::testing {
 namespace {
@@ -162,6 +163,15 @@ sensing::SensorType GradientCameraType() {
   };
   type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
   type.encode = EncodeJpeg;
+  type.companion.emplace();
+  type.companion->topic = "camera_info";
+  type.companion->schema = &messages::SchemaOf<messages::sensor_msgs::CameraInfo>();
+  type.companion->encode = [](const model::SensorDescription&, const sensing::Reading& reading,
+                              const std::string& frame) {
+    messages::sensor_msgs::CameraInfo message;
+    message.header = sensing::HeaderOf(reading, frame);
+    return sensing::Encoded(message);
+  };
   type.overlay = sensing::Overlay::kPicture;
   return type;
 }
