@@ -47,11 +47,11 @@ base::Result<std::int64_t> NothingIn(const foxglove::ServiceCall& call) {
                     "this service's request is empty; what came is longer");
 }
 
-CommandServices::Response ResponseTo(const base::Status& done) {
+CommandServices::Response ResponseTo(const base::Result<std::string>& done) {
   CommandServices::Response bytes;
   messages::CdrWriter writer(bytes);
   writer.Write(done.has_value());
-  writer.Write(done ? std::string() : done.error().Sentence());
+  writer.Write(done ? *done : done.error().Sentence());
   return bytes;
 }
 

@@ -19,7 +19,8 @@ class CommandServices {
   struct Command {
     std::string name;
     bool takes_count = false;
-    std::function<base::Status(std::int64_t count)> run;
+    // Gives the response's message.
+    std::function<base::Result<std::string>(std::int64_t count)> run;
   };
   using Response = std::vector<std::byte>;
 

@@ -21,7 +21,7 @@ class LocalGateway final : public Gateway, private Handler {
         files_(options.web_root),
         api_(directory, &formats::WriteGlb, options.recordings),
         broker_(options.broker),
-        publisher_(std::move(directory), watchers_, commanders_) {}
+        publisher_(std::move(directory), watchers_, commanders_, options.recordings) {}
 
   ~LocalGateway() override { Stop(); }
 

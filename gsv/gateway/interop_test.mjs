@@ -22,7 +22,7 @@ const { WebSocket } = require("ws");
 const TURN_RATE = 0.2;
 const SONAR_X = 0.25;
 const CAPABILITIES = ["time", "connectionGraph", "services", "parameters", "parametersSubscribe"];
-const TOPICS = ["/clock", "/gsv/commands", "/gsv/poses", "/tf", "/tf_static", "/gsv/status", "/gsv/events", "/gsv/beams",
+const TOPICS = ["/clock", "/gsv/commands", "/gsv/contacts", "/gsv/poses", "/tf", "/tf_static", "/gsv/status", "/gsv/events", "/gsv/beams",
   "/robot_0/front_sonar", "/robot_0/lidar", "/robot_0/camera"];
 
 const seconds = (stamp) => stamp.sec + stamp.nsec * 1e-9;
@@ -131,6 +131,9 @@ async function checkParameters(watcher) {
   assert.equal(id, "a");
   assert.deepEqual(parameters, [{ name: "/gsv/name", value: "arena" },
     { name: "/gsv/step_size_s", value: 0.01, type: "float64" }]);
+  const set = watcher.next("parameterValues");
+  watcher.client.setParameters([{ name: "/gsv/factor", value: 2.5, type: "float64" }], "c");
+  assert.equal((await set).parameters[0].value, 2.5);
   let complaint = "";
   watcher.onStatus = (message) => { complaint = message; };
   const again = watcher.next("parameterValues");
@@ -199,6 +202,10 @@ async function check(origin, subprotocol) {
   const command = (await watcher.message("/gsv/commands")).message;
   assert.match(command.robot, /^robot_[0-2]$/);
   near(command.angular_rad_s, TURN_RATE, "turning rate");
+
+  const contact = await watcher.message("/gsv/contacts");
+  assert.deepEqual([contact.message.first, contact.message.second], ["robot_0", "avatar"]);
+  near(contact.message.point.x, robotPose(seconds(contact.message.stamp)).x, "where they met");
 
   const status = (await watcher.message("/gsv/status")).message;
   assert.equal(status.state, "running");

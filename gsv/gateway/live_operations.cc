@@ -10,13 +10,37 @@ namespace {
 
 using simulation::Simulation;
 
-std::vector<CommandServices::Command> CommandsOf(const std::weak_ptr<Simulation>& simulation) {
+constexpr const char* kFactor = "/gsv/factor";
+
+base::Result<std::string> Gone() {
+  return base::Fail(base::ErrorCode::kEnded, "the simulation is gone");
+}
+
+// Answers with where it is recorded.
+base::Result<std::string> Record(const std::shared_ptr<Simulation>& simulation,
+                                 RecordingSwitch& recordings, bool begins) {
+  const std::string& name = simulation->specification().name;
+  const base::Status done = begins ? recordings.Record(simulation) : recordings.StopRecording(name);
+  if (!done) return base::Fail(done.error());
+  return recordings.RecordingOf(name).path;
+}
+
+std::vector<CommandServices::Command> CommandsOf(const std::weak_ptr<Simulation>& simulation,
+                                                 RecordingSwitch* recordings) {
   std::vector<CommandServices::Command> commands;
   for (const SimulationCommand& command : SimulationCommands()) {
     commands.push_back({std::string(command.name), command.takes_count,
-                        [simulation, run = command.run](std::int64_t count) -> base::Status {
-                          if (const auto locked = simulation.lock()) return run(*locked, count);
-                          return base::Fail(base::ErrorCode::kEnded, "the simulation is gone");
+                        [simulation, run = command.run](std::int64_t count) {
+                          const auto locked = simulation.lock();
+                          return locked ? WithoutWords(run(*locked, count)) : Gone();
+                        }});
+  }
+  if (recordings == nullptr) return commands;
+  for (const bool begins : {true, false}) {
+    commands.push_back({begins ? "start_recording" : "stop_recording", false,
+                        [simulation, recordings, begins](std::int64_t) {
+                          const auto locked = simulation.lock();
+                          return locked ? Record(locked, *recordings, begins) : Gone();
                         }});
   }
   return commands;
@@ -27,7 +51,6 @@ std::vector<foxglove::Parameter> ParametersOf(const Simulation& simulation) {
   return {{"/gsv/name", specification.name},
           {"/gsv/world", specification.world->name},
           {"/gsv/mode", std::string(ToString(specification.mode))},
-          {"/gsv/factor", specification.factor},
           // As a text: a number of JSON need not have so many digits.
           {"/gsv/seed", std::to_string(specification.seed)},
           {"/gsv/duration_s", base::ToSeconds(specification.duration)},
@@ -38,10 +61,12 @@ std::vector<foxglove::Parameter> ParametersOf(const Simulation& simulation) {
 
 }  // namespace
 
-LiveOperations::LiveOperations(const std::shared_ptr<Simulation>& simulation, WorkerPool& workers)
+LiveOperations::LiveOperations(const std::shared_ptr<Simulation>& simulation, WorkerPool& workers,
+                               RecordingSwitch* recordings)
     : simulation_(simulation),
       workers_(workers),
-      services_(CommandsOf(simulation)),
+      recordings_(recordings),
+      services_(CommandsOf(simulation, recordings)),
       fixed_(ParametersOf(*simulation)) {}
 
 void LiveOperations::Call(const foxglove::ServiceCall& call, Answer answer) {
@@ -58,11 +83,17 @@ std::vector<foxglove::Parameter> LiveOperations::parameters() const {
   if (const auto simulation = simulation_.lock()) {
     const simulation::Phase phase = simulation->WaitForPhase({}, std::chrono::milliseconds(0));
     parameters.push_back({"/gsv/phase", std::string(ToString(phase))});
+    parameters.push_back({kFactor, simulation->factor()});
+    if (recordings_ != nullptr) {
+      const std::string& name = simulation->specification().name;
+      parameters.push_back({"/gsv/recording", recordings_->RecordingOf(name).is_recording});
+    }
   }
   return parameters;
 }
 
 base::Status LiveOperations::Set(const foxglove::Parameter& parameter) {
+  if (parameter.name == kFactor) return SetFactor(parameter.value);
   const std::vector<foxglove::Parameter> all = parameters();
   const bool is_known = std::any_of(all.begin(), all.end(),
                                     [&](const auto& each) { return each.name == parameter.name; });
@@ -71,6 +102,16 @@ base::Status LiveOperations::Set(const foxglove::Parameter& parameter) {
                     is_known
                         ? "the parameter " + name + " cannot be changed while a simulation runs"
                         : "there is no parameter " + name);
+}
+
+base::Status LiveOperations::SetFactor(const foxglove::ParameterValue& value) {
+  const auto* factor = std::get_if<double>(&value);
+  if (factor == nullptr) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the parameter '/gsv/factor' must be a number");
+  }
+  const auto simulation = simulation_.lock();
+  return simulation ? simulation->SetFactor(*factor) : base::Fail(Gone().error());
 }
 
 }  // namespace gsv::gateway

@@ -1,5 +1,5 @@
-// What the viewers of a running simulation can do: its commands as services; how it was set up, to
-// look at.
+// What the viewers of a running simulation can do: its commands, and to record it, as services; how
+// it was set up, to look at, and its real-time factor to change.
 //
 // Threads  any.
 #pragma once
@@ -8,6 +8,7 @@
 
 #include "gsv/gateway/command_services.h"
 #include "gsv/gateway/operations.h"
+#include "gsv/gateway/ports.h"
 #include "gsv/gateway/worker_pool.h"
 #include "gsv/simulation/simulation.h"
 
@@ -16,8 +17,9 @@ namespace gsv::gateway {
 class LiveOperations final : public Operations {
  public:
   // Commands, which may block, run on `workers`, which outlive the last call. Does not keep the
-  // simulation alive.
-  LiveOperations(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& workers);
+  // simulation alive. `recordings` may be null: then nothing is recorded.
+  LiveOperations(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& workers,
+                 RecordingSwitch* recordings);
 
   std::vector<foxglove::Service> services() const override { return services_.list(); }
   void Call(const foxglove::ServiceCall& call, Answer answer) override;
@@ -25,8 +27,11 @@ class LiveOperations final : public Operations {
   base::Status Set(const foxglove::Parameter& parameter) override;
 
  private:
+  base::Status SetFactor(const foxglove::ParameterValue& value);
+
   const std::weak_ptr<simulation::Simulation> simulation_;
   WorkerPool& workers_;
+  RecordingSwitch* const recordings_;
   const CommandServices services_;
   const std::vector<foxglove::Parameter> fixed_;  // parameters
 };

@@ -34,13 +34,15 @@ Hub::Message MessageOf(const simulation::Event& event) {
 }  // namespace
 
 LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation,
-                       WorkerPool& watchers, WorkerPool& commanders,
+                       WorkerPool& watchers, WorkerPool& commanders, RecordingSwitch* recordings,
                        std::function<void()> on_demand)
-    : hub_(std::make_shared<Hub>(InfoOf(*simulation), std::move(on_demand),
-                                 std::make_shared<LiveOperations>(simulation, commanders))),
+    : hub_(std::make_shared<Hub>(
+          InfoOf(*simulation), std::move(on_demand),
+          std::make_shared<LiveOperations>(simulation, commanders, recordings))),
       status_pacing_(kStatusRate),
       refresh_pacing_(kRefreshRate),
-      commands_(hub_) {
+      commands_(hub_),
+      contacts_(hub_) {
   const std::vector<foxglove::ChannelId> channels =
       hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
                        ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
@@ -58,6 +60,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
 }
 
 void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now) {
+  contacts_.Publish(*simulation);
   if (!hub_->has_clients()) return;
   const SnapshotPointer snapshot = simulation->snapshot();
   FollowLayout(*simulation, *snapshot, now);

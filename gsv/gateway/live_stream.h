@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "gsv/gateway/command_topic.h"
+#include "gsv/gateway/contact_topic.h"
 #include "gsv/gateway/hub.h"
 #include "gsv/gateway/pacing.h"
+#include "gsv/gateway/ports.h"
 #include "gsv/gateway/sensor_topics.h"
 #include "gsv/presentation/pose_list.h"
 
@@ -22,9 +24,10 @@ inline constexpr double kRoundRate = 30;
 class LiveStream {
  public:
   // Keeps the simulation alive only while a round or a reading is under way. `on_demand`: see Hub.
-  // Readings are taken on `watchers`, commands obeyed on `commanders`.
+  // Readings are taken on `watchers`, commands obeyed on `commanders`. `recordings` may be null:
+  // then viewers cannot have it recorded.
   LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& watchers,
-             WorkerPool& commanders, std::function<void()> on_demand);
+             WorkerPool& commanders, RecordingSwitch* recordings, std::function<void()> on_demand);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
@@ -71,6 +74,7 @@ class LiveStream {
   Pacing refresh_pacing_;
   std::weak_ptr<const world::Snapshot> time_of_;  // the last whose time was published
   CommandTopic commands_;
+  ContactTopic contacts_;
   std::shared_ptr<SensorTopics> sensors_;
 };
 

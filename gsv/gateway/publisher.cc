@@ -11,10 +11,11 @@ constexpr double kDirectoryRate = 2;  // Hz: how soon it is seen that a simulati
 }  // namespace
 
 Publisher::Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
-                     WorkerPool& commanders)
+                     WorkerPool& commanders, RecordingSwitch* recordings)
     : directory_(std::move(directory)),
       watchers_(watchers),
       commanders_(commanders),
+      recordings_(recordings),
       directory_pacing_(kDirectoryRate) {
   thread_ = std::thread([this] { Run(); });
 }
@@ -26,8 +27,8 @@ std::shared_ptr<Hub> Publisher::HubOf(const std::shared_ptr<simulation::Simulati
   for (const Entry& entry : entries_) {
     if (entry.simulation.lock() == simulation) return entry.stream->hub();
   }
-  auto stream =
-      std::make_shared<LiveStream>(simulation, watchers_, commanders_, [this] { Wake(); });
+  auto stream = std::make_shared<LiveStream>(simulation, watchers_, commanders_, recordings_,
+                                             [this] { Wake(); });
   if (is_stopping_) stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
   entries_.push_back({simulation->specification().name, simulation, stream});
   return stream->hub();
@@ -84,8 +85,8 @@ bool Publisher::Round() {
   bool is_watched = false;
   for (const Entry& entry : Entries()) {
     const std::shared_ptr<simulation::Simulation> simulation = entry.simulation.lock();
-    if (!simulation || !entry.stream->hub()->has_clients()) continue;
-    is_watched = true;
+    if (!simulation) continue;
+    is_watched = is_watched || entry.stream->hub()->has_clients();
     entry.stream->Round(simulation, now);
   }
   return is_watched;

@@ -16,10 +16,10 @@ namespace gsv::gateway {
 
 class Publisher {
  public:
-  // Readings are taken on `watchers`, viewers' commands obeyed on `commanders`; both outlive the
-  // publisher and all its streams.
+  // Readings are taken on `watchers`, viewers' commands obeyed on `commanders`; both, and
+  // `recordings`, which may be null, outlive the publisher and all its streams.
   Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
-            WorkerPool& commanders);
+            WorkerPool& commanders, RecordingSwitch* recordings);
   ~Publisher();
 
   // The hub of a simulation, made when it is first asked for.
@@ -46,6 +46,7 @@ class Publisher {
   const std::shared_ptr<SimulationDirectory> directory_;
   WorkerPool& watchers_;
   WorkerPool& commanders_;
+  RecordingSwitch* const recordings_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Entry> entries_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gsv/gateway/replay_player.h"
+#include "gsv/gateway/simulation_commands.h"
 
 namespace gsv::gateway {
 namespace {
@@ -16,14 +17,15 @@ using simulation::Phase;
 std::vector<CommandServices::Command> CommandsOf(ReplayPlayer& player) {
   const auto rewind = [&player](std::int64_t) {
     player.Rewind();
-    return base::Status();
+    return std::string();
   };
-  return {{"start", false, [&player](std::int64_t) { return player.Start(); }},
-          {"pause", false, [&player](std::int64_t) { return player.Pause(); }},
-          {"resume", false, [&player](std::int64_t) { return player.Resume(); }},
-          {"stop", false, rewind},
-          {"reset", false, rewind},
-          {"step", true, [&player](std::int64_t count) { return player.Step(count); }}};
+  return {
+      {"start", false, [&player](std::int64_t) { return WithoutWords(player.Start()); }},
+      {"pause", false, [&player](std::int64_t) { return WithoutWords(player.Pause()); }},
+      {"resume", false, [&player](std::int64_t) { return WithoutWords(player.Resume()); }},
+      {"stop", false, rewind},
+      {"reset", false, rewind},
+      {"step", true, [&player](std::int64_t count) { return WithoutWords(player.Step(count)); }}};
 }
 
 PlaybackState::Status StatusOf(Phase phase) {

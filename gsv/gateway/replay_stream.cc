@@ -57,6 +57,7 @@ ReplayStream::ReplayStream(const recording::McapReader& reader, const std::strin
 
 void ReplayStream::Advertise(const recording::Summary& summary) {
   static const std::map<std::string, Kind> kKinds{{"/gsv/events", Kind::kEvents},
+                                                  {"/gsv/contacts", Kind::kEvents},
                                                   {"/gsv/status", Kind::kStatus},
                                                   {"/clock", Kind::kClock},
                                                   {"/gsv/poses", Kind::kPoses}};

@@ -219,22 +219,23 @@ class CommandServicesTest : public ::testing::Test {
   }
 
   std::int64_t count_ = -1;
-  const CommandServices services_{{{"pause", false,
-                                    [this](std::int64_t) {
-                                      count_ = 0;
-                                      return base::Status();
-                                    }},
-                                   {"step", true, [this](std::int64_t count) -> base::Status {
-                                      count_ = count;
-                                      return base::Fail(base::ErrorCode::kNotRunning, "no");
-                                    }}}};
+  const CommandServices services_{
+      {{"pause", false,
+        [this](std::int64_t) {
+          count_ = 0;
+          return std::string("well");
+        }},
+       {"step", true, [this](std::int64_t count) -> base::Result<std::string> {
+          count_ = count;
+          return base::Fail(base::ErrorCode::kNotRunning, "no");
+        }}}};
 };
 
 TEST_F(CommandServicesTest, ATriggerTakesNothingHoweverNothingIsWritten) {
   for (const std::string nothing :
        {std::string(), std::string("\0\1\0\0", 4), std::string("\0\1\0\0\0", 5)}) {
     count_ = -1;
-    EXPECT_EQ((*Prepare(1, nothing))().size(), 4u + 1 + 3 + 5);  // true, and an empty string
+    EXPECT_EQ((*Prepare(1, nothing))().size(), 4u + 1 + 3 + 4 + 5);  // true, and "well"
     EXPECT_EQ(count_, 0);
   }
   EXPECT_FALSE(Prepare(1, std::string("\0\1\0\0 too much", 13)));

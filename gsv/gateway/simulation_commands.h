@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "gsv/simulation/simulation.h"
@@ -17,6 +18,12 @@ struct SimulationCommand {
 
 // start, pause, resume, stop, reset, step. May block: a reset calls behaviours.
 std::span<const SimulationCommand> SimulationCommands();
+
+// As a service answers: with nothing, where all is well.
+inline base::Result<std::string> WithoutWords(const base::Status& done) {
+  if (!done) return base::Fail(done.error());
+  return std::string();
+}
 
 // Null if there is none of that name.
 const SimulationCommand* FindSimulationCommand(std::string_view name);

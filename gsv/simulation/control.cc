@@ -19,6 +19,12 @@ int ThreadsFor(const Specification& specification) {
   return specification.mode == Mode::kRealTime ? 1 : base::ThreadTeam::DefaultThreads();
 }
 
+base::Status CheckFactor(double factor, const std::string& name) {
+  if (factor > 0 && factor <= 1e6) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "the real-time factor must lie above 0 and not above 1e6", name);
+}
+
 }  // namespace
 
 base::Result<std::shared_ptr<Simulation>> Simulation::Create(
@@ -30,11 +36,8 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the step must lie between 1 microsecond and 10 s", specification.name);
   }
-  if (!(specification.factor > 0) || !(specification.factor <= 1e6)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the real-time factor must lie above 0 and not above 1e6",
-                      specification.name);
-  }
+  if (auto ok = CheckFactor(specification.factor, specification.name); !ok)
+    return base::Fail(ok.error());
   std::vector<world::Body> bodies;
   for (const model::PlacedModel& placed : specification.world->models) {
     world::Body body;
@@ -83,6 +86,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       layout_(std::move(layout)),
       state_(world::InitialState(*layout_)),
       pacer_(step_, specification_.factor),
+      factor_(specification_.factor),
       caller_(kCallingThreads) {
   wheel_odometry_.SetLayout(*layout_);
   for (const world::Body& body : layout_->bodies) {
@@ -313,6 +317,30 @@ base::Status SteppingSimulation::Reset() {
   return {};
 }
 
+base::Status SteppingSimulation::SetFactor(double factor) {
+  if (auto ok = CheckFactor(factor, specification_.name); !ok) return ok;
+  const std::lock_guard lock(shared_->mutex);
+  if (shared_->mode == Mode::kLockstep) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "in lockstep a simulation goes as fast as it can, so that there is no factor "
+                      "to set",
+                      specification_.name);
+  }
+  if (factor == factor_) return {};
+  factor_ = factor;
+  pacer_.SetFactor(factor);
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", factor);
+  AddEvent("factor_set", {}, text);
+  shared_->changed.notify_all();
+  return {};
+}
+
+double SteppingSimulation::factor() const {
+  const std::lock_guard lock(shared_->mutex);
+  return factor_;
+}
+
 void SteppingSimulation::TellBehaviours(const char* what, base::Status (BehaviourPort::*call)()) {
   const std::lock_guard lock(shared_->mutex);
   for (const AgentPtr& agent : AgentsWithBehaviour()) {
@@ -331,13 +359,13 @@ SimulationStatus SteppingSimulation::status() const {
   status.name = specification_.name;
   status.mode = specification_.mode;
   status.step_size = step_;
-  status.target_factor = specification_.factor;
   {
     const std::lock_guard lock(events_mutex_);
     status.events = events_dropped_ + events_.size();
   }
   const std::lock_guard lock(shared_->mutex);
   const auto snapshot = shared_->history.latest();
+  status.target_factor = factor_;
   status.phase = shared_->phase;
   status.step = snapshot->state.step;
   status.time = snapshot->state.time;

@@ -1,10 +1,23 @@
 #include "gsv/simulation/pacer.h"
 
-namespace gsv::simulation {
+#include <utility>
 
-Pacer::Pacer(base::SimTime step, double factor)
-    : period_(std::chrono::duration_cast<WallDuration>(
-          std::chrono::duration<double, std::nano>(static_cast<double>(step.count()) / factor))) {}
+namespace gsv::simulation {
+namespace {
+
+WallDuration PeriodOf(base::SimTime step, double factor) {
+  return std::chrono::duration_cast<WallDuration>(
+      std::chrono::duration<double, std::nano>(static_cast<double>(step.count()) / factor));
+}
+
+}  // namespace
+
+Pacer::Pacer(base::SimTime step, double factor) : step_(step), period_(PeriodOf(step, factor)) {}
+
+void Pacer::SetFactor(double factor) {
+  const WallDuration before = std::exchange(period_, PeriodOf(step_, factor));
+  due_ += period_ - before;
+}
 
 void Pacer::Restart(WallTime now) { due_ = now; }
 

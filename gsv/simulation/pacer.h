@@ -15,6 +15,8 @@ class Pacer {
  public:
   // `factor` simulated seconds pass in one wall second, > 0.
   Pacer(base::SimTime step, double factor);
+  // From now on; the step that is due next comes as long after the one before it.
+  void SetFactor(double factor);
 
   // The schedule starts (again) now: the next step is due at once.
   void Restart(WallTime now);
@@ -25,6 +27,7 @@ class Pacer {
   void ResetLateSteps() { late_steps_ = 0; }
 
  private:
+  base::SimTime step_;
   WallDuration period_;
   WallTime due_{};
   std::uint64_t late_steps_ = 0;

@@ -35,5 +35,18 @@ TEST(Pacer, ALaterStepIsCountedAndShiftsTheScheduleWithoutABurst) {
   EXPECT_EQ(pacer.late_steps(), 1u);
 }
 
+TEST(Pacer, AnotherFactorHoldsFromTheStepThatIsDueNext) {
+  Pacer pacer(milliseconds(10), 0.001);  // a step each ten seconds
+  const WallTime start = WallNow();
+  pacer.Restart(start);
+  EXPECT_FALSE(pacer.StepStarts(start));
+  EXPECT_EQ(pacer.due(), start + milliseconds(10'000));
+  pacer.SetFactor(2);
+  EXPECT_EQ(pacer.due(), start + milliseconds(5));
+  EXPECT_FALSE(pacer.StepStarts(start + milliseconds(5)));
+  EXPECT_EQ(pacer.due(), start + milliseconds(10));
+  EXPECT_EQ(pacer.late_steps(), 0u);
+}
+
 }  // namespace
 }  // namespace gsv::simulation

@@ -93,6 +93,11 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // Back to the start: bodies, time, behaviours (initialised anew). Blocks while these answer.
   virtual base::Status Reset() = 0;
 
+  // In real time: how many simulated seconds pass in a wall second, from the next step on; above 0,
+  // at most 1e6. It outlives a reset. Lockstep has no factor and refuses. Returns at once.
+  virtual base::Status SetFactor(double factor) = 0;
+  virtual double factor() const = 0;
+
   virtual const Specification& specification() const = 0;
   virtual SimulationStatus status() const = 0;
   virtual std::shared_ptr<const world::Snapshot> snapshot() const = 0;  // the latest; never null

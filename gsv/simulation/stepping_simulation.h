@@ -53,6 +53,8 @@ class SteppingSimulation final : public Simulation {
   base::Status RunUntil(SimTime until) override;
   base::Status Stop() override;
   base::Status Reset() override;
+  base::Status SetFactor(double factor) override;
+  double factor() const override;
 
   const Specification& specification() const override { return specification_; }
   SimulationStatus status() const override;
@@ -177,6 +179,7 @@ class SteppingSimulation final : public Simulation {
   std::string failure_;
   std::string final_hash_;  // of a run that finished
   Pacer pacer_;
+  double factor_;  // of the pacer
   RunStatistics statistics_;
 
   mutable std::mutex events_mutex_;

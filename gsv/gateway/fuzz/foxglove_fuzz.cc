@@ -42,7 +42,7 @@ std::string Unescaped(std::string_view line) {
 void TellHub(std::string_view lines) {
   static const auto simulation = std::make_shared<gateway::testing::ScriptedSimulation>("arena", 1);
   static WorkerPool workers(1, 1);
-  static const auto operations = std::make_shared<LiveOperations>(simulation, workers);
+  static const auto operations = std::make_shared<LiveOperations>(simulation, workers, nullptr);
   Hub hub(
       {"fuzz", {}, {}, "1"}, [] {}, operations);
   const auto client = std::make_shared<CountingClient>();

@@ -19,14 +19,22 @@ namespace {
 using gsv::gateway::testing::ScriptedSimulation;
 using gsv::gateway::testing::SimulationList;
 
-// Time passes while the simulation runs.
+constexpr std::int64_t kStepsBetweenMeetings = 50;
+
+// Time passes while the simulation runs, and twice a second two meet.
 void Drive(const std::shared_ptr<ScriptedSimulation>& simulation, std::stop_token stop) {
   const auto step = std::chrono::milliseconds(10);
   auto next = std::chrono::steady_clock::now();
   while (!stop.stop_requested()) {
     next += step;
     std::this_thread::sleep_until(next);
-    if (simulation->status().phase == gsv::simulation::Phase::kRunning) simulation->Advance(step);
+    const gsv::simulation::SimulationStatus status = simulation->status();
+    if (status.phase != gsv::simulation::Phase::kRunning) continue;
+    if (status.robots.size() > 1 && status.step % kStepsBetweenMeetings == 0) {
+      simulation->Meet("robot_0", "avatar");
+    } else {
+      simulation->Advance(step);
+    }
   }
 }
 

@@ -167,6 +167,25 @@ void ScriptedSimulation::Tell(const std::string& robot, const world::DriveComman
   PublishSnapshot();
 }
 
+// Of all that happens observers are told only of this.
+void ScriptedSimulation::Meet(const std::string& first, const std::string& second) {
+  Advance(specification_.world->max_step_size);
+  const std::lock_guard lock(mutex_);
+  auto snapshot = std::make_shared<world::Snapshot>(*snapshot_);
+  world::Contact contact;
+  contact.first = layout_->Find(first);
+  contact.second = layout_->Find(second);
+  contact.point = snapshot->state.bodies[contact.first].world_from_model.position;
+  contact.normal = {1, 0, 0};
+  contact.began = true;
+  contact.closing_speed = 0.5;
+  world::Contact lasting = contact;
+  lasting.began = false;
+  snapshot->contacts = {contact, lasting};
+  snapshot_ = snapshot;
+  for (const auto& observer : observers_) observer->OnSnapshot(snapshot_);
+}
+
 void ScriptedSimulation::AddOneRobot() {
   const std::lock_guard lock(mutex_);
   ++robots_;
@@ -231,6 +250,16 @@ base::Status ScriptedSimulation::Step(std::int64_t count) {
   Advance(count * specification_.world->max_step_size);
   return {};
 }
+base::Status ScriptedSimulation::SetFactor(double factor) {
+  if (!(factor > 0)) return base::Fail(ErrorCode::kInvalidArgument, "the factor must be above 0");
+  const std::lock_guard lock(mutex_);
+  factor_ = factor;
+  return {};
+}
+double ScriptedSimulation::factor() const {
+  const std::lock_guard lock(mutex_);
+  return factor_;
+}
 base::Status ScriptedSimulation::RunUntil(base::SimTime) { return Refused(); }
 
 base::Result<std::vector<std::string>> ScriptedSimulation::AddRobots(
@@ -259,6 +288,7 @@ simulation::SimulationStatus ScriptedSimulation::status() const {
   status.step = snapshot_->state.step;
   status.time = time_;
   status.step_size = specification_.world->max_step_size;
+  status.target_factor = factor_;
   status.real_time_factor = phase_ == Phase::kRunning ? 1 : 0;
   status.events = events_.size();
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
@@ -341,8 +371,17 @@ std::vector<simulation::Event> ScriptedSimulation::events(std::uint64_t first) c
   return {events_.begin() + static_cast<std::ptrdiff_t>(begin), events_.end()};
 }
 
-// Nobody observes here: the gateway looks, and is not called.
-void ScriptedSimulation::AddObserver(std::shared_ptr<simulation::Observer>) {}
-void ScriptedSimulation::RemoveObserver(const std::shared_ptr<simulation::Observer>&) {}
+void ScriptedSimulation::AddObserver(std::shared_ptr<simulation::Observer> observer) {
+  const std::lock_guard lock(mutex_);
+  observers_.push_back(std::move(observer));
+}
+void ScriptedSimulation::RemoveObserver(const std::shared_ptr<simulation::Observer>& observer) {
+  const std::lock_guard lock(mutex_);
+  std::erase(observers_, observer);
+}
+std::size_t ScriptedSimulation::observers() const {
+  const std::lock_guard lock(mutex_);
+  return observers_.size();
+}
 
 }  // namespace gsv::gateway::testing

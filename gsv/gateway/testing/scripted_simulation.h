@@ -25,6 +25,9 @@ class ScriptedSimulation final : public simulation::Simulation {
   static world::DriveCommand CommandOf(int robot);
   // What the latest snapshot, and those after it, show of a robot's drive.
   void Tell(const std::string& robot, const world::DriveCommand& command, base::SimTime time);
+  // Two bodies meet, a step later, where the first stands.
+  void Meet(const std::string& first, const std::string& second);
+  std::size_t observers() const;
   // One robot more, at the end of the list: the layout changes.
   void AddOneRobot();
   // A sensor more on a robot, as by its behaviour: the layout does not change.
@@ -50,6 +53,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Status RunUntil(base::SimTime until) override;
   base::Status Stop() override;
   base::Status Reset() override;
+  base::Status SetFactor(double factor) override;
+  double factor() const override;
   const simulation::Specification& specification() const override { return specification_; }
   simulation::SimulationStatus status() const override;
   std::shared_ptr<const world::Snapshot> snapshot() const override;
@@ -90,6 +95,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   std::map<std::string, std::vector<model::SensorDescription>> mounted_;
   std::map<std::string, world::DriveState> told_;  // by robot
   std::function<base::Status(const std::string&)> on_watch_;
+  std::vector<std::shared_ptr<simulation::Observer>> observers_;
+  double factor_ = 1;
 };
 
 }  // namespace gsv::gateway::testing

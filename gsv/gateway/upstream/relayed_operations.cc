@@ -34,8 +34,8 @@ base::Result<std::string> FirstSimulation(const Address& address) {
   return base::Fail(base::ErrorCode::kNotFound, "there is no simulation", address.Url());
 }
 
-base::Status Command(const Address& address, std::string simulation, const std::string& command,
-                     std::int64_t count) {
+base::Result<std::string> Command(const Address& address, std::string simulation,
+                                  const std::string& command, std::int64_t count) {
   if (simulation.empty()) {
     auto first = FirstSimulation(address);
     if (!first) return base::Fail(first.error());
@@ -44,7 +44,7 @@ base::Status Command(const Address& address, std::string simulation, const std::
   const auto answer = Ask(address, "POST", "/api/simulations/" + Escape(simulation) + "/" + command,
                           nlohmann::json{{"count", count}}.dump());
   if (!answer) return base::Fail(answer.error());
-  if (answer->status == 200) return {};
+  if (answer->status == 200) return std::string();
   const auto json = nlohmann::json::parse(answer->body.view(), nullptr, false);
   const auto sentence = json.is_object() ? json.find("error") : json.end();
   const bool has_sentence = json.is_object() && sentence != json.end() && sentence->is_string();

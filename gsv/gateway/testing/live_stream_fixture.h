@@ -1,0 +1,61 @@
+// For tests of a simulation's live stream.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "gsv/gateway/live_stream.h"
+#include "gsv/gateway/testing/recording_client.h"
+#include "gsv/gateway/testing/scripted_simulation.h"
+
+namespace gsv::gateway::testing {
+
+// One robot on a circle of radius 1 at 0.2 rad/s, and wall time that a test lets pass.
+class LiveStreamTest : public ::testing::Test {
+ protected:
+  void SetUp() override { stream_.hub()->Add(client_); }
+  void TearDown() override { workers_.Stop(); }
+
+  void Round(std::chrono::milliseconds later = std::chrono::milliseconds(34)) {
+    now_ += later;
+    stream_.Round(simulation_, now_);
+  }
+
+  void Subscribe(foxglove::SubscriptionId id, const std::string& topic) {
+    Subscribe(*client_, id, topic);
+  }
+  void Subscribe(RecordingClient& client, foxglove::SubscriptionId id, const std::string& topic) {
+    const foxglove::ChannelId channel = client.ChannelOf(topic);
+    ASSERT_NE(channel, 0u) << topic;
+    ASSERT_TRUE(stream_.hub()->Receive(&client, SubscribeText(id, channel)));
+  }
+
+  // For what workers do: rounds until that many messages of the subscription have come.
+  ReceivedData RoundUntil(foxglove::SubscriptionId id, std::size_t count) {
+    while (client_->data(id).size() < count) {
+      Round(std::chrono::milliseconds(1));
+      std::this_thread::yield();
+    }
+    return client_->data(id)[count - 1];
+  }
+
+  std::size_t Complaints(const std::string& sentence) const {
+    const auto texts = client_->texts();
+    return static_cast<std::size_t>(
+        std::count_if(texts.begin(), texts.end(),
+                      [&](const auto& text) { return text.value("message", "") == sentence; }));
+  }
+
+  WallTime now_{};
+  WorkerPool workers_{1, 8};
+  std::shared_ptr<ScriptedSimulation> simulation_ =
+      std::make_shared<ScriptedSimulation>("arena", 1);
+  LiveStream stream_{simulation_, workers_, workers_, nullptr, [] {}};
+  std::shared_ptr<RecordingClient> client_ = std::make_shared<RecordingClient>();
+};
+
+}  // namespace gsv::gateway::testing
