@@ -24,6 +24,11 @@ scenario::Place SpiralPlace(int n) {
   return {0.7 * turns * std::cos(angle), 0.7 * turns * std::sin(angle), {}, angle};
 }
 
+void Stand(const scenario::Place& place, RobotSpecification& robot) {
+  robot.world_from_robot = place.pose();
+  robot.on_ground = !place.z;
+}
+
 // What is there under this name stays what it is from another folder.
 std::string Whole(const std::string& name) {
   std::error_code ignored;
@@ -111,11 +116,6 @@ class Population {
     return robot;
   }
 
-  static void Stand(const scenario::Place& place, RobotSpecification& robot) {
-    robot.world_from_robot = place.pose();
-    robot.on_ground = !place.z;
-  }
-
   // All at once: a crowd is not put together robot by robot.
   base::Status PlaceThoseWithAPlace() {
     std::vector<RobotSpecification> robots;
@@ -141,20 +141,18 @@ class Population {
   base::Status Place(scenario::RobotEntry entry, bool is_avatar) {
     auto robot = Specify(entry, is_avatar);
     if (!robot) return base::Fail(robot.error());
-    const bool has_place = entry.start.has_value();
-    base::Result<std::string> name;
-    for (int n = 0; n < (has_place ? 1 : kPlacesTried); ++n) {
-      if (!has_place) {
-        entry.start = SpiralPlace(n);
-        Stand(*entry.start, *robot);
-      }
-      name = simulation_.AddRobot(*robot);
-      if (name) break;
-    }
-    if (!name) return base::Fail(name.error());
-    entry.name = *name;
     entry.movement = robot->movement;
-    if (!is_avatar) wanted_[*name] = BehaviourOf(options_, *name, entry.behaviour);
+    if (entry.start) {
+      auto name = simulation_.AddRobot(*std::move(robot));
+      if (!name) return base::Fail(name.error());
+      entry.name = *std::move(name);
+    } else {
+      auto placed = AddAtFreePlace(simulation_, *std::move(robot));
+      if (!placed) return base::Fail(placed.error());
+      entry.name = std::move(placed->name);
+      entry.start = placed->place;
+    }
+    if (!is_avatar) wanted_[entry.name] = BehaviourOf(options_, entry.name, entry.behaviour);
     (is_avatar ? avatars_ : robots_).push_back(std::move(entry));
     return {};
   }
@@ -224,6 +222,18 @@ class Population {
 };
 
 }  // namespace
+
+base::Result<PlacedRobot> AddAtFreePlace(Simulation& simulation, RobotSpecification robot) {
+  base::Error refusal;
+  for (int n = 0; n < kPlacesTried; ++n) {
+    const scenario::Place place = SpiralPlace(n);
+    Stand(place, robot);
+    auto name = simulation.AddRobot(robot);
+    if (name) return PlacedRobot{*std::move(name), place};
+    refusal = name.error();
+  }
+  return base::Fail(refusal);
+}
 
 base::Result<scenario::Scenario> Populate(Runtime& runtime, Simulation& simulation,
                                           const RunOptions& options, base::Problems& problems) {

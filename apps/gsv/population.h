@@ -11,4 +11,13 @@ namespace gsv::app {
 base::Result<scenario::Scenario> Populate(Runtime& runtime, simulation::Simulation& simulation,
                                           const RunOptions& options, base::Problems& problems);
 
+struct PlacedRobot {
+  std::string name;
+  scenario::Place place;
+};
+
+// Adds a robot at the first free place of a spiral about the origin.
+base::Result<PlacedRobot> AddAtFreePlace(simulation::Simulation& simulation,
+                                         simulation::RobotSpecification robot);
+
 }  // namespace gsv::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "apps/gsv/running_instances.h"
 #include "gsv/broker/client/broker_client.h"
@@ -18,6 +19,7 @@ constexpr std::chrono::milliseconds kBrokerTimeout{3000};
 // Stopping and resetting wait for behaviours, which have 10 s for each call.
 constexpr std::chrono::milliseconds kCallTimeout{30'000};
 constexpr std::size_t kMaxServers = 1000;
+constexpr std::size_t kMaxInstances = 64;  // that are asked at the same time
 
 std::string TextOf(const broker::PropertyList& properties, const char* name) {
   const broker::Value* value = properties.Find(name);
@@ -44,7 +46,8 @@ bool IsMeant(const Selection& selection, const RemoteServer& server) {
 }
 
 base::Status AddSimulationsOf(const RemoteServer& server, CORBA::Object_ptr object,
-                              const Selection& selection, std::vector<RemoteSimulation>& found) {
+                              const Selection& selection, std::vector<RemoteSimulation>& found,
+                              std::chrono::milliseconds call_timeout = kCallTimeout) {
   orb::LimitCalls(object, kBrokerTimeout);
   return orb::Call(server.Describe(), [&] {
     const sba::SimulationService_var service = sba::SimulationService::_narrow(object);
@@ -54,7 +57,7 @@ base::Status AddSimulationsOf(const RemoteServer& server, CORBA::Object_ptr obje
       RemoteSimulation simulation;
       simulation.server = server;
       simulation.reference = sba::Simulation::_duplicate(simulations.in()[i]);
-      orb::LimitCalls(simulation.reference, kCallTimeout);
+      orb::LimitCalls(simulation.reference, call_timeout);
       const sba::SimulationState_var state = simulation.reference->state();
       simulation.status = services::FromIdl(state.in());
       if (selection.simulation.empty() || selection.simulation == simulation.status.name)
@@ -133,6 +136,32 @@ base::Error NoSuchSimulation(const Selection& selection) {
 
 }  // namespace
 
+base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
+                                                        const std::string& broker) {
+  auto client = broker::BrokerClient::Connect(orb, broker, kBrokerTimeout);
+  if (!client) return base::Fail(client.error());
+  const auto offers =
+      client->Query(broker::SimulationServiceType().name, "", "first", kMaxInstances);
+  if (!offers) {
+    if (offers.error().code == base::ErrorCode::kNotFound) return std::vector<RemoteInstance>();
+    return base::Fail(offers.error());
+  }
+  std::vector<RemoteInstance> instances(offers->size());
+  std::vector<std::jthread> askers;
+  for (std::size_t i = 0; i < offers->size(); ++i) {
+    askers.emplace_back([&instance = instances[i], &offer = (*offers)[i], &broker] {
+      instance.server = ServerFrom(offer.properties, broker);
+      std::vector<RemoteSimulation> found;
+      const auto ok = AddSimulationsOf(instance.server, offer.object, {}, found, kBrokerTimeout);
+      if (!ok) instance.problem = ok.error().Sentence();
+      for (RemoteSimulation& simulation : found)
+        instance.simulations.push_back(std::move(simulation.status));
+    });
+  }
+  askers.clear();  // each ends by its time-outs
+  return instances;
+}
+
 base::Result<std::vector<RemoteSimulation>> FindSimulations(const Selection& selection,
                                                             std::vector<std::string>& silent) {
   std::vector<RemoteSimulation> found;
@@ -165,6 +194,37 @@ base::Result<RemoteSimulation> FindOneSimulation(const Selection& selection) {
                           NamesOf(*found));
   }
   return std::move(found->front());
+}
+
+base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
+  const bool is_named = !selection.broker.empty();
+  const auto brokers = is_named ? std::vector<std::string>{selection.broker} : BrokersOfInstances();
+  std::vector<RemoteServer> found;
+  auto orb = orb::StartOrb({});
+  if (!orb) return base::Fail(orb.error());
+  for (const std::string& broker : brokers) {
+    auto client = broker::BrokerClient::Connect(*orb, broker, kBrokerTimeout);
+    const auto offers =
+        client ? client->Query(broker::SimulationServiceType().name, "", "first", kMaxServers)
+               : base::Fail(client.error());
+    if (!offers && is_named) return base::Fail(offers.error());
+    if (!offers) continue;  // of one's own instances some may just have ended
+    for (const broker::FoundOffer& offer : *offers) {
+      RemoteServer server = ServerFrom(offer.properties, client->reference());
+      if (IsMeant(selection, server)) found.push_back(std::move(server));
+    }
+  }
+  if (found.empty()) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "no such instance is offered; see `gsv ps`, or name its broker with --broker",
+                      selection.server);
+  }
+  if (found.size() > 1 && !selection.server.empty()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "several instances have that name; name one by its HOST:PID",
+                      selection.server);
+  }
+  return std::move(found.front());
 }
 
 base::Result<simulation::SimulationStatus> StatusOf(const RemoteSimulation& simulation) {

@@ -44,6 +44,22 @@ base::Result<std::vector<RemoteSimulation>> FindSimulations(const Selection& sel
 // The one that is meant. When nothing narrows the choice: that of the newest instance.
 base::Result<RemoteSimulation> FindOneSimulation(const Selection& selection);
 
+// The instance that is meant, whether or not it runs a simulation. When nothing narrows the choice:
+// the newest of this user's.
+base::Result<RemoteServer> FindOneInstance(const Selection& selection);
+
+// A server that a broker knows, and what runs there.
+struct RemoteInstance {
+  RemoteServer server;
+  std::vector<simulation::SimulationStatus> simulations;
+  std::string problem;  // why nothing is known of them; empty: all is well
+};
+
+// Asks all servers that are offered at a broker, at most 64, at the same time. Takes a few seconds
+// where some do not answer. May be called from any thread.
+base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
+                                                        const std::string& broker);
+
 base::Result<simulation::SimulationStatus> StatusOf(const RemoteSimulation& simulation);
 
 }  // namespace gsv::app

@@ -7,7 +7,9 @@
 
 #include "apps/gsv/broker_page.h"
 #include "apps/gsv/installation.h"
+#include "apps/gsv/instances_page.h"
 #include "apps/gsv/recordings.h"
+#include "apps/gsv/simulation_builder.h"
 #include "gsv/base/log.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/client/gsv_service_types.h"
@@ -57,6 +59,9 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
   runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);
   runtime->launcher_ = std::make_unique<BehaviourLauncher>(*runtime->broker_);
+  runtime->builder_ =
+      std::make_unique<SimulationBuilder>(*runtime->host_, *runtime->behaviours_, *runtime->broker_,
+                                          *runtime->recordings_, options.model_path);
   if (options.viewer) {
     if (auto ok = runtime->StartGateway(options); !ok) return base::Fail(ok.error());
   }
@@ -100,9 +105,14 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway::GatewayOptions gateway;
   gateway.port = static_cast<std::uint16_t>(options.port);
   gateway.web_root = ShareFolder() / "web";
-  gateway.broker = [page = std::make_shared<const BrokerPage>(orb_, broker_->reference())](
-                       const gateway::Request& request) { return page->Handle(request); };
+  gateway.pages["broker"] = [page = std::make_shared<const BrokerPage>(orb_, broker_->reference())](
+                                const gateway::Request& request) { return page->Handle(request); };
+  gateway.pages["instances"] =
+      [page = std::make_shared<InstancesPage>(orb_, broker_->reference(),
+                                              HostName() + ":" + std::to_string(getpid()))](
+          const gateway::Request& request) { return page->Handle(request); };
   gateway.recordings = recordings_.get();
+  gateway.factory = builder_.get();
   auto directory = std::make_shared<HostDirectory>(host_);
   auto started = gateway::Gateway::Start(gateway, directory);
   if (!started && !options.port_given) {
@@ -137,6 +147,7 @@ base::Status Runtime::OfferService(const std::string& name) {
   const PortableServer::POA_var poa = orb::RootPoa(orb_);
   service_ = new services::SimulationServiceServant(poa, *host_, behaviours_.get(), Hooks());
   for (const auto& simulation : host_->List()) service_->Publish(simulation);
+  builder_->OfferThrough(service_);
   const PortableServer::ObjectId_var id = poa->activate_object(service_);
   const CORBA::Object_var reference = poa->id_to_reference(id);
   if (auto ok = broker_->EnsureServiceType(broker::SimulationServiceType()); !ok) return ok;
@@ -162,6 +173,7 @@ Runtime::~Runtime() {
   record_.reset();
   if (!service_offer_.empty()) (void)broker_->Withdraw(service_offer_);  // the broker may be gone
   gateway_.reset();
+  builder_.reset();
   if (host_ != nullptr) {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();
   }

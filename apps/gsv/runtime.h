@@ -25,6 +25,7 @@ class Gateway;
 namespace gsv::app {
 
 class Recordings;
+class SimulationBuilder;
 
 struct RuntimeOptions {
   std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
@@ -65,6 +66,7 @@ class Runtime {
   std::unique_ptr<Recordings> recordings_;
   std::unique_ptr<services::BrokerBehaviours> behaviours_;
   std::unique_ptr<BehaviourLauncher> launcher_;
+  std::unique_ptr<SimulationBuilder> builder_;
   std::unique_ptr<gateway::Gateway> gateway_;
   std::string viewer_url_;
   PortableServer::Servant_var<services::SimulationServiceServant> service_;

@@ -50,16 +50,48 @@ Response Drive(const Simulation& simulation, const std::string& robot, const std
 }  // namespace
 
 Api::Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
-         RecordingSwitch* recordings)
-    : directory_(std::move(directory)), models_(std::move(write_glb)), recordings_(recordings) {}
+         RecordingSwitch* recordings, SimulationFactory* factory)
+    : directory_(std::move(directory)), models_(std::move(write_glb)), recordings_(recordings) {
+  if (factory != nullptr) factory_.emplace(*factory, models_);
+}
 
 Response Api::Handle(const Request& request) {
   const std::vector<std::string>& path = request.target.segments;
   if (path.size() < 2) return NoSuchAddress();
-  if (path[1] == "models") return Model(request);
-  if (path[1] != "simulations") return NoSuchAddress();
-  if (path.size() > 2) return OfSimulation(request);
-  return request.method == "GET" ? List() : MethodNotAllowed("GET");
+  const bool is_get = request.method == "GET";
+  if (path[1] == "models" && path.size() > 2) return Model(request);
+  if (path[1] == "simulations" && path.size() > 2) return OfSimulation(request);
+  if (path.size() > 2) return NoSuchAddress();
+  if (path[1] == "simulations" && is_get) return List();
+  if (path[1] == "server") return is_get ? Server() : MethodNotAllowed("GET");
+  return OfFactory(request);
+}
+
+Response Api::Server() const {
+  const auto text = [](bool value) { return value ? "true" : "false"; };
+  return JsonResponse(200, std::string(R"({"creates":)") + text(factory_.has_value()) +
+                               R"(,"records":)" + text(recordings_ != nullptr) + "}");
+}
+
+Response Api::OfFactory(const Request& request) const {
+  const std::string& what = request.target.segments[1];
+  const bool is_post = request.method == "POST";
+  if (!factory_) {
+    if (what == "simulations") return MethodNotAllowed("GET");
+    return NoSuchAddress();
+  }
+  if (what == "simulations") {
+    return is_post ? factory_->Create(request.body) : MethodNotAllowed("GET, POST");
+  }
+  if (what == "preview") {
+    return is_post ? factory_->Preview(request.body) : MethodNotAllowed("POST");
+  }
+  const bool is_list = what == "worlds" || what == "models" || what == "behaviours";
+  if (is_list && request.method != "GET") return MethodNotAllowed("GET");
+  if (what == "worlds") return factory_->Worlds();
+  if (what == "models") return factory_->Models();
+  if (what == "behaviours") return factory_->Behaviours(request.target);
+  return NoSuchAddress();
 }
 
 Response Api::List() const {
@@ -75,8 +107,15 @@ Response Api::OfSimulation(const Request& request) {
   const SimulationPointer simulation = directory_->Find(path[2]);
   if (!simulation) return ErrorResponse(404, "there is no simulation '" + path[2] + "'");
   const bool is_get = request.method == "GET";
-  if (path.size() == 3) return is_get ? StatusOf(*simulation) : MethodNotAllowed("GET");
-  if (path.size() > 4) return OfRobot(request, simulation);
+  if (path.size() == 3) {
+    if (request.method == "DELETE" && factory_) return factory_->Destroy(path[2]);
+    return is_get ? StatusOf(*simulation) : MethodNotAllowed(factory_ ? "GET, DELETE" : "GET");
+  }
+  if (path.size() > 4) return OfBody(request, simulation);
+  if (path[3] == "robots" && factory_) {
+    return request.method == "POST" ? factory_->AddRobot(simulation, request.body)
+                                    : MethodNotAllowed("POST");
+  }
   if (path[3] == "scene") return is_get ? Scene(*simulation) : MethodNotAllowed("GET");
   if (path[3] == "recording") return Recording(request, simulation);
   const SimulationCommand* command = FindSimulationCommand(path[3]);
@@ -103,11 +142,22 @@ Response Api::Recording(const Request& request, const SimulationPointer& simulat
   return JsonResponse(200, RecordingJson(recordings_->RecordingOf(name)));
 }
 
-Response Api::OfRobot(const Request& request, const SimulationPointer& simulation) const {
+// Below /api/simulations/NAME: robots/ROBOT, robots/ROBOT/drive and bodies/BODY/place.
+Response Api::OfBody(const Request& request, const SimulationPointer& simulation) const {
   const std::vector<std::string>& path = request.target.segments;
-  if (path.size() != 6 || path[3] != "robots" || path[5] != "drive") return NoSuchAddress();
-  if (request.method != "POST") return MethodNotAllowed("POST");
-  return Drive(*simulation, path[4], request.body);
+  const bool is_post = request.method == "POST";
+  if (path.size() == 5 && path[3] == "robots") {
+    return request.method == "DELETE" ? RemoveRobot(*simulation, path[4])
+                                      : MethodNotAllowed("DELETE");
+  }
+  if (path.size() != 6) return NoSuchAddress();
+  if (path[3] == "robots" && path[5] == "drive") {
+    return is_post ? Drive(*simulation, path[4], request.body) : MethodNotAllowed("POST");
+  }
+  if (path[3] == "bodies" && path[5] == "place") {
+    return is_post ? PlaceBody(*simulation, path[4], request.body) : MethodNotAllowed("POST");
+  }
+  return NoSuchAddress();
 }
 
 Response Api::Scene(const Simulation& simulation) {

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "gsv/gateway/factory_api.h"
 #include "gsv/gateway/http.h"
 #include "gsv/gateway/model_store.h"
 #include "gsv/gateway/ports.h"
@@ -14,9 +16,9 @@ namespace gsv::gateway {
 
 class Api {
  public:
-  // `recordings` may be null; else it outlives this.
+  // `recordings` and `factory` may be null; else they outlive this.
   Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
-      RecordingSwitch* recordings = nullptr);
+      RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr);
 
   // `request.target` begins with "api".
   Response Handle(const Request& request);
@@ -24,9 +26,11 @@ class Api {
  private:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
 
+  Response Server() const;
+  Response OfFactory(const Request& request) const;
   Response List() const;
   Response OfSimulation(const Request& request);
-  Response OfRobot(const Request& request, const SimulationPointer& simulation) const;
+  Response OfBody(const Request& request, const SimulationPointer& simulation) const;
   Response Scene(const simulation::Simulation& simulation);
   Response Recording(const Request& request, const SimulationPointer& simulation) const;
   Response Model(const Request& request);
@@ -34,6 +38,7 @@ class Api {
   const std::shared_ptr<SimulationDirectory> directory_;
   ModelStore models_;
   RecordingSwitch* const recordings_;
+  std::optional<FactoryApi> factory_;
 };
 
 }  // namespace gsv::gateway

@@ -150,7 +150,7 @@ TEST_F(ApiTest, ARobotWithABehaviourIsNotDriven) {
 TEST_F(ApiTest, UnknownAddressesAndMethods) {
   for (const char* target :
        {"/api", "/api/robots", "/api/simulations/other", "/api/simulations/first%20light/fly",
-        "/api/simulations/first%20light/robots/avatar",
+        "/api/simulations/first%20light/robots/avatar/fly",
         "/api/simulations/first%20light/robots/avatar/drive/x", "/api/models", "/api/models/0123",
         "/api/models/0123.glb"}) {
     EXPECT_TRUE(AskJson("GET", target, 404).contains("error")) << target;
@@ -159,6 +159,7 @@ TEST_F(ApiTest, UnknownAddressesAndMethods) {
   EXPECT_EQ(Ask("DELETE", path_).status, 405);
   EXPECT_EQ(Ask("GET", path_ + "/start").allow, "POST");
   EXPECT_EQ(Ask("POST", path_ + "/scene").allow, "GET");
+  EXPECT_EQ(Ask("GET", path_ + "/robots/avatar").allow, "DELETE");
 }
 
 TEST_F(ApiTest, TheSceneDescribesWhatStandsThere) {

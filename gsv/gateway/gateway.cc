@@ -19,8 +19,8 @@ class LocalGateway final : public Gateway, private Handler {
   LocalGateway(const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory)
       : directory_(directory),
         files_(options.web_root),
-        api_(directory, &formats::WriteGlb, options.recordings),
-        broker_(options.broker),
+        api_(directory, &formats::WriteGlb, options.recordings, options.factory),
+        pages_(options.pages),
         publisher_(std::move(directory), watchers_, commanders_, options.recordings) {}
 
   ~LocalGateway() override { Stop(); }
@@ -46,7 +46,8 @@ class LocalGateway final : public Gateway, private Handler {
  private:
   void Handle(Request request, Respond respond) override {
     // What commands may block (a reset calls behaviours), and must not hold up those who look.
-    WorkerPool& workers = request.method == "GET" ? readers_ : commanders_;
+    const bool only_looks = request.method == "GET" || request.raw_target == "/api/preview";
+    WorkerPool& workers = only_looks ? readers_ : commanders_;
     const bool accepted =
         workers.Submit([this, respond, request = std::move(request)] { respond(Answer(request)); });
     if (!accepted) respond(ErrorResponse(503, "the server is busy; try again in a moment"));
@@ -54,8 +55,9 @@ class LocalGateway final : public Gateway, private Handler {
 
   Response Answer(const Request& request) {
     const std::vector<std::string>& path = request.target.segments;
-    if (broker_ && path.size() > 1 && path[0] == "api" && path[1] == "broker") {
-      return broker_(request);
+    if (path.size() > 1 && path[0] == "api") {
+      if (const auto page = pages_.find(path[1]); page != pages_.end())
+        return page->second(request);
     }
     if (!path.empty() && path[0] == "api") return api_.Handle(request);
     if (request.method != "GET") return MethodNotAllowed("GET");
@@ -85,7 +87,7 @@ class LocalGateway final : public Gateway, private Handler {
   const std::shared_ptr<SimulationDirectory> directory_;
   StaticFiles files_;
   Api api_;
-  const std::function<Response(const Request&)> broker_;
+  const std::map<std::string, std::function<Response(const Request&)>> pages_;
   WorkerPool readers_{2, kWaitingRequests};
   WorkerPool commanders_{2, kWaitingRequests};
   WorkerPool watchers_{2, kWaitingReadings};

@@ -6,12 +6,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "gsv/gateway/http.h"
 #include "gsv/gateway/ports.h"
 #include "gsv/gateway/server.h"
+#include "gsv/gateway/simulation_factory.h"
 
 namespace gsv::gateway {
 
@@ -19,8 +21,10 @@ struct GatewayOptions : ServerOptions {
   std::filesystem::path web_root;  // the viewer's files; may be absent
   // Null: nothing is recorded. Outlives the gateway.
   RecordingSwitch* recordings = nullptr;
-  // Answers what is below /api/broker; empty: nothing is there.
-  std::function<Response(const Request&)> broker{};
+  // Null: nobody can create a simulation here. Outlives the gateway.
+  SimulationFactory* factory = nullptr;
+  // By NAME: who answers what is at and below /api/NAME.
+  std::map<std::string, std::function<Response(const Request&)>> pages{};
 };
 
 class Gateway {

@@ -106,6 +106,10 @@ Response ReplayApi::Handle(const Request& request) {
   if (path.size() < 2) return NoSuchAddress();
   const bool is_get = request.method == "GET";
   if (path[1] == "models") return is_get ? Model(request) : MethodNotAllowed("GET");
+  if (path[1] == "server" && path.size() == 2) {
+    return is_get ? JsonResponse(200, R"({"creates":false,"records":false})")
+                  : MethodNotAllowed("GET");
+  }
   if (path[1] != "simulations") return NoSuchAddress();
   if (path.size() > 2) return OfSimulation(request);
   if (!is_get) return MethodNotAllowed("GET");

@@ -28,6 +28,12 @@ class SimulationHost {
   // empty name is chosen, a taken one is an error. What the files lack is added to `problems`.
   base::Result<std::shared_ptr<simulation::Simulation>> Create(
       simulation::Specification specification, const std::string& world, base::Problems& problems);
+  // In no list, and of no effect on the names that are taken: to be looked at.
+  // `specification.world` is given.
+  base::Result<std::shared_ptr<simulation::Simulation>> CreateUnlisted(
+      simulation::Specification specification) const {
+    return simulation::Simulation::Create(std::move(specification), sensors_);
+  }
   // Removes it from the list; it ends when nobody holds it any more.
   base::Status Remove(const std::string& name);
 

@@ -197,7 +197,8 @@ void SimulationServant::stop_recording() {
   orb::ValueOrThrow(service_.hooks().stop_recording(simulation_->specification().name));
 }
 
-void SimulationServant::destroy() { service_.Destroy(*this); }
+// One that is destroyed already stays so.
+void SimulationServant::destroy() { (void)service_.Destroy(simulation_->specification().name); }
 
 SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
                                                    SimulationHost& host,
@@ -245,6 +246,10 @@ sba::Simulation_ptr SimulationServiceServant::Activate(
 }
 
 void SimulationServiceServant::Publish(std::shared_ptr<simulation::Simulation> simulation) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (servants_.contains(simulation->specification().name)) return;
+  }
   auto specification = ToIdl(simulation->specification());
   const sba::Simulation_var reference = Activate(std::move(simulation), std::move(specification));
 }
@@ -270,16 +275,22 @@ sba::Simulations* SimulationServiceServant::list() {
   return simulations;
 }
 
-void SimulationServiceServant::Destroy(SimulationServant& servant) {
-  const std::string name = servant.simulation()->specification().name;
+base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
+  SimulationServant* servant = nullptr;  // whoever takes it from the list lets go of it
   {
     const std::lock_guard lock(mutex_);
-    if (servants_.erase(name) == 0) return;  // destroyed already
+    const auto found = servants_.extract(simulation);
+    if (found.empty()) {
+      return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of that name",
+                        simulation);
+    }
+    servant = found.mapped();
   }
-  (void)servant.simulation()->Stop();
-  (void)host_.Remove(name);
-  const PortableServer::ObjectId_var id = poa_->servant_to_id(&servant);
+  (void)servant->simulation()->Stop();
+  (void)host_.Remove(simulation);
+  const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
   poa_->deactivate_object(id);
+  return {};
 }
 
 void SimulationServiceServant::StopAbandoned() {

@@ -78,11 +78,12 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   sba::Simulation_ptr create_simulation(const sba::SimulationSpecification& specification) override;
   sba::Simulations* list() override;
 
-  // Puts a simulation that was not created through this service into its list.
+  // Puts a simulation that was not created through this service into its list; once is enough.
   void Publish(std::shared_ptr<simulation::Simulation> simulation);
   // Lets go of every simulation; calls on their references find nothing any more.
   void Close();
-  void Destroy(SimulationServant& servant);
+  // kNotFound when there is none of that name, or none any more.
+  base::Status Destroy(const std::string& simulation);
   SimulationHost& host() { return host_; }
   BehaviourSource* behaviours() { return behaviours_; }
   const ServiceHooks& hooks() const { return hooks_; }

@@ -1,0 +1,85 @@
+// Puts together the simulations that people ask for over HTTP: worlds and models from files,
+// behaviours from the broker.
+//
+// Threads  any. Several may be under way at once.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/recordings.h"
+#include "gsv/gateway/simulation_factory.h"
+#include "gsv/services/broker_behaviours.h"
+#include "gsv/services/simulation_host.h"
+#include "gsv/services/simulation_servant.h"
+
+namespace gsv::app {
+
+class SimulationBuilder final : public gateway::SimulationFactory {
+ public:
+  // All outlive it. `model_path`: folders whose models are shown besides ours.
+  SimulationBuilder(services::SimulationHost& host, services::BrokerBehaviours& behaviours,
+                    broker::BrokerClient& broker, Recordings& recordings,
+                    std::vector<std::filesystem::path> model_path)
+      : host_(host),
+        behaviours_(behaviours),
+        broker_(broker),
+        recordings_(recordings),
+        model_path_(std::move(model_path)) {}
+
+  // What is created from now on is in that service's list as well; null: no longer.
+  void OfferThrough(services::SimulationServiceServant* service);
+
+  std::vector<std::string> Worlds() override;
+  std::vector<ModelLine> Models() override;
+  base::Result<Behaviours> FindBehaviours(const std::string& constraint) override;
+  gateway::FieldResult<Preview> Show(const gateway::SimulationRequest& request) override;
+  gateway::FieldResult<std::shared_ptr<simulation::Simulation>> Create(
+      const gateway::SimulationRequest& request) override;
+  base::Status Destroy(const std::string& simulation) override;
+  gateway::FieldResult<std::string> AddRobot(
+      const std::shared_ptr<simulation::Simulation>& simulation, const gateway::RobotRequest& robot,
+      bool is_avatar) override;
+
+ private:
+  using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+  // A world that was read lately: whoever fills a world with robots asks for it again and again.
+  struct KnownWorld {
+    std::string file;
+    std::filesystem::file_time_type changed;
+    std::shared_ptr<const model::WorldDescription> world;
+    std::vector<std::string> warnings;
+  };
+
+  gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
+  // Adds the robots and avatars, without behaviours; what the files lack to `warnings`. Gives the
+  // names of the robots, in order.
+  gateway::FieldResult<std::vector<std::string>> Populate(simulation::Simulation& simulation,
+                                                          const gateway::SimulationRequest& request,
+                                                          std::vector<std::string>& warnings);
+  gateway::FieldResult<std::vector<std::string>> Place(
+      simulation::Simulation& simulation, const std::vector<gateway::RobotRequest>& robots,
+      bool are_avatars, std::vector<std::string>& warnings);
+  gateway::FieldResult<simulation::RobotSpecification> Specify(
+      const simulation::Simulation& simulation, const gateway::RobotRequest& request,
+      bool is_avatar, std::vector<std::string>& warnings);
+  gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
+      const gateway::RobotRequest& robot);
+  tl::expected<void, gateway::FieldError> GiveBehaviours(
+      simulation::Simulation& simulation, const std::vector<gateway::RobotRequest>& robots,
+      const std::vector<std::string>& names);
+
+  services::SimulationHost& host_;
+  services::BrokerBehaviours& behaviours_;
+  broker::BrokerClient& broker_;
+  Recordings& recordings_;
+  const std::vector<std::filesystem::path> model_path_;
+  std::mutex mutex_;
+  std::vector<KnownWorld> known_;  // the newest last
+  services::SimulationServiceServant* service_ = nullptr;
+};
+
+}  // namespace gsv::app

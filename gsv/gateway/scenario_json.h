@@ -1,0 +1,29 @@
+// Scenarios as requests carry them: JSON with the keys of docs/formats/scenario.md that a person
+// sets in the viewer.
+//
+// Errors  kInvalidArgument with the field; unknown keys are refused, since a misspelt one would be
+//         left out silently.
+// Bounded so many robots and characters as no person types.
+#pragma once
+
+#include <string_view>
+
+#include "gsv/gateway/simulation_factory.h"
+
+namespace gsv::gateway {
+
+// {name, world, mode: real_time|lockstep, factor, step, duration, seed, record, robots, avatars};
+// times in seconds; only the world is needed.
+FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
+
+struct RobotToAdd : RobotRequest {
+  bool is_avatar = false;
+};
+// {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar, avatar};
+// only the model is needed, and x and y go together.
+FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body);
+
+// {x, y, z, yaw}; x and y are needed.
+FieldResult<Place> ParsePlace(std::string_view body);
+
+}  // namespace gsv::gateway
