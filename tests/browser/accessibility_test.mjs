@@ -81,6 +81,29 @@ test("the viewer, with all its panels, and the sheet of keys", async () => {
   await page.close();
 });
 
+test("editing, and putting another simulation together", async () => {
+  const page = await openFilled(live.url);
+  await page.getByRole("button", { name: "Edit", exact: true }).click();
+  await page.getByRole("region", { name: "Edit" }).waitFor();
+  await judge(page);
+  await page.getByRole("button", { name: "New simulation" }).click();
+  await page.getByRole("button", { name: "Add robot" }).click();
+  await page.locator(".set-up .primary:not(:disabled)").waitFor();
+  await page.getByText("Parameters", { exact: true }).click();
+  await page.getByLabel("Factor (simulated seconds a second)").fill("-1");
+  await page.keyboard.press("Tab");
+  await page.locator(".field-error", { hasText: "a number from" }).waitFor();
+  await judge(page);
+  await page.close();
+});
+
+test("the page on which one joins", async () => {
+  const { page } = await openPage(browser, `${live.url}join.html`);
+  await page.locator(".joinable").first().waitFor();
+  await judge(page);
+  await page.close();
+});
+
 test("a recording", async () => {
   const page = await openFilled(replay.url);
   await judge(page);

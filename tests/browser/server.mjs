@@ -20,9 +20,19 @@ export async function startServer(args = []) {
   return start(["run", ...args]);
 }
 
+// Starts `gsv serve` with these arguments: no simulation is there yet.
+export async function startServe(args) {
+  return start(["serve", ...args]);
+}
+
 // Starts `gsv replay` with these arguments.
 export async function startReplay(args) {
   return start(["replay", ...args]);
+}
+
+// Starts `gsv view` with these arguments: a relay.
+export async function startView(args) {
+  return start(["view", ...args]);
 }
 
 // Runs gsv with these arguments to its end.

@@ -106,7 +106,10 @@ test("what runs has buttons, and no timeline", async () => {
 test("every control has a name", async () => {
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll("button, select, input")]
-      .filter((each) => !(each.getAttribute("aria-label") ?? each.textContent).trim())
+      .filter((each) => {
+        const label = each.labels?.[0]?.textContent;
+        return !(each.getAttribute("aria-label") ?? label ?? each.textContent).trim();
+      })
       .map((each) => each.outerHTML),
   );
   assert.deepEqual(nameless, []);

@@ -1,6 +1,7 @@
 // Puts the page together: one store, the session that fills it, the 3D view, and the panels.
 import "./style/page.css";
 import "./style/panels.css";
+import "./style/setUp.css";
 import { SimulationApi } from "./api/SimulationApi";
 import { robotsOf } from "./api/scene";
 import { App } from "./app/App";
@@ -20,7 +21,10 @@ import { createSceneTree } from "./panels/SceneTree";
 import { createStatusBar } from "./panels/StatusBar";
 import { createTimeline } from "./panels/Timeline";
 import { createToolbar } from "./panels/Toolbar";
+import { createEditPanel } from "./panels/EditPanel";
+import type { PosesMessage } from "./protocol/messages";
 import { World3D } from "./scene/World3D";
+import { createSetUpPanel } from "./setup/SetUpPanel";
 import { browserStorage, keepShown, loadShown } from "./state/overlays";
 import type { State } from "./state/State";
 import { initialState } from "./state/State";
@@ -42,6 +46,7 @@ function createWorld(host: HTMLElement): World3D | null {
       { urlOfModel: (id) => api.modelUrl(id), fixedQuality: parameters.get("quality") === "high" },
       {
         onPick: (robot) => app.select(robot),
+        onPlace: (body, place) => app.place(body, place),
         onModelsMissing: (modelsMissing) => store.set({ modelsMissing }),
         onProblem: (sentence) => notify(store, "error", sentence),
         onFrameRate: (framesPerSecond) => store.set({ framesPerSecond }),
@@ -104,7 +109,19 @@ function connectWorld(world: World3D): void {
     ({ viewMode }) => viewMode,
     (mode) => world.setViewMode(mode),
   );
+  store.watch(
+    ({ setUp }) => setUp?.poses ?? null,
+    (poses) => poses && world.setPoses(posesOfPreview(poses, store.get().scene?.layoutVersion ?? 0)),
+  );
+  store.watch(
+    ({ setUp, editing }) => setUp !== null || editing !== null,
+    (isOn) => world.setArranging(isOn),
+  );
   new OverlayFeed(store, session, world).start();
+}
+
+function posesOfPreview(poses: Float64Array, layoutVersion: number): PosesMessage {
+  return { stamp: { sec: 0, nsec: 0 }, step: 0n, layout_version: layoutVersion, poses };
 }
 
 // The selected avatar, or else the first one. What was recorded cannot be steered.
@@ -125,12 +142,14 @@ const page = document.getElementById("app")!;
 const toggleSidebar = () => page.classList.toggle("sidebar-open");
 view.append(
   element("div", { class: "cards" }, createInspector(app), createCameraPane(app)),
+  createEditPanel(app),
   createOverlay(app, world !== null),
   createNotices(app),
 );
 page.append(
   createToolbar(app, world !== null, toggleSidebar),
   createSceneTree(app),
+  createSetUpPanel(app),
   view,
   createPlotPanel(app),
   createTimeline(app),
@@ -142,6 +161,10 @@ store.watch(
   (simulation) => (document.title = simulation ? `${simulation} · GSV` : "GSV"),
 );
 store.watch(
+  ({ setUp }) => setUp !== null,
+  (isOpen) => page.classList.toggle("setting-up", isOpen),
+);
+store.watch(
   ({ shown }) => shown,
   (shown) => keepShown(storage, shown),
 );
@@ -150,5 +173,6 @@ listenForKeys(app);
 new AvatarSteering(avatarToDrive, drive).listen(window);
 exposeForTests(store, world);
 app.plots.start();
+app.records.start();
 app.link.start(window);
 session.start();

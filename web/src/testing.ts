@@ -20,6 +20,8 @@ export interface PageHandle {
   robotPosition(name: string): { x: number; y: number; z: number; time: number } | null;
   // Where the robot's middle is drawn, in CSS pixels of the page; null outside of the picture.
   robotScreenPosition(name: string): { x: number; y: number } | null;
+  // Where the tip of the arrow is drawn by which the selected robot is turned; null while hidden.
+  turnHandle(): { x: number; y: number } | null;
 }
 
 declare global {
@@ -53,6 +55,7 @@ export function exposeForTests(store: Store<State>, world: World3D | null): void
       return { x, y, z, time: latest.stamp };
     },
     robotScreenPosition: (name) => world?.screenPosition(name) ?? null,
+    turnHandle: () => world?.turnHandle() ?? null,
   };
 }
 

@@ -4,23 +4,32 @@ import { camerasOf } from "../api/scene";
 import type { World3D } from "../scene/World3D";
 import { isAllowed, mainAction } from "../state/actions";
 import type { CameraChoice } from "../api/scene";
+import type { BodyPlace } from "../api/SetUpApi";
+import type { Placed } from "../state/scenario";
+import { findRobot } from "../state/scenario";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
 import type { OverlayName } from "../state/overlays";
 import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
 import { download, fileName } from "./files";
+import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
 import { LinkControl } from "./LinkControl";
 import { dismiss, notify } from "./notices";
 import { PlotFeed } from "./PlotFeed";
+import { RecordControl } from "./RecordControl";
 import { ReplayControl } from "./ReplayControl";
 import type { Session } from "./Session";
+import { SetUpControl } from "./SetUpControl";
 
 export class App {
   readonly replay: ReplayControl;
   readonly link: LinkControl;
   readonly plots: PlotFeed;
+  readonly setUp: SetUpControl;
+  readonly edits: EditControl;
+  readonly records: RecordControl;
   onPlotData: () => void = () => {};
   private readonly filming: Filming | null;
 
@@ -33,6 +42,11 @@ export class App {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
     this.link = new LinkControl(this, world);
     this.plots = new PlotFeed(store, session, () => this.onPlotData());
+    this.setUp = new SetUpControl(store, session, api.setUp);
+    this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world, body) }, () =>
+      this.act("pause"),
+    );
+    this.records = new RecordControl(store, api);
     this.filming = world && new Filming(store, () => world.video());
   }
 
@@ -80,6 +94,29 @@ export class App {
     const robot = selection ?? status?.robots[0]?.name ?? null;
     if (robot && !selection) this.select(robot);
     this.store.set({ viewMode: robot === null || viewMode === mode ? "orbit" : mode });
+  }
+
+  // What was moved by hand in the picture. Resolves to whether it stands there now.
+  place(body: string, place: Placed): Promise<boolean> {
+    return this.store.get().setUp ? this.setUp.place(body, place) : this.edits.place(body, place);
+  }
+
+  removeSelected(): void {
+    const { setUp, selection } = this.store.get();
+    if (selection === null) return;
+    const found = setUp && findRobot(setUp.scenario, selection);
+    if (found) this.setUp.removeRobot(found.list, found.index);
+    else if (!setUp) void this.edits.remove(selection);
+  }
+
+  undo(): void {
+    if (this.store.get().setUp) this.setUp.undo();
+    else void this.edits.undo();
+  }
+
+  redo(): void {
+    if (this.store.get().setUp) this.setUp.redo();
+    else void this.edits.redo();
   }
 
   toggle(overlay: OverlayName): void {
@@ -162,4 +199,9 @@ export class App {
   dismiss(notice: number): void {
     dismiss(this.store, notice);
   }
+}
+
+function placeIn(world: World3D | null, body: string): Required<BodyPlace> | null {
+  const e = world?.latestPose(body)?.pose.elements;
+  return e ? { x: e[12]!, y: e[13]!, z: e[14]!, yaw: Math.atan2(e[1]!, e[0]!) } : null;
 }

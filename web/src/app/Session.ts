@@ -26,6 +26,19 @@ import { notify } from "./notices";
 const EMPTY_POLL_MS = 2000;
 const SCENE_RETRY_MS = 3000;
 
+const NOTHING_WATCHED: Partial<State> = {
+  scene: null,
+  status: null,
+  time: 0,
+  replay: null,
+  events: [],
+  wishedTime: null,
+  selection: null,
+  selectedPose: null,
+  viewMode: "orbit",
+  camera: null,
+};
+
 // Where the stream's many small messages go without passing through the store.
 export interface LiveListener {
   onPoses(message: PosesMessage): void;
@@ -57,6 +70,7 @@ export class Session {
 
   start(): void {
     void this.findSimulation();
+    void this.findAbilities();
   }
 
   retryNow(): void {
@@ -68,23 +82,25 @@ export class Session {
     this.leave();
     this.wasOpen = false;
     this.sceneText = "";
-    this.store.set({
-      simulation: name,
-      scene: null,
-      status: null,
-      time: 0,
-      replay: null,
-      events: [],
-      wishedTime: null,
-      selection: null,
-      selectedPose: null,
-      viewMode: "orbit",
-      camera: null,
-    });
+    this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
   }
 
+  // One that was created just now.
+  async joinNew(name: string): Promise<void> {
+    this.store.set({ simulations: await this.api.simulations() });
+    this.join(name);
+  }
+
+  // Watches nothing until it is told to join or to start.
+  rest(): void {
+    clearTimeout(this.timer);
+    this.leave();
+    this.store.set({ ...NOTHING_WATCHED, simulation: null });
+  }
+
   private leave(): void {
+    clearTimeout(this.timer);
     this.client?.close();
     this.client = null;
     this.topics = null;
@@ -117,6 +133,7 @@ export class Session {
       const simulations = await this.api.simulations();
       this.attempt = 0;
       this.store.set({ simulations });
+      if (this.store.get().setUp) return;
       const chosen = simulations.find(({ name }) => name === this.wanted) ?? simulations[0];
       if (chosen) {
         if (this.wanted && chosen.name !== this.wanted) {
@@ -133,6 +150,14 @@ export class Session {
         connection: { phase: "waiting", attempt: this.attempt, retryAtMs: Date.now() + wait },
       });
       this.timer = setTimeout(() => void this.findSimulation(), wait);
+    }
+  }
+
+  private async findAbilities(): Promise<void> {
+    try {
+      this.store.set({ abilities: await this.api.setUp.abilities() });
+    } catch {
+      // Then nothing is offered that the server might not be able to do.
     }
   }
 
@@ -178,14 +203,7 @@ export class Session {
       if (!(error instanceof ApiError && error.httpStatus === 404)) return;
       if (this.store.get().simulation !== name) return;
       this.leave();
-      this.store.set({
-        simulation: null,
-        scene: null,
-        status: null,
-        selection: null,
-        camera: null,
-        replay: null,
-      });
+      this.store.set({ ...NOTHING_WATCHED, simulation: null });
       this.sceneText = "";
       void this.findSimulation();
     }

@@ -38,6 +38,15 @@ export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) =
   return Object.hasOwn(COMMANDS, key.toLowerCase()) ? COMMANDS[key.toLowerCase()]! : null;
 }
 
+// Taking back what was changed, and taking it away.
+export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): ((app: App) => void) | null {
+  if (altKey) return null;
+  if (!ctrlKey && !metaKey) return key === "Delete" ? (app) => app.removeSelected() : null;
+  const lower = key.toLowerCase();
+  if (lower === "y" || (lower === "z" && shiftKey)) return (app) => app.redo();
+  return lower === "z" ? (app) => app.undo() : null;
+}
+
 // What only a recording's keys ask for: held, they repeat.
 export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) | null {
   if (event.ctrlKey || event.altKey || event.metaKey) return null;
@@ -76,7 +85,8 @@ export function listenForKeys(app: App): void {
       return;
     }
     if (event.repeat) return;
-    const command = commandOf(event);
+    const { setUp, editing } = app.store.get();
+    const command = ((setUp || editing) && editCommandOf(event)) || commandOf(event);
     if (!command) return;
     const isOnButton = event.target instanceof Element && event.target.closest("button, summary") !== null;
     if (isOnButton && event.key === " ") return;

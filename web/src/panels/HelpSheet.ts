@@ -44,6 +44,13 @@ const KEYS: [heading: string, lines: Line[]][] = [
     ],
   ],
   [
+    "Edit",
+    [
+      [["Ctrl Z"], "Take back the last change (Ctrl Shift Z: do it again)"],
+      [["Delete"], "Remove the selected robot"],
+    ],
+  ],
+  [
     "Recording",
     [
       [["←", "→"], "One pose back or on (Shift: ten)"],
@@ -58,6 +65,8 @@ const GESTURES: [gesture: string, meaning: string][] = [
   ["Right drag, or two fingers", "Move the view"],
   ["Wheel, or pinch", "Zoom to the pointer"],
   ["Click a robot", "Select it"],
+  ["Drag a robot, while editing", "Move it; its arrow's tip turns it"],
+  ["Click the floor, while editing", "Put the selected robot there"],
 ];
 
 export function createHelpSheet(app: App): HTMLElement {

@@ -54,7 +54,7 @@ export function createInspector(app: App): HTMLElement {
   const set = (row: Row, text: string) => setText(values.get(row)!, text);
 
   app.store.watch(
-    ({ selection }) => selection,
+    ({ selection, setUp }) => (setUp ? null : selection),
     (selection) => {
       panel.hidden = selection === null;
       setText(title, selection ?? "");

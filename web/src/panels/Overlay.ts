@@ -7,7 +7,8 @@ import { element } from "../ui/element";
 type Situation = "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
 
 export function situationOf(state: State, hasView: boolean): Situation {
-  const { connection, simulations, simulation, scene } = state;
+  const { connection, simulations, simulation, scene, setUp } = state;
+  if (setUp) return !hasView ? "no-webgl" : scene ? "none" : "loading";
   if (connection.phase !== "open" && scene) return "lost";
   if (connection.phase === "waiting") return "unreachable";
   if (simulations !== null && simulations.length === 0 && simulation === null) return "no-simulation";
@@ -48,7 +49,8 @@ function content(app: App, situation: Situation): Node[] {
       return [
         message(
           "No simulation yet",
-          "Start one in a terminal. It appears here by itself.",
+          createButton(app),
+          "Or start one in a terminal. It appears here by itself.",
           element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
         ),
       ];
@@ -69,6 +71,23 @@ function content(app: App, situation: Situation): Node[] {
         ),
       ];
   }
+}
+
+// Where the server cannot create any there is none.
+function createButton(app: App): HTMLElement {
+  const button = element(
+    "button",
+    { class: "button primary", type: "button", onclick: () => void app.setUp.open() },
+    "Create a simulation",
+  );
+  const unwatch = app.store.watch(
+    ({ abilities }) => abilities.creates,
+    (creates) => {
+      if (button.parentElement && !button.isConnected) return unwatch();
+      button.hidden = !creates;
+    },
+  );
+  return button;
 }
 
 function message(title: string, ...more: (string | Node)[]): HTMLElement {

@@ -19,6 +19,10 @@ export function createSceneTree(app: App): HTMLElement {
   const world = element("details", { class: "world-tree" });
   const tree = element("nav", { class: "sidebar", "aria-label": "Scene" }, heading, robots, empty, world);
 
+  app.store.watch(
+    ({ setUp }) => setUp !== null,
+    (hidden) => (tree.hidden = hidden),
+  );
   const rows = new Map<string, RobotRow>();
   app.store.watch(
     ({ status }) => status?.robots ?? [],

@@ -3,10 +3,12 @@ import type { App } from "../app/App";
 import type { Action } from "../api/SimulationApi";
 import type { State, ViewMode } from "../state/State";
 import { isAllowed, mainAction } from "../state/actions";
+import { canEdit } from "../state/editing";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon, setIcon } from "../ui/icons";
+import { createRecordButton } from "./RecordButton";
 import { createOverlayMenu } from "./OverlayMenu";
 import { createShareMenu } from "./ShareMenu";
 
@@ -20,6 +22,7 @@ export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => v
       sidebarButton(toggleSidebar),
       element("span", { class: "wordmark" }, "GSV"),
       simulationChoice(app),
+      newButton(app),
     ),
     transport(app),
     element(
@@ -35,19 +38,16 @@ export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => v
       plotsButton(app),
       createShareMenu(app, hasView),
       element("span", { class: "divider", "aria-hidden": "true" }),
-      brokerLink(app),
+      pageLink(app, "join", "join.html", "Join another simulation"),
+      pageLink(app, "broker", "broker.html", "Broker"),
       viewButton("help", "Help", "?", () => app.openHelp(true)),
     ),
   );
 }
 
 // A recording has no broker.
-function brokerLink(app: App): HTMLElement {
-  const link = element(
-    "a",
-    { class: "button plain", href: "broker.html", "aria-label": "Broker", title: "Broker" },
-    icon("broker"),
-  );
+function pageLink(app: App, picture: IconName, href: string, label: string): HTMLElement {
+  const link = element("a", { class: "button plain", href, "aria-label": label, title: label }, icon(picture));
   app.store.watch(
     ({ replay }) => replay !== null,
     (isReplay) => (link.hidden = isReplay),
@@ -64,12 +64,48 @@ function transport(app: App): HTMLElement {
     actionButton(app, "step", "step", "Step", "One step (paused)"),
     actionButton(app, "stop", "stop", "Stop", "Stop for good"),
     actionButton(app, "reset", "reset", "Reset", "Back to the start"),
+    editButton(app),
+    createRecordButton(app),
   );
   app.store.watch(
-    ({ replay }) => replay !== null,
-    (isReplay) => (group.hidden = isReplay),
+    ({ replay, setUp }) => replay !== null || setUp !== null,
+    (isElsewhere) => (group.hidden = isElsewhere),
   );
   return group;
+}
+
+function newButton(app: App): HTMLElement {
+  const label = "New simulation";
+  const button = element(
+    "button",
+    { class: "button plain", type: "button", "aria-label": label, title: label, onclick: () => void app.setUp.open() },
+    icon("add"),
+  );
+  app.store.watch(
+    ({ abilities, setUp }) => abilities.creates && setUp === null,
+    (shown) => (button.hidden = !shown),
+  );
+  return button;
+}
+
+// What runs is paused first.
+function editButton(app: App): HTMLElement {
+  const title = "Move, add and remove robots (paused)";
+  const button = element(
+    "button",
+    { class: "button", type: "button", "aria-label": "Edit", title, onclick: () => void app.edits.toggle() },
+    icon("edit"),
+  );
+  app.store.watch(
+    (state) => ({ on: state.editing !== null, able: canEdit(state), shown: state.abilities.creates }),
+    ({ on, able, shown }) => {
+      button.hidden = !shown;
+      button.disabled = !able;
+      button.setAttribute("aria-pressed", String(on));
+    },
+    shallowEqual,
+  );
+  return button;
 }
 
 function sidebarButton(toggle: () => void): HTMLElement {
@@ -92,10 +128,8 @@ function simulationChoice(app: App): HTMLElement {
   app.store.watch(
     ({ simulations, simulation }) => [simulation, ...(simulations ?? []).map(({ name }) => name)],
     ([chosen, ...names]) => {
-      if (names.length < 2) {
-        place.replaceChildren(element("h1", {}, chosen ?? ""));
-        return;
-      }
+      if (!chosen) return place.replaceChildren();
+      if (names.length < 2) return place.replaceChildren(element("h1", {}, chosen));
       const choice = element("select", { "aria-label": "Simulation" });
       for (const name of names) choice.append(new Option(name ?? "", name ?? "", false, name === chosen));
       choice.addEventListener("change", () => app.session.join(choice.value));

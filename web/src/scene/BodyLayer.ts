@@ -59,6 +59,19 @@ export class BodyLayer {
     }
   }
 
+  // Shows one body elsewhere, with its links, until the next poses.
+  moveBody(body: number, worldFromBody: Matrix4): void {
+    const frame = this.worldFromBody[body]!;
+    const motion = worldFromBody.clone().multiply(frame.clone().invert());
+    const frames = new Set([frame, ...this.movingLinksOf(body)]);
+    for (const each of frames) each.premultiply(motion);
+    for (const part of this.moving) {
+      if (!frames.has(part.frame)) continue;
+      place(part);
+      if (part.mesh instanceof InstancedMesh) part.mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+
   // -1 when there is no body of that name.
   indexOf(name: string): number {
     return this.indices.get(name) ?? -1;
@@ -91,16 +104,25 @@ export class BodyLayer {
 
   // The body that the ray meets first.
   pick(raycaster: Raycaster): SceneBody | null {
-    for (const mesh of this.bodiesOfMesh.keys()) {
-      if (mesh instanceof InstancedMesh) mesh.computeBoundingSphere();
-    }
-    const hit = raycaster.intersectObject(this.group, true)[0];
+    const hit = this.hitsOf(raycaster)[0];
     return hit ? this.bodyAt(hit) : null;
+  }
+
+  // Where the ray meets what is fixed to the world.
+  pointOf(raycaster: Raycaster): Vector3 | null {
+    return this.hitsOf(raycaster).find((hit) => this.bodyAt(hit)?.isStatic)?.point ?? null;
   }
 
   dispose(): void {
     for (const mesh of this.bodiesOfMesh.keys()) if (mesh instanceof InstancedMesh) mesh.dispose();
     this.group.removeFromParent();
+  }
+
+  private hitsOf(raycaster: Raycaster): Intersection[] {
+    for (const mesh of this.bodiesOfMesh.keys()) {
+      if (mesh instanceof InstancedMesh) mesh.computeBoundingSphere();
+    }
+    return raycaster.intersectObject(this.group, true);
   }
 
   private bodyAt(hit: Intersection): SceneBody | null {

@@ -31,6 +31,9 @@ export interface Viewpoint {
   target: Vector3;
 }
 
+// x y z of where one stands and of what one looks at.
+export type ViewNumbers = [number, number, number, number, number, number];
+
 interface Flight {
   from: Viewpoint;
   to: Viewpoint;
@@ -83,6 +86,15 @@ export class CameraRig {
     this.controls.target.copy(target);
     this.controls.update();
     this.controls.dispatchEvent({ type: "change" });
+  }
+
+  get viewNumbers(): ViewNumbers {
+    const { position, target } = this.viewpoint;
+    return [...position.toArray(), ...target.toArray()];
+  }
+
+  set viewNumbers([x, y, z, tx, ty, tz]: ViewNumbers) {
+    this.viewpoint = { position: new Vector3(x, y, z), target: new Vector3(tx, ty, tz) };
   }
 
   // Shows the box from above at an angle; at once when `fly` is false.

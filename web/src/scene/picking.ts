@@ -1,5 +1,5 @@
 // What a person means with a click: places are in CSS pixels of the page.
-import type { Camera } from "three";
+import type { Camera, Vector3 } from "three";
 import { Raycaster, Vector2 } from "three";
 
 export interface ScreenPlace {
@@ -29,6 +29,13 @@ export function rayThrough(place: ScreenPlace, frame: DOMRect, camera: Camera): 
   const raycaster = new Raycaster();
   raycaster.setFromCamera(new Vector2(x, y), camera);
   return raycaster;
+}
+
+// Where a point of the world is drawn; null when it is not in the picture.
+export function screenPlaceOf(point: Vector3, camera: Camera, frame: DOMRect): ScreenPlace | null {
+  const { x, y, z } = point.clone().project(camera);
+  if (z > 1 || Math.abs(x) > 1 || Math.abs(y) > 1) return null;
+  return { x: frame.left + ((x + 1) / 2) * frame.width, y: frame.top + ((1 - y) / 2) * frame.height };
 }
 
 // The one drawn nearest to the place, if it is near at all.

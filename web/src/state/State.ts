@@ -1,12 +1,16 @@
 // What the page knows and shows. Only Session, the commands of App and the panels' own controls
 // change it.
 import type { Action } from "../api/SimulationApi";
+import type { Recording } from "../api/recording";
 import type { RecordedEvent, Replay } from "../api/replay";
 import type { CameraChoice, SceneDescription } from "../api/scene";
+import type { Abilities } from "../api/SetUpApi";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
+import type { Editing } from "./editing";
 import type { Shown } from "./overlays";
 import { FIRST_SHOWN } from "./overlays";
+import type { SetUp } from "./setUp";
 import type { Plots } from "./plots";
 import { NO_PLOTS } from "./plots";
 
@@ -33,6 +37,10 @@ export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {
   connection: ConnectionState;
+  abilities: Abilities; // of the server
+  editing: Editing | null; // null: what stands in the simulation is not being changed
+  recording: Recording | null; // of the simulation; null: it cannot be recorded, or not known yet
+  setUp: SetUp | null; // null: no simulation is being put together
   // null: not known yet.
   simulations: SimulationSummary[] | null;
   simulation: string | null;
@@ -59,6 +67,10 @@ export interface State {
 
 export const initialState: State = {
   connection: { phase: "connecting", attempt: 1 },
+  abilities: { creates: false, records: false },
+  editing: null,
+  recording: null,
+  setUp: null,
   simulations: null,
   simulation: null,
   status: null,

@@ -1,0 +1,123 @@
+// Changing who stands in a paused simulation, and recording it.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { startServer } from "./server.mjs";
+import { ask, phaseIs, settled, until } from "./viewing.mjs";
+
+const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
+
+let server;
+let browser;
+let page;
+let faults;
+let other; // a second viewer
+
+before(async () => {
+  server = await startServer(RUN);
+  browser = await openBrowser({ width: 1100, height: 700 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const press = (name) => page.getByRole("button", { name, exact: true }).click();
+const robots = () => page.evaluate(() => window.gsv.robots);
+const placeNow = async (name) => (await ask(page, "")).robots.find((robot) => robot.name === name)?.pose;
+const distance = (a, b) => Math.hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+
+async function notBusy() {
+  await page.waitForFunction(() => {
+    const [undo, redo] = document.querySelectorAll(".edit-buttons button");
+    return !undo.disabled || !redo.disabled;
+  });
+  await settled(page);
+}
+
+test("editing pauses what runs, and says what can be done", async () => {
+  await phaseIs(page, "running");
+  await press("Edit");
+  await phaseIs(page, "paused");
+  await page.getByRole("region", { name: "Edit" }).getByText("Drag what can move.").waitFor();
+  await page.getByRole("region", { name: "Edit" }).locator("option", { hasText: "rover4" }).waitFor({ state: "attached" });
+});
+
+test("dragging a robot moves it on the server, and undo takes it back", async () => {
+  await page.keyboard.press("t");
+  await settled(page);
+  const before = await placeNow("pebble");
+  const at = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x + 20, at.y + 10, { steps: 3 });
+  await page.mouse.move(at.x + 40, at.y + 20, { steps: 3 });
+  await page.mouse.up();
+  await until(async () => distance(await placeNow("pebble"), before) > 0.1, "the moved robot");
+  await notBusy();
+  const after = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
+  assert.ok(Math.hypot(after.x - at.x - 40, after.y - at.y - 20) < 12, "it stands where it was dropped");
+  await page.keyboard.press("Control+z");
+  await until(async () => distance(await placeNow("pebble"), before) < 1e-9, "the robot where it was");
+  await notBusy();
+  await press("Redo");
+  await until(async () => distance(await placeNow("pebble"), before) > 0.1, "the robot moved again");
+  await notBusy();
+});
+
+test("a robot is added with a behaviour, removed, and comes back where it stood", async () => {
+  const panel = page.getByRole("region", { name: "Edit" });
+  await panel.getByLabel("Model", { exact: true }).selectOption("rover4");
+  await panel.getByLabel("Behaviour", { exact: true }).selectOption("wander");
+  await press("Add");
+  await until(async () => (await robots()).includes("rover4"), "the added robot");
+  await notBusy();
+  const stood = await placeNow("rover4");
+  await page.locator('[data-robot="rover4"]').click();
+  await keepPicture(page, "edit");
+  await page.keyboard.press("Delete");
+  await until(async () => !(await robots()).includes("rover4"), "the robot's end");
+  await notBusy();
+  await press("Undo");
+  await until(async () => (await robots()).includes("rover4"), "the robot again");
+  await notBusy();
+  assert.ok(distance(await placeNow("rover4"), stood) < 1e-6);
+});
+
+test("a robot on another is refused with a sentence and stays", async () => {
+  const before = await placeNow("rover4");
+  const { x_m: x, y_m: y } = await placeNow("pebble");
+  const refused = await ask(page, "/bodies/rover4/place", { x, y });
+  assert.match(refused.error, /there is no room .* "pebble"/);
+  assert.deepEqual(await placeNow("rover4"), before);
+});
+
+test("when it goes on, the added robot drives and editing is over", async () => {
+  const before = await placeNow("rover4");
+  await press("Resume");
+  await phaseIs(page, "running");
+  await page.getByRole("region", { name: "Edit" }).waitFor({ state: "hidden" });
+  await until(async () => distance(await placeNow("rover4"), before) > 0.1, "the driving robot");
+});
+
+test("a recording is switched on, which another viewer sees, and off", async () => {
+  ({ page: other } = await openPage(browser, server.url));
+  const record = (of) => of.getByRole("button", { name: "Record", exact: true });
+  await record(page).click();
+  await other.locator('.record[aria-pressed="true"]').waitFor();
+  const { path } = await ask(page, "/recording");
+  try {
+    await record(other).click();
+    await other.getByText(`Recorded. Replay it: gsv replay`).waitFor();
+    await page.locator('.record[aria-pressed="false"]').waitFor();
+    assert.ok(fs.statSync(path).size > 1000);
+  } finally {
+    fs.rmSync(path, { force: true });
+  }
+  assert.deepEqual(faults.filter((fault) => !/status of 422/.test(fault)), []);
+});

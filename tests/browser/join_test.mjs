@@ -1,0 +1,64 @@
+// The page on which one joins a simulation that runs elsewhere: two instances at one broker, and a
+// relay of one of them.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { startServe, startServer, startView } from "./server.mjs";
+import { phaseIs } from "./viewing.mjs";
+
+const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
+
+let here;
+let elsewhere;
+let relay;
+let broker;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  here = await startServe(["--name", "workbench"]);
+  ({ broker } = await (await fetch(`${here.url}api/instances`)).json());
+  elsewhere = await startServer([...RUN, "--broker", broker]);
+  browser = await openBrowser({ width: 1000, height: 640 });
+  ({ page, faults } = await openPage(browser, `${here.url}join.html`));
+});
+
+after(async () => {
+  await browser?.close();
+  await relay?.stop();
+  await elsewhere?.stop();
+  await here?.stop();
+});
+
+const instance = (name) => page.locator(".instance", { has: page.getByRole("heading", { name }) });
+
+test("every instance is listed with its simulations, this one marked", async () => {
+  await instance("workbench · this one").getByText("It runs no simulation.").waitFor();
+  const link = instance("gsv run").getByRole("link", { name: "simulation" });
+  await link.waitFor();
+  assert.equal(await link.getAttribute("href"), `${elsewhere.url}?simulation=simulation`);
+  await keepPicture(page, "join");
+});
+
+test("one click views the other's simulation", async () => {
+  await instance("gsv run").getByRole("link", { name: "simulation" }).click();
+  await waitUntilDrawn(page);
+  await phaseIs(page, "running");
+  assert.deepEqual(await page.evaluate(() => window.gsv.robots), ["pebble"]);
+  assert.equal(new URL(page.url()).origin, new URL(elsewhere.url).origin);
+  await page.goBack();
+});
+
+test("an instance is relayed by its offer's name; when it has ended it is gone from the list", async () => {
+  relay = await startView(["gsv run", "--broker", broker]);
+  const names = await (await fetch(`${relay.url}api/simulations`)).json();
+  assert.deepEqual(names.map(({ name }) => name), ["simulation"]);
+  await page.reload();
+  await instance("gsv run").waitFor();
+  await elsewhere.stop();
+  await instance("gsv run").waitFor({ state: "detached" });
+  await instance("workbench · this one").waitFor();
+  assert.deepEqual(faults.filter((fault) => !fault.startsWith("request to another host")), []);
+});

@@ -1,0 +1,66 @@
+// Asks the server for JSON, relative to the page's own address. Every call ends: with an answer, the
+// server's sentence, or a timeout.
+import { textOr } from "./json";
+
+// What the server answered when it refused; `message` is its sentence, `field` the field of the
+// request that it concerns (empty: none in particular).
+export class ApiError extends Error {
+  constructor(
+    readonly httpStatus: number,
+    sentence: string,
+    readonly field = "",
+  ) {
+    super(sentence);
+  }
+}
+
+const TIMEOUT_MS = 10_000;
+
+export class JsonServer {
+  constructor(
+    private readonly base: string,
+    private readonly fetchPage: typeof fetch = (input, init) => fetch(input, init),
+  ) {}
+
+  url(path: string): string {
+    return new URL(path, this.base).href;
+  }
+
+  get(path: string, timeoutMs = TIMEOUT_MS): Promise<unknown> {
+    return this.request(path, { signal: AbortSignal.timeout(timeoutMs) });
+  }
+
+  post(path: string, body: object, timeoutMs = TIMEOUT_MS): Promise<unknown> {
+    return this.request(path, {
+      method: "POST",
+      headers: { "content-type": "application/json" },
+      body: JSON.stringify(body),
+      signal: AbortSignal.timeout(timeoutMs),
+    });
+  }
+
+  delete(path: string, timeoutMs = TIMEOUT_MS): Promise<unknown> {
+    return this.request(path, { method: "DELETE", signal: AbortSignal.timeout(timeoutMs) });
+  }
+
+  private async request(path: string, init: RequestInit): Promise<unknown> {
+    const response = await this.fetchPage(this.url(path), init).catch((error: unknown) => {
+      throw new Error(reasonOf(error));
+    });
+    const answer: unknown = await response.json().catch(() => null);
+    if (response.ok) return answer;
+    const refusal = answer as { error?: unknown; field?: unknown } | null;
+    const sentence = textOr(refusal?.error, "") || `The server answered ${response.status}.`;
+    throw new ApiError(response.status, sentence, textOr(refusal?.field, ""));
+  }
+}
+
+export function simulationPath(name: string): string {
+  return `api/simulations/${encodeURIComponent(name)}`;
+}
+
+function reasonOf(error: unknown): string {
+  const name = (error as { name?: string }).name;
+  if (name === "TimeoutError") return "The server did not answer in time.";
+  return "The server cannot be reached.";
+}

@@ -1,0 +1,116 @@
+// What there is to put a simulation together from, and doing it.
+import type { RobotSetUp, Scenario } from "../state/scenario";
+import { robotJson, scenarioJson } from "../state/scenario";
+import type { JsonServer } from "./JsonServer";
+import { simulationPath } from "./JsonServer";
+import { listAt, numbersAt, objectAt, textAt, textOr } from "./json";
+import type { SceneDescription } from "./scene";
+import { parseScene } from "./scene";
+
+export interface Abilities {
+  creates: boolean;
+  records: boolean;
+}
+
+export interface ModelChoice {
+  name: string;
+  isAvatar: boolean;
+}
+
+export interface BehaviourChoice {
+  name: string;
+  description: string;
+  place: string; // host:pid
+}
+
+export interface Behaviours {
+  offers: BehaviourChoice[];
+  startCommand: string; // a program that would offer one
+}
+
+export interface BodyPlace {
+  x: number;
+  y: number;
+  z?: number; // without it: on the ground
+  yaw: number;
+}
+
+export interface Preview {
+  scene: SceneDescription;
+  poses: Float64Array; // seven numbers for each entry of the scene's poses
+  warnings: string[]; // what the files lack
+}
+
+// Reading a world takes its time, and so do behaviours that are made.
+const LONG_TIMEOUT_MS = 60_000;
+
+export class SetUpApi {
+  constructor(private readonly server: JsonServer) {}
+
+  async abilities(): Promise<Abilities> {
+    const answer = objectAt(await this.server.get("api/server"), "server");
+    return { creates: answer.creates === true, records: answer.records === true };
+  }
+
+  async worlds(): Promise<string[]> {
+    const answer = objectAt(await this.server.get("api/worlds"), "worlds");
+    return listAt(answer.worlds, "worlds").map((world) => textAt(objectAt(world, "worlds").name, "name"));
+  }
+
+  async models(): Promise<ModelChoice[]> {
+    const answer = objectAt(await this.server.get("api/models", LONG_TIMEOUT_MS), "models");
+    return listAt(answer.models, "models").map((each) => {
+      const model = objectAt(each, "models");
+      return { name: textAt(model.name, "name"), isAvatar: model.is_avatar === true };
+    });
+  }
+
+  async behaviours(constraint = ""): Promise<Behaviours> {
+    const path = `api/behaviours?constraint=${encodeURIComponent(constraint)}`;
+    const answer = objectAt(await this.server.get(path), "behaviours");
+    const offers = listAt(answer.behaviours, "behaviours").map((each) => {
+      const offer = objectAt(each, "behaviours");
+      return {
+        name: textAt(offer.name, "name"),
+        description: textOr(offer.description, ""),
+        place: `${textOr(offer.host, "")}:${String(offer.pid)}`,
+      };
+    });
+    return { offers, startCommand: textOr(answer.start_command, "") };
+  }
+
+  // The scene as it would stand at its start.
+  async preview(scenario: Scenario): Promise<Preview> {
+    const shown = { ...scenarioJson(scenario), name: "", record: false };
+    const answer = objectAt(await this.server.post("api/preview", shown, LONG_TIMEOUT_MS), "preview");
+    const warnings = listAt(answer.warnings ?? [], "warnings").map((each) => textOr(each, ""));
+    const scene = parseScene(answer.scene);
+    const poses = Float64Array.from(numbersAt(answer.poses, 7 * scene.poses.length, "poses"));
+    return { scene, poses, warnings };
+  }
+
+  // Gives its name.
+  async create(scenario: Scenario): Promise<string> {
+    const status = await this.server.post("api/simulations", scenarioJson(scenario), LONG_TIMEOUT_MS);
+    return textAt(objectAt(status, "status").name, "name");
+  }
+
+  async destroy(simulation: string): Promise<void> {
+    await this.server.delete(simulationPath(simulation), LONG_TIMEOUT_MS);
+  }
+
+  // Gives the name under which it stands.
+  async addRobot(simulation: string, robot: RobotSetUp, isAvatar: boolean): Promise<string> {
+    const body = { ...robotJson(robot), avatar: isAvatar };
+    const answer = await this.server.post(`${simulationPath(simulation)}/robots`, body, LONG_TIMEOUT_MS);
+    return textAt(objectAt(answer, "robot").name, "name");
+  }
+
+  async removeRobot(simulation: string, robot: string): Promise<void> {
+    await this.server.delete(`${simulationPath(simulation)}/robots/${encodeURIComponent(robot)}`);
+  }
+
+  async placeBody(simulation: string, body: string, place: BodyPlace): Promise<void> {
+    await this.server.post(`${simulationPath(simulation)}/bodies/${encodeURIComponent(body)}/place`, place);
+  }
+}

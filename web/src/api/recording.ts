@@ -1,0 +1,19 @@
+// Whether a simulation is recorded, and where to.
+import { numberOr, objectAt, textOr } from "./json";
+
+export interface Recording {
+  isOn: boolean;
+  path: string; // of the one under way, or of the last one; empty: there was none
+  bytes: number;
+  droppedMessages: number;
+}
+
+export function parseRecording(json: unknown): Recording {
+  const recording = objectAt(json, "recording");
+  return {
+    isOn: recording.recording === true,
+    path: textOr(recording.path, ""),
+    bytes: numberOr(recording.size_bytes, 0),
+    droppedMessages: numberOr(recording.dropped_messages, 0),
+  };
+}

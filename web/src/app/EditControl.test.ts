@@ -1,0 +1,76 @@
+import { expect, test, vi } from "vitest";
+import { ApiError } from "../api/JsonServer";
+import { robotStatus, simulationStatus } from "../panels/testApp";
+import { newRobot, EMPTY_SCENARIO } from "../state/scenario";
+import type { State } from "../state/State";
+import { initialState } from "../state/State";
+import { Store } from "../state/Store";
+import { EditControl } from "./EditControl";
+
+const BEFORE = { x: 0, y: 0, z: 0.1, yaw: 0 };
+const AFTER = { x: 1, y: 2, yaw: 0.5 };
+
+async function editing(phase: "paused" | "running" = "paused") {
+  const store = new Store<State>({
+    ...initialState,
+    abilities: { creates: true, records: false },
+    simulation: "house",
+    status: simulationStatus(phase, { robots: [robotStatus("a")] }),
+  });
+  const api = {
+    models: vi.fn(async () => []),
+    behaviours: vi.fn(async () => ({ offers: [], startCommand: "" })),
+    placeBody: vi.fn(async () => {}),
+    addRobot: vi.fn(async () => "b_2"),
+    removeRobot: vi.fn(async () => {}),
+  };
+  const pause = vi.fn(async () => store.set({ status: simulationStatus("paused") }));
+  const control = new EditControl(store, api as never, { placeOf: () => BEFORE }, pause);
+  await control.toggle();
+  return { store, api, pause, control };
+}
+
+test("a move is taken back to where it was, height included, and done again", async () => {
+  const { store, api, control } = await editing();
+  expect(await control.place("a", AFTER)).toBe(true);
+  expect(store.get().editing!.undo).toEqual(["move a"]);
+  await control.undo();
+  expect(api.placeBody).toHaveBeenLastCalledWith("house", "a", BEFORE);
+  expect(store.get().editing).toMatchObject({ undo: [], redo: ["move a"] });
+  await control.redo();
+  expect(api.placeBody).toHaveBeenLastCalledWith("house", "a", AFTER);
+});
+
+test("what was added is removed by undo, under the name it got", async () => {
+  const { api, control } = await editing();
+  await control.add({ ...newRobot(EMPTY_SCENARIO, "b"), name: "" }, false);
+  await control.undo();
+  expect(api.removeRobot).toHaveBeenCalledWith("house", "b_2");
+  await control.redo();
+  expect(api.addRobot).toHaveBeenLastCalledWith("house", expect.objectContaining({ name: "b_2", place: BEFORE }), false);
+});
+
+test("what was removed comes back where it stood, with its behaviour by name", async () => {
+  const { api, control } = await editing();
+  await control.remove("a");
+  expect(api.removeRobot).toHaveBeenCalledWith("house", "a");
+  await control.undo();
+  const again = expect.objectContaining({ name: "a", model: "b21r", behaviour: "wander", place: BEFORE });
+  expect(api.addRobot).toHaveBeenCalledWith("house", again, false);
+});
+
+test("what the server refuses is told and is no edit", async () => {
+  const { store, api, control } = await editing();
+  api.placeBody.mockRejectedValueOnce(new ApiError(422, "there is no room at (1, 2)"));
+  expect(await control.place("a", AFTER)).toBe(false);
+  expect(store.get().notices.at(-1)!.sentence).toBe("there is no room at (1, 2)");
+  expect(store.get().editing).toMatchObject({ undo: [], isBusy: false });
+});
+
+test("what runs is paused first, and editing ends when it goes on", async () => {
+  const { store, pause } = await editing("running");
+  expect(pause).toHaveBeenCalledOnce();
+  expect(store.get().editing).not.toBeNull();
+  store.set({ status: simulationStatus("running") });
+  expect(store.get().editing).toBeNull();
+});

@@ -1,0 +1,132 @@
+// @vitest-environment jsdom
+import { beforeEach, expect, test, vi } from "vitest";
+import { ApiError } from "../api/JsonServer";
+import { testApp } from "../panels/testApp";
+import { body, scene } from "../scene/testScene";
+import { createSetUpPanel } from "../setup/SetUpPanel";
+
+function fakeApi() {
+  return {
+    worlds: vi.fn(async () => ["maze", "office"]),
+    models: vi.fn(async () => [
+      { name: "avatar", isAvatar: true },
+      { name: "pebble", isAvatar: false },
+    ]),
+    behaviours: vi.fn(async () => ({ offers: [], startCommand: "gsv-wander --broker here" })),
+    preview: vi.fn(async (_scenario: unknown) => ({
+      scene: scene({ bodies: [body("pebble")] }),
+      poses: new Float64Array(7),
+      warnings: [] as string[],
+    })),
+    create: vi.fn(async () => "fresh"),
+  };
+}
+
+let api: ReturnType<typeof fakeApi>;
+
+beforeEach(() => (api = fakeApi()));
+
+async function opened() {
+  const { app, store } = testApp({}, { setUp: api } as never);
+  const joined = vi.spyOn(app.session, "joinNew").mockResolvedValue();
+  const panel = createSetUpPanel(app);
+  await app.setUp.open();
+  return { app, store, panel, joined };
+}
+
+const settled = (app: { store: { get(): { setUp: { isBusy: boolean } | null } } }) =>
+  vi.waitFor(() => expect(app.store.get().setUp?.isBusy ?? false).toBe(false));
+
+const file = (name: string, text: string) => ({ name, size: text.length, text: async () => text });
+
+function control(panel: HTMLElement, label: string): HTMLInputElement {
+  const found = [...panel.querySelectorAll("label")].find(({ textContent }) => textContent === label)!;
+  return panel.querySelector(`#${found.htmlFor}`)!;
+}
+
+test("it opens with our first world, shown, and what there is to choose from", async () => {
+  const { store, panel } = await opened();
+  expect(api.preview).toHaveBeenCalledOnce();
+  expect(api.preview.mock.calls[0]![0]).toMatchObject({ world: "office" });
+  expect(store.get().scene?.bodies).toHaveLength(1);
+  expect(control(panel, "Environment").value).toBe("office");
+  expect(store.get().simulation).toBeNull();
+});
+
+test("without robots it says what to do, without offers which command starts one", async () => {
+  const { app, panel } = await opened();
+  expect(panel.textContent).toContain("No robots yet.");
+  app.setUp.addRobot("robots", "pebble");
+  await settled(app);
+  expect(panel.querySelector(".offers-hint code")!.textContent).toBe("gsv-wander --broker here");
+});
+
+test("changes while the server is asked lead to one more preview, of the last", async () => {
+  const { app } = await opened();
+  api.preview.mockClear();
+  for (const duration of [1, 2, 3, 4]) app.setUp.change({ duration });
+  await settled(app);
+  expect(api.preview.mock.calls.map(([scenario]) => (scenario as { duration: number }).duration)).toEqual([1, 4]);
+});
+
+test("what the server objects to stands beside its field, until it is right", async () => {
+  const { app, panel } = await opened();
+  api.preview.mockRejectedValueOnce(new ApiError(422, "there is no such model", "robots[0].model"));
+  app.setUp.addRobot("robots", "pebble");
+  await settled(app);
+  const model = control(panel, "Model");
+  expect(model.getAttribute("aria-invalid")).toBe("true");
+  const error = panel.querySelector(`#${model.getAttribute("aria-describedby")}`)!;
+  expect(error.textContent).toBe("there is no such model");
+  app.setUp.changeRobot("robots", 0, { model: "pebble" });
+  await settled(app);
+  expect(control(panel, "Model").getAttribute("aria-invalid")).toBe("false");
+});
+
+test("what belongs to no field stands at the end, what belongs to a robot at its head", async () => {
+  const { app, panel } = await opened();
+  app.setUp.addRobot("robots", "pebble");
+  await settled(app);
+  api.preview.mockRejectedValueOnce(new ApiError(422, "there is no room", "robots[0]"));
+  expect(await app.setUp.place("pebble", { x: 1, y: 1, yaw: 0 })).toBe(false);
+  expect(panel.querySelector("[data-row='robots[0]'] > .field-error")!.textContent).toBe("there is no room");
+  api.create.mockRejectedValueOnce(new Error("The server cannot be reached."));
+  await app.setUp.create();
+  expect(panel.querySelector(".set-up-end .field-error")!.textContent).toBe("The server cannot be reached.");
+  expect(app.store.get().setUp).not.toBeNull();
+});
+
+test("a robot is put where one clicked, and back by undo", async () => {
+  const { app, store } = await opened();
+  app.setUp.addRobot("robots", "pebble");
+  expect(store.get().selection).toBe("pebble");
+  expect(await app.place("pebble", { x: 1, y: 2, yaw: 3 })).toBe(true);
+  expect(store.get().setUp!.scenario.robots[0]!.place).toEqual({ x: 1, y: 2, yaw: 3 });
+  app.undo();
+  expect(store.get().setUp!.scenario.robots[0]!.place).toBeNull();
+  app.redo();
+  expect(store.get().setUp!.scenario.robots[0]!.place).toEqual({ x: 1, y: 2, yaw: 3 });
+  await settled(app);
+});
+
+test("what is created is joined, and the form goes", async () => {
+  const { app, store, panel, joined } = await opened();
+  await app.setUp.create();
+  expect(api.create).toHaveBeenCalledWith(expect.objectContaining({ world: "office" }));
+  expect(joined).toHaveBeenCalledWith("fresh");
+  expect(store.get().setUp).toBeNull();
+  expect(panel.hidden).toBe(true);
+});
+
+test("a scenario file is loaded, YAML as well, and what is none is refused with a sentence", async () => {
+  const { app, store } = await opened();
+  const yaml = "world: maze\nseed: 3\nrobots:\n  - {model: pebble, x: 1, y: 2, yaw: 0}\nfaults: []\n";
+  await app.setUp.load(file("run.yaml", yaml));
+  expect(store.get().setUp!.scenario).toMatchObject({ world: "maze", seed: 3, robots: [{ model: "pebble" }] });
+  expect(store.get().notices.at(-1)!.sentence).toBe("run.yaml: faults cannot be set here and was left out.");
+  await app.setUp.load(file("torn.yaml", "a: [b"));
+  expect(store.get().notices.at(-1)!.sentence).toMatch(/^torn\.yaml cannot be read as a scenario: /);
+  expect(store.get().setUp!.scenario.world).toBe("maze");
+  await app.setUp.load(file("huge.yaml", "x".repeat(1_000_001)));
+  expect(store.get().notices.at(-1)!.sentence).toContain("at most 1 MB");
+});

@@ -1,0 +1,183 @@
+// Puts a simulation together: a person's changes go to the server, which shows what would stand
+// there and says what is wrong; in the end it creates it.
+//
+// The server is asked for one preview at a time; of the changes meanwhile the last counts.
+import { ApiError } from "../api/JsonServer";
+import type { SetUpApi } from "../api/SetUpApi";
+import type { Placed, RobotList, RobotSetUp, Scenario } from "../state/scenario";
+import { EMPTY_SCENARIO, findRobot, newRobot } from "../state/scenario";
+import { withChangedRobot, withRobot, withoutRobot } from "../state/scenario";
+import type { SetUp } from "../state/setUp";
+import { changed, redone, undone } from "../state/setUp";
+import type { State } from "../state/State";
+import type { Store } from "../state/Store";
+import { download } from "./files";
+import { notify } from "./notices";
+import type { TextFile } from "./scenarioFile";
+import { readScenario, scenarioFile, scenarioFileName } from "./scenarioFile";
+import type { Session } from "./Session";
+
+const OFFERS_POLL_MS = 3000;
+const FIRST_WORLD = "office";
+
+export class SetUpControl {
+  private previewing: Promise<void> | null = null;
+  private isStale = false; // changed since the last preview was asked for
+  private offersTimer: ReturnType<typeof setTimeout> | undefined;
+  private left: string | null = null; // the simulation that was watched before
+
+  constructor(
+    private readonly store: Store<State>,
+    private readonly session: Session,
+    private readonly api: SetUpApi,
+  ) {}
+
+  async open(): Promise<void> {
+    if (this.store.get().setUp) return;
+    this.left = this.store.get().simulation;
+    this.session.rest();
+    const none = { worlds: [], models: [], behaviours: null };
+    const setUp = { ...none, scenario: EMPTY_SCENARIO, past: [], future: [], warnings: [], poses: null };
+    this.store.set({ setUp: { ...setUp, wrong: null, isBusy: true } });
+    void this.lookForOffers();
+    await this.ask(async () => {
+      const [worlds, models] = await Promise.all([this.api.worlds(), this.api.models()]);
+      const world = worlds.includes(FIRST_WORLD) ? FIRST_WORLD : (worlds[0] ?? "");
+      this.patch(({ scenario }) => ({ worlds, models, scenario: { ...scenario, world } }));
+    });
+    await this.preview();
+  }
+
+  // Back to what was watched.
+  close(): void {
+    this.end();
+    if (this.left) this.session.join(this.left);
+    else this.session.start();
+  }
+
+  async create(): Promise<void> {
+    await this.previewing;
+    const { setUp } = this.store.get();
+    if (!setUp || setUp.isBusy) return;
+    await this.ask(async () => {
+      const name = await this.api.create(setUp.scenario);
+      this.end();
+      await this.session.joinNew(name);
+    });
+  }
+
+  change(patch: Partial<Scenario>): void {
+    this.take((setUp) => changed(setUp, { ...setUp.scenario, ...patch }));
+  }
+
+  addRobot(list: RobotList, model: string): void {
+    const { setUp } = this.store.get();
+    if (!setUp) return;
+    const robot = newRobot(setUp.scenario, model);
+    this.take((setUp) => changed(setUp, withRobot(setUp.scenario, list, robot)));
+    this.store.set({ selection: robot.name });
+  }
+
+  removeRobot(list: RobotList, index: number): void {
+    this.take((setUp) => changed(setUp, withoutRobot(setUp.scenario, list, index)));
+  }
+
+  changeRobot(list: RobotList, index: number, change: Partial<RobotSetUp>): void {
+    const isSelected = this.store.get().selection === this.store.get().setUp?.scenario[list][index]?.name;
+    this.take((setUp) => changed(setUp, withChangedRobot(setUp.scenario, list, index, change)));
+    if (isSelected && change.name) this.store.set({ selection: change.name });
+  }
+
+  // Puts a robot where somebody has clicked, or dragged it to.
+  async place(name: string, place: Placed): Promise<boolean> {
+    const { setUp } = this.store.get();
+    const found = setUp && findRobot(setUp.scenario, name);
+    if (!found) return false;
+    this.changeRobot(found.list, found.index, { place });
+    await this.previewing;
+    return this.store.get().setUp?.wrong === null;
+  }
+
+  undo(): void {
+    this.take(undone);
+  }
+
+  redo(): void {
+    this.take(redone);
+  }
+
+  save(): void {
+    const scenario = this.store.get().setUp?.scenario;
+    if (scenario) download(scenarioFileName(scenario), scenarioFile(scenario));
+  }
+
+  async load(file: TextFile): Promise<void> {
+    try {
+      const { scenario, left } = await readScenario(file);
+      this.take((setUp) => changed(setUp, scenario));
+      if (left.length > 0) {
+        notify(this.store, "note", `${file.name}: ${left.join(", ")} cannot be set here and was left out.`);
+      }
+    } catch (error) {
+      notify(this.store, "error", (error as Error).message);
+    }
+  }
+
+  private end(): void {
+    clearTimeout(this.offersTimer);
+    this.store.set({ setUp: null, scene: null, selection: null });
+  }
+
+  private take(change: (setUp: SetUp) => SetUp): void {
+    const { setUp } = this.store.get();
+    if (!setUp) return;
+    this.store.set({ setUp: change(setUp) });
+    void this.preview();
+  }
+
+  private patch(change: (setUp: SetUp) => Partial<SetUp>): void {
+    this.store.set(({ setUp }) => (setUp ? { setUp: { ...setUp, ...change(setUp) } } : {}));
+  }
+
+  private preview(): Promise<void> {
+    this.isStale = true;
+    this.previewing ??= this.previewAll().finally(() => (this.previewing = null));
+    return this.previewing;
+  }
+
+  private async previewAll(): Promise<void> {
+    while (this.isStale) {
+      this.isStale = false;
+      const { setUp } = this.store.get();
+      if (!setUp?.scenario.world) return;
+      await this.ask(async () => {
+        const { scene, poses, warnings } = await this.api.preview(setUp.scenario);
+        this.store.set(({ setUp }) => (setUp ? { scene, setUp: { ...setUp, poses, warnings } } : {}));
+      });
+    }
+  }
+
+  // Does something that the server may refuse, with a field.
+  private async ask(work: () => Promise<void>): Promise<void> {
+    this.patch(() => ({ isBusy: true }));
+    try {
+      await work();
+      this.patch(() => ({ wrong: null }));
+    } catch (error) {
+      const { message: sentence } = error as Error;
+      this.patch(() => ({ wrong: { field: error instanceof ApiError ? error.field : "", sentence } }));
+    } finally {
+      this.patch(() => ({ isBusy: false }));
+    }
+  }
+
+  // Behaviours come and go while one sets up.
+  private async lookForOffers(): Promise<void> {
+    clearTimeout(this.offersTimer);
+    const behaviours = await this.api.behaviours().catch(() => null);
+    if (!this.store.get().setUp) return;
+    const known = this.store.get().setUp?.behaviours;
+    if (behaviours && JSON.stringify(behaviours) !== JSON.stringify(known)) this.patch(() => ({ behaviours }));
+    this.offersTimer = setTimeout(() => void this.lookForOffers(), OFFERS_POLL_MS);
+  }
+}

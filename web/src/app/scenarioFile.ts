@@ -1,0 +1,37 @@
+// Scenario files: what is saved is JSON, which every reader of YAML takes; what is loaded may be any
+// YAML. The reader of YAML is fetched when it is needed first.
+import type { Scenario } from "../state/scenario";
+import { parseScenario, scenarioJson } from "../state/scenario";
+
+export type TextFile = Pick<File, "name" | "size" | "text">;
+
+const LARGEST_BYTES = 1_000_000;
+
+export function scenarioFileName({ name, world }: Scenario): string {
+  const title = name || world.split("/").at(-1) || "simulation";
+  return `${title.replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80)}.yaml`;
+}
+
+export function scenarioFile(scenario: Scenario): Blob {
+  return new Blob([`${JSON.stringify(scenarioJson(scenario), null, 2)}\n`], { type: "application/yaml" });
+}
+
+// Throws a sentence on what is no scenario.
+export async function readScenario(file: TextFile): Promise<ReturnType<typeof parseScenario>> {
+  try {
+    if (file.size > LARGEST_BYTES) throw new Error("a scenario has at most 1 MB");
+    return parseScenario(await parse(await file.text()));
+  } catch (error) {
+    const reason = (error as Error).message.split("\n")[0];
+    throw new Error(`${file.name} cannot be read as a scenario: ${reason}`);
+  }
+}
+
+async function parse(text: string): Promise<unknown> {
+  try {
+    return JSON.parse(text);
+  } catch {
+    const { parse } = await import("yaml");
+    return parse(text);
+  }
+}

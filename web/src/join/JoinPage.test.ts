@@ -1,0 +1,46 @@
+// @vitest-environment jsdom
+import { expect, test } from "vitest";
+import { JsonServer } from "../api/JsonServer";
+import { JoinPage } from "./JoinPage";
+
+const SIMULATION = { name: "a b", phase: "running", mode: "lockstep", time_s: 75, robots: 2 };
+
+async function open(instances: object[], status = 200) {
+  const body = status === 200 ? { broker: "corbaloc:", instances } : { error: "the broker is silent" };
+  const server = new JsonServer("http://gsv/", async () => new Response(JSON.stringify(body), { status }));
+  const host = document.createElement("div");
+  const page = new JoinPage(server);
+  page.show(host);
+  await page.load();
+  return host;
+}
+
+const links = (host: HTMLElement) =>
+  [...host.querySelectorAll<HTMLAnchorElement>(".instance a")].map((link) => link.getAttribute("href"));
+
+test("each simulation is one click away, here and elsewhere", async () => {
+  const host = await open([
+    { name: "one", place: "h:1", is_here: true, viewer_url: "http://x/", simulations: [SIMULATION] },
+    { name: "two", place: "h:2", viewer_url: "http://127.0.0.1:8081/", simulations: [SIMULATION] },
+  ]);
+  expect(links(host)).toEqual(["./?simulation=a%20b", "http://127.0.0.1:8081/?simulation=a%20b"]);
+  expect(host.querySelector(".joinable")!.textContent).toBe("a brunning · lockstep · 1:15.00 · 2 robots");
+});
+
+test("an address that is none of the web is no link, a name with markup is a name", async () => {
+  const host = await open([
+    { name: "<b>x</b>", place: "h:1", viewer_url: "javascript:alert(1)", simulations: [SIMULATION] },
+    { name: "y", place: "h:2", viewer_url: "", simulations: [] },
+  ]);
+  expect(links(host)).toEqual([]);
+  expect(host.querySelector("b")).toBeNull();
+  expect(host.textContent).toContain("<b>x</b>");
+  expect(host.textContent).toContain("It was started without a viewer.");
+});
+
+test("who does not answer is there with the reason; so is a silent broker", async () => {
+  const host = await open([{ name: "gone", place: "h:3", problem: "h:3 does not answer", simulations: [] }]);
+  expect(host.querySelector(".instance .field-error")!.textContent).toBe("h:3 does not answer");
+  const silent = await open([], 504);
+  expect(silent.querySelector("[role=alert]")!.textContent).toBe("the broker is silent");
+});

@@ -1,0 +1,39 @@
+// Records the simulation; shows whether it is recorded, whoever switched it on.
+import type { App } from "../app/App";
+import type { Recording } from "../api/recording";
+import { shallowEqual } from "../state/Store";
+import { element, setText } from "../ui/element";
+import { icon } from "../ui/icons";
+
+export function createRecordButton(app: App): HTMLElement {
+  const size = element("span", { class: "number" });
+  const button = element(
+    "button",
+    { class: "button record", type: "button", "aria-label": "Record", onclick: () => void app.records.toggle() },
+    icon("record"),
+    size,
+  );
+  app.store.watch(
+    ({ recording, connection }) => ({ recording, isOpen: connection.phase === "open" }),
+    ({ recording, isOpen }) => {
+      button.hidden = recording === null;
+      button.disabled = !isOpen;
+      button.setAttribute("aria-pressed", String(recording?.isOn === true));
+      button.title = recording ? titleOf(recording) : "Record";
+      setText(size, recording?.isOn ? sizeText(recording.bytes) : "");
+    },
+    shallowEqual,
+  );
+  return button;
+}
+
+function titleOf({ isOn, path, droppedMessages }: Recording): string {
+  if (!isOn) return path ? `Record (the last one is ${path})` : "Record";
+  const lost = droppedMessages > 0 ? `; the disk was too slow for ${droppedMessages} messages` : "";
+  return `Recording to ${path}${lost}. Press to end it`;
+}
+
+export function sizeText(bytes: number): string {
+  if (bytes < 1e6) return `${Math.round(bytes / 1e3)} kB`;
+  return bytes < 1e9 ? `${(bytes / 1e6).toFixed(1)} MB` : `${(bytes / 1e9).toFixed(2)} GB`;
+}

@@ -1,0 +1,136 @@
+// @vitest-environment jsdom
+import { Box3, BoxGeometry, Matrix4, MeshBasicMaterial, PerspectiveCamera, Vector3 } from "three";
+import { beforeEach, expect, test, vi } from "vitest";
+import { Arranger } from "./Arranger";
+import { BodyLayer } from "./BodyLayer";
+import type { ModelTemplate } from "./ModelTemplate";
+import { RobotPlaces } from "./RobotPlaces";
+import { SensorFrames } from "./SensorFrames";
+import { HERE, body, scene } from "./testScene";
+
+const SIZE = 400; // px: the picture; its middle looks straight down on the origin
+const HEIGHT = 10; // m: of the eye, which sees 20 m from side to side
+const PX = SIZE / 20; // a metre on the floor
+
+function box(size: number, depth = 0.4): ModelTemplate {
+  const half = new Vector3(size / 2, size / 2, depth / 2);
+  return {
+    parts: [
+      {
+        geometry: new BoxGeometry(size, size, depth),
+        material: new MeshBasicMaterial(),
+        link: null,
+        linkFromPart: new Matrix4(),
+        modelFromPart: new Matrix4(),
+      },
+    ],
+    bounds: new Box3(half.clone().negate(), half),
+  };
+}
+
+const onPick = vi.fn();
+const onPlace = vi.fn(async () => true);
+let host: HTMLElement;
+let canvas: HTMLCanvasElement;
+let bodies: BodyLayer;
+let arranger: Arranger;
+let selection: string | null;
+
+beforeEach(() => {
+  vi.clearAllMocks();
+  selection = null;
+  host = document.createElement("div");
+  canvas = document.createElement("canvas");
+  host.append(canvas);
+  host.getBoundingClientRect = () => new DOMRect(0, 0, SIZE, SIZE);
+  host.setPointerCapture = () => {};
+  const floor = body("floor", { model: "floor", isRobot: false, isStatic: true, pose: [0, 0, -0.2, ...HERE.slice(3)] });
+  bodies = new BodyLayer(scene({ bodies: [body("a", { model: "cart" }), floor] }));
+  bodies.addModel("cart", box(1));
+  bodies.addModel("floor", box(100));
+  bodies.group.updateMatrixWorld(true);
+  const camera = new PerspectiveCamera((2 * Math.atan(1) * 180) / Math.PI, 1, 0.1, 100);
+  camera.up.set(0, 1, 0); // north is up in the picture
+  camera.position.set(0, 0, HEIGHT);
+  camera.lookAt(0, 0, 0);
+  camera.updateMatrixWorld(true);
+  const robots = new RobotPlaces(bodies, new SensorFrames());
+  const view = { host, camera, bodies: () => bodies, robots: () => robots, selection: () => selection, redraw: () => {} };
+  arranger = new Arranger(view, { onPick, onPlace });
+  arranger.isOn = true;
+});
+
+// At metres from the middle of the picture; jsdom has no PointerEvent.
+function pointer(type: string, x: number, y: number): Event {
+  const event = new MouseEvent(type, {
+    bubbles: true,
+    cancelable: true,
+    clientX: SIZE / 2 + x * PX,
+    clientY: SIZE / 2 - y * PX,
+    button: 0,
+  });
+  Object.assign(event, { isPrimary: true, pointerId: 1 });
+  canvas.dispatchEvent(event);
+  return event;
+}
+
+const place = () => new Vector3().setFromMatrixPosition(bodies.poseOf(0)!);
+
+test("a body is dragged over the floor, and stays where it was taken hold of", async () => {
+  pointer("pointerdown", 0.2, 0.1);
+  pointer("pointermove", 2.2, 1.1);
+  expect(place().x).toBeCloseTo(2, 6);
+  expect(place().y).toBeCloseTo(1, 6);
+  expect(arranger.holds).toBe(true);
+  pointer("pointerup", 2.2, 1.1);
+  expect(onPlace).toHaveBeenCalledWith("a", { x: expect.closeTo(2, 6), y: expect.closeTo(1, 6), yaw: 0 });
+  await Promise.resolve();
+  expect(arranger.holds).toBe(true); // until the new scene is there
+});
+
+test("what is refused is let go, so that the next poses show it where it was", async () => {
+  onPlace.mockResolvedValueOnce(false);
+  pointer("pointerdown", 0, 0);
+  pointer("pointermove", 2, 0);
+  pointer("pointerup", 2, 0);
+  await vi.waitFor(() => expect(arranger.holds).toBe(false));
+});
+
+test("the arrow's tip turns the selected robot", () => {
+  selection = "a";
+  arranger.showHandle();
+  const tip = arranger.handle.tip!;
+  pointer("pointerdown", tip.x, tip.y);
+  pointer("pointermove", 0, 3);
+  pointer("pointerup", 0, 3);
+  expect(onPlace).toHaveBeenCalledWith("a", { x: 0, y: 0, yaw: expect.closeTo(Math.PI / 2, 6) });
+});
+
+test("a press without a drag chooses the robot; the floor is left to the view", () => {
+  pointer("pointerdown", 0, 0);
+  pointer("pointerup", 0, 0);
+  expect(onPick).toHaveBeenCalledWith("a");
+  const heard = vi.fn();
+  canvas.addEventListener("pointerdown", heard);
+  pointer("pointerdown", 3, 3);
+  expect(heard).toHaveBeenCalledOnce();
+  pointer("pointerdown", 0, 0);
+  expect(heard).toHaveBeenCalledOnce();
+});
+
+test("a click on the floor puts the selected robot there, heading as before", () => {
+  selection = "a";
+  arranger.placeAt({ x: SIZE / 2 + 3 * PX, y: SIZE / 2 });
+  expect(onPlace).toHaveBeenCalledWith("a", { x: expect.closeTo(3, 6), y: expect.closeTo(0, 6), yaw: 0 });
+});
+
+test("while nothing may be moved it does nothing", () => {
+  arranger.isOn = false;
+  pointer("pointerdown", 0, 0);
+  pointer("pointermove", 2, 0);
+  pointer("pointerup", 2, 0);
+  expect(place().x).toBe(0);
+  expect(onPlace).not.toHaveBeenCalled();
+  arranger.showHandle();
+  expect(arranger.handle.tip).toBeNull();
+});

@@ -1,0 +1,186 @@
+// Moves what stands in the world by hand, while that is allowed: drag a body over the floor, drag the
+// tip of the selected robot's arrow to turn it, click on the floor to put it there. Every other
+// gesture is the view's.
+import type { Camera } from "three";
+import { Matrix4, Plane, Vector3 } from "three";
+import type { SceneBody } from "../api/scene";
+import type { Placed } from "../state/scenario";
+import type { BodyLayer } from "./BodyLayer";
+import type { ScreenPlace } from "./picking";
+import { rayThrough, screenPlaceOf } from "./picking";
+import type { RobotPlaces } from "./RobotPlaces";
+import { TurnHandle } from "./TurnHandle";
+
+const TIP_PX = 14; // so near to the tip one takes hold of it
+const DRAG_PX = 5;
+
+export interface ArrangerView {
+  host: HTMLElement; // holds the canvas
+  camera: Camera;
+  bodies(): BodyLayer | null;
+  robots(): RobotPlaces | null;
+  selection(): string | null;
+  redraw(): void;
+}
+
+export interface ArrangerEvents {
+  onPick(robot: string): void;
+  // Resolves to whether it stands there now.
+  onPlace(body: string, place: Placed): Promise<boolean>;
+}
+
+interface Drag {
+  body: SceneBody;
+  index: number;
+  start: ScreenPlace;
+  before: Matrix4; // world_from_body
+  grip: Vector3; // on the floor, where it was taken hold of
+  turns: boolean;
+  place: Placed;
+  isMoved: boolean;
+}
+
+export class Arranger {
+  readonly handle = new TurnHandle();
+  isOn = false;
+  private drag: Drag | null = null;
+  private held: BodyLayer | null = null;
+
+  constructor(
+    private readonly view: ArrangerView,
+    private readonly events: ArrangerEvents,
+  ) {
+    const { host } = view;
+    // Before the view's own gestures hear of it.
+    host.addEventListener("pointerdown", (event) => this.grab(event), true);
+    host.addEventListener("pointermove", (event) => this.pull(event), true);
+    host.addEventListener("pointerup", (event) => this.drop(event), true);
+    host.addEventListener("pointercancel", () => this.giveUp(), true);
+  }
+
+  // With every picture.
+  showHandle(): void {
+    const robot = this.isOn ? this.view.selection() : null;
+    const ring = robot === null ? null : this.view.robots()?.ringOf(robot);
+    const subject = robot === null ? null : this.view.robots()?.subjectOf(robot);
+    if (ring && subject) this.handle.show(ring.position, subject.yaw, ring.radius);
+    else this.handle.hide();
+  }
+
+  // Where one takes hold of the arrow; null while it is hidden.
+  tipOnScreen(): ScreenPlace | null {
+    const { tip } = this.handle;
+    return tip && screenPlaceOf(tip, this.view.camera, this.view.host.getBoundingClientRect());
+  }
+
+  // A click on the floor puts the selected robot there.
+  placeAt(at: ScreenPlace): void {
+    const robot = this.view.selection();
+    const subject = robot === null ? null : this.view.robots()?.subjectOf(robot);
+    const point = this.floorAt(at);
+    if (robot === null || !subject || !point) return;
+    void this.events.onPlace(robot, { x: point.x, y: point.y, yaw: subject.yaw });
+  }
+
+  // Whether what is shown is not where it was last reported: it is in somebody's hand, or was just
+  // put down.
+  get holds(): boolean {
+    return this.held !== null && this.held === this.view.bodies();
+  }
+
+  private grab(event: PointerEvent): void {
+    if (!this.isOn || this.holds || !event.isPrimary || event.button !== 0) return;
+    if (!(event.target instanceof HTMLCanvasElement)) return;
+    const start = { x: event.clientX, y: event.clientY };
+    const turns = this.isAtTip(start);
+    const bodies = this.view.bodies();
+    const body = turns ? this.selected() : (bodies?.pick(this.ray(start)) ?? null);
+    const index = body && bodies ? bodies.indexOf(body.name) : -1;
+    const before = bodies?.poseOf(index)?.clone();
+    if (!body || !before || body.isStatic) return;
+    const grip = this.onPlane(start, before.elements[14]!);
+    if (!grip) return;
+    event.stopPropagation();
+    this.view.host.setPointerCapture(event.pointerId);
+    this.drag = { body, index, start, before, grip, turns, place: placeOf(before), isMoved: false };
+  }
+
+  private pull(event: PointerEvent): void {
+    const { drag } = this;
+    const bodies = this.view.bodies();
+    if (!drag || !bodies || !event.isPrimary) return;
+    event.stopPropagation();
+    const at = { x: event.clientX, y: event.clientY };
+    drag.isMoved ||= Math.hypot(at.x - drag.start.x, at.y - drag.start.y) > DRAG_PX;
+    const point = this.onPlane(at, drag.before.elements[14]!);
+    if (!drag.isMoved || !point) return;
+    this.held = bodies;
+    drag.place = drag.turns ? turned(drag.before, point) : shifted(drag.before, drag.grip, point);
+    bodies.moveBody(drag.index, atPlace(drag.before, drag.place));
+    this.view.redraw();
+  }
+
+  private drop(event: PointerEvent): void {
+    const { drag } = this;
+    this.drag = null;
+    if (!drag) return;
+    event.stopPropagation();
+    const { name, isRobot, isAvatar } = drag.body;
+    if (!drag.isMoved) {
+      if (isRobot || isAvatar) this.events.onPick(name);
+      return;
+    }
+    void this.events.onPlace(name, drag.place).then((stands) => stands || this.giveUp());
+  }
+
+  // It goes back to where it was last reported.
+  private giveUp(): void {
+    this.drag = null;
+    this.held = null;
+    this.view.redraw();
+  }
+
+  private selected(): SceneBody | null {
+    const bodies = this.view.bodies();
+    const index = bodies?.indexOf(this.view.selection() ?? "") ?? -1;
+    return bodies?.scene.bodies[index] ?? null;
+  }
+
+  private isAtTip(at: ScreenPlace): boolean {
+    const place = this.tipOnScreen();
+    return place !== null && Math.hypot(at.x - place.x, at.y - place.y) <= TIP_PX;
+  }
+
+  private ray(at: ScreenPlace) {
+    return rayThrough(at, this.view.host.getBoundingClientRect(), this.view.camera);
+  }
+
+  // What is fixed there, or the floor.
+  private floorAt(at: ScreenPlace): Vector3 | null {
+    return this.view.bodies()?.pointOf(this.ray(at)) ?? this.onPlane(at, 0);
+  }
+
+  private onPlane(at: ScreenPlace, height: number): Vector3 | null {
+    const plane = new Plane(new Vector3(0, 0, 1), -height);
+    return this.ray(at).ray.intersectPlane(plane, new Vector3());
+  }
+}
+
+function placeOf({ elements: e }: Matrix4): Placed {
+  return { x: e[12]!, y: e[13]!, yaw: Math.atan2(e[1]!, e[0]!) };
+}
+
+function shifted(before: Matrix4, grip: Vector3, point: Vector3): Placed {
+  const { x, y, yaw } = placeOf(before);
+  return { x: x + point.x - grip.x, y: y + point.y - grip.y, yaw };
+}
+
+function turned(before: Matrix4, point: Vector3): Placed {
+  const { x, y } = placeOf(before);
+  return { x, y, yaw: Math.atan2(point.y - y, point.x - x) };
+}
+
+// world_from_body there, as high as before.
+function atPlace(before: Matrix4, { x, y, yaw }: Placed): Matrix4 {
+  return new Matrix4().makeRotationZ(yaw).setPosition(x, y, before.elements[14]!);
+}

@@ -1,0 +1,56 @@
+// The robot that is watched, and how: lets the eye do what the mode asks for, with the robot as it is
+// shown now.
+import type { ViewMode } from "../state/State";
+import type { CameraRig } from "./CameraRig";
+import { SelectionRing } from "./Ground";
+import type { RobotPlaces } from "./RobotPlaces";
+
+export class RobotWatch {
+  readonly ring = new SelectionRing();
+  robots: RobotPlaces | null = null; // of the present scene
+  private robot: string | null = null;
+  private mode: ViewMode = "orbit";
+
+  constructor(private readonly rig: CameraRig) {}
+
+  get selection(): string | null {
+    return this.robot;
+  }
+
+  private get isEye(): boolean {
+    return this.mode === "eye";
+  }
+
+  // With every picture.
+  showRing(): void {
+    const place = this.robot === null || this.isEye ? null : this.robots?.ringOf(this.robot);
+    if (place) this.ring.place(place.position, place.radius);
+    else this.ring.hide();
+  }
+
+  select(robot: string | null): void {
+    if (robot !== this.robot) this.rig.follow(null); // the next one is flown to
+    this.robot = robot;
+    this.update();
+  }
+
+  setMode(mode: ViewMode): void {
+    this.mode = mode;
+    this.update();
+  }
+
+  update(): void {
+    const { robots, mode } = this;
+    const robot = mode === "orbit" ? null : this.robot;
+    this.rig.lookFrom((this.isEye && robot && robots?.eyeOf(robot)) || null);
+    this.rig.follow((!this.isEye && robot && robots?.subjectOf(robot)) || null, mode === "chase");
+  }
+
+  // The robot has moved.
+  move(): void {
+    if (this.robot === null || this.mode === "orbit" || !this.robots) return;
+    const subject = this.robots.subjectOf(this.robot);
+    if (this.isEye) this.rig.lookFrom(this.robots.eyeOf(this.robot));
+    else if (subject) this.rig.moveTo(subject);
+  }
+}

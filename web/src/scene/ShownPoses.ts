@@ -1,0 +1,60 @@
+// The poses that a scene is shown with: takes the stream's messages, gives those of every frame.
+import type { Matrix4 } from "three";
+import type { PosesMessage } from "../protocol/messages";
+import { seconds } from "../protocol/messages";
+import type { BodyLayer } from "./BodyLayer";
+import { matrixOf } from "./BodyLayer";
+import type { PoseSample } from "./PoseInterpolator";
+import { PoseInterpolator } from "./PoseInterpolator";
+
+export class ShownPoses {
+  private readonly interpolator = new PoseInterpolator();
+  private bodies: BodyLayer | null = null;
+  private shown = new Float64Array(0);
+  private last: PosesMessage | null = null;
+
+  // `onSample` hears what belongs to the scene.
+  constructor(private readonly onSample: (sample: PoseSample) => void) {}
+
+  // Another scene, or none: then what was last told is forgotten. Poses may come before their scene.
+  setScene(bodies: BodyLayer | null): void {
+    this.interpolator.clear();
+    this.bodies = bodies;
+    this.shown = new Float64Array(7 * (bodies?.scene.poses.length ?? 0));
+    if (!bodies) this.last = null;
+    if (this.last) this.take(this.last);
+  }
+
+  take(message: PosesMessage): void {
+    this.last = message;
+    if (!this.bodies || this.bodies.scene.layoutVersion !== message.layout_version) return;
+    if (message.poses.length !== this.shown.length) return;
+    const sample = { step: Number(message.step), stamp: seconds(message.stamp), poses: message.poses };
+    this.interpolator.push(sample, performance.now());
+    this.onSample(sample);
+  }
+
+  // Puts the bodies where they are to be shown; false when nothing is known.
+  show(nowMs: number): boolean {
+    if (!this.bodies || !this.interpolator.read(nowMs, this.shown)) return false;
+    this.bodies.setPoses(this.shown);
+    return true;
+  }
+
+  isSettled(nowMs: number): boolean {
+    return this.interpolator.isSettled(nowMs);
+  }
+
+  // Those of that simulated instant, or else the newest.
+  at(stamp: number): Float64Array | null {
+    return this.interpolator.at(stamp) ?? this.interpolator.latest?.poses ?? null;
+  }
+
+  // world_from_body as last reported and its simulated time; null while unknown.
+  latestOf(body: string): { pose: Matrix4; stamp: number } | null {
+    const { latest } = this.interpolator;
+    const entry = this.bodies?.poseEntryOf(body) ?? null;
+    if (!latest || entry === null) return null;
+    return { pose: matrixOf(latest.poses, 7 * entry), stamp: latest.stamp };
+  }
+}

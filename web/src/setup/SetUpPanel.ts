@@ -1,0 +1,200 @@
+// The form with which a simulation is put together, beside the picture of what would stand there.
+import type { App } from "../app/App";
+import type { RobotList, Scenario } from "../state/scenario";
+import type { SetUp } from "../state/setUp";
+import { robotOfField } from "../state/setUp";
+import { element, setText } from "../ui/element";
+import type { IconName } from "../ui/icons";
+import { icon } from "../ui/icons";
+import { checkField, choiceField, choiceOrText, numberField, textField } from "./fields";
+import { RobotRow } from "./RobotRow";
+
+const BY_PATH = { choice: "A file or folder…", placeholder: "path/to/world.sdf" };
+
+export function createSetUpPanel(app: App): HTMLElement {
+  const world = choiceOrText("Environment", BY_PATH, (value) => app.setUp.change({ world: value }));
+  const parameters = parameterFields(app);
+  const lists = { robots: createList(app, "robots"), avatars: createList(app, "avatars") };
+  const hint = element("p", { class: "hint" });
+  const offers = element("div", { class: "hint offers-hint" });
+  const warnings = element("ul", { class: "warnings", "aria-label": "What the files lack" });
+  const wrong = element("p", { class: "field-error", role: "alert" });
+  const create = element(
+    "button",
+    { class: "button primary", type: "button", onclick: () => void app.setUp.create() },
+    "Create",
+  );
+  const panel = element(
+    "section",
+    { class: "sidebar set-up", "aria-label": "New simulation" },
+    head(app),
+    element("div", { class: "set-up-part" }, world.element),
+    element("div", { class: "set-up-part" }, element("h3", {}, "Robots"), lists.robots.element, adder(app), hint, offers),
+    element("div", { class: "set-up-part avatars-part" }, element("h3", {}, "Avatars"), lists.avatars.element),
+    element(
+      "details",
+      { class: "set-up-part" },
+      element("summary", {}, "Parameters"),
+      ...[...parameters.values()].map((field) => field.element),
+    ),
+    warnings,
+    element("div", { class: "set-up-end" }, wrong, create, button("Cancel", () => app.setUp.close())),
+  );
+
+  app.store.watch(
+    ({ setUp }) => setUp,
+    (setUp) => {
+      panel.hidden = setUp === null;
+      if (!setUp) return;
+      const { scenario } = setUp;
+      world.offer(setUp.worlds.map((name) => ({ value: name, label: name })));
+      world.show(scenario.world);
+      for (const [key, field] of parameters) field.show(scenario[key] as never);
+      lists.robots.show(setUp);
+      lists.avatars.show(setUp);
+      showWrong(setUp);
+      setText(hint, hintFor(scenario));
+      showOffers(offers, setUp);
+      warnings.replaceChildren(...setUp.warnings.slice(0, 20).map((each) => element("li", {}, each)));
+      create.disabled = setUp.isBusy;
+    },
+  );
+
+  function showWrong({ wrong: found }: SetUp): void {
+    const { field = "", sentence = "" } = found ?? {};
+    const robot = robotOfField(field);
+    world.refuse(field === "world" ? sentence : "");
+    for (const [key, each] of parameters) each.refuse(field === key ? sentence : "");
+    for (const list of ["robots", "avatars"] as const) {
+      lists[list].refuse(robot?.list === list ? robot : null, sentence);
+    }
+    if (parameters.has(field as keyof Scenario)) panel.querySelector("details")!.open = true;
+    const hasPlace = field === "world" || robot !== null || parameters.has(field as keyof Scenario);
+    setText(wrong, hasPlace ? "" : sentence);
+    wrong.hidden = hasPlace || sentence === "";
+  }
+  return panel;
+}
+
+function button(label: string, onclick: () => void, picture: IconName | null = null): HTMLButtonElement {
+  if (picture === null) return element("button", { class: "button", type: "button", onclick }, label);
+  return element(
+    "button",
+    { class: "button plain small", type: "button", "aria-label": label, title: label, onclick },
+    icon(picture),
+  );
+}
+
+function head(app: App): HTMLElement {
+  const file = element("input", { type: "file", accept: ".yaml,.yml,.json", "aria-label": "Scenario file" });
+  file.hidden = true;
+  file.addEventListener("change", () => {
+    const chosen = file.files?.[0];
+    file.value = ""; // the same file may be chosen again
+    if (chosen) void app.setUp.load(chosen);
+  });
+  const undo = button("Undo", () => app.setUp.undo(), "undo");
+  const redo = button("Redo", () => app.setUp.redo(), "redo");
+  app.store.watch(
+    ({ setUp }) => setUp,
+    (setUp) => {
+      undo.disabled = !setUp?.past.length;
+      redo.disabled = !setUp?.future.length;
+    },
+  );
+  return element(
+    "div",
+    { class: "card-head" },
+    element("h1", {}, "New simulation"),
+    undo,
+    redo,
+    button("Load a scenario file", () => file.click(), "open"),
+    button("Save as a scenario file", () => app.setUp.save(), "save"),
+    file,
+  );
+}
+
+function adder(app: App): HTMLElement {
+  const model = choiceField("Model to add", () => {});
+  const select = model.element.querySelector("select")!;
+  app.store.watch(
+    ({ setUp }) => setUp?.models,
+    (models) => model.offer((models ?? []).filter((each) => !each.isAvatar).map(({ name: value }) => ({ value, label: value }))),
+  );
+  app.store.watch(
+    ({ setUp }) => setUp?.models[0]?.name ?? "",
+    () => (select.selectedIndex = 0),
+  );
+  return element(
+    "div",
+    { class: "set-up-add" },
+    model.element,
+    button("Add robot", () => app.setUp.addRobot("robots", select.value)),
+    button("Add avatar", () => app.setUp.addRobot("avatars", "avatar")),
+  );
+}
+
+function parameterFields(app: App) {
+  const take = (key: keyof Scenario) => (value: unknown) => app.setUp.change({ [key]: value });
+  const mode = choiceField("Pace", take("mode"));
+  mode.offer([
+    { value: "real_time", label: "Real time, by the factor" },
+    { value: "lockstep", label: "Lockstep: as fast as possible, reproducible" },
+  ]);
+  return new Map<keyof Scenario, { element: HTMLElement; show(value: never): void; refuse(sentence: string): void }>([
+    ["name", textField("Name", "one is chosen", take("name"))],
+    ["mode", mode],
+    ["factor", numberField("Factor (simulated seconds a second)", 1, take("factor"), { least: "0" })],
+    ["duration", numberField("Duration (s; 0: until stopped)", 0, take("duration"), { least: "0" })],
+    ["step", numberField("Step (s; 0: the world's)", 0, take("step"), { least: "0" })],
+    ["seed", numberField("Seed of all noise", 0, take("seed"), { step: "1", least: "0" })],
+    ["record", checkField("Record it from the start", take("record"))],
+  ]);
+}
+
+function createList(app: App, list: RobotList) {
+  const rows: RobotRow[] = [];
+  const place = element("ul", { class: "set-up-robots", "aria-label": list === "robots" ? "Robots" : "Avatars" });
+  app.store.watch(
+    ({ selection }) => selection,
+    () => mark(),
+  );
+  function mark(): void {
+    const { setUp, selection } = app.store.get();
+    rows.forEach((row, i) => row.setSelected(selection !== null && setUp?.scenario[list][i]?.name === selection));
+  }
+  return {
+    element: place,
+    show: (setUp: SetUp) => {
+      const robots = setUp.scenario[list];
+      while (rows.length > robots.length) rows.pop()!.element.remove();
+      robots.forEach((robot, i) => {
+        const row = (rows[i] ??= new RobotRow(app, list, i));
+        if (!row.element.isConnected || row.element.parentElement !== place) place.append(row.element);
+        row.show(robot, setUp);
+      });
+      mark();
+    },
+    refuse: (wrong: { index: number; input: string } | null, sentence: string) => {
+      rows.forEach((row, i) => {
+        if (wrong?.index === i) row.refuse(wrong.input, sentence);
+        else row.refuse("", "");
+      });
+    },
+  };
+}
+
+function hintFor({ robots, avatars }: Scenario): string {
+  if (robots.length + avatars.length === 0) return "No robots yet. Choose a model and add one.";
+  return "Click a robot to choose it, then the floor to put it there. Drag it to move it; drag its arrow's tip to turn it.";
+}
+
+function showOffers(place: HTMLElement, { behaviours, scenario }: SetUp): void {
+  place.hidden = behaviours === null || behaviours.offers.length > 0 || scenario.robots.length === 0;
+  if (place.hidden || place.dataset.command === behaviours?.startCommand) return;
+  place.dataset.command = behaviours?.startCommand ?? "";
+  place.replaceChildren(
+    element("p", {}, "No behaviours are offered. Start one in a terminal; it appears here by itself:"),
+    element("code", {}, behaviours?.startCommand ?? ""),
+  );
+}

@@ -1,0 +1,137 @@
+// The parts of the form: labelled inputs, each with the place where the server's objection stands.
+import { element, setText } from "../ui/element";
+
+export interface Field<Value> {
+  element: HTMLElement;
+  show(value: Value): void;
+  // What is wrong with it; empty: nothing.
+  refuse(sentence: string): void;
+}
+
+let nextId = 1;
+
+// A label, its control, and what is wrong with what stands there.
+function labelled<Value>(
+  label: string,
+  control: HTMLInputElement | HTMLSelectElement,
+  show: (value: Value) => void,
+  ...more: HTMLElement[]
+): Field<Value> {
+  const id = `field-${nextId++}`;
+  control.id = id;
+  const wrong = element("p", { class: "field-error", id: `${id}-error`, role: "alert" });
+  wrong.hidden = true;
+  const place = element("div", { class: "field" }, element("label", { for: id }, label), control, ...more, wrong);
+  return {
+    element: place,
+    show,
+    refuse: (sentence) => {
+      setText(wrong, sentence);
+      wrong.hidden = sentence === "";
+      control.setAttribute("aria-invalid", String(sentence !== ""));
+      if (sentence) control.setAttribute("aria-describedby", wrong.id);
+      else control.removeAttribute("aria-describedby");
+    },
+  };
+}
+
+export function textField(label: string, placeholder: string, take: (text: string) => void): Field<string> {
+  const input = element("input", { type: "text", placeholder, spellcheck: "false", autocomplete: "off" });
+  input.addEventListener("change", () => take(input.value.trim()));
+  return labelled(label, input, (text) => (input.value = text));
+}
+
+// An empty field counts as `otherwise`; so many digits after the point are shown.
+export function numberField(
+  label: string,
+  otherwise: number | null,
+  take: (value: number | null) => void,
+  { step = "any", least = "", digits = 6 } = {},
+): Field<number | null> {
+  const input = element("input", { type: "number", step, ...(least && { min: least }) });
+  input.addEventListener("change", () => take(input.value === "" ? otherwise : Number(input.value)));
+  return labelled(label, input, (value) => {
+    input.value = value === null ? "" : String(Number(value.toFixed(digits)));
+  });
+}
+
+export function checkField(label: string, take: (value: boolean) => void): Field<boolean> {
+  const input = element("input", { type: "checkbox" });
+  input.addEventListener("change", () => take(input.checked));
+  const field = labelled<boolean>(label, input, (value) => (input.checked = value));
+  field.element.classList.add("check-field");
+  return field;
+}
+
+export interface Option {
+  value: string;
+  label: string;
+}
+
+export interface ChoiceField extends Field<string> {
+  offer(options: Option[]): void;
+}
+
+// Chooses from a list, which may change.
+export function choiceField(label: string, take: (value: string) => void): ChoiceField {
+  const select = element("select", {});
+  let shown = "";
+  select.addEventListener("change", () => take(select.value));
+  const field = labelled<string>(label, select, (value) => {
+    shown = value;
+    select.value = value;
+  });
+  return {
+    ...field,
+    offer: (options) => {
+      select.replaceChildren(...options.map(({ value, label }) => new Option(label, value)));
+      select.value = shown;
+    },
+  };
+}
+
+const OTHER = "\0other"; // no name holds it
+
+// Chooses from a list, or something else that is typed.
+export function choiceOrText(
+  label: string,
+  other: { choice: string; placeholder: string },
+  take: (value: string) => void,
+): ChoiceField {
+  const input = element("input", {
+    type: "text",
+    "aria-label": `${label}: ${other.choice}`,
+    placeholder: other.placeholder,
+    spellcheck: "false",
+  });
+  const select = element("select", {});
+  const field = labelled<string>(label, select, () => {}, input);
+  let values: string[] = [];
+  let shown = "";
+  input.hidden = true;
+  input.addEventListener("change", () => take(input.value.trim()));
+  select.addEventListener("change", () => {
+    input.hidden = select.value !== OTHER;
+    if (input.hidden) take(select.value);
+    else input.focus();
+  });
+  const show = (value: string) => {
+    shown = value;
+    const isKnown = values.includes(value);
+    select.value = isKnown ? value : OTHER;
+    if (!isKnown) input.value = value;
+    input.hidden = isKnown;
+  };
+  return {
+    ...field,
+    show,
+    offer: (options) => {
+      const isOther = select.value === OTHER && !input.hidden && input.value === "";
+      values = options.map(({ value }) => value);
+      const all = [...options, { value: OTHER, label: other.choice }];
+      select.replaceChildren(...all.map(({ value, label }) => new Option(label, value)));
+      if (isOther) select.value = OTHER;
+      else show(shown);
+    },
+  };
+}

@@ -1,0 +1,151 @@
+// A simulation to be put together: the world, who stands in it, and how it runs. Metres, radians,
+// seconds. As JSON it is what the server takes and what a scenario file holds
+// (docs/formats/scenario.md); JSON is YAML too.
+import type { JsonObject } from "../api/json";
+import { listAt, numberOr, objectAt, textOr } from "../api/json";
+
+export interface Placed {
+  x: number;
+  y: number;
+  yaw: number;
+}
+
+export interface RobotSetUp {
+  name: string;
+  model: string;
+  place: Placed | null; // null: the first that is free
+  behaviour: string; // an offer's name; empty: none
+  constraint: string; // or what an offer must fulfil; empty: a name is meant
+  movement: "" | "planar" | "rigid"; // empty: as its model says
+}
+
+export type RobotList = "robots" | "avatars";
+
+export interface Scenario {
+  name: string; // empty: the server chooses one
+  world: string;
+  mode: "real_time" | "lockstep";
+  factor: number;
+  step: number; // 0: the world's
+  duration: number; // 0: until it is stopped
+  seed: number;
+  record: boolean;
+  robots: RobotSetUp[];
+  avatars: RobotSetUp[];
+}
+
+export const EMPTY_SCENARIO: Scenario = {
+  name: "",
+  world: "",
+  mode: "real_time",
+  factor: 1,
+  step: 0,
+  duration: 0,
+  seed: 0,
+  record: false,
+  robots: [],
+  avatars: [],
+};
+
+export function newRobot(scenario: Scenario, model: string): RobotSetUp {
+  return { name: freeName(scenario, model), model, place: null, behaviour: "", constraint: "", movement: "" };
+}
+
+// The model's name (of a path: its last part), numbered where it is taken.
+export function freeName(scenario: Scenario, model: string): string {
+  const name = model.split("/").filter(Boolean).at(-1)?.replace(/\.\w+$/, "") || "robot";
+  const taken = new Set([...scenario.robots, ...scenario.avatars].map((robot) => robot.name));
+  if (!taken.has(name)) return name;
+  let number = 2;
+  while (taken.has(`${name}_${number}`)) number += 1;
+  return `${name}_${number}`;
+}
+
+export function withRobot(scenario: Scenario, list: RobotList, robot: RobotSetUp): Scenario {
+  return { ...scenario, [list]: [...scenario[list], robot] };
+}
+
+export function withoutRobot(scenario: Scenario, list: RobotList, index: number): Scenario {
+  return { ...scenario, [list]: scenario[list].filter((_, i) => i !== index) };
+}
+
+export function withChangedRobot(
+  scenario: Scenario,
+  list: RobotList,
+  index: number,
+  change: Partial<RobotSetUp>,
+): Scenario {
+  return {
+    ...scenario,
+    [list]: scenario[list].map((robot, i) => (i === index ? { ...robot, ...change } : robot)),
+  };
+}
+
+// Where a robot of that name stands in the lists.
+export function findRobot(scenario: Scenario, name: string): { list: RobotList; index: number } | null {
+  for (const list of ["robots", "avatars"] as const) {
+    const index = scenario[list].findIndex((robot) => robot.name === name);
+    if (index >= 0) return { list, index };
+  }
+  return null;
+}
+
+// What is as it would be anyway is left out.
+export function scenarioJson(scenario: Scenario): JsonObject {
+  const { robots, avatars, ...rest } = scenario;
+  const json: JsonObject = {};
+  for (const [key, value] of Object.entries(rest)) {
+    if (key === "world" || value !== EMPTY_SCENARIO[key as keyof Scenario]) json[key] = value;
+  }
+  if (robots.length > 0) json.robots = robots.map(robotJson);
+  if (avatars.length > 0) json.avatars = avatars.map(robotJson);
+  return json;
+}
+
+export function robotJson({ name, model, place, behaviour, constraint, movement }: RobotSetUp): JsonObject {
+  return {
+    ...(name && { name }),
+    model,
+    ...place,
+    ...(behaviour && { behaviour }),
+    ...(constraint && { behaviour_constraint: constraint }),
+    ...(movement && { movement }),
+  };
+}
+
+// Throws, with where and what, on what is no scenario. `left` names the keys that the page knows
+// nothing of: they are left out.
+export function parseScenario(value: unknown): { scenario: Scenario; left: string[] } {
+  const json = objectAt(value, "the file");
+  const scenario: Scenario = {
+    name: textOr(json.name, ""),
+    world: textOr(json.world, ""),
+    mode: json.mode === "lockstep" ? "lockstep" : "real_time",
+    factor: numberOr(json.factor, 1),
+    step: numberOr(json.step, 0),
+    duration: numberOr(json.duration, 0),
+    seed: numberOr(json.seed, 0),
+    record: json.record !== undefined && json.record !== null && json.record !== false,
+    robots: parseRobots(json.robots, "robots"),
+    avatars: parseRobots(json.avatars, "avatars"),
+  };
+  return { scenario, left: Object.keys(json).filter((key) => !(key in scenario)) };
+}
+
+function parseRobots(value: unknown, where: RobotList): RobotSetUp[] {
+  return listAt(value ?? [], where).map((each, i) => {
+    const robot = objectAt(each, `${where}[${i}]`);
+    const isPlaced = typeof robot.x === "number" && typeof robot.y === "number";
+    const movement = robot.movement;
+    return {
+      name: textOr(robot.name, ""),
+      model: textOr(robot.model, ""),
+      place: isPlaced
+        ? { x: numberOr(robot.x, 0), y: numberOr(robot.y, 0), yaw: numberOr(robot.yaw, 0) }
+        : null,
+      behaviour: textOr(robot.behaviour, ""),
+      constraint: textOr(robot.behaviour_constraint, ""),
+      movement: movement === "planar" || movement === "rigid" ? movement : "",
+    };
+  });
+}

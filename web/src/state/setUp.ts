@@ -1,0 +1,57 @@
+// The state of a set-up: the scenario being put together, what it was before, what is wrong with it.
+import type { Behaviours, ModelChoice } from "../api/SetUpApi";
+import type { RobotList, Scenario } from "./scenario";
+
+export interface Wrong {
+  field: string; // as the server names it, "robots[1].model"; empty: none in particular
+  sentence: string;
+}
+
+export interface Choices {
+  worlds: string[];
+  models: ModelChoice[];
+  behaviours: Behaviours | null; // null: not known yet
+}
+
+export interface SetUp extends Choices {
+  scenario: Scenario;
+  past: Scenario[]; // the newest last
+  future: Scenario[];
+  wrong: Wrong | null;
+  warnings: string[]; // what the files lack
+  poses: Float64Array | null; // of the scene that is shown; null: not known yet
+  isBusy: boolean; // the server is being asked
+}
+
+const MOST_PAST = 100;
+
+export function changed(setUp: SetUp, scenario: Scenario): SetUp {
+  return { ...setUp, scenario, past: [...setUp.past, setUp.scenario].slice(-MOST_PAST), future: [] };
+}
+
+export function undone(setUp: SetUp): SetUp {
+  const scenario = setUp.past.at(-1);
+  if (!scenario) return setUp;
+  return { ...setUp, scenario, past: setUp.past.slice(0, -1), future: [...setUp.future, setUp.scenario] };
+}
+
+export function redone(setUp: SetUp): SetUp {
+  const scenario = setUp.future.at(-1);
+  if (!scenario) return setUp;
+  return { ...setUp, scenario, past: [...setUp.past, setUp.scenario], future: setUp.future.slice(0, -1) };
+}
+
+const ROBOT_FIELD = /^(robots|avatars)\[(\d+)\](?:\.(\w+))?$/;
+// Those of them that have an input of their own in a robot's row.
+const ROBOT_INPUTS = ["name", "model", "behaviour", "behaviour_constraint", "x", "y", "yaw"];
+
+// The robot that a field belongs to, and its input there; null: it is no robot's.
+export function robotOfField(field: string): { list: RobotList; index: number; input: string } | null {
+  const [, list, index, input = ""] = ROBOT_FIELD.exec(field) ?? [];
+  if (!list) return null;
+  return {
+    list: list as RobotList,
+    index: Number(index),
+    input: ROBOT_INPUTS.includes(input) ? input : "",
+  };
+}
