@@ -6,7 +6,7 @@
 #include "apps/gsv/installation.h"
 #include "apps/gsv/model_list.h"
 #include "apps/gsv/population.h"
-#include "gsv/broker/gsv_service_types.h"
+#include "gsv/broker/client/gsv_service_types.h"
 
 namespace gsv::app {
 namespace {
