@@ -2,6 +2,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
+
+#include <yaml-cpp/eventhandler.h>
 
 #include "gsv/scenario/yaml_mapping.h"
 
@@ -104,6 +107,35 @@ Scenario ReadAll(const YAML::Node& node, const YamlPlace& place) {
   return scenario;
 }
 
+// Takes no notice of what is read, but for where documents start.
+class Starts final : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { latest = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  YAML::Mark latest;
+};
+
+// Whatever stands behind the first document, be it one or not. (YAML::LoadAll() of yaml-cpp 0.7
+// does not end where something cannot begin a document: it finds it again and again.)
+std::optional<YAML::Mark> SecondDocument(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Starts starts;
+  if (!parser.HandleNextDocument(starts) || !parser.HandleNextDocument(starts)) return std::nullopt;
+  return starts.latest;
+}
+
 // Seen from the file's folder, if it is there.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
@@ -124,15 +156,14 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   }
   const YamlPlace place(file, problems);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents.front().IsNull()) {
+    const YAML::Node document = YAML::Load(text);
+    if (const auto second = SecondDocument(text)) {
+      place.Complain(*second, "a file holds one scenario; this is a second one");
+    } else if (document.IsNull()) {
       return refuse("it is empty; a scenario is a mapping with keys such as world and robots",
                     file);
     }
-    if (documents.size() > 1) {
-      place.Complain(documents[1].Mark(), "a file holds one scenario; this is a second one");
-    }
-    return ReadAll(documents.front(), place);
+    return ReadAll(document, place);
   } catch (const YAML::Exception& error) {
     return refuse("it is no YAML: " + error.msg, place.Of(error.mark));
   }

@@ -163,10 +163,17 @@ TEST(ScenarioFile, WhatIsNoScenarioIsRefused) {
   EXPECT_THAT(Complaints("a text"),
               ElementsAre("room.yaml:1:1: expected a mapping (key: value), found \"a text\""));
   EXPECT_THAT(Complaints("world: a\n---\nworld: b\n"),
-              ElementsAre("room.yaml:3:1: a file holds one scenario; this is a second one"));
+              ElementsAre("room.yaml:2:1: a file holds one scenario; this is a second one"));
   EXPECT_THAT(Complaints(std::string(kLargestScenario + 1, ' ')),
               ElementsAre(HasSubstr("at most 4194304 bytes")));
   EXPECT_THAT(Complaints(std::string(100'000, '[')), ElementsAre(HasSubstr("it is no YAML")));
+}
+
+TEST(ScenarioFile, WhatStandsBehindTheScenarioEndsTheReading) {
+  EXPECT_THAT(Complaints("world: a\n, b\n"), ::testing::Not(IsEmpty()));
+  // Found by the fuzzer: a reader of all documents found this one again and again.
+  EXPECT_THAT(Complaints(", [b: |\n  two\n  *a\nror\nwoe: !!str 0\nm]]\n\n"),
+              ::testing::Not(IsEmpty()));
 }
 
 TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
