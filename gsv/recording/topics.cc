@@ -11,8 +11,8 @@ namespace {
 
 // Those of StateTopics and SensorTopics that are there whatever stands in the world.
 constexpr const char* kTopicsOfAll[]{
-    "/clock",     "/gsv/beams",      "/gsv/commands", "/gsv/contacts", "/gsv/events",
-    "/gsv/poses", "/gsv/state_hash", "/gsv/status",   "/tf",           "/tf_static"};
+    "/clock",     "/gsv/beams",      "/gsv/commands", "/gsv/contacts", "/gsv/events", "/gsv/poses",
+    "/gsv/radio", "/gsv/state_hash", "/gsv/status",   "/tf",           "/tf_static"};
 
 }  // namespace
 
@@ -22,7 +22,9 @@ std::vector<std::string> TopicsOf(const simulation::Simulation& simulation) {
     for (const model::SensorDescription& sensor : sensors) {
       const sensing::SensorType* type = simulation.sensor_types().Find(sensor.type);
       if (type == nullptr || type->schema == nullptr) continue;
-      topics.push_back("/" + presentation::FrameOf(robot, sensor.name));
+      const std::string topic = "/" + presentation::FrameOf(robot, sensor.name);
+      topics.push_back(topic);
+      if (type->companion) topics.push_back(topic + "/" + type->companion->topic);
     }
   }
   std::sort(topics.begin(), topics.end());

@@ -17,7 +17,7 @@ export function createRecordButton(app: App): HTMLElement {
     ({ recording, connection }) => ({ recording, isOpen: connection.phase === "open" }),
     ({ recording, isOpen }) => {
       button.hidden = recording === null;
-      button.disabled = !isOpen;
+      button.disabled = !isOpen || recording === null;
       button.setAttribute("aria-pressed", String(recording?.isOn === true));
       button.title = recording ? titleOf(recording) : "Record";
       setText(size, recording?.isOn ? sizeText(recording.bytes) : "");

@@ -29,8 +29,8 @@ export function createSetUpPanel(app: App): HTMLElement {
     { class: "sidebar set-up", "aria-label": "New simulation" },
     head(app),
     element("div", { class: "set-up-part" }, world.element),
-    element("div", { class: "set-up-part" }, element("h3", {}, "Robots"), lists.robots.element, adder(app), hint, offers),
-    element("div", { class: "set-up-part avatars-part" }, element("h3", {}, "Avatars"), lists.avatars.element),
+    element("div", { class: "set-up-part" }, element("h2", {}, "Robots"), lists.robots.element, adder(app), hint, offers),
+    element("div", { class: "set-up-part avatars-part" }, element("h2", {}, "Avatars"), lists.avatars.element),
     element(
       "details",
       { class: "set-up-part" },
