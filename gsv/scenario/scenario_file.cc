@@ -136,6 +136,29 @@ std::optional<YAML::Mark> SecondDocument(const std::string& text) {
   return starts.latest;
 }
 
+// How many bytes a character has that begins with this one; 0: none does.
+std::size_t LengthOfCharacter(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first < 0xe0) return 2;
+  if (first >= 0xe0 && first < 0xf0) return 3;
+  return first >= 0xf0 && first < 0xf5 ? 4 : 0;
+}
+
+// The first, counted from 1.
+std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = LengthOfCharacter(static_cast<unsigned char>(text[i]));
+    if (length == 0 || length > text.size() - i) return line;
+    for (std::size_t k = 1; k < length; ++k) {
+      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return line;
+    }
+    if (text[i] == '\n') ++line;
+    i += length;
+  }
+  return std::nullopt;
+}
+
 // Seen from the file's folder, if it is there.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
@@ -153,6 +176,10 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   };
   if (text.size() > kLargestScenario) {
     return refuse("a scenario has at most " + std::to_string(kLargestScenario) + " bytes", file);
+  }
+  // A name of other bytes would come back as another name.
+  if (const auto line = LineThatIsNotUtf8(text)) {
+    return refuse("the text is not UTF-8", file + ":" + std::to_string(*line));
   }
   const YamlPlace place(file, problems);
   try {

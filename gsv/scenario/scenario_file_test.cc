@@ -176,6 +176,15 @@ TEST(ScenarioFile, WhatStandsBehindTheScenarioEndsTheReading) {
               ::testing::Not(IsEmpty()));
 }
 
+TEST(ScenarioFile, ATextThatIsNotUtf8IsRefused) {
+  for (const char* bytes : {"\xff", "\xc3", "\xe2\x82", "\xc3(", "\x80", "\xc0\xaf"}) {
+    EXPECT_THAT(Complaints("seed: 1\nworld: " + std::string(bytes)),
+                ElementsAre("room.yaml:2: the text is not UTF-8"));
+  }
+  EXPECT_EQ(Parsed("world: \xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80").world,
+            "\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80");
+}
+
 TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
   std::string robots = "robots:\n  - &r {";
   for (int i = 0; i < 10'000; ++i) robots += "k" + std::to_string(i) + ": 1, ";
