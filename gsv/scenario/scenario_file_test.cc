@@ -118,6 +118,7 @@ TEST(ScenarioFile, WhatIsWrittenIsReadBackToTheBit) {
   scenario.record_png = false;
   EXPECT_EQ(Parsed(ToYaml(scenario)), scenario) << ToYaml(scenario);
   EXPECT_EQ(Parsed(ToYaml(DefaultScenario())), DefaultScenario());
+  EXPECT_EQ(Parsed(ToYaml(Scenario())), Scenario());
 }
 
 TEST(ScenarioFile, EachMistakeIsNamedWithLineAndColumn) {

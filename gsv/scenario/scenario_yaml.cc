@@ -137,7 +137,8 @@ std::string ToYaml(const Scenario& scenario) {
   if (!scenario.record_topics.empty()) writer.Put("record_topics", List(scenario.record_topics));
   if (!scenario.record_rates.empty()) writer.Put("record_rates", Rates(scenario.record_rates));
   writer.PutChoice("record_pictures", scenario.record_png, "jpeg", "png");
-  return writer.Take();
+  const std::string yaml = writer.Take();
+  return yaml.empty() ? "{}\n" : yaml;  // an empty file would be none
 }
 
 }  // namespace gsv::scenario
