@@ -53,15 +53,18 @@ test("dragging a robot moves it on the server, and undo takes it back", async ()
   await settled(page);
   const before = await placeNow("pebble");
   const at = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
+  // Towards the middle, where there is room: x is to the right, y upwards.
+  const pixels = 45 / Math.hypot(before.x_m, before.y_m);
+  const by = { x: -before.x_m * pixels, y: before.y_m * pixels };
   await page.mouse.move(at.x, at.y);
   await page.mouse.down();
-  await page.mouse.move(at.x + 20, at.y + 10, { steps: 3 });
-  await page.mouse.move(at.x + 40, at.y + 20, { steps: 3 });
+  await page.mouse.move(at.x + by.x / 2, at.y + by.y / 2, { steps: 3 });
+  await page.mouse.move(at.x + by.x, at.y + by.y, { steps: 3 });
   await page.mouse.up();
   await until(async () => distance(await placeNow("pebble"), before) > 0.1, "the moved robot");
   await notBusy();
   const after = await page.evaluate(() => window.gsv.robotScreenPosition("pebble"));
-  assert.ok(Math.hypot(after.x - at.x - 40, after.y - at.y - 20) < 12, "it stands where it was dropped");
+  assert.ok(Math.hypot(after.x - at.x - by.x, after.y - at.y - by.y) < 12, "it stands where it was dropped");
   await page.keyboard.press("Control+z");
   await until(async () => distance(await placeNow("pebble"), before) < 1e-9, "the robot where it was");
   await notBusy();

@@ -90,6 +90,7 @@ export class BrokerPage {
     }
     this.heading.textContent = type.name;
     this.declared.replaceChildren(declaration(type));
+    this.answer.replaceChildren(); // what is there answers for another type
     await this.find();
   }
 
