@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <ctime>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands.h"
 
@@ -38,6 +41,17 @@ inline double QuantileOf(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   const auto rank = static_cast<std::size_t>(q * static_cast<double>(values.size()));
   return values[std::min(rank, values.size() - 1)];
+}
+
+// To stdout: as one JSON object, or a line each.
+inline void PrintFigures(const nlohmann::ordered_json& figures, bool as_json) {
+  if (as_json) {
+    std::printf("%s\n", figures.dump().c_str());
+    return;
+  }
+  for (const auto& [name, value] : figures.items()) {
+    std::printf("%-18s %s\n", name.c_str(), value.dump().c_str());
+  }
 }
 
 }  // namespace gsv::app

@@ -213,13 +213,7 @@ int Run(const CameraArguments& arguments) {
       {"cpu_ms_a_picture", 1e3 * figures->processor / figures->pictures},
       {"least_cpu_ms_a_picture", 1e3 * figures->least_processor / arguments.cameras},
       {"renderer", figures->renderer}};
-  if (arguments.json) {
-    std::printf("%s\n", json.dump().c_str());
-  } else {
-    for (const auto& [name, value] : json.items()) {
-      std::printf("%-18s %s\n", name.c_str(), value.dump().c_str());
-    }
-  }
+  PrintFigures(json, arguments.json);
   return kOk;
 }
 

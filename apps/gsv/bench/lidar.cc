@@ -177,13 +177,7 @@ int RunLidarBench(LidarArguments arguments) {
        1e9 * figures->least_processor / (arguments.scene.robots * arguments.rays)},
       {"instant_p50_ms", QuantileOf(figures->instants, 0.5)},
       {"instant_p99_ms", QuantileOf(figures->instants, 0.99)}};
-  if (arguments.json) {
-    std::printf("%s\n", json.dump().c_str());
-  } else {
-    for (const auto& [name, value] : json.items()) {
-      std::printf("%-18s %s\n", name.c_str(), value.dump().c_str());
-    }
-  }
+  PrintFigures(json, arguments.json);
   return kOk;
 }
 

@@ -83,20 +83,20 @@ CheckedConnection::CheckedConnection(omni::SocketHandle_t socket,
 }
 
 CheckedConnection::~CheckedConnection() {
-  EndTurn();
+  GiveTurn();
   table_->Remove(this);
 }
 
 void CheckedConnection::TakeTurn() {
-  if (table_->turns().Take() && has_turn_.exchange(true)) table_->turns().End();
+  if (table_->turns().Take() && has_turn_.exchange(true)) table_->turns().Give();
 }
 
-void CheckedConnection::EndTurn() {
-  if (has_turn_.exchange(false)) table_->turns().End();
+void CheckedConnection::GiveTurn() {
+  if (has_turn_.exchange(false)) table_->turns().Give();
 }
 
 int CheckedConnection::Send(void* buffer, std::size_t size, const omni_time_t& deadline) {
-  EndTurn();
+  GiveTurn();
   // The ORB's own way asks first whether there is room, which there nearly always is.
   const ssize_t sent = send(pd_socket, buffer, size, MSG_DONTWAIT | MSG_NOSIGNAL);
   return sent > 0 ? static_cast<int>(sent) : tcpConnection::Send(buffer, size, deadline);
@@ -104,7 +104,7 @@ int CheckedConnection::Send(void* buffer, std::size_t size, const omni_time_t& d
 
 int CheckedConnection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline) {
   const std::lock_guard lock(mutex_);
-  if (incoming_.assembly().empty()) EndTurn();  // what came before wanted no reply
+  if (incoming_.assembly().empty()) GiveTurn();  // what came before wanted no reply
   omni_time_t until = deadline;
   while (!incoming_.whole()) {
     MessageAssembly& assembly = incoming_.assembly();

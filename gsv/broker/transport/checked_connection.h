@@ -48,10 +48,10 @@ class IncomingMessage {
 // nobody.
 //
 // Threads: all may call.
-class Turns {
+class RequestTurns {
  public:
   bool Take() { return free_.try_acquire_for(std::chrono::milliseconds(1)); }
-  void End() { free_.release(); }
+  void Give() { free_.release(); }
 
  private:
   std::counting_semaphore<> free_{1 + static_cast<int>(std::thread::hardware_concurrency())};
@@ -71,14 +71,14 @@ class ConnectionTable {
   // There are bytes to be read: whether the ORB shall read now. If not, they were taken, and more
   // are needed.
   bool Readable(CheckedConnection* connection);
-  Turns& turns() { return turns_; }
+  RequestTurns& turns() { return turns_; }
 
  private:
   void DropLate(Clock::time_point now);
   void DropSilent();
 
   std::size_t limit_;
-  Turns turns_;
+  RequestTurns turns_;
   std::mutex mutex_;
   // With the time since when its message has been coming, or the epoch.
   std::map<CheckedConnection*, Clock::time_point> connections_;
@@ -103,7 +103,7 @@ class CheckedConnection : public omni::tcpConnection {
  private:
   void Hear() { heard_ = Clock::now().time_since_epoch().count(); }
   void TakeTurn();
-  void EndTurn();
+  void GiveTurn();
 
   std::shared_ptr<ConnectionTable> table_;
   std::atomic<Clock::rep> heard_ = Clock::now().time_since_epoch().count();
