@@ -88,15 +88,16 @@ class Drawing {
     const pose = planar(transform);
     this.poses.set(frame, pose);
     this.parents.set(frame, header.frame_id);
-    if (header.frame_id !== "world" || frame.includes("/")) return;
-    const track = this.paths.get(frame) ?? [];
+    if (header.frame_id !== "map" || !frame.endsWith("/base_link")) return;
+    const robot = frame.split("/")[0];
+    const track = this.paths.get(robot) ?? [];
     const last = track.at(-1);
     if (!last || Math.hypot(pose[0] - last[0], pose[1] - last[1]) > 0.02) track.push(pose);
-    this.paths.set(frame, track);
+    this.paths.set(robot, track);
   }
 
   worldFrom(frame) {
-    if (frame === "world") return [0, 0, 0];
+    if (frame === "map") return [0, 0, 0];
     const pose = this.poses.get(frame);
     return pose && compose(this.worldFrom(this.parents.get(frame)), pose);
   }

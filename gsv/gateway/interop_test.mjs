@@ -180,8 +180,8 @@ async function check(origin, subprotocol) {
   near(Number(poses.timestamp) * 1e-9, seconds(poses.message.stamp), "time of the poses");
 
   const transforms = (await watcher.message("/tf")).message.transforms;
-  const base = transforms.find((t) => t.child_frame_id === "robot_0");
-  assert.equal(base.header.frame_id, "world");
+  const base = transforms.find((t) => t.child_frame_id === "robot_0/base_link");
+  assert.equal(base.header.frame_id, "map");
   near(base.transform.translation.x, robotPose(seconds(base.header.stamp)).x, "x in /tf");
   const fixed = (await watcher.message("/tf_static")).message.transforms;
   near(fixed.find((t) => t.child_frame_id === "robot_0/front_sonar").transform.translation.x, SONAR_X,

@@ -1,6 +1,5 @@
 #include "gsv/gateway/live_stream.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "gsv/gateway/channels.h"
@@ -12,10 +11,7 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr double kStatusRate = 5;   // Hz
-constexpr double kRefreshRate = 1;  // how often new sensors are looked for
-// Of what happened before a viewer came, so much is told.
-constexpr std::size_t kMostPastEvents = 100;
+constexpr double kRefreshRate = 1;  // Hz: how often new sensors are looked for
 
 std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
 
@@ -27,10 +23,6 @@ foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
           std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(started).count())};
 }
 
-Hub::Message MessageOf(const simulation::Event& event) {
-  return {Nanoseconds(event.time), Encoded(presentation::EventMessage(event))};
-}
-
 }  // namespace
 
 LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation,
@@ -39,23 +31,20 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
     : hub_(std::make_shared<Hub>(
           InfoOf(*simulation), std::move(on_demand),
           std::make_shared<LiveOperations>(simulation, commanders, recordings))),
-      status_pacing_(kStatusRate),
+      snapshot_topics_(3),
+      status_(hub_),
+      events_(hub_),
       refresh_pacing_(kRefreshRate),
       commands_(hub_),
       contacts_(hub_) {
   const std::vector<foxglove::ChannelId> channels =
       hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
                        ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
-                       ChannelFor<messages::tf2_msgs::TFMessage>("/tf"),
-                       ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status"),
-                       ChannelFor<messages::gsv_msgs::LifecycleEvent>("/gsv/events")});
-  snapshot_topics_.resize(3);
+                       ChannelFor<messages::tf2_msgs::TFMessage>("/tf")});
   snapshot_topics_[0].encode = &LiveStream::EncodeClock;
   snapshot_topics_[1].encode = &LiveStream::EncodePoses;
   snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;
-  for (std::size_t i = 0; i < 3; ++i) snapshot_topics_[i].channel = channels[i];
-  status_channel_ = channels[3];
-  events_channel_ = channels[4];
+  for (std::size_t i = 0; i < channels.size(); ++i) snapshot_topics_[i].channel = channels[i];
   sensors_ = std::make_shared<SensorTopics>(hub_, watchers);
 }
 
@@ -66,8 +55,8 @@ void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation
   FollowLayout(*simulation, *snapshot, now);
   PublishTime(snapshot);
   for (SnapshotTopic& topic : snapshot_topics_) Publish(topic, snapshot, now);
-  PublishStatus(*simulation, now);
-  PublishEvents(*simulation);
+  status_.Publish(*simulation, now);
+  events_.Publish(*simulation);
   commands_.Publish(*snapshot);
   sensors_->Publish(simulation, snapshot, now);
   hub_->PublishChanges();
@@ -103,48 +92,6 @@ void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, 
   hub_->Publish(topic.channel, topic.latest);
   topic.published = snapshot;
   topic.pacing.Done(now);
-}
-
-void LiveStream::PublishStatus(simulation::Simulation& simulation, WallTime now) {
-  if (!hub_->IsSubscribed(status_channel_)) return;
-  const simulation::Phase phase = simulation.WaitForPhase({}, std::chrono::milliseconds(0));
-  const bool is_due = phase != published_phase_ || status_pacing_.IsDue(now);
-  const bool has_newcomers = hub_->HasNewcomers(status_channel_);
-  if (!is_due && !has_newcomers) return;
-  const simulation::SimulationStatus status = simulation.status();
-  const Hub::Message message{Nanoseconds(status.time),
-                             Encoded(presentation::StatusMessage(status))};
-  if (is_due) {
-    status_pacing_.Done(now);
-    published_phase_ = status.phase;
-  }
-  const bool has_changed = message.payload.view() != latest_status_.payload.view();
-  latest_status_ = message;
-  if (has_changed) return hub_->Publish(status_channel_, message);
-  if (has_newcomers) hub_->Welcome(status_channel_, {&message, 1});
-}
-
-std::vector<simulation::Event> LiveStream::TakeNewEvents(simulation::Simulation& simulation) {
-  if (simulation.events(next_event_).empty()) return {};
-  // The simulation forgets its oldest events, so that their number says where we are: read before
-  // the events themselves, it is not ahead of them.
-  const std::uint64_t count = simulation.status().events;
-  std::vector<simulation::Event> events = simulation.events(next_event_);
-  next_event_ = std::max(next_event_ + events.size(), count);
-  return events;
-}
-
-void LiveStream::PublishEvents(simulation::Simulation& simulation) {
-  for (const simulation::Event& event : TakeNewEvents(simulation)) {
-    hub_->Publish(events_channel_, MessageOf(event), Hub::Audience::kEstablished);
-  }
-  if (!hub_->HasNewcomers(events_channel_)) return;
-  const std::vector<simulation::Event> past = simulation.events(0);
-  std::vector<Hub::Message> messages;
-  for (std::size_t i = past.size() - std::min(past.size(), kMostPastEvents); i < past.size(); ++i) {
-    messages.push_back(MessageOf(past[i]));
-  }
-  hub_->Welcome(events_channel_, messages);
 }
 
 SharedBytes LiveStream::EncodeClock(const world::Snapshot& snapshot) const {

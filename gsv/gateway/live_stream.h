@@ -4,16 +4,17 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "gsv/gateway/command_topic.h"
 #include "gsv/gateway/contact_topic.h"
+#include "gsv/gateway/event_topics.h"
 #include "gsv/gateway/hub.h"
 #include "gsv/gateway/pacing.h"
 #include "gsv/gateway/ports.h"
 #include "gsv/gateway/sensor_topics.h"
+#include "gsv/gateway/status_topics.h"
 #include "gsv/presentation/pose_list.h"
 
 namespace gsv::gateway {
@@ -50,9 +51,6 @@ class LiveStream {
                     WallTime now);
   void PublishTime(const SnapshotPointer& snapshot);
   void Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now);
-  void PublishStatus(simulation::Simulation& simulation, WallTime now);
-  std::vector<simulation::Event> TakeNewEvents(simulation::Simulation& simulation);
-  void PublishEvents(simulation::Simulation& simulation);
 
   SharedBytes EncodeClock(const world::Snapshot& snapshot) const;
   SharedBytes EncodePoses(const world::Snapshot& snapshot) const;
@@ -61,13 +59,8 @@ class LiveStream {
   const std::shared_ptr<Hub> hub_;
   std::vector<SnapshotTopic> snapshot_topics_;
 
-  foxglove::ChannelId status_channel_ = 0;
-  Pacing status_pacing_;
-  std::optional<simulation::Phase> published_phase_;
-  Hub::Message latest_status_;
-
-  foxglove::ChannelId events_channel_ = 0;
-  std::uint64_t next_event_ = 0;
+  StatusTopics status_;
+  EventTopics events_;
 
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "gsv/gateway/testing/live_stream_fixture.h"
+#include "gsv/messages/diagnostic_msgs.h"
 #include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/rcl_interfaces.h"
 #include "gsv/messages/tf2_msgs.h"
 
 namespace gsv::gateway {
@@ -130,16 +132,45 @@ TEST_F(LiveStreamTest, EventsReachEverybodyOnceAndLateViewersFromTheBeginning) {
   }
 }
 
+TEST_F(LiveStreamTest, EventsAreALogForOtherTools) {
+  simulation_->AddEvent("one");
+  Subscribe(1, "/rosout");
+  Round();
+  simulation_->AddEvent("two_three");
+  Round();
+  ASSERT_EQ(client_->data(1).size(), 2u);
+  EXPECT_EQ(Decoded<messages::rcl_interfaces::Log>(client_->data(1)[0]).msg, "one");
+  EXPECT_EQ(Decoded<messages::rcl_interfaces::Log>(client_->data(1)[1]).msg, "two three");
+}
+
+TEST_F(LiveStreamTest, DiagnosticsComeOnceASecondAndWithAChangeOfPhase) {
+  Subscribe(1, "/diagnostics");
+  for (int i = 0; i < 300; ++i) {
+    simulation_->Advance(milliseconds(10));
+    Round(milliseconds(10));
+  }
+  const std::size_t before = client_->data(1).size();
+  EXPECT_GE(before, 3u);
+  EXPECT_LE(before, 4u);
+  ASSERT_TRUE(simulation_->Start());
+  Round(milliseconds(1));
+  ASSERT_EQ(client_->data(1).size(), before + 1);
+  const auto diagnostics =
+      Decoded<messages::diagnostic_msgs::DiagnosticArray>(client_->data(1).back());
+  ASSERT_EQ(diagnostics.status.size(), 3u);  // the simulation and two robots
+  EXPECT_EQ(diagnostics.status[0].message, "running");
+}
+
 TEST_F(LiveStreamTest, TransformsAreAgainstTheWorldAndTheRobot) {
   simulation_->Advance(seconds(2));
   Subscribe(1, "/tf");
   Round();
   const auto transforms = Decoded<TFMessage>(client_->data(1).at(0)).transforms;
   ASSERT_EQ(transforms.size(), 6u);
-  EXPECT_EQ(transforms[3].header.frame_id, "world");
-  EXPECT_EQ(transforms[3].child_frame_id, "robot_0");
+  EXPECT_EQ(transforms[3].header.frame_id, "map");
+  EXPECT_EQ(transforms[3].child_frame_id, "robot_0/base_link");
   EXPECT_NEAR(transforms[3].transform.translation.x, std::cos(0.4), 1e-12);
-  EXPECT_EQ(transforms[4].header.frame_id, "robot_0");
+  EXPECT_EQ(transforms[4].header.frame_id, "robot_0/base_link");
   EXPECT_EQ(transforms[4].child_frame_id, "robot_0/left_wheel");
   EXPECT_NEAR(transforms[4].transform.translation.x, 0, 1e-12);
   EXPECT_NEAR(transforms[4].transform.translation.y, 0.17, 1e-12);

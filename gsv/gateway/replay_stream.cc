@@ -7,7 +7,7 @@
 #include "gsv/gateway/sensor_topics.h"
 #include "gsv/messages/rosgraph_msgs.h"
 #include "gsv/messages/time.h"
-#include "gsv/presentation/state_messages.h"
+#include "gsv/presentation/run_messages.h"
 #include "gsv/recording/newest_messages.h"
 
 namespace gsv::gateway {
@@ -56,11 +56,10 @@ ReplayStream::ReplayStream(const recording::McapReader& reader, const std::strin
 }
 
 void ReplayStream::Advertise(const recording::Summary& summary) {
-  static const std::map<std::string, Kind> kKinds{{"/gsv/events", Kind::kEvents},
-                                                  {"/gsv/contacts", Kind::kEvents},
-                                                  {"/gsv/status", Kind::kStatus},
-                                                  {"/clock", Kind::kClock},
-                                                  {"/gsv/poses", Kind::kPoses}};
+  static const std::map<std::string, Kind> kKinds{
+      {"/gsv/events", Kind::kEvents}, {"/gsv/contacts", Kind::kEvents},
+      {"/rosout", Kind::kEvents},     {"/gsv/status", Kind::kStatus},
+      {"/clock", Kind::kClock},       {"/gsv/poses", Kind::kPoses}};
   std::vector<foxglove::Channel> channels;
   std::vector<std::uint16_t> ids;
   for (const bool common : {true, false}) {

@@ -81,7 +81,7 @@ TEST_F(LiveStreamTest, BeamsAreLinesFromTheSensorAsLongAsTheReading) {
   const auto& robot = markers[1];
   EXPECT_EQ(robot.ns, "robot_0");
   EXPECT_EQ(robot.type, messages::visualization_msgs::Marker::kLineList);
-  EXPECT_EQ(robot.header.frame_id, "world");
+  EXPECT_EQ(robot.header.frame_id, "map");
   // Ahead, from (1, 0.25) five metres north; to the left, from (1, 0) west to the avatar's wheel
   // or body, whose nearest surface is 0.25 m from the origin.
   bool found_front = false, found_left = false;
@@ -122,7 +122,7 @@ TEST_F(LiveStreamTest, StaticTransformsPlaceTheSensors) {
   ASSERT_EQ(client_->data(1).size(), 1u);
   for (const auto& transform : Decoded<TFMessage>(client_->data(1)[0]).transforms) {
     if (transform.child_frame_id != "robot_0/left_sonar") continue;
-    EXPECT_EQ(transform.header.frame_id, "robot_0");
+    EXPECT_EQ(transform.header.frame_id, "robot_0/base_link");
     EXPECT_NEAR(transform.transform.rotation.z, std::sqrt(0.5), 1e-12);
     return;
   }

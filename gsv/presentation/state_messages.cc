@@ -28,33 +28,27 @@ TransformStamped Stamped(std::string_view parent, std::string child, base::SimTi
   return message;
 }
 
-messages::gsv_msgs::RobotStatus RobotMessage(const simulation::RobotStatus& robot) {
-  messages::gsv_msgs::RobotStatus message;
-  message.name = robot.name;
-  message.model = robot.model;
-  message.behaviour = robot.behaviour;
-  message.agent_state = simulation::ToString(robot.phase);
-  message.detail = robot.detail;
-  message.distance_m = robot.distance;
-  message.collisions = robot.collisions;
-  return message;
-}
-
 messages::visualization_msgs::Marker Marker(const std::string& robot, base::SimTime time) {
   messages::visualization_msgs::Marker marker;
   marker.header.stamp = messages::ToMessage(time);
-  marker.header.frame_id = kWorldFrame;
+  marker.header.frame_id = sensing::kWorldFrame;
   marker.ns = robot;
   marker.type = messages::visualization_msgs::Marker::kLineList;
   marker.pose.orientation.w = 1;
   return marker;
 }
 
-}  // namespace
-
-std::string FrameOf(std::string_view body, std::string_view part) {
-  return std::string(body) + "/" + std::string(part);
+std::string BodyFrame(const world::Body& body) {
+  return body.is_robot || body.is_avatar ? FrameOf(body.name, sensing::kBaseFrame) : body.name;
 }
+
+// Of a link that moves against its body, whose own frame may have taken its name.
+std::string LinkFrame(const world::Body& body, const model::Link& link) {
+  std::string frame = FrameOf(body.name, link.name);
+  return frame == BodyFrame(body) ? frame + "_1" : frame;
+}
+
+}  // namespace
 
 messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
                                        const std::vector<PoseEntry>& list) {
@@ -80,13 +74,13 @@ messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
   for (std::size_t i = 0; i < list.size(); ++i) {
     const world::Body& body = snapshot.layout->bodies[list[i].body];
     if (list[i].link < 0) {
-      message.transforms.push_back(Stamped(kWorldFrame, body.name, time, poses[i]));
+      message.transforms.push_back(Stamped(sensing::kWorldFrame, BodyFrame(body), time, poses[i]));
       continue;
     }
     const geometry::Pose& world_from_model = snapshot.state.bodies[list[i].body].world_from_model;
-    message.transforms.push_back(Stamped(body.name,
-                                         FrameOf(body.name, body.model->links[list[i].link].name),
-                                         time, Inverse(world_from_model) * poses[i]));
+    message.transforms.push_back(Stamped(BodyFrame(body),
+                                         LinkFrame(body, body.model->links[list[i].link]), time,
+                                         Inverse(world_from_model) * poses[i]));
   }
   return message;
 }
@@ -99,13 +93,13 @@ void AppendSensorTransform(const world::Layout& layout, int body,
   const std::vector<int> moving = world::MovingLinks(*robot.model);
   const bool moves = std::find(moving.begin(), moving.end(), sensor.link) != moving.end();
   message.transforms.push_back(Stamped(
-      moves ? FrameOf(robot.name, link.name) : robot.name, FrameOf(robot.name, sensor.name), time,
+      moves ? LinkFrame(robot, link) : BodyFrame(robot), FrameOf(robot.name, sensor.name), time,
       moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
   if (!type.companion) return;
   const std::string frame = FrameOf(robot.name, sensor.name);
   const geometry::Pose sensor_from_optical{{}, {0.5, -0.5, 0.5, -0.5}};
   message.transforms.push_back(
-      Stamped(frame, frame + sensing::kOpticalFrame, time, sensor_from_optical));
+      Stamped(frame, FrameOf(frame, sensing::kOpticalFrame), time, sensor_from_optical));
 }
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
@@ -136,33 +130,6 @@ messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snap
   message.receiver = sent.receiver;
   message.content.assign(sent.content.begin(), sent.content.end());
   message.heard_by = transmission.heard_by;
-  return message;
-}
-
-messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status) {
-  messages::gsv_msgs::SimulationStatus message;
-  message.stamp = messages::ToMessage(status.time);
-  message.step = StepNumber(status.step);
-  message.state = simulation::ToString(status.phase);
-  message.mode = simulation::ToString(status.mode);
-  message.real_time_factor = status.real_time_factor;
-  message.target_factor = status.target_factor;
-  message.late_steps = status.late_steps;
-  message.waiting_for = status.waiting_for;
-  message.robots.reserve(status.robots.size());
-  for (const simulation::RobotStatus& robot : status.robots) {
-    message.robots.push_back(RobotMessage(robot));
-  }
-  return message;
-}
-
-messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event) {
-  messages::gsv_msgs::LifecycleEvent message;
-  message.stamp = messages::ToMessage(event.time);
-  message.step = StepNumber(event.step);
-  message.event = event.kind;
-  message.robot = event.robot;
-  message.detail = event.detail;
   return message;
 }
 

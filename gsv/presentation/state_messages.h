@@ -1,7 +1,6 @@
 // A simulation's state as ROS 2 messages.
 //
-// Frames  "world"; a robot or other moving body is the frame NAME, a link that moves against it
-//         NAME/LINK, a sensor NAME/SENSOR.
+// Frames  see gsv/sensing/frames.h.
 #pragma once
 
 #include <span>
@@ -15,18 +14,18 @@
 #include "gsv/messages/visualization_msgs.h"
 #include "gsv/model/sensor_description.h"
 #include "gsv/presentation/pose_list.h"
+#include "gsv/sensing/frames.h"
 #include "gsv/sensing/registry.h"
-#include "gsv/simulation/types.h"
 #include "gsv/world/state.h"
 
 namespace gsv::presentation {
 
-inline constexpr std::string_view kWorldFrame = "world";
+using sensing::FrameOf;
 
 messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
                                        const std::vector<PoseEntry>& list);
 
-// world → body for each entry that is a body, body → link for each that is a link.
+// map → body for each entry that is a body, body → link for each that is a link.
 messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
                                                 const std::vector<PoseEntry>& list);
 
@@ -41,9 +40,6 @@ messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
 
 messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,
                                                      const world::Transmission& transmission);
-
-messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
-messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
 // What a robot's drive was told last, as `state`, at least a step later, shows it.
 messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world::DriveState& drive,
@@ -62,7 +58,5 @@ messages::visualization_msgs::Marker BeamsMarker(const std::string& robot, base:
                                                  std::vector<geometry::Vector3> points_in_world);
 // Takes a robot's beams away.
 messages::visualization_msgs::Marker NoBeamsMarker(const std::string& robot, base::SimTime time);
-
-std::string FrameOf(std::string_view body, std::string_view part);
 
 }  // namespace gsv::presentation

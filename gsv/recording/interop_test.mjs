@@ -171,8 +171,9 @@ async function checkRun(bytes) {
   assert.deepEqual(readAsStream(bytes).messages, finding.messages);
   const byTopic = (name) => finding.messages.filter(({ topic }) => topic === name);
   const topics = [...finding.channels.values()].map(({ topic }) => topic).sort();
-  assert.deepEqual(topics, ["/clock", "/gsv/beams", "/gsv/commands", "/gsv/contacts", "/gsv/events",
-    "/gsv/poses", "/gsv/radio", "/gsv/state_hash", "/gsv/status", "/robot/back", "/robot/front", "/tf", "/tf_static"]);
+  assert.deepEqual(topics, ["/clock", "/diagnostics", "/gsv/beams", "/gsv/commands", "/gsv/contacts",
+    "/gsv/events", "/gsv/poses", "/gsv/radio", "/gsv/state_hash", "/gsv/status", "/robot/back", "/robot/front",
+    "/rosout", "/tf", "/tf_static"]);
   // The robot meets nobody and is silent.
   const silent = ["/gsv/contacts", "/gsv/radio"];
   for (const topic of topics) assert.equal(byTopic(topic).length > 0, !silent.includes(topic), topic);
@@ -181,9 +182,12 @@ async function checkRun(bytes) {
   }
   const last = byTopic("/tf").at(-1);
   assert.equal(last.logTime, 2_000_000_000n);
-  const { translation } = last.content.transforms.find((each) => each.child_frame_id === "robot").transform;
+  const { translation } = last.content.transforms.find((each) => each.child_frame_id === "robot/base_link").transform;
   assert.ok(Math.abs(translation.x - 1) < 1e-9);
   assert.deepEqual(byTopic("/gsv/events").map(({ content }) => content.event), ["started", "finished"]);
+  assert.deepEqual(byTopic("/rosout").map(({ content }) => content.msg), ["started", "finished"]);
+  const { status } = byTopic("/diagnostics").at(-1).content;
+  assert.deepEqual(status.map(({ name, level }) => [name, level]), [["simulation", 0], ["robot", 0]]);
   const scenes = (await collect(reader.readAttachments())).filter(({ name }) => name === "scene.json");
   const scene = JSON.parse(new TextDecoder().decode(scenes.at(-1).data));
   assert.deepEqual(scene.bodies.map(({ name }) => name), ["robot", "wall"]);

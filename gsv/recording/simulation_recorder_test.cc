@@ -43,6 +43,8 @@ TEST_F(SimulationRecorderTest, EachTopicKeepsItsRateInSimulatedTime) {
   EXPECT_EQ(counts["/gsv/state_hash"], 2u);
   EXPECT_EQ(counts["/tf_static"], 2u);
   EXPECT_EQ(counts["/gsv/events"], 2u);  // started, finished
+  EXPECT_EQ(counts["/rosout"], 2u);      // the same
+  EXPECT_EQ(counts["/diagnostics"], 2u);
 }
 
 TEST_F(SimulationRecorderTest, TellsWhoMetWhomAndHowHard) {

@@ -7,12 +7,14 @@ namespace gsv::recording {
 namespace {
 
 constexpr base::SimTime kHashPeriod = std::chrono::seconds(1);
+constexpr base::SimTime kDiagnosticsPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
 StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection& selection)
     : poses_instants_(base::FromSeconds(1 / poses_rate)),
       hash_instants_(kHashPeriod),
+      diagnostics_instants_(kDiagnosticsPeriod),
       clock_(writer, selection, "/clock"),
       poses_(writer, selection, "/gsv/poses"),
       transforms_(writer, selection, "/tf"),
@@ -20,7 +22,9 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
       contacts_(writer, selection, "/gsv/contacts"),
       radio_(writer, selection, "/gsv/radio"),
       status_(writer, selection, "/gsv/status", {.reproducible = false}),
+      diagnostics_(writer, selection, "/diagnostics", {.reproducible = false}),
       events_(writer, selection, "/gsv/events"),
+      log_(writer, selection, "/rosout"),
       hash_(writer, selection, "/gsv/state_hash") {}
 
 void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
@@ -91,10 +95,14 @@ void StateTopics::WriteTransmissions(const world::Snapshot& snapshot) {
 
 void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
   if (status_.is_wanted()) status_.Write(status.time, presentation::StatusMessage(status));
+  if (diagnostics_instants_.Pass(status.time) && diagnostics_.is_wanted()) {
+    diagnostics_.Write(status.time, presentation::DiagnosticsMessage(status));
+  }
 }
 
 void StateTopics::RecordEvent(const simulation::Event& event) {
   events_.Write(event.time, presentation::EventMessage(event));
+  log_.Write(event.time, presentation::LogMessage(event));
 }
 
 }  // namespace gsv::recording

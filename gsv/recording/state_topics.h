@@ -1,5 +1,6 @@
 // The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
-// /gsv/contacts, /gsv/radio, /gsv/status, /gsv/events, /gsv/state_hash (docs/formats/messages.md).
+// /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout, /gsv/state_hash
+// (docs/formats/messages.md).
 #pragma once
 
 #include <map>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/presentation/run_messages.h"
 #include "gsv/presentation/state_messages.h"
 #include "gsv/recording/instants.h"
 #include "gsv/recording/topic_writer.h"
@@ -37,6 +39,7 @@ class StateTopics {
 
   Instants poses_instants_;
   Instants hash_instants_;
+  Instants diagnostics_instants_;
   std::optional<std::int64_t> poses_step_;  // whose poses were written last
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_
@@ -49,7 +52,9 @@ class StateTopics {
   TopicWriter<messages::gsv_msgs::Contact> contacts_;
   TopicWriter<messages::gsv_msgs::Transmission> radio_;
   TopicWriter<messages::gsv_msgs::SimulationStatus> status_;
+  TopicWriter<messages::diagnostic_msgs::DiagnosticArray> diagnostics_;
   TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
+  TopicWriter<messages::rcl_interfaces::Log> log_;
   TopicWriter<messages::gsv_msgs::StateHash> hash_;
 };
 

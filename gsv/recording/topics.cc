@@ -11,8 +11,9 @@ namespace {
 
 // Those of StateTopics and SensorTopics that are there whatever stands in the world.
 constexpr const char* kTopicsOfAll[]{
-    "/clock",     "/gsv/beams",      "/gsv/commands", "/gsv/contacts", "/gsv/events", "/gsv/poses",
-    "/gsv/radio", "/gsv/state_hash", "/gsv/status",   "/tf",           "/tf_static"};
+    "/clock",      "/diagnostics", "/gsv/beams", "/gsv/commands",   "/gsv/contacts",
+    "/gsv/events", "/gsv/poses",   "/gsv/radio", "/gsv/state_hash", "/gsv/status",
+    "/rosout",     "/tf",          "/tf_static"};
 
 }  // namespace
 

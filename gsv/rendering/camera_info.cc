@@ -5,6 +5,7 @@
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/rendering/optics.h"
 #include "gsv/sensing/encoding.h"
+#include "gsv/sensing/frames.h"
 
 namespace gsv::rendering {
 namespace {
@@ -55,7 +56,7 @@ sensing::Companion CameraInfoCompanion(const std::string& lens_type) {
                                  const sensing::Reading& reading, const std::string& frame_id) {
     sensing::ParameterReader parameters(description);
     auto info = InfoOf(Optics::Read(parameters, lens_type).lens());
-    info.header = sensing::HeaderOf(reading, frame_id + sensing::kOpticalFrame);
+    info.header = sensing::HeaderOf(reading, sensing::FrameOf(frame_id, sensing::kOpticalFrame));
     return sensing::Encoded(info);
   };
   return companion;

@@ -199,7 +199,7 @@ TEST_F(FamilyTest, AnOdometerTellsWhatTheWheelsSay) {
   ExpectValues(Sample(Description("odometry")), {1, 2, kPi / 2, 0.5, 0.1});
   const auto message = Sent<messages::nav_msgs::Odometry>(Description("odometry"));
   EXPECT_EQ(message.header.frame_id, "robot/odom");
-  EXPECT_EQ(message.child_frame_id, "robot");
+  EXPECT_EQ(message.child_frame_id, "robot/base_link");
   EXPECT_EQ(message.pose.pose.position.y, 2);
   EXPECT_NEAR(message.pose.pose.orientation.w, std::sqrt(0.5), 1e-12);
   EXPECT_EQ(message.twist.twist.linear.x, 0.5);

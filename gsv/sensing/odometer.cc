@@ -1,13 +1,18 @@
 #include "gsv/sensing/odometer.h"
 
 #include <cmath>
+#include <string_view>
 
 #include "gsv/messages/nav_msgs.h"
+#include "gsv/sensing/frames.h"
 #include "gsv/sensing/noise.h"
 #include "gsv/sensing/sensor_type.h"
 
 namespace gsv::sensing {
 namespace {
+
+// From "ROBOT/SENSOR".
+std::string_view RobotOf(std::string_view frame) { return frame.substr(0, frame.rfind('/')); }
 
 class Odometer final : public Sensor {
  public:
@@ -31,7 +36,7 @@ class Odometer final : public Sensor {
                                                 const Reading& reading,
                                                 const std::string& frame_id) {
     messages::nav_msgs::Odometry message;
-    message.child_frame_id = frame_id.substr(0, frame_id.rfind('/'));
+    message.child_frame_id = FrameOf(RobotOf(frame_id), kBaseFrame);
     const auto& v = reading.values;
     if (v.size() != 5) return message;
     const geometry::Pose pose = geometry::PlanarPose(v[0], v[1], 0, v[2]);
@@ -54,7 +59,7 @@ SensorType OdometerType() {
   type.encode = [](const model::SensorDescription& description, const Reading& reading,
                    const std::string& frame_id) {
     auto message = Odometer::ToMessage(description, reading, frame_id);
-    message.header = HeaderOf(reading, frame_id.substr(0, frame_id.rfind('/')) + "/odom");
+    message.header = HeaderOf(reading, FrameOf(RobotOf(frame_id), kOdometryFrame));
     return Encoded(message);
   };
   return type;

@@ -6,7 +6,7 @@
 //             the sensor is mounted does not matter.
 // Parameters  linear.noise (m/s) and angular.noise (rad/s) of the velocities, see noise.h.
 // Readings    values {x, y (m), yaw (rad), linear (m/s), angular (rad/s)}. As a message:
-//             nav_msgs/Odometry from ROBOT/odom to ROBOT.
+//             nav_msgs/Odometry from ROBOT/odom to ROBOT/base_link.
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -4,6 +4,7 @@
 
 #include "gsv/messages/geometry_msgs.h"
 #include "gsv/sensing/encoding.h"
+#include "gsv/sensing/frames.h"
 #include "gsv/sensing/parameters.h"
 
 namespace gsv::sensing {
@@ -53,7 +54,7 @@ class Positioning final : public Sensor {
 std::vector<std::uint8_t> Encode(const model::SensorDescription&, const Reading& reading,
                                  const std::string&) {
   messages::geometry_msgs::PoseStamped message;
-  message.header = HeaderOf(reading, "world");
+  message.header = HeaderOf(reading, std::string(kWorldFrame));
   if (reading.values.size() == 6) {
     const auto& v = reading.values;
     const geometry::Quaternion q = geometry::FromRollPitchYaw({v[3], v[4], v[5]});

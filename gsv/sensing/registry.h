@@ -35,9 +35,6 @@ struct Companion {
       encode;
 };
 
-// After a sensor's frame: that of its pictures, z along the view, x to the right, y down.
-inline constexpr const char* kOpticalFrame = "/optical";
-
 struct SensorType {
   std::string name;                  // the service's and the recording's name: "lidar"
   std::vector<std::string> aliases;  // further names in model files: "ray", "gpu_lidar"

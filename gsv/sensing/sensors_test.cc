@@ -214,7 +214,7 @@ TEST_F(SensorTest, PositioningTellsWhereTheSensorIs) {
   EXPECT_NEAR(reading.values[4], 0, 1e-12);
   EXPECT_NEAR(reading.values[5], kPi / 2, 1e-12);
   const auto pose = Decoded<messages::geometry_msgs::PoseStamped>(description, reading);
-  EXPECT_EQ(pose.header.frame_id, "world");
+  EXPECT_EQ(pose.header.frame_id, "map");
   EXPECT_NEAR(pose.pose.position.y, 0.2, 1e-12);
   EXPECT_NEAR(pose.pose.orientation.z, std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(pose.pose.orientation.w, std::sqrt(0.5), 1e-12);

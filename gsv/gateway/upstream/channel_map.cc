@@ -28,7 +28,8 @@ void ChannelMap::Take(const Advertise& message) {
     ours_by_theirs_.emplace(fresh[i].id, ours[i]);
     Source& source = sources_[ours[i]];
     source.theirs = fresh[i].id;
-    if (fresh[i].topic == "/gsv/events") source.memory = kEventsMemory;
+    if (fresh[i].topic == "/gsv/events" || fresh[i].topic == "/rosout")
+      source.memory = kEventsMemory;
   }
 }
 

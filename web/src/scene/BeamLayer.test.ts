@@ -10,7 +10,7 @@ const YELLOW = { r: 1, g: 1, b: 0, a: 1 };
 
 function marker(points: Point[], more: Partial<MarkerMessage> = {}): MarkerMessage {
   return {
-    header: { stamp: { sec: 0, nsec: 0 }, frame_id: "world" },
+    header: { stamp: { sec: 0, nsec: 0 }, frame_id: "map" },
     ns: "a",
     id: 0,
     type: LINE_LIST,

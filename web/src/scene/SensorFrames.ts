@@ -5,10 +5,11 @@ import type { TransformsMessage } from "../protocol/messages";
 import type { BodyLayer } from "./BodyLayer";
 
 interface Mount {
-  parent: string; // "ROBOT" or "ROBOT/LINK"
+  parent: string; // "ROBOT/base_link" or, of a link that moves, "ROBOT/LINK"
   parentFromSensor: Matrix4;
 }
 
+const BASE = "base_link";
 const UNIT_SCALE = new Vector3(1, 1, 1);
 
 export class SensorFrames {
@@ -36,7 +37,7 @@ export class SensorFrames {
     const body = bodies.indexOf(robot);
     if (!mount || body < 0) return null;
     const link = mount.parent.slice(robot.length + 1);
-    const parent = mount.parent === robot ? bodies.poseOf(body) : bodies.linkPoseOf(body, link);
+    const parent = link === BASE ? bodies.poseOf(body) : bodies.linkPoseOf(body, link);
     return parent && new Matrix4().multiplyMatrices(parent, mount.parentFromSensor);
   }
 }

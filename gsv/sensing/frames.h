@@ -1,0 +1,22 @@
+// The names of frames, by REP-105. The world is "map". A robot's base is ROBOT/base_link, what its
+// wheels count from ROBOT/odom; a link that moves against the base is ROBOT/LINK, a sensor
+// ROBOT/SENSOR, its pictures are in ROBOT/SENSOR/optical. Another body is the frame NAME, a link
+// that moves against it NAME/LINK.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gsv::sensing {
+
+inline constexpr std::string_view kWorldFrame = "map";
+inline constexpr std::string_view kBaseFrame = "base_link";
+inline constexpr std::string_view kOdometryFrame = "odom";
+// z along the view, x to the right, y down.
+inline constexpr std::string_view kOpticalFrame = "optical";
+
+inline std::string FrameOf(std::string_view body, std::string_view part) {
+  return std::string(body).append("/").append(part);
+}
+
+}  // namespace gsv::sensing
