@@ -19,6 +19,9 @@ using geometry::Vector3;
 // So many parts are placed in one go by a thread.
 constexpr std::size_t kPartsAtOnce = 512;
 
+// Of a part with so few shapes all are cast at; of one with more, those that its index finds.
+constexpr std::uint32_t kFewShapes = 4;
+
 // Among surroundings the standing shapes are told from moving parts by this bit of their number.
 constexpr std::uint32_t kStanding = 1u << 31;
 
@@ -47,6 +50,20 @@ bool Passes(const Ray& ray, double length, const Ball& ball) {
   const double along = std::clamp(Dot(to_centre, ray.direction), 0.0, length);
   const Vector3 gap = to_centre - along * ray.direction;
   return Dot(gap, gap) <= ball.radius * ball.radius;
+}
+
+// Calls cast(batch) for all the rays that for_rays(visit) visits.
+template <class ForRays, class Cast>
+void InBatches(RayBatch& batch, const ForRays& for_rays, const Cast& cast) {
+  batch.count = 0;
+  for_rays([&](const Vector3& direction, Nearest& found) {
+    batch.directions[batch.count] = direction;
+    batch.nearest[batch.count] = &found;
+    if (++batch.count < RayBatch::kMost) return;
+    cast(batch);
+    batch.count = 0;
+  });
+  if (batch.count > 0) cast(batch);
 }
 
 }  // namespace
@@ -83,12 +100,15 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
   index_.Build(boxes_, /*often=*/true);
 }
 
+Bearer PlacedSolids::BearerOf(std::size_t part) const {
+  // Parts of one body are numbered above their primitives.
+  return {solids_->moving[part].body, static_cast<int>(part),
+          static_cast<std::uint32_t>(parts_[part].part->number) << 24};
+}
+
 void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const {
   const auto& [part_from_world, part] = parts_[index];
-  // Parts of one body are numbered above their primitives.
-  part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest,
-                    {solids_->moving[index].body, static_cast<int>(index),
-                     static_cast<std::uint32_t>(part->number) << 24});
+  part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest, BearerOf(index));
 }
 
 // Last, since triangles are many and what was hit before shortens the ray.
@@ -176,14 +196,59 @@ bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
   return true;
 }
 
+bool PlacedSolids::RestReaches(const Fan& fan, int ignored_body) const {
+  for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
+    if (solids_->moving[i].body != ignored_body) return true;
+  }
+  return solids_->standing.OthersReach(fan);
+}
+
+void PlacedSolids::CastInto(const Shading& shading, const Fan& fan,
+                            std::span<const Vector3> directions, std::span<Nearest> nearest,
+                            RayBatch& batch) const {
+  const Vector3& place = fan.world_from_fan.position;
+  const auto for_rays = [&](const auto& visit) {
+    ForRaysIn(shading.sector, fan, [&](std::size_t i) {
+      if (nearest[i].distance >= shading.sector.nearest) visit(directions[i], nearest[i]);
+    });
+  };
+  if (shading.is_standing) {
+    const SolidSet& set = solids_->standing;
+    const Vector3 origin = set.ShapeFromSet(shading.number) * place;
+    return InBatches(batch, for_rays,
+                     [&](RayBatch& rays) { set.CastAtShapeFrom(origin, rays, shading.number); });
+  }
+  const auto& [part_from_world, part] = parts_[shading.number];
+  const SolidSet& set = part->solids;
+  const std::uint32_t shapes = set.ShapesAlone();
+  if (shapes == 0 || shapes > kFewShapes) {
+    return for_rays([&](const Vector3& direction, Nearest& found) {
+      CastAtPart(shading.number, {place, direction, found.distance}, found);
+    });
+  }
+  const Vector3 place_in_part = part_from_world * place;
+  const Bearer bearer = BearerOf(shading.number);
+  InBatches(batch, for_rays, [&](RayBatch& rays) {
+    for (std::size_t i = 0; i < rays.count; ++i) {
+      rays.directions[i] = part_from_world.orientation * rays.directions[i];
+    }
+    for (std::uint32_t i = 0; i < shapes; ++i) {
+      set.CastAtShapeFrom(set.ShapeFromSet(i) * place_in_part, rays, i, bearer);
+    }
+  });
+}
+
 void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const {
   GSV_CHECK(ranges.size() == fan.directions.size());
-  const geometry::Pose& world_from_fan = fan.world_from_fan;
+  const Pose& world_from_fan = fan.world_from_fan;
+  std::vector<Vector3> directions(ranges.size());
+  std::transform(fan.directions.begin(), fan.directions.end(), directions.begin(),
+                 [&](const Vector3& ray) { return world_from_fan.orientation * ray; });
   const auto ray = [&](std::size_t i) -> Ray {
-    return {world_from_fan.position, world_from_fan.orientation * fan.directions[i],
-            fan.max_distance};
+    return {world_from_fan.position, directions[i], fan.max_distance};
   };
   std::vector<Shading> shadings;
+  shadings.reserve(FoundBoxes::kMost / 2);
   const bool is_sound = geometry::IsFinite(world_from_fan) && fan.max_distance >= 0;
   if (!is_sound || !FindShadings(fan, ignored_body, shadings)) {
     for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(ray(i), ignored_body);
@@ -191,18 +256,11 @@ void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> rang
   }
   std::vector<Nearest> nearest(ranges.size());
   for (Nearest& n : nearest) n.distance = fan.max_distance;
-  for (const Shading& shading : shadings) {
-    ForRaysIn(shading.sector, fan, [&](std::size_t i) {
-      if (nearest[i].distance < shading.sector.nearest) return;
-      if (shading.is_standing) {
-        solids_->standing.CastAtShape(shading.number, ray(i), ignored_body, nearest[i]);
-      } else {
-        CastAtPart(shading.number, ray(i), nearest[i]);
-      }
-    });
-  }
+  RayBatch batch;
+  for (const Shading& shading : shadings) CastInto(shading, fan, directions, nearest, batch);
+  const bool has_rest = RestReaches(fan, ignored_body);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    CastAtRest(ray(i), ignored_body, nearest[i]);
+    if (has_rest) CastAtRest(ray(i), ignored_body, nearest[i]);
     ranges[i] = DistanceOf(nearest[i]);
   }
 }

@@ -39,14 +39,23 @@ class PlacedSolids final : public RayScene {
     int body;
   };
 
+  struct Shading;  // a solid and the rays of a fan that it may stop
+
   void Place(std::size_t index, const world::Snapshot& snapshot);
   Nearest Find(const Ray& ray, int ignored_body) const;
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
+  Bearer BearerOf(std::size_t part) const;
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
-  struct Shading;  // a solid and the rays of a fan that it may stop
   // Of all bounded solids within the fan's reach, the nearest first; false if they are too many.
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
   void CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const;
+  // False if that finds nothing for any of a fan's rays.
+  bool RestReaches(const Fan& fan, int ignored_body) const;
+  // Casts those rays at the solid that it may stop, all of which leave the fan's place;
+  // directions[i] is ray i's, in the world; `batch` is room to work in.
+  void CastInto(const Shading& shading, const Fan& fan,
+                std::span<const geometry::Vector3> directions, std::span<Nearest> nearest,
+                RayBatch& batch) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
   // As LayoutSolids::moving; the latter two of bounded parts only.

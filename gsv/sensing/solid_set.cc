@@ -187,6 +187,38 @@ void SolidSet::CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& r
   nearest.Offer(*distance, body, bearer.first_primitive + shape.primitive, bearer.part, solid);
 }
 
+void SolidSet::CastAtShapeFrom(const Vector3& origin_in_shape, RayBatch& rays, std::uint32_t shape,
+                               const Bearer& bearer) const {
+  const SolidShape& at = shapes_[shape];
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    rays.in_shape[i] = {origin_in_shape, at.shape_from_set.orientation * rays.directions[i],
+                        rays.nearest[i]->distance};
+  }
+  DistancesToShape(std::span(rays.in_shape).first(rays.count), at.shape,
+                   std::span(rays.distances).first(rays.count));
+  const int body = bearer.body >= 0 ? bearer.body : at.body;
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    if (rays.distances[i] == kInfinity) continue;
+    rays.nearest[i]->Offer(rays.distances[i], body, bearer.first_primitive + at.primitive,
+                           bearer.part, shape);
+  }
+}
+
+// What a ray climbs towards a plane on a metre: on its way round a fan the most that the part of
+// the normal in the fan's plane gives, and what the elevation gives.
+bool SolidSet::OthersReach(const Fan& fan) const {
+  if (!triangles_.empty()) return true;
+  for (const SolidPlane& plane : planes_) {
+    const double height = std::abs(Dot(plane.normal, fan.world_from_fan.position) - plane.offset);
+    const Vector3 normal = Inverse(fan.world_from_fan.orientation) * plane.normal;
+    const double most = std::hypot(normal.x, normal.y) * std::abs(std::cos(fan.elevation)) +
+                        std::abs(normal.z * std::sin(fan.elevation));
+    const double climb = (most + kPadding) * fan.max_distance;
+    if (!(climb + kPadding + kPadding * height < height)) return true;
+  }
+  return false;
+}
+
 void SolidSet::CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
                            const Bearer& bearer) const {
   CastAt(shapes_[shape], shape, ray, ignored_body, nearest, bearer);

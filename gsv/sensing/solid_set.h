@@ -6,6 +6,7 @@
 // Threads      const members may run concurrently.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -42,6 +43,17 @@ struct Nearest {
   }
 };
 
+// Rays from one place, their directions in a set's frame, and what each has found.
+struct RayBatch {
+  static constexpr std::size_t kMost = 32;
+  std::size_t count = 0;
+  std::array<geometry::Vector3, kMost> directions;
+  std::array<Nearest*, kMost> nearest;
+  // Room for those who cast them.
+  std::array<Ray, kMost> in_shape;
+  std::array<double, kMost> distances;
+};
+
 class SolidSet {
  public:
   // Adds a shape of a body, before Commit().
@@ -68,6 +80,17 @@ class SolidSet {
                    const Bearer& bearer = {}) const;
   void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
+
+  // How many shapes make up the set; 0 if there is something else.
+  std::uint32_t ShapesAlone() const {
+    if (!planes_.empty() || !triangles_.empty()) return 0;
+    return static_cast<std::uint32_t>(shapes_.size());
+  }
+  // CastAtShape() for rays from one place, in the shape's frame. Nobody's body is ignored.
+  void CastAtShapeFrom(const geometry::Vector3& origin_in_shape, RayBatch& rays,
+                       std::uint32_t shape, const Bearer& bearer = {}) const;
+  // False if CastAtOthers() finds nothing for any ray of a fan in the set's frame.
+  bool OthersReach(const Fan& fan) const;
   // Whether a shape may reach into a box: of one that is long and thin its ball says little.
   bool ShapeReaches(std::uint32_t shape, const geometry::Bounds& into) const {
     const geometry::Bounds& b = shape_bounds_[shape];
