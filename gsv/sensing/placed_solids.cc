@@ -218,8 +218,8 @@ void PlacedSolids::CastInto(const Shading& shading, const Fan& fan,
     return InBatches(batch, for_rays,
                      [&](RayBatch& rays) { set.CastAtShapeFrom(origin, rays, shading.number); });
   }
-  const auto& [part_from_world, part] = parts_[shading.number];
-  const SolidSet& set = part->solids;
+  const Pose& part_from_world = parts_[shading.number].part_from_world;
+  const SolidSet& set = parts_[shading.number].part->solids;
   const std::uint32_t shapes = set.ShapesAlone();
   if (shapes == 0 || shapes > kFewShapes) {
     return for_rays([&](const Vector3& direction, Nearest& found) {
