@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "idl/actuators.hh"
 #include "idl/sensors.hh"
 #include "sdk/remote_joint.h"
 
@@ -102,6 +103,17 @@ class RemotePort final : public SensorPort {
       octets.length(octets.maximum());
       std::copy(content.begin(), content.end(), octets.get_buffer());
       radio->send(receiver.c_str(), octets);
+    });
+  }
+
+  base::Status Act(const std::vector<double>& values, const std::string& word) override {
+    return robot_.Ask([&] {
+      const sba::Actuator_var actuator = sba::Actuator::_narrow(sensor_);
+      if (CORBA::is_nil(actuator)) throw sba::Refused("a sensor cannot be told anything");
+      sba::Doubles numbers(static_cast<CORBA::ULong>(values.size()));
+      numbers.length(numbers.maximum());
+      std::copy(values.begin(), values.end(), numbers.get_buffer());
+      actuator->act(numbers, word.c_str());
     });
   }
 

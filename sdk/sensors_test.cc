@@ -8,6 +8,7 @@
 #include "gsv/orb/orb.h"
 #include "gsv/services/hardware_servants.h"
 #include "gsv/simulation/test_simulation.h"
+#include "idl/actuators.hh"
 #include "idl/sensors.hh"
 #include "sdk/behaviour/behaviour.h"
 #include "sdk/remote_robot.h"
@@ -42,7 +43,8 @@ class ReadsAll final : public Behaviour {
     for (const base::Status& status :
          {open(sonar_), open(lidar_), open(position_), open(imu_), open(odometer_),
           open(satellites_), open(magnetometer_), open(altimeter_), open(bumper_), open(joints_),
-          open(battery_), open(logical_camera_), open(radio_)}) {
+          open(battery_), open(logical_camera_), open(radio_), open(lamp_), open(speaker_),
+          open(microphone_)}) {
       if (!status) return status;
     }
     const auto wrong = robot.Open<Imu>("sonar");
@@ -62,6 +64,13 @@ class ReadsAll final : public Behaviour {
     // The hardware's sentence, wherever it comes through.
     const std::string why = refused ? "" : refused.error().Sentence();
     read_.names["refused"] = {why.substr(std::min(why.size(), why.find("a message of")))};
+    for (const base::Status& told :
+         {lamp_->Shine({1, 0.5, 0}, 0.25), speaker_->Play("chirp", 440, 2, 0.5)}) {
+      if (!told) read_.error = told.error().message;
+    }
+    const auto too_bright = lamp_->Shine({}, 2);
+    const std::string how = too_bright ? "" : too_bright.error().Sentence();
+    read_.names["too bright"] = {how.substr(std::min(how.size(), how.find("the brightness")))};
     if (!robot.SleepFor(50ms)) return;
     auto& values = read_.values;
     values["sonar"] = {sonar_->Range(), sonar_->max_range()};
@@ -97,6 +106,14 @@ class ReadsAll final : public Behaviour {
       read_.names["radio"].push_back(message.content);
       values["radio"] = {base::ToSeconds(message.sent), message.strength};
     }
+    const Lamp::Glow glow = lamp_->Look();
+    values["lamp"] = {glow.brightness, glow.colour.red, glow.colour.green, glow.colour.blue};
+    const Speaker::Sound sound = speaker_->Playing();
+    values["speaker"] = {sound.frequency, sound.volume, sound.elapsed, sound.left};
+    read_.names["speaker"] = {sound.name};
+    const Microphone::Hearing hearing = microphone_->Listen();
+    values["microphone"] = {hearing.level, hearing.frequency};
+    read_.names["microphone"] = {hearing.source};
     values["radio missed"] = {static_cast<double>(radio_->missed()),
                               static_cast<double>(radio_->Receive().size())};
   }
@@ -116,6 +133,9 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<Battery> battery_;
   std::unique_ptr<LogicalCamera> logical_camera_;
   std::unique_ptr<Radio> radio_;
+  std::unique_ptr<Lamp> lamp_;
+  std::unique_ptr<Speaker> speaker_;
+  std::unique_ptr<Microphone> microphone_;
 };
 
 // A disc at the wall's foot with a lever and one sensor of each type, named after it.
@@ -129,9 +149,9 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   lever.child = 1;
   model->joints.push_back(lever);
   model->sensors.clear();
-  for (const char* type :
-       {"sonar", "lidar", "positioning", "imu", "odometry", "navsat", "magnetometer", "altimeter",
-        "contact", "joint_encoders", "battery", "logical_camera", "radio"}) {
+  for (const char* type : {"sonar", "lidar", "positioning", "imu", "odometry", "navsat",
+                           "magnetometer", "altimeter", "contact", "joint_encoders", "battery",
+                           "logical_camera", "radio", "lamp", "speaker", "microphone"}) {
     model::SensorDescription sensor;
     sensor.name = sensor.type = type;
     sensor.link_from_sensor.position = {0, 0, 0.25};
@@ -278,6 +298,20 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   EXPECT_EQ(heard.in()[1].content.length(), 9u);
   EXPECT_THROW(radio->send("", sba::Octets(2000, 2000, sba::Octets::allocbuf(2000), true)),
                sba::Refused);
+  const sba::Lamp_var lamp = Opened<sba::Lamp>(factory, "lamp");
+  EXPECT_EQ(lamp->look().brightness, values.at("lamp")[0]);
+  EXPECT_EQ(lamp->look().colour.green, values.at("lamp")[2]);
+  EXPECT_THROW(lamp->shine(1, {0, -1, 0}), sba::Refused);
+  lamp->switch_off();
+  const sba::Speaker_var speaker = Opened<sba::Speaker>(factory, "speaker");
+  const sba::SpeakerReading_var playing = speaker->playing();
+  EXPECT_STREQ(playing->sound, "chirp");
+  EXPECT_EQ(playing->left_s, values.at("speaker")[3]);
+  EXPECT_THROW(speaker->play("song", 440, 1, 1), sba::Refused);
+  speaker->silence();
+  const sba::Hearing_var hearing = Opened<sba::Microphone>(factory, "microphone")->listen();
+  EXPECT_EQ(hearing->level_db, values.at("microphone")[0]);
+  EXPECT_STREQ(hearing->source, "robot/speaker");
 }
 
 TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
@@ -295,7 +329,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   (*orb)->destroy();
   EXPECT_EQ(local.values, remote.values);
   EXPECT_EQ(local.names, remote.names);
-  EXPECT_EQ(local.values.size(), 15u);
+  EXPECT_EQ(local.values.size(), 18u);
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);
@@ -310,6 +344,12 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   EXPECT_EQ(local.names.at("radio").back(), std::string("\0 word 20", 9));
   EXPECT_EQ(local.names.at("refused").front(),
             "a message of 2000 bytes is longer than the radio's max_size, 1024");
+  EXPECT_EQ(values.at("lamp"), (std::vector<double>{0.25, 1, 0.5, 0}));
+  EXPECT_EQ(values.at("speaker"), (std::vector<double>{440, 0.5, 0.05, 1.95}));
+  EXPECT_EQ(local.names.at("speaker").front(), "chirp");
+  EXPECT_EQ(values.at("microphone")[1], 440);
+  EXPECT_EQ(local.names.at("too bright").front(),
+            "the brightness is 2; it must lie between 0 and 1");
   EXPECT_EQ(local.error, "the sensor \"sonar\" is no imu");
   EXPECT_EQ(remote.error, "the sensor \"sonar\" is no imu");
 }

@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands.h"
+#include "apps/gsv/doctor.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/limit_option.h"
 #include "apps/gsv/sensor_types.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/rendering/renderer.h"
 
 namespace gsv::app {
 namespace {
@@ -82,21 +82,6 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   });
 }
 
-int Doctor() {
-  const auto renderer = rendering::Renderer::Start();
-  if (renderer) {
-    std::printf("cameras: ok, %s\n", (*renderer)->renderer_name().c_str());
-  } else {
-    std::printf("cameras: none: %s\n", renderer.error().Sentence().c_str());
-  }
-  std::error_code ignored;
-  const bool viewer = std::filesystem::exists(ShareFolder() / "web" / "index.html", ignored);
-  std::printf("viewer: %s %s\n", viewer ? "ok," : "missing:", (ShareFolder() / "web").c_str());
-  const bool worlds = std::filesystem::exists(ResolveWorld("office"), ignored);
-  std::printf("worlds: %s %s\n", worlds ? "ok," : "missing:", (ShareFolder() / "worlds").c_str());
-  return renderer && viewer && worlds ? kOk : kInfrastructure;
-}
-
 }  // namespace
 
 void AddCheckCommands(const CommandLine& line) {
@@ -110,7 +95,8 @@ void AddCheckCommands(const CommandLine& line) {
              const auto model = library.ReadModel(file, problems);
              return model ? base::Status() : base::Fail(model.error());
            });
-  line.app.add_subcommand("doctor", "Check this machine: cameras, viewer, worlds")
+  line.app
+      .add_subcommand("doctor", "Check this machine: cameras and how fast they are, viewer, worlds")
       ->callback([line] { line.exit_code = Doctor(); });
 }
 

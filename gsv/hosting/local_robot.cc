@@ -63,6 +63,10 @@ class LocalPort final : public SensorPort {
     return robot_.Send(*sensor_, receiver, content);
   }
 
+  base::Status Act(const std::vector<double>& values, const std::string& word) override {
+    return robot_.Act(*sensor_, {values, word});
+  }
+
  private:
   LocalRobot& robot_;
   const SensorPtr sensor_;
@@ -98,6 +102,14 @@ base::Status LocalRobot::Send(const MountedSensor& radio, const std::string& rec
   if (!is_running_) return base::Fail(base::ErrorCode::kEnded, "the run is over", name());
   auto status = turn_ != nullptr ? turn_->Send(radio, receiver, content)
                                  : agent_->Send(radio.name(), receiver, content);
+  if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
+  return status;
+}
+
+base::Status LocalRobot::Act(const MountedSensor& actuator, world::ActuatorOrder order) {
+  if (!is_running_) return base::Fail(base::ErrorCode::kEnded, "the run is over", name());
+  auto status = turn_ != nullptr ? turn_->Act(actuator, std::move(order))
+                                 : agent_->Act(actuator.name(), std::move(order));
   if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
   return status;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -120,7 +121,8 @@ class Builder {
 
 }  // namespace
 
-DrawPlan::DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore& textures) {
+DrawPlan::DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore& textures)
+    : meshes_(meshes), textures_(textures) {
   Builder builder(meshes, textures);
   bodies_.resize(layout.bodies.size());
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
@@ -138,10 +140,13 @@ DrawPlan::DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore&
   groups_ = std::move(builder.groups);
   items_ = std::move(builder.items);
   placed_.resize(items_.size());
+  body_item_count_ = items_.size();
 }
 
-void DrawPlan::Pose(const world::Snapshot& snapshot) {
+void DrawPlan::Pose(const world::Snapshot& snapshot, Glow glow) {
   GSV_CHECK(snapshot.layout->bodies.size() == bodies_.size());
+  items_.resize(body_item_count_);
+  placed_.resize(body_item_count_);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     BodyPose& last = bodies_[b];
     if (last.item_count == 0) continue;
@@ -165,6 +170,43 @@ void DrawPlan::Pose(const world::Snapshot& snapshot) {
     for (std::size_t i = last.first_item; i < last.first_item + last.item_count; ++i) {
       Place(i, world_from_link[items_[i].link]);
     }
+  }
+  if (glow == Glow::kHidden) return;
+  for (const LitLamp& lit : LitLamps(snapshot)) {
+    AddGlow(lit, world::LinkPose(snapshot, lit.body, lit.setup->link));
+  }
+}
+
+void DrawPlan::MakeGlow() {
+  model::Visual ball;
+  ball.shape = geometry::Sphere{1};
+  ball.materials.front().base_colour = {0, 0, 0, 1};
+  ball.cast_shadows = false;
+  Builder builder(meshes_, textures_);
+  builder.Add(ball, 0, 0, true);
+  glow_ = std::move(builder.items);
+  for (DrawItem& item : glow_) item.group += static_cast<int>(groups_.size());
+  std::move(builder.groups.begin(), builder.groups.end(), std::back_inserter(groups_));
+}
+
+void DrawPlan::AddGlow(const LitLamp& lit, const geometry::Pose& world_from_link) {
+  if (glow_.empty()) MakeGlow();
+  const double radius = lit.lamp().radius;
+  const auto emitted = [&](double part) {
+    return static_cast<float>(lit.glow.brightness * model::LinearFromSrgb(part));
+  };
+  for (DrawItem item : glow_) {
+    item.body = lit.body;
+    item.link = lit.setup->link;
+    item.link_from_visual = lit.setup->link_from_actuator;
+    item.scale = radius * item.scale;
+    item.centre_in_visual = radius * item.centre_in_visual;
+    item.radius *= radius;
+    const model::Colour& colour = lit.glow.colour;
+    item.factors.emissive_metalness = {emitted(colour.r), emitted(colour.g), emitted(colour.b), 0};
+    items_.push_back(item);
+    placed_.emplace_back();
+    Place(items_.size() - 1, world_from_link);
   }
 }
 

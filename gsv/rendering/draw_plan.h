@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "gsv/rendering/lit_lamps.h"
 #include "gsv/rendering/mesh_store.h"
 #include "gsv/rendering/texture_store.h"
 #include "gsv/world/snapshot.h"
@@ -63,10 +64,14 @@ struct PlacedItem {
 
 class DrawPlan {
  public:
+  // The stores outlive the plan.
   DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore& textures);
 
+  // Whether lamps that are on are among the items: light has no depth and is nothing to be found.
+  enum class Glow { kShown, kHidden };
+
   // Moves every item to where `snapshot`, of this plan's layout, has it.
-  void Pose(const world::Snapshot& snapshot);
+  void Pose(const world::Snapshot& snapshot, Glow glow = Glow::kShown);
 
   const std::vector<DrawGroup>& groups() const { return groups_; }
   const std::vector<DrawItem>& items() const { return items_; }
@@ -80,6 +85,8 @@ class DrawPlan {
 
  private:
   void Place(std::size_t item, const geometry::Pose& world_from_link);
+  void MakeGlow();
+  void AddGlow(const LitLamp& lit, const geometry::Pose& world_from_link);
 
   // What a body's links depend on, to see whether it moved.
   struct BodyPose {
@@ -90,8 +97,12 @@ class DrawPlan {
     std::size_t first_item = 0, item_count = 0;
   };
 
+  MeshStore& meshes_;
+  TextureStore& textures_;
   std::vector<DrawGroup> groups_;
-  std::vector<DrawItem> items_;  // by body
+  std::vector<DrawItem> items_;  // by body, then the lamps that are on
+  std::size_t body_item_count_ = 0;
+  std::vector<DrawItem> glow_;  // of a lamp with a radius of 1 m; empty until one is on
   std::vector<PlacedItem> placed_;
   std::vector<BodyPose> bodies_;
   int moved_count_ = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gsv/model/srgb.h"
+#include "gsv/rendering/lit_lamps.h"
 
 namespace gsv::rendering {
 namespace {
@@ -74,6 +75,7 @@ Lighting::Lighting(const model::WorldDescription& description) {
   for (const model::Light& light : description.lights) {
     if (&light != sun) AddLamp(light);
   }
+  own_lamp_count_ = lamps_.size();
   const Rgb ambient = Ambient(description.scene.ambient);
   ambient_above_ = AsFloat4(Mix(ambient, {0.9 * ambient[0], ambient[1], 1.15 * ambient[2]}, 0.5));
   ambient_below_ = AsFloat4(ambient, 0.55);
@@ -86,6 +88,13 @@ Lighting::Lighting(const model::WorldDescription& description) {
     zenith_ = AsFloat4(background, 0.8);
     horizon_ = AsFloat4(Mix(background, {1, 1, 1}, 0.08));
     nadir_ = AsFloat4(background, 0.7);
+  }
+}
+
+void Lighting::TakeLamps(const world::Snapshot& snapshot) {
+  lamps_.resize(own_lamp_count_);
+  for (const LitLamp& lit : LitLamps(snapshot)) {
+    if (lit.lamp().range > 0) AddLamp(LightOf(lit, snapshot));
   }
 }
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "gsv/rendering/camera_view.h"
-#include "gsv/world/layout.h"
+#include "gsv/world/snapshot.h"
 
 namespace gsv::rendering {
 
@@ -35,13 +35,16 @@ struct FrameBlock {
   std::array<LightBlock, kMaxLights> lights;
 };
 
-// The lights of a world, in its own frame.
+// The lights of a world and of the robots in it, in its own frame.
 class Lighting {
  public:
   explicit Lighting(const model::WorldDescription& description);
 
   const geometry::Vector3& to_sun() const { return to_sun_; }
   bool sun_casts_shadows() const { return shadows_; }
+
+  // Takes the lamps of robots that are on, in place of those of an earlier instant.
+  void TakeLamps(const world::Snapshot& snapshot);
 
   // All but the shadow's part.
   FrameBlock BlockFor(const CameraView& view) const;
@@ -57,7 +60,8 @@ class Lighting {
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};
   std::array<double, 3> sun_colour_{};
   bool shadows_ = true;
-  std::vector<Lamp> lamps_;
+  std::vector<Lamp> lamps_;         // the world's own, then robots'
+  std::size_t own_lamp_count_ = 0;  // of these
   Float4 ambient_above_, ambient_below_, zenith_, horizon_, nadir_;
 };
 

@@ -61,6 +61,7 @@ base::Result<Pictures> GlBatchPainter::Draw(const world::Snapshot& snapshot,
   const DrawPlan& plan = *planned.plan;
   const Lighting& lighting = *planned.lighting;
   planned.plan->Pose(snapshot);
+  planned.lighting->TakeLamps(snapshot);
   const bool shadows = lighting.sun_casts_shadows();
   if (shadows) {
     shadow_map_.Draw(plan, planned.id, lighting.to_sun(), views, instances_);

@@ -363,5 +363,80 @@ TEST_F(PICTURE_SUITE, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
   }
 }
 
+// A robot before a grey wall, its lamp between the two and in the picture's middle.
+void BeforeAWall(TestScene& scene) {
+  scene.description().scene.shadows = false;
+  model::Light moon;
+  moon.diffuse = {0, 0, 0, 1};
+  scene.description().lights = {moon};
+  scene.Add("wall", Box{{0.2, 8, 8}}, {{3, 0, 0}, {}}, Matt(0.5, 0.5, 0.5), true);
+  scene.Add("robot", Box{{0.1, 0.1, 0.1}}, {{2, 0.6, 0}, {}}, Matt(0.1, 0.1, 0.1));
+}
+
+std::shared_ptr<const model::Image> TakeWith(Renderer& renderer, TestScene& scene,
+                                             const world::LampSetup& lamp, double brightness) {
+  const auto snapshot = std::make_shared<world::Snapshot>(*scene.Snapshot());
+  auto state = std::make_shared<world::ActuatorState>();
+  state->robot = "robot", state->actuator = "lamp";
+  state->setup = std::make_shared<const world::ActuatorSetup>(
+      world::ActuatorSetup{0, {{0, -0.6, 0}, {}}, lamp});
+  state->order.values = {brightness, 1, 0, 0};
+  snapshot->state.actuators = std::make_shared<const world::Actuators>(world::Actuators{state});
+  auto picture =
+      renderer.Draw(snapshot, CameraView{{}, {160, 120, 1, 0.05, 100}}, std::chrono::seconds(30));
+  EXPECT_TRUE(picture) << picture.error().Sentence();
+  return picture ? *picture : std::make_shared<const model::Image>();
+}
+
+// Of the wall, in the middle row.
+int RedAt(const model::Image& picture, int x) {
+  return picture.pixels[static_cast<std::size_t>(3 * (60 * 160 + x))];
+}
+
+TEST_F(PICTURE_SUITE, AnLedGlowsWhereItIsMountedAndLightsNothing) {
+  BeforeAWall(scene_);
+  world::LampSetup led;
+  led.radius = 0.1;
+  const auto dark = TakeWith(*renderer_, scene_, led, 0),
+             lit = TakeWith(*renderer_, scene_, led, 1);
+  EXPECT_EQ(FindBlob(*dark, 0).pixels, 0);
+  const Blob ball = FindBlob(*lit, 0);
+  EXPECT_NEAR(ball.u, 80, 0.5);
+  EXPECT_NEAR(ball.v, 60, 0.5);
+  // A ball of 0.1 m, 2 m away.
+  const double radius = 0.1 / 2 * 80 / std::tan(0.5);
+  EXPECT_NEAR(ball.pixels, kPi * radius * radius, 0.15 * kPi * radius * radius);
+  EXPECT_EQ(RedAt(*lit, 40), RedAt(*dark, 40));
+}
+
+TEST_F(PICTURE_SUITE, ALampLightsWhatIsNear) {
+  BeforeAWall(scene_);
+  world::LampSetup lamp;
+  lamp.range = 5;
+  const int dark = RedAt(*TakeWith(*renderer_, scene_, lamp, 0), 40);
+  const int dim = RedAt(*TakeWith(*renderer_, scene_, lamp, 0.3), 40),
+            bright = RedAt(*TakeWith(*renderer_, scene_, lamp, 1), 40);
+  EXPECT_GT(dim, dark + 10);
+  EXPECT_GT(bright, dim + 10);
+  const auto picture = TakeWith(*renderer_, scene_, lamp, 1);
+  const std::uint8_t* const p = &picture->pixels[3 * (60 * 160 + 40)];
+  EXPECT_GT(p[0], p[1] + 40);  // red light
+}
+
+TEST_F(PICTURE_SUITE, ALampWithAnAngleLightsAConeAlongItsAxis) {
+  BeforeAWall(scene_);
+  world::LampSetup lamp;
+  lamp.range = 5;
+  lamp.angle = 0.6;  // on the wall, 0.9 m away, a disc of 0.28 m
+  lamp.radius = 0.01;
+  const auto dark = TakeWith(*renderer_, scene_, lamp, 0),
+             lit = TakeWith(*renderer_, scene_, lamp, 1);
+  const auto pixel_at = [](double y) {
+    return static_cast<int>(80 - y / 2.9 * 80 / std::tan(0.5));
+  };
+  EXPECT_GT(RedAt(*lit, pixel_at(0.15)), RedAt(*dark, pixel_at(0.15)) + 20);
+  EXPECT_EQ(RedAt(*lit, pixel_at(0.4)), RedAt(*dark, pixel_at(0.4)));
+}
+
 }  // namespace
 }  // namespace gsv::rendering

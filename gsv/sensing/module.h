@@ -14,7 +14,7 @@
 namespace gsv::sensing {
 
 // Grows with every change of SensorType, Sensor, Sampling or Reading.
-inline constexpr int kSensorInterface = 1;
+inline constexpr int kSensorInterface = 2;
 inline constexpr const char* kSensorModuleSymbol = "gsv_sensor_module";
 
 struct SensorModule {

@@ -62,6 +62,23 @@ geometry::Vector2 ParameterReader::Pair(const std::string& name, geometry::Vecto
   return pair;
 }
 
+geometry::Vector3 ParameterReader::Triple(const std::string& name, geometry::Vector3 otherwise,
+                                          double low, double high) {
+  if (!description_.parameters.contains(name)) return otherwise;
+  std::istringstream text(Text(name, ""));
+  geometry::Vector3 triple;
+  if (!(text >> triple.x >> triple.y >> triple.z) || !(text >> std::ws).eof()) {
+    Refuse(fmt::format("{} must be three numbers, such as \"1 0.5 0\"", name));
+    return otherwise;
+  }
+  for (const double value : {triple.x, triple.y, triple.z}) {
+    if (value >= low && value <= high) continue;
+    Refuse(fmt::format("{} holds {}; it must lie between {} and {}", name, value, low, high));
+    return otherwise;
+  }
+  return triple;
+}
+
 int ParameterReader::Count(const std::string& name, int otherwise, int low, int high) {
   const double value = Number(name, otherwise, low, high);
   if (value != std::floor(value)) {

@@ -36,6 +36,10 @@ class ParameterReader {
   geometry::Vector2 Pair(const std::string& name, geometry::Vector2 otherwise, double low,
                          double high);
 
+  // The same of three numbers: "1 0.5 0".
+  geometry::Vector3 Triple(const std::string& name, geometry::Vector3 otherwise, double low,
+                           double high);
+
   // Says that the parameters do not fit together.
   void Refuse(const std::string& why);
 

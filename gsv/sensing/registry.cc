@@ -8,14 +8,17 @@
 #include "gsv/sensing/bumper.h"
 #include "gsv/sensing/imu.h"
 #include "gsv/sensing/joint_encoders.h"
+#include "gsv/sensing/lamp.h"
 #include "gsv/sensing/lidar.h"
 #include "gsv/sensing/logical_camera.h"
 #include "gsv/sensing/magnetometer.h"
+#include "gsv/sensing/microphone.h"
 #include "gsv/sensing/navsat.h"
 #include "gsv/sensing/odometer.h"
 #include "gsv/sensing/positioning.h"
 #include "gsv/sensing/radio.h"
 #include "gsv/sensing/sonar.h"
+#include "gsv/sensing/speaker.h"
 
 namespace gsv::sensing {
 
@@ -50,7 +53,8 @@ std::vector<std::string> SensorRegistry::names() const {
 void AddBuiltInSensors(SensorRegistry& registry) {
   for (SensorType (*make)() :
        {SonarType, LidarType, PositioningType, ImuType, OdometerType, NavsatType, MagnetometerType,
-        AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType, RadioType}) {
+        AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType, RadioType,
+        LampType, SpeakerType, MicrophoneType}) {
     GSV_CHECK(registry.Add(make()));
   }
 }

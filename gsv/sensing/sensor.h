@@ -82,6 +82,8 @@ class Sampling {
   mutable geometry::Pose world_from_link_;
 };
 
+class Actuator;
+
 class Sensor {
  public:
   explicit Sensor(model::SensorDescription description) : description_(std::move(description)) {}
@@ -102,6 +104,9 @@ class Sensor {
 
   // What a radio is able to: messages can be sent with it. Null for all other sensors.
   virtual world::RadioSetupPtr radio() const { return nullptr; }
+
+  // The same as an actuator, which can be told something; null for all others.
+  virtual const Actuator* actuator() const { return nullptr; }
 
  private:
   model::SensorDescription description_;

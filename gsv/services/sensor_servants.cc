@@ -4,6 +4,7 @@
 #include <map>
 
 #include "gsv/base/base64.h"
+#include "gsv/services/actuator_servants.h"
 #include "idl/sensors.hh"
 
 namespace gsv::services {
@@ -196,6 +197,20 @@ class RadioServant final : public SensorServant<POA_sba::Radio> {
   }
 };
 
+class MicrophoneServant final : public SensorServant<POA_sba::Microphone> {
+ public:
+  using SensorServant::SensorServant;
+  sba::Hearing* listen() override {
+    const Reading reading = Read();
+    sba::Hearing_var hearing = new sba::Hearing;
+    hearing->time_ns = reading.time.count();
+    hearing->level_db = reading.values.at(0);
+    hearing->frequency_hz = reading.values.at(1);
+    hearing->source = reading.labels->at(0).c_str();
+    return hearing._retn();
+  }
+};
+
 class DepthCameraServant final : public SensorServant<POA_sba::DepthCamera> {
  public:
   using SensorServant::SensorServant;
@@ -266,6 +281,9 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {"depth_camera", MakeSensorServant<DepthCameraServant>},
       {"segmentation_camera", MakeSensorServant<SegmentationCameraServant>},
       {"boundingbox_camera", MakeSensorServant<BoundingBoxCameraServant>},
+      {"microphone", MakeSensorServant<MicrophoneServant>},
+      {"lamp", MakeLampServant},
+      {"speaker", MakeSpeakerServant},
   };
   return makers;
 }

@@ -91,7 +91,9 @@ SteppingSimulation::SteppingSimulation(Specification specification,
   wheel_odometry_.SetLayout(*layout_);
   for (const world::Body& body : layout_->bodies) {
     if (!body.is_robot) continue;
-    agents_.emplace(body.name, std::make_shared<RobotAgent>(body.name, body.model, false, shared_));
+    const auto agent = std::make_shared<RobotAgent>(body.name, body.model, false, shared_);
+    agent->StartActuators();
+    agents_.emplace(body.name, agent);
   }
   IndexAgents();
   instant_.rays = &shared_->rays;
@@ -302,6 +304,7 @@ base::Status SteppingSimulation::Reset() {
     for (const auto& [name, agent] : agents_) {
       agent->ResetClocks();
       agent->rack().Reset();
+      agent->StartActuators();
     }
     failure_.clear();
     final_hash_.clear();

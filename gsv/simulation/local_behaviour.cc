@@ -37,6 +37,13 @@ base::Status Turn::Send(const MountedSensor& radio, const std::string& receiver,
   return {};
 }
 
+base::Status Turn::Act(const MountedSensor& actuator, world::ActuatorOrder order) {
+  auto act = MakeAct(actuator, std::move(order), sampling_->robot().name);
+  if (!act) return base::Fail(act.error());
+  Add(*std::move(act), actuator_acts_);
+  return {};
+}
+
 JointReading Turn::ReadJoint(int joint) const {
   return JointReadingIn(*sampling_->snapshot(), sampling_->body(), joint);
 }

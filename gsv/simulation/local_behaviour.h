@@ -14,6 +14,7 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/sensing/sensor.h"
+#include "gsv/simulation/actuator_acts.h"
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/behaviour_port.h"
 #include "gsv/simulation/mounted_sensor.h"
@@ -60,6 +61,8 @@ class Turn {
   JointReading ReadJoint(int joint) const;  // at this instant
   // By a radio, to the robot `receiver`; empty: to all.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content);
+  // Tells an actuator what to do from this instant on.
+  base::Status Act(const MountedSensor& actuator, world::ActuatorOrder order);
   // The command belongs to an exchange on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 
@@ -86,6 +89,7 @@ class Turn {
   std::optional<world::DriveCommand> command_;
   std::vector<std::pair<int, world::JointCommand>> joint_commands_;
   RadioActs radio_;
+  ActuatorActs actuator_acts_;
   std::uint64_t exchanges_ = 0;
   std::variant<Finished, Waiting, Blocked> end_;
 };

@@ -64,6 +64,10 @@ class MountedSensor {
     return design_->sensor != nullptr ? design_->sensor->radio() : nullptr;
   }
 
+  const sensing::Actuator* actuator() const {
+    return design_->sensor != nullptr ? design_->sensor->actuator() : nullptr;
+  }
+
   // The sample of `sampling`'s instant: taken now if nobody has asked for it before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
 

@@ -124,6 +124,7 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
     auto agent = std::make_shared<RobotAgent>(robot.name, robot.model, robot.is_avatar, shared_);
     agent->SetBehaviour(robot.behaviour);
     if (robot.behaviour != nullptr && robot.behaviour->local() != nullptr) has_hosted_ = true;
+    agent->StartActuators();
     agents_.emplace(robot.name, std::move(agent));
   }
   IndexAgents();
@@ -184,6 +185,12 @@ world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {
     std::copy_if(state_.radios->begin(), state_.radios->end(), std::back_inserter(*radios),
                  [&](const auto& radio) { return layout.Find(radio->robot) >= 0; });
     state.radios = std::move(radios);
+  }
+  if (state_.actuators != nullptr) {
+    auto actuators = std::make_shared<world::Actuators>();
+    std::copy_if(state_.actuators->begin(), state_.actuators->end(), std::back_inserter(*actuators),
+                 [&](const auto& actuator) { return layout.Find(actuator->robot) >= 0; });
+    state.actuators = std::move(actuators);
   }
   return state;
 }

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "gsv/sensing/actuator.h"
+
 namespace gsv::simulation {
 namespace {
 
@@ -248,6 +250,7 @@ base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
   const MountedSensorPtr sensor = *rack_.Find(name);
   shared_->history.Use(sensor->design().cadence);
   SwitchOn(*sensor);
+  StartActuator(*sensor);
   return {};
 }
 
@@ -260,7 +263,39 @@ base::Status RobotAgent::CloseSensor(const std::string& name) {
     radio_acts_.switches.push_back({name, nullptr});
     Announce();
   }
+  const sensing::Actuator* const actuator = (*sensor)->actuator();
+  // One of the model goes on with what it does.
+  if (actuator != nullptr && !rack_.Find(name) && CheckAlive(lock)) {
+    Add({name, actuator->setup(), std::nullopt}, actuator_acts_);
+    Announce();
+  }
   return {};
+}
+
+base::Status RobotAgent::Act(const std::string& actuator, world::ActuatorOrder order) {
+  const auto mounted = rack_.Find(actuator);
+  if (!mounted) return base::Fail(mounted.error());
+  auto act = MakeAct(**mounted, std::move(order), robot_);
+  if (!act) return base::Fail(act.error());
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  Add(*std::move(act), actuator_acts_);
+  Announce();
+  return {};
+}
+
+void RobotAgent::StartActuator(const MountedSensor& sensor) {
+  const sensing::Actuator* const actuator = sensor.actuator();
+  const auto order = actuator != nullptr ? actuator->first() : std::nullopt;
+  if (!order) return;
+  Add({sensor.name(), actuator->setup(), *order}, actuator_acts_);
+  Announce();
+}
+
+void RobotAgent::StartActuators() {
+  for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
+    StartActuator(MountedSensor(design));
+  }
 }
 
 base::Status RobotAgent::Send(const std::string& radio, const std::string& receiver,
@@ -379,6 +414,10 @@ std::function<void()> RobotAgent::Settle() {
     std::move(sendings.begin(), sendings.end(), std::back_inserter(radio_acts_.sendings));
     Announce();
   }
+  for (ActuatorAct& act : turn_.actuator_acts_) {
+    Add(std::move(act), actuator_acts_);
+    Announce();
+  }
   if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
     is_blocked_ = true;
     return std::move(blocked->work);
@@ -415,6 +454,7 @@ void RobotAgent::ResetClocks() {
   pending_.reset();
   pending_joints_.clear();
   radio_acts_ = {};
+  actuator_acts_.clear();
   is_commanded_ = false;
   started_ = false;
   death_reported_ = false;

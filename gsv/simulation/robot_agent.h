@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 
+#include "gsv/simulation/actuator_acts.h"
 #include "gsv/simulation/agent.h"
 #include "gsv/simulation/agent_clocks.h"
 #include "gsv/simulation/local_behaviour.h"
@@ -50,6 +51,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Result<sensing::Reading> Read(const std::string& sensor) override;
   base::Status Send(const std::string& radio, const std::string& receiver,
                     std::string content) override;
+  base::Status Act(const std::string& actuator, world::ActuatorOrder order) override;
 
   // A reading for somebody who watches.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
@@ -88,6 +90,10 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::vector<std::pair<int, world::JointCommand>> TakeJointCommands();
   // What it has done with its radios.
   RadioActs TakeRadioActs() { return std::exchange(radio_acts_, {}); }
+  // What its actuators were told.
+  ActuatorActs TakeActuatorActs() { return std::exchange(actuator_acts_, {}); }
+  // Has its actuators do what they do from the start.
+  void StartActuators();
   void MarkGone();
   bool is_gone() const { return is_gone_; }
   void ResetClocks();
@@ -129,6 +135,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void StopDriving() { Pend({}); }
   // From the next step on it hears, if it is a radio.
   void SwitchOn(const MountedSensor& sensor);
+  // It does what it does from the start, if it is an actuator.
+  void StartActuator(const MountedSensor& sensor);
 
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;
@@ -144,6 +152,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::optional<PendingCommand> pending_;
   std::vector<std::pair<int, world::JointCommand>> pending_joints_;
   RadioActs radio_acts_;
+  ActuatorActs actuator_acts_;
   int body_ = -1;
   bool is_counted_ = false;    // in shared_->running
   bool is_commanded_ = false;  // in shared_->commanded

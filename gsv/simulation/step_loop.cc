@@ -163,6 +163,9 @@ void SteppingSimulation::TakeStep() {
         if (RadioActs acts = agent->TakeRadioActs(); !acts.empty()) {
           radio_acts_.emplace_back(agent->robot(), std::move(acts));
         }
+        if (ActuatorActs acts = agent->TakeActuatorActs(); !acts.empty()) {
+          actuator_acts_.emplace_back(agent->robot(), std::move(acts));
+        }
       }
       shared_->commanded.clear();
       stepped_run_ = run_;
@@ -172,6 +175,7 @@ void SteppingSimulation::TakeStep() {
       transmissions_ = Communicate(shared_->history.latest(), std::exchange(radio_acts_, {}),
                                    shared_->rays, team_.get(), state_);
     }
+    if (!actuator_acts_.empty()) Obey(std::exchange(actuator_acts_, {}), state_);
     snapshot = MoveWorld();
     AfterStep(snapshot, start);
   }

@@ -151,6 +151,7 @@ class SteppingSimulation final : public Simulation {
   world::State state_;
   // Since the last step; stepping thread only.
   std::vector<std::pair<std::string, RadioActs>> radio_acts_;
+  std::vector<std::pair<std::string, ActuatorActs>> actuator_acts_;
   std::vector<world::Transmission> transmissions_;
   SnapshotPool snapshots_;
   world::WheelOdometry wheel_odometry_;

@@ -102,6 +102,7 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
     hash.Add(command.value);
   }
   if (state.radios != nullptr) AddToHash(*state.radios, hash);
+  if (state.actuators != nullptr) AddToHash(*state.actuators, hash);
 }
 
 }  // namespace gsv::world

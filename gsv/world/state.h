@@ -12,6 +12,7 @@
 #include "gsv/base/sim_time.h"
 #include "gsv/geometry/planar_motion.h"
 #include "gsv/geometry/pose.h"
+#include "gsv/world/actuators.h"
 #include "gsv/world/layout.h"
 #include "gsv/world/radio.h"
 
@@ -73,8 +74,9 @@ struct State {
   std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
   // Those of a ball joint are its angular velocity about its three axes, as the child carries them.
   std::vector<double> joint_velocities;
-  std::vector<JointCommand> joint_commands;  // as joint_positions; empty: none was ever given
-  std::shared_ptr<const Radios> radios;      // null: none was ever switched on
+  std::vector<JointCommand> joint_commands;    // as joint_positions; empty: none was ever given
+  std::shared_ptr<const Radios> radios;        // null: none was ever switched on
+  std::shared_ptr<const Actuators> actuators;  // null: none was ever told anything
 };
 
 // Everything where it starts and at rest; joints have their models' targets.

@@ -15,6 +15,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/base/sim_time.h"
+#include "sdk/behaviour/actuators.h"
 #include "sdk/behaviour/joint.h"
 #include "sdk/behaviour/sensors.h"
 

@@ -67,6 +67,8 @@ class SensorPort {
   virtual Picture TakePicture() = 0;
   // Of a radio: see Radio::Send(). An error of any other sensor.
   virtual base::Status Send(const std::string& receiver, const std::string& content) = 0;
+  // Of an actuator: tells it what to do, see actuators.h. An error of any other sensor.
+  virtual base::Status Act(const std::vector<double>& values, const std::string& word) = 0;
 };
 
 // Any sensor.

@@ -94,7 +94,7 @@ struct TypicalArguments {
   std::string world, model = "b21r", behaviour = "wander";
   double duration = 20;
   simulation::Mode mode = simulation::Mode::kRealTime;
-  bool exchange = false, json = false;
+  bool exchange = false, in_process = false, json = false;
 };
 
 struct Row {
@@ -141,6 +141,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   };
   PlaceRobots(arguments, robots, options);
   options.behaviour = arguments.behaviour;
+  options.in_process = arguments.in_process;
   options.specification.mode = arguments.mode;
   options.specification.duration = base::FromSeconds(arguments.duration);
   options.specification.keep = true;
@@ -275,8 +276,11 @@ void AddTypicalBench(const CommandLine& bench) {
       ->add_flag("--exchange", arguments->exchange,
                  "behaviours that need one round trip a cycle, and no pictures")
       ->excludes(behaviour);
+  command->add_flag("--in-process", arguments->in_process,
+                    "the behaviours inside gsv, as fast as possible");
   command->callback([arguments, bench] {
     if (arguments->exchange) arguments->behaviour = kExchange;
+    if (arguments->in_process) arguments->mode = simulation::Mode::kLockstep;
     bench.exit_code = Typical(*arguments);
   });
 }

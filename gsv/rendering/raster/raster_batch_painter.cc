@@ -25,6 +25,7 @@ base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchPainte
   const DrawPlan& plan = *planned.plan;
   const Lighting& lighting = *planned.lighting;
   planned.plan->Pose(snapshot);
+  planned.lighting->TakeLamps(snapshot);
   const bool shadows = lighting.sun_casts_shadows();
   if (shadows) shadow_.Draw(plan, planned.id, lighting.to_sun(), views);
   std::vector<std::shared_ptr<const model::Image>> pictures(views.size());
@@ -45,7 +46,7 @@ base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchPainte
 base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchPainter::Survey(
     const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
   PlannedLayout& planned = PlanFor(snapshot.layout);
-  planned.plan->Pose(snapshot);
+  planned.plan->Pose(snapshot, DrawPlan::Glow::kHidden);
   std::vector<std::shared_ptr<const GroundTruth>> truths(views.size());
   team_.Share(views.size(), 1, [&](std::size_t begin, std::size_t end) {
     std::unique_ptr<PicturePainter> painter = TakePainter();

@@ -1,5 +1,5 @@
 // Subscribes what the overlays draw, and no more than is shown: where sensors are mounted, and the
-// readings of lidars, depth cameras and bumpers.
+// readings of lidars, depth cameras, bumpers and actuators.
 import { robotsOf } from "../api/scene";
 import type { SceneDescription, SceneSensor } from "../api/scene";
 import type { TransformsMessage } from "../protocol/messages";
@@ -11,6 +11,9 @@ import type { Session } from "./Session";
 const MOST_READINGS = 16; // sensors at once
 const FRAMES_TOPIC = "/tf_static";
 const BUMPERS = ["contact", "bumper"];
+const MOST_ACTUATORS = 32;
+const SPEAKERS = ["speaker", "buzzer"];
+const ACTUATORS = ["lamp", "led", ...SPEAKERS];
 
 // The part of the 3D view that it feeds.
 export interface OverlayView {
@@ -23,7 +26,13 @@ export interface OverlayView {
 export function topicsToDraw({ scene, shown, selection, viewMode }: State): string[] {
   const wants = (sensor: SceneSensor) =>
     (shown.points && sensor.overlay === "points") || (shown.contacts && BUMPERS.includes(sensor.type));
-  const readings = sensorsOf(scene, selection).filter(wants).slice(0, MOST_READINGS);
+  const acts = ({ type }: SceneSensor) =>
+    (shown.actuators && ACTUATORS.includes(type)) || (shown.sound && SPEAKERS.includes(type));
+  const sensors = sensorsOf(scene, selection);
+  const readings = [
+    ...sensors.filter(wants).slice(0, MOST_READINGS),
+    ...sensors.filter(acts).slice(0, MOST_ACTUATORS),
+  ];
   const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
   return [...(needsFrames && scene ? [FRAMES_TOPIC] : []), ...readings.map(({ topic }) => topic)];
 }

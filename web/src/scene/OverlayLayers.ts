@@ -1,10 +1,11 @@
-// What is drawn over the world: beams, points, contacts, camera views, trails, axes.
+// What is drawn over the world: beams, points, contacts, camera views, trails, axes, actuators.
 import type { Matrix4 } from "three";
 import { Group } from "three";
 import type { SceneSensor } from "../api/scene";
 import { robotsOf } from "../api/scene";
 import type { TouchPoint } from "../live/clouds";
 import { contactsOf, pointsOf } from "../live/clouds";
+import type { Sound } from "../live/devices";
 import type { MarkerArrayMessage, TransformsMessage } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
 import type { Shown } from "../state/overlays";
@@ -12,11 +13,13 @@ import { FIRST_SHOWN } from "../state/overlays";
 import { BeamLayer } from "./BeamLayer";
 import type { BodyLayer } from "./BodyLayer";
 import { matrixOf } from "./BodyLayer";
+import { DeviceLayer } from "./DeviceLayer";
 import { LineLayer } from "./LineLayer";
 import { drawAxes, drawContact, drawView } from "./markings";
 import { PointLayer } from "./PointLayer";
 import type { PoseSample } from "./PoseInterpolator";
 import { SensorFrames } from "./SensorFrames";
+import { SoundPlayer } from "./SoundPlayer";
 import { Trails } from "./Trails";
 
 const ROBOT_AXES = 0.45; // m
@@ -24,6 +27,7 @@ const LINK_AXES = 0.2;
 const SENSOR_AXES = 0.14;
 const MOST_VIEWS = 40; // cameras
 const MOST_AXES = 400; // frames
+const SILENCE: ReadonlyMap<string, Sound> = new Map();
 
 export interface MountedSensor extends SceneSensor {
   robot: string;
@@ -37,6 +41,8 @@ export class OverlayLayers {
   private readonly lines = new LineLayer({ widthPx: 2, onTop: true });
   private readonly trailLines = new LineLayer({ widthPx: 2.5 });
   private readonly trails = new Trails();
+  private readonly devices = new DeviceLayer();
+  private readonly player = new SoundPlayer();
   private trailsOf = ""; // the scene's name
   private readonly contacts = new Map<string, TouchPoint[]>(); // by topic, in the sensor's frame
   private bodies: BodyLayer | null = null;
@@ -46,7 +52,7 @@ export class OverlayLayers {
   private selection: string | null = null;
 
   constructor() {
-    this.group.add(this.beams.lines, this.points.points, this.lines.lines, this.trailLines.lines);
+    this.group.add(this.beams.lines, this.points.points, this.lines.lines, this.trailLines.lines, this.devices.group);
   }
 
   setScene(bodies: BodyLayer | null): void {
@@ -81,8 +87,9 @@ export class OverlayLayers {
     this.frames.take(message);
   }
 
-  // A reading of a lidar, a depth camera or a bumper.
+  // A reading of a lidar, a depth camera, a bumper or an actuator.
   takeReading(topic: string, message: unknown): void {
+    this.devices.take(topic, message);
     this.points.set(topic, pointsOf(message));
     this.contacts.set(topic, contactsOf(message));
   }
@@ -90,6 +97,7 @@ export class OverlayLayers {
   // Forgets the readings of all other topics.
   keepReadings(topics: ReadonlySet<string>): void {
     this.points.keepOnly(topics);
+    this.devices.keepOnly(topics);
     for (const topic of [...this.contacts.keys()]) if (!topics.has(topic)) this.contacts.delete(topic);
   }
 
@@ -119,6 +127,8 @@ export class OverlayLayers {
     this.beams.lines.visible = shown.beams;
     this.points.points.visible = shown.points;
     this.trailLines.lines.visible = shown.trails;
+    this.devices.group.visible = shown.actuators;
+    this.player.play(shown.sound ? this.devices.sounds : SILENCE);
     if (!bodies) return;
     if (shown.beams) this.beams.place((robot) => bodies.poseOf(bodies.indexOf(robot)));
     if (shown.points) this.points.place((topic) => this.worldFromSensor(topic, bodies));
@@ -136,6 +146,7 @@ export class OverlayLayers {
     if (shown.contacts) this.drawContacts(bodies);
     if (shown.cameras) this.drawViews(bodies);
     if (shown.frames) this.drawFrames(bodies);
+    if (shown.actuators) this.devices.place((topic) => this.worldFromSensor(topic, bodies), lines);
     lines.finish();
     lines.lines.visible = lines.segments > 0;
   }

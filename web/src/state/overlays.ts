@@ -17,6 +17,8 @@ export const OVERLAY_NAMES = [
   "frames",
   "labels",
   "grid",
+  "actuators",
+  "sound",
 ] as const;
 export type OverlayName = (typeof OVERLAY_NAMES)[number];
 export type Shown = Record<OverlayName, boolean>;
@@ -30,6 +32,8 @@ export const OVERLAYS: readonly OverlayKind[] = [
   { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
   { name: "labels", label: "Names", key: "7", hint: "The robots' names" },
   { name: "grid", label: "Grid", key: "8", hint: "Metres on the floor" },
+  { name: "actuators", label: "Lamps and sounds", key: "9", hint: "What lamps and speakers do" },
+  { name: "sound", label: "Let it be heard", key: "0", hint: "Play what speakers play" },
 ];
 
 export const FIRST_SHOWN: Shown = {
@@ -41,6 +45,8 @@ export const FIRST_SHOWN: Shown = {
   frames: false,
   labels: true,
   grid: true,
+  actuators: true,
+  sound: false,
 };
 
 const KEY = "gsv.overlays";

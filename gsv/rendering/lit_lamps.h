@@ -1,0 +1,25 @@
+// The lamps of robots that are on: each glows, and may light what is about it.
+#pragma once
+
+#include <vector>
+
+#include "gsv/model/world_description.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::rendering {
+
+struct LitLamp {
+  int body = 0;
+  const world::ActuatorSetup* setup = nullptr;  // the snapshot's
+  world::Glow glow;                             // brighter than nothing
+
+  const world::LampSetup& lamp() const { return std::get<world::LampSetup>(setup->kind); }
+};
+
+// By robot, then lamp.
+std::vector<LitLamp> LitLamps(const world::Snapshot& snapshot);
+
+// What it lights its surroundings with.
+model::Light LightOf(const LitLamp& lit, const world::Snapshot& snapshot);
+
+}  // namespace gsv::rendering

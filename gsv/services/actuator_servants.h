@@ -1,0 +1,36 @@
+// The servants of actuators: a SensorServant that can be told something.
+//
+// Threads  ORB threads.
+#pragma once
+
+#include "gsv/services/sensor_servants.h"
+#include "idl/actuators.hh"
+
+namespace gsv::services {
+
+// What all have in common, mixed into the skeleton of each interface.
+template <typename Skeleton>
+class ActuatorServant : public SensorServant<Skeleton> {
+ public:
+  using SensorServant<Skeleton>::SensorServant;
+
+  void act(const sba::Doubles& values, const char* word) override {
+    const double* const begin = values.get_buffer();
+    Act({std::vector<double>(begin, begin + values.length()), word});
+  }
+
+ protected:
+  void Act(world::ActuatorOrder order, unsigned raises = orb::kAll) {
+    orb::ValueOrThrow(this->agent().Act(this->description().name, std::move(order)), raises);
+  }
+};
+
+// Makers, for SensorServants.
+PortableServer::ServantBase* MakeLampServant(std::shared_ptr<simulation::Agent> agent,
+                                             model::SensorDescription description,
+                                             std::shared_ptr<ServantGroup> group);
+PortableServer::ServantBase* MakeSpeakerServant(std::shared_ptr<simulation::Agent> agent,
+                                                model::SensorDescription description,
+                                                std::shared_ptr<ServantGroup> group);
+
+}  // namespace gsv::services

@@ -1,0 +1,51 @@
+// What robots' lamps and speakers do, from their messages.
+
+export interface Glow {
+  brightness: number; // above 0, to 1
+  colour: [number, number, number];
+  radius: number; // m
+  range: number; // m that it lights; 0: nothing
+  angle: number; // rad, of the whole cone; a full turn: all around
+  intensity: number; // at full brightness
+}
+
+export interface Sound {
+  name: string; // "tone", "buzz", "chirp", "noise"
+  frequency: number; // Hz
+  volume: number; // 0 to 1
+  elapsed: number; // s
+}
+
+type Fields = Record<string, unknown>;
+
+// What a lamp's message tells; null when it is off, or the message is none.
+export function glowOf(message: unknown): Glow | null {
+  const { brightness, color, radius_m, range_m, angle_rad, intensity } = fieldsOf(message);
+  const { r, g, b } = fieldsOf(color);
+  const glow = [brightness, r, g, b, radius_m, range_m, angle_rad, intensity];
+  if (!areNumbers(glow) || glow[0]! <= 0) return null;
+  return {
+    brightness: glow[0]!,
+    colour: [glow[1]!, glow[2]!, glow[3]!],
+    radius: glow[4]!,
+    range: glow[5]!,
+    angle: glow[6]!,
+    intensity: glow[7]!,
+  };
+}
+
+// What a speaker's message tells; null when it is silent, or the message is none.
+export function soundOf(message: unknown): Sound | null {
+  const { sound, frequency_hz, volume, elapsed_s } = fieldsOf(message);
+  const numbers = [frequency_hz, volume, elapsed_s];
+  if (typeof sound !== "string" || sound === "" || !areNumbers(numbers)) return null;
+  return { name: sound, frequency: numbers[0]!, volume: numbers[1]!, elapsed: numbers[2]! };
+}
+
+function fieldsOf(value: unknown): Fields {
+  return (value ?? {}) as Fields;
+}
+
+function areNumbers(values: unknown[]): values is number[] {
+  return values.every((value) => typeof value === "number" && Number.isFinite(value));
+}

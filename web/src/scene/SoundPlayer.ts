@@ -1,0 +1,91 @@
+// Lets people hear what robots' speakers play, as loud for all: where they stand does not count.
+import type { Sound } from "../live/devices";
+
+const LOUDNESS = 0.08; // of full scale, at full volume
+const MOST_SOUNDS = 8;
+const FADE = 0.01; // s: without it a tone begins and ends with a click
+const CHIRP_SPAN = 2; // octaves a second
+const WAVES: Record<string, OscillatorType> = { tone: "sine", chirp: "sine", buzz: "square" };
+
+interface Voice {
+  sound: Sound;
+  source: AudioScheduledSourceNode;
+  gain: GainNode;
+}
+
+export class SoundPlayer {
+  private readonly voices = new Map<string, Voice>(); // by topic
+  private context: AudioContext | null = null;
+
+  constructor(private readonly makeContext: () => AudioContext = () => new AudioContext()) {}
+
+  get playing(): number {
+    return this.voices.size;
+  }
+
+  // What is to be heard now, by topic: nothing while it is muted.
+  play(sounds: ReadonlyMap<string, Sound>): void {
+    if (sounds.size === 0 && this.voices.size === 0) return;
+    for (const [topic, { sound }] of [...this.voices]) {
+      const now = sounds.get(topic);
+      if (!now || !isSame(now, sound)) this.end(topic);
+    }
+    for (const [topic, sound] of [...sounds].slice(0, MOST_SOUNDS)) {
+      const voice = this.voices.get(topic);
+      if (voice) voice.sound = sound;
+      else this.begin(topic, sound);
+    }
+  }
+
+  private begin(topic: string, sound: Sound): void {
+    this.context ??= this.makeContext();
+    // A page may sound only after somebody has touched it.
+    if (this.context.state === "suspended") void this.context.resume();
+    const source = sourceOf(this.context, sound);
+    const gain = this.context.createGain();
+    const now = this.context.currentTime;
+    gain.gain.setValueAtTime(0, now);
+    gain.gain.linearRampToValueAtTime(LOUDNESS * sound.volume, now + FADE);
+    source.connect(gain).connect(this.context.destination);
+    source.start();
+    this.voices.set(topic, { sound, source, gain });
+  }
+
+  private end(topic: string): void {
+    const { source, gain } = this.voices.get(topic)!;
+    const now = this.context!.currentTime;
+    gain.gain.setTargetAtTime(0, now, FADE / 3);
+    source.stop(now + 2 * FADE);
+    this.voices.delete(topic);
+  }
+}
+
+// The same, going on: one that was begun anew has played for less time.
+function isSame(now: Sound, before: Sound): boolean {
+  const { name, frequency, volume, elapsed } = before;
+  return (
+    now.name === name && now.frequency === frequency && now.volume === volume && now.elapsed >= elapsed
+  );
+}
+
+function sourceOf(context: AudioContext, sound: Sound): AudioScheduledSourceNode {
+  if (sound.name === "noise") return noise(context);
+  const oscillator = context.createOscillator();
+  oscillator.type = WAVES[sound.name] ?? "sine";
+  const now = context.currentTime;
+  oscillator.frequency.setValueAtTime(sound.frequency, now);
+  if (sound.name === "chirp") {
+    oscillator.frequency.exponentialRampToValueAtTime(sound.frequency * 2 ** CHIRP_SPAN, now + 1);
+  }
+  return oscillator;
+}
+
+function noise(context: AudioContext): AudioBufferSourceNode {
+  const buffer = context.createBuffer(1, context.sampleRate, context.sampleRate);
+  const samples = buffer.getChannelData(0);
+  for (let i = 0; i < samples.length; i++) samples[i] = 2 * Math.random() - 1;
+  const source = context.createBufferSource();
+  source.buffer = buffer;
+  source.loop = true;
+  return source;
+}
