@@ -44,7 +44,7 @@ class ReadsAll final : public Behaviour {
          {open(sonar_), open(lidar_), open(position_), open(imu_), open(odometer_),
           open(satellites_), open(magnetometer_), open(altimeter_), open(bumper_), open(joints_),
           open(battery_), open(logical_camera_), open(radio_), open(lamp_), open(speaker_),
-          open(microphone_)}) {
+          open(gripper_), open(microphone_)}) {
       if (!status) return status;
     }
     const auto wrong = robot.Open<Imu>("sonar");
@@ -64,8 +64,8 @@ class ReadsAll final : public Behaviour {
     // The hardware's sentence, wherever it comes through.
     const std::string why = refused ? "" : refused.error().Sentence();
     read_.names["refused"] = {why.substr(std::min(why.size(), why.find("a message of")))};
-    for (const base::Status& told :
-         {lamp_->Shine({1, 0.5, 0}, 0.25), speaker_->Play("chirp", 440, 2, 0.5)}) {
+    for (const base::Status& told : {gripper_->Grip(), lamp_->Shine({1, 0.5, 0}, 0.25),
+                                     speaker_->Play("chirp", 440, 2, 0.5)}) {
       if (!told) read_.error = told.error().message;
     }
     const auto too_bright = lamp_->Shine({}, 2);
@@ -108,6 +108,9 @@ class ReadsAll final : public Behaviour {
     }
     const Lamp::Glow glow = lamp_->Look();
     values["lamp"] = {glow.brightness, glow.colour.red, glow.colour.green, glow.colour.blue};
+    const Gripper::Jaws jaws = gripper_->Feel();
+    values["gripper"] = {jaws.opening, jaws.told_to_open ? 1.0 : 0.0};
+    read_.names["gripper"] = {jaws.held};
     const Speaker::Sound sound = speaker_->Playing();
     values["speaker"] = {sound.frequency, sound.volume, sound.elapsed, sound.left};
     read_.names["speaker"] = {sound.name};
@@ -133,6 +136,7 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<Battery> battery_;
   std::unique_ptr<LogicalCamera> logical_camera_;
   std::unique_ptr<Radio> radio_;
+  std::unique_ptr<Gripper> gripper_;
   std::unique_ptr<Lamp> lamp_;
   std::unique_ptr<Speaker> speaker_;
   std::unique_ptr<Microphone> microphone_;
@@ -151,7 +155,7 @@ simulation::RobotSpecification RobotWithAll(std::shared_ptr<simulation::Behaviou
   model->sensors.clear();
   for (const char* type : {"sonar", "lidar", "positioning", "imu", "odometry", "navsat",
                            "magnetometer", "altimeter", "contact", "joint_encoders", "battery",
-                           "logical_camera", "radio", "lamp", "speaker", "microphone"}) {
+                           "logical_camera", "radio", "gripper", "lamp", "speaker", "microphone"}) {
     model::SensorDescription sensor;
     sensor.name = sensor.type = type;
     sensor.link_from_sensor.position = {0, 0, 0.25};
@@ -303,6 +307,10 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   EXPECT_EQ(lamp->look().colour.green, values.at("lamp")[2]);
   EXPECT_THROW(lamp->shine(1, {0, -1, 0}), sba::Refused);
   lamp->switch_off();
+  const sba::Gripper_var gripper = Opened<sba::Gripper>(factory, "gripper");
+  EXPECT_EQ(sba::GripperReading_var(gripper->feel())->opening_m, values.at("gripper")[0]);
+  gripper->let_go();
+  gripper->grip();
   const sba::Speaker_var speaker = Opened<sba::Speaker>(factory, "speaker");
   const sba::SpeakerReading_var playing = speaker->playing();
   EXPECT_STREQ(playing->sound, "chirp");
@@ -329,7 +337,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   (*orb)->destroy();
   EXPECT_EQ(local.values, remote.values);
   EXPECT_EQ(local.names, remote.names);
-  EXPECT_EQ(local.values.size(), 18u);
+  EXPECT_EQ(local.values.size(), 19u);
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);
@@ -347,6 +355,8 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   EXPECT_EQ(values.at("lamp"), (std::vector<double>{0.25, 1, 0.5, 0}));
   EXPECT_EQ(values.at("speaker"), (std::vector<double>{440, 0.5, 0.05, 1.95}));
   EXPECT_EQ(local.names.at("speaker").front(), "chirp");
+  EXPECT_NEAR(values.at("gripper")[0], 0.09, 1e-12);
+  EXPECT_EQ(values.at("gripper")[1], 0);
   EXPECT_EQ(values.at("microphone")[1], 440);
   EXPECT_EQ(local.names.at("too bright").front(),
             "the brightness is 2; it must lie between 0 and 1");

@@ -11,8 +11,6 @@
 namespace gsv::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kRobots = 4;
 constexpr int kCameras = 16;
 constexpr double kMeasured = 1.5;  // s
@@ -32,13 +30,13 @@ base::Result<double> PictureRate(rendering::Renderer& renderer) {
   };
   if (auto ok = scene->simulation->Start(); !ok) return base::Fail(ok.error());
   if (auto ok = draw(); !ok) return base::Fail(ok.error());  // what is done once for a world
-  const auto start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   double seconds = 0;
   int drawn = 0;
   while (seconds < kMeasured) {
     if (auto ok = draw(); !ok) return base::Fail(ok.error());
     drawn += kCameras;
-    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   return drawn / seconds;
 }

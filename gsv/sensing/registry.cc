@@ -6,6 +6,7 @@
 #include "gsv/sensing/altimeter.h"
 #include "gsv/sensing/battery.h"
 #include "gsv/sensing/bumper.h"
+#include "gsv/sensing/gripper.h"
 #include "gsv/sensing/imu.h"
 #include "gsv/sensing/joint_encoders.h"
 #include "gsv/sensing/lamp.h"
@@ -54,7 +55,7 @@ void AddBuiltInSensors(SensorRegistry& registry) {
   for (SensorType (*make)() :
        {SonarType, LidarType, PositioningType, ImuType, OdometerType, NavsatType, MagnetometerType,
         AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType, RadioType,
-        LampType, SpeakerType, MicrophoneType}) {
+        GripperType, LampType, SpeakerType, MicrophoneType}) {
     GSV_CHECK(registry.Add(make()));
   }
 }

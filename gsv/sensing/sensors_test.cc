@@ -273,11 +273,11 @@ TEST(SensorParameters, AreRefusedWithASentence) {
 }
 
 TEST(SensorRegistry, FindsTypesByNameAndAlias) {
-  EXPECT_EQ(
-      Registry().names(),
-      (std::vector<std::string>{"altimeter", "battery", "contact", "imu", "joint_encoders", "lamp",
-                                "lidar", "logical_camera", "magnetometer", "microphone", "navsat",
-                                "odometry", "positioning", "radio", "sonar", "speaker"}));
+  EXPECT_EQ(Registry().names(),
+            (std::vector<std::string>{"altimeter", "battery", "contact", "gripper", "imu",
+                                      "joint_encoders", "lamp", "lidar", "logical_camera",
+                                      "magnetometer", "microphone", "navsat", "odometry",
+                                      "positioning", "radio", "sonar", "speaker"}));
   EXPECT_EQ(Registry().Find("gpu_ray"), Registry().Find("lidar"));
   EXPECT_EQ(Registry().Find("telepathy"), nullptr);
   EXPECT_EQ(Registry().Find("sonar")->schema->name, "sensor_msgs/msg/Range");

@@ -21,6 +21,22 @@ class LampServant final : public ActuatorServant<POA_sba::Lamp> {
   }
 };
 
+class GripperServant final : public ActuatorServant<POA_sba::Gripper> {
+ public:
+  using ActuatorServant::ActuatorServant;
+  void grip() override { Act({{0}, {}}, kSwitchingRaises); }
+  void let_go() override { Act({{1}, {}}, kSwitchingRaises); }
+  sba::GripperReading* feel() override {
+    const Reading reading = Read();
+    sba::GripperReading_var feeling = new sba::GripperReading;
+    feeling->time_ns = reading.time.count();
+    feeling->opening_m = reading.values.at(0);
+    feeling->told_to_open = reading.values.at(1) != 0;
+    feeling->held = reading.labels->at(0).c_str();
+    return feeling._retn();
+  }
+};
+
 class SpeakerServant final : public ActuatorServant<POA_sba::Speaker> {
  public:
   using ActuatorServant::ActuatorServant;
@@ -47,6 +63,13 @@ PortableServer::ServantBase* MakeLampServant(std::shared_ptr<simulation::Agent> 
                                              model::SensorDescription description,
                                              std::shared_ptr<ServantGroup> group) {
   return MakeSensorServant<LampServant>(std::move(agent), std::move(description), std::move(group));
+}
+
+PortableServer::ServantBase* MakeGripperServant(std::shared_ptr<simulation::Agent> agent,
+                                                model::SensorDescription description,
+                                                std::shared_ptr<ServantGroup> group) {
+  return MakeSensorServant<GripperServant>(std::move(agent), std::move(description),
+                                           std::move(group));
 }
 
 PortableServer::ServantBase* MakeSpeakerServant(std::shared_ptr<simulation::Agent> agent,

@@ -29,6 +29,9 @@ class ActuatorServant : public SensorServant<Skeleton> {
 PortableServer::ServantBase* MakeLampServant(std::shared_ptr<simulation::Agent> agent,
                                              model::SensorDescription description,
                                              std::shared_ptr<ServantGroup> group);
+PortableServer::ServantBase* MakeGripperServant(std::shared_ptr<simulation::Agent> agent,
+                                                model::SensorDescription description,
+                                                std::shared_ptr<ServantGroup> group);
 PortableServer::ServantBase* MakeSpeakerServant(std::shared_ptr<simulation::Agent> agent,
                                                 model::SensorDescription description,
                                                 std::shared_ptr<ServantGroup> group);

@@ -282,6 +282,7 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {"segmentation_camera", MakeSensorServant<SegmentationCameraServant>},
       {"boundingbox_camera", MakeSensorServant<BoundingBoxCameraServant>},
       {"microphone", MakeSensorServant<MicrophoneServant>},
+      {"gripper", MakeGripperServant},
       {"lamp", MakeLampServant},
       {"speaker", MakeSpeakerServant},
   };

@@ -42,8 +42,10 @@ void Obey(std::vector<std::pair<std::string, ActuatorActs>> acts, world::State& 
         all.erase(key);
         continue;
       }
-      all[std::move(key)] = std::make_shared<const world::ActuatorState>(world::ActuatorState{
-          robot, act.actuator, std::move(act.setup), *std::move(act.order), state.time});
+      world::ActuatorStatePtr& now = all[std::move(key)];
+      now = std::make_shared<const world::ActuatorState>(world::After(
+          now.get(),
+          {robot, act.actuator, std::move(act.setup), *std::move(act.order), state.time}));
     }
   }
   auto after = std::make_shared<world::Actuators>();

@@ -294,6 +294,7 @@ base::Status SteppingSimulation::Reset() {
     if (!world_lock) return RefuseStuck();
     const std::lock_guard lock(shared_->mutex);
     state_ = world::InitialState(*layout_);
+    if (!engine_holds_.empty()) GSV_CHECK(SetEngineLayout(layout_, state_));
     shared_->sleepers.Clear();
     shared_->commanded.clear();
     shared_->ready.clear();

@@ -135,14 +135,16 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
                                               const std::vector<std::string>& placed) {
   const std::uint32_t version = layout_->version + 1;
   auto layout = world::MakeLayout(version, std::move(bodies), layout_->description);
-  auto status = engine_->SetLayout(layout);
   world::State state = CarryOver(*layout);
+  LetGo(*layout, placed, state);
+  auto status = SetEngineLayout(layout, state);
   for (const std::string& name : placed) PutAtRest(*layout, layout->Find(name), state);
   if (status && !placed.empty()) status = MakeRoom(*layout, placed, state);
   if (!status) {
-    if (const auto back = engine_->SetLayout(layout_); !back) return back;
+    if (const auto back = SetEngineLayout(layout_, state_); !back) return back;
     return status;
   }
+  CarryHeld(*layout, state.time, state);
   // A robot starts where there was room for it, also after a reset; one that was put elsewhere in
   // mid-run, where it did.
   std::vector<world::Body> settled = layout->bodies;
@@ -154,11 +156,17 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
   }
   layout_ = world::MakeLayout(version, std::move(settled), layout->description);
   state_ = std::move(state);
-  if (auto ok = engine_->SetLayout(layout_); !ok) return ok;
+  if (auto ok = SetEngineLayout(layout_, state_); !ok) return ok;
   wheel_odometry_.SetLayout(*layout_);
   shared_->history.Restart(
       std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}, {}}));
   return {};
+}
+
+base::Status SteppingSimulation::SetEngineLayout(const std::shared_ptr<const world::Layout>& layout,
+                                                 const world::State& state) {
+  engine_holds_ = HoldsIn(state);
+  return engine_->SetLayout(WithHeld(layout, state));
 }
 
 world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {

@@ -176,6 +176,10 @@ void SteppingSimulation::TakeStep() {
                                    shared_->rays, team_.get(), state_);
     }
     if (!actuator_acts_.empty()) Obey(std::exchange(actuator_acts_, {}), state_);
+    CloseJaws(shared_->history.latest(), step_, shared_->rays, team_.get(), state_);
+    if (state_.actuators != nullptr && HoldsIn(state_) != engine_holds_) {
+      GSV_CHECK(SetEngineLayout(layout_, state_));  // it took the same bodies before
+    }
     snapshot = MoveWorld();
     AfterStep(snapshot, start);
   }
@@ -194,6 +198,7 @@ std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
   world::KeepVelocities(state_, snapshot->accelerations);
   wheel_odometry_.KeepWheels(state_);
   engine_->Step(step_, state_, snapshot->contacts);
+  CarryHeld(*layout_, state_.time + step_, state_);
   wheel_odometry_.Advance(step_seconds, state_);
   world::FinishContacts(state_, snapshot->accelerations, snapshot->contacts);
   world::FinishAccelerations(state_, step_seconds, snapshot->accelerations);

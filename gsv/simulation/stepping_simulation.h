@@ -16,6 +16,7 @@
 #include "gsv/dynamics/engine.h"
 #include "gsv/simulation/behaviour_caller.h"
 #include "gsv/simulation/gate_opener.h"
+#include "gsv/simulation/gripping.h"
 #include "gsv/simulation/pacer.h"
 #include "gsv/simulation/robot_agent.h"
 #include "gsv/simulation/run_statistics.h"
@@ -109,6 +110,9 @@ class SteppingSimulation final : public Simulation {
   bool StepAside(const world::Layout& layout, int body, world::State& state);
   base::Status RemoveFromWorld(const std::vector<std::string>& names);
   void IndexAgents();
+  // Has the engine move what stands in `layout`, with what `state` says is held.
+  base::Status SetEngineLayout(const std::shared_ptr<const world::Layout>& layout,
+                               const world::State& state);
 
   // watchdog.cc: who has died, and who never comes back.
   void KeepWatch();
@@ -149,6 +153,7 @@ class SteppingSimulation final : public Simulation {
   std::unique_ptr<dynamics::Engine> engine_;
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;
+  std::vector<Hold> engine_holds_;  // as the engine knows them
   // Since the last step; stepping thread only.
   std::vector<std::pair<std::string, RadioActs>> radio_acts_;
   std::vector<std::pair<std::string, ActuatorActs>> actuator_acts_;

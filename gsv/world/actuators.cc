@@ -30,6 +30,14 @@ void AddToHash(const Actuators& actuators, base::Hash& hash) {
     hash.Add(static_cast<std::uint64_t>(state->order.values.size()));
     for (const double value : state->order.values) hash.Add(value);
     hash.Add(std::string_view(state->order.word));
+    hash.Add(state->opening_before);
+    hash.Add(std::string_view(state->grip.held));
+    const geometry::Pose& pose = state->grip.link_from_held;
+    const geometry::Quaternion& q = pose.orientation;
+    for (const double value : {pose.position.x, pose.position.y, pose.position.z, q.w, q.x, q.y,
+                               q.z, state->grip.width}) {
+      hash.Add(value);
+    }
   }
 }
 
@@ -46,6 +54,27 @@ std::optional<Sound> SoundOf(const ActuatorState& speaker, base::SimTime now) {
   const double elapsed = base::ToSeconds(now - speaker.since);
   if (elapsed >= v[1] || v[2] <= 0) return std::nullopt;
   return Sound{speaker.order.word, v[0], v[2], elapsed, v[1] - elapsed};
+}
+
+bool IsToldToOpen(const ActuatorState& gripper) {
+  return gripper.order.values.empty() || gripper.order.values[0] > 0.5;
+}
+
+double OpeningOf(const ActuatorState& gripper, base::SimTime now) {
+  const auto& setup = std::get<GripperSetup>(gripper.setup->kind);
+  const double wanted = IsToldToOpen(gripper) ? setup.opening : 0;
+  const double way = setup.opening * base::ToSeconds(now - gripper.since) / setup.closing_time;
+  const double opening =
+      gripper.opening_before + std::clamp(wanted - gripper.opening_before, -way, way);
+  return gripper.grip.held.empty() ? opening : std::max(opening, gripper.grip.width);
+}
+
+ActuatorState After(const ActuatorState* before, ActuatorState next) {
+  const auto* gripper = std::get_if<GripperSetup>(&next.setup->kind);
+  if (gripper == nullptr) return next;
+  next.opening_before = before != nullptr ? OpeningOf(*before, next.since) : gripper->opening;
+  if (before != nullptr && !IsToldToOpen(next)) next.grip = before->grip;
+  return next;
 }
 
 }  // namespace gsv::world

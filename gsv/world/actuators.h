@@ -1,5 +1,5 @@
-// What robots' actuators beside the base and the joints were told: lamps, speakers. It is part of
-// the state: it shows, it is heard, and a behaviour can read it.
+// What robots' actuators beside the base and the joints were told: lamps, speakers, grippers. It is
+// part of the state: it shows, it is heard, and a behaviour can read it.
 //
 // Sharing  setups and what an actuator was told are immutable; a state that nobody changes is
 //          copied as one pointer.
@@ -33,11 +33,19 @@ struct SpeakerSetup {
   double loudness = 85;  // dB (re 20 µPa) 1 m away at full volume
 };
 
+// A gripper's jaws lie along its x axis and close along y.
+struct GripperSetup {
+  double opening = 0.1;                // m, between the open jaws
+  double reach = 0.08, height = 0.03;  // m, of the jaws
+  double closing_time = 0.5;           // s
+  std::string left_jaw, right_jaw;     // joints that show them; empty: none
+};
+
 // What an actuator is able to; docs/actuators.md names the parameters.
 struct ActuatorSetup {
   int link = 0;  // of its robot's model
   geometry::Pose link_from_actuator;
-  std::variant<std::monostate, LampSetup, SpeakerSetup> kind;
+  std::variant<std::monostate, LampSetup, SpeakerSetup, GripperSetup> kind;
 };
 using ActuatorSetupPtr = std::shared_ptr<const ActuatorSetup>;
 
@@ -47,12 +55,21 @@ struct ActuatorOrder {
   std::string word;
 };
 
+// What a gripper holds.
+struct Grip {
+  std::string held;  // a body; empty: nothing
+  geometry::Pose link_from_held;
+  double width = 0;  // m, of what is held
+};
+
 // An actuator that was told something.
 struct ActuatorState {
   std::string robot, actuator;
   ActuatorSetupPtr setup;
   ActuatorOrder order;
-  base::SimTime since{0};  // the instant from which the order acts
+  base::SimTime since{0};     // the instant from which the order acts
+  double opening_before = 0;  // of a gripper, m: at that instant
+  Grip grip;
 };
 using ActuatorStatePtr = std::shared_ptr<const ActuatorState>;
 
@@ -79,5 +96,14 @@ struct Sound {
 };
 // What a speaker plays at `now`; nothing once the sound is over.
 std::optional<Sound> SoundOf(const ActuatorState& speaker, base::SimTime now);
+
+// A gripper's order: 1 to open, 0 to close.
+bool IsToldToOpen(const ActuatorState& gripper);
+// m, between its jaws.
+double OpeningOf(const ActuatorState& gripper, base::SimTime now);
+
+// What becomes of an actuator that is in a state `before` (null: it was told nothing) when it is
+// told `next`: jaws go on from where they are, and what is held stays so until they are to open.
+ActuatorState After(const ActuatorState* before, ActuatorState next);
 
 }  // namespace gsv::world

@@ -32,7 +32,11 @@ TEST(Actuators, EachFieldIsInTheHash) {
   for (const auto& change : std::vector<std::function<void(ActuatorState&)>>{
            [](auto& s) { s.robot = "other"; }, [](auto& s) { s.actuator = "other"; },
            [](auto& s) { s.order.values[1] = 0.25; }, [](auto& s) { s.order.values.push_back(0); },
-           [](auto& s) { s.order.word = ""; }, [](auto& s) { s.since = 1ns; }}) {
+           [](auto& s) { s.order.word = ""; }, [](auto& s) { s.since = 1ns; },
+           [](auto& s) { s.opening_before = 1; }, [](auto& s) { s.grip.held = "post"; },
+           [](auto& s) { s.grip.link_from_held.position.z = 1; },
+           [](auto& s) { s.grip.link_from_held.orientation.x = 1; },
+           [](auto& s) { s.grip.width = 1; }}) {
     ActuatorState changed = state;
     change(changed);
     EXPECT_NE(hash_of(changed), hash_of(state));
@@ -55,6 +59,27 @@ TEST(SoundOf, LastsAsLongAsItWasToldTo) {
   EXPECT_FALSE(SoundOf(speaker, 2500ms));
   speaker.order.values[2] = 0;
   EXPECT_FALSE(SoundOf(speaker, 2s));
+}
+
+TEST(OpeningOf, GoesFromWhereTheJawsWereWhenTheyWereTold) {
+  GripperSetup setup;
+  setup.opening = 0.1;
+  setup.closing_time = 0.5;
+  const auto gripper = std::make_shared<const ActuatorSetup>(ActuatorSetup{0, {}, setup});
+  const ActuatorState closing = After(nullptr, {"robot", "gripper", gripper, {{0}, ""}, 1s});
+  EXPECT_EQ(OpeningOf(closing, 1s), 0.1);
+  EXPECT_NEAR(OpeningOf(closing, 1200ms), 0.06, 1e-12);
+  EXPECT_EQ(OpeningOf(closing, 2s), 0);
+  const ActuatorState opening = After(&closing, {"robot", "gripper", gripper, {{1}, ""}, 1200ms});
+  EXPECT_NEAR(OpeningOf(opening, 1300ms), 0.08, 1e-12);
+  EXPECT_EQ(OpeningOf(opening, 2s), 0.1);
+  ActuatorState holding = closing;
+  holding.grip.held = "post";
+  holding.grip.width = 0.03;
+  EXPECT_EQ(OpeningOf(holding, 2s), 0.03);
+  const ActuatorState again = After(&holding, {"robot", "gripper", gripper, {{0}, ""}, 3s});
+  EXPECT_EQ(again.grip.held, "post");
+  EXPECT_TRUE(After(&holding, {"robot", "gripper", gripper, {{1}, ""}, 3s}).grip.held.empty());
 }
 
 }  // namespace

@@ -7,6 +7,12 @@ Lamp::Glow Lamp::Look() {
   return v.size() == 4 ? Glow{v[0], {v[1], v[2], v[3]}} : Glow{};
 }
 
+Gripper::Jaws Gripper::Feel() {
+  const Reading& reading = Measure();
+  if (reading.values.size() != 2 || reading.labels.empty()) return {};
+  return {reading.values[0], reading.values[1] != 0, reading.labels.front()};
+}
+
 Speaker::Sound Speaker::Playing() {
   const Reading& reading = Measure();
   const std::vector<double>& v = reading.values;

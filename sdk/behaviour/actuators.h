@@ -37,6 +37,23 @@ class Lamp : public Sensor {
   Glow Look();
 };
 
+class Gripper : public Sensor {
+ public:
+  static constexpr const char* kType = "gripper";
+  using Sensor::Sensor;
+
+  struct Jaws {
+    double opening = 0;  // m
+    bool told_to_open = false;
+    std::string held;  // a body; empty: nothing
+  };
+
+  // Closes, on what is loose and between the jaws: that is held until they open.
+  base::Status Grip() { return port().Act({0}, {}); }
+  base::Status LetGo() { return port().Act({1}, {}); }
+  Jaws Feel();
+};
+
 class Speaker : public Sensor {
  public:
   static constexpr const char* kType = "speaker";

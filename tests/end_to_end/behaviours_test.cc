@@ -65,6 +65,33 @@ TEST(Behaviours, GotoReachesItsGoal) {
   EXPECT_EQ(robot["agent"], "finished");
 }
 
+TEST(Behaviours, FetchTakesACanToItsGoal) {
+  const TemporaryFolder folder;
+  const std::string world =
+      folder
+          .Write("cans.sdf",
+                 "<sdf version='1.9'><world name='w'><include><uri>model://ground_plane</uri>"
+                 "</include><include><uri>model://can</uri><pose>1 0 0 0 0 0</pose></include>"
+                 "</world></sdf>")
+          .string();
+  const auto fetch = [&](const std::string& goal_y) {
+    const Outcome outcome =
+        RunProgram("gsv", {"run", world, "--robot", "porter@0,0", "--behaviour",
+                           "fetch --goal-x 0.5 --goal-y " + goal_y, "--in-process", "--lockstep",
+                           "--duration", "25", "--headless", "--json"});
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    return outcome.LastLine();
+  };
+  const auto report = fetch("1.2");
+  const auto& robot = report["robots"][0];
+  EXPECT_EQ(robot["agent"], "finished");
+  // It went there with the can, and then 0.3 m back.
+  const double away = std::hypot(robot["pose"]["x_m"].get<double>() - 0.5,
+                                 robot["pose"]["y_m"].get<double>() - 1.2);
+  EXPECT_NEAR(away, 0.3, 0.08) << robot;
+  EXPECT_EQ(fetch("1.2")["state_hash"], report["state_hash"]);
+}
+
 TEST(Behaviours, OneThatSleepsByTheWallClockWorksInRealTimeAndIsRefusedInLockstep) {
   const BrokerProcess broker;
   Running program("../tests/wall_clock_behaviour", {"--broker", broker.reference()});

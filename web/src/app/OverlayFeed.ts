@@ -13,7 +13,7 @@ const FRAMES_TOPIC = "/tf_static";
 const BUMPERS = ["contact", "bumper"];
 const MOST_ACTUATORS = 32;
 const SPEAKERS = ["speaker", "buzzer"];
-const ACTUATORS = ["lamp", "led", ...SPEAKERS];
+const ACTUATORS = ["gripper", "lamp", "led", ...SPEAKERS];
 
 // The part of the 3D view that it feeds.
 export interface OverlayView {

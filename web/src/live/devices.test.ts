@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { glowOf, soundOf } from "./devices";
+import { glowOf, jawsOf, soundOf } from "./devices";
 
 const LAMP = {
   brightness: 0.5,
@@ -33,4 +33,12 @@ test("a speaker tells what it plays, and nothing while it is silent", () => {
   expect(soundOf(SPEAKER)).toEqual({ name: "tone", frequency: 440, volume: 0.5, elapsed: 0.1 });
   expect(soundOf({ ...SPEAKER, sound: "" })).toBeNull();
   for (const message of [null, undefined, 7, {}, LAMP]) expect(soundOf(message)).toBeNull();
+});
+
+test("a gripper tells how far it is open and what it holds", () => {
+  const gripper = { opening_m: 0.06, told_to_open: false, held: "can", reach_m: 0.09, height_m: 0.04 };
+  expect(jawsOf(gripper)).toEqual({ opening: 0.06, reach: 0.09, height: 0.04, held: "can" });
+  for (const message of [null, 7, {}, LAMP, SPEAKER, { ...gripper, reach_m: Infinity }]) {
+    expect(jawsOf(message)).toBeNull();
+  }
 });

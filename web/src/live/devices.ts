@@ -1,4 +1,4 @@
-// What robots' lamps and speakers do, from their messages.
+// What robots' lamps, speakers and grippers do, from their messages.
 
 export interface Glow {
   brightness: number; // above 0, to 1
@@ -14,6 +14,13 @@ export interface Sound {
   frequency: number; // Hz
   volume: number; // 0 to 1
   elapsed: number; // s
+}
+
+export interface Jaws {
+  opening: number; // m
+  reach: number; // m
+  height: number; // m
+  held: string; // empty: nothing
 }
 
 type Fields = Record<string, unknown>;
@@ -40,6 +47,14 @@ export function soundOf(message: unknown): Sound | null {
   const numbers = [frequency_hz, volume, elapsed_s];
   if (typeof sound !== "string" || sound === "" || !areNumbers(numbers)) return null;
   return { name: sound, frequency: numbers[0]!, volume: numbers[1]!, elapsed: numbers[2]! };
+}
+
+// What a gripper's message tells; null when the message is none.
+export function jawsOf(message: unknown): Jaws | null {
+  const { opening_m, reach_m, height_m, held } = fieldsOf(message);
+  const numbers = [opening_m, reach_m, height_m];
+  if (typeof held !== "string" || !areNumbers(numbers)) return null;
+  return { opening: numbers[0]!, reach: numbers[1]!, height: numbers[2]!, held };
 }
 
 function fieldsOf(value: unknown): Fields {

@@ -70,3 +70,19 @@ test("a speaker sends out rings while it plays", () => {
   layer.take("/a/speaker", { ...SOUND, sound: "" });
   expect(placed(layer).segments).toBe(0);
 });
+
+test("a gripper shows the faces of its jaws where they are, in another colour when it holds something", () => {
+  const layer = new DeviceLayer();
+  const gripper = { opening_m: 0.06, told_to_open: false, held: "", reach_m: 0.09, height_m: 0.04 };
+  const colours = [gripper, { ...gripper, held: "can" }].map((message) => {
+    layer.take("/a/gripper", message);
+    const lines = placed(layer);
+    expect(lines.segments).toBe(8);
+    const geometry = lines.lines.geometry;
+    const starts = geometry.getAttribute("instanceStart");
+    expect(starts.getY(0)).toBeCloseTo(2.03, 6);
+    expect(starts.getY(4)).toBeCloseTo(1.97, 6);
+    return geometry.getAttribute("instanceColorStart").getX(0);
+  });
+  expect(colours[0]).not.toBe(colours[1]);
+});

@@ -1,5 +1,6 @@
 // What robots' actuators do, drawn where they are mounted: lamps glow and light what is about them,
-// speakers send out rings.
+// speakers send out rings, grippers
+// show their jaws.
 import type { Matrix4 } from "three";
 import {
   AdditiveBlending,
@@ -15,14 +16,16 @@ import {
   SpriteMaterial,
   SRGBColorSpace,
 } from "three";
-import type { Glow, Sound } from "../live/devices";
-import { glowOf, soundOf } from "../live/devices";
+import type { Glow, Jaws, Sound } from "../live/devices";
+import { glowOf, jawsOf, soundOf } from "../live/devices";
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
 
 const MOST_LIGHTS = 4; // of each kind; each costs every pixel
 const HALO = 10; // radii
 const SOUND_COLOUR = rgb(0x00a7b5);
+const EMPTY_COLOUR = rgb(0xf2b90f);
+const HOLDING_COLOUR = rgb(0x1f9d3a);
 const RINGS = 3;
 const RING_SEGMENTS = 32;
 const RING_SPEED = 0.6; // m/s: much slower than sound, so that it can be seen
@@ -36,6 +39,7 @@ interface Lamp {
 export class DeviceLayer {
   readonly group = new Group();
   readonly sounds = new Map<string, Sound>(); // by topic
+  private readonly jaws = new Map<string, Jaws>(); // by topic
   private readonly glows = new Map<string, Glow>(); // by topic
   private readonly lamps: Lamp[] = []; // as many as were ever on at once
   private readonly points: PointLight[] = [];
@@ -46,15 +50,16 @@ export class DeviceLayer {
   take(topic: string, message: unknown): void {
     keep(this.glows, topic, glowOf(message));
     keep(this.sounds, topic, soundOf(message));
+    keep(this.jaws, topic, jawsOf(message));
   }
 
   keepOnly(topics: ReadonlySet<string>): void {
-    for (const map of [this.glows, this.sounds]) {
+    for (const map of [this.glows, this.sounds, this.jaws]) {
       for (const topic of [...map.keys()]) if (!topics.has(topic)) map.delete(topic);
     }
   }
 
-  // Places lamps with the sensors as they are shown now, and draws the rings.
+  // Places lamps with the sensors as they are shown now, and draws rings and jaws.
   place(worldFromSensor: (topic: string) => Matrix4 | null, lines: LineLayer): void {
     const lit = [...this.glows].flatMap(([topic, glow]) => {
       const frame = worldFromSensor(topic);
@@ -69,6 +74,10 @@ export class DeviceLayer {
     for (const [topic, sound] of this.sounds) {
       const frame = worldFromSensor(topic);
       if (frame) drawRings(lines, frame, sound);
+    }
+    for (const [topic, jaws] of this.jaws) {
+      const frame = worldFromSensor(topic);
+      if (frame) drawJaws(lines, frame, jaws);
     }
   }
 
@@ -170,6 +179,21 @@ function drawRings(lines: LineLayer, worldFromSensor: Matrix4, { elapsed, volume
       return [radius / 2, radius * Math.cos(angle), radius * Math.sin(angle)];
     };
     for (let i = 0; i < RING_SEGMENTS; i++) lines.add(worldFromSensor, at(i), at(i + 1), colour);
+  }
+}
+
+// The inner face of each jaw, green with what it holds.
+function drawJaws(lines: LineLayer, worldFromSensor: Matrix4, { opening, reach, height, held }: Jaws): void {
+  const colour = held === "" ? EMPTY_COLOUR : HOLDING_COLOUR;
+  const z = height / 2;
+  for (const y of [opening / 2, -opening / 2]) {
+    const corners = [
+      [0, y, -z],
+      [reach, y, -z],
+      [reach, y, z],
+      [0, y, z],
+    ];
+    corners.forEach((corner, i) => lines.add(worldFromSensor, corner, corners[(i + 1) % 4]!, colour));
   }
 }
 

@@ -1,0 +1,203 @@
+// Grippers: what they take hold of, where it goes, and when they let go.
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::simulation {
+namespace {
+
+constexpr double kWidth = 0.06;  // m, of the post
+
+// A loose post to be gripped.
+model::PlacedModel Post(const std::string& name, double x, double y) {
+  auto model = std::make_shared<model::Model>();
+  model->name = "post";
+  model->links.resize(1);
+  model->links[0].name = "post";
+  model->links[0].inertial = {0.3, {}, 1e-3, 1e-3, 1e-3};
+  model->links[0].collisions.push_back({"post", {}, geometry::Box{{kWidth, kWidth, 0.2}}, {}});
+  return {name, std::move(model), geometry::Pose{{x, y, 0.1}, {}}, false};
+}
+
+// A wall at x = 3, level ground, and posts.
+std::shared_ptr<Simulation> WithPosts(SimTime duration, std::vector<model::PlacedModel> posts) {
+  Specification specification = Lockstep(duration);
+  auto world = std::make_shared<model::WorldDescription>(*specification.world);
+  auto ground = std::make_shared<model::Model>();
+  ground->links.resize(1);
+  ground->links[0].collisions.push_back({"ground", {}, geometry::Plane{}, {}});
+  world->models.push_back({"ground", ground, {}, true});
+  for (model::PlacedModel& post : posts) world->models.push_back(std::move(post));
+  specification.world = world;
+  return Make(specification);
+}
+
+// A disc of 0.2 m with jaws of 0.08 m before it.
+RobotSpecification Gripping(std::string name, double x, double y,
+                            std::shared_ptr<BehaviourPort> behaviour = nullptr, double yaw = 0) {
+  RobotSpecification robot = Robot(std::move(name), x, y, std::move(behaviour));
+  robot.world_from_robot = PlanarPose(x, y, 0, yaw);
+  auto model = std::make_shared<model::Model>(*robot.model);
+  model::SensorDescription gripper;
+  gripper.name = gripper.type = "gripper";
+  gripper.link_from_sensor.position = {0.2, 0, 0.1};
+  model->sensors.push_back(gripper);
+  robot.model = std::move(model);
+  return robot;
+}
+
+geometry::Pose PoseOf(const Simulation& simulation, const std::string& name) {
+  const auto snapshot = simulation.snapshot();
+  return snapshot->state.bodies[snapshot->layout->Find(name)].world_from_model;
+}
+
+std::string HeldBy(Simulation& simulation, const std::string& robot) {
+  const auto reading = simulation.Watch(robot, "gripper");
+  EXPECT_TRUE(reading) << reading.error().Sentence();
+  return reading ? reading->labels->front() : "";
+}
+
+void RunTo(Simulation& simulation, SimTime instant) {
+  ASSERT_TRUE(simulation.RunUntil(instant));
+  ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+}
+
+// Closes at once; drives from 1 s to 2 s; opens then, if it is to, and drives away.
+std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens = true,
+                                         std::chrono::microseconds dawdling = 0us) {
+  return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
+    ASSERT_TRUE(agent.Act("gripper", {{0}, ""}));
+    if (!SleepFor(agent, clock, 1s)) return;
+    std::this_thread::sleep_for(dawdling);
+    (void)agent.Command(drive);
+    if (!SleepFor(agent, clock, 1s)) return;
+    std::this_thread::sleep_for(dawdling);
+    (void)agent.Command({});
+    if (opens) (void)agent.Act("gripper", {{1}, ""});
+    if (!SleepFor(agent, clock, 1s)) return;
+    (void)agent.Command({-0.1, 0, 0});
+    while (SleepFor(agent, clock, 1s)) {
+    }
+  });
+}
+
+TEST(Gripping, WhatIsBetweenTheJawsGoesWithTheRobotUntilTheyOpen) {
+  auto simulation = WithPosts(5s, {Post("post", 0.25, 0.01)});
+  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({-0.3, 0.1, 0.8}))));
+  const geometry::Pose start = PoseOf(*simulation, "post");
+  RunTo(*simulation, 1s);
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
+  EXPECT_NEAR(simulation->Watch("robot", "gripper")->values[0], kWidth, 1e-9);
+  const geometry::Pose robot_from_post =
+      Inverse(PoseOf(*simulation, "robot")) * PoseOf(*simulation, "post");
+  EXPECT_LT(Norm(PoseOf(*simulation, "post").position - start.position), 1e-4);
+  for (const SimTime instant : {1500ms, 2000ms}) {
+    RunTo(*simulation, instant);
+    const geometry::Pose expected = PoseOf(*simulation, "robot") * robot_from_post;
+    const geometry::Pose post = PoseOf(*simulation, "post");
+    EXPECT_LT(Norm(post.position - expected.position), 1e-12);
+    EXPECT_NEAR(geometry::Yaw(post.orientation), geometry::Yaw(expected.orientation), 1e-12);
+  }
+  EXPECT_GT(Norm(PoseOf(*simulation, "post").position - start.position), 0.2);
+  RunTo(*simulation, 3s);
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "");
+  const geometry::Pose left = PoseOf(*simulation, "post");
+  RunTo(*simulation, 4500ms);  // the robot leaves, the post stands
+  EXPECT_LT(Norm(PoseOf(*simulation, "post").position - left.position), 1e-3);
+  EXPECT_GT(Norm(PoseOf(*simulation, "robot").position - left.position), 0.3);
+}
+
+TEST(Gripping, JawsCloseOnNothingWhereNothingLooseStands) {
+  auto simulation = WithPosts(0s, {Post("post", -1, 0)});
+  ASSERT_TRUE(simulation->AddRobot(Gripping("at_wall", 2.65, 0, Fetches({}, false))));
+  ASSERT_TRUE(simulation->AddRobot(Gripping("robots", 0, 2, Fetches({}, false))));
+  ASSERT_TRUE(simulation->AddRobot(Robot("other", 0.41, 2.2)));
+  RunTo(*simulation, 200ms);
+  EXPECT_NEAR(simulation->Watch("at_wall", "gripper")->values[0], 0.06, 1e-9);  // half way
+  RunTo(*simulation, 1s);
+  for (const char* name : {"at_wall", "robots"}) {
+    EXPECT_EQ(HeldBy(*simulation, name), "") << name;
+    EXPECT_EQ(simulation->Watch(name, "gripper")->values[0], 0) << name;
+  }
+}
+
+TEST(Gripping, WhatIsHeldIsStoppedByAWall) {
+  auto simulation = WithPosts(4s, {Post("post", 2.25, 0)});
+  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 2, 0, Fetches({1, 0, 0}, false))));
+  RunTo(*simulation, 1900ms);
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
+  // The wall's face stands at x = 2.9.
+  EXPECT_NEAR(PoseOf(*simulation, "post").position.x + kWidth / 2, 2.9, 1e-4);
+}
+
+TEST(Gripping, ARobotThatForcesMoveHoldsAsWell) {
+  auto simulation = WithPosts(4s, {Post("post", 0.25, 0)});
+  RobotSpecification robot = Gripping("robot", 0, 0, Fetches({-0.3, 0, 0.4}));
+  robot.movement = model::Movement::kRigid;
+  ASSERT_TRUE(simulation->AddRobot(robot));
+  RunTo(*simulation, 1s);
+  ASSERT_EQ(HeldBy(*simulation, "robot"), "post");
+  const auto robot_from_post = Inverse(PoseOf(*simulation, "robot")) * PoseOf(*simulation, "post");
+  const geometry::Pose start = PoseOf(*simulation, "post");
+  RunTo(*simulation, 2s);
+  const geometry::Pose expected = PoseOf(*simulation, "robot") * robot_from_post;
+  EXPECT_LT(Norm(PoseOf(*simulation, "post").position - expected.position), 1e-12);
+  EXPECT_GT(Norm(PoseOf(*simulation, "post").position - start.position), 0.15);
+  RunTo(*simulation, 3s);
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "");
+}
+
+TEST(Gripping, OfTwoThatCloseOnOneThingTheFirstInNameGetsIt) {
+  auto simulation = WithPosts(3s, {Post("post", 0.25, 0)});
+  ASSERT_TRUE(simulation->AddRobot(Gripping("b", 0.5, 0, Fetches({}, false), std::numbers::pi)));
+  ASSERT_TRUE(simulation->AddRobot(Gripping("a", 0, 0, Fetches({}, false))));
+  RunTo(*simulation, 1s);
+  EXPECT_EQ(HeldBy(*simulation, "a"), "post");
+  EXPECT_EQ(HeldBy(*simulation, "b"), "");
+}
+
+TEST(Gripping, LeavesTheSameHashWhoeverIsSlow) {
+  const auto hash_of = [](std::chrono::microseconds first, std::chrono::microseconds second) {
+    auto simulation = WithPosts(4s, {Post("one", 0.25, 0), Post("two", 0.25, 1)});
+    EXPECT_TRUE(simulation->AddRobot(Gripping("a", 0, 0, Fetches({-0.2, 0, 0.3}, true, first))));
+    EXPECT_TRUE(simulation->AddRobot(Gripping("b", 0, 1, Fetches({-0.3, 0, 0}, true, second))));
+    EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+    return simulation->state_hash();
+  };
+  const std::string hash = hash_of(0us, 0us);
+  EXPECT_EQ(hash_of(0us, 5000us), hash);
+  EXPECT_EQ(hash_of(5000us, 0us), hash);
+}
+
+TEST(Gripping, WhatIsHeldMovesWithARobotThatIsPutElsewhereAndIsLetGoWhenItIsPutItself) {
+  auto simulation = WithPosts(0s, {Post("post", 0.25, 0)});
+  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({}, false))));
+  RunTo(*simulation, 1s);
+  const auto robot_from_post = Inverse(PoseOf(*simulation, "robot")) * PoseOf(*simulation, "post");
+  ASSERT_TRUE(simulation->PlaceBody("robot", PlanarPose(-1, 2, 0, 1), true));
+  const auto expected = PoseOf(*simulation, "robot") * robot_from_post;
+  EXPECT_LT(Norm(PoseOf(*simulation, "post").position - expected.position), 1e-9);
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
+  ASSERT_TRUE(simulation->PlaceBody("post", PlanarPose(1, -2, 0.1, 0), true));
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "");
+  RunTo(*simulation, 1500ms);
+  EXPECT_NEAR(PoseOf(*simulation, "post").position.x, 1, 1e-3);
+}
+
+TEST(Gripping, EndsWithTheRobotAndWithAReset) {
+  auto simulation = WithPosts(0s, {Post("post", 0.25, 0)});
+  ASSERT_TRUE(simulation->AddRobot(Gripping("robot", 0, 0, Fetches({-0.2, 0, 0}, false))));
+  const geometry::Pose start = PoseOf(*simulation, "post");
+  RunTo(*simulation, 1500ms);
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
+  ASSERT_TRUE(simulation->Reset());
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "");
+  EXPECT_EQ(PoseOf(*simulation, "post").position, start.position);
+  RunTo(*simulation, 1500ms);
+  EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
+  ASSERT_TRUE(simulation->RemoveRobot("robot"));
+  const geometry::Pose left = PoseOf(*simulation, "post");
+  RunTo(*simulation, 2s);
+  EXPECT_LT(Norm(PoseOf(*simulation, "post").position - left.position), 0.2);
+}
+
+}  // namespace
+}  // namespace gsv::simulation
