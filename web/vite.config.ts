@@ -38,7 +38,7 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     reportCompressedSize: false,
     chunkSizeWarningLimit: 1500,
-    rollupOptions: { input: ["index.html", "broker.html", "join.html"] },
+    rollupOptions: { input: ["index.html", "broker.html", "join.html", "recordings.html"] },
   },
   server: {
     proxy: {

@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@
 #include "apps/gsv/installation.h"
 #include "apps/gsv/resimulation.h"
 #include "apps/gsv/video_export.h"
+#include "apps/gsv/viewer_options.h"
 #include "gsv/gateway/replay_gateway.h"
 #include "gsv/recording/decoded_messages.h"
 #include "gsv/recording/recording_info.h"
@@ -165,7 +167,7 @@ int Diff(const RecordingArguments& arguments) {
 
 struct ReplayArguments {
   std::string file;
-  int port = -1;  // none was given
+  ViewerOptions web;
   gateway::ReplayOptions options;
   bool headless = false;
   bool paused = false;
@@ -213,12 +215,14 @@ base::Result<std::unique_ptr<gateway::ReplayGateway>> StartGateway(const ReplayA
                                                                    gateway::ReplayPlayer& player) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
-  const bool is_given = arguments.port >= 0;
-  options.port = static_cast<std::uint16_t>(is_given ? arguments.port : 8080);
-  auto started = gateway::ReplayGateway::Start(options, player);
-  if (started || is_given) return started;
-  options.port = 0;  // another program has the usual one
-  return gateway::ReplayGateway::Start(options, player);
+  std::error_code error;
+  // What was opened is there, and has a name.
+  const std::filesystem::path file = std::filesystem::canonical(arguments.file, error);
+  options.recordings_folder = file.parent_path();
+  options.only_recording = file.filename();
+  return StartViewer<gateway::ReplayGateway>(arguments.web, options, [&](const auto& there) {
+    return gateway::ReplayGateway::Start(there, player);
+  });
 }
 
 int Replay(const ReplayArguments& arguments, Signals& signals) {
@@ -250,10 +254,7 @@ void AddReplayCommand(const CommandLine& line) {
   CLI::App* command = line.app.add_subcommand("replay", "Show a recording in the viewer");
   auto arguments = std::make_shared<ReplayArguments>();
   command->add_option("file", arguments->file, "the recording")->required();
-  command
-      ->add_option("--port", arguments->port,
-                   "the viewer's port; 0: any that is free (default: 8080, or any)")
-      ->check(CLI::Range(0, 65535));
+  AddViewerOptions(*command, arguments->web);
   command->add_option("--speed", arguments->options.speed, "recorded seconds a second")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();

@@ -113,7 +113,17 @@ base::Status SetRate(const std::string& text, RecordingChoice& choice) {
   return {};
 }
 
-Recordings::Recordings() = default;
+base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path whole =
+      std::filesystem::canonical(folder.empty() ? "." : folder, error);
+  if (!error && std::filesystem::is_directory(whole, error)) return whole;
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "there is no such folder for recordings; make it, or name another",
+                    folder.string());
+}
+
+Recordings::Recordings(std::filesystem::path folder) : folder_(std::move(folder)) {}
 Recordings::~Recordings() = default;
 
 base::Status Recordings::FinishThatWhichIsOver(
@@ -160,11 +170,9 @@ base::Status Recordings::Record(const std::shared_ptr<simulation::Simulation>& s
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   gmtime_r(&now, &utc);
-  std::error_code ignored;
-  const std::filesystem::path folder = std::filesystem::current_path(ignored);
-  return Start(simulation, folder / fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}.mcap", name,
-                                                utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
-                                                utc.tm_hour, utc.tm_min, utc.tm_sec));
+  return Start(simulation, folder_ / fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}.mcap", name,
+                                                 utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                                                 utc.tm_hour, utc.tm_min, utc.tm_sec));
 }
 
 Recordings::State Recordings::RecordingOf(const std::string& simulation) {

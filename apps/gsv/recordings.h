@@ -4,6 +4,7 @@
 //          recording stands waits for neither.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -44,16 +45,22 @@ std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
 // Sets one rate, from "KIND=HZ" with poses, readings, pictures or beams.
 base::Status SetRate(const std::string& text, RecordingChoice& choice);
 
+// The folder that is meant, whole; empty: the current one. kInvalidArgument: it is none.
+base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path& folder);
+
 class Recordings final : public gateway::RecordingSwitch {
  public:
-  Recordings();
+  // `folder`: where recordings go that are switched on in the viewer.
+  explicit Recordings(std::filesystem::path folder);
   ~Recordings() override;
 
   // `path` ends in ".mcap": a bare file; else a folder that rosbag2 opens. kInvalidArgument when
   // the simulation is being recorded, or something of that name is there already.
   base::Status Start(std::shared_ptr<simulation::Simulation> simulation, const std::string& path,
                      const RecordingChoice& choice = {});
-  // To NAME-TIME.mcap in the current folder, with what is recorded if nothing else is said.
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // To NAME-TIME.mcap in that folder, with what is recorded if nothing else is said.
   base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override;
   base::Status StopRecording(const std::string& simulation) override { return Stop(simulation); }
   State RecordingOf(const std::string& simulation) override;
@@ -74,6 +81,7 @@ class Recordings final : public gateway::RecordingSwitch {
   static base::Status Finish(Recording& recording);
   static State StateOf(const Recording& recording);
 
+  const std::filesystem::path folder_;
   std::mutex starting_;                          // one at a time; taken before mutex_
   std::mutex mutex_;                             // never held while the disk is waited for
   std::map<std::string, Recording> recordings_;  // by the simulation's name

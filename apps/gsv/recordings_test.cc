@@ -22,7 +22,7 @@ class RecordingsTest : public testing::Test {
   const std::string path_ =
       testing::TempDir() + "gsv_recordings_" + std::to_string(getpid()) + ".mcap";
   std::shared_ptr<simulation::Simulation> simulation_ = recording::MakeSimulation(1s, nullptr);
-  Recordings recordings_;
+  Recordings recordings_{testing::TempDir()};
 };
 
 TEST(RecordingRate, IsSetByKind) {

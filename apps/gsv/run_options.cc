@@ -84,10 +84,8 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--model-path", a.model_path, "a folder to look for models in");
   AddSensorPluginOption(command, a.sensor_plugins);
   AddLimitOption(command, a.limits);
-  command
-      .add_option("--port", a.port,
-                  "the viewer's port; 0: any that is free (default: 8080, or any)")
-      ->check(CLI::Range(0, 65535));
+  AddViewerOptions(command, a.web);
+  AddRecordingsOption(command, a.web);
   command.add_flag("--headless", a.headless, "without a viewer");
   command.add_flag("--open", a.open, "open the viewer in a browser");
   command.add_flag("--json", a.json, "the last line on stdout is the result as JSON");
@@ -271,8 +269,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.runtime.sensors.plugins.assign(a.sensor_plugins.begin(), a.sensor_plugins.end());
   options.runtime.limits = a.limits;
   options.runtime.viewer = !a.headless;
-  options.runtime.port_given = a.port >= 0;
-  if (a.port >= 0) options.runtime.port = a.port;
+  options.runtime.web = a.web;
   options.wall_timeout = a.wall_timeout;
   options.open_browser = a.open;
   options.json = a.json;

@@ -51,7 +51,8 @@ struct RunArguments {
   std::optional<double> duration, step, factor, deadline;
   std::optional<std::uint64_t> seed;
   double wall_timeout = 0;
-  int port = -1, threads = 0;
+  int threads = 0;
+  ViewerOptions web;
   bool lockstep = false, real_time = false, headless = false, json = false, open = false,
        in_process = false;
 };

@@ -13,7 +13,6 @@
 #include "gsv/base/log.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/client/gsv_service_types.h"
-#include "gsv/gateway/gateway.h"
 #include "gsv/orb/orb.h"
 #include "gsv/rendering/renderer.h"
 #include "gsv/scenario/scenario.h"
@@ -55,7 +54,9 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   reading.check_sensor = CheckBy(*sensors);
   runtime->host_ = std::make_shared<services::SimulationHost>(
       *std::move(sensors), std::make_shared<formats::ModelLibrary>(std::move(reading)));
-  runtime->recordings_ = std::make_unique<Recordings>();
+  auto folder = RecordingsFolder(options.web.recordings);
+  if (!folder) return base::Fail(folder.error());
+  runtime->recordings_ = std::make_unique<Recordings>(*std::move(folder));
   const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
   runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);
   runtime->launcher_ = std::make_unique<BehaviourLauncher>(*runtime->broker_);
@@ -103,7 +104,6 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
 
 base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway::GatewayOptions gateway;
-  gateway.port = static_cast<std::uint16_t>(options.port);
   gateway.web_root = ShareFolder() / "web";
   gateway.pages["broker"] = [page = std::make_shared<const BrokerPage>(orb_, broker_->reference())](
                                 const gateway::Request& request) { return page->Handle(request); };
@@ -112,13 +112,12 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
                                               HostName() + ":" + std::to_string(getpid()))](
           const gateway::Request& request) { return page->Handle(request); };
   gateway.recordings = recordings_.get();
+  gateway.recordings_folder = recordings_->folder();
   gateway.factory = builder_.get();
   auto directory = std::make_shared<HostDirectory>(host_);
-  auto started = gateway::Gateway::Start(gateway, directory);
-  if (!started && !options.port_given) {
-    gateway.port = 0;
-    started = gateway::Gateway::Start(gateway, directory);
-  }
+  auto started = StartViewer<gateway::Gateway>(options.web, gateway, [&](const auto& there) {
+    return gateway::Gateway::Start(there, directory);
+  });
   if (!started) return base::Fail(started.error());
   gateway_ = *std::move(started);
   viewer_url_ = gateway_->url();

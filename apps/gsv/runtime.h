@@ -13,14 +13,11 @@
 #include "apps/gsv/child_process.h"
 #include "apps/gsv/running_instances.h"
 #include "apps/gsv/sensor_types.h"
+#include "apps/gsv/viewer_options.h"
 #include "gsv/formats/read_limits.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
 #include "gsv/services/simulation_servant.h"
-
-namespace gsv::gateway {
-class Gateway;
-}
 
 namespace gsv::app {
 
@@ -33,8 +30,7 @@ struct RuntimeOptions {
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
   bool viewer = true;
-  int port = 8080;          // of the viewer; 0: the system chooses
-  bool port_given = false;  // else another port is taken when this one is in use
+  ViewerOptions web;
 };
 
 class Runtime {

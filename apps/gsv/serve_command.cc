@@ -15,7 +15,7 @@ struct ServeArguments {
   std::string broker, name = "gsv";
   std::vector<std::string> model_path, sensor_plugins;
   formats::ReadLimits limits;
-  int port = -1;
+  ViewerOptions web;
   bool headless = false;
 };
 
@@ -26,8 +26,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.sensors.plugins.assign(arguments.sensor_plugins.begin(), arguments.sensor_plugins.end());
   options.limits = arguments.limits;
   options.viewer = !arguments.headless;
-  options.port_given = arguments.port >= 0;
-  if (arguments.port >= 0) options.port = arguments.port;
+  options.web = arguments.web;
   auto runtime = Runtime::Start(options);
   if (!runtime) return Complain(runtime.error());
   if (auto ok = (*runtime)->OfferService(arguments.name); !ok) return Complain(ok.error());
@@ -52,10 +51,8 @@ void AddServeCommand(const CommandLine& line) {
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
   AddSensorPluginOption(*command, arguments->sensor_plugins);
   AddLimitOption(*command, arguments->limits);
-  command
-      ->add_option("--port", arguments->port,
-                   "the viewer's port; 0: any that is free (default: 8080, or any)")
-      ->check(CLI::Range(0, 65535));
+  AddViewerOptions(*command, arguments->web);
+  AddRecordingsOption(*command, arguments->web);
   command->add_flag("--headless", arguments->headless, "without a viewer");
   command->callback([arguments, line] { line.exit_code = Serve(*arguments, line.signals); });
 }

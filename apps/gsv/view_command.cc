@@ -6,6 +6,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/remote_simulations.h"
+#include "apps/gsv/viewer_options.h"
 #include "gsv/gateway/relay.h"
 
 namespace gsv::app {
@@ -22,15 +23,11 @@ base::Result<std::string> ViewerOf(const std::string& instance, const std::strin
                     found->Describe());
 }
 
-int View(const std::string& url, int port, bool port_given, Signals& signals) {
+int View(const std::string& url, const ViewerOptions& web, Signals& signals) {
   gateway::GatewayOptions options;
-  options.port = static_cast<std::uint16_t>(port);
   options.web_root = ShareFolder() / "web";
-  auto relay = gateway::Relay::Start(options, url);
-  if (!relay && !port_given) {
-    options.port = 0;
-    relay = gateway::Relay::Start(options, url);
-  }
+  auto relay = StartViewer<gateway::Relay>(
+      web, options, [&](const auto& there) { return gateway::Relay::Start(there, url); });
   if (!relay) return Complain(relay.error());
   std::printf("viewer: %s\n", (*relay)->url().c_str());
   std::fflush(stdout);
@@ -43,7 +40,7 @@ int View(const std::string& url, int port, bool port_given, Signals& signals) {
 void AddViewCommand(const CommandLine& line) {
   struct Arguments {
     std::string instance, broker;
-    int port = -1;
+    ViewerOptions web;
   };
   CLI::App* command = line.app.add_subcommand(
       "view",
@@ -56,16 +53,14 @@ void AddViewCommand(const CommandLine& line) {
       ->add_option("--broker", arguments->broker,
                    "where it is offered; without it: those of your running instances")
       ->envname("GSV_BROKER");
-  command->add_option("--port", arguments->port, "this viewer's port; 0: any that is free")
-      ->check(CLI::Range(0, 65535));
+  AddViewerOptions(*command, arguments->web);
   command->callback([arguments, line] {
     const auto url = ViewerOf(arguments->instance, arguments->broker);
     if (!url) {
       line.exit_code = Complain(url.error());
       return;
     }
-    line.exit_code = View(*url, arguments->port >= 0 ? arguments->port : 8080, arguments->port >= 0,
-                          line.signals);
+    line.exit_code = View(*url, arguments->web, line.signals);
   });
 }
 

@@ -50,8 +50,11 @@ Response Drive(const Simulation& simulation, const std::string& robot, const std
 }  // namespace
 
 Api::Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
-         RecordingSwitch* recordings, SimulationFactory* factory)
-    : directory_(std::move(directory)), models_(std::move(write_glb)), recordings_(recordings) {
+         RecordingSwitch* recordings, SimulationFactory* factory, bool has_replays)
+    : directory_(std::move(directory)),
+      models_(std::move(write_glb)),
+      recordings_(recordings),
+      has_replays_(has_replays) {
   if (factory != nullptr) factory_.emplace(*factory, models_);
 }
 
@@ -70,7 +73,8 @@ Response Api::Handle(const Request& request) {
 Response Api::Server() const {
   const auto text = [](bool value) { return value ? "true" : "false"; };
   return JsonResponse(200, std::string(R"({"creates":)") + text(factory_.has_value()) +
-                               R"(,"records":)" + text(recordings_ != nullptr) + "}");
+                               R"(,"records":)" + text(recordings_ != nullptr) +
+                               R"(,"recordings":)" + text(has_replays_) + "}");
 }
 
 Response Api::OfFactory(const Request& request) const {

@@ -16,9 +16,11 @@ namespace gsv::gateway {
 
 class Api {
  public:
-  // `recordings` and `factory` may be null; else they outlive this.
+  // `recordings` and `factory` may be null; else they outlive this. `has_replays`: recordings can
+  // be listed and replayed here as well.
   Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
-      RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr);
+      RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr,
+      bool has_replays = false);
 
   // `request.target` begins with "api".
   Response Handle(const Request& request);
@@ -38,6 +40,7 @@ class Api {
   const std::shared_ptr<SimulationDirectory> directory_;
   ModelStore models_;
   RecordingSwitch* const recordings_;
+  const bool has_replays_;
   std::optional<FactoryApi> factory_;
 };
 

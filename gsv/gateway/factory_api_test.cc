@@ -76,12 +76,13 @@ class FactoryApiTest : public ::testing::Test {
 
 TEST_F(FactoryApiTest, TellsWhatTheServerCanDo) {
   EXPECT_EQ(Ask("GET", "/api/server", 200),
-            (FactoryTestJson{{"creates", true}, {"records", false}}));
+            (FactoryTestJson{{"creates", true}, {"records", false}, {"recordings", false}}));
   Api none(list_, &FactoryApiTest::Glb);
   Request request;
   request.method = "GET";
   request.target = ParseTarget("/api/server").value();
-  EXPECT_EQ(none.Handle(request).body.view(), R"({"creates":false,"records":false})");
+  EXPECT_EQ(none.Handle(request).body.view(),
+            R"({"creates":false,"records":false,"recordings":false})");
   request.target = ParseTarget("/api/worlds").value();
   EXPECT_EQ(none.Handle(request).status, 404);
 }

@@ -1,10 +1,12 @@
 #include "gsv/gateway/gateway.h"
 
+#include <optional>
 #include <utility>
 
 #include "gsv/formats/gltf_writer.h"
 #include "gsv/gateway/api.h"
 #include "gsv/gateway/publisher.h"
+#include "gsv/gateway/recordings/recordings_api.h"
 #include "gsv/gateway/static_files.h"
 #include "gsv/gateway/worker_pool.h"
 
@@ -19,9 +21,14 @@ class LocalGateway final : public Gateway, private Handler {
   LocalGateway(const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory)
       : directory_(directory),
         files_(options.web_root),
-        api_(directory, &formats::WriteGlb, options.recordings, options.factory),
+        api_(directory, &formats::WriteGlb, options.recordings, options.factory,
+             !options.recordings_folder.empty()),
         pages_(options.pages),
-        publisher_(std::move(directory), watchers_, commanders_, options.recordings) {}
+        publisher_(std::move(directory), watchers_, commanders_, options.recordings) {
+    if (!options.recordings_folder.empty()) {
+      replays_.emplace(options.recordings_folder, options.only_recording);
+    }
+  }
 
   ~LocalGateway() override { Stop(); }
 
@@ -40,13 +47,15 @@ class LocalGateway final : public Gateway, private Handler {
     watchers_.Stop();
     readers_.Stop();
     commanders_.Stop();
+    if (replays_) replays_->sessions().Stop();
     if (server_) server_->Stop();
   }
 
  private:
   void Handle(Request request, Respond respond) override {
     // What commands may block (a reset calls behaviours), and must not hold up those who look.
-    const bool only_looks = request.method == "GET" || request.raw_target == "/api/preview";
+    const bool only_looks = request.method == "GET" || request.raw_target == "/api/preview" ||
+                            recordings::IsOfReplaySession(request.target);
     WorkerPool& workers = only_looks ? readers_ : commanders_;
     const bool accepted =
         workers.Submit([this, respond, request = std::move(request)] { respond(Answer(request)); });
@@ -59,7 +68,13 @@ class LocalGateway final : public Gateway, private Handler {
       if (const auto page = pages_.find(path[1]); page != pages_.end())
         return page->second(request);
     }
+    if (replays_ && path.size() > 1 && path[0] == "api" && path[1] == "recordings") {
+      return replays_->Handle(request);
+    }
     if (!path.empty() && path[0] == "api") return api_.Handle(request);
+    if (replays_ && recordings::IsOfReplaySession(request.target)) {
+      return replays_->sessions().Handle(request);
+    }
     if (request.method != "GET") return MethodNotAllowed("GET");
     if (path == std::vector<std::string>{"ws"}) {
       return ErrorResponse(426, "this address is for WebSockets that speak foxglove.sdk.v1");
@@ -69,6 +84,9 @@ class LocalGateway final : public Gateway, private Handler {
   }
 
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
+    if (replays_ && recordings::IsOfReplaySession(target)) {
+      return replays_->sessions().FindHub(target);
+    }
     const auto name = target.query.find("simulation");
     std::shared_ptr<simulation::Simulation> simulation;
     if (name != target.query.end()) {
@@ -87,6 +105,7 @@ class LocalGateway final : public Gateway, private Handler {
   const std::shared_ptr<SimulationDirectory> directory_;
   StaticFiles files_;
   Api api_;
+  std::optional<recordings::RecordingsApi> replays_;
   const std::map<std::string, std::function<Response(const Request&)>> pages_;
   WorkerPool readers_{2, kWaitingRequests};
   WorkerPool commanders_{2, kWaitingRequests};

@@ -23,6 +23,9 @@ struct GatewayOptions : ServerOptions {
   RecordingSwitch* recordings = nullptr;
   // Null: nobody can create a simulation here. Outlives the gateway.
   SimulationFactory* factory = nullptr;
+  // The folder whose recordings can be listed and replayed here; empty: none can.
+  std::filesystem::path recordings_folder{};
+  std::string only_recording{};  // of those in the folder; empty: all
   // By NAME: who answers what is at and below /api/NAME.
   std::map<std::string, std::function<Response(const Request&)>> pages{};
 };

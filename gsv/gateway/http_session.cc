@@ -43,6 +43,13 @@ std::optional<Response> ResponseTo(error_code error, const ServerLimits& limits)
   return std::nullopt;
 }
 
+// "/ws", and for a replay of one's own "/replays/NAME/ws".
+bool IsSocket(const Target& target) {
+  const std::vector<std::string>& path = target.segments;
+  const bool is_place = path.size() == 1 || (path.size() == 3 && path[0] == "replays");
+  return is_place && path.back() == "ws";
+}
+
 class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
@@ -117,7 +124,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   }
 
   void Upgrade(const Target& target) {
-    if (target.segments != std::vector<std::string>{"ws"}) {
+    if (!IsSocket(target)) {
       return Write(ErrorResponse(404, "WebSockets are served at /ws"));
     }
     const std::string offered = Text(parser_->get(), http::field::sec_websocket_protocol);

@@ -83,7 +83,7 @@ class LocalRelay final : public Relay, private Handler {
 
   Response Answer(const Request& request) const {
     const std::vector<std::string>& path = request.target.segments;
-    if (!path.empty() && path[0] == "api") {
+    if (!path.empty() && (path[0] == "api" || path[0] == "replays")) {
       base::Result<Response> answer = upstream::Fetch(address_, request, kRequestTime);
       return answer ? *answer : ErrorResponse(answer.error());
     }
@@ -95,17 +95,22 @@ class LocalRelay final : public Relay, private Handler {
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
     const auto query = target.query.find("simulation");
     const std::string name = query == target.query.end() ? std::string() : query->second;
+    const bool is_replay = target.segments.size() > 1;
+    const std::string socket = is_replay ? "/replays/" + Escape(target.segments[1]) + "/ws" : "/ws";
     const std::lock_guard lock(mutex_);
     std::erase_if(streams_, [](const auto& entry) { return entry.second->has_ended(); });
-    const auto known = streams_.find(name);
+    const auto known = streams_.find({socket, name});
     if (known != streams_.end()) return known->second->hub();
     if (streams_.size() >= kMostStreams) {
       return base::Fail(base::ErrorCode::kUnavailable,
                         "too many simulations are watched through this relay; restart it");
     }
-    auto operations = std::make_shared<upstream::RelayedOperations>(address_, name, commanders_);
-    auto stream = upstream::Stream::Make(io_, address_, name, std::move(operations));
-    return streams_.emplace(name, std::move(stream)).first->second->hub();
+    // A replay of one's own is moved over HTTP.
+    auto operations =
+        is_replay ? nullptr
+                  : std::make_shared<upstream::RelayedOperations>(address_, name, commanders_);
+    auto stream = upstream::Stream::Make(io_, address_, name, socket, std::move(operations));
+    return streams_.emplace(std::pair(socket, name), std::move(stream)).first->second->hub();
   }
 
   const upstream::Address address_;
@@ -114,7 +119,8 @@ class LocalRelay final : public Relay, private Handler {
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<upstream::Stream>> streams_;  // by name; "": the first
+  // By socket and name; "": the first.
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_;
   WorkerPool readers_{4, kWaitingRequests};
   WorkerPool commanders_{2, kWaitingRequests};
   std::unique_ptr<Server> server_;

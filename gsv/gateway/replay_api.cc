@@ -107,13 +107,20 @@ Response ReplayApi::Handle(const Request& request) {
   const bool is_get = request.method == "GET";
   if (path[1] == "models") return is_get ? Model(request) : MethodNotAllowed("GET");
   if (path[1] == "server" && path.size() == 2) {
-    return is_get ? JsonResponse(200, R"({"creates":false,"records":false})")
-                  : MethodNotAllowed("GET");
+    return is_get ? Server() : MethodNotAllowed("GET");
   }
   if (path[1] != "simulations") return NoSuchAddress();
   if (path.size() > 2) return OfSimulation(request);
   if (!is_get) return MethodNotAllowed("GET");
   return JsonResponse(200, SimulationListJson({player_.status()}));
+}
+
+Response ReplayApi::Server() const {
+  const OrderedJson json{{"creates", false},
+                         {"records", false},
+                         {"recordings", !recording_.empty()},
+                         {"recording", recording_}};
+  return JsonResponse(200, json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
 Response ReplayApi::OfSimulation(const Request& request) {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "gsv/gateway/http.h"
 #include "gsv/gateway/replay_player.h"
@@ -21,13 +22,16 @@ namespace gsv::gateway {
 
 class ReplayApi {
  public:
-  // `player` must outlive this.
-  explicit ReplayApi(ReplayPlayer& player) : player_(player) {}
+  // `player` must outlive this. `recording`: under which name a viewer can open the recording for
+  // itself; empty: under none.
+  explicit ReplayApi(ReplayPlayer& player, std::string recording = {})
+      : player_(player), recording_(std::move(recording)) {}
 
   // `request.target` begins with "api".
   Response Handle(const Request& request);
 
  private:
+  Response Server() const;
   Response OfSimulation(const Request& request);
   Response Act(const std::string& action, const std::string& body);
   Response Status() const;
@@ -36,6 +40,7 @@ class ReplayApi {
   Response Model(const Request& request) const;
 
   ReplayPlayer& player_;
+  const std::string recording_;
 };
 
 // {"time_s": T}: a finite number, within the times there are.

@@ -1,7 +1,9 @@
 #include "gsv/gateway/replay_gateway.h"
 
+#include <optional>
 #include <utility>
 
+#include "gsv/gateway/recordings/recordings_api.h"
 #include "gsv/gateway/replay_api.h"
 #include "gsv/gateway/static_files.h"
 #include "gsv/gateway/worker_pool.h"
@@ -14,7 +16,11 @@ constexpr std::size_t kWaitingRequests = 256;
 class LocalReplayGateway final : public ReplayGateway, private Handler {
  public:
   LocalReplayGateway(const GatewayOptions& options, ReplayPlayer& player)
-      : player_(player), files_(options.web_root), api_(player) {}
+      : player_(player), files_(options.web_root), api_(player, options.only_recording) {
+    if (!options.recordings_folder.empty()) {
+      replays_.emplace(options.recordings_folder, options.only_recording);
+    }
+  }
 
   ~LocalReplayGateway() override { Stop(); }
 
@@ -31,6 +37,7 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
   void Stop() override {
     player_.Stop();
     workers_.Stop();
+    if (replays_) replays_->sessions().Stop();
     if (server_) server_->Stop();
   }
 
@@ -43,7 +50,13 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
 
   Response Answer(const Request& request) {
     const std::vector<std::string>& path = request.target.segments;
+    if (replays_ && path.size() > 1 && path[0] == "api" && path[1] == "recordings") {
+      return replays_->Handle(request);
+    }
     if (!path.empty() && path[0] == "api") return api_.Handle(request);
+    if (replays_ && recordings::IsOfReplaySession(request.target)) {
+      return replays_->sessions().Handle(request);
+    }
     if (request.method != "GET") return MethodNotAllowed("GET");
     if (path == std::vector<std::string>{"ws"}) {
       return ErrorResponse(426, "this address is for WebSockets that speak foxglove.sdk.v1");
@@ -53,6 +66,9 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
   }
 
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
+    if (replays_ && recordings::IsOfReplaySession(target)) {
+      return replays_->sessions().FindHub(target);
+    }
     const auto name = target.query.find("simulation");
     if (name == target.query.end() || name->second == player_.name()) return player_.hub();
     return base::Fail(base::ErrorCode::kNotFound, "there is no simulation '" + name->second +
@@ -63,6 +79,7 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
   ReplayPlayer& player_;
   StaticFiles files_;
   ReplayApi api_;
+  std::optional<recordings::RecordingsApi> replays_;
   WorkerPool workers_{2, kWaitingRequests};
   std::unique_ptr<Server> server_;
 };

@@ -32,7 +32,8 @@ import { Store } from "./state/Store";
 import { exposeForTests } from "./testing";
 import { element } from "./ui/element";
 
-// The page's address may carry: simulation=NAME, which one to join; quality=high, which keeps the
+// The page's address may carry: simulation=NAME, which one to join; recording=NAME, which one to
+// replay; quality=high, which keeps the
 // picture sharp however slow it gets.
 const parameters = new URLSearchParams(location.search);
 const storage = browserStorage();
@@ -72,7 +73,7 @@ const session = new Session(
     },
     onBeams: (message) => world?.setBeams(message),
   },
-  parameters.get("simulation"),
+  { simulation: parameters.get("simulation"), recording: parameters.get("recording") },
 );
 const app = new App(store, session, api, world);
 

@@ -63,8 +63,9 @@ using AttemptPointer = std::shared_ptr<Attempt>;
 
 class RemoteStream final : public Stream, public std::enable_shared_from_this<RemoteStream> {
  public:
-  RemoteStream(asio::io_context& io, const Address& address, const std::string& simulation)
-      : io_(io), address_(address), simulation_(simulation), pause_(io) {}
+  RemoteStream(asio::io_context& io, const Address& address, const std::string& simulation,
+               const std::string& socket)
+      : io_(io), address_(address), simulation_(simulation), socket_(socket), pause_(io) {}
 
   void Open(std::shared_ptr<Operations> operations) {
     hub_ = std::make_shared<Hub>(
@@ -154,7 +155,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
           std::string(foxglove::kSubprotocols[0]) + ", " + std::string(foxglove::kSubprotocols[1]));
     }));
     const std::string target =
-        simulation_.empty() ? "/ws" : "/ws?simulation=" + Escape(simulation_);
+        simulation_.empty() ? socket_ : socket_ + "?simulation=" + Escape(simulation_);
     socket.async_handshake(
         attempt_->answer, address_.Authority(), target,
         ForThis([](RemoteStream& self, error_code error) { self.OnHandshake(error); }));
@@ -279,6 +280,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   asio::io_context& io_;
   const Address address_;
   const std::string simulation_;
+  const std::string socket_;
   std::shared_ptr<Hub> hub_;
   std::optional<ChannelMap> channels_;
   asio::steady_timer pause_;
@@ -293,9 +295,9 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 }  // namespace
 
 std::shared_ptr<Stream> Stream::Make(asio::io_context& io, const Address& address,
-                                     const std::string& simulation,
+                                     const std::string& simulation, const std::string& socket,
                                      std::shared_ptr<Operations> operations) {
-  auto stream = std::make_shared<RemoteStream>(io, address, simulation);
+  auto stream = std::make_shared<RemoteStream>(io, address, simulation, socket);
   stream->Open(std::move(operations));
   return stream;
 }

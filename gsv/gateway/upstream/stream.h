@@ -17,10 +17,10 @@ namespace gsv::gateway::upstream {
 
 class Stream {
  public:
-  // `simulation`: its name there; empty: the first. `operations` is what viewers can do. `io`
-  // outlives the stream.
+  // `simulation`: its name there; empty: the first. `socket`: where it is streamed, "/ws" or that
+  // of a replay. `operations` is what viewers can do; null: nothing. `io` outlives the stream.
   static std::shared_ptr<Stream> Make(boost::asio::io_context& io, const Address& address,
-                                      const std::string& simulation,
+                                      const std::string& simulation, const std::string& socket,
                                       std::shared_ptr<Operations> operations);
   virtual ~Stream() = default;
 

@@ -17,13 +17,22 @@ export class ApiError extends Error {
 const TIMEOUT_MS = 10_000;
 
 export class JsonServer {
+  private base: string;
+
   constructor(
-    private readonly base: string,
+    private readonly root: string,
     private readonly fetchPage: typeof fetch = (input, init) => fetch(input, init),
-  ) {}
+  ) {
+    this.base = root;
+  }
 
   url(path: string): string {
     return new URL(path, this.base).href;
+  }
+
+  // From now on all paths are below this one, itself below the root; empty: below the root again.
+  moveTo(path: string): void {
+    this.base = new URL(path, this.root).href;
   }
 
   get(path: string, timeoutMs = TIMEOUT_MS): Promise<unknown> {

@@ -8,8 +8,10 @@ import type { SceneDescription } from "./scene";
 import { parseScene } from "./scene";
 
 export interface Abilities {
-  creates: boolean;
+  creates: boolean; // simulations can be put together, and changed
   records: boolean;
+  recordings: boolean; // recordings can be listed and replayed
+  recording: string; // of a replay: the name under which it can be opened for oneself; empty: none
 }
 
 export interface ModelChoice {
@@ -49,7 +51,12 @@ export class SetUpApi {
 
   async abilities(): Promise<Abilities> {
     const answer = objectAt(await this.server.get("api/server"), "server");
-    return { creates: answer.creates === true, records: answer.records === true };
+    return {
+      creates: answer.creates === true,
+      records: answer.records === true,
+      recordings: answer.recordings === true,
+      recording: textOr(answer.recording, ""),
+    };
   }
 
   async worlds(): Promise<string[]> {

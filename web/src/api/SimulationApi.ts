@@ -9,6 +9,7 @@ import type { SceneDescription } from "./scene";
 import { parseScene } from "./scene";
 import type { SimulationStatus, SimulationSummary } from "./status";
 import { parseStatus, parseSummaries } from "./status";
+import { objectAt, textAt } from "./json";
 
 export { ApiError } from "./JsonServer";
 
@@ -27,12 +28,17 @@ export class SimulationApi {
   readonly setUp: SetUpApi;
   private readonly server: JsonServer;
 
-  constructor(
-    private readonly base: string,
-    fetchPage?: typeof fetch,
-  ) {
+  constructor(base: string, fetchPage?: typeof fetch) {
     this.server = new JsonServer(base, fetchPage);
     this.setUp = new SetUpApi(this.server);
+  }
+
+  // Opens a recording for this page alone: all that is asked from now on concerns this replay.
+  async openRecording(recording: string): Promise<void> {
+    this.server.moveTo("");
+    const path = `api/recordings/${encodeURIComponent(recording)}/replay`;
+    const answer = objectAt(await this.server.post(path, {}, ACTION_TIMEOUT_MS), "replay");
+    this.server.moveTo(textAt(answer.base, "replay.base"));
   }
 
   async simulations(): Promise<SimulationSummary[]> {
@@ -89,7 +95,7 @@ export class SimulationApi {
   }
 
   socketUrl(name: string): string {
-    const url = new URL("ws", this.base);
+    const url = new URL(this.server.url("ws"));
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     url.search = `simulation=${encodeURIComponent(name)}`;
     return url.href;

@@ -6,7 +6,7 @@ import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";
 import { App } from "./App";
-import { Session } from "./Session";
+import { NOTHING_WANTED, Session } from "./Session";
 
 function status(phase: Phase): SimulationStatus {
   return {
@@ -42,7 +42,7 @@ function appIn(phase: Phase, act: SimulationApi["act"]) {
     status: status(phase),
   });
   const api = { act } as unknown as SimulationApi;
-  const session = new Session(api, store, { onPoses: () => {}, onBeams: () => {} }, null);
+  const session = new Session(api, store, { onPoses: () => {}, onBeams: () => {} }, NOTHING_WANTED);
   return { store, app: new App(store, session, api, null) };
 }
 

@@ -13,7 +13,7 @@ const AFTER = { x: 1, y: 2, yaw: 0.5 };
 async function editing(phase: "paused" | "running" = "paused") {
   const store = new Store<State>({
     ...initialState,
-    abilities: { creates: true, records: false },
+    abilities: { ...initialState.abilities, creates: true },
     simulation: "house",
     status: simulationStatus(phase, { robots: [robotStatus("a")] }),
   });

@@ -62,6 +62,15 @@ test("a link waits for the scene, and is shown once", () => {
   expect(place.viewpoint).toEqual([5, 5, 5, 0, 0, 0]);
 });
 
+test("an instant waits until it is known that this is a recording", async () => {
+  location.hash = "#t=3";
+  const { control, seek, store } = page();
+  control.start(window);
+  expect(seek).not.toHaveBeenCalled();
+  store.set({ replay: REPLAY });
+  await vi.waitFor(() => expect(seek).toHaveBeenCalledWith(3));
+});
+
 test("a link to a robot that is gone, or to an instant of what runs, shows what is there", () => {
   location.hash = "#t=3&select=ghost&mode=eye";
   const { control, store, seek } = page();

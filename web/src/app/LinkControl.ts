@@ -12,6 +12,7 @@ export interface Place {
 
 export class LinkControl {
   private wanted: LinkedView | null = null;
+  private instant: number | null = null; // s, simulated: to go to when it can be done
 
   constructor(
     private readonly app: App,
@@ -29,14 +30,21 @@ export class LinkControl {
       ({ scene, status }) => scene !== null && status !== null,
       () => this.show(this.app.store),
     );
+    this.app.store.watch(
+      ({ replay }) => replay !== null,
+      () => void this.goToInstant(),
+    );
     read();
   }
 
   // The address that shows this; `page` is the page's own.
   linkTo(page: string): string {
-    const { simulations, simulation, replay, time, selection, viewMode, shown } = this.app.store.get();
+    const { simulations, simulation, replay, time, selection, viewMode, shown, abilities } =
+      this.app.store.get();
     const url = new URL(page);
     if (simulation !== null && (simulations?.length ?? 0) > 1) url.searchParams.set("simulation", simulation);
+    // Who opens a recording's link has a replay of their own.
+    if (replay && abilities.recording !== "") url.searchParams.set("recording", abilities.recording);
     const viewpoint = this.place?.viewpoint ?? null;
     url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown });
     return url.href;
@@ -47,17 +55,21 @@ export class LinkControl {
     if (!this.wanted || !scene || !status) return;
     const { time, viewpoint, selection, viewMode, shown } = this.wanted;
     this.wanted = null;
+    this.instant = time;
     if (shown) store.set({ shown });
     if (selection !== null && scene.bodies.some(({ name }) => name === selection)) this.app.select(selection);
     if (viewMode && store.get().selection !== null) store.set({ viewMode });
     if (viewpoint && this.place) this.place.viewpoint = viewpoint;
-    if (time !== null) void this.goTo(time);
+    void this.goToInstant();
   }
 
-  // An instant is looked at standing still.
-  private async goTo(time: number): Promise<void> {
+  // That it is a recording may be known later than what stands in it. An instant is looked at standing
+  // still.
+  private async goToInstant(): Promise<void> {
     const { replay, status } = this.app.store.get();
-    if (!replay) return;
+    const time = this.instant;
+    if (!replay || time === null) return;
+    this.instant = null;
     if (status?.phase === "running") await this.app.act("pause");
     await this.app.replay.seek(time);
   }

@@ -1,7 +1,8 @@
 // @vitest-environment jsdom
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { createRecordButton, sizeText } from "../panels/RecordButton";
+import { createRecordButton } from "../panels/RecordButton";
 import { testApp } from "../panels/testApp";
+import { initialState } from "../state/State";
 
 const OFF = { isOn: false, path: "", bytes: 0, droppedMessages: 0 };
 const ON = { isOn: true, path: "/tmp/a run.mcap", bytes: 2_400_000, droppedMessages: 0 };
@@ -11,7 +12,7 @@ afterEach(() => vi.useRealTimers());
 
 async function recording(first = OFF) {
   const api = { recording: vi.fn(async () => first), record: vi.fn(async () => ON) };
-  const { app, store } = testApp({ abilities: { creates: false, records: true } }, api);
+  const { app, store } = testApp({ abilities: { ...initialState.abilities, records: true } }, api);
   const button = createRecordButton(app);
   app.records.start();
   await vi.advanceTimersByTimeAsync(0);
@@ -36,14 +37,14 @@ test("a press records, another ends it and says how to replay", async () => {
   api.record.mockResolvedValue({ ...ON, isOn: false });
   await app.records.toggle();
   expect(api.record).toHaveBeenLastCalledWith("house", false);
-  expect(store.get().notices.at(-1)!.sentence).toBe("Recorded. Replay it: gsv replay '/tmp/a run.mcap'");
+  expect(store.get().notices.at(-1)!.sentence).toBe("Recorded. Replay it on the page Recordings, or: gsv replay '/tmp/a run.mcap'");
 });
 
 test("where the server does not record, or something is replayed, there is no button", async () => {
   const { store, button } = await recording();
   store.set({ replay: { start: 0, end: 1, speed: 1, loop: false } });
   expect(button.hidden).toBe(true);
-  store.set({ replay: null, abilities: { creates: false, records: false } });
+  store.set({ replay: null, abilities: initialState.abilities });
   await vi.advanceTimersByTimeAsync(2000);
   expect(button.hidden).toBe(true);
 });
@@ -54,8 +55,4 @@ test("a refusal is told", async () => {
   await app.records.toggle();
   expect(store.get().notices.at(-1)!.sentence).toBe("the disk is full");
   expect(store.get().recording).toEqual(OFF);
-});
-
-test("sizes are told as people read them", () => {
-  expect([900, 999_499, 1_500_000, 2e9].map(sizeText)).toEqual(["1 kB", "999 kB", "1.5 MB", "2.00 GB"]);
 });

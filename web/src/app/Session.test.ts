@@ -22,10 +22,15 @@ class Fixture {
   failure = "";
   replay: Replay | null = null;
   sceneRequests = 0;
+  readonly openRecording = vi.fn(async () => {});
+  readonly seek = vi.fn(async () => {});
   readonly session: Session;
 
-  constructor(wanted: string | null = null) {
+  constructor(wanted: string | null = null, recording: string | null = null) {
     const api = {
+      openRecording: this.openRecording,
+      seek: this.seek,
+      setUp: { abilities: async () => initialState.abilities },
       simulations: async () => this.names.map((name) => ({ name, phase: "running", robots: 0 })),
       status: async (name: string) => {
         if (!this.names.includes(name)) throw new ApiError(404, "no such simulation");
@@ -52,7 +57,7 @@ class Fixture {
       api,
       this.store,
       { onPoses: this.onPoses, onBeams: () => {} },
-      wanted,
+      { simulation: wanted, recording },
       (url, events) => this.makeClient(url, events),
     );
   }
@@ -221,4 +226,30 @@ test("why a simulation failed is fetched when the stream says that it has", asyn
   fixture.failure = "a's behaviour was killed";
   fixture.send("/gsv/status", statusMessage("failed"));
   await vi.waitFor(() => expect(fixture.state.status?.failure).toBe("a's behaviour was killed"));
+});
+
+const TWENTY_SECONDS: Replay = { start: 0, end: 20, speed: 1, loop: false };
+
+test("a recording is opened for this page alone before anything is asked; one that is gone is said to be", async () => {
+  const fixture = new Fixture(null, "run.mcap");
+  await joined(fixture);
+  expect(fixture.openRecording).toHaveBeenCalledWith("run.mcap");
+  const gone = new Fixture(null, "gone.mcap");
+  gone.openRecording.mockRejectedValue(new ApiError(404, "there is no recording 'gone.mcap' here"));
+  gone.session.start();
+  await vi.waitFor(() => expect(gone.state.missing).toBe("there is no recording 'gone.mcap' here"));
+  expect(gone.state.simulation).toBeNull();
+});
+
+test("after a restart of its server a replay of one's own is opened anew, and goes on where it stood", async () => {
+  const fixture = new Fixture(null, "run.mcap");
+  fixture.replay = TWENTY_SECONDS;
+  await joined(fixture);
+  await vi.waitFor(() => expect(fixture.state.replay).toEqual(TWENTY_SECONDS));
+  fixture.store.set({ time: 7.5 });
+  fixture.names = [];
+  fixture.clients[0]!.events.onConnection({ phase: "waiting", attempt: 1, retryAtMs: 0 });
+  fixture.openRecording.mockImplementation(async () => void (fixture.names = ["house"]));
+  await vi.waitFor(() => expect(fixture.seek).toHaveBeenCalledWith("house", 7.5));
+  expect(fixture.openRecording).toHaveBeenCalledTimes(2);
 });

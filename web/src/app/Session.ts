@@ -39,6 +39,14 @@ const NOTHING_WATCHED: Partial<State> = {
   camera: null,
 };
 
+// What the page's address asks for, if it does.
+export interface Wanted {
+  simulation: string | null;
+  recording: string | null; // that is to be replayed for this page alone
+}
+
+export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
+
 // Where the stream's many small messages go without passing through the store.
 export interface LiveListener {
   onPoses(message: PosesMessage): void;
@@ -58,19 +66,21 @@ export class Session {
   private fetchingScene: string | null = null; // of the simulation of this name
   private sceneFailedAtMs = -Infinity;
   private wasOpen = false;
+  private hasOpened = false; // the recording that is wanted
+  private instant: number | null = null; // s, simulated: where a replay is to go on
   private newsSince = Infinity; // s, simulated
 
   constructor(
     private readonly api: SimulationApi,
     private readonly store: Store<State>,
     private readonly live: LiveListener,
-    private readonly wanted: string | null, // the simulation's name, if the address gives one
+    private readonly wanted: Wanted,
     private readonly makeClient: ClientFactory = (url, events) => new FoxgloveClient(url, events),
   ) {}
 
   start(): void {
     void this.findSimulation();
-    void this.findAbilities();
+    if (this.wanted.recording === null) void this.findAbilities();
   }
 
   retryNow(): void {
@@ -130,14 +140,16 @@ export class Session {
     clearTimeout(this.timer);
     this.attempt += 1;
     try {
+      if (!(await this.openRecording())) return;
       const simulations = await this.api.simulations();
       this.attempt = 0;
       this.store.set({ simulations });
       if (this.store.get().setUp) return;
-      const chosen = simulations.find(({ name }) => name === this.wanted) ?? simulations[0];
+      const chosen = simulations.find(({ name }) => name === this.wanted.simulation) ?? simulations[0];
       if (chosen) {
-        if (this.wanted && chosen.name !== this.wanted) {
-          notify(this.store, "note", `There is no simulation ${this.wanted} here; this is ${chosen.name}.`);
+        const { simulation: wanted } = this.wanted;
+        if (wanted && chosen.name !== wanted) {
+          notify(this.store, "note", `There is no simulation ${wanted} here; this is ${chosen.name}.`);
         }
         this.join(chosen.name);
         return;
@@ -151,6 +163,23 @@ export class Session {
       });
       this.timer = setTimeout(() => void this.findSimulation(), wait);
     }
+  }
+
+  // Whether there is something to look for: a recording that is asked for may be gone. Throws what
+  // may be otherwise at the next attempt.
+  private async openRecording(): Promise<boolean> {
+    const { recording } = this.wanted;
+    if (recording === null || this.hasOpened) return true;
+    try {
+      await this.api.openRecording(recording);
+    } catch (error) {
+      if (!(error instanceof ApiError) || error.httpStatus >= 500) throw error;
+      this.store.set({ missing: error.message, connection: { phase: "open" } });
+      return false;
+    }
+    this.hasOpened = true;
+    void this.findAbilities();
+    return true;
   }
 
   private async findAbilities(): Promise<void> {
@@ -191,6 +220,9 @@ export class Session {
     if (this.wasOpen) notify(this.store, "note", "Connected again.");
     this.wasOpen = true;
     this.newsSince = Infinity;
+    const instant = this.instant;
+    this.instant = null;
+    if (instant !== null) await this.api.seek(name, instant).catch(() => {}); // then it stands at its start
     await this.fetchScene(name);
     await this.fetchStatus(name);
   }
@@ -203,6 +235,9 @@ export class Session {
       if (!(error instanceof ApiError && error.httpStatus === 404)) return;
       if (this.store.get().simulation !== name) return;
       this.leave();
+      // A replay of one's own ended with its server; another one goes on where it stood.
+      this.instant = this.store.get().replay && this.hasOpened ? this.store.get().time : null;
+      this.hasOpened = false;
       this.store.set({ ...NOTHING_WATCHED, simulation: null });
       this.sceneText = "";
       void this.findSimulation();

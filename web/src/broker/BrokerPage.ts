@@ -1,10 +1,11 @@
 // The broker page: service types, the offers of the chosen one with a constraint to try, and links.
+import { showFrame } from "../frame/frame";
 import { element } from "../ui/element";
 import type { BrokerApi, Link, ServiceType } from "./BrokerApi";
 import { offerList } from "./OfferList";
 
 export class BrokerPage {
-  private readonly address = element("code", { class: "broker-address dim" });
+  private address: HTMLElement | null = null;
   private readonly types = element("div", { class: "types" });
   private readonly links = element("ul", { class: "links" });
   private readonly heading = element("h2", {}, "Offers");
@@ -19,18 +20,9 @@ export class BrokerPage {
 
   show(page: HTMLElement): void {
     page.classList.add("broker-page");
-    page.append(
-      element(
-        "header",
-        { class: "toolbar" },
-        element(
-          "div",
-          { class: "toolbar-start" },
-          element("a", { class: "wordmark", href: "./", title: "The simulation" }, "GSV"),
-          element("h1", {}, "Broker"),
-          this.address,
-        ),
-      ),
+    const { note } = showFrame(
+      page,
+      "Broker",
       element(
         "nav",
         { class: "sidebar", "aria-label": "Service types and links" },
@@ -41,13 +33,14 @@ export class BrokerPage {
       ),
       element("main", { class: "view" }, this.heading, this.declared, this.question(), this.answer),
     );
+    this.address = note;
   }
 
   async load(): Promise<void> {
     void this.loadLinks();
     try {
       const { broker, types } = await this.api.types();
-      this.address.textContent = broker;
+      if (this.address) this.address.textContent = broker;
       this.types.replaceChildren(...types.map((type) => this.typeButton(type)));
       if (types.length === 0) this.types.replaceChildren(hint("The broker knows no service type yet."));
       if (types[0]) await this.choose(types[0]);

@@ -1,5 +1,3 @@
-import "../style/page.css";
-import "../style/panels.css";
 import "../style/broker.css";
 import { BrokerApi } from "./BrokerApi";
 import { BrokerPage } from "./BrokerPage";

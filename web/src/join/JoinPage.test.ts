@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { expect, test } from "vitest";
 import { JsonServer } from "../api/JsonServer";
-import { JoinPage } from "./JoinPage";
+import { createJoinPage } from "./JoinPage";
 
 const SIMULATION = { name: "a b", phase: "running", mode: "lockstep", time_s: 75, robots: 2 };
 
@@ -9,7 +9,7 @@ async function open(instances: object[], status = 200) {
   const body = status === 200 ? { broker: "corbaloc:", instances } : { error: "the broker is silent" };
   const server = new JsonServer("http://gsv/", async () => new Response(JSON.stringify(body), { status }));
   const host = document.createElement("div");
-  const page = new JoinPage(server);
+  const page = createJoinPage(server);
   page.show(host);
   await page.load();
   return host;

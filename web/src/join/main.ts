@@ -1,10 +1,6 @@
-import "../style/page.css";
-import "../style/panels.css";
-import "../style/setUp.css";
-import "../style/join.css";
 import { JsonServer } from "../api/JsonServer";
-import { JoinPage } from "./JoinPage";
+import { createJoinPage } from "./JoinPage";
 
-const page = new JoinPage(new JsonServer(document.baseURI));
+const page = createJoinPage(new JsonServer(document.baseURI));
 page.show(document.getElementById("app")!);
 void page.follow();

@@ -4,10 +4,11 @@ import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 
-type Situation = "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
+type Situation = "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
 
 export function situationOf(state: State, hasView: boolean): Situation {
-  const { connection, simulations, simulation, scene, setUp } = state;
+  const { connection, simulations, simulation, scene, setUp, missing } = state;
+  if (missing !== "") return "missing";
   if (setUp) return !hasView ? "no-webgl" : scene ? "none" : "loading";
   if (connection.phase !== "open" && scene) return "lost";
   if (connection.phase === "waiting") return "unreachable";
@@ -34,6 +35,14 @@ function content(app: App, situation: Situation): Node[] {
   switch (situation) {
     case "none":
       return [];
+    case "missing":
+      return [
+        message(
+          "This recording is not here",
+          app.store.get().missing,
+          element("a", { class: "button", href: "recordings.html" }, "All recordings"),
+        ),
+      ];
     case "connecting":
       return [message("Connecting to GSV…")];
     case "loading":

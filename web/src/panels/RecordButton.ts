@@ -3,6 +3,7 @@ import type { App } from "../app/App";
 import type { Recording } from "../api/recording";
 import { shallowEqual } from "../state/Store";
 import { element, setText } from "../ui/element";
+import { formatSize } from "../ui/format";
 import { icon } from "../ui/icons";
 
 export function createRecordButton(app: App): HTMLElement {
@@ -20,7 +21,7 @@ export function createRecordButton(app: App): HTMLElement {
       button.disabled = !isOpen || recording === null;
       button.setAttribute("aria-pressed", String(recording?.isOn === true));
       button.title = recording ? titleOf(recording) : "Record";
-      setText(size, recording?.isOn ? sizeText(recording.bytes) : "");
+      setText(size, recording?.isOn ? formatSize(recording.bytes) : "");
     },
     shallowEqual,
   );
@@ -31,9 +32,4 @@ function titleOf({ isOn, path, droppedMessages }: Recording): string {
   if (!isOn) return path ? `Record (the last one is ${path})` : "Record";
   const lost = droppedMessages > 0 ? `; the disk was too slow for ${droppedMessages} messages` : "";
   return `Recording to ${path}${lost}. Press to end it`;
-}
-
-export function sizeText(bytes: number): string {
-  if (bytes < 1e6) return `${Math.round(bytes / 1e3)} kB`;
-  return bytes < 1e9 ? `${(bytes / 1e6).toFixed(1)} MB` : `${(bytes / 1e9).toFixed(2)} GB`;
 }

@@ -134,3 +134,19 @@ test("the status bar calls it a replay, and tells its speed", () => {
   expect(bar.querySelector('[data-testid="connection"]')?.textContent).toBe("Replay");
   expect(bar.querySelector('[data-testid="factor"]')?.textContent).toBe("0.25×");
 });
+
+test("a typed time is gone to by Enter; what is no time is marked", () => {
+  const { app, bar } = timeline({ time: 10 });
+  const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
+  const field = bar.querySelector<HTMLInputElement>(".typed-time")!;
+  const enter = (text: string) => {
+    field.value = text;
+    field.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
+  };
+  enter("soon");
+  expect(field.getAttribute("aria-invalid")).toBe("true");
+  expect(seek).not.toHaveBeenCalled();
+  enter("1:05.5");
+  expect(field.getAttribute("aria-invalid")).toBe("false");
+  expect(seek).toHaveBeenCalledWith(65.5);
+});

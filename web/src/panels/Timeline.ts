@@ -7,7 +7,7 @@ import { shallowEqual } from "../state/Store";
 import type { Mark } from "../state/timeline";
 import { marksOf } from "../state/timeline";
 import { element, setText } from "../ui/element";
-import { formatTime } from "../ui/format";
+import { formatTime, parseTime } from "../ui/format";
 import type { IconName } from "../ui/icons";
 import { icon, setIcon } from "../ui/icons";
 
@@ -168,7 +168,28 @@ function times(app: App): HTMLElement {
     ({ replay }) => (replay ? ` / ${formatTime(replay.end)}` : ""),
     (text) => setText(end, text),
   );
-  return element("span", { class: "timeline-times number", title: "Simulated time" }, now, end);
+  return element("span", { class: "timeline-times number", title: "Simulated time" }, now, end, typedTime(app));
+}
+
+// Enter goes to the instant that was typed.
+function typedTime(app: App): HTMLElement {
+  const field = element("input", {
+    class: "typed-time number",
+    "aria-label": "Go to the time",
+    placeholder: "go to…",
+    title: "Seconds, or minutes:seconds; Enter goes there",
+    autocomplete: "off",
+    spellcheck: "false",
+  });
+  field.addEventListener("input", () => field.removeAttribute("aria-invalid"));
+  field.addEventListener("keydown", ({ key }) => {
+    if (key === "Escape") field.blur();
+    if (key !== "Enter") return;
+    const time = parseTime(field.value);
+    field.setAttribute("aria-invalid", String(time === null));
+    if (time !== null) void app.replay.seek(time);
+  });
+  return field;
 }
 
 function speedChoice(app: App): HTMLElement {

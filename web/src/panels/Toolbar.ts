@@ -38,20 +38,32 @@ export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => v
       plotsButton(app),
       createShareMenu(app, hasView),
       element("span", { class: "divider", "aria-hidden": "true" }),
-      pageLink(app, "join", "join.html", "Join another simulation"),
-      pageLink(app, "broker", "broker.html", "Broker"),
+      pageLink(app, "join", "join.html", "Join another simulation", isLive),
+      pageLink(app, "recordings", "recordings.html", "Recordings", hasRecordings),
+      pageLink(app, "broker", "broker.html", "Broker", isLive),
       viewButton("help", "Help", "?", () => app.openHelp(true)),
     ),
   );
 }
 
 // A recording has no broker.
-function pageLink(app: App, picture: IconName, href: string, label: string): HTMLElement {
+function isLive({ replay }: State): boolean {
+  return replay === null;
+}
+
+function hasRecordings({ abilities }: State): boolean {
+  return abilities.recordings;
+}
+
+function pageLink(
+  app: App,
+  picture: IconName,
+  href: string,
+  label: string,
+  isOffered: (state: State) => boolean,
+): HTMLElement {
   const link = element("a", { class: "button plain", href, "aria-label": label, title: label }, icon(picture));
-  app.store.watch(
-    ({ replay }) => replay !== null,
-    (isReplay) => (link.hidden = isReplay),
-  );
+  app.store.watch(isOffered, (offered) => (link.hidden = !offered));
   return link;
 }
 

@@ -2,7 +2,7 @@
 import type { SimulationApi } from "../api/SimulationApi";
 import type { Phase, RobotStatus, SimulationStatus } from "../api/status";
 import { App } from "../app/App";
-import { Session } from "../app/Session";
+import { NOTHING_WANTED, Session } from "../app/Session";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";
@@ -47,6 +47,6 @@ export function testApp(
     simulation: "house",
     ...state,
   });
-  const session = new Session(api as SimulationApi, store, { onPoses: () => {}, onBeams: () => {} }, null);
+  const session = new Session(api as SimulationApi, store, { onPoses: () => {}, onBeams: () => {} }, NOTHING_WANTED);
   return { app: new App(store, session, api as SimulationApi, null), store };
 }

@@ -38,6 +38,7 @@ export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 export interface State {
   connection: ConnectionState;
   abilities: Abilities; // of the server
+  missing: string; // why what the address asks for cannot be shown; empty: it can
   editing: Editing | null; // null: what stands in the simulation is not being changed
   recording: Recording | null; // of the simulation; null: it cannot be recorded, or not known yet
   setUp: SetUp | null; // null: no simulation is being put together
@@ -67,7 +68,8 @@ export interface State {
 
 export const initialState: State = {
   connection: { phase: "connecting", attempt: 1 },
-  abilities: { creates: false, records: false },
+  abilities: { creates: false, records: false, recordings: false, recording: "" },
+  missing: "",
   editing: null,
   recording: null,
   setUp: null,

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { count, formatDistance, formatFactor, formatNumber, formatTime, formatValue } from "./format";
+import { count, formatDate, formatDistance, formatFactor, formatNumber, formatSize, formatTime, formatValue, parseTime } from "./format";
 
 test.each([
   [0, "0:00.00"],
@@ -60,3 +60,20 @@ test("one of a thing is singular", () => {
     "2 robots",
   ]);
 });
+
+test("sizes and dates are told as people read them", () => {
+  expect([900, 999_499, 1_500_000, 2e9].map(formatSize)).toEqual(["1 kB", "999 kB", "1.5 MB", "2.00 GB"]);
+  expect(formatDate("2026-01-31T12:00:00Z")).toContain("2026");
+  expect(formatDate("yesterday")).toBe("");
+});
+
+test.each([
+  ["75.25", 75.25],
+  [" 1:15.25 ", 75.25],
+  ["1:01:15", 3675],
+  ["", null],
+  ["-1", null],
+  ["1:2:3:4", null],
+  ["1e9", null],
+  ["soon", null],
+])("the typed time %j is %s", (text, time) => expect(parseTime(text)).toBe(time));

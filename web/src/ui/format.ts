@@ -11,6 +11,13 @@ export function formatTime(seconds: number): string {
   return `${Math.floor(minutes / 60)}:${two(minutes % 60)}:${tail}`;
 }
 
+// The inverse, by people: "75.25", "1:15.25", "1:01:15"; null: it is no time.
+export function parseTime(text: string): number | null {
+  const parts = text.trim().split(":");
+  const isTime = parts.length <= 3 && parts.every((part) => /^\d+(\.\d*)?$/.test(part));
+  return isTime ? parts.reduce((sum, part) => 60 * sum + Number(part), 0) : null;
+}
+
 // 0.9871 → "0.99×", 12.34 → "12.3×", 250.2 → "250×".
 export function formatFactor(factor: number): string {
   const digits = factor < 10 ? 2 : factor < 100 ? 1 : 0;
@@ -43,4 +50,17 @@ export function formatValue(value: number, unit: string): string {
 
 export function count(number: number, one: string, many = `${one}s`): string {
   return `${number} ${number === 1 ? one : many}`;
+}
+
+// 1_500_000 → "1.5 MB".
+export function formatSize(bytes: number): string {
+  if (bytes < 1e6) return `${Math.round(bytes / 1e3)} kB`;
+  return bytes < 1e9 ? `${(bytes / 1e6).toFixed(1)} MB` : `${(bytes / 1e9).toFixed(2)} GB`;
+}
+
+// "2026-01-31T23:59:59Z" as people write it where they are; empty: it is no date.
+export function formatDate(text: string): string {
+  const date = new Date(text);
+  if (Number.isNaN(date.getTime())) return "";
+  return date.toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" });
 }

@@ -42,6 +42,7 @@ const PATHS = {
   redo: "m15 4 6 5.500-6 5.500v-4h-5a4 4 0 0 0 0 8h6v2h-6a6 6 0 0 1 0-12h5z",
   open: "M3 5h7l2 2h9v3H7l-3 8H3zm5 7h14l-3 8H5z",
   join: "M4 4h8v2H6v12h6v2H4zm10.500 3.500L19 12l-4.500 4.500-1.400-1.400 2.100-2.100H9v-2h6.200l-2.100-2.100z",
+  recordings: "M3 4h18v16H3zm2 2v2h2V6zm0 5v2h2v-2zm0 5v2h2v-2zM17 6v2h2V6zm0 5v2h2v-2zm0 5v2h2v-2zM9 6v12h6V6z",
   record: "M12 5a7 7 0 1 1 0 14 7 7 0 0 1 0-14z",
   copy: "M8 3h12v13H8zM4 7h2v11h11v2H4z",
 } as const;

@@ -1,0 +1,41 @@
+// Where a command's viewer is served, and what it may show beside simulations.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "gsv/gateway/gateway.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gsv::app {
+
+struct ViewerOptions {
+  int port = -1;           // 0: the system chooses; -1: the usual one, or another if it is in use
+  std::string recordings;  // a folder; empty: the current one
+};
+
+// Adds --port.
+void AddViewerOptions(CLI::App& command, ViewerOptions& options);
+// Adds --recordings, where simulations run.
+void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
+
+// Starts something by `start` where it was asked for; `gateway` holds the rest.
+template <typename Started>
+base::Result<std::unique_ptr<Started>> StartViewer(
+    const ViewerOptions& options, gateway::GatewayOptions gateway,
+    const std::function<base::Result<std::unique_ptr<Started>>(const gateway::GatewayOptions&)>&
+        start) {
+  constexpr std::uint16_t kUsualPort = 8080;
+  const bool is_given = options.port >= 0;
+  gateway.port = is_given ? static_cast<std::uint16_t>(options.port) : kUsualPort;
+  auto started = start(gateway);
+  if (started || is_given) return started;
+  gateway.port = 0;
+  return start(gateway);
+}
+
+}  // namespace gsv::app

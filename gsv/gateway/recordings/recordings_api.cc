@@ -1,0 +1,80 @@
+#include "gsv/gateway/recordings/recordings_api.h"
+
+#include <ctime>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace gsv::gateway::recordings {
+namespace {
+
+using RecordingsJson = nlohmann::ordered_json;
+
+std::string Text(const RecordingsJson& json) {
+  return json.dump(-1, ' ', false, RecordingsJson::error_handler_t::replace);
+}
+
+// As RFC 3339 has it, to the second: "2026-01-31T23:59:59Z".
+std::string DateText(std::chrono::system_clock::time_point time) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1,
+                     utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
+}
+
+const char* NameOf(RecordingLine::State state) {
+  switch (state) {
+    case RecordingLine::State::kComplete:
+      return "complete";
+    case RecordingLine::State::kUnfinished:
+      return "unfinished";
+    case RecordingLine::State::kUnreadable:
+      return "unreadable";
+  }
+  return "unreadable";
+}
+
+RecordingsJson LineJson(const RecordingLine& line) {
+  RecordingsJson json{{"name", line.name},
+                      {"size_bytes", line.size},
+                      {"modified", DateText(line.modified)},
+                      {"state", NameOf(line.state)},
+                      {"problem", line.problem}};
+  if (line.state == RecordingLine::State::kComplete) {
+    json["start_s"] = base::ToSeconds(line.start);
+    json["duration_s"] = base::ToSeconds(line.end - line.start);
+    json["messages"] = line.messages;
+  }
+  return json;
+}
+
+}  // namespace
+
+Response RecordingsApi::Handle(const Request& request) {
+  const std::vector<std::string>& path = request.target.segments;
+  if (path.size() == 2) return request.method == "GET" ? List() : MethodNotAllowed("GET");
+  if (path.size() == 4 && path[3] == "replay") {
+    return request.method == "POST" ? Open(path[2]) : MethodNotAllowed("POST");
+  }
+  return ErrorResponse(404, "there is nothing at this address; docs/api.yaml lists what there is");
+}
+
+Response RecordingsApi::List() {
+  const RecordingFolder::Listing listing = folder_.List();
+  RecordingsJson lines = RecordingsJson::array();
+  for (const RecordingLine& line : listing.lines) lines.push_back(LineJson(line));
+  return JsonResponse(200, Text({{"folder", folder_.path().string()},
+                                 {"left_out", listing.left_out},
+                                 {"recordings", std::move(lines)}}));
+}
+
+Response RecordingsApi::Open(const std::string& name) {
+  const base::Result<std::string> path = folder_.Find(name);
+  if (!path) return ErrorResponse(path.error());
+  const base::Result<std::string> session = sessions_.Open(*path, name);
+  if (!session) return ErrorResponse(session.error());
+  return JsonResponse(201, Text({{"recording", name}, {"base", "replays/" + *session + "/"}}));
+}
+
+}  // namespace gsv::gateway::recordings

@@ -1,0 +1,163 @@
+#include "gsv/gateway/recordings/recordings_api.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "gsv/gateway/gateway.h"
+#include "gsv/gateway/relay.h"
+#include "gsv/gateway/testing/replay_fixture.h"
+
+namespace gsv::gateway::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HttpReply;
+using testing::Viewer;
+
+// A folder with one recording of two seconds, served with no simulation.
+class RecordingsApiTest : public ::testing::Test {
+ protected:
+  class NoSimulations final : public SimulationDirectory {
+   public:
+    std::vector<std::shared_ptr<simulation::Simulation>> List() override { return {}; }
+    std::shared_ptr<simulation::Simulation> Find(const std::string&) override { return nullptr; }
+  };
+
+  void SetUp() override {
+    fs::create_directory(folder_);
+    testing::RecordRun(folder_ / "run.mcap");
+    GatewayOptions options;
+    options.recordings_folder = folder_;
+    auto started = Gateway::Start(options, std::make_shared<NoSimulations>());
+    ASSERT_TRUE(started) << started.error().Sentence();
+    gateway_ = *std::move(started);
+  }
+  void TearDown() override {
+    gateway_.reset();
+    fs::remove_all(folder_);
+  }
+
+  HttpReply Get(const std::string& target) const {
+    return testing::Fetch(gateway_->port(), "GET", target);
+  }
+  HttpReply Post(const std::string& target, const std::string& body = "{}") const {
+    return testing::Fetch(gateway_->port(), "POST", target, "", body);
+  }
+  // Below which a replay of one's own is served: "/replays/1/".
+  std::string OpenReplay() const {
+    return "/" +
+           json::parse(Post("/api/recordings/run.mcap/replay").body)["base"].get<std::string>();
+  }
+  static double TimeOf(const HttpReply& reply) { return json::parse(reply.body)["time_s"]; }
+
+  const fs::path folder_ =
+      fs::path(::testing::TempDir()) / ("gsv_recordings_api_" + std::to_string(getpid()));
+  std::unique_ptr<Gateway> gateway_;
+};
+
+TEST_F(RecordingsApiTest, ListsWhatTheFolderHolds) {
+  std::ofstream(folder_ / "junk.mcap") << "not a recording, but longer than eight bytes";
+  std::ofstream(folder_ / "notes.txt") << "no recording by its name";
+  std::ofstream(folder_ / ".hidden.mcap") << "hidden";
+  fs::create_symlink("/etc/hostname", folder_ / "elsewhere.mcap");
+  fs::create_directory(folder_ / "folder");
+  const json answer = json::parse(Get("/api/recordings").body);
+  EXPECT_EQ(answer["folder"], folder_.string());
+  ASSERT_EQ(answer["recordings"].size(), 2u) << answer;
+  std::map<std::string, json> lines;
+  for (const json& line : answer["recordings"]) lines[line["name"]] = line;
+  EXPECT_EQ(lines["junk.mcap"]["state"], "unfinished");
+  const json& run = lines["run.mcap"];
+  EXPECT_EQ(run["state"], "complete");
+  EXPECT_EQ(run["duration_s"], 2.0);
+  EXPECT_EQ(run["size_bytes"], fs::file_size(folder_ / "run.mcap"));
+  EXPECT_EQ(run["modified"].get<std::string>().size(), std::string("2026-01-31T23:59:59Z").size());
+  EXPECT_EQ(json::parse(Get("/api/server").body)["recordings"], true);
+}
+
+TEST_F(RecordingsApiTest, AFileThatIsDamagedSaysSo) {
+  // It ends as a recording does, and is none.
+  std::ofstream(folder_ / "bad.mcap") << "XXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXX\x89MCAP0\r\n";
+  for (const json& line : json::parse(Get("/api/recordings").body)["recordings"]) {
+    if (line["name"] != "bad.mcap") continue;
+    EXPECT_EQ(line["state"], "unreadable");
+    EXPECT_NE(line["problem"], "");
+  }
+  EXPECT_EQ(Post("/api/recordings/bad.mcap/replay").status, 400);
+}
+
+TEST_F(RecordingsApiTest, NothingOutsideOfTheFolderIsOpened) {
+  for (const char* name : {"gone.mcap", "..", ".", "%2e%2e%2frun.mcap", "..%2frun.mcap",
+                           "%2fetc%2fhostname", "run.mcap%00", "%2frun.mcap", ""}) {
+    const HttpReply reply = Post("/api/recordings/" + std::string(name) + "/replay");
+    EXPECT_EQ(reply.status, 404) << name;
+  }
+  fs::create_symlink("/etc/hostname", folder_ / "link.mcap");
+  EXPECT_EQ(Post("/api/recordings/link.mcap/replay").status, 404);
+  EXPECT_NE(Post("/api/recordings/gone.mcap/replay").body.find("moved or deleted"),
+            std::string::npos);
+}
+
+TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingStandAtDifferentInstants) {
+  const std::string a = OpenReplay();
+  const std::string b = OpenReplay();
+  ASSERT_NE(a, b);
+  EXPECT_EQ(TimeOf(Post(a + "api/simulations/simulation/seek", R"({"time_s": 1.5})")), 1.5);
+  EXPECT_EQ(TimeOf(Get(b + "api/simulations/simulation")), 0);
+  Viewer viewer(gateway_->port(), a + "ws");
+  viewer.Subscribe(1, "/gsv/poses");
+  EXPECT_EQ(testing::Decoded<messages::gsv_msgs::Poses>(viewer.ReceiveData(1)).step, 150u);
+  EXPECT_EQ(json::parse(Get(a + "api/server").body)["recording"], "run.mcap");
+  EXPECT_EQ(Get(a + "index.html").status, 404);
+  EXPECT_EQ(Get("/replays/99/api/simulations").status, 404);
+  EXPECT_THROW(Viewer(gateway_->port(), "/replays/99/ws"), std::runtime_error);
+}
+
+TEST_F(RecordingsApiTest, ARelayPassesRecordingsOn) {
+  auto relay = Relay::Start({}, gateway_->url());
+  ASSERT_TRUE(relay) << relay.error().Sentence();
+  const std::uint16_t port = (*relay)->port();
+  const HttpReply opened =
+      testing::Fetch(port, "POST", "/api/recordings/run.mcap/replay", "", "{}");
+  ASSERT_EQ(opened.status, 201) << opened.body;
+  const std::string base = "/" + json::parse(opened.body)["base"].get<std::string>();
+  Viewer viewer(port, base + "ws");
+  viewer.Subscribe(1, "/gsv/poses");
+  EXPECT_EQ(testing::Decoded<messages::gsv_msgs::Poses>(viewer.ReceiveData(1)).step, 0u);
+  const HttpReply moved = testing::Fetch(port, "POST", base + "api/simulations/simulation/seek", "",
+                                         R"({"time_s": 1})");
+  EXPECT_EQ(TimeOf(moved), 1);
+  EXPECT_EQ(testing::Decoded<messages::gsv_msgs::Poses>(viewer.ReceiveData(1)).step, 100u);
+}
+
+TEST_F(RecordingsApiTest, AReplayThatNobodyWatchesEnds) {
+  ReplaySessions sessions({.sessions = 2, .unwatched = std::chrono::milliseconds(0)});
+  const auto target = [](const std::string& name, const std::string& rest) {
+    return ParseTarget("/replays/" + name + "/" + rest).value();
+  };
+  const std::string file = folder_ / "run.mcap";
+  const std::string watched = sessions.Open(file, "run.mcap").value();
+  auto hub = sessions.FindHub(target(watched, "ws")).value();
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(sessions.Open(file, "run.mcap")) << i;
+  EXPECT_TRUE(sessions.FindHub(target(watched, "ws")));
+  sessions.Stop();
+  EXPECT_FALSE(sessions.Open(file, "run.mcap"));
+  hub->Remove(nullptr);  // a viewer that leaves late finds its replay still there
+}
+
+TEST_F(RecordingsApiTest, NoMoreThanTheLimitAreWatchedAtOnce) {
+  ReplaySessions sessions({.sessions = 2, .unwatched = std::chrono::hours(1)});
+  const std::string file = folder_ / "run.mcap";
+  EXPECT_TRUE(sessions.Open(file, "run.mcap"));
+  EXPECT_TRUE(sessions.Open(file, "run.mcap"));
+  const auto refused = sessions.Open(file, "run.mcap");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, base::ErrorCode::kUnavailable);
+}
+
+}  // namespace
+}  // namespace gsv::gateway::recordings

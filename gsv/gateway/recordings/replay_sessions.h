@@ -1,0 +1,71 @@
+// Recordings that are being replayed, each by a player of its own: what one viewer does with its
+// replay moves nobody else's.
+//
+// A session lives as long as somebody watches it, and half a minute longer, for those who come
+// back.
+//
+// Threads  any; opening a recording takes as long as its index does to be read.
+// Bounded  as many sessions as SessionLimits says.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "gsv/gateway/replay_api.h"
+#include "gsv/gateway/replay_player.h"
+
+namespace gsv::gateway::recordings {
+
+struct SessionLimits {
+  std::size_t sessions = 32;
+  std::chrono::milliseconds unwatched{30'000};
+};
+
+class ReplaySessions {
+ public:
+  explicit ReplaySessions(const SessionLimits& limits = {}) : limits_(limits) {}
+  ~ReplaySessions() { Stop(); }
+
+  // Opens the recording at `path`, which viewers know as `recording`; gives the session's name.
+  // kUnavailable: too many are watched.
+  base::Result<std::string> Open(const std::string& path, const std::string& recording);
+
+  // A request at /replays/NAME/api/…
+  Response Handle(const Request& request);
+  // The hub of /replays/NAME/ws. What holds it keeps the session.
+  base::Result<std::shared_ptr<Hub>> FindHub(const Target& target);
+
+  // Ends all of them, and opens none any more.
+  void Stop();
+
+ private:
+  struct Session {
+    Session(std::unique_ptr<ReplayPlayer> opened, const std::string& recording)
+        : player(std::move(opened)), api(*player, recording) {}
+    const std::unique_ptr<ReplayPlayer> player;
+    ReplayApi api;
+  };
+  struct Entry {
+    std::shared_ptr<Session> session;
+    std::chrono::steady_clock::time_point used;
+  };
+
+  // Null: there is none.
+  std::shared_ptr<Session> Find(const Target& target);
+  // Takes out those that nobody watches any more; they end when they are let go of.
+  std::map<std::string, Entry> TakeUnwatched();
+
+  const SessionLimits limits_;
+  std::mutex mutex_;
+  std::map<std::string, Entry> sessions_;  // by name
+  std::uint64_t next_ = 1;
+  bool is_stopped_ = false;
+};
+
+// Whether the address lies below one of theirs.
+bool IsOfReplaySession(const Target& target);
+
+}  // namespace gsv::gateway::recordings

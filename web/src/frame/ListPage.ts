@@ -1,0 +1,68 @@
+// A page that is one list, asked for again and again: what it shows comes and goes.
+import { element } from "../ui/element";
+import type { Frame } from "./frame";
+import { showFrame } from "./frame";
+
+const POLL_MS = 3000;
+
+export interface Listing<Item> {
+  note: string; // where it comes from
+  items: Item[];
+  more?: string; // a sentence below the list
+}
+
+export interface ListSource<Item> {
+  title: string; // the page's
+  label: string; // the list's
+  empty: string | Node; // instead of no items
+  fetch(): Promise<Listing<Item>>;
+  show(item: Item): HTMLElement; // a list item
+}
+
+export class ListPage<Item> {
+  private readonly wrong = element("p", { class: "field-error", role: "alert" });
+  private readonly list: HTMLElement;
+  private readonly more = element("p", { class: "hint" });
+  private frame: Frame | null = null;
+  private shown = "";
+
+  constructor(private readonly source: ListSource<Item>) {
+    this.list = element("ul", { class: "frame-list", "aria-label": source.label });
+  }
+
+  show(page: HTMLElement): void {
+    page.classList.add("list-page");
+    this.wrong.hidden = true;
+    this.more.hidden = true;
+    const view = element("main", { class: "view" }, this.wrong, this.list, this.more);
+    this.frame = showFrame(page, this.source.title, view);
+  }
+
+  async follow(): Promise<void> {
+    await this.load();
+    setTimeout(() => void this.follow(), POLL_MS);
+  }
+
+  async load(): Promise<void> {
+    try {
+      const listing = await this.source.fetch();
+      this.wrong.hidden = true;
+      const text = JSON.stringify(listing);
+      // What has not changed keeps the focus that may be in it.
+      if (text === this.shown) return;
+      this.shown = text;
+      this.take(listing);
+    } catch (error) {
+      this.wrong.textContent = (error as Error).message;
+      this.wrong.hidden = false;
+    }
+  }
+
+  private take({ note, items, more = "" }: Listing<Item>): void {
+    if (this.frame) this.frame.note.textContent = note;
+    this.list.replaceChildren(...items.map((item) => this.source.show(item)));
+    if (items.length === 0) this.list.replaceChildren(element("li", { class: "hint" }, this.source.empty));
+    this.more.textContent = more;
+    this.more.hidden = more === "";
+  }
+}

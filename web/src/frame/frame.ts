@@ -1,0 +1,24 @@
+// What the pages beside the viewer have in common: the bar with the way back to the simulation.
+import "../style/page.css";
+import "../style/panels.css";
+import "../style/frame.css";
+import { element } from "../ui/element";
+
+export interface Frame {
+  note: HTMLElement; // beside the title: where what is shown comes from
+}
+
+// `parts` are the page's own, each with its place in the grid (style/page.css).
+export function showFrame(page: HTMLElement, title: string, ...parts: HTMLElement[]): Frame {
+  const note = element("code", { class: "frame-note dim" });
+  const bar = element(
+    "div",
+    { class: "toolbar-start" },
+    element("a", { class: "wordmark", href: "./", title: "The simulation" }, "GSV"),
+    element("h1", {}, title),
+    note,
+  );
+  page.classList.add("frame-page");
+  page.append(element("header", { class: "toolbar" }, bar), ...parts);
+  return { note };
+}

@@ -1,0 +1,58 @@
+// The page of recordings: what there is, and one click that replays it.
+import type { JsonServer } from "../api/JsonServer";
+import { ListPage } from "../frame/ListPage";
+import { element } from "../ui/element";
+import { count, formatDate, formatSize, formatTime } from "../ui/format";
+import type { RecordingLine } from "./recordings";
+import { fetchRecordings, replayUrl } from "./recordings";
+
+export function createRecordingsPage(server: JsonServer): ListPage<RecordingLine> {
+  return new ListPage({
+    title: "Recordings",
+    label: "Recordings",
+    empty: noRecordings(),
+    fetch: async () => {
+      const { folder, leftOut, lines } = await fetchRecordings(server);
+      const more = leftOut > 0 ? `${count(leftOut, "older one")} not shown.` : "";
+      return { note: folder, items: lines, more };
+    },
+    show: recordingItem,
+  });
+}
+
+function noRecordings(): Node {
+  return element(
+    "span",
+    {},
+    "No recording yet. The red dot beside a simulation's buttons records it, and so does ",
+    element("code", {}, "gsv run WORLD --record NAME.mcap"),
+  );
+}
+
+function recordingItem(line: RecordingLine): HTMLElement {
+  const { name, size, modified, state } = line;
+  const about = [formatDate(modified), formatSize(size)].filter(Boolean).join(" · ");
+  return element(
+    "li",
+    { class: "card frame-item recording" },
+    element("h2", {}, name),
+    element("p", { class: "dim" }, about),
+    element(
+      "div",
+      { class: "frame-row" },
+      state !== "unreadable" && element("a", { class: "button", href: replayUrl(name), "aria-label": `Replay ${name}` }, "Replay"),
+      content(line),
+    ),
+  );
+}
+
+function content({ state, problem, duration, messages }: RecordingLine): HTMLElement {
+  switch (state) {
+    case "complete":
+      return element("span", { class: "dim" }, `${formatTime(duration)} · ${count(messages, "message")}`);
+    case "unfinished":
+      return element("span", { class: "dim" }, "Not finished: it is being recorded, or was cut off.");
+    case "unreadable":
+      return element("span", { class: "field-error" }, `It cannot be read: ${problem}`);
+  }
+}

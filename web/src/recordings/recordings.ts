@@ -1,0 +1,50 @@
+// The recordings that the server can replay.
+import type { JsonServer } from "../api/JsonServer";
+import { listAt, numberOr, objectAt, textAt, textOr } from "../api/json";
+
+export interface RecordingLine {
+  name: string;
+  size: number; // bytes
+  modified: string; // as RFC 3339 has it; empty: not known
+  state: "complete" | "unfinished" | "unreadable";
+  problem: string; // why it cannot be read
+  duration: number; // s, simulated; of those that are complete
+  messages: number;
+}
+
+export interface Recordings {
+  folder: string;
+  leftOut: number;
+  lines: RecordingLine[]; // the newest first
+}
+
+// Many are read the first time.
+const TIMEOUT_MS = 30_000;
+
+export async function fetchRecordings(server: JsonServer): Promise<Recordings> {
+  const answer = objectAt(await server.get("api/recordings", TIMEOUT_MS), "recordings");
+  return {
+    folder: textOr(answer.folder, ""),
+    leftOut: numberOr(answer.left_out, 0),
+    lines: listAt(answer.recordings, "recordings").map(parseRecordingLine),
+  };
+}
+
+function parseRecordingLine(json: unknown): RecordingLine {
+  const line = objectAt(json, "recording");
+  const state = textOr(line.state, "");
+  return {
+    name: textAt(line.name, "recording.name"),
+    size: numberOr(line.size_bytes, 0),
+    modified: textOr(line.modified, ""),
+    state: state === "complete" || state === "unfinished" ? state : "unreadable",
+    problem: textOr(line.problem, ""),
+    duration: numberOr(line.duration_s, 0),
+    messages: numberOr(line.messages, 0),
+  };
+}
+
+// The page that replays it, for oneself.
+export function replayUrl(name: string): string {
+  return `./?recording=${encodeURIComponent(name)}`;
+}
