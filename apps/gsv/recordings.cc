@@ -35,6 +35,25 @@ std::vector<std::string> ArgumentsOfThisProcess() {
   return arguments;
 }
 
+}  // namespace
+
+std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments) {
+  const auto is_secret = [](const std::string& argument) {
+    return argument == "--control-token" || argument == "--watch-token" || argument == "--token";
+  };
+  std::vector<std::string> rest;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (is_secret(arguments[i])) {
+      ++i;  // with its value
+    } else if (!is_secret(arguments[i].substr(0, arguments[i].find('=')))) {
+      rest.push_back(std::move(arguments[i]));
+    }
+  }
+  return rest;
+}
+
+namespace {
+
 std::string Host() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
@@ -48,7 +67,7 @@ recording::RecorderOptions Options(const RecordingChoice& choice) {
   options.sensors = {choice.readings_rate, choice.pictures_rate, choice.beams_rate};
   options.scenario = choice.scenario;
   if (choice.png) options.write_png = &rendering::EncodePng;
-  const std::vector<std::string> arguments = ArgumentsOfThisProcess();
+  const std::vector<std::string> arguments = WithoutSecrets(ArgumentsOfThisProcess());
   std::error_code ignored;
   options.metadata = {
       {"gsv_version", GSV_VERSION},

@@ -37,6 +37,9 @@ struct RecordingChoice {
   std::optional<scenario::Scenario> scenario{};
 };
 
+// A command line as it may be told to others: without tokens.
+std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments);
+
 // Of a choice of topics that some would stand for none of `topics`: a sentence for each such one,
 // with what there is instead.
 std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,

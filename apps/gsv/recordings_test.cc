@@ -25,6 +25,13 @@ class RecordingsTest : public testing::Test {
   Recordings recordings_{testing::TempDir()};
 };
 
+TEST(RecordedCommandLine, HoldsNoTokens) {
+  EXPECT_EQ(WithoutSecrets({"gsv", "run", "--control-token", "secret", "--watch-token=secret",
+                            "--seed", "3", "--token", "secret"}),
+            (std::vector<std::string>{"gsv", "run", "--seed", "3"}));
+  EXPECT_EQ(WithoutSecrets({"gsv", "--control-token"}), std::vector<std::string>{"gsv"});
+}
+
 TEST(RecordingRate, IsSetByKind) {
   RecordingChoice choice;
   EXPECT_TRUE(SetRate("poses=10", choice));

@@ -23,11 +23,12 @@ base::Result<std::string> ViewerOf(const std::string& instance, const std::strin
                     found->Describe());
 }
 
-int View(const std::string& url, const ViewerOptions& web, Signals& signals) {
+int View(const std::string& url, const std::string& token, const ViewerOptions& web,
+         Signals& signals) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
   auto relay = StartViewer<gateway::Relay>(
-      web, options, [&](const auto& there) { return gateway::Relay::Start(there, url); });
+      web, options, [&](const auto& there) { return gateway::Relay::Start(there, url, token); });
   if (!relay) return Complain(relay.error());
   std::printf("viewer: %s\n", (*relay)->url().c_str());
   std::fflush(stdout);
@@ -39,7 +40,7 @@ int View(const std::string& url, const ViewerOptions& web, Signals& signals) {
 
 void AddViewCommand(const CommandLine& line) {
   struct Arguments {
-    std::string instance, broker;
+    std::string instance, broker, token;
     ViewerOptions web;
   };
   CLI::App* command = line.app.add_subcommand(
@@ -53,6 +54,11 @@ void AddViewCommand(const CommandLine& line) {
       ->add_option("--broker", arguments->broker,
                    "where it is offered; without it: those of your running instances")
       ->envname("GSV_BROKER");
+  command
+      ->add_option(
+          "--token", arguments->token,
+          "the other instance's control or watch token, shown there for all who watch here")
+      ->envname("GSV_TOKEN");
   AddViewerOptions(*command, arguments->web);
   command->callback([arguments, line] {
     const auto url = ViewerOf(arguments->instance, arguments->broker);
@@ -60,7 +66,7 @@ void AddViewCommand(const CommandLine& line) {
       line.exit_code = Complain(url.error());
       return;
     }
-    line.exit_code = View(*url, arguments->web, line.signals);
+    line.exit_code = View(*url, arguments->token, arguments->web, line.signals);
   });
 }
 

@@ -3,12 +3,42 @@
 #include <CLI/CLI.hpp>
 
 namespace gsv::app {
+namespace {
+
+std::function<void(const std::string&)> TakeToken(std::string& token) {
+  return [&token](const std::string& text) {
+    // The text itself is told to nobody.
+    if (const auto good = gateway::access::CheckToken(text); !good) {
+      throw CLI::ValidationError(good.error().Sentence());
+    }
+    token = text;
+  };
+}
+
+}  // namespace
 
 void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
   command
       .add_option("--port", options.port,
                   "the viewer's port; 0: any that is free (default: 8080, or any)")
       ->check(CLI::Range(0, 65535));
+  command
+      .add_option("--listen", options.listen,
+                  "the address on which the viewer listens; 0.0.0.0 is every one of this machine, "
+                  "and like all but loopback takes a token")
+      ->capture_default_str();
+  command.add_option("--allow-host", options.names,
+                     "another name of this machine under which the viewer may be opened");
+  command
+      .add_option_function<std::string>("--control-token", TakeToken(options.tokens.control),
+                                        "who shows it may act; 16 characters or more. Seen by "
+                                        "others in a list of processes: prefer the variable")
+      ->envname("GSV_CONTROL_TOKEN");
+  command
+      .add_option_function<std::string>(
+          "--watch-token", TakeToken(options.tokens.watch),
+          "who shows it may watch; without it watching is free on this machine")
+      ->envname("GSV_WATCH_TOKEN");
 }
 
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options) {

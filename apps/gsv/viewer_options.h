@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gsv/gateway/gateway.h"
 
@@ -16,9 +17,12 @@ namespace gsv::app {
 struct ViewerOptions {
   int port = -1;           // 0: the system chooses; -1: the usual one, or another if it is in use
   std::string recordings;  // a folder; empty: the current one
+  std::string listen = "127.0.0.1";  // an address of this machine
+  std::vector<std::string> names;    // of this machine, under which the viewer may be opened
+  gateway::access::Tokens tokens;
 };
 
-// Adds --port.
+// Adds --port, --listen, --allow-host, --control-token and --watch-token.
 void AddViewerOptions(CLI::App& command, ViewerOptions& options);
 // Adds --recordings, where simulations run.
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
@@ -31,6 +35,9 @@ base::Result<std::unique_ptr<Started>> StartViewer(
         start) {
   constexpr std::uint16_t kUsualPort = 8080;
   const bool is_given = options.port >= 0;
+  gateway.host = options.listen;
+  gateway.allowed_hosts = options.names;
+  gateway.tokens = options.tokens;
   gateway.port = is_given ? static_cast<std::uint16_t>(options.port) : kUsualPort;
   auto started = start(gateway);
   if (started || is_given) return started;

@@ -1,5 +1,7 @@
 #include "gsv/gateway/access_rule.h"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -30,8 +32,8 @@ std::string Authority(std::string_view host, std::uint16_t port) {
 
 AccessRule::AccessRule(std::string_view host, std::uint16_t port,
                        const std::vector<std::string>& more_hosts,
-                       std::vector<std::string> more_origins)
-    : origins_(std::move(more_origins)) {
+                       std::vector<std::string> more_origins, bool takes_addresses)
+    : port_(port), takes_addresses_(takes_addresses), origins_(std::move(more_origins)) {
   std::vector<std::string> names{"127.0.0.1", "localhost", "::1", std::string(host)};
   names.insert(names.end(), more_hosts.begin(), more_hosts.end());
   for (const std::string& name : names) {
@@ -42,13 +44,30 @@ AccessRule::AccessRule(std::string_view host, std::uint16_t port,
   for (const std::string& allowed : hosts_) origins_.push_back("http://" + allowed);
 }
 
+bool AccessRule::IsAddress(const std::string& authority) const {
+  const std::string ending = ":" + std::to_string(port_);
+  std::string name = authority;
+  if (name.ends_with(ending)) {
+    name.resize(name.size() - ending.size());
+  } else if (port_ != 80) {
+    return false;
+  }
+  if (name.starts_with('[') && name.ends_with(']')) name = name.substr(1, name.size() - 2);
+  in6_addr parsed{};
+  return inet_pton(AF_INET, name.c_str(), &parsed) == 1 ||
+         inet_pton(AF_INET6, name.c_str(), &parsed) == 1;
+}
+
 base::Status AccessRule::Check(std::string_view host, std::string_view origin) const {
-  if (!Contains(hosts_, LowerCase(host))) {
+  const std::string asked = LowerCase(host);
+  const bool is_address = takes_addresses_ && IsAddress(asked);
+  if (!is_address && !Contains(hosts_, asked)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the Host header is " + Quoted(host) + "; open http://" + hosts_.front() +
                           "/ instead, or allow this name when you start the server");
   }
-  if (!origin.empty() && !Contains(origins_, LowerCase(origin))) {
+  const bool is_own = is_address && LowerCase(origin) == "http://" + asked;
+  if (!origin.empty() && !is_own && !Contains(origins_, LowerCase(origin))) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "a page of " + Quoted(origin) + " may not use this server; open http://" +
                           hosts_.front() + "/ instead, or allow this origin when you start it");

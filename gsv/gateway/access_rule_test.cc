@@ -36,6 +36,20 @@ TEST(AccessRule, RefusesPagesFromElsewhere) {
   }
 }
 
+TEST(AccessRule, WhoListensOnAllAddressesIsReachedByEachButByNoNameThatPointsThere) {
+  const AccessRule rule("lab-pc", 8080, {}, {}, true);
+  for (const char* host : {"192.168.1.7:8080", "[fe80::1]:8080", "lab-pc:8080"}) {
+    EXPECT_TRUE(rule.Check(host, "")) << host;
+    EXPECT_TRUE(rule.Check(host, "http://" + std::string(host))) << host;
+    EXPECT_FALSE(rule.Check(host, "http://192.168.1.8:8080")) << host;
+  }
+  for (const char* host : {"evil.example:8080", "192.168.1.7", "192.168.1.7:80", "192.168.1:8080",
+                           "[]:8080", ":8080"}) {
+    EXPECT_FALSE(rule.Check(host, "")) << host;
+  }
+  EXPECT_FALSE(Local().Check("192.168.1.7:8080", ""));
+}
+
 TEST(AccessRule, PlainHttpNeedsNoPort) {
   const AccessRule rule("::1", 80, {}, {});
   EXPECT_TRUE(rule.Check("[::1]", "http://localhost"));

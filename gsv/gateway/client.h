@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "gsv/base/error.h"
 #include "gsv/gateway/foxglove.h"
 #include "gsv/gateway/shared_bytes.h"
 
@@ -28,6 +29,8 @@ class Client {
   virtual void SendBytes(SharedBytes bytes) = 0;
   // Data, of which the oldest makes room for the newest.
   virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) = 0;
+  // Why this viewer may not act now, but only look.
+  virtual base::Status MayAct() { return {}; }
   virtual void Close(CloseCode code, std::string reason) = 0;
 
   void SendStatus(foxglove::StatusLevel level, std::string_view message) {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
 
 #include "gsv/gateway/access_rule.h"
 #include "gsv/gateway/server.h"
@@ -12,9 +13,18 @@ namespace gsv::gateway {
 struct ServerContext {
   ServerOptions options;
   AccessRule access;
+  access::TokenRule tokens;
   Handler& handler;
   std::atomic<std::size_t> connections{0};
   std::atomic<bool> stopping{false};
+};
+
+// Who a connection belongs to.
+struct Ticket {
+  access::Right right = access::Right::kNone;
+  std::string viewer;        // a key, or empty
+  bool is_private = false;   // it acts on nothing that others see
+  bool shows_token = false;  // right or wrong
 };
 
 // Counts one connection as long as it lives.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gsv/formats/gltf_writer.h"
+#include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/api.h"
 #include "gsv/gateway/publisher.h"
 #include "gsv/gateway/recordings/recordings_api.h"
@@ -15,6 +16,12 @@ namespace {
 
 constexpr std::size_t kWaitingRequests = 256;
 constexpr std::size_t kWaitingReadings = 64;
+
+// Who is there and who holds control is told at once, whatever else is under way.
+bool IsOfViewers(const Target& target) {
+  return target.segments.size() > 1 && target.segments[0] == "api" &&
+         target.segments[1] == "viewers";
+}
 
 class LocalGateway final : public Gateway, private Handler {
  public:
@@ -55,7 +62,8 @@ class LocalGateway final : public Gateway, private Handler {
   void Handle(Request request, Respond respond) override {
     // What commands may block (a reset calls behaviours), and must not hold up those who look.
     const bool only_looks = request.method == "GET" || request.raw_target == "/api/preview" ||
-                            recordings::IsOfReplaySession(request.target);
+                            recordings::IsOfReplaySession(request.target) ||
+                            IsOfViewers(request.target);
     WorkerPool& workers = only_looks ? readers_ : commanders_;
     const bool accepted =
         workers.Submit([this, respond, request = std::move(request)] { respond(Answer(request)); });
@@ -68,6 +76,7 @@ class LocalGateway final : public Gateway, private Handler {
       if (const auto page = pages_.find(path[1]); page != pages_.end())
         return page->second(request);
     }
+    if (IsOfViewers(request.target)) return viewers_.Handle(request);
     if (replays_ && path.size() > 1 && path[0] == "api" && path[1] == "recordings") {
       return replays_->Handle(request);
     }
@@ -82,6 +91,8 @@ class LocalGateway final : public Gateway, private Handler {
     if (path == std::vector<std::string>{"healthz"}) return JsonResponse(200, R"({"ok":true})");
     return files_.Get(request);
   }
+
+  base::Status MayAct(const std::string& viewer) override { return viewers_.MayAct(viewer); }
 
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
     if (replays_ && recordings::IsOfReplaySession(target)) {
@@ -105,6 +116,7 @@ class LocalGateway final : public Gateway, private Handler {
   const std::shared_ptr<SimulationDirectory> directory_;
   StaticFiles files_;
   Api api_;
+  access::ViewersApi viewers_;
   std::optional<recordings::RecordingsApi> replays_;
   const std::map<std::string, std::function<Response(const Request&)>> pages_;
   WorkerPool readers_{2, kWaitingRequests};

@@ -18,6 +18,7 @@ struct Request {
   std::string body;
   std::string content_type;
   std::string if_none_match;  // the header's value, or empty
+  std::string viewer;  // the key of who asks (Gsv-Viewer), or empty; see access/control_desk.h
 };
 
 struct Response {

@@ -10,6 +10,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "gsv/base/log.h"
+#include "gsv/gateway/access/need.h"
 #include "gsv/gateway/websocket_session.h"
 
 namespace gsv::gateway {
@@ -100,8 +101,41 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     if (!allowed) return Write(ErrorResponse(403, allowed.error().Sentence()));
     base::Result<Target> target = ParseTarget(View(request.target()));
     if (!target) return Write(ErrorResponse(target.error()));
+    if (std::optional<Response> refusal = Refusal(*target)) return Write(std::move(*refusal));
     if (beast::websocket::is_upgrade(request)) return Upgrade(*target);
     Dispatch(std::move(*target));
+  }
+
+  // Programs show their token in the header, as pages do; a page's WebSocket has none of its own to
+  // set.
+  Ticket TicketFor(const Target& target) const {
+    const auto& request = parser_->get();
+    const auto query = [&](const char* name) {
+      const auto found = target.query.find(name);
+      return found == target.query.end() ? std::string() : found->second;
+    };
+    const std::string authorization = Text(request, http::field::authorization);
+    const bool is_socket = IsSocket(target);
+    std::string token(access::BearerToken(authorization));
+    if (token.empty() && is_socket) token = query("token");
+    std::string viewer(View(request["Gsv-Viewer"]));
+    if (viewer.empty() && is_socket) viewer = query("viewer");
+    return {context_->tokens.RightOf(token), std::move(viewer), target.segments.size() > 1,
+            !token.empty()};
+  }
+
+  // Why this request is not for who makes it.
+  std::optional<Response> Refusal(const Target& target) const {
+    const access::Need need = access::NeedOf(View(parser_->get().method_string()), target);
+    if (need.right == access::Right::kNone) return std::nullopt;
+    const Ticket ticket = TicketFor(target);
+    if (ticket.right < need.right) {
+      return ErrorResponse(ticket.shows_token ? 403 : 401,
+                           context_->tokens.Refusal(ticket.shows_token, ticket.right, need.right));
+    }
+    if (!need.acts) return std::nullopt;
+    const base::Status may = context_->handler.MayAct(ticket.viewer);
+    return may ? std::nullopt : std::optional<Response>(ErrorResponse(may.error()));
   }
 
   void Dispatch(Target target) {
@@ -113,6 +147,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     request.body = message.body();
     request.content_type = Text(message, http::field::content_type);
     request.if_none_match = Text(message, http::field::if_none_match);
+    request.viewer = std::string(View(message["Gsv-Viewer"]));
     stream_.expires_never();  // whoever answers has limits of their own
     context_->handler.Handle(std::move(request), [self = shared_from_this()](
                                                      Response response) mutable {
@@ -137,8 +172,10 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     base::Result<std::shared_ptr<Hub>> hub = context_->handler.FindHub(target);
     if (!hub) return Write(ErrorResponse(hub.error()));
     stream_.expires_never();
+    Ticket ticket = TicketFor(target);
     keep_track_(StartWebSocketSession(stream_.release_socket(), parser_->release(), subprotocol,
-                                      std::move(*hub), context_, std::move(slot_)));
+                                      std::move(*hub), context_, std::move(slot_),
+                                      std::move(ticket)));
   }
 
   void Write(Response response) {

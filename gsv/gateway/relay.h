@@ -17,9 +17,10 @@ class Relay {
  public:
   // `upstream_url` is what the other instance printed: "http://192.168.1.7:8080/". Asks there once;
   // fails when that is not answered by a gsv, or when the port cannot be had. An instance that goes
-  // away later is waited for.
+  // away later is waited for. `token` is shown there on behalf of all who come here.
   static base::Result<std::unique_ptr<Relay>> Start(const GatewayOptions& options,
-                                                    std::string_view upstream_url);
+                                                    std::string_view upstream_url,
+                                                    std::string token = {});
   virtual ~Relay() = default;
 
   virtual std::uint16_t port() const = 0;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/recordings/recordings_api.h"
 #include "gsv/gateway/replay_api.h"
 #include "gsv/gateway/static_files.h"
@@ -50,6 +51,8 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
 
   Response Answer(const Request& request) {
     const std::vector<std::string>& path = request.target.segments;
+    if (path.size() > 1 && path[0] == "api" && path[1] == "viewers")
+      return viewers_.Handle(request);
     if (replays_ && path.size() > 1 && path[0] == "api" && path[1] == "recordings") {
       return replays_->Handle(request);
     }
@@ -65,6 +68,8 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
     return files_.Get(request);
   }
 
+  base::Status MayAct(const std::string& viewer) override { return viewers_.MayAct(viewer); }
+
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
     if (replays_ && recordings::IsOfReplaySession(target)) {
       return replays_->sessions().FindHub(target);
@@ -79,6 +84,7 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
   ReplayPlayer& player_;
   StaticFiles files_;
   ReplayApi api_;
+  access::ViewersApi viewers_;
   std::optional<recordings::RecordingsApi> replays_;
   WorkerPool workers_{2, kWaitingRequests};
   std::unique_ptr<Server> server_;

@@ -89,7 +89,8 @@ void RequestDesk::Take(const std::shared_ptr<Client>& client,
   std::size_t complaints = 0;
   for (const Parameter& parameter : request.parameters) {
     names.push_back(parameter.name);
-    const base::Status set = operations_->Set(parameter);
+    const base::Status may = client->MayAct();
+    const base::Status set = may ? operations_->Set(parameter) : may;
     if (set || ++complaints > kMostComplaints) continue;
     client->SendStatus(StatusLevel::kError, set.error().Sentence());
   }
@@ -129,6 +130,7 @@ void RequestDesk::Take(const std::shared_ptr<Client>& client,
   };
   if (!operations_) return fail("this server offers no services");
   if (request.encoding != "cdr") return fail("services are called in the encoding 'cdr' only");
+  if (const base::Status may = client->MayAct(); !may) return fail(may.error().Sentence());
   const std::shared_ptr<std::atomic<int>> calls = BeginCall(client.get());
   if (!calls) return fail("too many of your calls are under way; wait for their answers");
   operations_->Call(request,
@@ -145,7 +147,8 @@ void RequestDesk::Take(const std::shared_ptr<Client>& client,
                        const foxglove::PlaybackControl& request) const {
   const auto before = operations_ ? operations_->playback() : std::nullopt;
   if (!before) return client->SendStatus(StatusLevel::kError, "there is no playback here");
-  if (const base::Status done = operations_->Control(request); !done) {
+  const base::Status may = client->MayAct();
+  if (const base::Status done = may ? operations_->Control(request) : may; !done) {
     client->SendStatus(StatusLevel::kError, done.error().Sentence());
   }
   foxglove::PlaybackState state = operations_->playback().value_or(*before);

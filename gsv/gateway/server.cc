@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/host_name.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -36,6 +37,13 @@ base::Result<tcp::endpoint> EndpointOf(const ServerOptions& options) {
                           "this machine alone, or one of its addresses");
   }
   return tcp::endpoint(address, options.port);
+}
+
+base::Error NeedsToken(const ServerOptions& options) {
+  return {base::ErrorCode::kInvalidArgument,
+          "other machines can reach this address, so it takes a token: give --control-token or "
+          "--watch-token, or listen on 127.0.0.1",
+          "listening on " + options.host};
 }
 
 base::Error CannotListen(const ServerOptions& options, error_code error) {
@@ -76,6 +84,7 @@ class BeastServer final : public Server {
  public:
   BeastServer(const ServerOptions& options, Handler& handler) : acceptor_(io_), pause_(io_) {
     options_ = options;
+    name_ = options.host;
     handler_ = &handler;
   }
 
@@ -84,14 +93,18 @@ class BeastServer final : public Server {
   base::Status Open() {
     const base::Result<tcp::endpoint> endpoint = EndpointOf(options_);
     if (!endpoint) return base::Fail(endpoint.error());
+    const asio::ip::address address = endpoint->address();
+    if (!address.is_loopback() && options_.tokens.empty()) return base::Fail(NeedsToken(options_));
+    if (address.is_unspecified()) name_ = asio::ip::host_name();
     if (base::Status listening = Listen(acceptor_, *endpoint, options_); !listening) {
       return listening;
     }
     port_ = acceptor_.local_endpoint().port();
-    context_ = std::shared_ptr<ServerContext>(new ServerContext{
-        options_,
-        AccessRule(options_.host, port_, options_.allowed_hosts, options_.allowed_origins),
-        *handler_});
+    context_ = std::shared_ptr<ServerContext>(
+        new ServerContext{options_,
+                          AccessRule(name_, port_, options_.allowed_hosts, options_.allowed_origins,
+                                     address.is_unspecified()),
+                          access::TokenRule(options_.tokens, !address.is_loopback()), *handler_});
     Accept();
     thread_ = std::thread([this] {
       io_.run();
@@ -101,7 +114,7 @@ class BeastServer final : public Server {
   }
 
   std::uint16_t port() const override { return port_; }
-  std::string url() const override { return "http://" + Authority(options_.host, port_) + "/"; }
+  std::string url() const override { return "http://" + Authority(name_, port_) + "/"; }
 
   void Stop() override {
     if (!thread_.joinable()) return;
@@ -154,6 +167,7 @@ class BeastServer final : public Server {
   }
 
   ServerOptions options_;
+  std::string name_;  // under which others reach it
   Handler* handler_ = nullptr;
   std::shared_ptr<ServerContext> context_;
   std::uint16_t port_ = 0;

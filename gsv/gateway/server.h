@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/gateway/access/token_rule.h"
 #include "gsv/gateway/http.h"
 #include "gsv/gateway/hub.h"
 #include "gsv/gateway/send_queue.h"
@@ -35,6 +36,8 @@ struct ServerOptions {
   std::uint16_t port = 0;                  // 0: the system chooses
   std::vector<std::string> allowed_hosts;  // see AccessRule
   std::vector<std::string> allowed_origins;
+  // Without one of them nobody is served who comes from another machine.
+  access::Tokens tokens;
   ServerLimits limits;
 };
 
@@ -45,11 +48,14 @@ class Handler {
   virtual void Handle(Request request, Respond respond) = 0;
   // The hub that a WebSocket at this target is to be a client of.
   virtual base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) = 0;
+  // Why the viewer of this key (empty: none) may not act now on what all see; see ControlDesk.
+  virtual base::Status MayAct(const std::string& /*viewer*/) { return {}; }
 };
 
 class Server {
  public:
-  // `handler` outlives the server. Fails when the port cannot be had.
+  // `handler` outlives the server. Fails when the port cannot be had, and with kInvalidArgument
+  // when other machines could reach it and it has no token.
   static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options,
                                                      Handler& handler);
   virtual ~Server() = default;

@@ -119,6 +119,7 @@ TEST_F(ServerTest, AnAddressThatIsNoneIsNamed) {
   options.host = "nowhere.example";
   EXPECT_EQ(Server::Start(options, echo_).error().code, base::ErrorCode::kInvalidArgument);
   options.host = "203.0.113.7";  // documentation's own: no machine has it
+  options.tokens.watch = "a-token-that-nobody-guesses";
   EXPECT_EQ(Server::Start(options, echo_).error().code, base::ErrorCode::kUnavailable);
 }
 

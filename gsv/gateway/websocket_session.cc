@@ -35,13 +35,14 @@ class WebSocketSession final : public Client,
  public:
   WebSocketSession(boost::asio::ip::tcp::socket socket, HttpRequest request,
                    std::shared_ptr<Hub> hub, std::shared_ptr<ServerContext> context,
-                   std::unique_ptr<ConnectionSlot> slot)
+                   std::unique_ptr<ConnectionSlot> slot, Ticket ticket)
       : stream_(std::move(socket)),
         farewell_(stream_.get_executor()),
         request_(std::move(request)),
         hub_(std::move(hub)),
         context_(std::move(context)),
         slot_(std::move(slot)),
+        ticket_(std::move(ticket)),
         queue_(limits().send) {}
 
   void Accept(std::string_view subprotocol) {
@@ -69,6 +70,16 @@ class WebSocketSession final : public Client,
   void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
     queue_.PushData(header, std::move(payload));
     Wake();
+  }
+
+  base::Status MayAct() override {
+    if (ticket_.is_private) return {};
+    if (ticket_.right == access::Right::kControl) {
+      return context_->handler.MayAct(ticket_.viewer);
+    }
+    return base::Fail(
+        base::ErrorCode::kNotRunning,
+        context_->tokens.Refusal(ticket_.shows_token, ticket_.right, access::Right::kControl));
   }
 
   void Close(CloseCode code, std::string reason) override {
@@ -196,6 +207,7 @@ class WebSocketSession final : public Client,
   std::shared_ptr<Hub> hub_;
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
+  const Ticket ticket_;
   std::string subprotocol_;
   SendQueue queue_;
   Outgoing in_flight_;
@@ -212,9 +224,11 @@ std::weak_ptr<Connection> StartWebSocketSession(boost::asio::ip::tcp::socket soc
                                                 HttpRequest request, std::string_view subprotocol,
                                                 std::shared_ptr<Hub> hub,
                                                 std::shared_ptr<ServerContext> context,
-                                                std::unique_ptr<ConnectionSlot> slot) {
-  const auto session = std::make_shared<WebSocketSession>(
-      std::move(socket), std::move(request), std::move(hub), std::move(context), std::move(slot));
+                                                std::unique_ptr<ConnectionSlot> slot,
+                                                Ticket ticket) {
+  const auto session =
+      std::make_shared<WebSocketSession>(std::move(socket), std::move(request), std::move(hub),
+                                         std::move(context), std::move(slot), std::move(ticket));
   session->Accept(subprotocol);
   return session;
 }

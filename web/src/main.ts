@@ -3,6 +3,7 @@ import "./style/page.css";
 import "./style/panels.css";
 import "./style/setUp.css";
 import { SimulationApi } from "./api/SimulationApi";
+import { pageCredentials } from "./api/credentials";
 import { robotsOf } from "./api/scene";
 import { App } from "./app/App";
 import { OverlayFeed } from "./app/OverlayFeed";
@@ -16,6 +17,7 @@ import { createHelpSheet } from "./panels/HelpSheet";
 import { createInspector } from "./panels/Inspector";
 import { createNotices } from "./panels/Notices";
 import { createOverlay } from "./panels/Overlay";
+import { createControlQuestion } from "./panels/PeopleMenu";
 import { createPlotPanel } from "./panels/PlotPanel";
 import { createSceneTree } from "./panels/SceneTree";
 import { createStatusBar } from "./panels/StatusBar";
@@ -38,13 +40,18 @@ import { element } from "./ui/element";
 const parameters = new URLSearchParams(location.search);
 const storage = browserStorage();
 const store = new Store<State>({ ...initialState, shown: loadShown(storage) });
-const api = new SimulationApi(document.baseURI);
+const credentials = pageCredentials(window);
+const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
 
 function createWorld(host: HTMLElement): World3D | null {
   try {
     return new World3D(
       host,
-      { urlOfModel: (id) => api.modelUrl(id), fixedQuality: parameters.get("quality") === "high" },
+      {
+        urlOfModel: (id) => api.modelUrl(id),
+        headersOfModels: () => credentials.headers,
+        fixedQuality: parameters.get("quality") === "high",
+      },
       {
         onPick: (robot) => app.select(robot),
         onPlace: (body, place) => app.place(body, place),
@@ -145,6 +152,7 @@ view.append(
   element("div", { class: "cards" }, createInspector(app), createCameraPane(app)),
   createEditPanel(app),
   createOverlay(app, world !== null),
+  createControlQuestion(app),
   createNotices(app),
 );
 page.append(
@@ -176,4 +184,6 @@ exposeForTests(store, world);
 app.plots.start();
 app.records.start();
 app.link.start(window);
+// A replay of one's own is nobody else's to watch or to move.
+if (!parameters.has("recording")) app.people.start(window);
 session.start();

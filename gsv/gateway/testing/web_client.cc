@@ -161,8 +161,7 @@ std::string Viewer::ReceiveBytes(char opcode) {
   throw std::runtime_error("the connection ended before an answer");
 }
 
-std::pair<bool, std::string> Viewer::CallService(const std::string& name,
-                                                 const std::string& request) {
+void Viewer::SendCall(const std::string& name, const std::string& request) {
   if (services_.empty()) {
     const nlohmann::json advertised = ReceiveText("advertiseServices");
     for (const auto& service : advertised["services"]) services_[service["name"]] = service["id"];
@@ -172,6 +171,16 @@ std::pair<bool, std::string> Viewer::CallService(const std::string& name,
   };
   SendBinary("\x02" + number(services_.at("/gsv/" + name)) + number(1) + number(3) + "cdr" +
              request);
+}
+
+std::string Viewer::CallRefusedService(const std::string& name) {
+  SendCall(name, "");
+  return ReceiveText("serviceCallFailure")["message"];
+}
+
+std::pair<bool, std::string> Viewer::CallService(const std::string& name,
+                                                 const std::string& request) {
+  SendCall(name, request);
   const std::string response = ReceiveBytes(3).substr(1 + 4 + 4 + 4 + 3);
   messages::CdrReader reader(std::as_bytes(std::span(response)));
   std::pair<bool, std::string> outcome;

@@ -73,6 +73,8 @@ class Viewer {
   // the response's `success` and `message`.
   std::pair<bool, std::string> CallService(const std::string& name,
                                            const std::string& request = "");
+  // The same where the call itself is refused; gives the sentence.
+  std::string CallRefusedService(const std::string& name);
   // Waits for the advertisement of a topic, then subscribes.
   void Subscribe(foxglove::SubscriptionId id, const std::string& topic);
 
@@ -83,6 +85,7 @@ class Viewer {
 
  private:
   void Keep(const Frame& frame);
+  void SendCall(const std::string& name, const std::string& request);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

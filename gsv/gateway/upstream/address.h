@@ -9,8 +9,9 @@
 namespace gsv::gateway::upstream {
 
 struct Address {
-  std::string host;  // a name or an address; IPv6 without brackets
-  std::string port;  // digits
+  std::string host;     // a name or an address; IPv6 without brackets
+  std::string port;     // digits
+  std::string token{};  // that is shown there; empty: none
 
   std::string Authority() const;  // "host:port", "[::1]:port"
   std::string Url() const { return "http://" + Authority() + "/"; }

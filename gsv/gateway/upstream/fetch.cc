@@ -34,6 +34,10 @@ class Exchange {
     if (!request.if_none_match.empty()) {
       message_.set(http::field::if_none_match, request.if_none_match);
     }
+    if (!address.token.empty()) {
+      message_.set(http::field::authorization, "Bearer " + address.token);
+    }
+    if (!request.viewer.empty()) message_.set("Gsv-Viewer", request.viewer);
     message_.keep_alive(false);
     message_.body() = request.body;
     message_.prepare_payload();

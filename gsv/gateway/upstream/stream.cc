@@ -148,7 +148,10 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     timeout.keep_alive_pings = true;
     socket.set_option(timeout);
     socket.read_message_max(kLargestMessage);
-    socket.set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
+    socket.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
+      if (!address_.token.empty()) {
+        request.set(beast::http::field::authorization, "Bearer " + address_.token);
+      }
       request.set(beast::http::field::user_agent, "gsv");
       request.set(
           beast::http::field::sec_websocket_protocol,

@@ -1,6 +1,8 @@
 // What the page asks of a simulation, and tells it.
 import { JsonServer, simulationPath } from "./JsonServer";
 import { SetUpApi } from "./SetUpApi";
+import { Credentials } from "./credentials";
+import { ViewersApi } from "./ViewersApi";
 import type { Recording } from "./recording";
 import { parseRecording } from "./recording";
 import type { RecordedEvent, Replay } from "./replay";
@@ -28,9 +30,16 @@ export class SimulationApi {
   readonly setUp: SetUpApi;
   private readonly server: JsonServer;
 
-  constructor(base: string, fetchPage?: typeof fetch) {
+  readonly viewers: ViewersApi;
+
+  constructor(
+    base: string,
+    fetchPage?: typeof fetch,
+    private readonly credentials = new Credentials(),
+  ) {
     this.server = new JsonServer(base, fetchPage);
     this.setUp = new SetUpApi(this.server);
+    this.viewers = new ViewersApi(new JsonServer(base, fetchPage), credentials);
   }
 
   // Opens a recording for this page alone: all that is asked from now on concerns this replay.
@@ -39,6 +48,11 @@ export class SimulationApi {
     const path = `api/recordings/${encodeURIComponent(recording)}/replay`;
     const answer = objectAt(await this.server.post(path, {}, ACTION_TIMEOUT_MS), "replay");
     this.server.moveTo(textAt(answer.base, "replay.base"));
+  }
+
+  // What is asked from now on shows this token.
+  admit(token: string): void {
+    this.credentials.token = token;
   }
 
   async simulations(): Promise<SimulationSummary[]> {
@@ -97,7 +111,10 @@ export class SimulationApi {
   socketUrl(name: string): string {
     const url = new URL(this.server.url("ws"));
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
-    url.search = `simulation=${encodeURIComponent(name)}`;
+    const { token, viewer } = this.credentials;
+    // A page can give a WebSocket no headers. Not URLSearchParams: a "+" is a "+" to the server.
+    const query = Object.entries({ simulation: name, token, viewer }).filter(([, value]) => value !== "");
+    url.search = query.map(([key, value]) => `${key}=${encodeURIComponent(value)}`).join("&");
     return url.href;
   }
 }

@@ -10,6 +10,7 @@ import { findRobot } from "../state/scenario";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
 import type { OverlayName } from "../state/overlays";
+import { browserStorage } from "../state/overlays";
 import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
 import { download, fileName } from "./files";
@@ -18,6 +19,7 @@ import { Filming } from "./Filming";
 import { LinkControl } from "./LinkControl";
 import { dismiss, notify } from "./notices";
 import { PlotFeed } from "./PlotFeed";
+import { PeopleControl } from "./PeopleControl";
 import { RecordControl } from "./RecordControl";
 import { ReplayControl } from "./ReplayControl";
 import type { Session } from "./Session";
@@ -30,6 +32,7 @@ export class App {
   readonly setUp: SetUpControl;
   readonly edits: EditControl;
   readonly records: RecordControl;
+  readonly people: PeopleControl;
   onPlotData: () => void = () => {};
   private readonly filming: Filming | null;
 
@@ -47,6 +50,7 @@ export class App {
       this.act("pause"),
     );
     this.records = new RecordControl(store, api);
+    this.people = new PeopleControl(store, api.viewers, browserStorage());
     this.filming = world && new Filming(store, () => world.video());
   }
 
@@ -194,6 +198,11 @@ export class App {
     } catch {
       notify(this.store, "note", text);
     }
+  }
+
+  enterToken(token: string): void {
+    this.api.admit(token);
+    this.session.admit();
   }
 
   dismiss(notice: number): void {

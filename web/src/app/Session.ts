@@ -45,6 +45,10 @@ export interface Wanted {
   recording: string | null; // that is to be replayed for this page alone
 }
 
+function needsToken(error: unknown): boolean {
+  return error instanceof ApiError && (error.httpStatus === 401 || error.httpStatus === 403);
+}
+
 export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
 
 // Where the stream's many small messages go without passing through the store.
@@ -156,13 +160,20 @@ export class Session {
       }
       this.store.set({ connection: { phase: "open" } });
       this.timer = setTimeout(() => void this.findSimulation(), EMPTY_POLL_MS);
-    } catch {
+    } catch (error) {
+      if (needsToken(error)) return this.store.set({ refusal: (error as ApiError).message });
       const wait = backoffMs(this.attempt);
       this.store.set({
         connection: { phase: "waiting", attempt: this.attempt, retryAtMs: Date.now() + wait },
       });
       this.timer = setTimeout(() => void this.findSimulation(), wait);
     }
+  }
+
+  // Begins anew with a token.
+  admit(): void {
+    this.store.set({ refusal: "" });
+    this.start();
   }
 
   // Whether there is something to look for: a recording that is asked for may be gone. Throws what
@@ -173,7 +184,7 @@ export class Session {
     try {
       await this.api.openRecording(recording);
     } catch (error) {
-      if (!(error instanceof ApiError) || error.httpStatus >= 500) throw error;
+      if (!(error instanceof ApiError) || error.httpStatus >= 500 || needsToken(error)) throw error;
       this.store.set({ missing: error.message, connection: { phase: "open" } });
       return false;
     }

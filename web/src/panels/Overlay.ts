@@ -4,10 +4,11 @@ import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 
-type Situation = "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
+type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
 
 export function situationOf(state: State, hasView: boolean): Situation {
-  const { connection, simulations, simulation, scene, setUp, missing } = state;
+  const { connection, simulations, simulation, scene, setUp, missing, refusal } = state;
+  if (refusal !== "") return "refused";
   if (missing !== "") return "missing";
   if (setUp) return !hasView ? "no-webgl" : scene ? "none" : "loading";
   if (connection.phase !== "open" && scene) return "lost";
@@ -35,6 +36,8 @@ function content(app: App, situation: Situation): Node[] {
   switch (situation) {
     case "none":
       return [];
+    case "refused":
+      return [message("This server takes a token", app.store.get().refusal, tokenForm(app))];
     case "missing":
       return [
         message(
@@ -80,6 +83,22 @@ function content(app: App, situation: Situation): Node[] {
         ),
       ];
   }
+}
+
+function tokenForm(app: App): HTMLElement {
+  const field = element("input", {
+    type: "password",
+    "aria-label": "Token",
+    autocomplete: "off",
+    spellcheck: "false",
+    class: "token-field",
+  });
+  const form = element("form", { class: "retry" }, field, element("button", { class: "button primary", type: "submit" }, "Enter"));
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    app.enterToken(field.value.trim());
+  });
+  return form;
 }
 
 // Where the server cannot create any there is none.

@@ -1,6 +1,7 @@
 // Records the simulation; shows whether it is recorded, whoever switched it on.
 import type { App } from "../app/App";
 import type { Recording } from "../api/recording";
+import { mayAct } from "../state/people";
 import { shallowEqual } from "../state/Store";
 import { element, setText } from "../ui/element";
 import { formatSize } from "../ui/format";
@@ -15,7 +16,10 @@ export function createRecordButton(app: App): HTMLElement {
     size,
   );
   app.store.watch(
-    ({ recording, connection }) => ({ recording, isOpen: connection.phase === "open" }),
+    ({ recording, connection, people }) => ({
+      recording,
+      isOpen: connection.phase === "open" && mayAct(people),
+    }),
     ({ recording, isOpen }) => {
       button.hidden = recording === null;
       button.disabled = !isOpen || recording === null;

@@ -4,12 +4,14 @@ import type { Action } from "../api/SimulationApi";
 import type { State, ViewMode } from "../state/State";
 import { isAllowed, mainAction } from "../state/actions";
 import { canEdit } from "../state/editing";
+import { mayAct } from "../state/people";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon, setIcon } from "../ui/icons";
 import { createRecordButton } from "./RecordButton";
 import { createOverlayMenu } from "./OverlayMenu";
+import { createPeopleMenu } from "./PeopleMenu";
 import { createShareMenu } from "./ShareMenu";
 
 export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => void): HTMLElement {
@@ -37,6 +39,7 @@ export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => v
       createOverlayMenu(app),
       plotsButton(app),
       createShareMenu(app, hasView),
+      createPeopleMenu(app),
       element("span", { class: "divider", "aria-hidden": "true" }),
       pageLink(app, "join", "join.html", "Join another simulation", isLive),
       pageLink(app, "recordings", "recordings.html", "Recordings", hasRecordings),
@@ -205,8 +208,8 @@ function actionButton(
   return button;
 }
 
-function canAct({ connection, pending }: State): boolean {
-  return connection.phase === "open" && pending === null;
+function canAct({ connection, pending, people }: State): boolean {
+  return connection.phase === "open" && pending === null && mayAct(people);
 }
 
 function viewButton(picture: IconName, label: string, key: string, onclick: () => void): HTMLElement {

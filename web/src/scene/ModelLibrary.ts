@@ -7,7 +7,10 @@ export class ModelLibrary {
   private readonly loader = new GLTFLoader();
   private readonly templates = new Map<string, Promise<ModelTemplate>>();
 
-  constructor(private readonly urlOf: (id: string) => string) {}
+  constructor(
+    private readonly urlOf: (id: string) => string,
+    private readonly headers: () => Record<string, string> = () => ({}),
+  ) {}
 
   // Fails with a sentence; a later call tries again.
   get(id: string, links: readonly string[]): Promise<ModelTemplate> {
@@ -31,6 +34,7 @@ export class ModelLibrary {
 
   private async fetch(id: string, links: readonly string[]): Promise<ModelTemplate> {
     try {
+      this.loader.setRequestHeader(this.headers());
       const { scene } = await this.loader.loadAsync(this.urlOf(id));
       return makeTemplate(scene, links);
     } catch (error) {

@@ -36,6 +36,7 @@ export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
 
 export interface WorldOptions {
   urlOfModel(id: string): string;
+  headersOfModels(): Record<string, string>;
   fixedQuality: boolean;
 }
 
@@ -70,7 +71,7 @@ export class World3D {
     this.renderer = makeRenderer(options.fixedQuality);
     const canvas = this.renderer.domElement;
     this.quality = new Quality(devicePixelRatio, options.fixedQuality);
-    this.library = new ModelLibrary((id) => options.urlOfModel(id));
+    this.library = new ModelLibrary((id) => options.urlOfModel(id), () => options.headersOfModels());
     this.frameRate = new FrameRate((rate) => events.onFrameRate(rate));
     this.labels = new LabelLayer((name) => events.onPick(name));
     this.loop = new RenderLoop(

@@ -7,7 +7,9 @@ import type { CameraChoice, SceneDescription } from "../api/scene";
 import type { Abilities } from "../api/SetUpApi";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
+import type { People } from "../api/ViewersApi";
 import type { Editing } from "./editing";
+import { NO_PEOPLE } from "./people";
 import type { Shown } from "./overlays";
 import { FIRST_SHOWN } from "./overlays";
 import type { SetUp } from "./setUp";
@@ -39,6 +41,8 @@ export interface State {
   connection: ConnectionState;
   abilities: Abilities; // of the server
   missing: string; // why what the address asks for cannot be shown; empty: it can
+  refusal: string; // why the server lets this page do nothing, as it takes a token; empty: it does
+  people: People; // who else is watching, and who holds control
   editing: Editing | null; // null: what stands in the simulation is not being changed
   recording: Recording | null; // of the simulation; null: it cannot be recorded, or not known yet
   setUp: SetUp | null; // null: no simulation is being put together
@@ -70,6 +74,8 @@ export const initialState: State = {
   connection: { phase: "connecting", attempt: 1 },
   abilities: { creates: false, records: false, recordings: false, recording: "" },
   missing: "",
+  refusal: "",
+  people: NO_PEOPLE,
   editing: null,
   recording: null,
   setUp: null,

@@ -1,0 +1,222 @@
+// Who may do what over HTTP and WebSocket: tokens, and control.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "gsv/gateway/access/need.h"
+#include "gsv/gateway/access/viewers_api.h"
+#include "gsv/gateway/gateway.h"
+#include "gsv/gateway/relay.h"
+#include "gsv/gateway/testing/scripted_simulation.h"
+#include "gsv/gateway/testing/simulation_list.h"
+#include "gsv/gateway/testing/web_client.h"
+
+namespace gsv::gateway::access {
+namespace {
+
+using nlohmann::json;
+using testing::HttpReply;
+using testing::Viewer;
+
+constexpr const char* kControl = "control-token-0123456789";
+constexpr const char* kWatch = "watching-token-0123456789";
+
+TEST(Tokens, AreComparedWhole) {
+  EXPECT_TRUE(EqualsSecret("abc", "abc"));
+  for (const char* other : {"", "ab", "abd", "abcd", "Abc"})
+    EXPECT_FALSE(EqualsSecret(other, "abc"));
+  EXPECT_EQ(BearerToken("Bearer abc"), "abc");
+  EXPECT_EQ(BearerToken("Basic abc"), "");
+}
+
+TEST(Tokens, ThatCouldBeGuessedOrStandInNoHeaderAreRefused) {
+  EXPECT_TRUE(CheckToken(kControl));
+  for (const std::string& bad :
+       {std::string(), std::string("short"), std::string("with blanks in it"),
+        std::string("sixteen-or-more\n"), std::string(257, 'a')}) {
+    const base::Status status = CheckToken(bad);
+    ASSERT_FALSE(status) << bad;
+    if (!bad.empty()) EXPECT_EQ(status.error().Sentence().find(bad), std::string::npos);
+  }
+}
+
+TEST(Tokens, GiveRights) {
+  const auto rights = [](const TokenRule& rule) {
+    return std::vector{rule.RightOf(""), rule.RightOf("wrong"), rule.RightOf(kWatch),
+                       rule.RightOf(kControl)};
+  };
+  const Right none = Right::kNone, watch = Right::kWatch, control = Right::kControl;
+  EXPECT_EQ(rights({{}, false}), (std::vector{control, control, control, control}));
+  EXPECT_EQ(rights({{}, true}), (std::vector{none, none, none, none}));
+  EXPECT_EQ(rights({{kControl, ""}, false}), (std::vector{watch, none, none, control}));
+  EXPECT_EQ(rights({{kControl, ""}, true}), (std::vector{none, none, none, control}));
+  EXPECT_EQ(rights({{kControl, kWatch}, false}), (std::vector{none, none, watch, control}));
+  EXPECT_EQ(rights({{"", kWatch}, true}), (std::vector{none, none, watch, none}));
+}
+
+TEST(Needs, FollowTheAddress) {
+  const auto need = [](const char* method, const char* target) {
+    const Need found = NeedOf(method, ParseTarget(target).value());
+    return std::pair(found.right, found.acts);
+  };
+  EXPECT_EQ(need("GET", "/"), std::pair(Right::kNone, false));
+  EXPECT_EQ(need("GET", "/healthz"), std::pair(Right::kNone, false));
+  EXPECT_EQ(need("GET", "/ws?simulation=a"), std::pair(Right::kWatch, false));
+  EXPECT_EQ(need("GET", "/api/simulations"), std::pair(Right::kWatch, false));
+  EXPECT_EQ(need("POST", "/replays/1/api/simulations/a/seek"), std::pair(Right::kWatch, false));
+  EXPECT_EQ(need("POST", "/api/recordings/a/replay"), std::pair(Right::kWatch, false));
+  EXPECT_EQ(need("POST", "/api/viewers"), std::pair(Right::kWatch, false));
+  EXPECT_EQ(need("POST", "/api/viewers/me/control"), std::pair(Right::kControl, false));
+  EXPECT_EQ(need("POST", "/api/preview"), std::pair(Right::kControl, false));
+  for (const char* method : {"POST", "PUT", "DELETE", "PATCH", "NONSENSE"}) {
+    EXPECT_EQ(need(method, "/api/simulations/a/pause"), std::pair(Right::kControl, true)) << method;
+    EXPECT_EQ(need(method, "/%61pi/simulations"), std::pair(Right::kControl, true)) << method;
+  }
+}
+
+class AccessTest : public ::testing::Test {
+ protected:
+  void Start(const Tokens& tokens, const std::string& host = "127.0.0.1") {
+    directory_->Add(simulation_);
+    GatewayOptions options;
+    options.tokens = tokens;
+    options.host = host;
+    auto gateway = Gateway::Start(options, directory_);
+    ASSERT_TRUE(gateway) << gateway.error().Sentence();
+    gateway_ = *std::move(gateway);
+  }
+
+  static std::string Bearer(const std::string& token) {
+    return "Authorization: Bearer " + token + "\r\n";
+  }
+  static std::string As(const std::string& viewer) { return "Gsv-Viewer: " + viewer + "\r\n"; }
+  HttpReply Ask(const std::string& method, const std::string& target,
+                const std::string& headers = "", const std::string& body = "{}") const {
+    return testing::Fetch(gateway_->port(), method, target, headers, method == "GET" ? "" : body);
+  }
+  int Reset(const std::string& headers = "") const {
+    return Ask("POST", "/api/simulations/arena/reset", headers).status;
+  }
+  std::string Enter(const std::string& name) const {
+    const HttpReply reply = Ask("POST", "/api/viewers", entering_, json{{"name", name}}.dump());
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return json::parse(reply.body)["key"];
+  }
+
+  const std::shared_ptr<testing::SimulationList> directory_ =
+      std::make_shared<testing::SimulationList>();
+  const std::shared_ptr<testing::ScriptedSimulation> simulation_ =
+      std::make_shared<testing::ScriptedSimulation>("arena", 1);
+  std::string entering_;  // headers
+  std::unique_ptr<Gateway> gateway_;
+};
+
+TEST_F(AccessTest, WithoutATokenNobodyListensBeyondThisMachine) {
+  for (const char* host : {"0.0.0.0", "::"}) {
+    GatewayOptions options;
+    options.host = host;
+    const auto refused = Gateway::Start(options, directory_);
+    ASSERT_FALSE(refused) << host;
+    EXPECT_EQ(refused.error().code, base::ErrorCode::kInvalidArgument);
+    EXPECT_NE(refused.error().message.find("--control-token"), std::string::npos);
+  }
+}
+
+TEST_F(AccessTest, WatchingIsFreeHereAndActingTakesTheControlToken) {
+  Start({kControl, ""});
+  EXPECT_EQ(Ask("GET", "/api/simulations").status, 200);
+  const HttpReply missing = Ask("POST", "/api/simulations/arena/start");
+  EXPECT_EQ(missing.status, 401);
+  EXPECT_NE(missing.body.find("--control-token"), std::string::npos);
+  const HttpReply wrong = Ask("POST", "/api/simulations/arena/start", Bearer("not-the-right-one"));
+  EXPECT_EQ(wrong.status, 403);
+  EXPECT_EQ(wrong.body.find("not-the-right-one"), std::string::npos);
+  EXPECT_EQ(simulation_->status().phase, simulation::Phase::kCreated);
+  EXPECT_EQ(Ask("POST", "/api/simulations/arena/start", Bearer(kControl)).status, 200);
+  EXPECT_EQ(simulation_->status().phase, simulation::Phase::kRunning);
+}
+
+TEST_F(AccessTest, FromElsewhereEvenWatchingTakesAToken) {
+  Start({kControl, kWatch}, "0.0.0.0");
+  EXPECT_EQ(Ask("GET", "/healthz").status, 200);
+  EXPECT_EQ(Ask("GET", "/api/simulations").status, 401);
+  EXPECT_EQ(Ask("GET", "/api/simulations", Bearer(kWatch)).status, 200);
+  EXPECT_EQ(Ask("GET", "/api/simulations?token=" + std::string(kWatch)).status, 401);
+  const HttpReply watcher = Ask("POST", "/api/simulations/arena/start", Bearer(kWatch));
+  EXPECT_EQ(watcher.status, 403);
+  EXPECT_NE(watcher.body.find("watch only"), std::string::npos);
+  const std::uint16_t port = gateway_->port();
+  EXPECT_THROW(Viewer(port, "/ws"), std::runtime_error);
+  EXPECT_THROW(Viewer(port, "/ws?token=wrong"), std::runtime_error);
+  Viewer looks(port, "/ws?token=" + std::string(kWatch));
+  EXPECT_NE(looks.CallRefusedService("start").find("watch only"), std::string::npos);
+  Viewer acts(port, "/ws?token=" + std::string(kControl));
+  EXPECT_TRUE(acts.CallService("start").first);
+}
+
+TEST_F(AccessTest, WithAWatchTokenOnlyNobodyActs) {
+  Start({"", kWatch});
+  EXPECT_EQ(Ask("GET", "/api/simulations").status, 401);
+  const HttpReply refused = Ask("POST", "/api/simulations/arena/start", Bearer(kWatch));
+  EXPECT_EQ(refused.status, 403);
+  EXPECT_NE(refused.body.find("can only be watched"), std::string::npos);
+}
+
+TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
+  Start({});
+  EXPECT_EQ(Reset(), 200);  // nobody holds it
+  const std::string ada = Enter("Ada <b>"), bob = Enter("Bob");
+  const json taken =
+      json::parse(Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})").body);
+  EXPECT_EQ(taken["holder"], taken["you"]);
+  EXPECT_EQ(Reset(As(ada)), 200);
+  for (const std::string& other : {As(bob), std::string(), As("nobody")}) {
+    EXPECT_EQ(Reset(other), 409) << other;
+  }
+  EXPECT_NE(Ask("POST", "/api/simulations/arena/reset", As(bob)).body.find("Ada <b> holds control"),
+            std::string::npos);
+  Viewer looks(gateway_->port(), "/ws?viewer=" + bob);
+  EXPECT_NE(looks.CallRefusedService("start").find("holds control"), std::string::npos);
+  Ask("POST", "/api/viewers/me/control", As(bob), R"({"wants":true})");
+  const json told = json::parse(Ask("GET", "/api/viewers", As(ada)).body);
+  EXPECT_EQ(told["asking"].size(), 1u);
+  EXPECT_GT(told["passes_in_s"], 0);
+  EXPECT_EQ(told.dump().find(bob), std::string::npos);  // keys are nobody else's
+  EXPECT_EQ(Ask("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 200);
+  EXPECT_EQ(Reset(As(bob)), 200);
+  EXPECT_TRUE(looks.CallService("start").first);
+  EXPECT_EQ(Ask("DELETE", "/api/viewers/me", As(bob)).status, 200);
+  EXPECT_EQ(Reset(), 200);
+}
+
+TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
+  Start({});
+  const std::string ada = Enter("Ada");
+  for (const char* body : {"", "[]", "{}", R"({"name":1})", "{"}) {
+    EXPECT_EQ(Ask("POST", "/api/viewers", "", body).status, 400) << body;
+  }
+  EXPECT_EQ(Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":1})").status, 400);
+  EXPECT_EQ(Ask("POST", "/api/viewers/me", As("x"), R"({"name":"y"})").status, 404);
+  EXPECT_EQ(Ask("POST", "/api/viewers/2").status, 404);
+  EXPECT_EQ(Ask("PUT", "/api/viewers").status, 405);
+  EXPECT_EQ(Ask("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 409);
+}
+
+TEST_F(AccessTest, ARelayShowsItsTokenForThoseWhoComeToIt) {
+  Start({kControl, kWatch});
+  EXPECT_FALSE(Relay::Start({}, gateway_->url()));
+  const auto relay = Relay::Start({}, gateway_->url(), kControl);
+  ASSERT_TRUE(relay) << relay.error().Sentence();
+  const std::uint16_t port = (*relay)->port();
+  EXPECT_EQ(testing::Fetch(port, "GET", "/api/simulations").status, 200);
+  Viewer viewer(port, "/ws?simulation=arena");
+  EXPECT_TRUE(viewer.CallService("start").first);
+  entering_ = Bearer(kControl);
+  const std::string ada = Enter("Ada");
+  Ask("POST", "/api/viewers/me/control", Bearer(kControl) + As(ada), R"({"wants":true})");
+  const std::string reset = "/api/simulations/arena/reset";
+  EXPECT_EQ(testing::Fetch(port, "POST", reset, "", "{}").status, 409);
+  EXPECT_EQ(testing::Fetch(port, "POST", reset, As(ada), "{}").status, 200);
+}
+
+}  // namespace
+}  // namespace gsv::gateway::access

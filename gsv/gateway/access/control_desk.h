@@ -1,0 +1,92 @@
+// Who is watching, under which names, and who of them holds control.
+//
+// While nobody holds control, all may act. Who asks gets it at once if it is free; else the holder
+// is told, and grants it or keeps it; it passes by itself when the holder does not answer in time,
+// or leaves. Viewers are there as long as they keep asking how things stand.
+//
+// Threads  any; nothing blocks.
+// Bounded  kMostViewers.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::gateway::access {
+
+struct ControlLimits {
+  std::chrono::milliseconds absence{8'000};  // after which a viewer counts as gone
+  std::chrono::milliseconds answer{20'000};  // to a question for control
+};
+
+class ControlDesk {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  static constexpr std::size_t kMostViewers = 1000;
+
+  struct Person {
+    std::uint64_t number = 0;  // never used again
+    std::string name;
+  };
+  struct Standing {
+    std::vector<Person> viewers;        // by number
+    std::uint64_t you = 0;              // 0: you are none of them
+    std::uint64_t holder = 0;           // 0: nobody, so that all may act
+    std::vector<std::uint64_t> asking;  // in the order of their questions
+    std::chrono::milliseconds left{};   // until the first of them gets it without an answer
+  };
+  struct Admission {
+    std::uint64_t number = 0;
+    std::string key;  // by which this viewer is known from now on; told to nobody else
+  };
+
+  explicit ControlDesk(const ControlLimits& limits = {}) : limits_(limits) {}
+
+  // `name` empty: "viewer NUMBER". kUnavailable: too many are there.
+  base::Result<Admission> Enter(const std::string& name, Time now);
+  // These fail with kNotFound when no viewer has this key, any more.
+  base::Status Rename(const std::string& key, const std::string& name, Time now);
+  base::Status Leave(const std::string& key, Time now);
+  base::Status Ask(const std::string& key, Time now);
+  // Lets go of control, or of the question for it.
+  base::Status Release(const std::string& key, Time now);
+  // To the first who asks. kNotRunning: who answers does not hold control, or nobody asks.
+  base::Status Answer(const std::string& key, bool grants, Time now);
+
+  // How things stand; whose key it is counts as there.
+  Standing See(const std::string& key, Time now);
+  // kNotRunning with a sentence: somebody else holds control.
+  base::Status MayAct(const std::string& key, Time now);
+
+ private:
+  struct Viewer {
+    Person person;
+    Time seen;
+  };
+  struct Question {
+    std::string key;
+    Time asked;
+  };
+
+  // With mutex_ held:
+  void Settle(Time now);  // lets go of who is gone, and passes control on where it is due
+  void Forget(const std::string& key);
+  void PassOn(Time now);
+  base::Result<Viewer*> Find(const std::string& key, Time now);
+  std::uint64_t NumberOf(const std::string& key) const;
+
+  const ControlLimits limits_;
+  std::mutex mutex_;
+  std::map<std::string, Viewer> viewers_;  // by key
+  std::uint64_t next_ = 1;
+  std::string holder_;  // a key; empty: nobody
+  std::deque<Question> questions_;
+};
+
+}  // namespace gsv::gateway::access

@@ -1,0 +1,67 @@
+#include "gsv/gateway/access/token_rule.h"
+
+#include <algorithm>
+
+namespace gsv::gateway::access {
+namespace {
+
+constexpr std::size_t kShortest = 16, kLongest = 256;
+
+bool IsTokenCharacter(char c) {
+  const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  return is_letter || (c >= '0' && c <= '9') ||
+         std::string_view("-._~+/=").find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
+base::Status CheckToken(std::string_view token) {
+  const bool is_good = token.size() >= kShortest && token.size() <= kLongest &&
+                       std::all_of(token.begin(), token.end(), IsTokenCharacter);
+  if (is_good) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "a token has 16 to 256 letters, digits or characters of -._~+/=; `openssl rand "
+                    "-hex 16` makes one");
+}
+
+bool EqualsSecret(std::string_view shown, std::string_view secret) {
+  volatile unsigned char difference = shown.size() == secret.size() ? 0 : 1;
+  for (std::size_t i = 0; i < secret.size(); ++i) {
+    const char there = i < shown.size() ? shown[i] : '\0';
+    difference = difference | static_cast<unsigned char>(there ^ secret[i]);
+  }
+  return difference == 0;
+}
+
+std::string_view BearerToken(std::string_view authorization) {
+  static constexpr std::string_view kScheme = "Bearer ";
+  return authorization.starts_with(kScheme) ? authorization.substr(kScheme.size())
+                                            : std::string_view();
+}
+
+Right TokenRule::RightOf(std::string_view token) const {
+  const bool controls = EqualsSecret(token, tokens_.control);
+  const bool watches = EqualsSecret(token, tokens_.watch);
+  if (tokens_.empty()) return is_exposed_ ? Right::kNone : Right::kControl;
+  if (!tokens_.control.empty() && controls) return Right::kControl;
+  if (!tokens_.watch.empty() && watches) return Right::kWatch;
+  const bool is_free = token.empty() && !is_exposed_ && tokens_.watch.empty();
+  return is_free ? Right::kWatch : Right::kNone;
+}
+
+std::string TokenRule::Refusal(bool shows_token, Right has, Right needed) const {
+  if (needed == Right::kControl && tokens_.control.empty()) {
+    return "this server can only be watched: it was started without --control-token";
+  }
+  if (shows_token && has == Right::kWatch) {
+    return "this token allows to watch only; acting takes the control token";
+  }
+  const std::string wanted = needed == Right::kControl
+                                 ? "the token given with --control-token"
+                                 : "the token given with --control-token or --watch-token";
+  return (!shows_token ? "this takes a token, and none was shown: "
+                       : "this token is not the right one: it takes ") +
+         wanted;
+}
+
+}  // namespace gsv::gateway::access

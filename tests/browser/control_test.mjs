@@ -1,0 +1,133 @@
+// Several people at one simulation: names, one who holds control, the others who ask for it; and a
+// server that takes tokens.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { startServer } from "./server.mjs";
+import { ask, phaseIs, until } from "./viewing.mjs";
+
+const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
+const CONTROL = "control-0123456789abcdef";
+const MARKUP = '<img src=x onerror="document.title=1">';
+
+let server;
+const browsers = [];
+let ada;
+let bob;
+
+async function person(name) {
+  const browser = await openBrowser({ width: 1100, height: 680 });
+  browsers.push(browser);
+  const { page, faults } = await openPage(browser, server.url);
+  await waitUntilDrawn(page);
+  await page.getByRole("button", { name: "Viewers" }).click();
+  await page.getByLabel("Your name").fill(name);
+  await page.getByLabel("Your name").press("Enter");
+  return { page, faults };
+}
+
+before(async () => {
+  server = await startServer(RUN);
+  ada = await person("Ada");
+  bob = await person(MARKUP);
+});
+
+after(async () => {
+  for (const browser of browsers) await browser.close();
+  await server?.stop();
+});
+
+test("each sees the other's name, as it is written", async () => {
+  await ada.page.getByRole("listitem").filter({ hasText: MARKUP }).waitFor();
+  await bob.page.getByRole("listitem").filter({ hasText: "Ada" }).waitFor();
+  assert.equal(await ada.page.locator(".people img").count(), 0);
+});
+
+test("who holds control acts alone; who asks is told of, and gets it", async () => {
+  await ada.page.getByRole("button", { name: "Take control" }).click();
+  const pause = bob.page.getByRole("button", { name: "Pause" });
+  await until(() => pause.isDisabled(), "the button's rest");
+  const status = await bob.page.evaluate(async () => (await fetch("api/simulations/simulation/pause", { method: "POST", body: "{}" })).status);
+  assert.equal(status, 409);
+  await bob.page.getByLabel("Your name").fill("Bob");
+  await bob.page.getByLabel("Your name").press("Enter");
+  await bob.page.getByRole("button", { name: "Ask for control" }).click();
+  const question = ada.page.getByRole("alert").filter({ hasText: "Bob asks for control" });
+  await question.waitFor();
+  await keepPicture(ada.page, "control");
+  await question.getByRole("button", { name: "Give it" }).click();
+  await bob.page.getByRole("button", { name: "Let go of control" }).waitFor();
+  await pause.click();
+  await phaseIs(ada.page, "paused");
+});
+
+test("it passes by itself to who asks when the holder leaves", async () => {
+  await ada.page.getByRole("button", { name: "Viewers" }).click(); // the answer closed it
+  await ada.page.getByRole("button", { name: "Ask for control" }).click();
+  await bob.page.getByRole("alert").filter({ hasText: "Ada asks for control" }).waitFor();
+  await bob.page.close();
+  await ada.page.getByRole("button", { name: "Let go of control" }).waitFor();
+  await ada.page.getByRole("button", { name: "Let go of control" }).click();
+});
+
+test("two people press everything at once: both pages show the server's truth in the end", async () => {
+  bob = await openPage(browsers[1], server.url);
+  await waitUntilDrawn(bob.page);
+  await ada.page.keyboard.press("Escape");
+  const actions = ["start", "pause", "resume", "step", "stop", "reset"];
+  const press = (page, from) =>
+    page.evaluate(
+      async ([actions, from]) => {
+        const statuses = [];
+        for (let i = 0; i < 60; ++i) {
+          const action = actions[(i * from) % actions.length];
+          const answer = await fetch(`api/simulations/simulation/${action}`, { method: "POST", body: "{}" });
+          statuses.push(answer.status);
+          for (const button of document.querySelectorAll(".toolbar-transport button:enabled")) {
+            if (i % 10 === 9 && !["Edit", "Record"].includes(button.getAttribute("aria-label"))) button.click();
+          }
+        }
+        return statuses;
+      },
+      [actions, from],
+    );
+  const answers = (await Promise.all([press(ada.page, 5), press(bob.page, 7)])).flat();
+  assert.deepEqual(answers.filter((status) => status !== 200 && status !== 409), []);
+  await until(async () => {
+    const { phase } = await ask(ada.page, "");
+    const shown = await Promise.all([ada, bob].map(({ page }) => page.evaluate(() => window.gsv.phase)));
+    return shown.every((each) => each === phase);
+  }, "one phase everywhere");
+  for (const { faults } of [ada, bob]) assert.deepEqual(faults.filter((fault) => !fault.includes("409")), []);
+});
+
+test("a server that takes a token lets one watch, and act with the token at the end of the address", async () => {
+  await server.stop();
+  server = await startServer([...RUN, "--control-token", CONTROL]);
+  const { page } = await openPage(browsers[0], server.url);
+  await waitUntilDrawn(page);
+  await page.getByRole("button", { name: "Pause" }).click();
+  await page.getByText("this takes a token, and none was shown").waitFor();
+  await page.goto("about:blank");
+  await page.goto(`${server.url}#token=${CONTROL}`);
+  await waitUntilDrawn(page);
+  assert.ok(!page.url().includes(CONTROL));
+  await page.getByRole("button", { name: "Pause" }).click();
+  await phaseIs(page, "paused");
+});
+
+test("a server that asks for a token to watch as well asks the page's reader", async () => {
+  await server.stop();
+  server = await startServer([...RUN, "--control-token", CONTROL, "--watch-token", "watching-0123456789abcdef"]);
+  const { page } = await openPage(browsers[1], server.url);
+  await page.getByText("This server takes a token").waitFor();
+  await page.getByLabel("Token").fill("not the right one");
+  await page.getByRole("button", { name: "Enter" }).click();
+  await page.getByText("this token is not the right one").waitFor();
+  await page.getByLabel("Token").fill(CONTROL);
+  await page.getByRole("button", { name: "Enter" }).click();
+  await waitUntilDrawn(page);
+  await page.getByRole("button", { name: "Pause" }).click();
+  await phaseIs(page, "paused");
+});

@@ -1,0 +1,108 @@
+// Who is watching: one's own name, the others', and who holds control.
+import type { App } from "../app/App";
+import type { People } from "../api/ViewersApi";
+import { asker, personOf } from "../state/people";
+import { shallowEqual } from "../state/Store";
+import { element, setText } from "../ui/element";
+import { createMenu } from "../ui/menu";
+
+export function createPeopleMenu(app: App): HTMLElement {
+  const list = element("ul", { class: "people", "aria-label": "Viewers" });
+  const menu = createMenu("Viewers", "people", nameField(app), list, controlButton(app));
+  const number = element("span", { class: "number people-count" });
+  menu.button.append(number);
+  app.store.watch(
+    ({ people }) => people,
+    (people) => {
+      menu.element.hidden = people.viewers.length === 0;
+      setText(number, people.viewers.length > 1 ? String(people.viewers.length) : "");
+      menu.button.classList.toggle("held", people.holder !== 0);
+      menu.button.title = titleOf(people);
+      list.replaceChildren(...lines(people).map((line) => element("li", {}, line)));
+    },
+    (a, b) => JSON.stringify(a) === JSON.stringify(b),
+  );
+  return menu.element;
+}
+
+function titleOf(people: People): string {
+  const holder = personOf(people, people.holder);
+  if (!holder) return "Viewers";
+  return holder.number === people.you ? "Viewers (you hold control)" : `Viewers (${holder.name} holds control)`;
+}
+
+function lines({ viewers, you, holder, asking }: People): string[] {
+  return viewers.map(({ number, name }) => {
+    const notes = [
+      number === you && "you",
+      number === holder && "holds control",
+      asking.includes(number) && "asks for control",
+    ];
+    return [name, ...notes.filter(Boolean)].join(" · ");
+  });
+}
+
+function nameField(app: App): HTMLElement {
+  const field = element("input", { maxlength: "40", autocomplete: "off", spellcheck: "false" });
+  field.value = app.people.name;
+  field.addEventListener("change", () => void app.people.rename(field.value));
+  app.store.watch(
+    ({ people }) => personOf(people, people.you)?.name ?? "",
+    (name) => (field.placeholder = name),
+  );
+  return element("label", { class: "people-name" }, element("span", {}, "Your name"), field);
+}
+
+// What it does depends on how things stand for you.
+function controlButton(app: App): HTMLElement {
+  const button = element("button", { class: "button", type: "button" });
+  let wants = true;
+  app.store.watch(
+    ({ people: { you, holder, asking } }) => ({ holds: holder === you, isFree: holder === 0, asks: asking.includes(you) }),
+    ({ holds, isFree, asks }) => {
+      wants = !holds && !asks;
+      setText(button, labelOf(holds, isFree, asks));
+    },
+    shallowEqual,
+  );
+  button.addEventListener("click", () => void app.people.want(wants));
+  return button;
+}
+
+function labelOf(holds: boolean, isFree: boolean, asks: boolean): string {
+  if (isFree) return "Take control";
+  if (holds) return "Let go of control";
+  return asks ? "Ask no more" : "Ask for control";
+}
+
+// The holder's side: somebody asks. It passes by itself when nothing is answered.
+export function createControlQuestion(app: App): HTMLElement {
+  const sentence = element("p", {});
+  const button = (label: string, grants: boolean, primary: boolean) =>
+    element(
+      "button",
+      {
+        class: primary ? "button primary" : "button",
+        type: "button",
+        onclick: () => void app.people.answer(grants),
+      },
+      label,
+    );
+  const card = element(
+    "div",
+    { class: "card control-question", role: "alert" },
+    sentence,
+    element("div", {}, button("Give it", true, true), button("Keep it", false, false)),
+  );
+  app.store.watch(
+    ({ people }) => {
+      const person = asker(people);
+      return person ? `${person.name} asks for control. It passes in ${Math.max(0, Math.ceil(people.passesIn))} s.` : "";
+    },
+    (text) => {
+      card.hidden = text === "";
+      setText(sentence, text);
+    },
+  );
+  return card;
+}
