@@ -1,23 +1,50 @@
-// Puts robots, with their behaviours, into a simulation.
+// Puts a scenario's robots and avatars into a simulation and gives them their behaviours: for
+// `gsv run` as for what people create in the viewer.
+//
+// Errors  name the part of the scenario that they concern, as in "robots[1].model".
 #pragma once
 
-#include "apps/gsv/run_options.h"
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/gateway/simulation_factory.h"
+#include "gsv/scenario/scenario.h"
+#include "gsv/simulation/simulation.h"
 
 namespace gsv::app {
 
-// Adds the scenario's robots and the avatars, and gives behaviours to all, those that came with
-// the world included. A robot without a place gets the first free one on a spiral about the origin.
-// Gives the scenario as it came to be, which run again places the same robots at the same bits.
-base::Result<scenario::Scenario> Populate(Runtime& runtime, simulation::Simulation& simulation,
-                                          const RunOptions& options, base::Problems& problems);
+using gateway::FieldError;
+using gateway::FieldResult;
 
 struct PlacedRobot {
-  std::string name;
-  scenario::Place place;
+  scenario::RobotEntry entry;  // as it stands: with its name, and its place if it has a model
+  std::size_t index = 0;       // in the scenario's list
 };
 
-// Adds a robot at the first free place of a spiral about the origin.
-base::Result<PlacedRobot> AddAtFreePlace(simulation::Simulation& simulation,
-                                         simulation::RobotSpecification robot);
+struct Population {
+  std::vector<PlacedRobot> robots, avatars;  // in the order in which they were added
+};
+
+// Adds the robots and the avatars, without behaviours; a robot without a model must be there
+// already, with the world. One without a place gets the first free one on a spiral about the
+// origin. What the files lack is added to `problems`.
+FieldResult<Population> Populate(simulation::Simulation& simulation, formats::ModelLibrary& library,
+                                 const scenario::Scenario& scenario, base::Problems& problems);
+
+// Makes a robot's behaviour; null where it is to have none.
+using BehaviourMaker = std::function<FieldResult<std::shared_ptr<simulation::BehaviourPort>>(
+    const scenario::RobotEntry&)>;
+
+tl::expected<void, FieldError> GiveBehaviours(simulation::Simulation& simulation,
+                                              const std::vector<PlacedRobot>& robots,
+                                              const BehaviourMaker& make);
+
+// One robot or avatar more, with its behaviour. Gives the name under which it stands.
+FieldResult<std::string> AddOne(simulation::Simulation& simulation, formats::ModelLibrary& library,
+                                const scenario::RobotEntry& robot, bool is_avatar,
+                                const BehaviourMaker& make, base::Problems& problems);
 
 }  // namespace gsv::app

@@ -9,9 +9,9 @@
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
-#include "apps/gsv/population.h"
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/run.h"
+#include "apps/gsv/run_population.h"
 #include "apps/gsv/run_report.h"
 #include "gsv/recording/mcap_reader.h"
 #include "gsv/recording/topics.h"
@@ -131,7 +131,7 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
   auto simulation = (*runtime)->host().Create(options.specification,
                                               ResolveWorld(options.scenario.world), problems);
   if (!simulation) return base::Fail(simulation.error());
-  auto told = Populate(**runtime, **simulation, options, problems);
+  auto told = PopulateRun(**runtime, **simulation, options, problems);
   if (!told) return base::Fail(told.error());
 
   if (TellErrors(problems)) return kBadModel;

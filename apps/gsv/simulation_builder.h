@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/gsv/population.h"
 #include "apps/gsv/recordings.h"
 #include "gsv/gateway/simulation_factory.h"
 #include "gsv/services/broker_behaviours.h"
@@ -41,7 +42,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
       const gateway::SimulationRequest& request) override;
   base::Status Destroy(const std::string& simulation) override;
   gateway::FieldResult<std::string> AddRobot(
-      const std::shared_ptr<simulation::Simulation>& simulation, const gateway::RobotRequest& robot,
+      const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
       bool is_avatar) override;
 
  private:
@@ -55,22 +56,11 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   };
 
   gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
-  // Adds the robots and avatars, without behaviours; what the files lack to `warnings`. Gives the
-  // names of the robots, in order.
-  gateway::FieldResult<std::vector<std::string>> Populate(simulation::Simulation& simulation,
-                                                          const gateway::SimulationRequest& request,
-                                                          std::vector<std::string>& warnings);
-  gateway::FieldResult<std::vector<std::string>> Place(
-      simulation::Simulation& simulation, const std::vector<gateway::RobotRequest>& robots,
-      bool are_avatars, std::vector<std::string>& warnings);
-  gateway::FieldResult<simulation::RobotSpecification> Specify(
-      const simulation::Simulation& simulation, const gateway::RobotRequest& request,
-      bool is_avatar, std::vector<std::string>& warnings);
   gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
-      const gateway::RobotRequest& robot);
-  tl::expected<void, gateway::FieldError> GiveBehaviours(
-      simulation::Simulation& simulation, const std::vector<gateway::RobotRequest>& robots,
-      const std::vector<std::string>& names);
+      const scenario::RobotEntry& robot);
+  BehaviourMaker BehaviourChoice() {
+    return [this](const scenario::RobotEntry& robot) { return BehaviourFor(robot); };
+  }
 
   services::SimulationHost& host_;
   services::BrokerBehaviours& behaviours_;

@@ -105,7 +105,7 @@ Response FactoryApi::AddRobot(const std::shared_ptr<simulation::Simulation>& sim
                               const std::string& body) const {
   const auto robot = ParseRobotRequest(body);
   if (!robot) return Refusal(robot.error());
-  const auto name = factory_.AddRobot(simulation, *robot, robot->is_avatar);
+  const auto name = factory_.AddRobot(simulation, robot->robot, robot->is_avatar);
   if (!name) return Refusal(name.error());
   return JsonResponse(201, Text({{"name", *name}}));
 }
@@ -119,9 +119,7 @@ Response PlaceBody(simulation::Simulation& simulation, const std::string& name,
                    const std::string& body) {
   const auto place = ParsePlace(body);
   if (!place) return Refusal(place.error());
-  const base::Status placed = simulation.PlaceBody(
-      name, geometry::PlanarPose(place->x, place->y, place->z.value_or(0), place->yaw),
-      !place->z.has_value());
+  const base::Status placed = simulation.PlaceBody(name, place->pose(), !place->z.has_value());
   if (!placed) return Refusal({placed.error(), ""});
   return JsonResponse(200, "{}");
 }

@@ -28,12 +28,12 @@ class FakeFactory final : public SimulationFactory {
   }
   FieldResult<Preview> Show(const SimulationRequest& request) override {
     if (refusal) return tl::make_unexpected(*refusal);
-    return Preview{std::make_shared<ScriptedSimulation>(request.world, 2), {"no mesh"}};
+    return Preview{std::make_shared<ScriptedSimulation>(request.scenario.world, 2), {"no mesh"}};
   }
   FieldResult<std::shared_ptr<simulation::Simulation>> Create(
       const SimulationRequest& request) override {
     if (refusal) return tl::make_unexpected(*refusal);
-    auto made = std::make_shared<ScriptedSimulation>(request.name, 0);
+    auto made = std::make_shared<ScriptedSimulation>(request.scenario.name, 0);
     list_.Add(made);
     return made;
   }
@@ -42,7 +42,7 @@ class FakeFactory final : public SimulationFactory {
     return {};
   }
   FieldResult<std::string> AddRobot(const std::shared_ptr<simulation::Simulation>&,
-                                    const RobotRequest& robot, bool is_avatar) override {
+                                    const scenario::RobotEntry& robot, bool is_avatar) override {
     if (refusal) return tl::make_unexpected(*refusal);
     return robot.model + (is_avatar ? "_avatar" : "_robot");
   }

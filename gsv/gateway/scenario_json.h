@@ -1,9 +1,9 @@
-// Scenarios as requests carry them: JSON with the keys of docs/formats/scenario.md that a person
-// sets in the viewer.
+// What requests carry of scenarios: those keys of docs/formats/scenario.md that a person sets in
+// the viewer. A server takes no paths to write to, folders or plug-ins from its viewers.
 //
 // Errors  kInvalidArgument with the field; unknown keys are refused, since a misspelt one would be
 //         left out silently.
-// Bounded so many robots and characters as no person types.
+// Bounded so many robots as no person types.
 #pragma once
 
 #include <string_view>
@@ -13,17 +13,18 @@
 namespace gsv::gateway {
 
 // {name, world, mode: real_time|lockstep, factor, step, duration, seed, record, robots, avatars};
-// times in seconds; only the world is needed.
+// `record` is true or false here. Only the world is needed.
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 
-struct RobotToAdd : RobotRequest {
+struct RobotToAdd {
+  scenario::RobotEntry robot;
   bool is_avatar = false;
 };
 // {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar, avatar};
-// only the model is needed, and x and y go together.
+// only the model is needed.
 FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body);
 
 // {x, y, z, yaw}; x and y are needed.
-FieldResult<Place> ParsePlace(std::string_view body);
+FieldResult<scenario::Place> ParsePlace(std::string_view body);
 
 }  // namespace gsv::gateway

@@ -8,42 +8,41 @@ namespace {
 TEST(ScenarioJson, AWorldAloneIsEnough) {
   const auto request = ParseSimulationRequest(R"({"world": "office"})");
   ASSERT_TRUE(request) << request.error().error.message;
-  EXPECT_EQ(request->world, "office");
-  EXPECT_EQ(request->mode, simulation::Mode::kRealTime);
-  EXPECT_EQ(request->factor, 1);
-  EXPECT_TRUE(request->robots.empty());
+  EXPECT_EQ(request->scenario.world, "office");
+  EXPECT_EQ(request->scenario.lockstep, std::nullopt);
+  EXPECT_EQ(request->scenario.factor, std::nullopt);
+  EXPECT_TRUE(request->scenario.robots.empty());
+  EXPECT_FALSE(request->record);
 }
 
 TEST(ScenarioJson, EveryKeyIsTaken) {
   const auto request = ParseSimulationRequest(R"({
     "name": "run", "world": "maze", "mode": "lockstep", "factor": 2.5, "step": 0.01,
     "duration": 60, "seed": 18446744073709551615, "record": true,
-    "robots": [{"name": "a", "model": "pebble", "x": 1, "y": -2, "z": 0.5, "yaw": 3,
-                "behaviour": "goto --goal-x 3", "movement": "rigid"},
+    "robots": [{"name": "a\u00e4\ud83d\ude00/\"b\u0001", "model": "pebble", "x": 1, "y": -2, "z": 0.5,
+                "yaw": 3, "behaviour": "goto --goal-x 3", "movement": "rigid"},
                {"model": "rover4", "behaviour_constraint": "pid > 0", "movement": "planar"}],
     "avatars": [{"model": "avatar", "x": 0, "y": 1}]})");
   ASSERT_TRUE(request) << request.error().field << request.error().error.message;
-  EXPECT_EQ(request->name, "run");
-  EXPECT_EQ(request->mode, simulation::Mode::kLockstep);
-  EXPECT_EQ(request->factor, 2.5);
-  EXPECT_EQ(request->step, 0.01);
-  EXPECT_EQ(request->duration, 60);
-  EXPECT_EQ(request->seed, 18446744073709551615u);
+  const scenario::Scenario& scenario = request->scenario;
+  EXPECT_EQ(scenario.name, "run");
+  EXPECT_EQ(scenario.lockstep, true);
+  EXPECT_EQ(scenario.factor, 2.5);
+  EXPECT_EQ(scenario.step, 0.01);
+  EXPECT_EQ(scenario.duration, 60);
+  EXPECT_EQ(scenario.seed, 18446744073709551615u);
   EXPECT_TRUE(request->record);
-  ASSERT_EQ(request->robots.size(), 2u);
-  const RobotRequest& first = request->robots[0];
-  ASSERT_TRUE(first.place);
-  EXPECT_EQ(first.place->x, 1);
-  EXPECT_EQ(first.place->y, -2);
-  EXPECT_EQ(first.place->z, 0.5);
-  EXPECT_EQ(first.place->yaw, 3);
+  ASSERT_EQ(scenario.robots.size(), 2u);
+  const scenario::RobotEntry& first = scenario.robots[0];
+  EXPECT_EQ(first.name, "a\u00e4\U0001f600/\"b\x01");
+  EXPECT_EQ(first.start, (scenario::Place{1, -2, 0.5, 3}));
   EXPECT_EQ(first.behaviour, "goto --goal-x 3");
   EXPECT_EQ(first.movement, model::Movement::kRigid);
-  EXPECT_FALSE(request->robots[1].place);
-  EXPECT_EQ(request->robots[1].behaviour_constraint, "pid > 0");
-  EXPECT_EQ(request->robots[1].movement, model::Movement::kPlanar);
-  ASSERT_EQ(request->avatars.size(), 1u);
-  EXPECT_FALSE(request->avatars[0].place->z);
+  EXPECT_FALSE(scenario.robots[1].start);
+  EXPECT_EQ(scenario.robots[1].behaviour_constraint, "pid > 0");
+  EXPECT_EQ(scenario.robots[1].movement, model::Movement::kPlanar);
+  ASSERT_EQ(scenario.avatars.size(), 1u);
+  EXPECT_FALSE(scenario.avatars[0].start->z);
 }
 
 struct Refused {
@@ -54,7 +53,9 @@ struct Refused {
 TEST(ScenarioJson, WhatIsWrongIsRefusedWithItsField) {
   const Refused refused[]{
       {R"({})", "world"},
-      {R"({"world": 3})", "world"},
+      {R"({"world": ["w"]})", "world"},
+      {R"({"world": "w", "model_path": ["/"]})", "model_path"},
+      {R"({"world": "w", "in_process": true})", "in_process"},
       {R"({"world": "w", "wolrd": 1})", "wolrd"},
       {R"({"world": "w", "mode": "fast"})", "mode"},
       {R"({"world": "w", "factor": 0})", "factor"},
@@ -75,6 +76,7 @@ TEST(ScenarioJson, WhatIsWrongIsRefusedWithItsField) {
                                      "behaviour_constraint": "b"}]})",
        "robots[0].behaviour_constraint"},
       {R"({"world": "w", "avatars": [{"model": "m", "behaviour": "a"}]})", "avatars[0].behaviour"},
+      {R"({"world": "w", "robots": [{"name": "of the world"}]})", "robots[0].model"},
       {R"([])", ""},
       {R"({"world": )", ""},
       {"", ""},
@@ -100,7 +102,7 @@ TEST(ScenarioJson, ARobotIsAddedWithOrWithoutAPlace) {
   const auto robot = ParseRobotRequest(R"({"model": "avatar", "avatar": true})");
   ASSERT_TRUE(robot);
   EXPECT_TRUE(robot->is_avatar);
-  EXPECT_FALSE(robot->place);
+  EXPECT_FALSE(robot->robot.start);
   EXPECT_EQ(ParseRobotRequest(R"({"model": ""})").error().field, "model");
 }
 
@@ -108,6 +110,8 @@ TEST(ScenarioJson, APlaceNeedsBothCoordinates) {
   const auto place = ParsePlace(R"({"x": 1, "y": 2})");
   ASSERT_TRUE(place);
   EXPECT_EQ(place->yaw, 0);
+  EXPECT_EQ(*place, (scenario::Place{1, 2, {}, 0}));
+  EXPECT_EQ(ParsePlace(R"({})").error().field, "x");
   EXPECT_EQ(ParsePlace(R"({"x": 1})").error().field, "y");
   EXPECT_EQ(ParsePlace(R"({"y": 1, "x": "far"})").error().field, "x");
 }

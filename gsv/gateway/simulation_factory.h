@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/scenario/scenario.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::gateway {
@@ -23,31 +24,9 @@ struct FieldError {
 template <typename T>
 using FieldResult = tl::expected<T, FieldError>;
 
-struct Place {
-  double x = 0, y = 0;
-  std::optional<double> z;  // without one it stands on the ground
-  double yaw = 0;
-};
-
-struct RobotRequest {
-  std::string name;                  // empty: after its model
-  std::string model;                 // a name, or a file or folder on the server's machine
-  std::optional<Place> place;        // without one: the first that is free
-  std::string behaviour;             // an offer's name; empty: none
-  std::string behaviour_constraint;  // or what an offer must fulfil
-  std::optional<model::Movement> movement;
-};
-
 struct SimulationRequest {
-  std::string name;   // empty: one is chosen
-  std::string world;  // one of ours, or a file or folder on the server's machine
-  simulation::Mode mode = simulation::Mode::kRealTime;
-  double factor = 1;
-  double step = 0;      // 0: the world's
-  double duration = 0;  // 0: until it is stopped
-  std::uint64_t seed = 0;
-  bool record = false;
-  std::vector<RobotRequest> robots, avatars;
+  scenario::Scenario scenario;
+  bool record = false;  // to a file that the server names
 };
 
 class SimulationFactory {
@@ -85,7 +64,7 @@ class SimulationFactory {
   virtual base::Status Destroy(const std::string& simulation) = 0;
   // Gives the name under which it stands.
   virtual FieldResult<std::string> AddRobot(
-      const std::shared_ptr<simulation::Simulation>& simulation, const RobotRequest& robot,
+      const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
       bool is_avatar) = 0;
 };
 

@@ -32,6 +32,7 @@ struct RobotEntry {
   std::string name;                         // empty: after its model
   std::optional<Place> start;               // without one a free place is looked for
   std::string behaviour;                    // its name and options; empty: none
+  std::string behaviour_constraint;         // or what its offer must fulfil
   std::optional<model::Movement> movement;  // without one: as its model says
 
   friend bool operator==(const RobotEntry&, const RobotEntry&) = default;

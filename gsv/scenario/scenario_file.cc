@@ -6,106 +6,10 @@
 
 #include <yaml-cpp/eventhandler.h>
 
-#include "gsv/scenario/yaml_mapping.h"
+#include "gsv/scenario/scenario_keys.h"
 
 namespace gsv::scenario {
 namespace {
-
-constexpr std::size_t kMostRobots = 100'000;
-constexpr double kFarthest = 1e6;  // m
-constexpr double kLongest = 1e9;   // s
-constexpr double kMostFactor = 1e6;
-constexpr double kLeastRate = 0.001, kMostRate = 10'000;  // Hz
-
-std::optional<Place> ReadPlace(YamlMapping& mapping, const YamlPlace& place) {
-  const auto x = mapping.Number("x", -kFarthest, kFarthest);
-  const auto y = mapping.Number("y", -kFarthest, kFarthest);
-  const auto z = mapping.Number("z", -kFarthest, kFarthest);
-  const auto yaw = mapping.Angle("yaw");
-  if (x && y) return Place{*x, *y, z, yaw.value_or(0)};
-  const bool has_any = mapping.Had("x") || mapping.Had("y") || z || yaw;
-  if (has_any && !(mapping.Had("x") && mapping.Had("y"))) {
-    place.Complain(mapping.mark(), "a place needs both x and y");
-  }
-  return std::nullopt;
-}
-
-std::optional<model::Movement> ReadMovement(YamlMapping& mapping) {
-  const auto is_rigid = mapping.IsSecond("movement", "planar", "rigid");
-  if (!is_rigid) return std::nullopt;
-  return *is_rigid ? model::Movement::kRigid : model::Movement::kPlanar;
-}
-
-RobotEntry ReadRobot(const YAML::Node& node, bool is_avatar, const YamlPlace& place) {
-  YamlMapping mapping(node, place);
-  RobotEntry robot;
-  robot.name = mapping.Text("name").value_or("");
-  robot.model = mapping.Text("model").value_or("");
-  robot.start = ReadPlace(mapping, place);
-  if (!is_avatar) {
-    robot.behaviour = mapping.Text("behaviour").value_or("");
-    robot.movement = ReadMovement(mapping);
-  }
-  if (!node.IsMap() || !robot.model.empty()) return robot;
-  if (is_avatar) {
-    place.Complain(mapping.mark(), "an avatar needs a model");
-  } else if (robot.name.empty()) {
-    place.Complain(mapping.mark(),
-                   "a robot needs a model, or the name of one that stands in the world's file");
-  } else if (robot.start || robot.movement) {
-    place.Complain(mapping.mark(),
-                   "a robot without a model stands in the world's file, which says where it starts "
-                   "and how it moves");
-  }
-  return robot;
-}
-
-std::vector<RobotEntry> ReadRobots(YamlMapping& mapping, const std::string& key,
-                                   const YamlPlace& place) {
-  const std::vector<YAML::Node> list = mapping.List(key);
-  std::vector<RobotEntry> robots;
-  if (list.size() > kMostRobots) {
-    place.Complain(list[kMostRobots].Mark(),
-                   key + " has at most " + std::to_string(kMostRobots) + " entries");
-    return robots;
-  }
-  for (const YAML::Node& node : list) robots.push_back(ReadRobot(node, key == "avatars", place));
-  return robots;
-}
-
-std::map<std::string, double> ReadRates(const YAML::Node& node, const YamlPlace& place) {
-  std::map<std::string, double> rates;
-  YamlMapping mapping(node, place);
-  for (const char* kind : {"poses", "readings", "pictures", "beams"}) {
-    if (const auto rate = mapping.Number(kind, kLeastRate, kMostRate)) rates[kind] = *rate;
-  }
-  return rates;
-}
-
-Scenario ReadAll(const YAML::Node& node, const YamlPlace& place) {
-  YamlMapping mapping(node, place);
-  Scenario scenario;
-  scenario.world = mapping.Text("world").value_or("");
-  scenario.name = mapping.Text("name").value_or("");
-  scenario.seed = mapping.Count("seed");
-  scenario.lockstep = mapping.IsSecond("mode", "real_time", "lockstep");
-  scenario.factor = mapping.Number("factor", 1e-6, kMostFactor);
-  scenario.step = mapping.Number("step", 1e-6, 10);
-  scenario.duration = mapping.Number("duration", 0, kLongest);
-  scenario.deadline = mapping.Number("deadline", 0, kLongest);
-  scenario.fails_with_behaviour = mapping.IsSecond("on_failure", "go_on", "fail");
-  scenario.in_process = mapping.Flag("in_process");
-  scenario.model_path = mapping.Texts("model_path");
-  scenario.robots = ReadRobots(mapping, "robots", place);
-  scenario.avatars = ReadRobots(mapping, "avatars", place);
-  scenario.record = mapping.Text("record").value_or("");
-  scenario.record_topics = mapping.Texts("record_topics");
-  if (const auto rates = mapping.Any("record_rates")) {
-    scenario.record_rates = ReadRates(*rates, place);
-  }
-  scenario.record_png = mapping.IsSecond("record_pictures", "jpeg", "png");
-  return scenario;
-}
 
 // Takes no notice of what is read, but for where documents start.
 class Starts final : public YAML::EventHandler {
@@ -181,18 +85,18 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   if (const auto line = LineThatIsNotUtf8(text)) {
     return refuse("the text is not UTF-8", file + ":" + std::to_string(*line));
   }
-  const YamlPlace place(file, problems);
+  const YamlPlace place(YamlPlace::Naming::kLines, file, problems);
   try {
     const YAML::Node document = YAML::Load(text);
     if (const auto second = SecondDocument(text)) {
-      place.Complain(*second, "a file holds one scenario; this is a second one");
+      place.Complain(*second, "", "a file holds one scenario; this is a second one");
     } else if (document.IsNull()) {
       return refuse("it is empty; a scenario is a mapping with keys such as world and robots",
                     file);
     }
-    return ReadAll(document, place);
+    return ReadScenarioKeys(document, place);
   } catch (const YAML::Exception& error) {
-    return refuse("it is no YAML: " + error.msg, place.Of(error.mark));
+    return refuse("it is no YAML: " + error.msg, place.Of(error.mark, ""));
   }
 }
 

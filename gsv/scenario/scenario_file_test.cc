@@ -107,11 +107,11 @@ TEST(ScenarioFile, WhatIsWrittenIsReadBackToTheBit) {
   scenario.in_process = false;
   scenario.model_path = {"/models", "-x", "a\tb\n\\c", "ä{1}", ""};
   scenario.robots = {
-      {"b21r", "r,1", Place{0.1, -1e-300, 2.5, 3.0000000000000004}, "goto --goal-x 3", {}},
-      {"pebble", "0x10", Place{1e6, 0, {}, 0}, "", model::Movement::kPlanar},
-      {"", "null", {}, "wander", {}},
-      {"~", "", {}, "", model::Movement::kRigid}};
-  scenario.avatars = {{"avatar", "Ann", Place{1, 2, {}, 3}, "", {}}};
+      {"b21r", "r,1", Place{0.1, -1e-300, 2.5, 3.0000000000000004}, "goto --goal-x 3", "", {}},
+      {"pebble", "0x10", Place{1e6, 0, {}, 0}, "", "pid > 0", model::Movement::kPlanar},
+      {"", "null", {}, "wander", "", {}},
+      {"~", "", {}, "", "", model::Movement::kRigid}};
+  scenario.avatars = {{"avatar", "Ann", Place{1, 2, {}, 3}, "", "", {}}};
   scenario.record = "no";
   scenario.record_topics = {"/gsv/", "/a b"};
   scenario.record_rates = {{"beams", 0.001}};
@@ -155,6 +155,30 @@ TEST(ScenarioFile, EachMistakeIsNamedWithLineAndColumn) {
                   "y, z, yaw",
                   "room.yaml:14:16: record_topics must be a list, found \"/clock\"",
                   HasSubstr("room.yaml:2:1: there is no key \"wrold\" here; known are world, ")));
+}
+
+TEST(ScenarioFile, AStepOfZeroIsTheWorlds) {
+  EXPECT_EQ(Parsed("step: 0").step, std::nullopt);
+  EXPECT_THAT(Complaints("step: 1e-9"),
+              ElementsAre("room.yaml:1:7: a step takes 1 microsecond at least, or 0 for the "
+                          "world's"));
+}
+
+TEST(ScenarioFile, ANumberInQuotesIsAText) {
+  EXPECT_THAT(Complaints("seed: \"1\"\nin_process: 'true'\n"),
+              ElementsAre("room.yaml:1:7: seed must be a whole number from 0 to "
+                          "18446744073709551615, found the text \"1\"",
+                          "room.yaml:2:13: in_process must be false or true, found the text "
+                          "\"true\""));
+}
+
+TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
+  const Scenario scenario =
+      Parsed("robots: [{model: pebble, behaviour_constraint: \"name == 'wander'\"}]");
+  EXPECT_EQ(scenario.robots.at(0).behaviour_constraint, "name == 'wander'");
+  EXPECT_THAT(Complaints("robots: [{model: m, behaviour: a, behaviour_constraint: b}]"),
+              ElementsAre("room.yaml:1:57: a behaviour is chosen by name or by constraint, not "
+                          "both"));
 }
 
 TEST(ScenarioFile, WhatIsNoScenarioIsRefused) {

@@ -99,6 +99,9 @@ class Writer {
       add("yaw", Number(robot.start->yaw));
     }
     if (!robot.behaviour.empty()) add("behaviour", Text(robot.behaviour));
+    if (!robot.behaviour_constraint.empty()) {
+      add("behaviour_constraint", Text(robot.behaviour_constraint));
+    }
     if (robot.movement) {
       add("movement", *robot.movement == model::Movement::kRigid ? "rigid" : "planar");
     }

@@ -35,34 +35,37 @@ std::string Short(double number) {
 
 }  // namespace
 
-std::string YamlPlace::Of(const YAML::Mark& mark) const {
+std::string YamlPlace::Of(const YAML::Mark& mark, const std::string& field) const {
+  if (naming_ == Naming::kFields) return field;
   if (mark.is_null()) return file_;
   return file_ + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
 }
 
-void YamlPlace::Complain(const YAML::Mark& mark, std::string message) const {
+void YamlPlace::Complain(const YAML::Mark& mark, const std::string& field,
+                         std::string message) const {
   if (problems_.size() >= kMostComplaints) return;
-  problems_.push_back({base::Problem::Severity::kError, std::move(message), Of(mark)});
+  problems_.push_back({base::Problem::Severity::kError, std::move(message), Of(mark, field)});
 }
 
-YamlMapping::YamlMapping(const YAML::Node& node, const YamlPlace& place)
-    : place_(place), mark_(node.Mark()) {
-  if (!node.IsMap()) {
-    place_.Complain(mark_, "expected a mapping (key: value), found " + KindOf(node));
+YamlMapping::YamlMapping(const YAML::Node& node, std::string field, const YamlPlace& place)
+    : place_(place), field_(std::move(field)), mark_(node.Mark()), is_mapping_(node.IsMap()) {
+  if (!is_mapping_) {
+    Complain("expected a mapping (key: value), found " + KindOf(node));
     return;
   }
   if (node.size() > kMostKeys) {
-    place_.Complain(mark_, "a mapping has at most 64 keys here");
+    Complain("a mapping has at most 64 keys here");
     return;
   }
   for (const auto& entry : node) {
+    const YAML::Mark mark = entry.first.Mark();
     if (!entry.first.IsScalar()) {
-      place_.Complain(entry.first.Mark(), "a key is a word, found " + KindOf(entry.first));
+      place_.Complain(mark, field_, "a key is a word, found " + KindOf(entry.first));
       continue;
     }
     const std::string& key = entry.first.Scalar();
-    const bool is_new = left_.try_emplace(key, Entry{entry.first.Mark(), entry.second}).second;
-    if (!is_new) place_.Complain(entry.first.Mark(), "the key " + Quoted(key) + " comes twice");
+    const bool is_new = left_.try_emplace(key, Entry{mark, entry.second}).second;
+    if (!is_new) place_.Complain(mark, FieldOf(key), "the key " + Quoted(key) + " comes twice");
   }
 }
 
@@ -71,7 +74,8 @@ YamlMapping::~YamlMapping() {
   std::string known;
   for (const std::string& key : known_) known += (known.empty() ? "" : ", ") + key;
   for (const auto& [key, entry] : left_) {
-    place_.Complain(entry.mark, "there is no key " + Quoted(key) + " here; known are " + known);
+    place_.Complain(entry.mark, FieldOf(key.substr(0, kLongestQuote)),
+                    "there is no key " + Quoted(key) + " here; known are " + known);
   }
 }
 
@@ -85,7 +89,12 @@ std::optional<YAML::Node> YamlMapping::Any(const std::string& key) {
 
 void YamlMapping::Expect(const std::string& key, const std::string& expected,
                          const std::string& found) {
-  place_.Complain(marks_.at(key), key + " must be " + expected + ", found " + found);
+  Complain(key, key + " must be " + expected + ", found " + found);
+}
+
+void YamlMapping::Complain(const std::string& key, std::string message) const {
+  const auto mark = marks_.find(key);
+  place_.Complain(mark == marks_.end() ? mark_ : mark->second, FieldOf(key), std::move(message));
 }
 
 std::optional<std::string> YamlMapping::Scalar(const std::string& key,
@@ -97,13 +106,22 @@ std::optional<std::string> YamlMapping::Scalar(const std::string& key,
   return std::nullopt;
 }
 
+std::optional<std::string> YamlMapping::Plain(const std::string& key, const std::string& expected) {
+  const auto node = Any(key);
+  if (!node) return std::nullopt;
+  const bool is_quoted = node->IsScalar() && node->Tag() == "!";
+  if (node->IsScalar() && !is_quoted) return node->Scalar();
+  Expect(key, expected, is_quoted ? "the text " + KindOf(*node) : KindOf(*node));
+  return std::nullopt;
+}
+
 std::optional<std::string> YamlMapping::Text(const std::string& key) {
   return Scalar(key, "a text");
 }
 
 std::optional<double> YamlMapping::Number(const std::string& key, double least, double most) {
   const std::string expected = "a number from " + Short(least) + " to " + Short(most);
-  const auto text = Scalar(key, expected);
+  const auto text = Plain(key, expected);
   if (!text) return std::nullopt;
   const auto number = ParseNumber(*text);
   if (number && *number >= least && *number <= most) return number;
@@ -122,7 +140,7 @@ std::optional<double> YamlMapping::Angle(const std::string& key) {
 
 std::optional<std::uint64_t> YamlMapping::Count(const std::string& key) {
   const std::string expected = "a whole number from 0 to 18446744073709551615";
-  const auto text = Scalar(key, expected);
+  const auto text = Plain(key, expected);
   if (!text) return std::nullopt;
   std::uint64_t count = 0;
   const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), count);
@@ -132,7 +150,12 @@ std::optional<std::uint64_t> YamlMapping::Count(const std::string& key) {
 }
 
 std::optional<bool> YamlMapping::Flag(const std::string& key) {
-  return IsSecond(key, "false", "true");
+  const std::string expected = "false or true";
+  const auto text = Plain(key, expected);
+  if (!text) return std::nullopt;
+  if (*text == "false" || *text == "true") return *text == "true";
+  Expect(key, expected, Quoted(*text));
+  return std::nullopt;
 }
 
 std::optional<bool> YamlMapping::IsSecond(const std::string& key, const std::string& first,
@@ -159,7 +182,8 @@ std::vector<std::string> YamlMapping::Texts(const std::string& key) {
     if (node.IsScalar()) {
       texts.push_back(node.Scalar());
     } else {
-      place_.Complain(node.Mark(), key + " must be a list of texts, found " + KindOf(node));
+      place_.Complain(node.Mark(), FieldOf(key),
+                      key + " must be a list of texts, found " + KindOf(node));
     }
   }
   return texts;

@@ -1,4 +1,5 @@
-// Takes a YAML mapping apart, key by key, and complains, with line and column, of what it is not.
+// Takes a YAML mapping apart, key by key, and complains of what it is not: with line and column,
+// or, where it came in a request, with the field, as in "robots[1].x".
 //
 // Bounded  a mapping has kMostKeys, and so many complaints are kept: aliases may make a small file
 //          large.
@@ -19,24 +20,28 @@ namespace gsv::scenario {
 inline constexpr std::size_t kMostKeys = 64;
 inline constexpr std::size_t kMostComplaints = 100;
 
-// Where complaints go.
+// Where complaints go, and how they say what they are about.
 class YamlPlace {
  public:
-  YamlPlace(std::string file, base::Problems& problems)
-      : file_(std::move(file)), problems_(problems) {}
+  enum class Naming { kLines, kFields };
+  YamlPlace(Naming naming, std::string file, base::Problems& problems)
+      : naming_(naming), file_(std::move(file)), problems_(problems) {}
 
-  std::string Of(const YAML::Mark& mark) const;  // "FILE:LINE:COLUMN", counted from 1
-  void Complain(const YAML::Mark& mark, std::string message) const;
+  // "FILE:LINE:COLUMN", counted from 1, or the field.
+  std::string Of(const YAML::Mark& mark, const std::string& field) const;
+  void Complain(const YAML::Mark& mark, const std::string& field, std::string message) const;
 
  private:
+  const Naming naming_;
   const std::string file_;
   base::Problems& problems_;
 };
 
 class YamlMapping {
  public:
-  // Complains of a node that is no mapping, and of keys that come twice.
-  YamlMapping(const YAML::Node& node, const YamlPlace& place);
+  // Complains of a node that is no mapping, and of keys that come twice. `field`: what it is itself
+  // ("" or "robots[1]").
+  YamlMapping(const YAML::Node& node, std::string field, const YamlPlace& place);
   // Complains of keys that nobody asked for.
   ~YamlMapping();
   YamlMapping(const YamlMapping&) = delete;
@@ -54,21 +59,45 @@ class YamlMapping {
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
   std::optional<YAML::Node> Any(const std::string& key);
+  // Calls `read` with each element of a list, and its field.
+  template <typename Read>
+  void Each(const std::string& key, std::size_t most, const Read& read) {
+    const std::vector<YAML::Node> list = List(key);
+    if (list.size() > most) {
+      place_.Complain(list[most].Mark(), FieldOf(key),
+                      key + " has at most " + std::to_string(most) + " entries");
+      return;
+    }
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      read(list[i], FieldOf(key) + "[" + std::to_string(i) + "]");
+    }
+  }
 
   // Whether it was asked for and was there, whatever it was.
   bool Had(const std::string& key) const { return marks_.contains(key); }
-  const YAML::Mark& mark() const { return mark_; }
+  bool is_mapping() const { return is_mapping_; }
+  const YamlPlace& place() const { return place_; }
+  std::string FieldOf(const std::string& key) const {
+    return field_.empty() ? key : field_ + "." + key;
+  }
+  // Of the mapping; of a value that was there, or else is missing.
+  void Complain(std::string message) const { place_.Complain(mark_, field_, std::move(message)); }
+  void Complain(const std::string& key, std::string message) const;
 
  private:
   struct Entry {
     YAML::Mark mark;  // of the key
     YAML::Node value;
   };
+  // A number or a flag in quotes would be a text.
+  std::optional<std::string> Plain(const std::string& key, const std::string& expected);
   std::optional<std::string> Scalar(const std::string& key, const std::string& expected);
   void Expect(const std::string& key, const std::string& expected, const std::string& found);
 
   const YamlPlace& place_;
-  YAML::Mark mark_;
+  const std::string field_;
+  const YAML::Mark mark_;
+  const bool is_mapping_;
   std::map<std::string, Entry> left_;        // that nobody asked for yet
   std::map<std::string, YAML::Mark> marks_;  // of the values that were
   std::vector<std::string> known_;

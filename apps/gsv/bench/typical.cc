@@ -11,7 +11,7 @@
 #include "apps/gsv/bench/crowd_scenario.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
-#include "apps/gsv/population.h"
+#include "apps/gsv/run_population.h"
 
 namespace gsv::app {
 namespace {
@@ -152,7 +152,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
   auto simulation =
       (*runtime)->host().Create(options.specification, options.scenario.world, problems);
   if (!simulation) return base::Fail(simulation.error());
-  if (auto ok = Populate(**runtime, **simulation, options, problems); !ok)
+  if (auto ok = PopulateRun(**runtime, **simulation, options, problems); !ok)
     return base::Fail(ok.error());
   (*simulation)->AddObserver(row.updates);
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());

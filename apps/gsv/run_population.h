@@ -1,0 +1,14 @@
+// The robots of `gsv run`, with their behaviours.
+#pragma once
+
+#include "apps/gsv/run_options.h"
+
+namespace gsv::app {
+
+// Adds the scenario's robots and the avatars, and gives behaviours to all, those that came with
+// the world included. Programs that are missing are started. Gives the scenario as it came to be,
+// which run again places the same robots at the same bits.
+base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, simulation::Simulation& simulation,
+                                             const RunOptions& options, base::Problems& problems);
+
+}  // namespace gsv::app

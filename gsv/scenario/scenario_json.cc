@@ -1,0 +1,49 @@
+#include "gsv/scenario/scenario_json.h"
+
+#include "gsv/scenario/scenario_file.h"
+#include "gsv/scenario/scenario_keys.h"
+
+namespace gsv::scenario {
+namespace {
+
+// JSON is YAML, but for texts that YAML would not have (a key of a thousand letters).
+template <typename Read>
+auto ReadJson(const std::string& json, base::Problems& problems, const Read& read) {
+  const YamlPlace place(YamlPlace::Naming::kFields, "", problems);
+  const auto refuse = [&](const std::string& message) { place.Complain({}, "", message); };
+  YAML::Node node(YAML::NodeType::Map);
+  if (json.size() > kLargestScenario) {
+    refuse("a scenario has at most " + std::to_string(kLargestScenario) + " bytes");
+  } else {
+    try {
+      node = YAML::Load(json);
+    } catch (const YAML::Exception& error) {
+      refuse("it cannot be read: " + error.msg);
+    }
+  }
+  return read(node, place);
+}
+
+}  // namespace
+
+Scenario ParseScenarioJson(const std::string& json, base::Problems& problems) {
+  return ReadJson(json, problems, &ReadScenarioKeys);
+}
+
+RobotEntry ParseRobotJson(const std::string& json, bool is_avatar, base::Problems& problems) {
+  return ReadJson(json, problems, [&](const YAML::Node& node, const YamlPlace& place) {
+    YamlMapping mapping(node, "", place);
+    return ReadRobotKeys(mapping, is_avatar);
+  });
+}
+
+Place ParsePlaceJson(const std::string& json, base::Problems& problems) {
+  return ReadJson(json, problems, [](const YAML::Node& node, const YamlPlace& place) {
+    YamlMapping mapping(node, "", place);
+    const auto read = ReadPlaceKeys(mapping);
+    if (!mapping.Had("x") && !mapping.Had("y")) mapping.Complain("x", "it is needed");
+    return read.value_or(Place());
+  });
+}
+
+}  // namespace gsv::scenario

@@ -1,0 +1,121 @@
+#include "gsv/scenario/scenario_keys.h"
+
+namespace gsv::scenario {
+namespace {
+
+constexpr std::size_t kMostRobots = 100'000;
+constexpr double kFarthest = 1e6;  // m
+constexpr double kLongest = 1e9;   // s
+constexpr double kMostFactor = 1e6;
+constexpr double kLeastStep = 1e-6;                       // s
+constexpr double kLeastRate = 0.001, kMostRate = 10'000;  // Hz
+
+std::optional<model::Movement> ReadMovement(YamlMapping& mapping) {
+  const auto is_rigid = mapping.IsSecond("movement", "planar", "rigid");
+  if (!is_rigid) return std::nullopt;
+  return *is_rigid ? model::Movement::kRigid : model::Movement::kPlanar;
+}
+
+void CheckRobot(const RobotEntry& robot, bool is_avatar, const YamlMapping& mapping) {
+  if (!robot.behaviour.empty() && !robot.behaviour_constraint.empty()) {
+    mapping.Complain("behaviour_constraint",
+                     "a behaviour is chosen by name or by constraint, not both");
+  }
+  if (!mapping.is_mapping() || !robot.model.empty()) return;
+  if (is_avatar) {
+    mapping.Complain("model", "an avatar needs a model");
+  } else if (robot.name.empty()) {
+    mapping.Complain("model",
+                     "a robot needs a model, or the name of one that stands in the world's file");
+  } else if (robot.start || robot.movement) {
+    mapping.Complain("model",
+                     "a robot without a model stands in the world's file, which says where it "
+                     "starts and how it moves");
+  }
+}
+
+std::vector<RobotEntry> ReadRobots(YamlMapping& mapping, const std::string& key) {
+  const bool are_avatars = key == "avatars";
+  std::vector<RobotEntry> robots;
+  mapping.Each(key, kMostRobots, [&](const YAML::Node& node, std::string field) {
+    YamlMapping robot(node, std::move(field), mapping.place());
+    robots.push_back(ReadRobotKeys(robot, are_avatars));
+  });
+  return robots;
+}
+
+std::map<std::string, double> ReadRates(YamlMapping& mapping) {
+  std::map<std::string, double> rates;
+  const auto node = mapping.Any("record_rates");
+  if (!node) return rates;
+  YamlMapping kinds(*node, mapping.FieldOf("record_rates"), mapping.place());
+  for (const char* kind : {"poses", "readings", "pictures", "beams"}) {
+    if (const auto rate = kinds.Number(kind, kLeastRate, kMostRate)) rates[kind] = *rate;
+  }
+  return rates;
+}
+
+// 0: the world's, as without one.
+std::optional<double> ReadStep(YamlMapping& mapping) {
+  const auto step = mapping.Number("step", 0, 10);
+  if (step == 0.0) return std::nullopt;
+  if (step && *step < kLeastStep) {
+    mapping.Complain("step", "a step takes 1 microsecond at least, or 0 for the world's");
+    return std::nullopt;
+  }
+  return step;
+}
+
+}  // namespace
+
+std::optional<Place> ReadPlaceKeys(YamlMapping& mapping) {
+  const auto x = mapping.Number("x", -kFarthest, kFarthest);
+  const auto y = mapping.Number("y", -kFarthest, kFarthest);
+  const auto z = mapping.Number("z", -kFarthest, kFarthest);
+  const auto yaw = mapping.Angle("yaw");
+  if (x && y) return Place{*x, *y, z, yaw.value_or(0)};
+  const bool has_any = mapping.Had("x") || mapping.Had("y") || z || yaw;
+  if (has_any && !(mapping.Had("x") && mapping.Had("y"))) {
+    mapping.Complain(mapping.Had("x") ? "y" : "x", "a place needs both x and y");
+  }
+  return std::nullopt;
+}
+
+RobotEntry ReadRobotKeys(YamlMapping& mapping, bool is_avatar) {
+  RobotEntry robot;
+  robot.name = mapping.Text("name").value_or("");
+  robot.model = mapping.Text("model").value_or("");
+  robot.start = ReadPlaceKeys(mapping);
+  if (!is_avatar) {
+    robot.behaviour = mapping.Text("behaviour").value_or("");
+    robot.behaviour_constraint = mapping.Text("behaviour_constraint").value_or("");
+    robot.movement = ReadMovement(mapping);
+  }
+  CheckRobot(robot, is_avatar, mapping);
+  return robot;
+}
+
+Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
+  YamlMapping mapping(node, "", place);
+  Scenario scenario;
+  scenario.world = mapping.Text("world").value_or("");
+  scenario.name = mapping.Text("name").value_or("");
+  scenario.seed = mapping.Count("seed");
+  scenario.lockstep = mapping.IsSecond("mode", "real_time", "lockstep");
+  scenario.factor = mapping.Number("factor", 1e-6, kMostFactor);
+  scenario.step = ReadStep(mapping);
+  scenario.duration = mapping.Number("duration", 0, kLongest);
+  scenario.deadline = mapping.Number("deadline", 0, kLongest);
+  scenario.fails_with_behaviour = mapping.IsSecond("on_failure", "go_on", "fail");
+  scenario.in_process = mapping.Flag("in_process");
+  scenario.model_path = mapping.Texts("model_path");
+  scenario.robots = ReadRobots(mapping, "robots");
+  scenario.avatars = ReadRobots(mapping, "avatars");
+  scenario.record = mapping.Text("record").value_or("");
+  scenario.record_topics = mapping.Texts("record_topics");
+  scenario.record_rates = ReadRates(mapping);
+  scenario.record_png = mapping.IsSecond("record_pictures", "jpeg", "png");
+  return scenario;
+}
+
+}  // namespace gsv::scenario
