@@ -24,6 +24,7 @@ void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddRecordCommands(const CommandLine& line);   // rec start, stop; after AddRecordingCommands()
 void AddControlCommands(const CommandLine& line);  // ps, pause, resume, step, stop, reset
 void AddBenchCommands(const CommandLine& line);    // bench
+void AddTestCommand(const CommandLine& line);
 void AddViewCommand(const CommandLine& line);
 
 }  // namespace gsv::app

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <limits>
 #include <numbers>
 
@@ -15,9 +14,8 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/limit_option.h"
+#include "apps/gsv/picture.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/rendering/jpeg.h"
-#include "gsv/rendering/png.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::app {
@@ -107,25 +105,6 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
   return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
 }
 
-bool IsPng(const std::string& path) { return path.ends_with(".png"); }
-
-std::string CheckPictureName(const std::string& path) {
-  if (IsPng(path) || path.ends_with(".jpg") || path.ends_with(".jpeg")) return {};
-  return "a picture's name ends with .jpg, .jpeg or .png, and " + path + " does not";
-}
-
-base::Status Write(const model::Image& picture, const std::string& path) {
-  const auto bytes =
-      IsPng(path) ? rendering::EncodePng(picture) : rendering::EncodeJpeg(picture, 88);
-  if (!bytes) return base::Fail(bytes.error());
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes->data()),
-             static_cast<std::streamsize>(bytes->size()));
-  if (file.flush()) return {};
-  return base::Fail(base::ErrorCode::kUnavailable,
-                    "cannot be written; name a file in a folder that is there", path);
-}
-
 int Run(const DrawArguments& arguments) {
   formats::ReadOptions options;
   options.limits = arguments.limits;
@@ -144,7 +123,7 @@ int Run(const DrawArguments& arguments) {
   const auto view = ViewOfAll(CornersIn(*snapshot), arguments.width, arguments.height);
   const auto picture = (*renderer)->Draw(snapshot, view, std::chrono::minutes(1));
   if (!picture) return Complain(picture.error());
-  if (auto written = Write(**picture, arguments.picture); !written) {
+  if (auto written = WritePicture(**picture, arguments.picture); !written) {
     return Complain(written.error());
   }
   const nlohmann::ordered_json json{{"models", snapshot->layout->bodies.size()},

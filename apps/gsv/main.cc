@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   AddRecordCommands(line);
   AddControlCommands(line);
   AddBenchCommands(line);
+  AddTestCommand(line);
   AddViewCommand(line);
   try {
     app.parse(argc, argv);

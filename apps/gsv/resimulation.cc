@@ -147,6 +147,7 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   auto run = OptionsOf(*call, options.file);
   if (!run) return base::Fail(run.error());
   run->runtime.broker = options.broker;
+  run->scenario.expect.clear();  // it was judged then
   run->record = (folder->path() / "again.mcap").string();
   run->specification.duration = info->end;
   if (options.commands) {

@@ -9,12 +9,14 @@
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
+#include "apps/gsv/picture.h"
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/run.h"
 #include "apps/gsv/run_population.h"
 #include "apps/gsv/run_report.h"
 #include "gsv/recording/mcap_reader.h"
 #include "gsv/recording/topics.h"
+#include "gsv/verdict/judge.h"
 
 namespace gsv::app {
 namespace {
@@ -84,10 +86,19 @@ int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
   }
 }
 
+// Whose end the scenario asked for.
+bool WasToDie(const Simulation& simulation, const std::string& robot) {
+  const auto& faults = simulation.specification().faults;
+  return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
+    return fault.kind == scenario::Fault::Kind::kBehaviourDies && fault.body == robot;
+  });
+}
+
 // What the behaviours' ends make of the exit code; each end is told.
 int JudgeBehaviours(const Simulation& simulation, int exit_code) {
   const auto status = simulation.status();
   for (const auto& robot : status.robots) {
+    if (WasToDie(simulation, robot.name)) continue;
     if (robot.phase != simulation::AgentPhase::kDead &&
         robot.phase != simulation::AgentPhase::kUnresponsive)
       continue;
@@ -121,6 +132,29 @@ std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
   return ComplaintsAbout(options.recording, topics_at_start);
 }
 
+// Tells what was expected and did not come, with a picture of the first time.
+int JudgeExpectations(verdict::Judge& judge, const RunOptions& options,
+                      std::vector<verdict::Finding>& findings, int exit_code) {
+  findings = judge.Finish();
+  const verdict::Finding* first = nullptr;
+  for (const verdict::Finding& finding : findings) {
+    if (finding.holds) continue;
+    std::fprintf(stderr, "gsv: %s: %s: %s\n", finding.where.c_str(), finding.name.c_str(),
+                 finding.Sentence().c_str());
+    if (first == nullptr || finding.step < first->step) first = &finding;
+  }
+  if (first == nullptr) return exit_code;
+  if (!options.failure_picture.empty()) {
+    std::string about;
+    for (const auto& measured : first->atoms) {
+      if (about.empty()) about = measured.atom.quantity.first;
+    }
+    if (auto ok = DrawAround(judge.first_violation(), about, options.failure_picture); !ok)
+      Warn({ok.error().Sentence()});
+  }
+  return exit_code == kOk ? kAssertionFailed : exit_code;
+}
+
 }  // namespace
 
 base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet) {
@@ -143,6 +177,8 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
       std::fprintf(stderr, "gsv: note: %s: %s\n", event.robot.c_str(), event.detail.c_str());
   }
 
+  auto judge = verdict::Judge::Attach(options.scenario.expect, **simulation);
+  if (!judge) return base::Fail(judge.error());
   if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
   std::FILE* const notes = options.json ? stderr : stdout;
   if (!is_quiet) std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
@@ -162,6 +198,8 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
   }
   if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
   int exit_code = JudgeBehaviours(**simulation, Await(**simulation, options, signals));
+  std::vector<verdict::Finding> findings;
+  exit_code = JudgeExpectations(**judge, options, findings, exit_code);
   if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
   if (is_quiet) return exit_code;
   if (!options.recording.topics.empty()) {
@@ -169,8 +207,8 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
       warnings.push_back(std::move(sentence));
     }
   }
-  const std::string report =
-      options.json ? JsonReport(**simulation, warnings) + "\n" : TextReport(**simulation);
+  const std::string report = options.json ? JsonReport(**simulation, warnings, findings) + "\n"
+                                          : TextReport(**simulation, findings);
   std::fputs(report.c_str(), stdout);
   std::fflush(stdout);
   return exit_code;

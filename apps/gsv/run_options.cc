@@ -88,6 +88,9 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
   AddRecordingsOption(command, a.web);
   command.add_flag("--headless", a.headless, "without a viewer");
   command.add_flag("--open", a.open, "open the viewer in a browser");
+  command.add_option("--failure-picture", a.failure_picture,
+                     "a file, .jpg or .png, for a picture of the world when an expectation of the "
+                     "scenario is first violated");
   command.add_flag("--json", a.json, "the last line on stdout is the result as JSON");
 }
 
@@ -239,6 +242,7 @@ void UnderstandSpecification(const RunArguments& a, const scenario::Scenario& sc
   specification.on_failure = scenario.fails_with_behaviour.value_or(false)
                                  ? simulation::FailurePolicy::kFail
                                  : simulation::FailurePolicy::kGoOn;
+  specification.faults = scenario.faults;
   specification.keep = true;
   specification.threads = a.threads;
 }
@@ -271,6 +275,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   options.runtime.viewer = !a.headless;
   options.runtime.web = a.web;
   options.wall_timeout = a.wall_timeout;
+  options.failure_picture = a.failure_picture;
   options.open_browser = a.open;
   options.json = a.json;
   return options;

@@ -35,7 +35,8 @@ struct RunOptions {
   simulation::Specification specification;
   std::string record;  // a file; empty: no recording
   RecordingChoice recording;
-  double wall_timeout = 0;  // s; 0: none
+  double wall_timeout = 0;      // s; 0: none
+  std::string failure_picture;  // a file to draw the first violation to; empty: none
   bool open_browser = false;
   bool json = false;
 };
@@ -45,7 +46,7 @@ struct RunArguments {
   std::string world;
   std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
   formats::ReadLimits limits;
-  std::string broker, name, mode_on_failure, record, record_pictures;
+  std::string broker, name, mode_on_failure, record, record_pictures, failure_picture;
   std::vector<std::string> record_topics, record_rates;
   // Those that a scenario's file may say as well are empty where they were not given.
   std::optional<double> duration, step, factor, deadline;

@@ -140,6 +140,7 @@ scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
                        {"pictures", choice.pictures_rate},
                        {"beams", choice.beams_rate}};
   told.record_png = given.record_png;
+  told.expect = given.expect;
   return told;
 }
 

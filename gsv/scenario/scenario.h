@@ -10,22 +10,11 @@
 #include <vector>
 
 #include "gsv/base/error.h"
-#include "gsv/geometry/pose.h"
 #include "gsv/model/model.h"
+#include "gsv/scenario/expectation.h"
+#include "gsv/scenario/fault.h"
 
 namespace gsv::scenario {
-
-// Where a robot starts, in the world: metres and radians. The numbers stay as they were given, so
-// that a run that is repeated begins with the same bits.
-struct Place {
-  double x = 0;
-  double y = 0;
-  std::optional<double> z;  // of the model's origin; without it: it stands on the floor
-  double yaw = 0;
-
-  geometry::Pose pose() const { return geometry::PlanarPose(x, y, z.value_or(0), yaw); }
-  friend bool operator==(const Place&, const Place&) = default;
-};
 
 struct RobotEntry {
   std::string model;                        // a file, folder or name; empty: the world brings it
@@ -56,6 +45,8 @@ struct Scenario {
   std::vector<std::string> record_topics;
   std::map<std::string, double> record_rates;  // Hz of simulated time, by kind
   std::optional<bool> record_png;              // pictures, else JPEG
+  std::vector<Fault> faults;
+  std::vector<Expectation> expect;
 
   friend bool operator==(const Scenario&, const Scenario&) = default;
 };

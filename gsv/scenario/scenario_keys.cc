@@ -1,11 +1,11 @@
 #include "gsv/scenario/scenario_keys.h"
 
+#include "gsv/scenario/test_keys.h"
+
 namespace gsv::scenario {
 namespace {
 
 constexpr std::size_t kMostRobots = 100'000;
-constexpr double kFarthest = 1e6;  // m
-constexpr double kLongest = 1e9;   // s
 constexpr double kMostFactor = 1e6;
 constexpr double kLeastStep = 1e-6;                       // s
 constexpr double kLeastRate = 0.001, kMostRate = 10'000;  // Hz
@@ -115,6 +115,8 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.record_topics = mapping.Texts("record_topics");
   scenario.record_rates = ReadRates(mapping);
   scenario.record_png = mapping.IsSecond("record_pictures", "jpeg", "png");
+  scenario.faults = ReadFaults(mapping);
+  scenario.expect = ReadExpectations(mapping, scenario.duration.value_or(0));
   return scenario;
 }
 

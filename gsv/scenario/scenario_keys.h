@@ -7,6 +7,9 @@
 
 namespace gsv::scenario {
 
+inline constexpr double kFarthest = 1e6;  // m
+inline constexpr double kLongest = 1e9;   // s
+
 Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place);
 
 // A robot, or an avatar, which has neither behaviour nor movement.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gsv/scenario/scenario_file.h"
+#include "gsv/scenario/test_keys.h"
 
 namespace gsv::scenario {
 namespace {
@@ -82,6 +83,16 @@ class Writer {
     yaml_ += std::string(key) + ":\n";
     for (const RobotEntry& robot : robots) yaml_ += "  - {" + Fields(robot) + "}\n";
   }
+  void PutFaults(const std::vector<Fault>& faults) {
+    if (faults.empty()) return;
+    yaml_ += "faults:\n";
+    for (const Fault& fault : faults) yaml_ += "  - {" + Fields(fault) + "}\n";
+  }
+  void PutExpectations(const std::vector<Expectation>& expectations) {
+    if (expectations.empty()) return;
+    yaml_ += "expect:\n";
+    for (const Expectation& expectation : expectations) yaml_ += "  - " + expectation.yaml + "\n";
+  }
   std::string Take() { return std::move(yaml_); }
 
  private:
@@ -108,6 +119,35 @@ class Writer {
     return fields;
   }
 
+  static std::string Fields(const Fault& fault) {
+    using Kind = Fault::Kind;
+    const std::string part = fault.part.empty() ? "" : "/" + fault.part;
+    const auto subject = [&](const char* key) {
+      return "at: " + Number(fault.at) + ", " + key + ": " + Text(fault.body + part);
+    };
+    switch (fault.kind) {
+      case Kind::kSensorSilent:
+        return subject("sensor");
+      case Kind::kSensorError:
+        return subject("sensor") + ", fails: error";
+      case Kind::kBehaviourDies:
+        return subject("behaviour");
+      case Kind::kMotorFails:
+        return subject("motor");
+      case Kind::kBodyMoves: {
+        const Place& place = fault.place;
+        const std::string z = place.z ? ", z: " + Number(*place.z) : "";
+        return subject("move") + ", x: " + Number(place.x) + ", y: " + Number(place.y) + z +
+               ", yaw: " + Number(place.yaw);
+      }
+      case Kind::kJointMoves:
+        break;
+    }
+    const char* const units[]{"position", "velocity", "effort"};
+    return subject("joint") + ", " + units[static_cast<int>(fault.unit)] + ": " +
+           Number(fault.target);
+  }
+
   std::string yaml_;
 };
 
@@ -120,6 +160,21 @@ std::string Rates(const std::map<std::string, double>& rates) {
 }
 
 }  // namespace
+
+std::string OnOneLine(const YAML::Node& node) {
+  if (node.IsScalar()) {
+    // What looks like a number in quotes would not be one without.
+    const bool is_number = node.Tag() != "!" && ParseNumber(node.Scalar());
+    return is_number ? node.Scalar() : Text(node.Scalar());
+  }
+  std::string list;
+  for (const auto& entry : node) {
+    if (!list.empty()) list += ", ";
+    list += node.IsMap() ? entry.first.Scalar() + ": " + OnOneLine(entry.second) : OnOneLine(entry);
+  }
+  if (node.IsMap()) return "{" + list + "}";
+  return node.IsSequence() ? "[" + list + "]" : "~";
+}
 
 std::string ToYaml(const Scenario& scenario) {
   Writer writer;
@@ -140,6 +195,8 @@ std::string ToYaml(const Scenario& scenario) {
   if (!scenario.record_topics.empty()) writer.Put("record_topics", List(scenario.record_topics));
   if (!scenario.record_rates.empty()) writer.Put("record_rates", Rates(scenario.record_rates));
   writer.PutChoice("record_pictures", scenario.record_png, "jpeg", "png");
+  writer.PutFaults(scenario.faults);
+  writer.PutExpectations(scenario.expect);
   const std::string yaml = writer.Take();
   return yaml.empty() ? "{}\n" : yaml;  // an empty file would be none
 }

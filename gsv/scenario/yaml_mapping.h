@@ -30,6 +30,7 @@ class YamlPlace {
   // "FILE:LINE:COLUMN", counted from 1, or the field.
   std::string Of(const YAML::Mark& mark, const std::string& field) const;
   void Complain(const YAML::Mark& mark, const std::string& field, std::string message) const;
+  std::size_t complaints() const { return problems_.size(); }
 
  private:
   const Naming naming_;
@@ -77,6 +78,7 @@ class YamlMapping {
   bool Had(const std::string& key) const { return marks_.contains(key); }
   bool is_mapping() const { return is_mapping_; }
   const YamlPlace& place() const { return place_; }
+  std::string Source() const { return place_.Of(mark_, field_); }
   std::string FieldOf(const std::string& key) const {
     return field_.empty() ? key : field_ + "." + key;
   }

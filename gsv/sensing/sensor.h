@@ -29,6 +29,10 @@ class Sampling {
 
   // On to another robot at the same instant.
   void MoveTo(int body);
+  // The same at another instant; `body` counts in that one's layout.
+  Sampling At(std::shared_ptr<const world::Snapshot> snapshot, int body) const {
+    return {std::move(snapshot), body, seed_, rays_};
+  }
 
   const std::shared_ptr<const world::Snapshot>& snapshot() const { return snapshot_; }
   int body() const { return body_; }

@@ -89,6 +89,9 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       factor_(specification_.factor),
       caller_(kCallingThreads) {
   wheel_odometry_.SetLayout(*layout_);
+  faults_ = specification_.faults;
+  std::stable_sort(faults_.begin(), faults_.end(),
+                   [](const auto& a, const auto& b) { return a.at < b.at; });
   for (const world::Body& body : layout_->bodies) {
     if (!body.is_robot) continue;
     const auto agent = std::make_shared<RobotAgent>(body.name, body.model, false, shared_);
@@ -152,6 +155,9 @@ base::Status SteppingSimulation::Start() {
 }
 
 base::Status SteppingSimulation::Go(SimTime until, std::int64_t steps) {
+  if (shared_->phase == Phase::kCreated) {
+    if (auto ok = CheckFaults(); !ok) return ok;
+  }
   ++run_;
   run_until_ = until;
   steps_left_ = steps;
@@ -292,6 +298,7 @@ base::Status SteppingSimulation::Reset() {
   {
     const auto world_lock = LockWorld();
     if (!world_lock) return RefuseStuck();
+    if (auto ok = UndoFaults(); !ok) return ok;
     const std::lock_guard lock(shared_->mutex);
     state_ = world::InitialState(*layout_);
     if (!engine_holds_.empty()) GSV_CHECK(SetEngineLayout(layout_, state_));

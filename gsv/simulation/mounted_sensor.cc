@@ -76,8 +76,18 @@ std::shared_ptr<const SensorDesigns::List> SensorDesigns::Of(
 
 base::Result<sensing::Reading> MountedSensor::Read(const sensing::Sampling& sampling) {
   if (design_->sensor == nullptr) return base::Fail(design_->refusal);
-  const world::Snapshot& snapshot = *sampling.snapshot();
   const std::lock_guard lock(mutex_);
+  if (!has_failed_) return SampleOnce(sampling);
+  if (silent_since_ == nullptr) {
+    return base::Fail(base::ErrorCode::kUnavailable, "the sensor has failed", name());
+  }
+  const int body = silent_since_->layout->Find(sampling.robot().name);
+  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", name());
+  return SampleOnce(sampling.At(silent_since_, body));
+}
+
+base::Result<sensing::Reading> MountedSensor::SampleOnce(const sensing::Sampling& sampling) {
+  const world::Snapshot& snapshot = *sampling.snapshot();
   if (sampled_step_ == snapshot.state.step && sampled_layout_ == snapshot.layout->version) {
     return newest_;
   }
@@ -89,8 +99,16 @@ base::Result<sensing::Reading> MountedSensor::Read(const sensing::Sampling& samp
   return reading;
 }
 
+void MountedSensor::Fail(std::shared_ptr<const world::Snapshot> snapshot) {
+  const std::lock_guard lock(mutex_);
+  has_failed_ = true;
+  silent_since_ = std::move(snapshot);
+}
+
 void MountedSensor::Forget() {
   const std::lock_guard lock(mutex_);
+  has_failed_ = false;
+  silent_since_ = nullptr;
   sampled_step_ = -1;
   newest_ = {};
   readings_ = 0;

@@ -71,6 +71,10 @@ class MountedSensor {
   // The sample of `sampling`'s instant: taken now if nobody has asked for it before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
 
+  // A fault: from here on its newest sample stays that of `snapshot`, or, without one, who reads it
+  // gets an error.
+  void Fail(std::shared_ptr<const world::Snapshot> snapshot);
+
   // Readings that the behaviour was given.
   void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
   std::uint64_t readings() const { return readings_.load(std::memory_order_relaxed); }
@@ -79,6 +83,9 @@ class MountedSensor {
   void Forget();
 
  private:
+  // Under the lock.
+  base::Result<sensing::Reading> SampleOnce(const sensing::Sampling& sampling);
+
   const SensorDesignPtr design_;
   std::atomic<std::uint64_t> readings_{0};
 
@@ -86,6 +93,8 @@ class MountedSensor {
   std::int64_t sampled_step_ = -1;  // -1: never
   std::uint32_t sampled_layout_ = 0;
   sensing::Reading newest_;
+  bool has_failed_ = false;
+  std::shared_ptr<const world::Snapshot> silent_since_;
 };
 
 }  // namespace gsv::simulation

@@ -150,7 +150,8 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
   std::vector<world::Body> settled = layout->bodies;
   for (const std::string& name : placed) {
     const int body = layout->Find(name);
-    const int old = state.step > 0 ? layout_->Find(name) : -1;
+    const bool starts_here = state.step == 0 || settled[body].is_static;
+    const int old = starts_here ? -1 : layout_->Find(name);
     settled[body].initial_pose =
         old >= 0 ? layout_->bodies[old].initial_pose : state.bodies[body].world_from_model;
   }

@@ -443,6 +443,16 @@ std::vector<std::pair<int, world::JointCommand>> RobotAgent::TakeJointCommands()
   return std::exchange(pending_joints_, {});
 }
 
+void RobotAgent::LoseMotor() {
+  has_motor_ = false;
+  StopDriving();
+}
+
+void RobotAgent::LoseJoint(int joint) {
+  lost_joints_.insert(joint);
+  std::erase_if(pending_joints_, [&](const auto& command) { return command.first == joint; });
+}
+
 void RobotAgent::MarkGone() {
   is_gone_ = true;
   gate_.Open();
@@ -457,6 +467,8 @@ void RobotAgent::ResetClocks() {
   actuator_acts_.clear();
   is_commanded_ = false;
   started_ = false;
+  has_motor_ = true;
+  lost_joints_.clear();
   death_reported_ = false;
   fate_ = Fate::kAlive;
   detail_.clear();

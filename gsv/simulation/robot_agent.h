@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <set>
 
 #include "gsv/simulation/actuator_acts.h"
 #include "gsv/simulation/agent.h"
@@ -94,6 +95,11 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   ActuatorActs TakeActuatorActs() { return std::exchange(actuator_acts_, {}); }
   // Has its actuators do what they do from the start.
   void StartActuators();
+  // Faults: from the next step on its drive stands still, or nothing moves that joint.
+  void LoseMotor();
+  void LoseJoint(int joint);
+  bool has_motor() const { return has_motor_; }
+  bool MayMoveJoint(int joint) const { return !lost_joints_.contains(joint); }
   void MarkGone();
   bool is_gone() const { return is_gone_; }
   void ResetClocks();
@@ -154,6 +160,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   RadioActs radio_acts_;
   ActuatorActs actuator_acts_;
   int body_ = -1;
+  bool has_motor_ = true;
+  std::set<int> lost_joints_;
   bool is_counted_ = false;    // in shared_->running
   bool is_commanded_ = false;  // in shared_->commanded
   bool is_blocked_ = false;    // a local behaviour on work that takes its time

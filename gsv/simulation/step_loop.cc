@@ -34,6 +34,12 @@ void SteppingSimulation::RunLoop() {
       restart_pacing_ = false;
       pacer_.Restart(WallNow());
     }
+    if (IsFaultDue()) {
+      lock.unlock();
+      ApplyFaults();
+      lock.lock();
+      continue;
+    }
     WakeAgents();
     if (!woken_.empty()) {
       lock.unlock();
@@ -153,11 +159,11 @@ void SteppingSimulation::TakeStep() {
       for (RobotAgent* agent : shared_->commanded) {
         if (const auto command = agent->TakeCommand()) {
           world::DriveState& drive = state_.bodies[agent->body()].drive;
-          drive.command = *command;
+          drive.command = agent->has_motor() ? *command : world::DriveCommand();
           drive.command_time = state_.time;
         }
         for (const auto& [joint, command] : agent->TakeJointCommands()) {
-          if (!layout_->bodies[agent->body()].is_rigid) continue;
+          if (!layout_->bodies[agent->body()].is_rigid || !agent->MayMoveJoint(joint)) continue;
           world::CommandJoint(*layout_, agent->body(), joint, command, state_);
         }
         if (RadioActs acts = agent->TakeRadioActs(); !acts.empty()) {
@@ -251,6 +257,7 @@ std::string SteppingSimulation::HashNow() const {
   base::Hash hash;
   world::AddToHash(*layout_, state_, hash);
   for (const auto& [name, agent] : agents_) agent->AddToHash(hash);
+  if (faults_done_ > 0) hash.Add(std::uint64_t{faults_done_});
   return hash.Hex();
 }
 

@@ -124,6 +124,17 @@ class SteppingSimulation final : public Simulation {
   base::Status AwaitCalls();
   base::Status RefuseStuck() const;
 
+  // faults.cc: what goes wrong because a scenario says so.
+  base::Status CheckFaults() const;
+  bool IsFaultDue() const;
+  // All that are due, in order; on the stepping thread, between two steps.
+  void ApplyFaults();
+  base::Status Apply(const scenario::Fault& fault);
+  base::Status MoveBody(const scenario::Fault& fault);
+  base::Status MoveJoint(const scenario::Fault& fault);
+  // Back to where faults found everything.
+  base::Status UndoFaults();
+
   // step_loop.cc: the stepping thread.
   void RunLoop();
   void WakeAgents();
@@ -164,6 +175,12 @@ class SteppingSimulation final : public Simulation {
   std::vector<RobotAgent*> turns_;  // being taken
   GateOpener gate_opener_;
   GateOpener::Gates woken_;  // of those who have just been woken; stepping thread only
+
+  // In the order in which they happen; guarded by shared_->mutex.
+  std::vector<scenario::Fault> faults_;
+  std::size_t faults_done_ = 0;
+  // Where static bodies stood that faults have moved; guarded by world_mutex_.
+  std::map<std::string, geometry::Pose> stood_at_;
 
   // A turn is under way that has lasted longer than the deadline, with world_mutex_ held. Changes
   // under shared_->mutex.

@@ -10,6 +10,7 @@
 
 #include "gsv/base/sim_time.h"
 #include "gsv/model/world_description.h"
+#include "gsv/scenario/fault.h"
 #include "gsv/sensing/reading.h"
 
 namespace gsv::simulation {
@@ -42,7 +43,8 @@ struct Specification {
   FailurePolicy on_failure = FailurePolicy::kGoOn;
   // Wall time that an agent may run before it must wait; then it is unresponsive.
   std::chrono::milliseconds deadline{10'000};
-  bool keep = false;  // survives its creator
+  bool keep = false;                    // survives its creator
+  std::vector<scenario::Fault> faults;  // that will happen; see faults.h
   // That move bodies and run local behaviours; 0: as many as processors in lockstep, else one.
   int threads = 0;
 };

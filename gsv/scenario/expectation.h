@@ -1,0 +1,69 @@
+// What a run is expected to do, as formulas over its instants (docs/testing.md): conditions on
+// measured numbers, joined by `all`, `any`, `not`, and by time.
+//
+// Semantics  linear temporal logic over the finite sequence of the run's steps, the initial state
+//            included, with windows of simulated time counted from the instant at which a formula
+//            is judged (metric temporal logic: R. Koymans, 1990; on finite traces: De Giacomo and
+//            Vardi, 2013).
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/scenario/fault.h"
+
+namespace gsv::scenario {
+
+// A number of the run at one instant.
+struct Quantity {
+  enum class Kind {
+    kX,
+    kY,
+    kZ,                // of `first`, m
+    kDistanceToPoint,  // of `first` from (x, y), m in the plane
+    kYawOff,           // of `first` from `yaw`, rad, 0 to pi
+    kSpeed,            // of `first`, m/s
+    kTurning,          // of `first` about the vertical, rad/s, either way
+    kTravelled,        // by `first`, m
+    kDistance,         // between the origins of `first` and `second`, m in the plane
+    kContact,          // 1 when `first` touches `second` (empty: anything but the ground), else 0
+    kSensor,           // a value of `first`'s sensor `second`
+    kEnded,            // 1 when `first`'s behaviour has finished or died, else 0
+    kTime,             // s
+  };
+  enum class Take { kLeast, kMost, kMean, kOne };  // of a reading's values
+
+  Kind kind = Kind::kTime;
+  std::string first, second;
+  double x = 0, y = 0, yaw = 0;
+  Take take = Take::kLeast;
+  int value = 0;  // which, for kOne
+};
+
+struct Formula {
+  enum class Kind { kAtom, kNot, kAll, kAny, kAlways, kEventually, kUntil };
+
+  Kind kind = Kind::kAtom;
+  // kAtom: the quantity lies in [least, most]. One that cannot be had lies in none.
+  Quantity quantity{};
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  // kUntil: the first until the second; kNot, kAlways, kEventually: one.
+  std::vector<Formula> parts{};
+  double from = 0;             // s after the instant of judging
+  std::optional<double> by{};  // without it: to the end of the run
+  SourcePlace source{};
+};
+
+struct Expectation {
+  std::string name;  // what reports call it
+  std::string yaml;  // as it was written, on one line; says all
+  Formula formula;
+  SourcePlace source{};
+
+  friend bool operator==(const Expectation& a, const Expectation& b) { return a.yaml == b.yaml; }
+};
+
+}  // namespace gsv::scenario

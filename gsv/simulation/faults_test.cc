@@ -1,0 +1,106 @@
+// What goes wrong because a scenario says so.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::simulation {
+namespace {
+
+using scenario::Fault;
+using ::testing::HasSubstr;
+
+std::shared_ptr<Simulation> WithFault(Fault fault, SimTime duration = 4s) {
+  Specification specification = Lockstep(duration);
+  fault.source.text = "t.yaml:1:1";
+  specification.faults = {std::move(fault)};
+  return Make(std::move(specification));
+}
+
+Fault At(double time, Fault::Kind kind, std::string body, std::string part = "") {
+  Fault fault;
+  fault.kind = kind;
+  fault.at = time;
+  fault.body = std::move(body);
+  fault.part = std::move(part);
+  return fault;
+}
+
+double XAtTheEnd(const Simulation& simulation) {
+  return StatusOf(simulation, "r").world_from_robot.position.x;
+}
+
+TEST(Faults, AMotorThatFailsLeavesTheRobotWhereItIs) {
+  const auto simulation = WithFault(At(1, Fault::Kind::kMotorFails, "r"));
+  ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
+  EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_NEAR(XAtTheEnd(*simulation), 0.5, 0.006);
+  const std::string hash = simulation->state_hash();
+  // Once more, from a reset: at its time it fails again.
+  ASSERT_TRUE(simulation->Reset());
+  EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_EQ(simulation->state_hash(), hash);
+}
+
+TEST(Faults, ABehaviourThatIsKilledActsNoMore) {
+  const auto simulation = WithFault(At(1, Fault::Kind::kBehaviourDies, "r"));
+  ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
+  EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_NEAR(XAtTheEnd(*simulation), 0.5, 0.03);
+  EXPECT_EQ(StatusOf(*simulation, "r").phase, AgentPhase::kDead);
+}
+
+TEST(Faults, ASilentSensorKeepsItsLastSampleAndAFailedOneGivesAnError) {
+  for (const auto kind : {Fault::Kind::kSensorSilent, Fault::Kind::kSensorError}) {
+    const auto simulation = WithFault(At(1, kind, "r", "front"), 2s);
+    ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
+    EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+    const auto reading = simulation->Watch("r", "front");
+    if (kind == Fault::Kind::kSensorError) {
+      EXPECT_FALSE(reading);
+      continue;
+    }
+    ASSERT_TRUE(reading);
+    EXPECT_EQ(reading->time, 1s);
+    EXPECT_NEAR(reading->values[0], 2.9 - 0.5, 0.006);
+  }
+}
+
+TEST(Faults, APartOfTheWorldMovesAndIsBackAfterAReset) {
+  Fault closes = At(1, Fault::Kind::kBodyMoves, "wall");
+  closes.place = {2, 0, 0, 0};
+  const auto simulation = WithFault(closes, 6s);
+  ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
+  EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_NEAR(XAtTheEnd(*simulation), 2 - 0.1 - 0.2, 0.01);
+  EXPECT_LT(simulation->Watch("r", "front")->values[0], 5.0);
+  const std::string hash = simulation->state_hash();
+  ASSERT_TRUE(simulation->Reset());
+  EXPECT_NEAR(simulation->Watch("r", "front")->values[0], 2.9, 1e-9);
+  EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_EQ(simulation->state_hash(), hash);
+}
+
+TEST(Faults, OneThatCannotHappenFailsTheRunWithItsPlace) {
+  Fault onto = At(1, Fault::Kind::kBodyMoves, "wall");
+  onto.place = {0.5, 0, 0, 0};
+  const auto simulation = WithFault(onto);
+  ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0, Drives(0.5))));
+  EXPECT_EQ(RunToEnd(*simulation), Phase::kFailed);
+  EXPECT_THAT(simulation->status().failure, HasSubstr("t.yaml:1:1: the fault cannot happen: "));
+}
+
+TEST(Faults, OfWhoIsNotThereTheStartIsRefused) {
+  for (const Fault& fault :
+       {At(1, Fault::Kind::kMotorFails, "nobody"), At(1, Fault::Kind::kMotorFails, "wall"),
+        At(1, Fault::Kind::kBehaviourDies, "r"), At(1, Fault::Kind::kJointMoves, "r", "hinge")}) {
+    const auto simulation = WithFault(fault);
+    ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0)));
+    const auto started = simulation->Start();
+    ASSERT_FALSE(started);
+    EXPECT_EQ(started.error().where, "t.yaml:1:1");
+  }
+}
+
+}  // namespace
+}  // namespace gsv::simulation

@@ -1,0 +1,73 @@
+// Judges a scenario's expectations on its run, at every state of the stepping thread: what comes of
+// it hangs on nothing but these.
+//
+// Threads  Attach() before the run; OnSnapshot() comes from the stepping thread; Finish() once,
+//          when the run is over.
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gsv/scenario/scenario.h"
+#include "gsv/simulation/simulation.h"
+#include "gsv/verdict/measure.h"
+#include "gsv/verdict/monitor.h"
+
+namespace gsv::verdict {
+
+struct MeasuredAtom {
+  scenario::Formula atom;
+  bool was_measured = false;
+  double lowest = 0, highest = 0, last = 0;  // up to the verdict; `last`: at it
+  double lowest_at = 0, highest_at = 0;      // s
+};
+
+struct Finding {
+  std::string name, yaml, where;  // of the expectation
+  bool holds = false;
+  // The first state at which that was certain: for a violation, the first one that shows it.
+  std::int64_t step = 0;
+  base::SimTime time{0};
+  std::vector<MeasuredAtom> atoms;
+
+  // "violated at 3.21 s (step 321): the distance between a and b was 0.39 m, …"
+  std::string Sentence() const;
+};
+
+class Judge final : public simulation::Observer {
+ public:
+  // Observes the simulation, which has its robots and has not begun, until it is gone. What is
+  // expected of somebody who is not there is refused, with its place.
+  static base::Result<std::shared_ptr<Judge>> Attach(
+      const std::vector<scenario::Expectation>& expectations, simulation::Simulation& simulation);
+
+  void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
+  void OnEvent(const simulation::Event&) override {}
+
+  // What came of each, in order. Waits for the last state to be judged.
+  std::vector<Finding> Finish();
+  // The state at which the first violation was certain; null: none was.
+  std::shared_ptr<const world::Snapshot> first_violation() const;
+
+ private:
+  struct Pending {
+    Finding finding;
+    Monitor monitor;
+  };
+  explicit Judge(simulation::Simulation& simulation)
+      : simulation_(simulation), measure_(simulation) {}
+  void JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot);
+  void Settle(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot);
+
+  simulation::Simulation& simulation_;
+  Measure measure_;
+  mutable std::mutex mutex_;
+  std::condition_variable judged_;
+  std::vector<Pending> pending_;
+  std::shared_ptr<const world::Snapshot> latest_, first_violation_;
+};
+
+}  // namespace gsv::verdict

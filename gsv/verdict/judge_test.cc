@@ -1,0 +1,120 @@
+#include "gsv/verdict/judge.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gsv/scenario/scenario_file.h"
+#include "gsv/simulation/test_simulation.h"
+
+namespace gsv::verdict {
+namespace {
+
+using namespace gsv::simulation;
+using ::testing::HasSubstr;
+
+scenario::Scenario ScenarioOf(const std::string& expect, const std::string& more = "") {
+  base::Problems problems;
+  auto scenario =
+      scenario::ParseScenario("duration: 8\n" + more + "expect:\n" + expect, "t.yaml", problems);
+  EXPECT_TRUE(scenario && problems.empty())
+      << (scenario ? problems.at(0).Sentence() : scenario.error().Sentence());
+  return scenario.value_or(scenario::Scenario());
+}
+
+// A disc of radius 0.2 drives at 0.5 m/s from x = 0 to a wall whose face is at 2.9; a second one
+// stands at (0, 2).
+std::vector<Finding> Judged(const std::string& expect, const std::string& more = "") {
+  const scenario::Scenario scenario = ScenarioOf(expect, more);
+  Specification specification = Lockstep(8s);
+  specification.faults = scenario.faults;
+  const auto simulation = Make(std::move(specification));
+  EXPECT_TRUE(simulation->AddRobot(Robot("scout", 0, 0, Drives(0.5))));
+  EXPECT_TRUE(simulation->AddRobot(Robot("tall", 0, 2)));
+  const auto judge = Judge::Attach(scenario.expect, *simulation);
+  EXPECT_TRUE(judge) << judge.error().Sentence();
+  RunToEnd(*simulation);
+  return (*judge)->Finish();
+}
+
+Finding One(const std::string& expect, const std::string& more = "") {
+  return Judged("  - " + expect + "\n", more).at(0);
+}
+
+TEST(Judge, ARobotReachesAPlaceWhenItComesNearEnough) {
+  // 0.25 m before x = 1.25: at 2 s.
+  const Finding reaches = One("{reaches: {robot: scout, x: 1.25, y: 0}, by: 3}");
+  EXPECT_TRUE(reaches.holds);
+  EXPECT_NEAR(base::ToSeconds(reaches.time), 2, 0.011);
+  const Finding late = One("{reaches: {robot: scout, x: 1.25, y: 0}, by: 1.9}");
+  EXPECT_FALSE(late.holds);
+  EXPECT_EQ(late.time, 1900ms);
+  EXPECT_THAT(late.Sentence(), HasSubstr("violated at 1.9 s (step 190): the distance of scout "
+                                         "from (1.25, 0) was 0.3 m (at most 0.25; it was from "));
+  EXPECT_FALSE(One("{reaches: {robot: scout, x: 1.25, y: 0, yaw: 90deg}}").holds);
+}
+
+TEST(Judge, ACollisionIsTheFirstContact) {
+  // The disc touches when its middle is at 2.7: at 5.4 s.
+  const Finding collides = One("{never_collides: scout}");
+  EXPECT_FALSE(collides.holds);
+  EXPECT_NEAR(base::ToSeconds(collides.time), 5.4, 0.021);
+  EXPECT_TRUE(One("{never_collides: scout, by: 5}").holds);
+  EXPECT_TRUE(One("{never_collides: [scout, tall]}").holds);
+  EXPECT_TRUE(One("{eventually: {contact: [wall, scout]}}").holds);
+  EXPECT_TRUE(One("{stays_within: {robot: scout, x: [0, 2.71], y: [-0.1, 0.1]}}").holds);
+}
+
+TEST(Judge, NumbersAreThoseOfTheState) {
+  const auto findings = Judged(
+      "  - {distance_at_least: {between: [scout, tall], metres: 2}}\n"
+      "  - {distance_at_least: {between: [scout, tall], metres: 2.001}}\n"
+      "  - {always: {speed: {robot: scout, at_most: 0.51}}}\n"
+      "  - {eventually: {travelled: {robot: scout, at_least: 2.6}}, by: 5.3}\n"
+      "  - {before: [{near: {robot: scout, x: 1, y: 0}}, {contact: scout}]}\n"
+      "  - {before: [{contact: scout}, {near: {robot: scout, x: 1, y: 0}}]}\n"
+      "  - {until: [{sensor: {of: scout/front, at_least: 1}}, {time: {at_least: 3.5}}]}\n"
+      "  - {always: {not: {ended: scout}}}\n");
+  const bool holds[]{true, false, true, true, true, false, true, true};
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    EXPECT_EQ(findings[i].holds, holds[i]) << findings[i].yaml << " " << findings[i].Sentence();
+  }
+  EXPECT_EQ(findings[1].step, 0);
+}
+
+TEST(Judge, FaultsAreSeenAtTheirInstant) {
+  const std::string dies = "faults: [{at: 2, behaviour: scout}]\n";
+  const Finding ended = One("{eventually: {ended: scout}}", dies);
+  EXPECT_TRUE(ended.holds);
+  EXPECT_NEAR(base::ToSeconds(ended.time), 2, 0.06);
+  EXPECT_TRUE(One("{never_collides: scout}", dies).holds);
+  const std::string silent = "faults: [{at: 2, sensor: scout/front}]\n";
+  // 1.9 m to the wall then, and so it stays.
+  EXPECT_TRUE(
+      One("{always: {sensor: {of: scout/front, at_least: 1.89, at_most: 1.91}}, from: 2.01}",
+          silent)
+          .holds);
+  const std::string error = "faults: [{at: 2, sensor: scout/front, fails: error}]\n";
+  const Finding lost = One("{always: {sensor: {of: scout/front, at_least: 0}}}", error);
+  EXPECT_FALSE(lost.holds);
+  EXPECT_EQ(lost.time, 2010ms);
+}
+
+TEST(Judge, WhatIsNotThereIsRefusedWithItsPlace) {
+  const auto simulation = Make(Lockstep(1s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("scout", 0, 0)));
+  const std::pair<const char*, const char*> refused[]{
+      {"{never_collides: marvin}", "t.yaml:3:5: nothing that stands in the world is called"},
+      {"{always: {sensor: {of: scout/nose, at_least: 1}}}", "has no sensor \"nose\""},
+      {"{eventually: {ended: wall}}", "\"wall\" is no robot"},
+      {"{distance_at_least: {between: [scout, b], metres: 1}}", "is called \"b\""}};
+  for (const auto& [expect, sentence] : refused) {
+    const auto judge =
+        Judge::Attach(ScenarioOf(std::string("  - ") + expect + "\n").expect, *simulation);
+    ASSERT_FALSE(judge) << expect;
+    EXPECT_EQ(judge.error().code, base::ErrorCode::kBadModel);
+    EXPECT_THAT(judge.error().Sentence(), HasSubstr(sentence));
+  }
+}
+
+}  // namespace
+}  // namespace gsv::verdict
