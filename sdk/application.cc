@@ -1,11 +1,12 @@
 #include "sdk/application.h"
 
 #include "gsv/broker/client/broker_client.h"
-#include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/errors.h"
 #include "gsv/orb/orb.h"
 #include "idl/simulation.hh"
+#include "sdk/behaviour_servant.h"
+#include "sdk/shared_orb.h"
 
 namespace gsv {
 namespace {
@@ -84,10 +85,24 @@ std::string Quoted(const std::string& text) {
   return quoted + "'";
 }
 
+sba::NameValues ToIdl(const std::map<std::string, std::string>& options) {
+  sba::NameValues idl;
+  idl.length(static_cast<CORBA::ULong>(options.size()));
+  CORBA::ULong i = 0;
+  for (const auto& [name, value] : options) {
+    idl[i].name = name.c_str();
+    idl[i++].value = value.c_str();
+  }
+  return idl;
+}
+
 class SimulationProxy final : public RemoteSimulation {
  public:
-  SimulationProxy(sba::Simulation_ptr simulation, std::string server)
-      : simulation_(sba::Simulation::_duplicate(simulation)), server_(std::move(server)) {
+  SimulationProxy(std::shared_ptr<sdk::SharedOrb> orb, sba::Simulation_ptr simulation,
+                  std::string server)
+      : orb_(std::move(orb)),
+        simulation_(sba::Simulation::_duplicate(simulation)),
+        server_(std::move(server)) {
     orb::LimitCalls(simulation_, kCreateTimeout);
   }
   ~SimulationProxy() override {
@@ -102,10 +117,22 @@ class SimulationProxy final : public RemoteSimulation {
     const std::string constraint =
         request.behaviour.empty() ? "" : "name == " + Quoted(request.behaviour);
     robot.behaviour_constraint = constraint.c_str();
-    return orb::Call(server_, [&] {
+    if (request.own_behaviour) {
+      const PortableServer::POA_var poa = orb::RootPoa(orb_->orb());
+      robot.behaviour = sdk::NewBehaviour(poa, request.own_behaviour);
+    }
+    auto added = orb::Call(server_, [&] {
       const CORBA::String_var name = simulation_->add_robot(robot);
       return std::string(name);
     });
+    if (!added && request.own_behaviour) {
+      // Unless the simulator has done so already.
+      (void)orb::Call(server_, [&] { robot.behaviour->destroy(); });
+    }
+    return added;
+  }
+  base::Status RemoveRobot(const std::string& name) override {
+    return orb::Call(server_, [&] { simulation_->remove_robot(name.c_str()); });
   }
 
   base::Status Start() override {
@@ -121,7 +148,12 @@ class SimulationProxy final : public RemoteSimulation {
     return orb::Call(server_, [this] { simulation_->stop(); });
   }
 
-  base::Status RunUntil(SimTime until, std::chrono::seconds patience) override {
+  base::Status Reset() override {
+    return orb::Call(server_, [this] { simulation_->reset(); });
+  }
+
+  base::Status RunUntil(SimTime until, std::chrono::seconds patience,
+                        const std::function<bool()>& go_on) override {
     const auto give_up = std::chrono::steady_clock::now() + patience;
     if (auto ok = orb::Call(server_, [&] { simulation_->run_until(until.count()); }); !ok)
       return ok;
@@ -130,6 +162,9 @@ class SimulationProxy final : public RemoteSimulation {
       if (std::chrono::steady_clock::now() > give_up) {
         return base::Fail(base::ErrorCode::kTimeout, "the simulation did not get there in time",
                           server_);
+      }
+      if (go_on && !go_on()) {
+        return base::Fail(base::ErrorCode::kEnded, "the wait was interrupted", server_);
       }
       const auto known = phase;
       auto next = orb::Call(server_, [&] { return simulation_->await_change(known); });
@@ -165,23 +200,30 @@ class SimulationProxy final : public RemoteSimulation {
     });
   }
 
+  base::Status StartRecording(const std::string& path) override {
+    return orb::Call(server_, [&] { simulation_->start_recording(path.c_str()); });
+  }
+  base::Status StopRecording() override {
+    return orb::Call(server_, [this] { simulation_->stop_recording(); });
+  }
+
  private:
+  const std::shared_ptr<sdk::SharedOrb> orb_;
   sba::Simulation_var simulation_;
   const std::string server_;
 };
 
 class BrokerApplication final : public Application {
  public:
-  BrokerApplication(CORBA::ORB_ptr orb, broker::BrokerClient broker)
-      : orb_(CORBA::ORB::_duplicate(orb)), broker_(std::move(broker)) {}
-  ~BrokerApplication() override {
-    orb_->shutdown(true);
-    orb_->destroy();
-  }
+  BrokerApplication(std::shared_ptr<sdk::SharedOrb> orb, broker::BrokerClient broker)
+      : orb_(std::move(orb)), broker_(std::move(broker)) {}
 
   base::Result<std::unique_ptr<RemoteSimulation>> Create(const SimulationRequest& request,
-                                                         const std::string& constraint) override {
-    auto offers = broker_.Query(broker::SimulationServiceType().name, constraint, "first", 16);
+                                                         const std::string& constraint,
+                                                         const std::string& preference) override {
+    auto offers = broker_.Query(broker::SimulationServiceType().name, constraint, preference, 16);
+    // A broker that no simulator has ever registered with does not know the type.
+    if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
     if (!offers) return base::Fail(offers.error());
     base::Error error{base::ErrorCode::kNotFound,
                       "no simulator is offered" +
@@ -197,8 +239,8 @@ class BrokerApplication final : public Application {
   }
 
  private:
-  static base::Result<std::unique_ptr<RemoteSimulation>> CreateAt(
-      CORBA::Object_ptr object, const SimulationRequest& request) {
+  base::Result<std::unique_ptr<RemoteSimulation>> CreateAt(CORBA::Object_ptr object,
+                                                           const SimulationRequest& request) {
     const std::string server = "simulator at " + orb::AddressOf(object);
     orb::LimitCalls(object, kCreateTimeout);
     return orb::Call(server, [&]() -> std::unique_ptr<RemoteSimulation> {
@@ -213,25 +255,24 @@ class BrokerApplication final : public Application {
       specification.seed = request.seed;
       specification.duration_ns = 0;
       specification.keep = false;
+      specification.options = ToIdl(request.options);
       const sba::Simulation_var simulation = service->create_simulation(specification);
-      return std::make_unique<SimulationProxy>(simulation, server);
+      return std::make_unique<SimulationProxy>(orb_, simulation, server);
     });
   }
 
-  CORBA::ORB_var orb_;
+  const std::shared_ptr<sdk::SharedOrb> orb_;
   broker::BrokerClient broker_;
 };
 
 }  // namespace
 
 base::Result<std::unique_ptr<Application>> Application::Connect(const std::string& broker) {
-  auto reference = broker::NormaliseReference(broker);
-  if (!reference) return base::Fail(reference.error());
-  auto orb = orb::StartOrb({});
+  auto orb = sdk::SharedOrb::Towards(broker);
   if (!orb) return base::Fail(orb.error());
-  auto client = broker::BrokerClient::Connect(*orb, *reference);
+  auto client = broker::BrokerClient::Connect((*orb)->orb(), broker);
   if (!client) return base::Fail(client.error());
-  return std::make_unique<BrokerApplication>(*orb, *std::move(client));
+  return std::make_unique<BrokerApplication>(*std::move(orb), *std::move(client));
 }
 
 }  // namespace gsv

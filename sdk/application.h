@@ -6,13 +6,15 @@
 // Threads  one thread an object.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "gsv/base/error.h"
 #include "gsv/base/sim_time.h"
-#include "sdk/behaviour/robot.h"
+#include "sdk/behaviour/behaviour.h"
 
 namespace gsv {
 
@@ -23,6 +25,9 @@ struct SimulationRequest {
   SimTime step{0};    // 0: the world's
   std::uint64_t seed = 0;
   std::string name;  // empty: the server chooses
+  // Further ones by the names of sba::SimulationSpecification::options: "model_path", "on_failure",
+  // "deadline_s".
+  std::map<std::string, std::string> options;
 };
 
 struct RobotRequest {
@@ -30,6 +35,8 @@ struct RobotRequest {
   double x = 0, y = 0, yaw = 0;
   std::string behaviour;  // the name of an offer; empty: none
   std::string name;       // empty: after its model
+  // A behaviour of this program, which then needs no offer: it runs here, on a thread of its own.
+  BehaviourFactory own_behaviour;
 };
 
 struct RobotState {
@@ -56,29 +63,38 @@ class RemoteSimulation {
   virtual ~RemoteSimulation() = default;
 
   virtual base::Result<std::string> AddRobot(const RobotRequest& robot) = 0;
+  virtual base::Status RemoveRobot(const std::string& name) = 0;
   virtual base::Status Start() = 0;
   virtual base::Status Pause() = 0;
   virtual base::Status Resume() = 0;
   virtual base::Status Stop() = 0;
-  // Runs to that instant and freezes there; blocks until then. `patience` is wall time.
+  // Back to the start, with the same robots.
+  virtual base::Status Reset() = 0;
+  // Runs to that instant and freezes there; blocks until then. `patience` is wall time. `go_on` is
+  // asked every two seconds of it at least; false: the run goes on, this returns kEnded.
   virtual base::Status RunUntil(SimTime until,
-                                std::chrono::seconds patience = std::chrono::minutes(10)) = 0;
+                                std::chrono::seconds patience = std::chrono::minutes(10),
+                                const std::function<bool()>& go_on = {}) = 0;
   virtual base::Result<SimulationState> State() = 0;
   virtual base::Result<std::string> StateHash() = 0;
   virtual base::Result<std::string> ViewerUrl() = 0;
+  // To a file on the simulator's machine.
+  virtual base::Status StartRecording(const std::string& path) = 0;
+  virtual base::Status StopRecording() = 0;
 };
 
-// The broker, as an application uses it. One a process.
+// The broker, as an application uses it.
 class Application {
  public:
   // `broker`: corbaloc::1.2@HOST:PORT/TradingService.
   static base::Result<std::unique_ptr<Application>> Connect(const std::string& broker);
   virtual ~Application() = default;
 
-  // On a simulator whose offer matches `constraint` (over the properties of docs/services.md;
-  // empty: any).
+  // On the first simulator, in the order of `preference` ("first", "min simulations", "random"),
+  // whose offer matches `constraint` (over the properties of docs/services.md; empty: any).
   virtual base::Result<std::unique_ptr<RemoteSimulation>> Create(
-      const SimulationRequest& request, const std::string& constraint = "") = 0;
+      const SimulationRequest& request, const std::string& constraint = "",
+      const std::string& preference = "first") = 0;
 };
 
 }  // namespace gsv

@@ -33,8 +33,8 @@ void BehaviourServant::init(const char* agent_name, sba::Hardware_ptr hardware) 
   const std::lock_guard lock(mutex_);
   EndRun();
   robot_ = orb::ValueOrThrow(RemoteRobot::Connect(agent_name, hardware));
-  behaviour_ = factory_();
   try {
+    behaviour_ = factory_();
     orb::ValueOrThrow(behaviour_->Init(*robot_));
   } catch (const std::exception& exception) {
     behaviour_.reset();
@@ -80,14 +80,17 @@ void BehaviourServant::destroy() {
   poa_->deactivate_object(id);
 }
 
+sba::AgentBehaviour_ptr NewBehaviour(PortableServer::POA_ptr poa, BehaviourFactory factory) {
+  PortableServer::Servant_var<BehaviourServant> servant(
+      new BehaviourServant(poa, std::move(factory)));
+  const PortableServer::ObjectId_var id = poa->activate_object(servant);
+  return servant->_this();
+}
+
 BehaviourFactoryServant::BehaviourFactoryServant(PortableServer::POA_ptr poa,
                                                  BehaviourFactory factory)
     : poa_(PortableServer::POA::_duplicate(poa)), factory_(std::move(factory)) {}
 
-sba::AgentBehaviour_ptr BehaviourFactoryServant::create() {
-  PortableServer::Servant_var<BehaviourServant> servant(new BehaviourServant(poa_, factory_));
-  const PortableServer::ObjectId_var id = poa_->activate_object(servant);
-  return servant->_this();
-}
+sba::AgentBehaviour_ptr BehaviourFactoryServant::create() { return NewBehaviour(poa_, factory_); }
 
 }  // namespace gsv::sdk

@@ -1,5 +1,5 @@
-// An offered behaviour as its callers see it: sba::AgentBehaviour over a gsv::Behaviour, and the
-// factory that makes one for each robot.
+// A behaviour as its callers see it: sba::AgentBehaviour over a gsv::Behaviour, and the factory
+// that makes one for each robot.
 //
 // Threads  calls come on ORB threads; the behaviour runs on a thread of its own.
 #pragma once
@@ -31,10 +31,13 @@ class BehaviourServant final : public POA_sba::AgentBehaviour {
   PortableServer::POA_var poa_;
   const BehaviourFactory factory_;
   std::mutex mutex_;
-  std::unique_ptr<RemoteRobot> robot_;
+  std::shared_ptr<RemoteRobot> robot_;
   std::unique_ptr<Behaviour> behaviour_;
   std::jthread running_;
 };
+
+// One that the POA owns, and that goes with its destroy().
+sba::AgentBehaviour_ptr NewBehaviour(PortableServer::POA_ptr poa, BehaviourFactory factory);
 
 class BehaviourFactoryServant final : public POA_sba::AgentBehaviourFactory {
  public:

@@ -138,12 +138,12 @@ RemoteRobot::RemoteRobot(std::string name, sba::Hardware_ptr hardware)
 
 RemoteRobot::~RemoteRobot() = default;
 
-base::Result<std::unique_ptr<RemoteRobot>> RemoteRobot::Connect(const std::string& name,
+base::Result<std::shared_ptr<RemoteRobot>> RemoteRobot::Connect(const std::string& name,
                                                                 sba::Hardware_ptr hardware) {
   if (CORBA::is_nil(hardware)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "was given no hardware", name);
   }
-  std::unique_ptr<RemoteRobot> robot(new RemoteRobot(name, hardware));
+  std::shared_ptr<RemoteRobot> robot(new RemoteRobot(name, hardware));
   auto connected = orb::Call(name, [&] {
     robot->factory_ = robot->hardware_->sensor_factory();
     robot->base_ = robot->hardware_->base();

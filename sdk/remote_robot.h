@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 
 #include "gsv/orb/errors.h"
@@ -12,10 +13,11 @@
 
 namespace gsv::sdk {
 
-class RemoteRobot final : public Robot {
+class RemoteRobot final : public Robot, public std::enable_shared_from_this<RemoteRobot> {
  public:
-  // Asks for the robot's parts; fails when the hardware does not answer.
-  static base::Result<std::unique_ptr<RemoteRobot>> Connect(const std::string& name,
+  // Asks for the robot's parts; fails when the hardware does not answer. Shared with what a
+  // language that has no owners, as Python, may keep of it past the run.
+  static base::Result<std::shared_ptr<RemoteRobot>> Connect(const std::string& name,
                                                             sba::Hardware_ptr hardware);
   ~RemoteRobot() override;
 
@@ -39,6 +41,8 @@ class RemoteRobot final : public Robot {
                 std::vector<Reading>& readings) override;
   bool IsRunning() const override { return running_; }
   std::string error() const override;
+  base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
+  base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
 
   // Calls `call` unless the run is over. What is refused is the caller's to handle; any other
   // failure ends the run.
@@ -60,8 +64,6 @@ class RemoteRobot final : public Robot {
 
  private:
   RemoteRobot(std::string name, sba::Hardware_ptr hardware);
-  base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
-  base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
   void Note(const base::Error& error);
 
   const std::string name_;

@@ -248,7 +248,7 @@ class ThroughCorba final : public simulation::BehaviourPort {
   const std::unique_ptr<Behaviour> behaviour_;
   const Also also_;
   sba::Hardware_var hardware_;
-  std::unique_ptr<sdk::RemoteRobot> robot_;
+  std::shared_ptr<sdk::RemoteRobot> robot_;
   std::jthread thread_;
 };
 

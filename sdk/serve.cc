@@ -1,21 +1,14 @@
 #include "sdk/serve.h"
 
 #include <sys/prctl.h>
-#include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 
 #include "gsv/base/log.h"
-#include "gsv/broker/client/broker_client.h"
-#include "gsv/broker/client/corbaloc.h"
-#include "gsv/broker/client/gsv_service_types.h"
-#include "gsv/orb/orb.h"
-#include "sdk/behaviour_servant.h"
-#include "sdk/fault_delay.h"
+#include "sdk/offered_behaviour.h"
 
 namespace gsv {
 namespace {
@@ -28,11 +21,6 @@ struct Arguments {
   std::string name;
   bool exit_with_parent = false;
 };
-
-std::string HostName() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "localhost";
-}
 
 int Complain(const base::Error& error) {
   std::fprintf(stderr, "%s\n", error.Sentence().c_str());
@@ -49,51 +37,17 @@ sigset_t BlockSignals() {
   return signals;
 }
 
-base::Result<CORBA::ORB_var> StartOrb(const std::string& broker) {
-  orb::OrbOptions options;
-  options.local_socket = true;
-  auto reference = broker::NormaliseReference(broker);
-  if (!reference) return base::Fail(reference.error());
-  if (const std::string host = broker::HostOf(*reference); !host.empty()) {
-    auto local = orb::LocalAddressTowards(host);
-    if (!local) return base::Fail(local.error());
-    options.host = *local;
-  }
-  return orb::StartOrb(options);
-}
-
 int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFactory factory,
           const sigset_t& signals) {
-  auto orb = StartOrb(arguments.broker);
-  if (!orb) return Complain(orb.error());
-  if (auto ok = sdk::DelayCallsAsEnvironmentSays(); !ok) return Complain(ok.error());
-  auto broker = broker::BrokerClient::Connect(*orb, arguments.broker);
-  if (!broker) return Complain(broker.error());
-  if (auto ok = broker->EnsureServiceType(broker::AgentBehaviourFactoryType()); !ok)
-    return Complain(ok.error());
-
-  const PortableServer::POA_var poa = orb::RootPoa(*orb);
-  const PortableServer::Servant_var<sdk::BehaviourFactoryServant> servant(
-      new sdk::BehaviourFactoryServant(poa, std::move(factory)));
-  const PortableServer::ObjectId_var id = poa->activate_object(servant);
-  const CORBA::Object_var reference = poa->id_to_reference(id);
-  const broker::BehaviourOffer offer{arguments.name, module.description, HostName(),
-                                     static_cast<std::int32_t>(getpid()), module.time_managed};
-  auto offer_id =
-      broker->Export(broker::AgentBehaviourFactoryType().name, reference, PropertiesOf(offer));
-  if (!offer_id) return Complain(offer_id.error());
+  auto offered = OfferedBehaviour::Offer(arguments.broker,
+                                         {arguments.name, module.description, module.time_managed},
+                                         std::move(factory));
+  if (!offered) return Complain(offered.error());
   // One line on stdout: whoever started this program may wait for it.
-  std::printf("%s: offered at %s\n", arguments.name.c_str(), broker->reference().c_str());
+  std::printf("%s: offered at %s\n", arguments.name.c_str(), (*offered)->broker().c_str());
   std::fflush(stdout);
-
   int signal = 0;
   sigwait(&signals, &signal);
-  if (auto ok = broker->Withdraw(*offer_id); !ok) {
-    // The broker may have gone first; then there is no offer either.
-    spdlog::debug("{}", ok.error().Sentence());
-  }
-  (*orb)->shutdown(true);
-  (*orb)->destroy();
   return 0;
 }
 

@@ -25,6 +25,8 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
     const std::string& constraint) {
   const broker::ServiceType& type = broker::AgentBehaviourFactoryType();
   auto offers = broker_.Query(type.name, constraint, "first", kOffersConsidered);
+  // A broker that nobody has offered a behaviour to does not know the type yet.
+  if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   if (!offers) return base::Fail(offers.error());
   base::Error error{base::ErrorCode::kBehaviour,
                     "no behaviour is offered for the constraint: " + constraint +

@@ -82,6 +82,11 @@ class Sensor {
     port_->Measure(reading_);
     return reading_;
   }
+  // One that is the caller's.
+  Reading TakeReading() {
+    port_->Measure(reading_);
+    return std::exchange(reading_, {});
+  }
 
  protected:
   SensorPort& port() { return *port_; }

@@ -1,0 +1,153 @@
+// Robotic applications in Python: simulations on servers that a broker knows.
+#include <pybind11/stl.h>
+
+#include "sdk/application.h"
+#include "sdk/python/factory.h"
+
+namespace gsv::python {
+namespace {
+
+using Options = std::map<std::string, std::string>;
+
+class PythonSimulation {
+ public:
+  explicit PythonSimulation(std::unique_ptr<RemoteSimulation> simulation)
+      : simulation_(std::move(simulation)) {}
+
+  RemoteSimulation& Get() const {
+    if (simulation_ == nullptr)
+      Raise({base::ErrorCode::kEnded, "the simulation has been destroyed", ""});
+    return *simulation_;
+  }
+  void Destroy() { simulation_.reset(); }
+
+ private:
+  std::unique_ptr<RemoteSimulation> simulation_;
+};
+
+// `behaviour` is the name of an offer, a class or what makes one when it is called, or None.
+std::string Add(const PythonSimulation& simulation, const std::string& model, double x, double y,
+                double yaw, const py::object& behaviour, const std::string& name) {
+  RobotRequest request{model, x, y, yaw, "", name, {}};
+  if (py::isinstance<py::str>(behaviour)) {
+    request.behaviour = behaviour.cast<std::string>();
+  } else if (!behaviour.is_none()) {
+    request.own_behaviour = FactoryFrom(behaviour);
+  }
+  const py::gil_scoped_release release;
+  return ValueOrRaise(simulation.Get().AddRobot(request));
+}
+
+// Ends early, with what Python raises for the signal, when one has come.
+void RunUntil(const PythonSimulation& simulation, double instant, double patience) {
+  const base::SimTime until = TimeFrom(instant);
+  const auto limit = std::chrono::duration_cast<std::chrono::seconds>(TimeFrom(patience));
+  bool interrupted = false;
+  base::Status status;
+  {
+    const py::gil_scoped_release release;
+    status = simulation.Get().RunUntil(until, limit, [&interrupted] {
+      const py::gil_scoped_acquire gil;
+      interrupted = PyErr_CheckSignals() != 0;
+      return !interrupted;
+    });
+  }
+  if (interrupted) throw py::error_already_set();
+  ValueOrRaise(std::move(status));
+}
+
+// A member of RemoteSimulation, called without the GIL.
+template <typename T, typename... Arguments>
+auto Calling(base::Result<T> (RemoteSimulation::*member)(Arguments...)) {
+  return [member](const PythonSimulation& simulation, Arguments... arguments) {
+    return ValueOrRaise((simulation.Get().*member)(arguments...));
+  };
+}
+
+void BindState(py::module_& module) {
+  py::class_<RobotState>(module, "RobotState", "A robot as the simulation sees it.")
+      .def_readonly("name", &RobotState::name)
+      .def_readonly("model", &RobotState::model)
+      .def_readonly("behaviour", &RobotState::behaviour)
+      .def_readonly("agent", &RobotState::agent,
+                    "\"running\", \"waiting\", \"finished\", \"unresponsive\", \"dead\", …")
+      .def_readonly("place", &RobotState::place, "its pose in the world")
+      .def_readonly("distance", &RobotState::distance, "m travelled")
+      .def_readonly("collisions", &RobotState::collisions)
+      .def("__repr__", [](const RobotState& r) {
+        return py::str("<robot \"{}\" at ({:.3f}, {:.3f}), {}, {:.2f} m, {} collisions>")
+            .format(r.name, r.place.x, r.place.y, r.agent, r.distance, r.collisions);
+      });
+  py::class_<SimulationState>(module, "SimulationState", "A simulation at an instant.")
+      .def_readonly("phase", &SimulationState::phase, "\"created\", \"running\", \"paused\", …")
+      .def_property_readonly(
+          "time", [](const SimulationState& s) { return SecondsOf(s.time); }, "simulated seconds")
+      .def_readonly("real_time_factor", &SimulationState::real_time_factor)
+      .def_readonly("late_steps", &SimulationState::late_steps)
+      .def_readonly("waiting_for", &SimulationState::waiting_for, "who holds it up")
+      .def_readonly("failure", &SimulationState::failure)
+      .def_property_readonly(
+          "robots",
+          [](const SimulationState& state) {
+            py::dict robots;
+            for (const RobotState& robot : state.robots) robots[py::str(robot.name)] = robot;
+            return robots;
+          },
+          "a dict of RobotState by name")
+      .def("__repr__", [](const SimulationState& s) {
+        return py::str("<{} at {:.3f} s, {} robots>")
+            .format(s.phase, SecondsOf(s.time), s.robots.size());
+      });
+}
+
+Owned<PythonSimulation> Create(Application& application, const std::string& world,
+                               const std::string& constraint, const std::string& preference,
+                               bool lockstep, double factor, double step, std::uint64_t seed,
+                               const std::string& name, const Options& options) {
+  const SimulationRequest request{world, lockstep, factor, TimeFrom(step), seed, name, options};
+  const py::gil_scoped_release release;
+  return Owned<PythonSimulation>(
+      new PythonSimulation(ValueOrRaise(application.Create(request, constraint, preference))));
+}
+
+}  // namespace
+
+void BindApplications(py::module_& module) {
+  BindState(module);
+  py::class_<Application, Owned<Application>>(module, "Application")
+      .def(py::init([](const std::string& broker) {
+             const py::gil_scoped_release release;
+             return Owned<Application>(ValueOrRaise(Application::Connect(broker)).release());
+           }),
+           py::arg("broker"));
+  py::class_<PythonSimulation, Owned<PythonSimulation>>(
+      module, "Simulation", "A simulation on some server; destroyed with this.")
+      .def(py::init(&Create), py::arg("application"), py::arg("world"), py::arg("constraint"),
+           py::arg("preference"), py::arg("lockstep"), py::arg("factor"), py::arg("step"),
+           py::arg("seed"), py::arg("name"), py::arg("options"))
+      .def("add", &Add, py::arg("model"), py::arg("x") = 0.0, py::arg("y") = 0.0,
+           py::arg("yaw") = 0.0, py::arg("behaviour") = py::none(), py::arg("name") = "",
+           "Adds a robot and gives its name. `behaviour` is the name of an offer, a class of "
+           "behaviours that run in this process (or what makes one when it is called), or None.")
+      .def("remove", Calling(&RemoteSimulation::RemoveRobot), py::arg("name"), LetOthersRun())
+      .def("start", Calling(&RemoteSimulation::Start), LetOthersRun())
+      .def("pause", Calling(&RemoteSimulation::Pause), LetOthersRun())
+      .def("resume", Calling(&RemoteSimulation::Resume), LetOthersRun())
+      .def("stop", Calling(&RemoteSimulation::Stop), LetOthersRun())
+      .def("reset", Calling(&RemoteSimulation::Reset), LetOthersRun(),
+           "Back to the start, with the same robots.")
+      .def("run_until", &RunUntil, py::arg("instant"), py::kw_only(), py::arg("patience") = 600.0,
+           "Runs to that simulated second and freezes there; blocks until then, for `patience` "
+           "seconds of wall time at most.")
+      .def("state", Calling(&RemoteSimulation::State), LetOthersRun())
+      .def("state_hash", Calling(&RemoteSimulation::StateHash), LetOthersRun(),
+           "equal for equal runs, to the bit")
+      .def("viewer_url", Calling(&RemoteSimulation::ViewerUrl), LetOthersRun(),
+           "where a browser watches; empty: nowhere")
+      .def("start_recording", Calling(&RemoteSimulation::StartRecording), py::arg("path"),
+           LetOthersRun(), "to a file on the simulator's machine")
+      .def("stop_recording", Calling(&RemoteSimulation::StopRecording), LetOthersRun())
+      .def("destroy", &PythonSimulation::Destroy, LetOthersRun());
+}
+
+}  // namespace gsv::python

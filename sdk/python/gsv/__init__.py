@@ -1,0 +1,28 @@
+"""GSV in Python: behaviours that drive robots, and applications that run simulations.
+
+    import gsv
+
+    class Circle(gsv.Behaviour):
+        \"\"\"Drives in a circle.\"\"\"
+        def run(self, robot):
+            while robot.sleep_for(0.05):
+                robot.drive(0.3, 0.5)
+
+    if __name__ == "__main__":
+        gsv.serve("circle", Circle)
+
+Frames are those of REP-103 (x forward, y left, z up), units metres, radians and seconds.
+"""
+
+from gsv._native import (
+    Altimeter, Battery, BoundingBoxCamera, Bumper, Camera, DepthCamera, Imu, Joint, JointEncoders,
+    JointState, JointTraits, Lidar, LogicalCamera, Magnetometer, Odometer, Placement,
+    PositioningSystem, Radio, Reading, Robot, RobotState, SatelliteReceiver, SegmentationCamera,
+    Sensor, SensorTraits, SimulationState, Sonar, SonarRing, Vector, nearest)
+from gsv.applications import Application, Simulation, connect
+from gsv.behaviours import Behaviour, Controller, Offer, serve
+from gsv.errors import (
+    BadModel, BehaviourFailed, Corrupt, Ended, Error, NotFound, NotRunning, Refused, TimedOut,
+    Unavailable)
+
+__all__ = [name for name in dir() if not name.startswith("_")]

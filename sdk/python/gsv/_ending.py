@@ -1,0 +1,23 @@
+"""What is under way ends before the interpreter does: its threads must not call Python after it."""
+
+from __future__ import annotations
+
+import atexit
+import weakref
+from typing import Any, Callable
+
+_open: dict[int, tuple[weakref.ref[Any], Callable[[Any], None]]] = {}
+
+
+def end_at_exit(thing: Any, end: Callable[[Any], None]) -> None:
+    """Calls `end` with `thing` as the program exits, if it is still there. The last comes first."""
+    key = id(thing)
+    _open[key] = weakref.ref(thing, lambda _: _open.pop(key, None)), end
+
+
+@atexit.register
+def _end_all() -> None:
+    for reference, end in reversed(list(_open.values())):
+        thing = reference()
+        if thing is not None:
+            end(thing)

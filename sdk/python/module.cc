@@ -1,0 +1,13 @@
+// The module gsv._native: the SDK in Python. The package gsv (sdk/python/gsv) is what users import.
+#include "gsv/base/log.h"
+#include "sdk/python/values.h"
+
+PYBIND11_MODULE(_native, module) {
+  using namespace gsv::python;
+  module.doc() = "The C++ side of gsv; import gsv instead.";
+  gsv::base::InitLogging(spdlog::level::info);
+  BindSensors(module);
+  BindRobot(module);
+  BindBehaviours(module);
+  BindApplications(module);
+}

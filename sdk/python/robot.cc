@@ -1,0 +1,197 @@
+// A robot as a behaviour in Python sees it.
+#include <map>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "sdk/behaviour/sonar_ring.h"
+#include "sdk/python/values.h"
+#include "sdk/remote_robot.h"
+
+namespace gsv::python {
+namespace {
+
+using sdk::RemoteRobot;
+
+template <typename Kind>
+py::object Make(std::unique_ptr<SensorPort> port) {
+  return py::cast(std::make_unique<Kind>(std::move(port)));
+}
+
+// A sensor of the class that stands for its type; of a type that has none, a Sensor.
+py::object MakeSensor(std::unique_ptr<SensorPort> port) {
+  using Maker = py::object (*)(std::unique_ptr<SensorPort>);
+  static const std::map<std::string, Maker> makers{
+      {Sonar::kType, Make<Sonar>},
+      {Lidar::kType, Make<Lidar>},
+      {Camera::kType, Make<Camera>},
+      {"wideangle_camera", Make<Camera>},
+      {DepthCamera::kType, Make<DepthCamera>},
+      {SegmentationCamera::kType, Make<SegmentationCamera>},
+      {BoundingBoxCamera::kType, Make<BoundingBoxCamera>},
+      {LogicalCamera::kType, Make<LogicalCamera>},
+      {PositioningSystem::kType, Make<PositioningSystem>},
+      {Imu::kType, Make<Imu>},
+      {Odometer::kType, Make<Odometer>},
+      {SatelliteReceiver::kType, Make<SatelliteReceiver>},
+      {Magnetometer::kType, Make<Magnetometer>},
+      {Altimeter::kType, Make<Altimeter>},
+      {Bumper::kType, Make<Bumper>},
+      {JointEncoders::kType, Make<JointEncoders>},
+      {Battery::kType, Make<Battery>},
+      {Radio::kType, Make<Radio>}};
+  const auto maker = makers.find(port->traits().type);
+  return maker != makers.end() ? maker->second(std::move(port)) : Make<Sensor>(std::move(port));
+}
+
+py::object OpenSensor(RemoteRobot& robot, const std::string& name, const py::object& kind) {
+  base::Result<std::unique_ptr<SensorPort>> port;
+  {
+    const py::gil_scoped_release release;
+    port = robot.OpenPort(name);
+  }
+  py::object sensor = MakeSensor(ValueOrRaise(std::move(port)));
+  if (!kind.is_none() && !py::isinstance(sensor, kind)) {
+    Raise(
+        {base::ErrorCode::kInvalidArgument,
+         "the sensor \"" + name + "\" is no " + py::str(kind.attr("__name__")).cast<std::string>(),
+         robot.name()});
+  }
+  return sensor;
+}
+
+// `type` is the name of one, or a class that has one.
+py::object CreateSensor(RemoteRobot& robot, const py::object& type, const std::string& name,
+                        const Placement& robot_from_sensor, Parameters parameters,
+                        double update_rate) {
+  const py::object type_name = py::isinstance<py::str>(type) ? type : type.attr("TYPE");
+  SensorTraits traits{name, type_name.cast<std::string>(), robot_from_sensor, update_rate,
+                      std::move(parameters)};
+  base::Result<std::unique_ptr<SensorPort>> port;
+  {
+    const py::gil_scoped_release release;
+    port = robot.CreatePort(std::move(traits));
+  }
+  return MakeSensor(ValueOrRaise(std::move(port)));
+}
+
+// By the sensors' names; None after the end of the run.
+py::object Exchange(RemoteRobot& robot, double linear, double angular, double until) {
+  std::vector<Reading> readings;
+  bool running = false;
+  {
+    const py::gil_scoped_release release;
+    running = robot.Exchange({linear, angular}, TimeFrom(until), readings);
+  }
+  if (!running) return py::none();
+  py::dict by_name;
+  for (Reading& reading : readings) {
+    const py::str name(reading.sensor);
+    by_name[name] = py::cast(std::move(reading));
+  }
+  return by_name;
+}
+
+SonarRing OpenRing(RemoteRobot& robot, int count) {
+  return ValueOrRaise(SonarRing::Open(robot, count));
+}
+
+std::vector<SonarRing::Echo> EchoesFrom(const SonarRing& ring, const py::dict& readings) {
+  std::vector<Reading> copies;
+  for (const auto& [name, reading] : readings) copies.push_back(reading.cast<const Reading&>());
+  return ring.From(copies);
+}
+
+void BindRing(py::module_& module) {
+  py::class_<SonarRing> ring(module, "SonarRing",
+                             "Sonars around a robot, evenly spread: those of its model, or, where "
+                             "it has none, mounted ones.");
+  py::class_<SonarRing::Echo>(ring, "Echo")
+      .def_readonly("bearing", &SonarRing::Echo::bearing,
+                    "rad, counter-clockwise from straight ahead")
+      .def_readonly("distance", &SonarRing::Echo::distance, "m from the robot's origin")
+      .def_readonly("in_reach", &SonarRing::Echo::in_reach,
+                    "False: nothing up to the sonar's maximum");
+  ring.def(py::init(&OpenRing), py::arg("robot"), py::arg("count"), py::keep_alive<1, 2>(),
+           LetOthersRun())
+      .def("read", &SonarRing::Read, LetOthersRun(), "Reads them one after the other.")
+      .def("from_readings", &EchoesFrom, py::arg("readings"),
+           "Those of an exchange's readings that are the ring's.");
+  module.def(
+      "nearest", &Nearest, py::arg("echoes"), py::arg("bearing"), py::arg("half_angle"),
+      "The least distance of the echoes within half_angle of bearing; inf if there is none.");
+}
+
+void BindJoints(py::module_& module) {
+  py::class_<JointTraits>(module, "JointTraits", "rad, rad/s and N m, or m, m/s and N.")
+      .def_readonly("name", &JointTraits::name)
+      .def_readonly("kind", &JointTraits::kind)
+      .def_readonly("min_position", &JointTraits::min_position)
+      .def_readonly("max_position", &JointTraits::max_position)
+      .def_readonly("max_velocity", &JointTraits::max_velocity)
+      .def_readonly("max_effort", &JointTraits::max_effort);
+  py::class_<JointState>(module, "JointState", "rad and rad/s, or m and m/s, at an instant.")
+      .def_property_readonly("time", [](const JointState& s) { return SecondsOf(s.time); })
+      .def_readonly("position", &JointState::position)
+      .def_readonly("velocity", &JointState::velocity);
+  py::class_<Joint>(module, "Joint", "A joint that takes commands; each acts until the next.")
+      .def_property_readonly("traits", &Joint::traits)
+      .def("move_to", &Joint::MoveTo, py::arg("position"), LetOthersRun())
+      .def("move_at", &Joint::MoveAt, py::arg("velocity"), LetOthersRun())
+      .def("apply", &Joint::Apply, py::arg("effort"), LetOthersRun())
+      .def("release", &Joint::Release, LetOthersRun())
+      .def("read", &Joint::Read, LetOthersRun());
+}
+
+}  // namespace
+
+void BindRobot(py::module_& module) {
+  BindJoints(module);
+  py::class_<RemoteRobot, std::shared_ptr<RemoteRobot>>(
+      module, "Robot",
+      "A robot as its behaviour sees it. After the end of the run every call returns at once and "
+      "does nothing. Times are simulated seconds. One thread.")
+      .def_property_readonly("name", &RemoteRobot::name)
+      .def_property_readonly("footprint_radius", &RemoteRobot::footprint_radius,
+                             "m: a circle of this radius about its origin holds all of it")
+      .def("sensors", &RemoteRobot::Sensors, LetOthersRun(), "of the robot's model")
+      .def("open", &OpenSensor, py::arg("name"), py::arg("kind") = py::none(),
+           py::keep_alive<0, 1>(),
+           "A sensor of the robot's model, of the class that stands for its type. `kind` is the "
+           "class that is expected.")
+      .def("create", &CreateSensor, py::arg("type"), py::arg("name"),
+           py::arg("robot_from_sensor") = Placement{}, py::arg("parameters") = Parameters{},
+           py::arg("update_rate") = 0.0, py::keep_alive<0, 1>(),
+           "A further sensor, mounted on the base. `type` is a class or a name; its parameters are "
+           "those of docs/sensors.md.")
+      .def("joints", &RemoteRobot::Joints, LetOthersRun(), "those that take commands")
+      .def(
+          "open_joint",
+          [](RemoteRobot& robot, const std::string& name) {
+            return ValueOrRaise(robot.OpenJoint(name));
+          },
+          py::arg("name"), py::keep_alive<0, 1>(), LetOthersRun())
+      .def("drive", &RemoteRobot::Drive, py::arg("linear"), py::arg("angular"), LetOthersRun(),
+           "m/s and rad/s; acts until the next command")
+      .def(
+          "now", [](RemoteRobot& robot) { return SecondsOf(robot.Now()); }, LetOthersRun(),
+          "simulated seconds")
+      .def(
+          "sleep_until",
+          [](RemoteRobot& robot, double instant) { return robot.SleepUntil(TimeFrom(instant)); },
+          py::arg("instant"), LetOthersRun(), "False when the run has ended")
+      .def(
+          "sleep_for",
+          [](RemoteRobot& robot, double duration) { return robot.SleepFor(TimeFrom(duration)); },
+          py::arg("duration"), LetOthersRun(), "False when the run has ended")
+      .def("exchange", &Exchange, py::arg("linear"), py::arg("angular"), py::arg("until"),
+           "One control cycle in one round trip: drives, sleeps until that instant, then reads "
+           "every open sensor. A dict of Reading by the sensors' names, or None when the run has "
+           "ended.")
+      .def_property_readonly("is_running", &RemoteRobot::IsRunning)
+      .def_property_readonly("error", &RemoteRobot::error,
+                             "why it is not running; empty while it is, and after an ordinary end");
+  BindRing(module);
+}
+
+}  // namespace gsv::python

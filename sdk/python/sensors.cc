@@ -1,0 +1,282 @@
+// Sensors and what they measure. Arrays are views of the readings that they keep alive: nothing is
+// copied between the SDK and NumPy.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "sdk/behaviour/sensors.h"
+#include "sdk/python/values.h"
+
+namespace gsv::python {
+namespace {
+
+using Doubles = py::array_t<double>;
+
+// The values of a reading from `first` on, as an array of that shape that keeps the reading.
+Doubles View(const py::object& reading, std::vector<py::ssize_t> shape, std::size_t first = 0) {
+  const double* const values = reading.cast<const Reading&>().values.data();
+  return Doubles(std::move(shape), values + first, reading);
+}
+
+Doubles AllValues(const py::object& reading) {
+  const auto size = static_cast<py::ssize_t>(reading.cast<const Reading&>().values.size());
+  return View(reading, {size});
+}
+
+// Measures without the GIL; the reading then is Python's.
+py::object Measured(Sensor& sensor) {
+  Reading reading;
+  {
+    const py::gil_scoped_release release;
+    reading = sensor.TakeReading();
+  }
+  return py::cast(std::move(reading));
+}
+
+// A reading that starts with a picture's width and height: the size, (0, 0) of none.
+struct Size {
+  py::ssize_t width = 0, height = 0;
+};
+Size SizeOf(const Reading& reading) {
+  const std::vector<double>& values = reading.values;
+  if (values.size() < 2) return {};
+  const Size size{static_cast<py::ssize_t>(values[0]), static_cast<py::ssize_t>(values[1])};
+  return static_cast<std::size_t>(size.width * size.height) + 2 <= values.size() ? size : Size{};
+}
+
+py::array_t<std::uint8_t> ToArray(Picture picture) {
+  auto kept = std::make_unique<Picture>(std::move(picture));
+  const Picture& of = *kept;
+  const py::capsule owner(kept.release(),
+                          [](void* memory) { delete static_cast<Picture*>(memory); });
+  return py::array_t<std::uint8_t>({of.height, of.width, 3}, of.rgb.data(), owner);
+}
+
+py::array_t<double> TakeDepth(DepthCamera& camera) {
+  const py::object reading = Measured(camera);
+  const Size size = SizeOf(reading.cast<const Reading&>());
+  return View(reading, {size.height, size.width}, size.width * size.height > 0 ? 2 : 0);
+}
+
+py::tuple Segment(SegmentationCamera& camera) {
+  Reading reading;
+  {
+    const py::gil_scoped_release release;
+    reading = camera.TakeReading();
+  }
+  const Size size = SizeOf(reading);
+  py::array_t<std::uint32_t> labels({size.height, size.width});
+  if (labels.size() > 0) {
+    std::copy_n(reading.values.begin() + 2, labels.size(), labels.mutable_data());
+  }
+  return py::make_tuple(labels, reading.labels);
+}
+
+void BindPlainData(py::module_& module) {
+  py::class_<Placement>(module, "Placement",
+                        "A pose: metres, and fixed-axis roll, pitch, yaw in radians.")
+      .def(py::init<double, double, double, double, double, double>(), py::arg("x") = 0.0,
+           py::arg("y") = 0.0, py::arg("z") = 0.0, py::arg("roll") = 0.0, py::arg("pitch") = 0.0,
+           py::arg("yaw") = 0.0)
+      .def_readwrite("x", &Placement::x)
+      .def_readwrite("y", &Placement::y)
+      .def_readwrite("z", &Placement::z)
+      .def_readwrite("roll", &Placement::roll)
+      .def_readwrite("pitch", &Placement::pitch)
+      .def_readwrite("yaw", &Placement::yaw)
+      .def("__repr__", [](const Placement& p) {
+        return py::str(
+                   "Placement(x={:.3f}, y={:.3f}, z={:.3f}, roll={:.3f}, pitch={:.3f}, "
+                   "yaw={:.3f})")
+            .format(p.x, p.y, p.z, p.roll, p.pitch, p.yaw);
+      });
+  py::class_<Vector>(module, "Vector", "Three components along x, y and z.")
+      .def_readonly("x", &Vector::x)
+      .def_readonly("y", &Vector::y)
+      .def_readonly("z", &Vector::z)
+      .def("__iter__", [](const Vector& v) { return py::iter(py::make_tuple(v.x, v.y, v.z)); })
+      .def("__repr__", [](const Vector& v) {
+        return py::str("Vector(x={:.6g}, y={:.6g}, z={:.6g})").format(v.x, v.y, v.z);
+      });
+  py::class_<SensorTraits>(module, "SensorTraits", "What a sensor is; see docs/sensors.md.")
+      .def_readonly("name", &SensorTraits::name)
+      .def_readonly("type", &SensorTraits::type, "\"sonar\", \"camera\", …")
+      .def_readonly("robot_from_sensor", &SensorTraits::robot_from_sensor)
+      .def_readonly("update_rate", &SensorTraits::update_rate, "Hz; 0: whenever it is asked")
+      .def_readonly("parameters", &SensorTraits::parameters)
+      .def("__repr__",
+           [](const SensorTraits& t) { return py::str("<{} \"{}\">").format(t.type, t.name); });
+  py::class_<Reading>(module, "Reading", "What a sensor measured at one instant.")
+      .def_readonly("sensor", &Reading::sensor)
+      .def_property_readonly(
+          "time", [](const Reading& r) { return SecondsOf(r.time); }, "simulated seconds")
+      .def_property_readonly("values", &AllValues,
+                             "numpy.float64, of the shape that docs/sensors.md says; a view")
+      .def_readonly("labels", &Reading::labels, "names that go with the values")
+      .def("__repr__", [](const Reading& r) {
+        return py::str("<{} values of \"{}\" at {:.3f} s>")
+            .format(r.values.size(), r.sensor, SecondsOf(r.time));
+      });
+}
+
+// A class of sensors, whose TYPE is what models call it.
+template <typename Kind>
+py::class_<Kind> BindKind(py::module_& module, const char* name, py::class_<Sensor>& sensor,
+                          const char* description) {
+  py::class_<Kind> kind(module, name, sensor, description);
+  kind.attr("TYPE") = Kind::kType;
+  return kind;
+}
+
+void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
+  BindKind<Sonar>(module, "Sonar", sensor, "A cone of sound; its nearest echo gives a range.")
+      .def("range", &Sonar::Range, LetOthersRun(),
+           "m to the nearest echo; max_range where there is none")
+      .def_property_readonly("max_range", &Sonar::max_range);
+  BindKind<Lidar>(module, "Lidar", sensor, "A scanning range finder.")
+      .def(
+          "ranges", [](Lidar& lidar) { return AllValues(Measured(lidar)); },
+          "numpy.float64, m, beam by beam; infinite where nothing was hit");
+  BindKind<Camera>(module, "Camera", sensor, "Takes pictures.")
+      .def(
+          "take_picture",
+          [](Camera& camera) {
+            Picture picture;
+            {
+              const py::gil_scoped_release release;
+              picture = camera.TakePicture();
+            }
+            return ToArray(std::move(picture));
+          },
+          "numpy.uint8 of the shape (height, width, 3): RGB, rows from the top");
+  BindKind<DepthCamera>(module, "DepthCamera", sensor, "Measures how far each pixel is.")
+      .def("take_depth", &TakeDepth,
+           "numpy.float64 of the shape (height, width): m along the view, infinite where nothing "
+           "is");
+  BindKind<SegmentationCamera>(module, "SegmentationCamera", sensor, "Says what each pixel shows.")
+      .def("segment", &Segment,
+           "(labels, names): numpy.uint32 of the shape (height, width); a pixel of label n shows "
+           "names[n - 1], one of label 0 nothing");
+  auto boxes = BindKind<BoundingBoxCamera>(module, "BoundingBoxCamera", sensor,
+                                           "Finds models in its picture.");
+  boxes.def("detect", &BoundingBoxCamera::Detect, LetOthersRun());
+  py::class_<BoundingBoxCamera::Box>(boxes, "Box", "Pixels from the upper left corner.")
+      .def_readonly("name", &BoundingBoxCamera::Box::name)
+      .def_readonly("left", &BoundingBoxCamera::Box::left)
+      .def_readonly("top", &BoundingBoxCamera::Box::top)
+      .def_readonly("right", &BoundingBoxCamera::Box::right)
+      .def_readonly("bottom", &BoundingBoxCamera::Box::bottom);
+  auto logical =
+      BindKind<LogicalCamera>(module, "LogicalCamera", sensor, "Finds models in its frustum.");
+  logical.def("look", &LogicalCamera::Look, LetOthersRun());
+  py::class_<LogicalCamera::Sighting>(logical, "Sighting")
+      .def_readonly("name", &LogicalCamera::Sighting::name)
+      .def_readonly("sensor_from_model", &LogicalCamera::Sighting::sensor_from_model);
+}
+
+void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
+  BindKind<PositioningSystem>(module, "PositioningSystem", sensor, "Knows where it is.")
+      .def("locate", &PositioningSystem::Locate, LetOthersRun(), "its pose in the world");
+  auto imu = BindKind<Imu>(module, "Imu", sensor, "Feels turning and force.");
+  imu.def("feel", &Imu::Feel, LetOthersRun());
+  py::class_<Imu::Motion>(imu, "Motion", "In the sensor's frame; at rest the force is upwards.")
+      .def_readonly("angular_velocity", &Imu::Motion::angular_velocity, "rad/s")
+      .def_readonly("specific_force", &Imu::Motion::specific_force, "m/s²");
+  auto odometer = BindKind<Odometer>(module, "Odometer", sensor, "Counts the wheels' turns.");
+  odometer.def("reckon", &Odometer::Reckon, LetOthersRun());
+  py::class_<Odometer::Estimate>(odometer, "Estimate", "From where the robot started.")
+      .def_readonly("x", &Odometer::Estimate::x)
+      .def_readonly("y", &Odometer::Estimate::y)
+      .def_readonly("yaw", &Odometer::Estimate::yaw)
+      .def_readonly("linear", &Odometer::Estimate::linear, "m/s")
+      .def_readonly("angular", &Odometer::Estimate::angular, "rad/s");
+  auto satellites = BindKind<SatelliteReceiver>(module, "SatelliteReceiver", sensor,
+                                                "Receives satellites' signals.");
+  satellites.def("fix", &SatelliteReceiver::Fix, LetOthersRun());
+  py::class_<SatelliteReceiver::Position>(satellites, "Position", "WGS84; m, m/s.")
+      .def_readonly("latitude_deg", &SatelliteReceiver::Position::latitude_deg)
+      .def_readonly("longitude_deg", &SatelliteReceiver::Position::longitude_deg)
+      .def_readonly("altitude", &SatelliteReceiver::Position::altitude)
+      .def_readonly("east", &SatelliteReceiver::Position::east)
+      .def_readonly("north", &SatelliteReceiver::Position::north)
+      .def_readonly("up", &SatelliteReceiver::Position::up);
+  BindKind<Magnetometer>(module, "Magnetometer", sensor, "Measures the magnetic field.")
+      .def("field", &Magnetometer::Field, LetOthersRun(), "tesla, in the sensor's frame");
+  auto altimeter = BindKind<Altimeter>(module, "Altimeter", sensor, "Measures its height.");
+  altimeter.def("measured", &Altimeter::Measured, LetOthersRun());
+  py::class_<Altimeter::Height>(altimeter, "Height", "m above the reference, m/s.")
+      .def_readonly("position", &Altimeter::Height::position)
+      .def_readonly("velocity", &Altimeter::Height::velocity)
+      .def_readonly("reference", &Altimeter::Height::reference, "m, in the world");
+}
+
+void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
+  auto bumper = BindKind<Bumper>(module, "Bumper", sensor, "Feels what the robot touches.");
+  bumper.def("is_pressed", &Bumper::IsPressed, LetOthersRun())
+      .def("touches", &Bumper::Touches, LetOthersRun());
+  py::class_<Bumper::Touch>(bumper, "Touch", "In the sensor's frame; the normal points outwards.")
+      .def_readonly("other", &Bumper::Touch::other)
+      .def_readonly("point", &Bumper::Touch::point)
+      .def_readonly("normal", &Bumper::Touch::normal)
+      .def_readonly("depth", &Bumper::Touch::depth)
+      .def_readonly("closing_speed", &Bumper::Touch::closing_speed);
+  auto encoders = BindKind<JointEncoders>(module, "JointEncoders", sensor,
+                                          "Read how the robot's joints stand.");
+  encoders.def("joints", &JointEncoders::Joints, LetOthersRun());
+  py::class_<JointEncoders::Joint>(encoders, "Joint", "rad and rad/s, or m and m/s.")
+      .def_readonly("name", &JointEncoders::Joint::name)
+      .def_readonly("position", &JointEncoders::Joint::position)
+      .def_readonly("velocity", &JointEncoders::Joint::velocity);
+  auto battery = BindKind<Battery>(module, "Battery", sensor, "Says how much is left.");
+  battery.def("level", &Battery::Level, LetOthersRun());
+  py::class_<Battery::Charge>(battery, "Charge", "V, A drawn, Ah.")
+      .def_readonly("voltage", &Battery::Charge::voltage)
+      .def_readonly("current", &Battery::Charge::current)
+      .def_readonly("charge", &Battery::Charge::charge)
+      .def_readonly("capacity", &Battery::Charge::capacity)
+      .def_readonly("fraction", &Battery::Charge::fraction);
+  auto radio = BindKind<Radio>(module, "Radio", sensor, "Sends to other robots and hears them.");
+  const auto send = [](Radio& from, const std::string& receiver, const std::string& content) {
+    base::Status sent;
+    {
+      const py::gil_scoped_release release;
+      sent = from.Send(receiver, content);
+    }
+    ValueOrRaise(std::move(sent));
+  };
+  radio
+      .def("send", send, py::arg("receiver"), py::arg("content"),
+           "To the robot of that name; nobody says whether it hears.")
+      .def(
+          "broadcast", [send](Radio& from, const std::string& content) { send(from, "", content); },
+          py::arg("content"), "To all.")
+      .def("receive", &Radio::Receive, LetOthersRun(),
+           "what was heard since the last time, the oldest first")
+      .def_property_readonly("missed", &Radio::missed);
+  py::class_<Radio::Message>(radio, "Message")
+      .def_readonly("sender", &Radio::Message::sender)
+      .def_property_readonly(
+          "content", [](const Radio::Message& message) { return py::bytes(message.content); })
+      .def_property_readonly(
+          "sent", [](const Radio::Message& message) { return SecondsOf(message.sent); },
+          "simulated seconds")
+      .def_readonly("strength", &Radio::Message::strength, "dBm");
+}
+
+}  // namespace
+
+void BindSensors(py::module_& module) {
+  BindPlainData(module);
+  py::class_<Sensor> sensor(
+      module, "Sensor", "Any sensor of a robot. After the end of a run its readings are empty.");
+  sensor.def_property_readonly("traits", &Sensor::traits)
+      .def_property_readonly("name", [](const Sensor& s) { return s.traits().name; })
+      .def("measure", &Measured, "a Reading")
+      .def("__repr__", [](const Sensor& s) {
+        return py::str("<{} \"{}\">").format(s.traits().type, s.traits().name);
+      });
+  BindRangeAndVision(module, sensor);
+  BindMotion(module, sensor);
+  BindBody(module, sensor);
+}
+
+}  // namespace gsv::python

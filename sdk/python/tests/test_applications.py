@@ -1,0 +1,167 @@
+"""Applications in Python find simulators, run simulations and judge."""
+import signal
+import subprocess
+import sys
+
+import pytest
+
+import gsv
+from gsv.testing import PrivateSimulator
+
+
+class Ahead(gsv.Behaviour):
+    def run(self, robot):
+        while robot.sleep_for(0.05):
+            robot.drive(0.2, 0.0)
+
+
+def test_a_simulator_is_found_by_constraint(simulator):
+    with simulator.create("playground", constraint="cores >= 1 and name == 'gsv'",
+                          preference="min simulations") as simulation:
+        assert simulation.state().phase == "created"
+    with pytest.raises(gsv.NotFound, match="no simulator is offered for the constraint"):
+        simulator.create("playground", constraint="cores > 100000")
+    with pytest.raises(gsv.Refused, match="character 8"):
+        simulator.create("playground", constraint="cores >")
+
+
+def test_a_run_freezes_exactly_at_its_instant_and_repeats(simulate):
+    hashes = set()
+    for _ in range(2):
+        simulation = simulate("playground", seed=3)
+        assert simulation.add("pebble", x=-0.5, yaw=1.57, behaviour=Ahead, name="cart") == "cart"
+        simulation.run_until(1.0)
+        simulation.run_for(0.5)
+        state = simulation.state()
+        assert (state.phase, state.time) == ("paused", 1.5)
+        assert state.robots["cart"].model == "pebble"
+        hashes.add(simulation.state_hash())
+    assert len(hashes) == 1
+
+
+def test_a_reset_goes_back_to_the_start(simulate):
+    simulation = simulate("playground")
+    simulation.add("pebble", behaviour=Ahead)
+    simulation.run_until(1)
+    first = simulation.state_hash()
+    simulation.reset()
+    assert simulation.state().time == 0
+    simulation.run_until(1)
+    assert simulation.state_hash() == first
+
+
+def test_a_run_until_something_is_true_stops_at_the_same_instant(simulate):
+    instants = set()
+    for _ in range(2):
+        simulation = simulate("playground")
+        simulation.add("pebble", behaviour=Ahead)
+        state = simulation.run_until_true(lambda state: state.robots["pebble"].distance > 0.5,
+                                          at_most=10)
+        assert state is not None and state.robots["pebble"].distance > 0.5
+        instants.add(state.time)
+    assert len(instants) == 1
+    assert simulation.run_until_true(lambda state: False, at_most=0.25) is None
+
+
+def test_what_the_simulator_refuses_says_why(simulate):
+    with pytest.raises(gsv.Refused, match="nowhere"):
+        simulate("nowhere")
+    with pytest.raises(ValueError, match="step_ns"):
+        simulate("playground", step=-1.0)
+    simulation = simulate("playground")
+    with pytest.raises(gsv.Refused, match="unicorn"):
+        simulation.add("unicorn")
+    with pytest.raises(gsv.Error, match="nobody"):
+        simulation.add("pebble", behaviour="nobody")
+    with pytest.raises(TypeError, match="what makes one when it is called"):
+        simulation.add("pebble", behaviour=3)
+    with pytest.raises(gsv.NotRunning, match="paused"):
+        simulation.resume()
+    simulation.destroy()
+    with pytest.raises(gsv.Ended):
+        simulation.state()
+
+
+def test_robots_come_and_go(simulate):
+    simulation = simulate("playground")
+    simulation.add("pebble", x=-1, name="one", behaviour=Ahead)
+    simulation.add("pebble", x=1, name="two")
+    simulation.remove("two")
+    assert list(simulation.state().robots) == ["one"]
+
+
+def test_it_records(simulate, tmp_path):
+    simulation = simulate("playground")
+    simulation.add("pebble", behaviour=Ahead)
+    simulation.start_recording(str(tmp_path / "run.mcap"))
+    simulation.run_until(0.5)
+    simulation.stop_recording()
+    assert (tmp_path / "run.mcap").read_bytes().startswith(b"\x89MCAP")
+
+
+def test_nobody_at_the_broker_is_said_in_a_sentence(monkeypatch):
+    with pytest.raises(ConnectionError, match="127.0.0.1:1"):
+        gsv.connect("corbaloc::1.2@127.0.0.1:1/TradingService")
+    monkeypatch.delenv("GSV_BROKER", raising=False)
+    with pytest.raises(gsv.Refused, match="no broker was named"):
+        gsv.connect()
+
+
+def run_script(text, *arguments):
+    return subprocess.Popen([sys.executable, "-c", text, *arguments], text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def test_control_c_ends_a_wait(simulator):
+    program = run_script("""
+import sys, gsv
+class Says(gsv.Behaviour):
+    def run(self, robot):
+        print("under way", flush=True)
+        while robot.sleep_for(0.05):
+            pass
+with gsv.connect(sys.argv[1]).create("playground", lockstep=False) as simulation:
+    simulation.add("pebble", behaviour=Says)
+    simulation.run_until(3600)
+""", simulator.broker)
+    assert program.stdout.readline() == "under way\n"
+    program.send_signal(signal.SIGINT)
+    _, errors = program.communicate(timeout=60)
+    assert errors.endswith("KeyboardInterrupt\n"), errors
+    assert program.returncode == -signal.SIGINT  # as Python itself ends
+
+
+def test_a_program_that_forgets_all_ends_cleanly(simulator):
+    program = run_script("""
+import sys, gsv
+class Busy(gsv.Behaviour):
+    def run(self, robot):
+        while robot.sleep_for(0.01):
+            robot.drive(0.1, 0)
+simulation = gsv.connect(sys.argv[1]).create("playground", lockstep=False)
+simulation.add("pebble", behaviour=Busy)
+simulation.start()
+offer = gsv.Offer(sys.argv[1], "busy", Busy)
+""", simulator.broker)
+    assert program.communicate(timeout=60) == ("", "")
+    assert program.returncode == 0
+
+
+def test_an_orb_starts_again_after_all_has_ended(simulator):
+    text = """
+import sys, gsv
+for _ in range(3):
+    application = gsv.connect(sys.argv[1])
+    with application.create("playground") as simulation:
+        simulation.run_until(0.1)
+    del application, simulation
+    with gsv.Offer(sys.argv[1], "again", gsv.Behaviour):
+        pass
+print("well")
+"""
+    assert run_script(text, simulator.broker).communicate(timeout=60) == ("well\n", "")
+
+
+def test_a_private_simulator_that_cannot_start_says_why():
+    with pytest.raises(gsv.Unavailable, match="--no-such-option"):
+        PrivateSimulator("--no-such-option")

@@ -1,0 +1,163 @@
+"""What sensors measure comes as numbers and NumPy arrays, which share the memory of the readings."""
+import math
+
+import numpy
+import pytest
+
+import gsv
+
+# One box ahead of a robot at the origin: its face 2 m from the middle.
+WORLD = """<sdf version='1.9'><world name='w'><gravity>0 0 -9.8</gravity>
+  <model name='wall'><static>true</static><pose>2.5 0 0.5 0 0 0</pose><link name='l'>
+    <collision name='c'><geometry><box><size>1 8 1</size></box></geometry></collision>
+    <visual name='v'><geometry><box><size>1 8 1</size></box></geometry>
+      <material><diffuse>1 0 0 1</diffuse></material></visual>
+  </link></model></world></sdf>"""
+
+
+@pytest.fixture
+def world(tmp_path):
+    file = tmp_path / "world.sdf"
+    file.write_text(WORLD)
+    return str(file)
+
+
+def in_run(simulate, world, prepare, look, model="pebble"):
+    """What `look` says of what `prepare` made, once, after a tenth of a second."""
+    seen, raised = [], []
+
+    class Looking(gsv.Behaviour):
+        def init(self, robot):
+            self.prepared = prepare(robot)
+
+        def run(self, robot):
+            robot.sleep_for(0.1)
+            try:
+                seen.append(look(robot, self.prepared))
+            except Exception as error:
+                raised.append(error)
+
+    simulation = simulate(world)
+    simulation.add(model, behaviour=Looking)
+    simulation.run_until(0.2)
+    if raised:
+        raise raised[0]
+    return seen[0]
+
+
+def test_a_sonar_measures_to_the_wall(simulate, world):
+    ahead = in_run(simulate, world,
+                   lambda robot: robot.create(gsv.Sonar, "s", gsv.Placement(z=0.3), {"max": 3.0}),
+                   lambda robot, sonar: (sonar.range(), sonar.max_range))
+    assert ahead == (pytest.approx(2.0, abs=1e-6), 3.0)
+
+
+def test_a_scan_is_a_view_of_its_reading(simulate, world):
+    parameters = {"scan.horizontal.samples": 3.0, "scan.horizontal.min_angle": -math.pi / 3,
+                  "scan.horizontal.max_angle": math.pi / 3}
+    scan = in_run(simulate, world,
+                  lambda robot: robot.create("lidar", "l", gsv.Placement(z=0.3), parameters),
+                  lambda robot, lidar: lidar.ranges())
+    assert scan.dtype == numpy.float64
+    numpy.testing.assert_allclose(scan, [4.0, 2.0, 4.0], atol=1e-5)  # 2 / cos(60°)
+    assert not scan.flags.owndata and isinstance(scan.base, gsv.Reading)
+    assert scan.base.values.ctypes.data == scan.ctypes.data
+
+
+def test_a_picture_shows_the_red_wall(simulate, world):
+    size = {"image.width": 64, "image.height": 48, "horizontal_fov": 1.0}
+    picture = in_run(simulate, world,
+                     lambda robot: robot.create(gsv.Camera, "c", gsv.Placement(z=0.5), size),
+                     lambda robot, camera: camera.take_picture())
+    assert picture.shape == (48, 64, 3) and picture.dtype == numpy.uint8
+    assert not picture.flags.owndata
+    red, green, blue = picture[24, 32]
+    assert red > 60 and green < red / 2 and blue < red / 2
+
+
+def test_depth_and_labels_are_pictures_of_numbers(simulate, world):
+    size = {"image.width": 32, "image.height": 24, "horizontal_fov": 1.0}
+
+    def prepare(robot):
+        place = gsv.Placement(z=0.5)
+        return (robot.create(gsv.DepthCamera, "d", place, size),
+                robot.create(gsv.SegmentationCamera, "s", place, size))
+
+    depth, (labels, names) = in_run(
+        simulate, world, prepare, lambda robot, cameras: (cameras[0].take_depth(),
+                                                          cameras[1].segment()))
+    assert depth.shape == (24, 32) and isinstance(depth.base, gsv.Reading)
+    assert depth[12, 16] == pytest.approx(2.0, abs=1e-3)
+    assert labels.shape == (24, 32) and labels.dtype == numpy.uint32
+    assert names[labels[12, 16] - 1] == "wall"
+
+
+def test_poses_and_forces_have_names(simulate, world):
+    def prepare(robot):
+        return (robot.create("positioning", "p"), robot.create("imu", "i"),
+                robot.create("odometry", "o"))
+
+    place, motion, estimate = in_run(
+        simulate, world, prepare,
+        lambda robot, them: (them[0].locate(), them[1].feel(), them[2].reckon()))
+    assert (place.x, place.y, place.yaw) == pytest.approx((0, 0, 0))
+    assert tuple(motion.specific_force) == pytest.approx((0, 0, 9.8), abs=1e-6)
+    assert (estimate.x, estimate.linear) == (0, 0)
+
+
+def test_a_radio_carries_bytes(simulate, world):
+    heard = []
+
+    class Speaking(gsv.Behaviour):
+        def init(self, robot):
+            self.radio = robot.create(gsv.Radio, "radio")
+
+        def run(self, robot):
+            if robot.name == "speaker":
+                self.radio.broadcast(b"\0 here")
+                with pytest.raises(gsv.Refused, match="max_size"):
+                    self.radio.send("listener", b"x" * 5000)
+            robot.sleep_for(0.1)
+            heard.extend((robot.name, each.sender, each.content) for each in self.radio.receive())
+
+    simulation = simulate(world)
+    simulation.add("pebble", y=-1, name="speaker", behaviour=Speaking)
+    simulation.add("pebble", y=1, name="listener", behaviour=Speaking)
+    simulation.run_until(0.2)
+    assert heard == [("listener", "speaker", b"\0 here")]
+
+
+def test_sensors_are_found_by_name_and_checked_by_type(simulate, world):
+    def prepare(robot):
+        of_type = {traits.name: traits.type for traits in robot.sensors()}
+        assert of_type["sonar_00"] == "sonar"
+        with pytest.raises(gsv.Refused, match="\"sonar_00\" is no Camera"):
+            robot.open("sonar_00", gsv.Camera)
+        with pytest.raises(gsv.Refused, match="no sensor \"nose\""):
+            robot.open("nose")
+        with pytest.raises(gsv.Refused, match="min"):
+            robot.create("sonar", "wrong", parameters={"min": 5.0, "max": 1.0})
+        return robot.open("sonar_00", gsv.Sonar)
+
+    sonar = in_run(simulate, world, prepare, lambda robot, sonar: sonar)
+    assert sonar.name == "sonar_00" and sonar.traits.robot_from_sensor.yaw == 0
+    assert sonar.traits.parameters["max"] > 1
+
+
+def test_a_reading_outlives_its_sensor(simulate, world):
+    values = in_run(simulate, world, lambda robot: robot.open("sonar_00"),
+                    lambda robot, sonar: sonar.measure().values)
+    assert values.shape == (1,) and 1.5 < values[0] < 2
+    values[0] = 7  # it is the caller's
+    assert values[0] == 7
+
+
+def test_an_exchange_reads_what_is_open(simulate, world):
+    def prepare(robot):
+        robot.open("sonar_00")
+        robot.create("positioning", "where")
+
+    readings = in_run(simulate, world, prepare,
+                      lambda robot, _: robot.exchange(0.0, 0.0, until=0.15))
+    assert set(readings) == {"sonar_00", "where"}
+    assert readings["where"].time == 0.15 and readings["where"].values.shape == (6,)

@@ -1,0 +1,38 @@
+"""The type stubs say what the module has, no more and no less."""
+import ast
+import inspect
+from pathlib import Path
+
+import gsv
+from gsv import _native
+
+
+def declared_in(body):
+    """Names to the names within, of what a stub's body declares; None for what holds no others."""
+    names = {}
+    for node in body:
+        if isinstance(node, ast.ClassDef):
+            names[node.name] = declared_in(node.body)
+        elif isinstance(node, ast.FunctionDef):
+            names[node.name] = None
+        elif isinstance(node, ast.AnnAssign):
+            names[node.target.id] = None
+    return {name: within for name, within in names.items() if not name.startswith("_")}
+
+
+def found_in(holder):
+    names = {}
+    for name, value in vars(holder).items():
+        if not name.startswith("_"):
+            names[name] = found_in(value) if inspect.isclass(value) else None
+    return names
+
+
+def test_the_stub_declares_what_the_module_has():
+    stub = Path(gsv.__file__).with_name("_native.pyi")
+    assert declared_in(ast.parse(stub.read_text()).body) == found_in(_native)
+
+
+def test_what_users_call_has_a_docstring():
+    for name in gsv.__all__:
+        assert inspect.getdoc(getattr(gsv, name)), name

@@ -1,0 +1,74 @@
+// What the bindings have in common: errors become exceptions, times are seconds, and Python objects
+// are kept by threads that do not hold the interpreter's lock (GIL).
+//
+// Threads  unless a function says otherwise the caller holds the GIL. Whatever waits lets go of it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <pybind11/pybind11.h>
+
+#include "gsv/base/error.h"
+#include "gsv/base/sim_time.h"
+
+namespace gsv::python {
+
+namespace py = pybind11;
+
+using LetOthersRun = py::call_guard<py::gil_scoped_release>;
+
+// Raises the exception of gsv.errors that stands for the error's code, with its sentence. The
+// caller may or may not hold the GIL.
+[[noreturn]] void Raise(const base::Error& error);
+
+template <typename T>
+T ValueOrRaise(base::Result<T> result) {
+  if (!result) Raise(result.error());
+  if constexpr (!std::is_void_v<T>) return *std::move(result);
+}
+
+// Raises ValueError where `seconds` is no number that a clock can show. Needs no GIL.
+base::SimTime TimeFrom(double seconds);
+
+// The number nearest to it: 0.15, where ToSeconds() may give one beside it.
+inline double SecondsOf(base::SimTime time) { return static_cast<double>(time.count()) / 1e9; }
+
+// A Python object that threads without the GIL may copy, keep and let go of.
+class Kept {
+ public:
+  explicit Kept(py::object object)
+      : object_(new py::object(std::move(object)), [](py::object* last) {
+          const py::gil_scoped_acquire gil;
+          delete last;
+        }) {}
+  const py::object& operator*() const { return *object_; }
+  const py::object* operator->() const { return object_.get(); }
+
+ private:
+  std::shared_ptr<py::object> object_;
+};
+
+// Runs `call`, which uses Python, on a thread of this library: takes the GIL, and turns what Python
+// raises into a std::runtime_error with one line about it, after its traceback went to stderr.
+void CallPython(const std::function<void()>& call);
+
+// Deletes what calls others while it ends, without the GIL.
+struct EndsWithoutGil {
+  template <typename T>
+  void operator()(T* object) const {
+    const py::gil_scoped_release release;
+    delete object;
+  }
+};
+template <typename T>
+using Owned = std::unique_ptr<T, EndsWithoutGil>;
+
+void BindSensors(py::module_& module);
+void BindRobot(py::module_& module);  // after BindSensors()
+void BindBehaviours(py::module_& module);
+void BindApplications(py::module_& module);
+
+}  // namespace gsv::python

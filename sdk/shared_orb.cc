@@ -1,0 +1,51 @@
+#include "sdk/shared_orb.h"
+
+#include <mutex>
+
+#include "gsv/broker/client/corbaloc.h"
+#include "gsv/orb/orb.h"
+#include "sdk/fault_delay.h"
+
+namespace gsv::sdk {
+namespace {
+
+// An ORB is the process's, so who shares it finds it here. Held while one starts or ends.
+std::mutex shared_orb_mutex;
+std::weak_ptr<SharedOrb> shared_orb;
+
+base::Result<CORBA::ORB_var> StartOrbTowards(const std::string& broker) {
+  orb::OrbOptions options;
+  options.local_socket = true;
+  auto reference = broker::NormaliseReference(broker);
+  if (!reference) return base::Fail(reference.error());
+  if (const std::string host = broker::HostOf(*reference); !host.empty()) {
+    auto local = orb::LocalAddressTowards(host);
+    if (!local) return base::Fail(local.error());
+    options.host = *local;
+  }
+  return orb::StartOrb(options);
+}
+
+}  // namespace
+
+base::Result<std::shared_ptr<SharedOrb>> SharedOrb::Towards(const std::string& broker) {
+  std::shared_ptr<SharedOrb> shared;  // outlives the lock, which its end takes
+  const std::lock_guard lock(shared_orb_mutex);
+  shared = shared_orb.lock();
+  if (shared != nullptr) return shared;
+  auto orb = StartOrbTowards(broker);
+  if (!orb) return base::Fail(orb.error());
+  shared.reset(new SharedOrb(*orb));
+  static const base::Status delayed = DelayCallsAsEnvironmentSays();  // once a process
+  if (!delayed) return base::Fail(delayed.error());
+  shared_orb = shared;
+  return shared;
+}
+
+SharedOrb::~SharedOrb() {
+  const std::lock_guard lock(shared_orb_mutex);
+  orb_->shutdown(true);
+  orb_->destroy();
+}
+
+}  // namespace gsv::sdk
