@@ -1,6 +1,8 @@
 # `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
 # (tools/setup) and build what they need: `make run` no tests.
-# `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build).
+# `make install` installs into PREFIX (/usr/local), `make deb` makes Debian packages in build/release/packages.
+# `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build);
+# it also tries the packages on a bare Debian, which needs root and debootstrap.
 # `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60); it needs clang.
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
 #   PRESET=dev    another preset of CMakePresets.json
@@ -9,7 +11,7 @@ JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 60
 BUILD := build/$(PRESET)
 
-.PHONY: run test soak build configure setup asan tsan fuzz format clean
+.PHONY: run test install deb soak build configure setup asan tsan fuzz format clean
 
 run: configure
 	cmake --build $(BUILD) --target programs --parallel $(JOBS)
@@ -18,10 +20,22 @@ run: configure
 test: build
 	tools/run_tests $(BUILD)
 
-soak: build
+# Programs, the SDK, the Python module: into PREFIX (/usr/local), or as Debian packages.
+PREFIX ?= /usr/local
+install: configure
+	cmake --build $(BUILD) --target installed --parallel $(JOBS)
+	cmake --install $(BUILD) --prefix $(PREFIX)
+
+deb: configure
+	cmake --build $(BUILD) --target installed --parallel $(JOBS)
+	cd $(BUILD) && cpack
+	@ls $(BUILD)/packages/*.deb
+
+soak: build deb
 	cmake --preset dev
 	cmake --build build/dev --target gsv --parallel $(JOBS)
 	tools/soak $(BUILD) build/dev
+	tools/try_packages $(BUILD)
 
 build: configure
 	cmake --build $(BUILD) --parallel $(JOBS)

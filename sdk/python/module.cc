@@ -5,6 +5,7 @@
 PYBIND11_MODULE(_native, module) {
   using namespace gsv::python;
   module.doc() = "The C++ side of gsv; import gsv instead.";
+  module.attr("__version__") = GSV_VERSION;
   gsv::base::InitLogging(spdlog::level::info);
   BindSensors(module);
   BindRobot(module);

@@ -19,6 +19,7 @@ from gsv._native import (
     JointState, JointTraits, Lidar, LogicalCamera, Magnetometer, Odometer, Placement,
     PositioningSystem, Radio, Reading, Robot, RobotState, SatelliteReceiver, SegmentationCamera,
     Sensor, SensorTraits, SimulationState, Sonar, SonarRing, Vector, nearest)
+from gsv._native import __version__
 from gsv.applications import Application, Simulation, connect
 from gsv.behaviours import Behaviour, Controller, Offer, serve
 from gsv.errors import (

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 _Parameter = Union[float, bool, str]
 _Kind = TypeVar("_Kind", bound=Sensor)
 
+__version__: str
+
 class Placement:
     def __init__(self, x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0,
                  pitch: float = 0.0, yaw: float = 0.0) -> None: ...

@@ -1,0 +1,114 @@
+# What `cmake --install` puts where, and the Debian packages that `make deb` makes of it. Programs find
+# their worlds, models, plug-ins and pages from where they lie, so a prefix may be moved as a whole:
+#
+#   bin/                programs                     lib/gsv/       plug-ins
+#   share/gsv/          worlds, models, the viewer   share/idl/gsv  the contracts
+#   lib/libgsv.so       the SDK                      lib/libgsv-behaviour.a  what plug-ins need of it
+#   include/gsv/        headers, by the paths they have here
+#   lib/cmake/gsv/, lib/pkgconfig/gsv.pc             for find_package and pkg-config
+include(CMakePackageConfigHelpers)
+set(GSV_LIBRARY_VERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+# The SDK as one shared library: what behaviours and applications outside of this tree link to.
+add_library(gsv_shared_sdk SHARED
+  $<TARGET_OBJECTS:gsv_sdk> $<TARGET_OBJECTS:gsv_sdk_behaviour> $<TARGET_OBJECTS:gsv_orb>
+  $<TARGET_OBJECTS:gsv_base> $<TARGET_OBJECTS:gsv_idl>)
+set_target_properties(gsv_shared_sdk PROPERTIES
+  OUTPUT_NAME gsv EXPORT_NAME sdk LINKER_LANGUAGE CXX
+  VERSION ${PROJECT_VERSION} SOVERSION ${GSV_LIBRARY_VERSION}
+  LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+target_link_libraries(gsv_shared_sdk PRIVATE gsv::sdk)
+# What plug-ins link to: gsv itself has the rest.
+add_library(gsv_plugin_sdk STATIC $<TARGET_OBJECTS:gsv_sdk_behaviour> $<TARGET_OBJECTS:gsv_base>)
+set_target_properties(gsv_plugin_sdk PROPERTIES
+  OUTPUT_NAME gsv-behaviour EXPORT_NAME sdk_behaviour LINKER_LANGUAGE CXX
+  ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+foreach(TARGET gsv_shared_sdk gsv_plugin_sdk)
+  target_include_directories(${TARGET} INTERFACE $<INSTALL_INTERFACE:include/gsv>)
+  target_compile_features(${TARGET} INTERFACE cxx_std_20)
+  target_compile_options(${TARGET} INTERFACE -ffp-contract=off)  # equal bits on every machine
+endforeach()
+
+# gsv: programs, and what they need to run.
+set(GSV_PROGRAMS gsv gsv-wander gsv-cruise gsv-follow-wall gsv-goto)
+set(GSV_PLUGINS behaviour_wander behaviour_cruise behaviour_follow-wall behaviour_goto)
+install(TARGETS ${GSV_PROGRAMS} RUNTIME DESTINATION bin COMPONENT gsv)
+install(TARGETS ${GSV_PLUGINS} LIBRARY DESTINATION lib/gsv COMPONENT gsv)
+install(DIRECTORY assets/models assets/worlds ${CMAKE_BINARY_DIR}/share/gsv/web
+  DESTINATION share/gsv COMPONENT gsv)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/gsv COMPONENT gsv)
+
+# libgsv: the shared library alone. libgsv-dev: what compiles against it.
+install(TARGETS gsv_shared_sdk EXPORT gsvTargets
+  LIBRARY DESTINATION lib COMPONENT libgsv NAMELINK_COMPONENT libgsv-dev)
+install(TARGETS gsv_plugin_sdk EXPORT gsvTargets ARCHIVE DESTINATION lib COMPONENT libgsv-dev)
+install(EXPORT gsvTargets NAMESPACE gsv:: DESTINATION lib/cmake/gsv COMPONENT libgsv-dev)
+configure_package_config_file(cmake/package/gsvConfig.cmake.in ${CMAKE_BINARY_DIR}/package/gsvConfig.cmake
+  INSTALL_DESTINATION lib/cmake/gsv)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/gsvConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+configure_file(cmake/package/gsv.pc.in ${CMAKE_BINARY_DIR}/package/gsv.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/package/gsvConfig.cmake ${CMAKE_BINARY_DIR}/package/gsvConfigVersion.cmake
+  DESTINATION lib/cmake/gsv COMPONENT libgsv-dev)
+install(FILES ${CMAKE_BINARY_DIR}/package/gsv.pc DESTINATION lib/pkgconfig COMPONENT libgsv-dev)
+install(FILES sdk/behaviour_main.cc DESTINATION share/gsv COMPONENT libgsv-dev)
+file(GLOB IDL_FILES CONFIGURE_DEPENDS idl/*.idl)
+install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
+# Behaviours and applications need sdk/ and gsv/base; what implements hardware, gsv/orb, the broker's
+# client and the stubs; a sensor from outside, the rest.
+foreach(FOLDER sdk sdk/behaviour gsv/base gsv/orb gsv/broker/client gsv/broker/language gsv/broker/offers
+    gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing gsv/simulation gsv/services)
+  file(GLOB HEADERS CONFIGURE_DEPENDS ${FOLDER}/*.h)
+  install(FILES ${HEADERS} DESTINATION include/gsv/${FOLDER} COMPONENT libgsv-dev)
+endforeach()
+install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/ DESTINATION include/gsv COMPONENT libgsv-dev
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.hh")
+
+# python3-gsv
+set(GSV_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Where the module gsv is installed, below the prefix")
+install(TARGETS gsv_python LIBRARY DESTINATION ${GSV_PYTHON_DIR}/gsv COMPONENT python3-gsv)
+list(TRANSFORM GSV_PYTHON_FILES PREPEND sdk/python/gsv/ OUTPUT_VARIABLE PYTHON_FILES)
+install(FILES ${PYTHON_FILES} DESTINATION ${GSV_PYTHON_DIR}/gsv COMPONENT python3-gsv)
+configure_file(cmake/package/METADATA.in ${CMAKE_BINARY_DIR}/package/METADATA @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/package/METADATA
+  DESTINATION ${GSV_PYTHON_DIR}/gsv-${PROJECT_VERSION}.dist-info COMPONENT python3-gsv)
+
+# Everything above, and nothing of the tests.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+add_custom_target(installed DEPENDS ${GSV_PROGRAMS} ${GSV_PLUGINS} gsv_web gsv_shared_sdk gsv_plugin_sdk gsv_python)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME gsv)
+set(CPACK_PACKAGE_VENDOR "GSV")
+set(CPACK_PACKAGE_CONTACT "the GSV developers <gsv@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Simulator of robots in a distributed programming environment")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_OUTPUT_FILE_PREFIX ${CMAKE_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL gsv libgsv libgsv-dev python3-gsv)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib/gsv)
+set(CPACK_DEBIAN_GSV_PACKAGE_NAME gsv)
+set(CPACK_DEBIAN_GSV_DESCRIPTION "Simulator of robots: server, broker, recorder, viewer and behaviours")
+set(CPACK_DEBIAN_GSV_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libopengl0")
+set(CPACK_DEBIAN_LIBGSV_PACKAGE_NAME libgsv${GSV_LIBRARY_VERSION})
+set(CPACK_DEBIAN_LIBGSV_DESCRIPTION "What behaviours and applications for GSV run with")
+set(CPACK_DEBIAN_LIBGSV_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBGSV_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/cmake/package/triggers)
+set(CPACK_DEBIAN_LIBGSV-DEV_PACKAGE_NAME libgsv-dev)
+set(CPACK_DEBIAN_LIBGSV-DEV_DESCRIPTION "What behaviours and applications for GSV are compiled with")
+set(CPACK_DEBIAN_LIBGSV-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBGSV-DEV_PACKAGE_DEPENDS
+  "libgsv${GSV_LIBRARY_VERSION} (= ${PROJECT_VERSION}), libexpected-dev, libcli11-dev, libspdlog-dev, libomniorb4-dev, libcos4-dev, omniidl")
+set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_NAME python3-gsv)
+set(CPACK_DEBIAN_PYTHON3-GSV_DESCRIPTION "Behaviours and applications for GSV in Python")
+set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_CONTROL_EXTRA
+  ${CMAKE_CURRENT_SOURCE_DIR}/cmake/package/postinst ${CMAKE_CURRENT_SOURCE_DIR}/cmake/package/prerm)
+set(CPACK_DEBIAN_PYTHON3-GSV_PACKAGE_RECOMMENDS "gsv, python3-pytest")
+include(CPack)
