@@ -1,6 +1,7 @@
 #include "sdk/serve.h"
 
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -46,6 +47,8 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
   // One line on stdout: whoever started this program may wait for it.
   std::printf("%s: offered at %s\n", arguments.name.c_str(), (*offered)->broker().c_str());
   std::fflush(stdout);
+  // Who started this program reads no further: what the behaviour prints goes where its errors go.
+  if (arguments.exit_with_parent) dup2(STDERR_FILENO, STDOUT_FILENO);
   int signal = 0;
   sigwait(&signals, &signal);
   return 0;

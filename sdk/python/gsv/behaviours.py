@@ -103,6 +103,9 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
                 options.broker, options.name, (lambda: make(options)) if wants_options else make,
                 parser.description or doc, time_managed) as offer:
             print(f"{options.name}: offered at {offer.broker}", flush=True)
+            if options.exit_with_parent:  # who reads no further: prints go where errors go
+                os.dup2(2, 1)
+                sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
             signals.wait()
     except Error as error:
         print(error, file=sys.stderr)

@@ -233,6 +233,26 @@ def test_what_cannot_be_offered_is_said_in_one_sentence(examples, arguments, cod
     assert sentence in ended.stderr and "Traceback" not in ended.stderr
 
 
+def test_what_a_behaviour_prints_is_seen_and_never_holds_it_up(tmp_path):
+    script = tmp_path / "gsv-chatter"
+    script.write_text(f"""#!{sys.executable}
+import gsv
+class Chatter(gsv.Behaviour):
+    def run(self, robot):
+        while robot.sleep_for(0.01):
+            print("word " * 1000)  # altogether more than a pipe holds
+gsv.serve("chatter", Chatter)
+""")
+    script.chmod(0o755)
+    environment = dict(os.environ, PATH=f"{tmp_path}:{os.environ['PATH']}")
+    ended = subprocess.run(
+        [find_program("gsv"), "run", "playground", "--robot", "pebble@0,0", "--behaviour",
+         "chatter", "--lockstep", "--duration", "0.5", "--headless"],
+        capture_output=True, text=True, env=environment, timeout=120)
+    assert ended.returncode == 0, ended.stderr[-500:]
+    assert "unresponsive" not in ended.stderr and ended.stderr.count("word") > 40_000
+
+
 def test_gsv_run_starts_a_program_in_python_by_its_name(tmp_path, examples):
     (tmp_path / "gsv-first-in-python").symlink_to(examples / "first_behaviour.py")
     environment = dict(os.environ, PATH=f"{tmp_path}:{os.environ['PATH']}")
