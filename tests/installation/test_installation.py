@@ -40,6 +40,13 @@ def path_with(folder):
     return {"PATH": f"{folder}:{os.environ['PATH']}"}
 
 
+def test_the_tutorial_runs_from_what_is_installed(prefix):
+    environment = path_with(f"{prefix}/share/gsv/examples/tutorial:{prefix}/bin")
+    environment["PYTHONPATH"] = str(prefix / "lib/python3/dist-packages")
+    run(prefix / "bin/gsv", "run", "playground", "--robot", "pebble@0,0", "--behaviour", "hello",
+        "--lockstep", "--headless", "--duration", "5", **environment)
+
+
 def test_programs_find_worlds_models_and_the_viewer(prefix):
     doctor = run(prefix / "bin/gsv", "doctor")
     assert f"viewer: ok, {prefix}/share/gsv/web" in doctor

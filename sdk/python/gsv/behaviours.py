@@ -98,14 +98,17 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
     options = parser.parse_args()
     if options.exit_with_parent:
         _native.end_with_parent()
+
+    def make_one() -> Any:
+        return make(options) if wants_options else make()
+
     try:
-        with _Signals() as signals, Offer(
-                options.broker, options.name, (lambda: make(options)) if wants_options else make,
-                parser.description or doc, time_managed) as offer:
+        with _Signals() as signals, Offer(options.broker, options.name, make_one,
+                                          parser.description or doc, time_managed) as offer:
             print(f"{options.name}: offered at {offer.broker}", flush=True)
             if options.exit_with_parent:  # who reads no further: prints go where errors go
                 os.dup2(2, 1)
-                sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+                sys.stdout.reconfigure(line_buffering=True)  # type: ignore[attr-defined]
             signals.wait()
     except Error as error:
         print(error, file=sys.stderr)
