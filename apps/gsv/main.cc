@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   AddControlCommands(line);
   AddBenchCommands(line);
   AddTestCommand(line);
+  AddCampaignCommand(line);
   AddViewCommand(line);
   try {
     app.parse(argc, argv);

@@ -60,9 +60,10 @@ std::vector<std::string> CommandFor(const TestCase& test, const TestOptions& opt
                                    "--headless",
                                    "--json",
                                    "--wall-timeout",
-                                   fmt::format("{}", options.timeout),
-                                   "--failure-picture",
-                                   (folder / "picture.jpg").string()};
+                                   fmt::format("{}", options.timeout)};
+  if (!options.failures.empty()) {
+    command.insert(command.end(), {"--failure-picture", (folder / "picture.jpg").string()});
+  }
   if (options.record) {
     command.insert(command.end(), {"--record", (folder / "run.mcap").string(), "--record-rate",
                                    "poses=25,pictures=0.2"});
@@ -195,7 +196,7 @@ TestResult RunTestCase(const TestCase& test, const TestOptions& options,
       result.message = Message(*outcome);
     }
     if (result.status == TestResult::Status::kPassed) continue;
-    if (result.status != TestResult::Status::kInterrupted)
+    if (result.status != TestResult::Status::kInterrupted && !options.failures.empty())
       KeepFailure(folder->path(), options, *outcome, result);
     break;
   }

@@ -1,0 +1,259 @@
+#include "gsv/campaign/campaign.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "gsv/base/random.h"
+#include "gsv/scenario/scenario_file.h"
+#include "gsv/scenario/yaml_mapping.h"
+
+namespace gsv::campaign {
+namespace {
+
+using scenario::YamlMapping;
+using scenario::YamlPlace;
+
+constexpr double kMostNumber = 1e9;
+constexpr std::size_t kMostParameters = 64, kMostValues = 100'000;
+
+// Where "robots[0].x" leads to; the last key of a mapping may be new.
+bool SetAt(YAML::Node node, const std::string& path, const std::string& value) {
+  std::size_t at = 0;
+  for (;;) {
+    if (path[at] == '[') {
+      const std::size_t end = path.find(']', at);
+      std::size_t index = 0;
+      if (end == std::string::npos) return false;
+      const auto [stop, error] = std::from_chars(&path[at + 1], &path[end], index);
+      if (error != std::errc() || stop != &path[end]) return false;
+      if (!node.IsSequence() || index >= node.size()) return false;
+      node.reset(node[index]);
+      at = end + 1;
+    } else {
+      const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
+      const std::string key = path.substr(at, end - at);
+      if (key.empty() || !node.IsMap()) return false;
+      const bool is_last = end == path.size();
+      if (!is_last && !node[key]) return false;
+      if (is_last) {
+        node[key] = YAML::Load(value);
+        return true;
+      }
+      node.reset(node[key]);
+      at = end;
+    }
+    if (at == path.size()) {
+      node = YAML::Load(value);
+      return true;
+    }
+    if (path[at] == '.') ++at;
+  }
+}
+
+class ParameterReader {
+ public:
+  explicit ParameterReader(const YamlPlace& place) : place_(place) {}
+
+  std::vector<Parameter> Read(const YAML::Node& node) {
+    std::vector<Parameter> parameters;
+    if (!node.IsMap() || node.size() > kMostParameters) {
+      place_.Complain(node.Mark(), "parameters",
+                      "parameters must be a mapping of paths into the scenario, 64 at most");
+      return parameters;
+    }
+    for (const auto& entry : node) {
+      Parameter parameter;
+      parameter.path = entry.first.IsScalar() ? entry.first.Scalar() : "";
+      if (entry.second.IsSequence()) {
+        ReadList(entry.second, parameter);
+      } else {
+        ReadRule(entry.second, parameter);
+      }
+      parameters.push_back(std::move(parameter));
+    }
+    return parameters;
+  }
+
+ private:
+  void ReadList(const YAML::Node& list, Parameter& parameter) const {
+    for (const YAML::Node& value : list) {
+      if (value.IsScalar()) {
+        parameter.values.push_back(value.Tag() == "!" ? "\"" + value.Scalar() + "\""
+                                                      : value.Scalar());
+      } else {
+        place_.Complain(value.Mark(), parameter.path, "a value is a number or a text");
+      }
+    }
+    if (list.size() == 0) place_.Complain(list.Mark(), parameter.path, "the list is empty");
+  }
+
+  void ReadRule(const YAML::Node& node, Parameter& parameter) const {
+    YamlMapping mapping(node, parameter.path, place_);
+    const auto from = mapping.Number("from", -kMostNumber, kMostNumber);
+    const auto to = mapping.Number("to", -kMostNumber, kMostNumber);
+    const auto step = mapping.Number("step", 1e-9, kMostNumber);
+    const bool is_uniform = ReadPair(mapping, "uniform", parameter);
+    const bool is_normal = ReadPair(mapping, "normal", parameter);
+    const bool is_range = mapping.Had("from") || mapping.Had("to") || mapping.Had("step");
+    if (mapping.is_mapping() && is_range + is_uniform + is_normal != 1) {
+      mapping.Complain(
+          "a parameter is a list, {from, to, step}, {uniform: [A, B]} or {normal: [MEAN, "
+          "DEVIATION]}");
+      return;
+    }
+    if (is_uniform) parameter.kind = Parameter::Kind::kUniform;
+    if (is_normal) parameter.kind = Parameter::Kind::kNormal;
+    if (!is_range) return;
+    const double stride = step.value_or(1);
+    if (!from || !to || *from > *to || (*to - *from) / stride >= kMostValues) {
+      mapping.Complain("from and to are needed, the smaller first, 100,000 values at most");
+      return;
+    }
+    // To be spared the last bit of a sum: the end counts if it is met but for rounding.
+    const auto count = static_cast<int>(std::floor((*to - *from) / stride + 1e-9)) + 1;
+    for (int i = 0; i < count; ++i)
+      parameter.values.push_back(fmt::format("{}", *from + i * stride));
+  }
+
+  static bool ReadPair(YamlMapping& mapping, const char* key, Parameter& parameter) {
+    const std::vector<std::string> ends = mapping.Texts(key);
+    if (!mapping.Had(key)) return false;
+    const auto a = ends.size() == 2 ? scenario::ParseNumber(ends[0]) : std::nullopt;
+    const auto b = ends.size() == 2 ? scenario::ParseNumber(ends[1]) : std::nullopt;
+    if (!a || !b) mapping.Complain(key, std::string(key) + " must be two numbers");
+    parameter.a = a.value_or(0);
+    parameter.b = b.value_or(0);
+    return true;
+  }
+
+  const YamlPlace& place_;
+};
+
+std::string Drawn(std::uint64_t seed, const Parameter& parameter, std::size_t run) {
+  base::Noise noise(seed, base::StableId(parameter.path), run);
+  const double value = parameter.kind == Parameter::Kind::kUniform
+                           ? parameter.a + noise.Uniform() * (parameter.b - parameter.a)
+                           : parameter.a + parameter.b * noise.Gaussian();
+  return fmt::format("{}", value);
+}
+
+// Each value by itself, so that a mistake is told before anything runs.
+void TryValues(const Campaign& campaign, const std::string& file, base::Problems& problems) {
+  Campaign alone = campaign;
+  for (const Parameter& parameter : campaign.parameters) {
+    std::vector<std::string> values = parameter.values;
+    if (values.empty()) values.push_back(Drawn(campaign.draw_seed, parameter, 0));
+    alone.parameters = {parameter};
+    for (const std::string& value : values) {
+      const std::string where = file + ": " + parameter.path + " = " + value;
+      const auto text = alone.ScenarioWith({value});
+      base::Problems found;
+      if (!text) {
+        problems.push_back({base::Problem::Severity::kError, text.error().message, where});
+      } else if (auto read = scenario::ParseScenario(*text, "scenario", found); !read) {
+        problems.push_back({base::Problem::Severity::kError, read.error().Sentence(), where});
+      } else if (!found.empty()) {
+        problems.push_back({base::Problem::Severity::kError, found.front().message, where});
+      }
+      if (problems.size() >= scenario::kMostComplaints) return;
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t Campaign::runs() const {
+  std::size_t runs = draws;
+  for (const Parameter& parameter : parameters) {
+    if (parameter.kind != Parameter::Kind::kList) continue;
+    runs = std::min(kMostRuns + 1, runs * parameter.values.size());
+  }
+  return runs;
+}
+
+std::vector<std::string> Campaign::ValuesOf(std::size_t run) const {
+  std::vector<std::string> values(parameters.size());
+  std::size_t left = run;
+  for (std::size_t i = parameters.size(); i-- > 0;) {
+    const Parameter& parameter = parameters[i];
+    if (parameter.kind != Parameter::Kind::kList) continue;
+    values[i] = parameter.values[left % parameter.values.size()];
+    left /= parameter.values.size();
+  }
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].kind == Parameter::Kind::kList) continue;
+    values[i] = Drawn(draw_seed, parameters[i], run);
+  }
+  return values;
+}
+
+base::Result<std::string> Campaign::ScenarioWith(const std::vector<std::string>& values) const {
+  try {
+    YAML::Node node = YAML::Load(scenario);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (SetAt(node, parameters[i].path, values[i])) continue;
+      return base::Fail(base::ErrorCode::kBadModel,
+                        "the scenario has no such place; a path is as in robots[0].x",
+                        parameters[i].path);
+    }
+    return YAML::Dump(node) + "\n";
+  } catch (const YAML::Exception& error) {
+    return base::Fail(base::ErrorCode::kBadModel, "a value is no YAML: " + error.msg);
+  }
+}
+
+std::string Campaign::Definition() const {
+  std::string text = fmt::format("{}\ndraws {} seed {}\n", scenario, draws, draw_seed);
+  for (const Parameter& p : parameters) {
+    text += fmt::format("{} {} {} {}", p.path, static_cast<int>(p.kind), p.a, p.b);
+    for (const std::string& value : p.values) text += " " + value;
+    text += "\n";
+  }
+  return text;
+}
+
+base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    return base::Fail(base::ErrorCode::kNotFound, "the campaign's file cannot be opened", file);
+  }
+  std::string text(scenario::kLargestScenario + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  const YamlPlace place(YamlPlace::Naming::kLines, file, problems);
+  Campaign campaign;
+  std::string scenario_file;
+  try {
+    if (text.size() > scenario::kLargestScenario)
+      return base::Fail(base::ErrorCode::kBadModel, "a campaign has at most 4 MiB", file);
+    YamlMapping mapping(YAML::Load(text), "", place);
+    scenario_file = mapping.Text("scenario").value_or("");
+    if (mapping.is_mapping() && scenario_file.empty())
+      mapping.Complain("scenario", "scenario is needed: the file that each run is a variant of");
+    if (const auto node = mapping.Any("parameters"))
+      campaign.parameters = ParameterReader(place).Read(*node);
+    campaign.draws = static_cast<std::size_t>(mapping.Number("draws", 1, kMostRuns).value_or(1));
+    campaign.draw_seed = mapping.Count("draw_seed").value_or(0);
+  } catch (const YAML::Exception& error) {
+    return base::Fail(base::ErrorCode::kBadModel, "it is no YAML: " + error.msg,
+                      place.Of(error.mark, ""));
+  }
+  if (!problems.empty()) return campaign;
+  auto scenario = scenario::ReadScenario(file.parent_path() / scenario_file, problems);
+  if (!scenario) return base::Fail(scenario.error());
+  if (scenario->duration.value_or(0) <= 0) {
+    return base::Fail(base::ErrorCode::kBadModel, "a run needs an end: duration, in seconds",
+                      scenario_file);
+  }
+  campaign.scenario = scenario::ToYaml(*scenario);
+  if (campaign.runs() > kMostRuns) {
+    return base::Fail(base::ErrorCode::kBadModel, "a campaign has at most 1,000,000 runs", file);
+  }
+  if (problems.empty()) TryValues(campaign, file, problems);
+  return campaign;
+}
+
+}  // namespace gsv::campaign

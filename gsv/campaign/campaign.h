@@ -1,0 +1,46 @@
+// A campaign: a scenario, and parameters of it that are varied (docs/campaigns.md).
+//
+// Determinism  the runs, their numbers and their draws hang on the file alone.
+// Errors       name the file, the line and the column.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gsv/base/error.h"
+
+namespace gsv::campaign {
+
+inline constexpr std::size_t kMostRuns = 1'000'000;
+
+struct Parameter {
+  enum class Kind { kList, kUniform, kNormal };
+  std::string path;  // into the scenario, as in robots[0].x
+  Kind kind = Kind::kList;
+  std::vector<std::string> values;  // kList
+  double a = 0, b = 0;              // kUniform: from, to; kNormal: mean, standard deviation
+};
+
+struct Campaign {
+  std::string scenario;  // of which each run is a variant, as YAML with whole paths
+  std::vector<Parameter> parameters;
+  std::size_t draws = 1;  // of random parameters, for each point of the grid of lists
+  std::uint64_t draw_seed = 0;
+
+  std::size_t runs() const;  // at most kMostRuns
+  // The values of a run, from 0 on, in the order of the parameters. The last list varies fastest,
+  // and the draws before it.
+  std::vector<std::string> ValuesOf(std::size_t run) const;
+  // The scenario with these values, as YAML. Fails when a path leads nowhere.
+  base::Result<std::string> ScenarioWith(const std::vector<std::string>& values) const;
+  // Whatever bears on the runs: equal texts, equal runs.
+  std::string Definition() const;
+};
+
+// Each value is tried in the scenario by itself; what is wrong with any is added to `problems`.
+base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
+
+}  // namespace gsv::campaign

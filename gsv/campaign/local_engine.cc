@@ -1,0 +1,93 @@
+#include "gsv/campaign/local_engine.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace gsv::campaign {
+namespace {
+
+using EngineClock = std::chrono::steady_clock;
+constexpr auto kWritePeriod = std::chrono::milliseconds(500);
+
+class Work {
+ public:
+  Work(const LocalEngine& engine, std::vector<std::int64_t> runs)
+      : engine_(engine), runs_(std::move(runs)) {
+    for (int i = 0; i < engine.jobs; ++i) threads_.emplace_back([this] { TakeRuns(); });
+  }
+  ~Work() { is_cancelled_ = true; }
+
+  // What has been done since the last time; waits for something, but not for long.
+  std::vector<RunResult> Collect() {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, kWritePeriod, [this] { return idle_ == threads_.size(); });
+    return std::exchange(done_, {});
+  }
+  bool IsOver() {
+    const std::lock_guard lock(mutex_);
+    return idle_ == threads_.size() && done_.empty();
+  }
+  void Cancel() { is_cancelled_ = true; }
+
+ private:
+  void TakeRuns() {
+    std::unique_lock lock(mutex_);
+    while (next_ < runs_.size() && !is_cancelled_) {
+      const std::int64_t run = runs_[next_++];
+      lock.unlock();
+      auto result = engine_.take(run, is_cancelled_);
+      lock.lock();
+      if (result) done_.push_back(*std::move(result));
+    }
+    ++idle_;
+    changed_.notify_all();
+  }
+
+  const LocalEngine& engine_;
+  const std::vector<std::int64_t> runs_;
+  std::atomic<bool> is_cancelled_{false};
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  std::size_t next_ = 0, idle_ = 0;
+  std::vector<RunResult> done_;
+  std::vector<std::jthread> threads_;  // the last member: they use all others
+};
+
+}  // namespace
+
+base::Status LocalEngine::Run(Results& results) const {
+  const auto planned = results.PlannedRuns();
+  if (!planned) return base::Fail(planned.error());
+  const auto done = results.DoneRuns();
+  if (!done) return base::Fail(done.error());
+  std::vector<std::int64_t> left;
+  for (std::int64_t run = 0; run < *planned; ++run) {
+    if (!done->contains(run)) left.push_back(run);
+  }
+  Progress progress{static_cast<std::size_t>(*planned), done->size()};
+  const auto start = EngineClock::now();
+  std::size_t taken = 0;
+  const std::size_t to_take = left.size();
+  Work work(*this, std::move(left));
+  while (!work.IsOver()) {
+    const std::vector<RunResult> collected = work.Collect();
+    if (!collected.empty()) {
+      if (auto ok = results.Add(collected); !ok) return ok;
+    }
+    taken += collected.size();
+    progress.done += collected.size();
+    for (const RunResult& result : collected) progress.not_passed += result.status != "passed";
+    const double seconds = std::chrono::duration<double>(EngineClock::now() - start).count();
+    if (taken > 0)
+      progress.seconds_left =
+          seconds / static_cast<double>(taken) * static_cast<double>(to_take - taken);
+    if (tell) tell(progress);
+    if (is_interrupted && is_interrupted()) work.Cancel();
+  }
+  return {};
+}
+
+}  // namespace gsv::campaign

@@ -1,0 +1,97 @@
+// `gsv campaign`: many runs of a scenario.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/programs.h"
+
+namespace gsv::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Strings = std::vector<std::string>;
+
+class CampaignCommand : public ::testing::Test {
+ protected:
+  CampaignCommand() {
+    folder_.Write(
+        "s.yaml",
+        "world: playground\nduration: 0.5\nrobots: [{name: r, model: pebble, x: 0, y: 0}]\n"
+        "expect: [{name: stays, stays_within: {robot: r, x: [-0.5, 0.5]}}]\n");
+  }
+  Outcome Campaign(const std::string& what, Strings more = {}) const {
+    more.insert(more.begin(), {"campaign", what, file_});
+    return RunProgram("gsv", more);
+  }
+
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.Write("c.yaml",
+                                          "scenario: s.yaml\nparameters:\n"
+                                          "  robots[0].x: [0, 1]\n"
+                                          "  seed: {from: 1, to: 4}\n");
+};
+
+TEST_F(CampaignCommand, ADriverThatIsKilledIsFollowedByAnotherAndEachRunCountsOnce) {
+  {
+    Running driver("gsv", {"campaign", "run", file_, "--jobs", "1"});
+    for (int done = 0; done < 1 && driver.process().Ending().empty();) {
+      const auto status = Campaign("status", {"--json"}).LastLine();
+      done = status.is_object() ? status.value("done", 0) : 0;
+    }
+    driver.process().Signal(SIGKILL);
+    EXPECT_EQ(driver.AwaitEnd().ending, "signal 9");
+  }
+  const auto left = Campaign("status", {"--json"}).LastLine();
+  EXPECT_GE(left["done"], 1);
+  EXPECT_LT(left["done"], 8);
+  const Outcome rest = Campaign("run", {"--json", "--jobs", "2"});
+  EXPECT_EQ(rest.ending, "exit code 1") << rest.err;  // x = 1 is out of bounds
+  const auto status = rest.LastLine();
+  EXPECT_EQ(status["done"], 8);
+  EXPECT_EQ(status["passed"], 4);
+  EXPECT_EQ(status["failed"], 4);
+
+  const std::string csv = folder_.path() / "all.csv", html = folder_.path() / "report.html";
+  const Outcome report = Campaign(
+      "report", {"--by", "robots[0].x", "--metric", "r.collisions", "--csv", csv, "--html", html});
+  EXPECT_EQ(report.ending, "exit code 0") << report.err;
+  EXPECT_THAT(report.out, HasSubstr("0            4     4       1 [0.5101, 1]"));
+  EXPECT_THAT(report.out, HasSubstr("1            4     0       0 [0, 0.4899]"));
+  std::ostringstream text;
+  text << std::ifstream(csv).rdbuf();
+  const std::string lines = text.str();
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 9);
+  EXPECT_GT(std::filesystem::file_size(html), 1000u);
+  // Nothing is left to do.
+  EXPECT_EQ(Campaign("run", {"--json"}).LastLine()["done"], 8);
+}
+
+TEST_F(CampaignCommand, ARunCanBeHadByItself) {
+  const Outcome shown = Campaign("show", {"5"});
+  ASSERT_EQ(shown.ending, "exit code 0") << shown.err;
+  const std::string file = folder_.Write("run5.yaml", shown.out);
+  const auto run =
+      RunProgram("gsv", {"run", file, "--lockstep", "--headless", "--json"}).LastLine();
+  EXPECT_EQ(run["robots"][0]["pose"]["x_m"], 1.0);
+  EXPECT_EQ(Campaign("show", {"8"}).ending, "exit code 2");
+}
+
+TEST_F(CampaignCommand, BadInputIsTold) {
+  const std::string bad = folder_.Write("bad.yaml", "scenario: s.yaml\nparameters: {sed: [1]}\n");
+  const Outcome run = RunProgram("gsv", {"campaign", "run", bad});
+  EXPECT_EQ(run.ending, "exit code 3");
+  EXPECT_THAT(run.err, HasSubstr("sed = 1: there is no key \"sed\" here"));
+  EXPECT_EQ(RunProgram("gsv", {"campaign", "run", folder_.path() / "none.yaml"}).ending,
+            "exit code 3");
+  const std::string torn = folder_.Write("torn.sqlite", "SQLite format 3, and then nothing of it");
+  const Outcome report = RunProgram("gsv", {"campaign", "report", torn});
+  EXPECT_EQ(report.ending, "exit code 5");
+  EXPECT_THAT(report.err, HasSubstr("torn.sqlite"));
+}
+
+}  // namespace
+}  // namespace gsv::testing
