@@ -5,7 +5,8 @@
 //             drive take any velocity). All others stand where the state has them.
 // How         a base follows its command within its drive's limits (DriveKinematics) along an exact
 //             arc; its z, roll and pitch stay as the caller placed it. Joints that are no wheels
-//             and no steering stay as they are, and footprints are those at zero joint positions.
+//             and no steering are not its own (planar_joints.h), and footprints are those at zero
+//             joint positions.
 // Ground      what is lower than a robot can climb is ground to it: see PlanarScene and
 //             ClimbHeight.
 // Contact     a base stops, about half a micrometre away, at what its own motion runs into, at any

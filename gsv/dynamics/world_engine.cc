@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gsv/dynamics/obstacles.h"
+#include "gsv/dynamics/planar_joints.h"
 #include "gsv/dynamics/planar_mover.h"
 #include "gsv/dynamics/rigid_engine.h"
 
@@ -22,6 +23,21 @@ class WorldEngine final : public Engine {
 
   void Step(base::SimTime step, world::State& state,
             std::vector<world::Contact>& contacts) override {
+    MoveBodies(step, state, contacts);
+    MovePlanarJoints(*layout_, base::ToSeconds(step), state);
+  }
+
+  std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override {
+    return planar_->Overlaps(state, tolerance);
+  }
+
+  std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
+                                         double tolerance) override {
+    return planar_->OverlapsOf(state, body, tolerance);
+  }
+
+ private:
+  void MoveBodies(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     if (!rigid_.has_bodies()) {
       planar_->Step(step, state, contacts);
       return;
@@ -36,16 +52,6 @@ class WorldEngine final : public Engine {
     rigid_.AddContacts(before_, state, contacts);
   }
 
-  std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override {
-    return planar_->Overlaps(state, tolerance);
-  }
-
-  std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
-                                         double tolerance) override {
-    return planar_->OverlapsOf(state, body, tolerance);
-  }
-
- private:
   void PutPlanarBack(world::State& state) const {
     for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
       const world::Body& body = layout_->bodies[i];

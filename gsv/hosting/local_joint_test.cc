@@ -143,11 +143,40 @@ TEST(LocalJoint, HasTheHashOfOneThatIsCommandedFromOutside) {
   EXPECT_EQ(inside->state_hash(), outside->state_hash());
 }
 
-TEST(LocalJoint, IsRefusedWhereForcesDoNotMoveTheRobot) {
+TEST(LocalJoint, GoesAtItsLimitOfVelocityWhereTheDriveAloneMovesTheRobot) {
+  auto simulation = OnGround(4s);
+  std::vector<JointState> reached;
+  ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
+                                              const auto after = [&](SimTime duration) {
+                                                if (!robot.SleepFor(duration)) return;
+                                                reached.push_back(joint.Read());
+                                              };
+                                              joint.MoveTo(0.3);
+                                              after(500ms);
+                                              after(500ms);
+                                              joint.MoveAt(-0.1);
+                                              after(1s);
+                                              joint.Release();
+                                              after(500ms);
+                                              joint.MoveAt(1);
+                                              after(1s);
+                                            }),
+                                            model::Movement::kPlanar)));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  const std::vector<std::pair<double, double>> expected = {
+      {0.2, 0.4}, {0.3, 0}, {0.2, -0.1}, {0.2, 0}, {0.5, 0}};
+  ASSERT_EQ(reached.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(reached[i].position, expected[i].first, 1e-9) << i;
+    EXPECT_NEAR(reached[i].velocity, expected[i].second, 1e-9) << i;
+  }
+}
+
+TEST(LocalJoint, IsNotPushedWhereForcesDoNotMoveTheRobot) {
   auto simulation = OnGround(1s);
   std::string error;
   ASSERT_TRUE(simulation->AddRobot(LiftWith(Hosted([&](gsv::Robot& robot, Joint& joint) {
-                                              joint.MoveTo(0.3);
+                                              joint.Apply(3);
                                               error = robot.error();
                                             }),
                                             model::Movement::kPlanar)));

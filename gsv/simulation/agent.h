@@ -82,7 +82,7 @@ class Agent {
   virtual base::Status Command(const world::DriveCommand& command) = 0;
 
   // Joints, by their index in the robot's model. A command acts from this instant until the next;
-  // refused where forces do not move the robot.
+  // efforts are refused where forces do not move the robot.
   virtual const std::vector<model::Joint>& Joints() const = 0;
   virtual base::Status CommandJoint(int joint, const world::JointCommand& command) = 0;
   virtual base::Result<JointReading> ReadJoint(int joint) = 0;

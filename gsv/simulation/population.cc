@@ -372,8 +372,8 @@ base::Status SteppingSimulation::CommandJoint(const std::string& body, const std
   const auto world_lock = LockWorld();
   if (!world_lock) return RefuseStuck();
   const int index = layout_->Find(body);
-  if (index < 0 || !layout_->bodies[index].is_rigid) {
-    return base::Fail(base::ErrorCode::kNotFound, "forces move no body \"" + body + "\"",
+  if (index < 0 || !(layout_->bodies[index].is_rigid || layout_->bodies[index].is_robot)) {
+    return base::Fail(base::ErrorCode::kNotFound, "nothing moves a body \"" + body + "\"",
                       specification_.name);
   }
   const auto& joints = layout_->bodies[index].model->joints;

@@ -163,7 +163,7 @@ void SteppingSimulation::TakeStep() {
           drive.command_time = state_.time;
         }
         for (const auto& [joint, command] : agent->TakeJointCommands()) {
-          if (!layout_->bodies[agent->body()].is_rigid || !agent->MayMoveJoint(joint)) continue;
+          if (!agent->MayMoveJoint(joint)) continue;
           world::CommandJoint(*layout_, agent->body(), joint, command, state_);
         }
         if (RadioActs acts = agent->TakeRadioActs(); !acts.empty()) {

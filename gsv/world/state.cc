@@ -1,5 +1,6 @@
 #include "gsv/world/state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -54,6 +55,15 @@ State InitialState(const Layout& layout) {
   return state;
 }
 
+bool IsOfDrive(const model::Model& model, int joint) {
+  if (!model.drive) return false;
+  const model::Drive& drive = *model.drive;
+  const auto holds = [joint](const std::vector<int>& joints) {
+    return std::find(joints.begin(), joints.end(), joint) != joints.end();
+  };
+  return holds(drive.left_wheels) || holds(drive.right_wheels) || holds(drive.steered);
+}
+
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command) {
   using base::ErrorCode;
   if (joint < 0 || joint >= static_cast<int>(body.model->joints.size())) {
@@ -68,9 +78,17 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
   if (!model::TakesCommands(which.kind)) {
     return base::Fail(ErrorCode::kInvalidArgument, "fixed and ball joints take no commands", place);
   }
-  if (!body.is_rigid) {
+  if (body.is_rigid) return {};
+  if (!body.is_robot) {
+    return base::Fail(ErrorCode::kInvalidArgument, "nothing moves this body's joints", place);
+  }
+  if (IsOfDrive(*body.model, joint)) {
+    return base::Fail(ErrorCode::kInvalidArgument, "this joint is turned by the robot's drive",
+                      place);
+  }
+  if (command.kind == JointCommand::Kind::kEffort) {
     return base::Fail(ErrorCode::kInvalidArgument,
-                      "joints take commands where forces move the robot: run it with --movement " +
+                      "joints can be pushed where forces move the robot: run it with --movement " +
                           body.name + "=rigid",
                       place);
   }

@@ -82,8 +82,11 @@ struct State {
 // Everything where it starts and at rest; joints have their models' targets.
 State InitialState(const Layout& layout);
 
-// Refuses commands that are not finite, that forces do not move the body to follow, or that are for
-// a joint which is not there or takes none.
+// Whether a drive turns that joint: a wheel, or one that steers.
+bool IsOfDrive(const model::Model& model, int joint);
+
+// Refuses commands that are not finite, that the body cannot follow (effort, where no forces move
+// it), or that are for a joint which is not there, takes none, or is the drive's.
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
 // Tells a joint of a body what to do.

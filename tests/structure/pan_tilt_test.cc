@@ -69,7 +69,7 @@ Vector3 LineOfSight() {
   return {std::cos(kPan) * std::cos(down), std::sin(kPan) * std::cos(down), -std::sin(down)};
 }
 
-TEST(PanTilt, TurnsTheCameraAsFarAsItsJoints) {
+void TurnHead(model::Movement movement) {
   auto renderer = rendering::Renderer::Start();
   if (!renderer) GTEST_SKIP() << renderer.error().Sentence();
   auto sensors = std::make_shared<sensing::SensorRegistry>();
@@ -94,7 +94,7 @@ TEST(PanTilt, TurnsTheCameraAsFarAsItsJoints) {
   robot.name = "rover";
   robot.model = Rover();
   ASSERT_NE(robot.model, nullptr);
-  robot.movement = model::Movement::kRigid;
+  robot.movement = movement;
   robot.behaviour = std::make_shared<hosting::HostedBehaviour>(
       "looks", [&] { return std::make_unique<Looks>(reached); });
   const auto added = (*simulation)->AddRobot(std::move(robot));
@@ -121,6 +121,10 @@ TEST(PanTilt, TurnsTheCameraAsFarAsItsJoints) {
   EXPECT_NEAR(ball.u, 160, 6);
   EXPECT_NEAR(ball.v, 120, 6);
 }
+
+TEST(PanTilt, TurnsTheCameraAsFarAsItsJoints) { TurnHead(model::Movement::kRigid); }
+
+TEST(PanTilt, TurnsItToWhereTheDriveAloneMovesTheRobot) { TurnHead(model::Movement::kPlanar); }
 
 }  // namespace
 }  // namespace gsv

@@ -15,6 +15,7 @@ const LEFT_OUT = new RegExp(
   `^(${[
     "header|stamp|.*covariance|.*_covariance_type|status",
     "radiation_type|field_of_view|(min|max)_range|range_(min|max)|angle_(min|max|increment)",
+    "radius_m|range_m|angle_rad|intensity|reach_m|height_m|loudness_db",
     "time_increment|scan_time|intensities|cell_.*|power_supply_.*|design_capacity|vertical_reference",
   ].join("|")})$`,
 );
