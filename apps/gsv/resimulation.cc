@@ -1,5 +1,7 @@
 #include "apps/gsv/resimulation.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -21,7 +23,9 @@
 namespace gsv::app {
 namespace {
 
-constexpr std::string_view kCommandsTopic = "/gsv/commands";
+constexpr const char* kCommandsTopic = "/gsv/commands";
+constexpr const char* kActuatorsTopic = "/gsv/actuators";
+constexpr const char* kRadioTopic = "/gsv/radio";
 
 std::vector<std::string> MotionTopics() { return {"/gsv/poses", "/tf", "/gsv/state_hash"}; }
 
@@ -75,35 +79,85 @@ base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& 
   return Understand(arguments);
 }
 
-base::Result<hosting::TimedCommand> CommandOf(const messages::gsv_msgs::Command& message) {
-  const hosting::TimedCommand command{
-      messages::ToSimTime(message.stamp),
-      {message.linear_m_s, message.lateral_m_s, message.angular_rad_s}};
-  if (world::IsFinite(command.command)) return command;
-  return base::Fail(base::ErrorCode::kCorrupt, "a recorded command is not finite",
-                    std::string(kCommandsTopic) + " of " + message.robot);
+// What a robot was told, and whether its radios were on.
+struct RecordedActs {
+  hosting::TimedCommands commands;
+  bool uses_radio = false;
+};
+using RecordedRobots = std::map<std::string, RecordedActs>;
+
+base::Error NotFinite(const char* topic, const std::string& robot) {
+  return {base::ErrorCode::kCorrupt, "a recorded command is not finite",
+          std::string(topic) + " of " + robot};
+}
+
+base::Status Take(const messages::gsv_msgs::Command& message, RecordedRobots& robots) {
+  const world::DriveCommand command{message.linear_m_s, message.lateral_m_s, message.angular_rad_s};
+  if (!world::IsFinite(command)) return base::Fail(NotFinite(kCommandsTopic, message.robot));
+  robots[message.robot].commands.push_back({messages::ToSimTime(message.stamp), command});
+  return {};
+}
+
+base::Status Take(const messages::gsv_msgs::ActuatorCommand& message, RecordedRobots& robots) {
+  if (!std::all_of(message.values.begin(), message.values.end(),
+                   [](double value) { return std::isfinite(value); })) {
+    return base::Fail(NotFinite(kActuatorsTopic, message.robot));
+  }
+  robots[message.robot].commands.push_back(
+      {messages::ToSimTime(message.stamp),
+       hosting::RecordedOrder{message.actuator, {message.values, message.word}}});
+  return {};
+}
+
+// It was sent a step before it was heard.
+base::Status Take(const messages::gsv_msgs::Transmission& message, RecordedRobots& robots) {
+  const base::SimTime heard = messages::ToSimTime(message.stamp);
+  const auto step = static_cast<std::int64_t>(message.step);
+  const base::SimTime sent = step > 0 ? heard - heard / step : base::SimTime(0);
+  RecordedActs& sender = robots[message.sender];
+  sender.uses_radio = true;
+  sender.commands.push_back(
+      {sent,
+       hosting::RecordedSending{
+           message.radio, message.receiver, {message.content.begin(), message.content.end()}}});
+  for (const std::string& hearer : message.heard_by) robots[hearer].uses_radio = true;
+  return {};
+}
+
+template <typename Message>
+base::Status TakeFrom(const recording::MessageRecord& record, RecordedRobots& robots) {
+  const auto message = messages::Decode<Message>(record.data);
+  if (!message) return base::Fail(message.error());
+  return Take(*message, robots);
 }
 
 // Has every robot do what it did then.
 base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions& run) {
-  using messages::gsv_msgs::Command;
+  using namespace messages::gsv_msgs;
+  const std::map<std::string_view, decltype(&TakeFrom<Command>)> topics = {
+      {kCommandsTopic, TakeFrom<Command>},
+      {kActuatorsTopic, TakeFrom<ActuatorCommand>},
+      {kRadioTopic, TakeFrom<Transmission>}};
   const recording::Summary& summary = reader.summary();
-  auto commands = std::make_shared<std::map<std::string, hosting::TimedCommands>>();
+  auto robots = std::make_shared<RecordedRobots>();
   recording::MessageCursor cursor = reader.Messages();
   for (;;) {
     const auto record = cursor.Next();
     if (!record) return base::Fail(record.error());
     if (!*record) break;
     const auto channel = summary.channels.find((*record)->channel_id);
-    if (channel == summary.channels.end() || channel->second.topic != kCommandsTopic) continue;
-    const auto message = messages::Decode<Command>((*record)->data);
-    if (!message) return base::Fail(message.error());
-    const auto command = CommandOf(*message);
-    if (!command) return base::Fail(command.error());
-    (*commands)[message->robot].push_back(*command);
+    if (channel == summary.channels.end()) continue;
+    const auto take = topics.find(channel->second.topic);
+    if (take == topics.end()) continue;
+    if (auto ok = take->second(**record, *robots); !ok) return ok;
   }
-  run.make_behaviour = [commands](const std::string& robot, const std::string& behaviour) {
-    return std::make_shared<hosting::RecordedCommands>(behaviour, (*commands)[robot]);
+  for (auto& [name, acts] : *robots) {
+    std::stable_sort(acts.commands.begin(), acts.commands.end(),
+                     [](const auto& a, const auto& b) { return a.time < b.time; });
+  }
+  run.make_behaviour = [robots](const std::string& robot, const std::string& behaviour) {
+    const RecordedActs& acts = (*robots)[robot];
+    return std::make_shared<hosting::RecordedCommands>(behaviour, acts.commands, acts.uses_radio);
   };
   return {};
 }

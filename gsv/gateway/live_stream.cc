@@ -36,7 +36,8 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       events_(hub_),
       refresh_pacing_(kRefreshRate),
       commands_(hub_),
-      contacts_(hub_) {
+      contacts_(hub_, kContactTopic, CollectContacts),
+      radio_(hub_, kRadioTopic, CollectTransmissions) {
   const std::vector<foxglove::ChannelId> channels =
       hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
                        ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
@@ -50,6 +51,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
 
 void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now) {
   contacts_.Publish(*simulation);
+  radio_.Publish(*simulation);
   if (!hub_->has_clients()) return;
   const SnapshotPointer snapshot = simulation->snapshot();
   FollowLayout(*simulation, *snapshot, now);

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "gsv/gateway/command_topic.h"
-#include "gsv/gateway/contact_topic.h"
 #include "gsv/gateway/event_topics.h"
 #include "gsv/gateway/hub.h"
+#include "gsv/gateway/moment_topic.h"
 #include "gsv/gateway/pacing.h"
 #include "gsv/gateway/ports.h"
 #include "gsv/gateway/sensor_topics.h"
@@ -68,6 +68,7 @@ class LiveStream {
   std::weak_ptr<const world::Snapshot> time_of_;  // the last whose time was published
   CommandTopic commands_;
   ContactTopic contacts_;
+  RadioTopic radio_;
   std::shared_ptr<SensorTopics> sensors_;
 };
 

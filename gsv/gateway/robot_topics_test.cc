@@ -1,4 +1,4 @@
-#include "gsv/gateway/contact_topic.h"
+#include "gsv/gateway/moment_topic.h"
 
 #include <cmath>
 #include <set>

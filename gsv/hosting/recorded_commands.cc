@@ -10,12 +10,20 @@ constexpr base::SimTime kNever = base::SimTime::max() / 2;
 
 }  // namespace
 
-RecordedCommands::RecordedCommands(std::string name, TimedCommands commands)
-    : name_(std::move(name)), place_("this process"), commands_(std::move(commands)) {}
+RecordedCommands::RecordedCommands(std::string name, TimedCommands commands, bool uses_radio)
+    : name_(std::move(name)),
+      place_("this process"),
+      commands_(std::move(commands)),
+      uses_radio_(uses_radio) {}
 
 base::Status RecordedCommands::Init(const std::shared_ptr<simulation::Agent>& agent) {
   const std::lock_guard lock(mutex_);
   agent_ = agent;
+  if (!uses_radio_) return {};
+  for (const model::SensorDescription& sensor : agent->Sensors()) {
+    if (sensor.type != "radio") continue;
+    if (auto ok = agent->OpenSensor(sensor.name); !ok) return ok;
+  }
   return {};
 }
 
@@ -34,9 +42,24 @@ base::Status RecordedCommands::Start() {
 void RecordedCommands::TakeTurn(simulation::Turn& turn) {
   const std::lock_guard lock(mutex_);
   for (; next_ < commands_.size() && commands_[next_].time <= turn.now(); ++next_) {
-    turn.Command(commands_[next_].command);
+    Give(commands_[next_], turn);
   }
   turn.WaitUntil(next_ < commands_.size() ? commands_[next_].time : kNever);
+}
+
+// What cannot be given any more is left out: the run then shows that it differs.
+void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn) const {
+  if (const auto* drive = std::get_if<world::DriveCommand>(&command.command)) {
+    turn.Command(*drive);
+  } else if (const auto* told = std::get_if<RecordedOrder>(&command.command)) {
+    if (const auto actuator = agent_->Mounted(told->actuator)) {
+      (void)turn.Act(**actuator, told->order);
+    }
+  } else if (const auto* sending = std::get_if<RecordedSending>(&command.command)) {
+    if (const auto radio = agent_->Mounted(sending->radio)) {
+      (void)turn.Send(**radio, sending->receiver, sending->content);
+    }
+  }
 }
 
 void RecordedCommands::Destroy() {

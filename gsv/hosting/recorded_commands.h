@@ -1,25 +1,36 @@
-// A behaviour that does what another did: gives its robot recorded commands, each at its instant.
+// A behaviour that does what another did: tells its robot what was recorded, each at its instant.
 #pragma once
 
 #include <memory>
 #include <mutex>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "gsv/simulation/local_behaviour.h"
 
 namespace gsv::hosting {
 
+struct RecordedOrder {
+  std::string actuator;
+  world::ActuatorOrder order;
+};
+
+struct RecordedSending {
+  std::string radio, receiver, content;
+};
+
 struct TimedCommand {
   base::SimTime time{0};
-  world::DriveCommand command;
+  std::variant<world::DriveCommand, RecordedOrder, RecordedSending> command;
 };
 using TimedCommands = std::vector<TimedCommand>;  // times never fall
 
 class RecordedCommands final : public simulation::LocalBehaviour {
  public:
-  // `name`: of the behaviour whose commands they are.
-  RecordedCommands(std::string name, TimedCommands commands);
+  // `name`: of the behaviour whose commands they are. `uses_radio`: its radios are on from the
+  // start.
+  RecordedCommands(std::string name, TimedCommands commands, bool uses_radio = false);
 
   base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;
   base::Status Start() override;
@@ -34,8 +45,11 @@ class RecordedCommands final : public simulation::LocalBehaviour {
   void TakeTurn(simulation::Turn& turn) override;
 
  private:
+  void Give(const TimedCommand& command, simulation::Turn& turn) const;
+
   const std::string name_, place_;
   const TimedCommands commands_;
+  const bool uses_radio_;
 
   std::mutex mutex_;  // guards what follows; held during a turn
   std::shared_ptr<simulation::Agent> agent_;

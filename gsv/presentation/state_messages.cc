@@ -12,6 +12,13 @@ using messages::geometry_msgs::TransformStamped;
 
 std::uint64_t StepNumber(std::int64_t step) { return static_cast<std::uint64_t>(step); }
 
+// The step at an instant of the past: steps are equally long.
+std::uint64_t StepAt(base::SimTime instant, const world::State& state) {
+  if (state.time.count() <= 0) return 0;
+  const double part = base::ToSeconds(instant) / base::ToSeconds(state.time);
+  return StepNumber(std::llround(static_cast<double>(state.step) * part));
+}
+
 TransformStamped Stamped(std::string_view parent, std::string child, base::SimTime time,
                          const geometry::Pose& parent_from_child) {
   TransformStamped message;
@@ -137,14 +144,23 @@ messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world
                                            const world::State& state) {
   messages::gsv_msgs::Command message;
   message.stamp = messages::ToMessage(drive.command_time);
-  if (state.time.count() > 0) {
-    const double part = base::ToSeconds(drive.command_time) / base::ToSeconds(state.time);
-    message.step = StepNumber(std::llround(static_cast<double>(state.step) * part));
-  }
+  message.step = StepAt(drive.command_time, state);
   message.robot = robot;
   message.linear_m_s = drive.command.linear;
   message.lateral_m_s = drive.command.lateral;
   message.angular_rad_s = drive.command.angular;
+  return message;
+}
+
+messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::ActuatorState& told,
+                                                    const world::State& state) {
+  messages::gsv_msgs::ActuatorCommand message;
+  message.stamp = messages::ToMessage(told.since);
+  message.step = StepAt(told.since, state);
+  message.robot = told.robot;
+  message.actuator = told.actuator;
+  message.values = told.order.values;
+  message.word = told.order.word;
   return message;
 }
 

@@ -1,5 +1,7 @@
 #include "gsv/recording/state_topics.h"
 
+#include <utility>
+
 #include "gsv/base/hash.h"
 #include "gsv/messages/time.h"
 
@@ -19,6 +21,7 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
       poses_(writer, selection, "/gsv/poses"),
       transforms_(writer, selection, "/tf"),
       commands_(writer, selection, "/gsv/commands"),
+      actuators_(writer, selection, "/gsv/actuators"),
       contacts_(writer, selection, "/gsv/contacts"),
       radio_(writer, selection, "/gsv/radio"),
       status_(writer, selection, "/gsv/status", {.reproducible = false}),
@@ -35,6 +38,7 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
     pose_list_ = presentation::PoseListOf(*layout_);
   }
   if (commands_.is_wanted()) WriteNewCommands(*snapshot);
+  if (actuators_.is_wanted()) WriteNewOrders(*snapshot);
   if (contacts_.is_wanted()) WriteNewContacts(*snapshot);
   if (radio_.is_wanted()) WriteTransmissions(*snapshot);
   if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
@@ -76,6 +80,18 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     if (drive.command == told.command && drive.command_time == told.command_time) continue;
     told = drive;
     commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
+  }
+}
+
+// As with commands.
+void StateTopics::WriteNewOrders(const world::Snapshot& snapshot) {
+  const world::State& state = snapshot.state;
+  const auto before = std::exchange(told_actuators_, state.actuators);
+  if (state.actuators == nullptr || state.actuators == before) return;
+  for (const world::ActuatorStatePtr& now : *state.actuators) {
+    const auto* last = world::FindActuator(before.get(), now->robot, now->actuator);
+    if (last != nullptr && last->since == now->since && last->order == now->order) continue;
+    actuators_.Write(state.time, presentation::ActuatorMessage(*now, state));
   }
 }
 

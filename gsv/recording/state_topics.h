@@ -1,5 +1,5 @@
 // The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
-// /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout, /gsv/state_hash
+// /gsv/actuators, /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout, /gsv/state_hash
 // (docs/formats/messages.md).
 #pragma once
 
@@ -34,6 +34,7 @@ class StateTopics {
   void WritePoses(const world::Snapshot& snapshot);
   void WriteHash(const world::Snapshot& snapshot);
   void WriteNewCommands(const world::Snapshot& snapshot);
+  void WriteNewOrders(const world::Snapshot& snapshot);
   void WriteNewContacts(const world::Snapshot& snapshot);
   void WriteTransmissions(const world::Snapshot& snapshot);
 
@@ -45,10 +46,13 @@ class StateTopics {
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_
   std::map<std::string, world::DriveState> told_;   // by robot: what it was told last
 
+  std::shared_ptr<const world::Actuators> told_actuators_;  // those of the last snapshot
+
   TopicWriter<messages::rosgraph_msgs::Clock> clock_;
   TopicWriter<messages::gsv_msgs::Poses> poses_;
   TopicWriter<messages::tf2_msgs::TFMessage> transforms_;
   TopicWriter<messages::gsv_msgs::Command> commands_;
+  TopicWriter<messages::gsv_msgs::ActuatorCommand> actuators_;
   TopicWriter<messages::gsv_msgs::Contact> contacts_;
   TopicWriter<messages::gsv_msgs::Transmission> radio_;
   TopicWriter<messages::gsv_msgs::SimulationStatus> status_;

@@ -53,6 +53,7 @@ using ActuatorSetupPtr = std::shared_ptr<const ActuatorSetup>;
 struct ActuatorOrder {
   std::vector<double> values;
   std::string word;
+  friend bool operator==(const ActuatorOrder&, const ActuatorOrder&) = default;
 };
 
 // What a gripper holds.

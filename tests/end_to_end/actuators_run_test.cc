@@ -62,5 +62,15 @@ TEST_F(ActuatorsRun, ACheckSaysWhatIsWrongWithASpeaker) {
       << check.out;
 }
 
+TEST_F(ActuatorsRun, TellsThemTheSameAgainFromItsRecording) {
+  const std::string recording = (folder_.path() / "run.mcap").string();
+  const Outcome run = Run({"--in-process", "--record", recording});
+  ASSERT_EQ(run.ending, "exit code 0") << run.out << run.err;
+  const Outcome again =
+      RunProgram("gsv", {"replay", recording, "--resimulate", "--commands", "--json"});
+  EXPECT_EQ(again.ending, "exit code 0") << again.out << again.err;
+  EXPECT_EQ(again.LastLine()["equal"], true) << again.out;
+}
+
 }  // namespace
 }  // namespace gsv::testing

@@ -48,5 +48,15 @@ TEST_F(RadioRun, GoesTheSameOverCorbaAndInProcessWithAnyNumberOfThreads) {
   }
 }
 
+TEST_F(RadioRun, SendsTheSameAgainFromItsRecording) {
+  const std::string recording = (folder_.path() / "run.mcap").string();
+  const Outcome run = Run({"--in-process", "--record", recording});
+  ASSERT_EQ(run.ending, "exit code 0") << run.out << run.err;
+  const Outcome again =
+      RunProgram("gsv", {"replay", recording, "--resimulate", "--commands", "--json"});
+  EXPECT_EQ(again.ending, "exit code 0") << again.out << again.err;
+  EXPECT_EQ(again.LastLine()["equal"], true) << again.out;
+}
+
 }  // namespace
 }  // namespace gsv::testing

@@ -11,6 +11,14 @@ import type { Session } from "./Session";
 const MOST_READINGS = 16; // sensors at once
 const FRAMES_TOPIC = "/tf_static";
 const BUMPERS = ["contact", "bumper"];
+const RADIO_TOPIC = "/gsv/radio";
+const RADIOS = [
+  "radio",
+  "transceiver",
+  "wireless_transceiver",
+  "wireless_transmitter",
+  "wireless_receiver",
+];
 const MOST_ACTUATORS = 32;
 const SPEAKERS = ["speaker", "buzzer"];
 const ACTUATORS = ["gripper", "lamp", "led", ...SPEAKERS];
@@ -34,7 +42,12 @@ export function topicsToDraw({ scene, shown, selection, viewMode }: State): stri
     ...sensors.filter(acts).slice(0, MOST_ACTUATORS),
   ];
   const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
-  return [...(needsFrames && scene ? [FRAMES_TOPIC] : []), ...readings.map(({ topic }) => topic)];
+  const hasRadio = shown.actuators && sensors.some(({ type }) => RADIOS.includes(type));
+  return [
+    ...(needsFrames && scene ? [FRAMES_TOPIC] : []),
+    ...(hasRadio ? [RADIO_TOPIC] : []),
+    ...readings.map(({ topic }) => topic),
+  ];
 }
 
 // Those of the selected robot first.

@@ -18,6 +18,7 @@ import { LineLayer } from "./LineLayer";
 import { drawAxes, drawContact, drawView } from "./markings";
 import { PointLayer } from "./PointLayer";
 import type { PoseSample } from "./PoseInterpolator";
+import { RadioLinks } from "./RadioLinks";
 import { SensorFrames } from "./SensorFrames";
 import { SoundPlayer } from "./SoundPlayer";
 import { Trails } from "./Trails";
@@ -43,6 +44,7 @@ export class OverlayLayers {
   private readonly trails = new Trails();
   private readonly devices = new DeviceLayer();
   private readonly player = new SoundPlayer();
+  private readonly radio = new RadioLinks();
   private trailsOf = ""; // the scene's name
   private readonly contacts = new Map<string, TouchPoint[]>(); // by topic, in the sensor's frame
   private bodies: BodyLayer | null = null;
@@ -69,6 +71,7 @@ export class OverlayLayers {
       return entry === null ? [] : [{ name, entry }];
     });
     this.beams.keepOnly(new Set());
+    this.radio.clear();
     if (!bodies) return;
     if (bodies.scene.name === this.trailsOf) this.trails.keepOnly(names);
     else this.trails.clear();
@@ -90,6 +93,7 @@ export class OverlayLayers {
   // A reading of a lidar, a depth camera, a bumper or an actuator.
   takeReading(topic: string, message: unknown): void {
     this.devices.take(topic, message);
+    this.radio.take(message, performance.now());
     this.points.set(topic, pointsOf(message));
     this.contacts.set(topic, contactsOf(message));
   }
@@ -146,9 +150,15 @@ export class OverlayLayers {
     if (shown.contacts) this.drawContacts(bodies);
     if (shown.cameras) this.drawViews(bodies);
     if (shown.frames) this.drawFrames(bodies);
-    if (shown.actuators) this.devices.place((topic) => this.worldFromSensor(topic, bodies), lines);
+    if (shown.actuators) this.drawActuators(bodies);
     lines.finish();
     lines.lines.visible = lines.segments > 0;
+  }
+
+  private drawActuators(bodies: BodyLayer): void {
+    this.devices.place((topic) => this.worldFromSensor(topic, bodies), this.lines);
+    const poseOf = (robot: string) => bodies.poseOf(bodies.indexOf(robot));
+    this.radio.draw(this.lines, poseOf, performance.now());
   }
 
   private drawContacts(bodies: BodyLayer): void {

@@ -32,7 +32,7 @@ export const OVERLAYS: readonly OverlayKind[] = [
   { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
   { name: "labels", label: "Names", key: "7", hint: "The robots' names" },
   { name: "grid", label: "Grid", key: "8", hint: "Metres on the floor" },
-  { name: "actuators", label: "Actuators", key: "9", hint: "What lamps, speakers and grippers do" },
+  { name: "actuators", label: "Actuators and radio", key: "9", hint: "What lamps, speakers, grippers and radios do" },
   { name: "sound", label: "Let it be heard", key: "0", hint: "Play what speakers play" },
 ];
 

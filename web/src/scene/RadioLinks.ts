@@ -1,0 +1,57 @@
+// Messages between robots by radio: for a moment, a line from who spoke to each who heard, and a
+// short one upwards from a robot that nobody heard.
+import type { Matrix4 } from "three";
+import { Matrix4 as Place, Vector3 } from "three";
+import type { LineLayer } from "./LineLayer";
+import { rgb } from "./LineLayer";
+
+const SHOWN_MS = 500;
+const MOST_LINKS = 500;
+const COLOUR = rgb(0x7a3ff2);
+const UNHEARD = 0.3; // m
+const WORLD = new Place();
+
+interface Link {
+  from: string;
+  to: string | null; // null: nobody heard
+  until: number; // ms
+}
+
+export class RadioLinks {
+  private links: Link[] = [];
+
+  // Anything but a message of /gsv/radio is left alone. `now`: ms of the page.
+  take(message: unknown, now: number): void {
+    const { sender, heard_by } = (message ?? {}) as Record<string, unknown>;
+    if (typeof sender !== "string" || !Array.isArray(heard_by)) return;
+    const heard = heard_by.filter((name): name is string => typeof name === "string");
+    const until = now + SHOWN_MS;
+    for (const to of heard.length > 0 ? heard : [null]) this.links.push({ from: sender, to, until });
+    this.links = this.links.slice(-MOST_LINKS);
+  }
+
+  clear(): void {
+    this.links = [];
+  }
+
+  // With the robots as they are shown now.
+  draw(lines: LineLayer, worldFromRobot: (robot: string) => Matrix4 | null, now: number): void {
+    this.links = this.links.filter(({ until }) => until > now);
+    for (const { from, to } of this.links) {
+      const sender = placeOf(worldFromRobot(from));
+      if (!sender) continue;
+      const [x, y, z] = sender;
+      const end = to === null ? [x, y, z + UNHEARD] : placeOf(worldFromRobot(to));
+      if (end) lines.add(WORLD, sender, end, COLOUR);
+    }
+  }
+}
+
+const point = new Vector3();
+
+// x y z, a little above the floor.
+function placeOf(worldFromRobot: Matrix4 | null): [number, number, number] | null {
+  if (!worldFromRobot) return null;
+  const { x, y, z } = point.setFromMatrixPosition(worldFromRobot);
+  return [x, y, z + 0.2];
+}
