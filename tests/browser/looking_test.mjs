@@ -112,7 +112,15 @@ test("the browser remembers what is shown", async () => {
     .evaluateAll((items) =>
       items.filter((item) => item.ariaPressed === "true").map((item) => item.children[1].textContent),
     );
-  assert.deepEqual(pressed, ["Beams", "Points", "Contacts", "Trails", "Names", "Grid"]);
+  assert.deepEqual(pressed, [
+    "Beams",
+    "Points",
+    "Contacts",
+    "Trails",
+    "Names",
+    "Grid",
+    "Actuators and radio",
+  ]);
 });
 
 test("the inspector tells what each sensor reads", async () => {
