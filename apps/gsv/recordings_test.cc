@@ -58,8 +58,8 @@ TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
   for (const auto& record : info->metadata) metadata[record.name] = record.values;
   EXPECT_FALSE(metadata["gsv.simulation"]["gsv_version"].empty());
   EXPECT_NE(metadata["gsv.simulation"]["command"].find("recordings_test"), std::string::npos);
-  // The scenario, the scene, and the models of the disc and the wall.
-  ASSERT_EQ(info->attachments.size(), 4u);
+  // The scenario, the scene, and the models of the disc and the wall: looks and collision shapes.
+  ASSERT_EQ(info->attachments.size(), 6u);
   EXPECT_EQ(info->attachments[0].name, "scenario.yaml");
   EXPECT_TRUE(info->attachments[2].name.starts_with("models/"));
   EXPECT_GT(info->attachments[2].size, 20u);

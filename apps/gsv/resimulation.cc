@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
@@ -162,6 +163,35 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
   return {};
 }
 
+// What people changed in mid-run is no part of the command; without it the run goes otherwise.
+base::Status CheckThatNobodyEdited(const recording::McapReader& reader, const std::string& file) {
+  using messages::gsv_msgs::LifecycleEvent;
+  const recording::Summary& summary = reader.summary();
+  recording::MessageCursor cursor = reader.Messages();
+  bool has_begun = false;
+  for (;;) {
+    const auto record = cursor.Next();
+    if (!record) return base::Fail(record.error());
+    if (!*record) return {};
+    const auto channel = summary.channels.find((*record)->channel_id);
+    if (channel == summary.channels.end() || channel->second.topic != "/gsv/events") continue;
+    const auto message = messages::Decode<LifecycleEvent>((*record)->data);
+    if (!message) return base::Fail(message.error());
+    const std::string& event = message->event;
+    has_begun = has_begun || event == "started";
+    const bool is_edit = event == "body_placed" || event == "robot_removed" ||
+                         event == "robot_added" || event == "avatar_added";
+    if (!is_edit || (!has_begun && event != "body_placed" && event != "robot_removed")) continue;
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        "cannot be simulated again: somebody changed what stands there by hand (" + event + " " +
+            message->robot + " at " +
+            fmt::format("{:.3f}", base::ToSeconds(messages::ToSimTime(message->stamp))) +
+            " s), and the recorded command does not repeat that; replay it instead",
+        file);
+  }
+}
+
 void Print(const std::optional<recording::Difference>& difference,
            const recording::RecordingInfo& info, bool json) {
   if (json) {
@@ -187,6 +217,7 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   if (!call) return base::Fail(call.error());
   const auto recorded = recording::McapReader::Open(options.file);
   if (!recorded) return base::Fail(recorded.error());
+  if (auto ok = CheckThatNobodyEdited(**recorded, options.file); !ok) return base::Fail(ok.error());
   auto folder = base::TemporaryFolder::Make("gsv-again");
   if (!folder) return base::Fail(folder.error());
 

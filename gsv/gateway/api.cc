@@ -166,10 +166,7 @@ Response Api::OfBody(const Request& request, const SimulationPointer& simulation
 
 Response Api::Scene(const Simulation& simulation) {
   return JsonResponse(
-      200,
-      presentation::SceneJson(simulation, [this](const std::shared_ptr<const model::Model>& model) {
-        return models_.Identify(model);
-      }));
+      200, presentation::SceneJson(simulation, models_.identify(), models_.identify_collisions()));
 }
 
 // /api/models/ID.glb

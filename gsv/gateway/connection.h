@@ -16,6 +16,7 @@ struct ServerContext {
   access::TokenRule tokens;
   Handler& handler;
   std::atomic<std::size_t> connections{0};
+  std::atomic<std::size_t> uploads{0};  // that are being read, into memory
   std::atomic<bool> stopping{false};
 };
 
@@ -39,6 +40,27 @@ class ConnectionSlot {
 
  private:
   std::shared_ptr<ServerContext> context_;
+};
+
+// Room in memory for one file that is being uploaded.
+class UploadSlot {
+ public:
+  // Null: there is none.
+  static std::unique_ptr<UploadSlot> Take(std::shared_ptr<ServerContext> context) {
+    constexpr std::size_t kMostUploads = 4;
+    auto slot = std::unique_ptr<UploadSlot>(new UploadSlot(std::move(context)));
+    return slot->number_ <= kMostUploads ? std::move(slot) : nullptr;
+  }
+  ~UploadSlot() { --context_->uploads; }
+  UploadSlot(const UploadSlot&) = delete;
+  UploadSlot& operator=(const UploadSlot&) = delete;
+
+ private:
+  explicit UploadSlot(std::shared_ptr<ServerContext> context)
+      : context_(std::move(context)), number_(++context_->uploads) {}
+
+  const std::shared_ptr<ServerContext> context_;
+  const std::size_t number_;
 };
 
 // One session, as the server sees it.

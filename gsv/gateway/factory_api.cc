@@ -80,9 +80,8 @@ Response FactoryApi::Preview(const std::string& body) const {
   if (!request) return Refusal(request.error());
   const auto preview = factory_.Show(*request);
   if (!preview) return Refusal(preview.error());
-  const std::string scene = presentation::SceneJson(
-      *preview->simulation,
-      [this](const std::shared_ptr<const model::Model>& model) { return models_.Identify(model); });
+  const std::string scene = presentation::SceneJson(*preview->simulation, models_.identify(),
+                                                    models_.identify_collisions());
   return JsonResponse(200, R"({"scene":)" + scene + R"(,"poses":)" +
                                Text(PosesJson(*preview->simulation->snapshot())) +
                                R"(,"warnings":)" + Text(preview->warnings) + "}");

@@ -9,6 +9,7 @@
 #include "gsv/gateway/publisher.h"
 #include "gsv/gateway/recordings/recordings_api.h"
 #include "gsv/gateway/static_files.h"
+#include "gsv/gateway/uploads/uploads_api.h"
 #include "gsv/gateway/worker_pool.h"
 
 namespace gsv::gateway {
@@ -31,6 +32,7 @@ class LocalGateway final : public Gateway, private Handler {
         api_(directory, &formats::WriteGlb, options.recordings, options.factory,
              !options.recordings_folder.empty()),
         pages_(options.pages),
+        takes_uploads_(options.factory != nullptr),
         publisher_(std::move(directory), watchers_, commanders_, options.recordings) {
     if (!options.recordings_folder.empty()) {
       replays_.emplace(options.recordings_folder, options.only_recording);
@@ -77,6 +79,9 @@ class LocalGateway final : public Gateway, private Handler {
         return page->second(request);
     }
     if (IsOfViewers(request.target)) return viewers_.Handle(request);
+    if (takes_uploads_ && path.size() > 1 && path[0] == "api" && path[1] == "uploads") {
+      return uploads_.Handle(request);
+    }
     if (replays_ && path.size() > 1 && path[0] == "api" && path[1] == "recordings") {
       return replays_->Handle(request);
     }
@@ -119,6 +124,8 @@ class LocalGateway final : public Gateway, private Handler {
   access::ViewersApi viewers_;
   std::optional<recordings::RecordingsApi> replays_;
   const std::map<std::string, std::function<Response(const Request&)>> pages_;
+  const bool takes_uploads_;
+  uploads::UploadsApi uploads_;
   WorkerPool readers_{2, kWaitingRequests};
   WorkerPool commanders_{2, kWaitingRequests};
   WorkerPool watchers_{2, kWaitingReadings};

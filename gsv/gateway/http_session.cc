@@ -1,5 +1,6 @@
 #include "gsv/gateway/http_session.h"
 
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -11,6 +12,7 @@
 
 #include "gsv/base/log.h"
 #include "gsv/gateway/access/need.h"
+#include "gsv/gateway/uploads/uploads_api.h"
 #include "gsv/gateway/websocket_session.h"
 
 namespace gsv::gateway {
@@ -28,14 +30,15 @@ std::string Text(const http::request<http::string_body>& request, http::field fi
 }
 
 // What is wrong with bytes that are not an acceptable request; empty: the connection is just gone.
-std::optional<Response> ResponseTo(error_code error, const ServerLimits& limits) {
+std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
+                                   std::uint64_t body_limit) {
   if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-    return ErrorResponse(431, "the request's header is longer than " +
-                                  std::to_string(limits.header_bytes) + " bytes");
+    return ErrorResponse(
+        431, "the request's header is longer than " + std::to_string(header_limit) + " bytes");
   }
   if (error == http::error::body_limit) {
     return ErrorResponse(
-        413, "the request's body is longer than " + std::to_string(limits.body_bytes) + " bytes");
+        413, "the request's body is longer than " + std::to_string(body_limit) + " bytes");
   }
   if (error.category() == make_error_code(http::error::bad_target).category() &&
       error != http::error::end_of_stream && error != http::error::partial_message) {
@@ -43,6 +46,9 @@ std::optional<Response> ResponseTo(error_code error, const ServerLimits& limits)
   }
   return std::nullopt;
 }
+
+// For one file to arrive.
+constexpr std::chrono::minutes kUploadTime{5};
 
 // "/ws", and for a replay of one's own "/replays/NAME/ws".
 bool IsSocket(const Target& target) {
@@ -64,14 +70,15 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   void Read() {
     parser_.emplace();
     parser_->header_limit(limits().header_bytes);
-    parser_->body_limit(limits().body_bytes);
+    // OnHeader() limits it. Boost 1.74 takes boost::none for zero.
+    parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
     stream_.expires_after(limits().request_time);
     is_idle_ = true;
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](error_code error, std::size_t) {
-                       self->is_idle_ = false;
-                       self->OnRead(error);
-                     });
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              self->is_idle_ = false;
+                              self->OnHeader(error);
+                            });
   }
 
   void Shutdown() override {
@@ -83,15 +90,44 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
  private:
   const ServerLimits& limits() const { return context_->options.limits; }
 
-  void OnRead(error_code error) {
-    if (error) {
-      std::optional<Response> complaint = ResponseTo(error, limits());
-      if (complaint) {
-        keep_alive_ = false;
-        Write(std::move(*complaint));
-      }
-      return;
+  // What is too long, or not for who sends it, is refused before it is read.
+  void OnHeader(error_code error) {
+    if (error) return Complain(error);
+    const auto& request = parser_->get();
+    version_ = request.version();
+    const base::Result<Target> target = ParseTarget(View(request.target()));
+    const bool is_upload = target && uploads::IsUpload(*target);
+    body_limit_ = is_upload ? uploads::kLargestUpload : limits().body_bytes;
+    if (parser_->content_length().value_or(0) > body_limit_) {
+      return Complain(make_error_code(http::error::body_limit));
     }
+    parser_->body_limit(body_limit_);
+    if (is_upload) {
+      if (std::optional<Response> refusal = Refusal(*target)) {
+        keep_alive_ = false;
+        return Write(std::move(*refusal));
+      }
+      upload_ = UploadSlot::Take(context_);
+      if (!upload_) {
+        keep_alive_ = false;
+        return Write(ErrorResponse(503, "others are uploading files; try again in a moment"));
+      }
+      stream_.expires_after(kUploadTime);
+    }
+    http::async_read(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](error_code failed, std::size_t) { self->OnRead(failed); });
+  }
+
+  void Complain(error_code error) {
+    std::optional<Response> complaint = ResponseTo(error, limits().header_bytes, body_limit_);
+    if (!complaint) return;
+    keep_alive_ = false;
+    Write(std::move(*complaint));
+  }
+
+  void OnRead(error_code error) {
+    if (error) return Complain(error);
     const auto& request = parser_->get();
     keep_alive_ = request.keep_alive();
     version_ = request.version();
@@ -148,6 +184,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     request.content_type = Text(message, http::field::content_type);
     request.if_none_match = Text(message, http::field::if_none_match);
     request.viewer = std::string(View(message["Gsv-Viewer"]));
+    upload_.reset();
     stream_.expires_never();  // whoever answers has limits of their own
     context_->handler.Handle(std::move(request), [self = shared_from_this()](
                                                      Response response) mutable {
@@ -244,6 +281,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
   std::function<void(std::weak_ptr<Connection>)> keep_track_;
+  std::unique_ptr<UploadSlot> upload_;  // while one is read
+  std::uint64_t body_limit_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = false;
   bool is_head_ = false;

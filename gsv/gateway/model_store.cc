@@ -4,20 +4,35 @@
 #include <utility>
 
 #include "gsv/presentation/model_identity.h"
+#include "gsv/presentation/scene_json.h"
 
 namespace gsv::gateway {
 
-std::string ModelStore::Identify(const std::shared_ptr<const model::Model>& model) {
+std::string ModelStore::Known(Identities& identities,
+                              const std::shared_ptr<const model::Model>& model,
+                              const std::function<std::string()>& identify) {
   {
     const std::lock_guard lock(mutex_);
-    const auto known = identities_.find(model);
-    if (known != identities_.end()) return known->second;
+    const auto known = identities.find(model);
+    if (known != identities.end()) return known->second;
   }
-  const std::string id = presentation::ModelIdentity(*model);
+  const std::string id = identify();
   const std::lock_guard lock(mutex_);
   ForgetGone();
-  identities_.emplace(model, id);
+  identities.emplace(model, id);
   return id;
+}
+
+std::string ModelStore::Identify(const std::shared_ptr<const model::Model>& model) {
+  return Known(looks_, model, [&] { return presentation::ModelIdentity(*model); });
+}
+
+std::string ModelStore::IdentifyCollisions(const std::shared_ptr<const model::Model>& model) {
+  return Known(collisions_, model, [&] {
+    return presentation::HasCollisions(*model)
+               ? presentation::ModelIdentity(presentation::CollisionModel(*model))
+               : std::string();
+  });
 }
 
 base::Result<SharedBytes> ModelStore::Glb(const std::string& id) {
@@ -42,18 +57,29 @@ base::Result<SharedBytes> ModelStore::Glb(const std::string& id) {
   return *file->glb;
 }
 
-std::shared_ptr<const model::Model> ModelStore::FindModel(const std::string& id) const {
-  for (const auto& [weak, identity] : identities_) {
+std::shared_ptr<const model::Model> ModelStore::FindIn(const Identities& identities,
+                                                       const std::string& id) {
+  for (const auto& [weak, identity] : identities) {
     if (identity != id) continue;
     if (std::shared_ptr<const model::Model> model = weak.lock()) return model;
   }
   return nullptr;
 }
 
+std::shared_ptr<const model::Model> ModelStore::FindModel(const std::string& id) const {
+  if (id.empty()) return nullptr;
+  if (auto model = FindIn(looks_, id)) return model;
+  const auto model = FindIn(collisions_, id);
+  return model ? std::make_shared<const model::Model>(presentation::CollisionModel(*model))
+               : nullptr;
+}
+
 void ModelStore::ForgetGone() {
-  std::erase_if(identities_, [](const auto& known) { return known.first.expired(); });
   std::set<std::string> alive;
-  for (const auto& [model, id] : identities_) alive.insert(id);
+  for (Identities* identities : {&looks_, &collisions_}) {
+    std::erase_if(*identities, [](const auto& known) { return known.first.expired(); });
+    for (const auto& [model, id] : *identities) alive.insert(id);
+  }
   std::erase_if(files_, [&](const auto& file) { return !alive.contains(file.first); });
 }
 

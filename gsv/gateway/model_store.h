@@ -26,6 +26,16 @@ class ModelStore {
 
   // The model's identity, under which Glb() knows it from now on.
   std::string Identify(const std::shared_ptr<const model::Model>& model);
+  // The same of what it collides with; empty: nothing.
+  std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
+
+  // The same for whoever describes scenes, while this lives.
+  std::function<std::string(const std::shared_ptr<const model::Model>&)> identify() {
+    return [this](const auto& model) { return Identify(model); };
+  }
+  std::function<std::string(const std::shared_ptr<const model::Model>&)> identify_collisions() {
+    return [this](const auto& model) { return IdentifyCollisions(model); };
+  }
 
   // kNotFound: no model that is still alive was ever identified so.
   base::Result<SharedBytes> Glb(const std::string& id);
@@ -42,7 +52,14 @@ class ModelStore {
 
   const WriteGlb write_;
   std::mutex mutex_;
-  std::map<std::weak_ptr<const model::Model>, std::string, std::owner_less<>> identities_;
+  using Identities = std::map<std::weak_ptr<const model::Model>, std::string, std::owner_less<>>;
+
+  std::string Known(Identities& identities, const std::shared_ptr<const model::Model>& model,
+                    const std::function<std::string()>& identify);
+  static std::shared_ptr<const model::Model> FindIn(const Identities& identities,
+                                                    const std::string& id);
+
+  Identities looks_, collisions_;
   std::map<std::string, std::shared_ptr<File>> files_;  // by identity
 };
 

@@ -101,5 +101,30 @@ TEST(ModelStore, AFailureIsToldToAllWhoAsk) {
   EXPECT_EQ(store.Glb(id).error().message, "too large for a GLB");
 }
 
+TEST(ModelStore, ShowsWhatAModelCollidesWith) {
+  std::vector<model::Model> written;
+  ModelStore store([&](const model::Model& model) -> base::Result<std::vector<std::uint8_t>> {
+    written.push_back(model);
+    return std::vector<std::uint8_t>{1};
+  });
+  auto model = std::make_shared<model::Model>(testing::CrateModel());
+  model::Link& link = model->links[0];
+  link.collisions = {{"hull", geometry::Pose{{0, 0, 0.5}, {}}, geometry::Sphere{0.25}, {}},
+                     {"ground", {}, geometry::Plane{}, {}}};
+  const std::string id = store.IdentifyCollisions(model);
+  EXPECT_NE(id, store.Identify(model));
+  ASSERT_TRUE(store.Glb(id));
+  ASSERT_EQ(written.size(), 1u);
+  ASSERT_EQ(written[0].links[0].visuals.size(), 1u);  // a plane has no end
+  const model::Visual& shown = written[0].links[0].visuals[0];
+  EXPECT_EQ(std::get<geometry::Sphere>(shown.shape).radius, 0.25);
+  EXPECT_EQ(shown.link_from_visual.position.z, 0.5);
+
+  auto bare = std::make_shared<model::Model>(testing::CrateModel());
+  bare->links[0].collisions = {{"ground", {}, geometry::Plane{}, {}}};
+  EXPECT_EQ(store.IdentifyCollisions(bare), "");
+  EXPECT_FALSE(store.Glb(""));
+}
+
 }  // namespace
 }  // namespace gsv::gateway

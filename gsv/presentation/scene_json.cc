@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -105,13 +106,42 @@ Json SensorsJson(const SceneSource& source, const world::Body& body) {
   return sensors;
 }
 
-Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose) {
+// Those that can move, each in the frame of the link that it moves if that has poses of its own
+// (`moving`), else in the model's.
+Json JointsJson(const model::Model& model, const std::set<int>& moving) {
+  Json joints = Json::array();
+  for (const model::Joint& joint : model.joints) {
+    if (joint.kind == model::JointKind::kFixed) continue;
+    const bool is_moving = moving.contains(joint.child);
+    const model::Link& link = model.links[joint.child];
+    Json name = nullptr;
+    if (is_moving) name = link.name;
+    joints.push_back(
+        {{"name", joint.name},
+         {"kind", model::NameOf(joint.kind)},
+         {"link", std::move(name)},
+         {"pose", PoseJson(is_moving ? Inverse(link.model_from_link) * joint.model_from_joint
+                                     : joint.model_from_joint)},
+         {"axis", VectorJson(joint.axis)}});
+  }
+  return joints;
+}
+
+Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose,
+              const std::set<int>& moving) {
   Json links = Json::array();
   for (const model::Link& link : body.model->links) links.push_back(link.name);
-  return {{"name", body.name},           {"model", source.identify(body.model)},
-          {"is_static", body.is_static}, {"is_robot", body.is_robot},
-          {"is_avatar", body.is_avatar}, {"pose", PoseJson(pose)},
-          {"links", std::move(links)},   {"sensors", SensorsJson(source, body)}};
+  Json json{{"name", body.name},           {"model", source.identify(body.model)},
+            {"is_static", body.is_static}, {"is_robot", body.is_robot},
+            {"is_avatar", body.is_avatar}, {"pose", PoseJson(pose)},
+            {"links", std::move(links)},   {"sensors", SensorsJson(source, body)}};
+  if (const std::string id = source.identify_collisions(body.model); !id.empty()) {
+    json["collisions"] = id;
+  }
+  if (Json joints = JointsJson(*body.model, moving); !joints.empty()) {
+    json["joints"] = std::move(joints);
+  }
+  return json;
 }
 
 Json PoseListJson(const world::Layout& layout) {
@@ -140,6 +170,10 @@ void Grow(std::optional<Bounds>& bounds, const Pose& target_from_box, const Boun
                                            corner & 2 ? box.max.y : box.min.y,
                                            corner & 4 ? box.max.z : box.min.z});
   }
+}
+
+bool HasEnd(const model::Collision& collision) {
+  return !std::holds_alternative<geometry::Plane>(collision.shape);
 }
 
 // In the model's frame, at zero joint positions.
@@ -175,8 +209,13 @@ std::string SceneJson(const SceneSource& source) {
   Json lights = Json::array();
   for (const model::Light& light : layout.description->lights) lights.push_back(LightJson(light));
   Json bodies = Json::array();
+  std::vector<std::set<int>> moving(layout.bodies.size());  // links, of each body
+  for (const PoseEntry& entry : PoseListOf(layout)) {
+    if (entry.link >= 0) moving[entry.body].insert(entry.link);
+  }
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
-    bodies.push_back(BodyJson(source, layout.bodies[i], snapshot.state.bodies[i].world_from_model));
+    bodies.push_back(
+        BodyJson(source, layout.bodies[i], snapshot.state.bodies[i].world_from_model, moving[i]));
   }
   const Json scene{{"layout_version", layout.version},
                    {"name", layout.description->name},
@@ -188,10 +227,30 @@ std::string SceneJson(const SceneSource& source) {
   return scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string SceneJson(const simulation::Simulation& simulation, const IdentifyModel& identify) {
+bool HasCollisions(const model::Model& model) {
+  return std::any_of(model.links.begin(), model.links.end(), [](const model::Link& link) {
+    return std::any_of(link.collisions.begin(), link.collisions.end(), HasEnd);
+  });
+}
+
+model::Model CollisionModel(const model::Model& model) {
+  model::Model shown = model;
+  for (model::Link& link : shown.links) {
+    link.visuals.clear();
+    for (const model::Collision& collision : link.collisions) {
+      if (!HasEnd(collision)) continue;
+      link.visuals.push_back({collision.name, collision.link_from_collision, collision.shape});
+    }
+  }
+  return shown;
+}
+
+std::string SceneJson(const simulation::Simulation& simulation, const IdentifyModel& identify,
+                      const IdentifyModel& identify_collisions) {
   const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
   return SceneJson({*snapshot, simulation.sensor_types(),
-                    [&](const std::string& robot) { return simulation.sensors(robot); }, identify});
+                    [&](const std::string& robot) { return simulation.sensors(robot); }, identify,
+                    identify_collisions});
 }
 
 }  // namespace gsv::presentation

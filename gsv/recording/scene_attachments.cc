@@ -41,7 +41,11 @@ void SceneAttachments::Attach(const world::Snapshot& snapshot, const SensorLists
   const auto identify = [this](const std::shared_ptr<const model::Model>& model) {
     return Identify(model);
   };
-  const std::string scene = presentation::SceneJson({snapshot, *types_, sensors_of, identify});
+  const auto identify_collisions = [this](const std::shared_ptr<const model::Model>& model) {
+    return IdentifyCollisions(model);
+  };
+  const std::string scene =
+      presentation::SceneJson({snapshot, *types_, sensors_of, identify, identify_collisions});
   const base::SimTime time = snapshot.state.time;
   writer_.Attach({time,
                   {},
@@ -51,12 +55,23 @@ void SceneAttachments::Attach(const world::Snapshot& snapshot, const SensorLists
   for (const world::Body& body : layout_->bodies) {
     const std::string id = Identify(body.model);
     if (attached_.insert(id).second) AttachModel(*body.model, id, time);
+    const std::string collisions = IdentifyCollisions(body.model);
+    if (!collisions.empty() && attached_.insert(collisions).second) {
+      AttachModel(presentation::CollisionModel(*body.model), collisions, time);
+    }
   }
 }
 
 std::string SceneAttachments::Identify(const std::shared_ptr<const model::Model>& model) {
   std::string& id = identities_[model];
   if (id.empty()) id = presentation::ModelIdentity(*model);
+  return id;
+}
+
+std::string SceneAttachments::IdentifyCollisions(const std::shared_ptr<const model::Model>& model) {
+  if (!presentation::HasCollisions(*model)) return {};
+  std::string& id = collisions_[model];
+  if (id.empty()) id = presentation::ModelIdentity(presentation::CollisionModel(*model));
   return id;
 }
 

@@ -34,12 +34,14 @@ class SceneAttachments {
 
  private:
   std::string Identify(const std::shared_ptr<const model::Model>& model);
+  // Of what it collides with; empty: nothing.
+  std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
   void AttachModel(const model::Model& model, const std::string& id, base::SimTime time);
 
   McapWriter& writer_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   const WriteGlb write_glb_;
-  std::map<std::shared_ptr<const model::Model>, std::string> identities_;
+  std::map<std::shared_ptr<const model::Model>, std::string> identities_, collisions_;
   std::set<std::string> attached_;               // models, by identity
   std::shared_ptr<const world::Layout> layout_;  // of the last scene
   std::set<std::string> sensors_;                // of the last scene

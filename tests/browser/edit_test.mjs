@@ -1,10 +1,11 @@
 // Changing who stands in a paused simulation, and recording it.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { keepPicture } from "./documentation.mjs";
-import { startServer } from "./server.mjs";
+import { program, startServer } from "./server.mjs";
 import { ask, phaseIs, settled, until } from "./viewing.mjs";
 
 const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
@@ -114,11 +115,17 @@ test("a recording is switched on, which another viewer sees, and off", async () 
   await record(page).click();
   await other.locator('.record[aria-pressed="true"]').waitFor();
   const { path } = await ask(page, "/recording");
+  await ask(page, "/pause", {});
+  await ask(page, "/bodies/pebble/place", { x: 0, y: -1.5 });
   try {
     await record(other).click();
-    await other.getByText(`Recorded. Replay it: gsv replay`).waitFor();
+    await other.getByText("Recorded. Replay it on the page Recordings").waitFor();
     await page.locator('.record[aria-pressed="false"]').waitFor();
     assert.ok(fs.statSync(path).size > 1000);
+    // What was done by hand cannot be simulated again, and is said to be so.
+    const again = spawnSync(program(), ["replay", path, "--resimulate"], { encoding: "utf8" });
+    assert.match(again.stderr, /changed what stands there by hand \(body_placed pebble at/);
+    assert.equal(again.status, 2);
   } finally {
     fs.rmSync(path, { force: true });
   }

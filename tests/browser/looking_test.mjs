@@ -76,9 +76,12 @@ for (const [name, key, isWanted, least] of [
   ["what a camera sees", "4", (...colour) => isYellow(...colour) || isOrange(...colour), 15],
   ["trails", "5", (...colour) => isBlue(...colour) || isOrange(...colour), 40],
   ["frames", "6", (...colour) => [isRed, isGreen, isBlue].some((is) => is(...colour)), 40],
+  ["collision shapes", "9", (r, g, b) => r > 1.25 * b && r > g, 60],
+  ["joints", "0", (r, g, b) => b > 1.2 * r && g > 1.1 * r, 10],
 ]) {
   test(`overlays: ${name}`, async () => {
     if (name === "trails") for (const pressed of ["o", "t"]) await page.keyboard.press(pressed);
+    if (name === "joints") await page.locator('[data-robot="pebble"]').click(); // its wheels turn
     await settled(page);
     const clip = await viewClip(page);
     const button = page.locator(`.menu-item[aria-keyshortcuts="${key}"]`);
@@ -96,9 +99,11 @@ for (const [name, key, isWanted, least] of [
       await page.keyboard.press(key);
       return drawn >= least;
     }, `${least} pixels of ${name}, ${drawn} at last,`);
+    if (name === "collision shapes") await keepPicture(page, "collisions");
     if (name === "trails") await page.keyboard.press("c");
     if (name === "trails") return; // kept for the next test
     await page.keyboard.press(key);
+    if (name === "joints") await page.locator('[data-robot="surveyor"]').click();
     assert.equal(await isOn(), false);
   });
 }

@@ -65,7 +65,7 @@ async function start(command) {
   return server;
 }
 
-function program() {
+export function program() {
   const build = process.env.GSV_BUILD_DIR;
   if (!build) throw new Error("GSV_BUILD_DIR must name the build whose bin/gsv is tested");
   return path.join(build, "bin", "gsv");

@@ -48,6 +48,11 @@ export class JsonServer {
     });
   }
 
+  // Sends a file as it is.
+  put(path: string, content: Blob, timeoutMs: number): Promise<unknown> {
+    return this.request(path, { method: "PUT", body: content, signal: AbortSignal.timeout(timeoutMs) });
+  }
+
   delete(path: string, timeoutMs = TIMEOUT_MS): Promise<unknown> {
     return this.request(path, { method: "DELETE", signal: AbortSignal.timeout(timeoutMs) });
   }

@@ -2,6 +2,7 @@
 import type { RobotSetUp, Scenario } from "../state/scenario";
 import { robotJson, scenarioJson } from "../state/scenario";
 import type { JsonServer } from "./JsonServer";
+import type { DroppedFile } from "../setup/dropped";
 import { simulationPath } from "./JsonServer";
 import { listAt, numbersAt, objectAt, textAt, textOr } from "./json";
 import type { SceneDescription } from "./scene";
@@ -42,6 +43,8 @@ export interface Preview {
   poses: Float64Array; // seven numbers for each entry of the scene's poses
   warnings: string[]; // what the files lack
 }
+
+const UPLOAD_TIMEOUT_MS = 300_000;
 
 // Reading a world takes its time, and so do behaviours that are made.
 const LONG_TIMEOUT_MS = 60_000;
@@ -94,6 +97,19 @@ export class SetUpApi {
     const scene = parseScene(answer.scene);
     const poses = Float64Array.from(numbersAt(answer.poses, 7 * scene.poses.length, "poses"));
     return { scene, poses, warnings };
+  }
+
+  // Sends files that belong together; gives where the first of them lies on the server's machine.
+  async upload(files: readonly DroppedFile[]): Promise<string> {
+    const begun = objectAt(await this.server.post("api/uploads", {}), "upload");
+    const set = textAt(begun.upload, "upload");
+    let first = "";
+    for (const { path, file } of files) {
+      const place = path.split("/").map(encodeURIComponent).join("/");
+      const answer = objectAt(await this.server.put(`api/uploads/${set}/${place}`, file, UPLOAD_TIMEOUT_MS), "upload");
+      first ||= textAt(answer.path, "path");
+    }
+    return first;
   }
 
   // Gives its name.

@@ -45,6 +45,16 @@ export interface SceneBody {
   pose: PoseNumbers;
   links: string[];
   sensors: SceneSensor[];
+  collisions: string | null; // the ID under which its collision shapes are fetched; null: there are none
+  joints: SceneJoint[]; // those that can move
+}
+
+export interface SceneJoint {
+  name: string;
+  kind: string; // "revolute", "prismatic", …
+  link: string | null; // whose frame the pose is in; null: the body's
+  pose: PoseNumbers;
+  axis: Triple; // in the joint's frame
 }
 
 export interface PoseEntry {
@@ -116,6 +126,20 @@ function parseBody(value: unknown, where: string): SceneBody {
     sensors: listAt(body.sensors ?? [], `${where}.sensors`).map((sensor, i) =>
       parseSensor(objectAt(sensor, `${where}.sensors[${i}]`), `${where}.sensors[${i}]`),
     ),
+    collisions: textOr(body.collisions, "") || null,
+    joints: listAt(body.joints ?? [], `${where}.joints`).map((joint, i) =>
+      parseJoint(objectAt(joint, `${where}.joints[${i}]`), `${where}.joints[${i}]`),
+    ),
+  };
+}
+
+function parseJoint(joint: JsonObject, where: string): SceneJoint {
+  return {
+    name: textOr(joint.name, ""),
+    kind: textOr(joint.kind, ""),
+    link: typeof joint.link === "string" ? joint.link : null,
+    pose: numbersAt(joint.pose, 7, `${where}.pose`),
+    axis: triple(joint.axis, `${where}.axis`),
   };
 }
 

@@ -19,6 +19,7 @@ function fakeApi() {
       warnings: [] as string[],
     })),
     create: vi.fn(async () => "fresh"),
+    upload: vi.fn(async (files: { path: string }[]) => `/tmp/up/1/${files[0]!.path}`),
   };
 }
 
@@ -129,4 +130,22 @@ test("a scenario file is loaded, YAML as well, and what is none is refused with 
   expect(store.get().setUp!.scenario.world).toBe("maze");
   await app.setUp.load(file("huge.yaml", "x".repeat(1_000_001)));
   expect(store.get().notices.at(-1)!.sentence).toContain("at most 1 MB");
+});
+
+test("a world that is dropped is uploaded and shown; what is none has its sentence beside the field", async () => {
+  const { app, store, panel } = await opened();
+  const dropped = (path: string, size = 1) => ({ path, file: { size } as File });
+  await app.setUp.drop([dropped("w/mesh.stl"), dropped("w/my.world")]);
+  await settled(app);
+  expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/w/my.world");
+  expect(api.preview.mock.lastCall![0]).toMatchObject({ world: "/tmp/up/1/w/my.world" });
+  const refusal = new ApiError(400, "holiday.jpg: this is no XML", "world");
+  api.preview.mockRejectedValueOnce(refusal);
+  await app.setUp.drop([dropped("holiday.jpg")]);
+  await settled(app);
+  const field = control(panel, "Environment").closest(".field")!;
+  expect(field.querySelector(".field-error")!.textContent).toBe(refusal.message);
+  await app.setUp.drop([dropped("big.sdf", 2 ** 31)]);
+  expect(field.querySelector(".field-error")!.textContent).toContain("at most 64 MiB");
+  expect(api.upload).toHaveBeenCalledTimes(2);
 });

@@ -53,10 +53,20 @@ export class BodyLayer {
   // The poses in the order of the scene's list, seven numbers each.
   setPoses(poses: Float64Array): void {
     this.frames.forEach((frame, index) => readMatrix(poses, 7 * index, frame));
+    this.placeMoving();
+  }
+
+  private placeMoving(): void {
     for (const part of this.moving) place(part);
     for (const { mesh } of this.moving) {
       if (mesh instanceof InstancedMesh) mesh.instanceMatrix.needsUpdate = true;
     }
+  }
+
+  // Takes the poses of another layer on the same scene.
+  standLike(other: BodyLayer): void {
+    this.frames.forEach((frame, index) => frame.copy(other.frames[index]!));
+    this.placeMoving();
   }
 
   // Shows one body elsewhere, with its links, until the next poses.

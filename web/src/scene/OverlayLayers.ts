@@ -15,7 +15,7 @@ import type { BodyLayer } from "./BodyLayer";
 import { matrixOf } from "./BodyLayer";
 import { DeviceLayer } from "./DeviceLayer";
 import { LineLayer } from "./LineLayer";
-import { drawAxes, drawContact, drawView } from "./markings";
+import { drawAxes, drawContact, drawJoint, drawView } from "./markings";
 import { PointLayer } from "./PointLayer";
 import type { PoseSample } from "./PoseInterpolator";
 import { RadioLinks } from "./RadioLinks";
@@ -151,6 +151,7 @@ export class OverlayLayers {
     if (shown.cameras) this.drawViews(bodies);
     if (shown.frames) this.drawFrames(bodies);
     if (shown.actuators) this.drawActuators(bodies);
+    if (shown.joints) this.drawJoints(bodies);
     lines.finish();
     lines.lines.visible = lines.segments > 0;
   }
@@ -191,6 +192,20 @@ export class OverlayLayers {
         if (frame) drawAxes(this.lines, frame, SENSOR_AXES);
       }
     }
+  }
+
+  // Of the selected robot, else of all that stands there.
+  private drawJoints(bodies: BodyLayer): void {
+    let left = MOST_AXES;
+    bodies.scene.bodies.forEach(({ name, joints }, body) => {
+      if ((this.selection ?? name) !== name) return;
+      for (const joint of joints.slice(0, left)) {
+        const parent = joint.link === null ? bodies.poseOf(body) : bodies.linkPoseOf(body, joint.link);
+        if (!parent) continue;
+        drawJoint(this.lines, parent.clone().multiply(matrixOf(joint.pose)), joint);
+        left -= 1;
+      }
+    });
   }
 
   private worldFromSensor(topic: string, bodies: BodyLayer): Matrix4 | null {

@@ -11,6 +11,7 @@ import type { ArrangerEvents } from "./Arranger";
 import { Arranger } from "./Arranger";
 import type { BodyLayer } from "./BodyLayer";
 import type { ViewNumbers } from "./CameraRig";
+import { CollisionLayer } from "./CollisionLayer";
 import { CameraRig } from "./CameraRig";
 import { FrameRate } from "./FrameRate";
 import { LabelLayer } from "./LabelLayer";
@@ -50,6 +51,7 @@ export class World3D {
   private readonly loop: RenderLoop;
   private readonly quality: Quality;
   private readonly overlays = new OverlayLayers();
+  private readonly collisions: CollisionLayer;
   private readonly poses = new ShownPoses((sample) => this.overlays.takePoses(sample));
   private readonly labels: LabelLayer;
   private readonly watch: RobotWatch;
@@ -72,6 +74,10 @@ export class World3D {
     const canvas = this.renderer.domElement;
     this.quality = new Quality(devicePixelRatio, options.fixedQuality);
     this.library = new ModelLibrary((id) => options.urlOfModel(id), () => options.headersOfModels());
+    this.collisions = new CollisionLayer(this.scene, this.library, {
+      onChange: () => this.loop.request(),
+      onProblem: (sentence) => events.onProblem(sentence),
+    });
     this.frameRate = new FrameRate((rate) => events.onFrameRate(rate));
     this.labels = new LabelLayer((name) => events.onPick(name));
     this.loop = new RenderLoop(
@@ -96,7 +102,7 @@ export class World3D {
   // Shows another scene, or none. The camera stays where it is when only the layout changed.
   setScene(scene: SceneDescription | null): void {
     this.clear();
-    this.library.keepOnly(new Set(scene?.bodies.map(({ model }) => model)));
+    this.library.keepOnly(new Set(scene?.bodies.flatMap(({ model, collisions }) => [model, collisions ?? model])));
     if (!scene) this.lastBeams = null;
     if (scene) this.build(scene);
     else this.poses.setScene(null);
@@ -134,6 +140,7 @@ export class World3D {
   select(robot: string | null): void {
     this.watch.select(robot);
     this.overlays.select(robot);
+    this.collisions.select(robot);
     this.loop.request();
   }
 
@@ -152,6 +159,7 @@ export class World3D {
   show(shown: Shown): void {
     this.shown = shown;
     this.overlays.show(shown);
+    this.collisions.show(shown.collisions);
     this.labels.element.hidden = !shown.labels;
     this.loop.request();
   }
@@ -223,6 +231,7 @@ export class World3D {
     this.parts?.dispose();
     this.parts = null;
     this.overlays.setScene(null);
+    this.collisions.setScene(null);
     this.watch.robots = null;
   }
 
@@ -231,6 +240,7 @@ export class World3D {
     const { bodies, focus } = this.parts;
     this.watch.robots = new RobotPlaces(bodies, this.overlays.frames);
     this.overlays.setScene(bodies);
+    this.collisions.setScene(scene);
     if (this.framedFor !== scene.name) this.rig.frame(focus, false);
     this.framedFor = scene.name;
     this.poses.setScene(bodies);
@@ -270,6 +280,7 @@ export class World3D {
     }
     const isFlying = this.rig.update(now);
     this.overlays.place();
+    if (this.bodies) this.collisions.place(this.bodies);
     if (this.parts) this.parts.grid.visible = this.shown.grid;
     this.watch.showRing();
     this.arranger.showHandle();

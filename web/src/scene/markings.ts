@@ -1,6 +1,7 @@
 // Figures made of lines: axes, what a camera sees, where something is touched.
 import type { Matrix4 } from "three";
-import type { CameraView } from "../api/scene";
+import { Vector3 } from "three";
+import type { CameraView, SceneJoint } from "../api/scene";
 import type { TouchPoint } from "../live/clouds";
 import type { LineLayer } from "./LineLayer";
 import { rgb } from "./LineLayer";
@@ -13,6 +14,9 @@ const CONTACT_COLOUR = rgb(0xff1fd0);
 const VIEW_DEPTH = 1; // m
 const NORMAL_LENGTH = 0.3; // m
 const CROSS = 0.06; // m
+const JOINT_COLOUR = rgb(0x00b8d4);
+const JOINT_LENGTH = 0.12; // m, to each side
+const CIRCLE_SEGMENTS = 12;
 const ORIGIN = [0, 0, 0] as const;
 
 // x red, y green, z blue.
@@ -20,6 +24,34 @@ export function drawAxes(lines: LineLayer, worldFromFrame: Matrix4, length: numb
   lines.add(worldFromFrame, ORIGIN, [length, 0, 0], RED);
   lines.add(worldFromFrame, ORIGIN, [0, length, 0], GREEN);
   lines.add(worldFromFrame, ORIGIN, [0, 0, length], BLUE);
+}
+
+// What turns: its axis and a circle about it; what slides: its axis with a bar across each end.
+export function drawJoint(
+  lines: LineLayer,
+  worldFromJoint: Matrix4,
+  { kind, axis: [x, y, z] }: Pick<SceneJoint, "kind" | "axis">,
+): void {
+  const axis = new Vector3(x, y, z).normalize();
+  const across = (Math.abs(axis.x) < 0.9 ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0)).cross(axis).normalize();
+  const third = axis.clone().cross(across);
+  const at = (along: number, angle: number, radius: number) =>
+    axis
+      .clone()
+      .multiplyScalar(along)
+      .addScaledVector(across, radius * Math.cos(angle))
+      .addScaledVector(third, radius * Math.sin(angle))
+      .toArray();
+  const add = (from: number[], to: number[]) => lines.add(worldFromJoint, from, to, JOINT_COLOUR);
+  add(at(-JOINT_LENGTH, 0, 0), at(JOINT_LENGTH, 0, 0));
+  if (kind === "prismatic") {
+    for (const end of [-JOINT_LENGTH, JOINT_LENGTH]) add(at(end, 0, CROSS / 2), at(end, Math.PI, CROSS / 2));
+    return;
+  }
+  for (let i = 0; i < CIRCLE_SEGMENTS; ++i) {
+    const angle = (k: number) => (2 * Math.PI * k) / CIRCLE_SEGMENTS;
+    add(at(0, angle(i), CROSS), at(0, angle(i + 1), CROSS));
+  }
 }
 
 // The pyramid that a camera sees, one metre deep; where its angles are not known, where it looks.

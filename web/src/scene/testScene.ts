@@ -13,6 +13,8 @@ export function body(name: string, more: Partial<SceneBody> = {}): SceneBody {
     pose: HERE,
     links: ["chassis", "wheel"],
     sensors: [],
+    collisions: null,
+    joints: [],
     ...more,
   };
 }

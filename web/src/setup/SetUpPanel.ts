@@ -7,6 +7,7 @@ import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
 import { checkField, choiceField, choiceOrText, numberField, textField } from "./fields";
+import { chosenFiles, droppedFiles } from "./dropped";
 import { RobotRow } from "./RobotRow";
 
 const BY_PATH = { choice: "A file or folder…", placeholder: "path/to/world.sdf" };
@@ -28,7 +29,7 @@ export function createSetUpPanel(app: App): HTMLElement {
     "section",
     { class: "sidebar set-up", "aria-label": "New simulation" },
     head(app),
-    element("div", { class: "set-up-part" }, world.element),
+    element("div", { class: "set-up-part" }, world.element, uploads(app)),
     element("div", { class: "set-up-part" }, element("h2", {}, "Robots"), lists.robots.element, adder(app), hint, offers),
     element("div", { class: "set-up-part avatars-part" }, element("h2", {}, "Avatars"), lists.avatars.element),
     element(
@@ -41,6 +42,7 @@ export function createSetUpPanel(app: App): HTMLElement {
     element("div", { class: "set-up-end" }, wrong, create, button("Cancel", () => app.setUp.close())),
   );
 
+  takeDrops(app);
   app.store.watch(
     ({ setUp }) => setUp,
     (setUp) => {
@@ -112,6 +114,41 @@ function head(app: App): HTMLElement {
     button("Save as a scenario file", () => app.setUp.save(), "save"),
     file,
   );
+}
+
+// Worlds from this machine: chosen here, or dropped anywhere onto the page.
+function uploads(app: App): HTMLElement {
+  const chooser = (label: string, isFolder: boolean) => {
+    const file = element("input", {
+      type: "file",
+      "aria-label": isFolder ? "World folder" : "World file",
+      ...(isFolder ? { webkitdirectory: true } : { accept: ".sdf,.world,.urdf,.xml" }),
+    });
+    file.hidden = true;
+    file.addEventListener("change", () => {
+      const chosen = chosenFiles(file.files!);
+      file.value = ""; // the same may be chosen again
+      if (chosen.length > 0) void app.setUp.drop(chosen);
+    });
+    return [button(label, () => file.click()), file];
+  };
+  return element(
+    "div",
+    { class: "uploads" },
+    ...chooser("Upload a file…", false),
+    ...chooser("Upload a folder…", true),
+    element("span", { class: "dim" }, "or drop it here"),
+  );
+}
+
+// Elsewhere a dropped file would replace the page.
+function takeDrops(app: App): void {
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    if (!app.store.get().setUp || !event.dataTransfer?.types.includes("Files")) return;
+    void app.setUp.drop(droppedFiles(event.dataTransfer));
+  });
 }
 
 function adder(app: App): HTMLElement {

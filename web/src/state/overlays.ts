@@ -17,6 +17,8 @@ export const OVERLAY_NAMES = [
   "frames",
   "labels",
   "grid",
+  "collisions",
+  "joints",
   "actuators",
   "sound",
 ] as const;
@@ -32,8 +34,10 @@ export const OVERLAYS: readonly OverlayKind[] = [
   { name: "frames", label: "Frames", key: "6", hint: "Axes of robots, moving links and sensors" },
   { name: "labels", label: "Names", key: "7", hint: "The robots' names" },
   { name: "grid", label: "Grid", key: "8", hint: "Metres on the floor" },
-  { name: "actuators", label: "Actuators and radio", key: "9", hint: "What lamps, speakers, grippers and radios do" },
-  { name: "sound", label: "Let it be heard", key: "0", hint: "Play what speakers play" },
+  { name: "collisions", label: "Collision shapes", key: "9", hint: "What is collided with, as it is computed" },
+  { name: "joints", label: "Joints", key: "0", hint: "Axes about which, or along which, links move" },
+  { name: "actuators", label: "Actuators and radio", key: "-", hint: "What lamps, speakers, grippers and radios do" },
+  { name: "sound", label: "Let it be heard", key: "=", hint: "Play what speakers play" },
 ];
 
 export const FIRST_SHOWN: Shown = {
@@ -45,6 +49,8 @@ export const FIRST_SHOWN: Shown = {
   frames: false,
   labels: true,
   grid: true,
+  collisions: false,
+  joints: false,
   actuators: true,
   sound: false,
 };

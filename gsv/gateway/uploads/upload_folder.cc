@@ -1,0 +1,80 @@
+#include "gsv/gateway/uploads/upload_folder.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+
+namespace gsv::gateway::uploads {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestName = 200;
+
+bool IsName(const std::string& name) {
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c >= 0x20 && c != 0x7f && c != '/' && c != '\\';
+  });
+  return is_plain && !name.empty() && name.size() <= kLongestName && name.front() != '.';
+}
+
+std::uint64_t NumberOf(const std::string& set) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(set.data(), set.data() + set.size(), number);
+  return error == std::errc() && end == set.data() + set.size() ? number : 0;
+}
+
+}  // namespace
+
+base::Result<std::string> UploadFolder::Begin() {
+  const std::lock_guard lock(mutex_);
+  if (!folder_) {
+    auto made = base::TemporaryFolder::Make("gsv-uploads");
+    if (!made) return base::Fail(made.error());
+    folder_.emplace(*std::move(made));
+  }
+  if (sets_ >= limits_.files) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "so much was uploaded that there is no room left; restart the server");
+  }
+  return std::to_string(++sets_);
+}
+
+base::Result<fs::path> UploadFolder::Put(const std::string& set,
+                                         const std::vector<std::string>& path,
+                                         std::string_view content) {
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t number = NumberOf(set);
+  if (number == 0 || number > sets_) {
+    return base::Fail(base::ErrorCode::kNotFound, "there is no such upload, any more");
+  }
+  const bool is_usable = !path.empty() && path.size() <= limits_.depth &&
+                         std::all_of(path.begin(), path.end(), IsName);
+  if (!is_usable) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "this name of a file cannot be used: folders and names are up to 200 "
+                      "characters long, begin with no dot, and lie at most " +
+                          std::to_string(limits_.depth) + " deep");
+  }
+  if (files_ >= limits_.files || content.size() > limits_.bytes - bytes_) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "so much was uploaded that there is no room left; restart the server");
+  }
+  fs::path file = folder_->path() / std::to_string(number);
+  for (const std::string& name : path) file /= name;
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  if (error || !out) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "the file cannot be written: the disk is full, "
+                      "or something else has this name");
+  }
+  files_ += 1;
+  bytes_ += content.size();
+  return file;
+}
+
+}  // namespace gsv::gateway::uploads

@@ -1,0 +1,99 @@
+// Worlds from the user's machine: a file that is chosen, a folder that is dropped, and what is no world.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { startServe } from "./server.mjs";
+import { until } from "./viewing.mjs";
+
+const WORLD = `<?xml version="1.0"?>
+<sdf version="1.9">
+  <world name="dropped">
+    <light name="sun" type="directional"><direction>-0.5 0.2 -1</direction></light>
+    <include><uri>model://cube</uri><pose>0 0 0.5 0 0 0</pose></include>
+  </world>
+</sdf>`;
+const CUBE = `<?xml version="1.0"?>
+<sdf version="1.9">
+  <model name="cube">
+    <static>true</static>
+    <link name="link">
+      <visual name="visual"><geometry><box><size>1 1 1</size></box></geometry></visual>
+      <collision name="collision"><geometry><box><size>1 1 1</size></box></geometry></collision>
+    </link>
+  </model>
+</sdf>`;
+const CONFIG = `<?xml version="1.0"?><model><name>cube</name><sdf version="1.9">model.sdf</sdf></model>`;
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServe([]);
+  browser = await openBrowser({ width: 1100, height: 680 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await page.getByRole("button", { name: "Create a simulation" }).click();
+  await page.locator(".set-up").waitFor();
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const objection = () => page.locator(".field", { has: page.getByLabel("Environment", { exact: true }) }).locator(".field-error");
+
+// Drops files, by their paths; a browser lets no test drop a folder, so they come without entries.
+async function drop(files) {
+  await page.evaluate((files) => {
+    const entry = (name, content) =>
+      typeof content === "string"
+        ? { name, isFile: true, isDirectory: false, file: (take) => take(new File([content], name)) }
+        : {
+            name,
+            isFile: false,
+            isDirectory: true,
+            createReader: () => {
+              const left = [Object.entries(content).map(([each, inside]) => entry(each, inside)), []];
+              return { readEntries: (take) => take(left.shift()) };
+            },
+          };
+    const items = Object.entries(files).map(([name, content]) => ({ webkitGetAsEntry: () => entry(name, content) }));
+    const event = new Event("drop", { bubbles: true, cancelable: true });
+    Object.defineProperty(event, "dataTransfer", { value: { types: ["Files"], items, files: [] } });
+    document.body.dispatchEvent(event);
+  }, files);
+}
+
+test("a folder with its models is dropped, shown, and becomes a simulation", async () => {
+  await drop({ mine: { "my <b>.world": WORLD, models: { cube: { "model.config": CONFIG, "model.sdf": CUBE } }, ".git": "x" } });
+  await page.getByText("World: 1 object").waitFor({ state: "attached" });
+  await waitUntilDrawn(page);
+  await keepPicture(page, "upload");
+  await page.getByRole("button", { name: "Create", exact: true }).click();
+  await page.getByRole("button", { name: "Start", exact: true }).waitFor();
+  const scene = await page.evaluate(async () => {
+    const [{ name }] = await (await fetch("api/simulations")).json();
+    return (await fetch(`api/simulations/${encodeURIComponent(name)}/scene`)).json();
+  });
+  assert.deepEqual(scene.bodies.map(({ name }) => name), ["cube"]);
+  assert.deepEqual(faults, []);
+});
+
+test("a file that is no world has its sentence beside the field", async () => {
+  await page.getByRole("button", { name: "New simulation" }).click();
+  await page.getByLabel("World file").setInputFiles({ name: "holiday.sdf", mimeType: "image/jpeg", buffer: Buffer.from("not XML at all") });
+  await until(async () => /holiday\.sdf/.test((await objection().textContent()) ?? ""), "the objection");
+  assert.ok(faults.every((fault) => /40|422/.test(fault)), faults.join());
+});
+
+test("what is too large is refused by the page, and by the server before it is sent", async () => {
+  const status = await page.evaluate(async () => {
+    const { upload } = await (await fetch("api/uploads", { method: "POST", body: "{}" })).json();
+    const body = new Blob([new Uint8Array(66 * 2 ** 20)]);
+    return (await fetch(`api/uploads/${upload}/big.sdf`, { method: "PUT", body }).catch(() => ({ status: 413 }))).status;
+  });
+  assert.equal(status, 413);
+});

@@ -1,0 +1,69 @@
+// Files that were dropped onto the page, or chosen: a world, or a folder that holds one.
+export interface DroppedFile {
+  path: string; // "world.sdf", "folder/meshes/cube.stl"
+  file: File;
+}
+
+export const LARGEST_FILE = 64 * 2 ** 20; // bytes; the server's limit
+const MOST_FILES = 2000;
+
+// The order in which they are sent, the world first. Throws a sentence for people.
+export function worldFirst(files: readonly DroppedFile[]): DroppedFile[] {
+  if (files.length > MOST_FILES) throw new Error(`These are ${files.length} files; at most ${MOST_FILES} can be taken.`);
+  const large = files.find(({ file }) => file.size > LARGEST_FILE);
+  if (large) {
+    throw new Error(`${large.path} has ${Math.round(large.file.size / 2 ** 20)} MiB; at most 64 MiB can be taken.`);
+  }
+  const world = files.length === 1 ? files[0] : [...files].sort(byLikelihood).find(({ path }) => rankOf(path) < 9);
+  if (!world) throw new Error("There is no world among these files: its name ends in .world or .sdf.");
+  return [world, ...files.filter((each) => each !== world)];
+}
+
+// A world's file before a model's, the outermost first.
+function byLikelihood(a: DroppedFile, b: DroppedFile): number {
+  const depth = ({ path }: DroppedFile) => path.split("/").length;
+  return rankOf(a.path) - rankOf(b.path) || depth(a) - depth(b) || a.path.localeCompare(b.path);
+}
+
+function rankOf(path: string): number {
+  if (/\.world$/i.test(path)) return 0;
+  if (/(^|\/)model[^/]*\.sdf$/i.test(path)) return 2;
+  if (/\.sdf$/i.test(path)) return 1;
+  return /\.urdf$/i.test(path) ? 3 : 9;
+}
+
+// All that was dropped, folders with what is in them; hidden files are left where they are.
+export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[]> {
+  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
+  if (entries.length === 0) return [...transfer.files].map((file) => ({ path: file.name, file }));
+  return (await Promise.all(entries.map((entry) => filesOf(entry, "")))).flat();
+}
+
+// Of a chosen folder.
+export function chosenFiles(list: FileList): DroppedFile[] {
+  return [...list]
+    .map((file) => ({ path: file.webkitRelativePath || file.name, file }))
+    .filter(({ path }) => !isHidden(path));
+}
+
+function isHidden(path: string): boolean {
+  return path.split("/").some((part) => part.startsWith("."));
+}
+
+async function filesOf(entry: FileSystemEntry, above: string): Promise<DroppedFile[]> {
+  if (entry.name.startsWith(".")) return [];
+  const path = above + entry.name;
+  if (entry.isFile) {
+    const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
+    return [{ path, file }];
+  }
+  const reader = (entry as FileSystemDirectoryEntry).createReader();
+  const found: DroppedFile[] = [];
+  for (;;) {
+    // A reader gives a hundred at a time.
+    const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+    if (some.length === 0) return found;
+    for (const each of some) found.push(...(await filesOf(each, `${path}/`)));
+    if (found.length > MOST_FILES) return found; // they are too many
+  }
+}
