@@ -57,10 +57,9 @@ ReplayStream::ReplayStream(const recording::McapReader& reader, const std::strin
 
 void ReplayStream::Advertise(const recording::Summary& summary) {
   static const std::map<std::string, Kind> kKinds{
-      {"/gsv/events", Kind::kEvents}, {"/gsv/contacts", Kind::kEvents},
-      {"/rosout", Kind::kEvents},
-      {"/gsv/radio", Kind::kEvents},  {"/gsv/status", Kind::kStatus},
-      {"/clock", Kind::kClock},       {"/gsv/poses", Kind::kPoses}};
+      {"/gsv/events", Kind::kEvents}, {"/gsv/contacts", Kind::kEvents}, {"/rosout", Kind::kEvents},
+      {"/gsv/radio", Kind::kEvents},  {"/gsv/status", Kind::kStatus},   {"/clock", Kind::kClock},
+      {"/gsv/poses", Kind::kPoses}};
   std::vector<foxglove::Channel> channels;
   std::vector<std::uint16_t> ids;
   for (const bool common : {true, false}) {

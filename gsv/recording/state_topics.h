@@ -1,6 +1,6 @@
 // The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
-// /gsv/actuators, /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout, /gsv/state_hash
-// (docs/formats/messages.md).
+// /gsv/actuators, /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout,
+// /gsv/state_hash (docs/formats/messages.md).
 #pragma once
 
 #include <map>

@@ -11,9 +11,10 @@ namespace {
 
 // Those of StateTopics and SensorTopics that are there whatever stands in the world.
 constexpr const char* kTopicsOfAll[]{
-    "/clock",      "/diagnostics", "/gsv/actuators", "/gsv/beams", "/gsv/commands",   "/gsv/contacts",
-    "/gsv/events", "/gsv/poses",   "/gsv/radio", "/gsv/state_hash", "/gsv/status",
-    "/rosout",     "/tf",          "/tf_static"};
+    "/clock",        "/diagnostics",    "/gsv/actuators", "/gsv/beams",
+    "/gsv/commands", "/gsv/contacts",   "/gsv/events",    "/gsv/poses",
+    "/gsv/radio",    "/gsv/state_hash", "/gsv/status",    "/rosout",
+    "/tf",           "/tf_static"};
 
 }  // namespace
 
