@@ -38,7 +38,7 @@ TEST_F(Record, TopicsThatAreNoneAreToldOfWithThoseThatThereAre) {
   EXPECT_EQ(run.ending, "exit code 0") << run.err;
   const std::string nonsense =
       "--record-topics /nonsense: no topic of this simulation has this name or lies below it; "
-      "there are /clock, /gsv/beams, ";
+      "there are /clock, /diagnostics, /gsv/actuators, /gsv/beams, ";
   const std::string pebble =
       "--record-topics /pebble: no topic has this name; all below it are \"/pebble/\"";
   EXPECT_THAT(run.LastLine()["warnings"].get<Strings>(), ElementsAre(HasSubstr(nonsense), pebble));
