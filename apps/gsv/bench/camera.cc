@@ -75,9 +75,7 @@ class PictureCheck {
  public:
   base::Status Check(const Pictures& pictures) {
     for (const auto& picture : pictures) {
-      std::bitset<256> shades;
-      for (const std::uint8_t shade : picture->pixels) shades.set(shade);
-      if (shades.count() < 8) return Fail("a picture is blank");
+      if (IsBlank(*picture)) return Fail("a picture is blank");
     }
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       if (i < last_.size() && last_[i]->pixels == pictures[i]->pixels)
@@ -90,6 +88,18 @@ class PictureCheck {
   }
 
  private:
+  // Looks no further than it must: the time counts as that of drawing.
+  static bool IsBlank(const model::Image& picture) {
+    constexpr int kFewest = 8;
+    std::bitset<256> seen;
+    int shades = 0;
+    for (const std::uint8_t shade : picture.pixels) {
+      if (seen[shade]) continue;
+      seen.set(shade);
+      if (++shades == kFewest) return false;
+    }
+    return true;
+  }
   static base::Status Fail(const std::string& what) {
     return base::Fail(base::ErrorCode::kUnavailable, what, "bench camera");
   }
