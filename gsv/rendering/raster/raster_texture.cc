@@ -61,8 +61,14 @@ Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& lev
   const std::uint32_t* texels = &texture.texels[level.first];
   const I8 width = SplatInt(level.width);
   const I8 row0 = y0 * width, row1 = y1 * width;
-  const I8 t00 = GatherInt(texels, row0 + x0), t10 = GatherInt(texels, row0 + x1);
-  const I8 t01 = GatherInt(texels, row1 + x0), t11 = GatherInt(texels, row1 + x1);
+  I8 t00, t10, t01, t11;
+  if (Bits(x1 == x0 + 1) == 0xff) {
+    const I8x2 upper = GatherPairs(texels, row0 + x0), lower = GatherPairs(texels, row1 + x0);
+    t00 = upper.first, t10 = upper.second, t01 = lower.first, t11 = lower.second;
+  } else {  // around the edge
+    t00 = GatherInt(texels, row0 + x0), t10 = GatherInt(texels, row0 + x1);
+    t01 = GatherInt(texels, row1 + x0), t11 = GatherInt(texels, row1 + x1);
+  }
   const auto channel = [&](int shift) {
     const auto value = [&](I8 t) {
       return ToFloat(

@@ -49,6 +49,22 @@ inline F8 Gather(const float* from, I8 index) {
 inline I8 GatherInt(const void* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(static_cast<const int*>(from), (__m256i)index, 4);
 }
+// Neighbours, from[index] and from[index + 1]: half the loads of two gathers.
+struct I8x2 {
+  I8 first, second;
+};
+inline I8x2 GatherPairs(const void* from, I8 index) {
+  // Lanes 0, 1, 4, 5 and 2, 3, 6, 7: what each half of a register then holds is put side by side
+  // within it.
+  const __m256i halves = _mm256_permute4x64_epi64((__m256i)index, 0xd8);
+  const auto gather = [&](__m128i four) {
+    return _mm256_castsi256_ps(
+        _mm256_i32gather_epi64(static_cast<const long long*>(from), four, 4));
+  };
+  const __m256 low = gather(_mm256_castsi256_si128(halves));
+  const __m256 high = gather(_mm256_extracti128_si256(halves, 1));
+  return {(I8)_mm256_shuffle_ps(low, high, 0x88), (I8)_mm256_shuffle_ps(low, high, 0xdd)};
+}
 // Reads three bytes beyond each.
 inline I8 GatherByte(const std::uint8_t* from, I8 index) {
   return (I8)_mm256_i32gather_epi32(reinterpret_cast<const int*>(from), (__m256i)index, 1) &

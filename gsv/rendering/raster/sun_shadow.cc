@@ -127,11 +127,13 @@ F8 SunShadow::Lit(F8 x, F8 y, F8 z) const {
   const F8 fx = px - whole_x, fy = py - whole_y;
   const I8 at = (Truncated(whole_y) + 1) * SplatInt(kStride) + Truncated(whole_x) + 1;
   const float* map = moving_.data();
-  const auto lit = [&](int offset) {
-    return Select(z >= Gather(map + offset, at), Splat(1), Splat(0));
+  const auto row = [&](int offset) {
+    const I8x2 depths = GatherPairs(map + offset, at);
+    const F8 left = Select(z >= (F8)depths.first, Splat(1), Splat(0));
+    const F8 right = Select(z >= (F8)depths.second, Splat(1), Splat(0));
+    return Fma(right - left, fx, left);
   };
-  const F8 l00 = lit(0), l01 = lit(kStride), l10 = lit(1), l11 = lit(kStride + 1);
-  const F8 top = Fma(l10 - l00, fx, l00), bottom = Fma(l11 - l01, fx, l01);
+  const F8 top = row(0), bottom = row(kStride);
   return Fma(bottom - top, fy, top);
 }
 
