@@ -254,8 +254,7 @@ void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> rang
     for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(ray(i), ignored_body);
     return;
   }
-  std::vector<Nearest> nearest(ranges.size());
-  for (Nearest& n : nearest) n.distance = fan.max_distance;
+  std::vector<Nearest> nearest(ranges.size(), Nearest{.distance = fan.max_distance});
   RayBatch batch;
   for (const Shading& shading : shadings) CastInto(shading, fan, directions, nearest, batch);
   const bool has_rest = RestReaches(fan, ignored_body);
