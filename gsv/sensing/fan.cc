@@ -30,8 +30,8 @@ struct Rotation {
   Vector3 operator*(const Vector3& v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
-// A point of the fan's plane in axes of which the first points from the origin to `ahead`, both as
-// long as that.
+// A point of the fan's plane, along the direction of `ahead` and across it to the left, both times
+// the length of `ahead` in that plane.
 struct Turned {
   double along, across;
 
