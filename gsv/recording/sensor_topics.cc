@@ -12,6 +12,11 @@
 namespace gsv::recording {
 namespace {
 
+// Of sensors that take long, such as cameras: so many are waited for at once (the renderer draws
+// them together), and so many readings are held.
+constexpr int kSlowAtOnce = 16;
+constexpr std::size_t kMostSlow = 64;
+
 // Every n-th instant of the sensor, n as small as `rate` allows.
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
   if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
@@ -33,10 +38,12 @@ struct SensorTopics::Sensor {
   const sensing::SensorType* type = nullptr;
   std::unique_ptr<sensing::Sensor> sensor;
   Instants instants;
-  bool is_wanted = true;                       // else it is read for its beams alone
+  bool is_wanted = true;                       // its readings are
+  bool has_companion = false;                  // and it is wanted
+  bool has_beams = false;                      // and they are wanted
   std::optional<ChannelId> channel;            // once there was a reading
-  std::optional<ChannelId> companion_channel;  // the same, where the type has one
-  std::optional<sensing::Reading> newest;
+  std::optional<ChannelId> companion_channel;  // the same
+  std::optional<sensing::Reading> newest;      // of what has beams
   bool has_failed = false;
 };
 
@@ -74,8 +81,10 @@ std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
     const std::string& robot, const model::SensorDescription& description) {
   const sensing::SensorType* type = types_->Find(description.type);
   if (type == nullptr || type->schema == nullptr) return nullptr;
-  const bool is_wanted =
-      options_.selection.Has("/" + presentation::FrameOf(robot, description.name));
+  const std::string topic = "/" + presentation::FrameOf(robot, description.name);
+  const bool is_wanted = options_.selection.Has(topic);
+  const bool has_companion =
+      is_wanted && type->companion && options_.selection.Has(topic + "/" + type->companion->topic);
   const bool has_beams = beams_.is_wanted() && presentation::HasLines(*type, description);
   if (!is_wanted && !has_beams) return nullptr;
   auto sensor = type->create(description);
@@ -84,63 +93,84 @@ std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
     return nullptr;
   }
   const double rate = (*sensor)->TakesLong() ? options_.rates.pictures : options_.rates.readings;
-  return std::make_shared<Sensor>(Sensor{robot,
-                                         description,
-                                         type,
-                                         *std::move(sensor),
-                                         Instants(PeriodOf(description, rate)),
-                                         is_wanted,
-                                         {},
-                                         {},
-                                         {},
-                                         false});
+  return std::make_shared<Sensor>(Sensor{.robot = robot,
+                                         .description = description,
+                                         .type = type,
+                                         .sensor = *std::move(sensor),
+                                         .instants = Instants(PeriodOf(description, rate)),
+                                         .is_wanted = is_wanted,
+                                         .has_companion = has_companion,
+                                         .has_beams = has_beams});
 }
 
 void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  std::vector<Sample> slow;
+  const auto take_slow = [&] {
+    if (team_ == nullptr) team_ = std::make_unique<base::ThreadTeam>(kSlowAtOnce);
+    team_->Share(slow.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) Take(snapshot, slow[i]);
+    });
+    for (Sample& sample : slow) Write(sample);
+    slow.clear();
+  };
   for (const auto& [topic, sensor] : sensors_) {
     if (!sensor->instants.Pass(snapshot->state.time) || sensor->has_failed) continue;
-    const int body = snapshot->layout->Find(sensor->robot);
-    if (body >= 0) Sample(topic, *sensor, snapshot, body);
+    Sample sample{topic, sensor.get(), snapshot->layout->Find(sensor->robot), {}, {}, {}};
+    if (sample.body < 0) continue;
+    if (sensor->sensor->TakesLong()) {
+      slow.push_back(std::move(sample));
+      if (slow.size() == kMostSlow) take_slow();
+    } else {
+      Take(snapshot, sample);
+      Write(sample);
+    }
   }
+  if (!slow.empty()) take_slow();
   if (beams_instants_.Pass(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
 }
 
-void SensorTopics::Sample(const std::string& topic, Sensor& sensor,
-                          const std::shared_ptr<const world::Snapshot>& snapshot, int body) {
-  base::Result<sensing::Reading> reading = sensor.sensor->Sample({snapshot, body, seed_, rays_});
-  if (!reading) {
-    sensor.has_failed = true;
-    return Complain(reading.error());
+void SensorTopics::Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample) {
+  const Sensor& sensor = *sample.sensor;
+  sample.reading = sensor.sensor->Sample({snapshot, sample.body, seed_, rays_});
+  if (!sample.reading) return;
+  if (sensor.is_wanted) sample.message = Encode(sensor, *sample.reading);
+  if (sensor.has_companion) {
+    sample.companion = sensor.type->companion->encode(
+        sensor.description, *sample.reading,
+        presentation::FrameOf(sensor.robot, sensor.description.name));
   }
-  if (!sensor.is_wanted) {
-    sensor.newest = *std::move(reading);
-    return;
-  }
-  if (!sensor.channel) {
-    const auto channel = writer_.AddChannel(topic, *sensor.type->schema);
-    if (!channel) {
-      sensor.has_failed = true;
-      return Complain(channel.error());
-    }
-    sensor.channel = *channel;
-    sensor.companion_channel = AddCompanion(topic, *sensor.type);
-  }
-  const std::vector<std::uint8_t> message = Encode(sensor, *reading);
-  writer_.Write(*sensor.channel, reading->time, std::as_bytes(std::span(message)));
-  if (sensor.companion_channel) {
-    const std::vector<std::uint8_t> companion = sensor.type->companion->encode(
-        sensor.description, *reading, presentation::FrameOf(sensor.robot, sensor.description.name));
-    writer_.Write(*sensor.companion_channel, reading->time, std::as_bytes(std::span(companion)));
-  }
-  sensor.newest = *std::move(reading);
 }
 
-std::optional<ChannelId> SensorTopics::AddCompanion(const std::string& topic,
-                                                    const sensing::SensorType& type) {
-  if (!type.companion) return std::nullopt;
-  const std::string companion = topic + "/" + type.companion->topic;
-  if (!options_.selection.Has(companion)) return std::nullopt;
-  const auto channel = writer_.AddChannel(companion, *type.companion->schema);
+void SensorTopics::Write(Sample& sample) {
+  Sensor& sensor = *sample.sensor;
+  if (!sample.reading) {
+    sensor.has_failed = true;
+    return Complain(sample.reading.error());
+  }
+  const base::SimTime time = sample.reading->time;
+  if (sensor.is_wanted) {
+    if (!sensor.channel) sensor.channel = AddChannel(sample.topic, *sensor.type->schema);
+    if (!sensor.channel) {
+      sensor.has_failed = true;
+      return;
+    }
+    writer_.Write(*sensor.channel, time, std::as_bytes(std::span(sample.message)));
+  }
+  if (sensor.has_companion) {
+    const sensing::Companion& type = *sensor.type->companion;
+    if (!sensor.companion_channel) {
+      sensor.companion_channel = AddChannel(sample.topic + "/" + type.topic, *type.schema);
+    }
+    sensor.has_companion = sensor.companion_channel.has_value();
+    if (!sensor.has_companion) return;
+    writer_.Write(*sensor.companion_channel, time, std::as_bytes(std::span(sample.companion)));
+  }
+  if (sensor.has_beams) sensor.newest = *std::move(sample.reading);
+}
+
+std::optional<ChannelId> SensorTopics::AddChannel(const std::string& topic,
+                                                  const messages::Schema& schema) {
+  const auto channel = writer_.AddChannel(topic, schema);
   if (channel) return *channel;
   Complain(channel.error());
   return std::nullopt;
@@ -178,7 +208,7 @@ void SensorTopics::WriteTransforms(const world::Snapshot& snapshot) {
 void SensorTopics::WriteBeams(const world::Snapshot& snapshot) {
   std::map<std::string, std::vector<geometry::Vector3>> points;  // in the world, by robot
   for (const auto& [topic, sensor] : sensors_) {
-    if (!presentation::HasLines(*sensor->type, sensor->description) || !sensor->newest) continue;
+    if (!sensor->newest) continue;
     const int body = snapshot.layout->Find(sensor->robot);
     if (body < 0) continue;
     const geometry::Pose world_from_sensor =

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/base/thread_team.h"
 #include "gsv/messages/tf2_msgs.h"
 #include "gsv/messages/visualization_msgs.h"
 #include "gsv/recording/instants.h"
@@ -50,20 +51,27 @@ class SensorTopics {
 
   // These are the sensors from here on.
   void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
-  // Writes what is due at the snapshot's time.
+  // Writes what is due at the snapshot's time; pictures are waited for all at once.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
   struct Sensor;
+  struct Sample {
+    std::string topic;
+    Sensor* sensor = nullptr;
+    int body = 0;
+    base::Result<sensing::Reading> reading;
+    std::vector<std::uint8_t> message;    // empty if only its beams are wanted
+    std::vector<std::uint8_t> companion;  // empty where there is none
+  };
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
 
   std::shared_ptr<Sensor> Make(const std::string& robot,
                                const model::SensorDescription& description);
-  void Sample(const std::string& topic, Sensor& sensor,
-              const std::shared_ptr<const world::Snapshot>& snapshot, int body);
-  // The channel of what goes with the readings on `topic`; nothing where nothing does, or it is not
-  // selected.
-  std::optional<ChannelId> AddCompanion(const std::string& topic, const sensing::SensorType& type);
+  void Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample);
+  void Write(Sample& sample);
+  // Nothing, and a complaint, if it cannot be had.
+  std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
   std::vector<std::uint8_t> Encode(const Sensor& sensor, const sensing::Reading& reading) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);
@@ -75,6 +83,7 @@ class SensorTopics {
   const std::uint64_t seed_;
   const SensorTopicOptions options_;
   sensing::RaySceneCache rays_;
+  std::unique_ptr<base::ThreadTeam> team_;  // for sensors that take long, once there is one
   Sensors sensors_;
   Instants beams_instants_;
   std::set<std::string> robots_with_beams_;  // in the last message

@@ -9,6 +9,7 @@
 #include "gsv/rendering/optics.h"
 #include "gsv/rendering/shutter.h"
 #include "gsv/sensing/encoding.h"
+#include "gsv/sensing/shared_readings.h"
 
 namespace gsv::rendering {
 namespace {
@@ -17,6 +18,7 @@ using base::Fail;
 using base::Result;
 
 constexpr int kJpegQuality = 80;
+constexpr std::size_t kSharedBytes = 64 << 20;  // some 290 pictures of 320 by 240
 
 class Camera final : public sensing::Sensor {
  public:
@@ -76,6 +78,7 @@ base::Status AddCameraSensor(sensing::SensorRegistry& registry,
     renderer =
         Fail(base::ErrorCode::kUnavailable, "no renderer was started, so there are no pictures");
   }
+  const auto readings = std::make_shared<sensing::SharedReadings>(kSharedBytes);
   // The lens of a wide-angle camera is what SDFormat says it is without a <lens>.
   const std::pair<const char*, const char*> kinds[] = {{"camera", "gnomonical"},
                                                        {"wideangle_camera", "stereographic"}};
@@ -91,6 +94,7 @@ base::Status AddCameraSensor(sensing::SensorRegistry& registry,
       if (!reader.status()) return Fail(reader.status().error());
       return camera;
     };
+    sensing::Share(type, readings);
     type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
     type.encode = Encode;
     type.companion = CameraInfoCompanion(lens_type);

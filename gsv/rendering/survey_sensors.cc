@@ -14,6 +14,7 @@
 #include "gsv/rendering/png.h"
 #include "gsv/sensing/noise.h"
 #include "gsv/sensing/sensor_type.h"
+#include "gsv/sensing/shared_readings.h"
 
 namespace gsv::rendering {
 namespace {
@@ -25,7 +26,8 @@ using sensing::Reading;
 using sensing::Segment;
 using RendererResult = Result<std::shared_ptr<Renderer>>;
 
-constexpr std::size_t kHead = 2;          // values before the pixels': width and height
+constexpr std::size_t kHead = 2;  // values before the pixels': width and height
+constexpr std::size_t kSharedBytes = 64 << 20;
 constexpr std::size_t kMostDrawn = 2000;  // points of a cloud in the viewer
 
 // For one metre along the view; nothing where the lens shows nothing, or what lies straight beside
@@ -279,7 +281,9 @@ base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererR
       renderer, "boundingbox_camera", {"boundingbox"});
   boxes.overlay = sensing::Overlay::kLines;
   boxes.beams = BoxFrames;
+  const auto readings = std::make_shared<sensing::SharedReadings>(kSharedBytes);
   for (sensing::SensorType* type : {&depth, &segmentation, &boxes}) {
+    sensing::Share(*type, readings);
     type->companion = CameraInfoCompanion();
     if (auto ok = registry.Add(std::move(*type)); !ok) return ok;
   }

@@ -1,0 +1,106 @@
+#include "gsv/sensing/shared_readings.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gsv::sensing {
+namespace {
+
+std::size_t BytesOf(const Reading& reading) {
+  return sizeof(Reading) + reading.values.size() * sizeof(double) +
+         (reading.picture != nullptr ? reading.picture->pixels.size() : 0);
+}
+
+// All that a reading depends on.
+bool SameSensor(const model::SensorDescription& a, const model::SensorDescription& b) {
+  return a.name == b.name && a.type == b.type && a.link == b.link &&
+         a.link_from_sensor == b.link_from_sensor && a.parameters == b.parameters;
+}
+
+class SharedSensor final : public Sensor {
+ public:
+  SharedSensor(std::unique_ptr<Sensor> sensor, std::shared_ptr<SharedReadings> readings)
+      : Sensor(sensor->description()), sensor_(std::move(sensor)), readings_(std::move(readings)) {}
+
+  base::Result<Reading> Sample(const Sampling& sampling) const override {
+    return readings_->Take(*sensor_, sampling);
+  }
+  bool TakesLong() const override { return sensor_->TakesLong(); }
+  bool CastsRays() const override { return sensor_->CastsRays(); }
+  world::RadioSetupPtr radio() const override { return sensor_->radio(); }
+  const Actuator* actuator() const override { return sensor_->actuator(); }
+
+ private:
+  const std::unique_ptr<Sensor> sensor_;
+  const std::shared_ptr<SharedReadings> readings_;
+};
+
+}  // namespace
+
+bool SharedReadings::IsOf(const Entry& entry, const Sensor& sensor,
+                          const Sampling& sampling) const {
+  // By owner: a snapshot's address may be another one's by now.
+  return entry.body == sampling.body() && entry.seed == sampling.seed() &&
+         !entry.snapshot.owner_before(sampling.snapshot()) &&
+         !sampling.snapshot().owner_before(entry.snapshot) &&
+         SameSensor(entry.description, sensor.description());
+}
+
+base::Result<Reading> SharedReadings::Take(const Sensor& sensor, const Sampling& sampling) {
+  std::promise<base::Result<Reading>> promise;
+  {
+    std::unique_lock lock(mutex_);
+    const auto found = std::find_if(entries_.rbegin(), entries_.rend(), [&](const Entry& entry) {
+      return IsOf(entry, sensor, sampling);
+    });
+    if (found != entries_.rend()) {
+      const Taken taken = found->taken;
+      lock.unlock();
+      return taken.get();
+    }
+    entries_.push_back({sampling.snapshot(), sampling.body(), sampling.seed(), sensor.description(),
+                        promise.get_future().share(), 0});
+  }
+  base::Result<Reading> taken = sensor.Sample(sampling);
+  Account(sensor, sampling, taken);
+  promise.set_value(taken);
+  return taken;
+}
+
+void SharedReadings::Account(const Sensor& sensor, const Sampling& sampling,
+                             const base::Result<Reading>& taken) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(entries_, [&](Entry& entry) {
+    if (entry.bytes == 0) {  // being taken
+      if (!IsOf(entry, sensor, sampling)) return false;
+      if (!taken) return true;
+      bytes_ += entry.bytes = BytesOf(*taken);
+    }
+    if (!entry.snapshot.expired()) return false;
+    bytes_ -= entry.bytes;
+    return true;
+  });
+  while (bytes_ > capacity_) {
+    const auto oldest = std::find_if(entries_.begin(), entries_.end(),
+                                     [](const Entry& entry) { return entry.bytes > 0; });
+    bytes_ -= oldest->bytes;
+    entries_.erase(oldest);
+  }
+}
+
+std::size_t SharedReadings::bytes() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_;
+}
+
+void Share(SensorType& type, std::shared_ptr<SharedReadings> readings) {
+  type.create =
+      [create = std::move(type.create), readings = std::move(readings)](
+          const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
+    auto sensor = create(description);
+    if (!sensor) return sensor;
+    return std::make_unique<SharedSensor>(*std::move(sensor), readings);
+  };
+}
+
+}  // namespace gsv::sensing
