@@ -3,15 +3,18 @@
 # `make install` installs into PREFIX (/usr/local), `make deb` makes Debian packages in build/release/packages.
 # `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build);
 # it also tries the packages on a bare Debian, which needs root and debootstrap.
+# `make chaos` kills, stops, floods and fills up all that a server lives with for CHAOS_SECONDS (3600).
 # `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60); it needs clang.
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
 #   PRESET=dev    another preset of CMakePresets.json
 PRESET ?= release
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 60
+CHAOS_SECONDS ?= 3600
+CHAOS_SEED ?= 1
 BUILD := build/$(PRESET)
 
-.PHONY: run test install deb soak build configure setup asan tsan fuzz format clean
+.PHONY: run test install deb soak chaos build configure setup asan tsan fuzz format clean
 
 run: configure
 	cmake --build $(BUILD) --target programs --parallel $(JOBS)
@@ -36,6 +39,10 @@ soak: build deb
 	cmake --build build/dev --target gsv --parallel $(JOBS)
 	tools/soak $(BUILD) build/dev
 	tools/try_packages $(BUILD)
+
+chaos: configure
+	cmake --build $(BUILD) --target programs --parallel $(JOBS)
+	tests/chaos/chaos.py $(BUILD) --seconds $(CHAOS_SECONDS) --seed $(CHAOS_SEED) --report $(BUILD)/chaos.json
 
 build: configure
 	cmake --build $(BUILD) --parallel $(JOBS)

@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+"""Does to a real server, its broker, behaviours, viewers and disk all that laboratories do to them.
+
+usage: tests/chaos/chaos.py BUILD [--seconds 60] [--seed 1] [--report FILE.json]
+
+A `gsv serve` runs simulations while, in an order that the seed decides, behaviours are killed and
+stopped, viewers stall, ports are flooded with noise, the broker is killed and started again, the disk
+of the recordings fills up and turns read-only, and the network of another host is cut, slow and lossy.
+What may not suffer:
+
+- a witness, a lockstep simulation whose outcome must be the same to the last digit each time;
+- the server: it answers, and in the end has the memory, threads and descriptors of the beginning;
+- every simulation: one that has lost a behaviour says so, and none hangs in the end;
+- every recording: what is there can be read or recovered.
+
+Afterwards a new behaviour still moves a new robot; and after a SIGKILL of the server a new one lists the
+recording that was being made, which holds all but its last second. Exit code 1 and a sentence for each
+promise that was broken.
+"""
+
+import argparse
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from attacks import ATTACKS
+from laboratory import Laboratory, Patience
+
+WITNESS = {"name": "witness", "world": "playground", "mode": "lockstep", "seed": 7, "duration": 4,
+           "robots": [{"name": f"w{i}", "model": "pebble", "x": x, "y": -1.5, "behaviour": "witness"}
+                      for i, x in enumerate((-1.0, 0.0, 1.0))]}
+
+
+class Witness:
+    """Runs its simulation again and again, and compares."""
+
+    def __init__(self, laboratory):
+        self.laboratory = laboratory
+        laboratory.start_behaviour("witness", is_victim=False)
+        laboratory.create(WITNESS)
+        self.rounds = 0
+        self.expected = None
+        self.is_running = False
+
+    def look(self):
+        """A sentence if the outcome is another; takes no longer than two requests."""
+        if not self.is_running:
+            self.laboratory.press("witness", "start")
+            self.is_running = True
+            return None
+        status = self.laboratory.status("witness")
+        if status["phase"] == "failed":
+            return f"the witness failed: {status['failure']}"
+        if status["phase"] != "finished":
+            return None
+        outcome = json.dumps([status["step"], [[robot["pose"], robot["distance_m"], robot["collisions"]]
+                                               for robot in status["robots"]]])
+        self.laboratory.press("witness", "reset")
+        self.is_running = False
+        self.rounds += 1
+        if self.expected is None:
+            self.expected = outcome
+        return None if outcome == self.expected else f"the witness did\n{outcome}\ninstead of\n{self.expected}"
+
+    def run(self, rounds):
+        patience = Patience("the witness's run")
+        until = self.rounds + rounds
+        broken = None
+        while self.rounds < until and broken is None:
+            broken = self.look()
+            patience.wait()
+        return broken
+
+
+def settle(laboratory, before):
+    """Sentences for what has not come back to what it was."""
+    patience = Patience("the server's return to what it was")
+    while True:
+        now = laboratory.footprint()
+        over = [f"{name}: {now[name]} instead of {before[name]}" for name in ("threads", "descriptors")
+                if now[name] > before[name]]
+        if now["memory_mib"] > before["memory_mib"] + laboratory.MEMORY_SLACK_MIB:
+            over.append(f"memory: {now['memory_mib']} MiB instead of {before['memory_mib']}")
+        if not over or patience.is_over():
+            return over
+        patience.wait()
+
+
+def check_recordings(laboratory):
+    broken = []
+    for recording in sorted(laboratory.recordings.glob("*.mcap")):
+        if recording.stat().st_size == 0:
+            continue  # the disk was full before its first byte
+        mended = laboratory.folder / "mended.mcap"
+        mended.unlink(missing_ok=True)
+        recovery = laboratory.gsv("rec", "recover", str(recording), "-o", str(mended))
+        if recovery.returncode != 0:
+            broken.append(f"{recording.name} cannot be recovered: {recovery.stderr.strip()}")
+    return broken
+
+
+def check_new_work(laboratory):
+    """A new behaviour moves a new robot."""
+    laboratory.start_behaviour("fresh", is_victim=False)
+    laboratory.create({"name": "fresh", "world": "playground", "mode": "lockstep", "seed": 1, "duration": 2,
+                       "robots": [{"name": "r", "model": "pebble", "x": 0, "y": -1.5, "behaviour": "fresh"}]})
+    laboratory.press("fresh", "start")
+    patience = Patience("a new simulation's end")
+    while True:
+        status = laboratory.status("fresh")
+        if status["phase"] in ("finished", "failed"):
+            break
+        if patience.is_over():
+            return ["a new simulation does not end"]
+        patience.wait()
+    if status["phase"] == "failed" or status["robots"][0]["distance_m"] < 0.1:
+        return [f"a new behaviour does not move a new robot: {status}"]
+    laboratory.destroy("fresh")
+    return []
+
+
+def check_restart(laboratory):
+    """After SIGKILL the recording is there, up to a second before."""
+    laboratory.create({"name": "lost", "world": "playground", "mode": "real_time", "seed": 1,
+                       "robots": [{"name": "r", "model": "pebble", "x": 0, "y": -1.5, "behaviour": "witness"}]})
+    laboratory.press("lost", "start")
+    file = laboratory.record("lost", True)
+    patience = Patience("three recorded seconds")
+    while laboratory.status("lost")["time_s"] < 3:
+        patience.wait()
+    seen = laboratory.status("lost")["time_s"]
+    laboratory.restart_server()
+    broken = []
+    if laboratory.simulations():
+        broken.append("a server that was started anew has simulations")
+    listed = [entry["name"] for entry in laboratory.get("/api/recordings")["recordings"]]
+    if Path(file).name not in listed:
+        broken.append(f"the recording {file} is not listed after the server's death: {listed}")
+    mended = laboratory.folder / "lost.mcap"
+    recovery = laboratory.gsv("rec", "recover", str(laboratory.recordings / Path(file).name), "-o", str(mended))
+    if recovery.returncode != 0:
+        return broken + [f"the dead server's recording cannot be recovered: {recovery.stderr.strip()}"]
+    info = json.loads(laboratory.gsv("rec", "info", str(mended), "--json").stdout)
+    if info["end_s"] < seen - 1:
+        broken.append(f"at {seen} s the server was killed, and its recording ends at {info['end_time_s']} s")
+    return broken
+
+
+def enter_own_network():
+    """Starts this program again where it may cut the network and mount disks, if it may."""
+    own = ["unshare", "--net", "--mount", "sh", "-c", 'ip link set lo up && exec "$@"', "sh"]
+    if "GSV_CHAOS_NETWORK" in os.environ or subprocess.run([*own, "true"], capture_output=True, check=False).returncode:
+        return
+    os.environ["GSV_CHAOS_NETWORK"] = "own"
+    os.execvp(own[0], [*own, sys.executable, *sys.argv])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=Path)
+    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--report", type=Path, help="a file for what was done and measured, JSON")
+    options = parser.parse_args()
+    enter_own_network()
+    chance = random.Random(options.seed)
+    folder = Path(tempfile.mkdtemp(prefix="gsv-chaos-"))
+    laboratory = Laboratory(options.build.resolve(), folder)
+    done, broken, curve = {}, [], []
+    try:
+        witness = Witness(laboratory)
+        broken += filter(None, [witness.run(2)])
+        before = laboratory.footprint()
+        start = time.monotonic()
+        attacks = [attack(laboratory, chance) for attack in ATTACKS]
+        names = [type(attack).__name__ for attack in attacks if attack.refusal is None]
+        for attack in attacks:
+            if attack.refusal is not None:
+                print(f"left out: {type(attack).__name__}: {attack.refusal}", flush=True)
+        possible = [attack for attack in attacks if attack.refusal is None]
+        print("attacks: " + ", ".join(names), flush=True)
+        while time.monotonic() - start < options.seconds and not broken:
+            attack = chance.choice(possible)
+            attack.strike()
+            done[type(attack).__name__] = done.get(type(attack).__name__, 0) + 1
+            broken += filter(None, [witness.look()])
+            curve.append({"s": round(time.monotonic() - start, 1), **laboratory.footprint()})
+        for attack in possible:
+            attack.end()
+        broken += filter(None, [witness.run(2)])
+        broken += laboratory.end_victims()
+        broken += settle(laboratory, before)
+        broken += check_new_work(laboratory)
+        broken += check_recordings(laboratory)
+        broken += check_restart(laboratory)
+        report = {"seconds": round(time.monotonic() - start, 1), "seed": options.seed, "attacks": done,
+                  "witness_rounds": witness.rounds, "slowest_answer_s": round(laboratory.slowest, 3),
+                  "before": before, "after": curve[-1] if curve else before, "broken": broken}
+        print(json.dumps(report, indent=1), flush=True)
+        if options.report:
+            options.report.write_text(json.dumps({**report, "curve": curve}, indent=1) + "\n")
+    finally:
+        laboratory.close()
+        if broken:
+            print(f"the programs' output is in {folder}", file=sys.stderr)
+        else:
+            shutil.rmtree(folder, ignore_errors=True)
+    for sentence in broken:
+        print(f"broken: {sentence}", file=sys.stderr)
+    return 1 if broken else 0
+
+
+sys.exit(main())

@@ -1,0 +1,188 @@
+"""The programs that chaos.py disturbs: a broker, a server, behaviours, and the simulations of one of them."""
+
+import http.client
+import json
+import os
+import signal
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+TIMEOUT_S = 60  # of anything: who takes longer has hung
+
+
+class Patience:
+    """Waits in small steps for something that must come."""
+
+    def __init__(self, what, seconds=TIMEOUT_S):
+        self.what = what
+        self.end = time.monotonic() + seconds
+        self.may_run_out = False
+
+    def is_over(self):
+        self.may_run_out = True
+        return time.monotonic() > self.end
+
+    def wait(self):
+        if time.monotonic() > self.end and not self.may_run_out:
+            raise TimeoutError(f"{self.what} did not come within {TIMEOUT_S} s")
+        time.sleep(0.05)
+
+
+class Refused(Exception):
+    """The server's own sentence."""
+
+
+class Laboratory:
+    MEMORY_SLACK_MIB = 64  # malloc's arenas and the renderer's copies stay
+
+    def __init__(self, build, folder):
+        self.build = build
+        self.folder = folder
+        self.recordings = folder / "recordings"
+        self.recordings.mkdir()
+        self.behaviours = []  # those that attacks may kill
+        self.others = []
+        self.stopped = set()
+        self.slowest = 0.0
+        self.count = 0
+        self.reference = None
+        self.broker_port = free_port()
+        self.viewer_port = free_port()
+        self.start_broker()
+        self.start_server()
+
+    # Programs
+
+    def environment(self):
+        return {**os.environ, "HOME": str(self.folder), "XDG_RUNTIME_DIR": str(self.folder)}
+
+    def start(self, name, *arguments, line=None):
+        log = open(self.folder / f"{name}-{self.count}.log", "wb")
+        self.count += 1
+        process = subprocess.Popen([str(self.build / "bin" / arguments[0]), *arguments[1:]], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=log, env=self.environment())
+        process.behaviour = name
+        if line:
+            for said in process.stdout:
+                if line in said.decode(errors="replace"):
+                    return process
+            process.wait()
+            raise RuntimeError(f"{' '.join(arguments)} ended: {(Path(log.name)).read_text()}")
+        return process
+
+    def start_broker(self):
+        self.broker = self.start("broker", "gsv", "broker", "--port", str(self.broker_port),
+                                 "--data", str(self.folder / "offers.db"), line="corbaloc")
+        self.reference = f"corbaloc::1.2@127.0.0.1:{self.broker_port}/TradingService"
+
+    def start_server(self):
+        self.server = self.start("server", "gsv", "serve", "--broker", self.reference, "--port", str(self.viewer_port),
+                                 "--recordings", str(self.recordings), line="viewer:")
+
+    def restart_server(self):
+        self.server.kill()
+        self.server.wait()
+        self.start_server()
+
+    def start_behaviour(self, name, is_victim=True, arguments=()):
+        process = self.start(name, "gsv-wander", "--broker", self.reference, "--name", name, *arguments,
+                             line="offered at")
+        (self.behaviours if is_victim else self.others).append(process)
+        return process
+
+    def gsv(self, *arguments):
+        return subprocess.run([str(self.build / "bin" / "gsv"), *arguments], capture_output=True, text=True,
+                              timeout=TIMEOUT_S, env=self.environment())
+
+    # The server, by its HTTP API
+
+    def request(self, method, path, body=None, timeout=TIMEOUT_S):
+        start = time.monotonic()
+        connection = http.client.HTTPConnection("127.0.0.1", self.viewer_port, timeout=timeout)
+        try:
+            connection.request(method, path, json.dumps(body) if body is not None else None,
+                               {"Content-Type": "application/json"})
+            response = connection.getresponse()
+            text = response.read()
+        finally:
+            connection.close()
+            self.slowest = max(self.slowest, time.monotonic() - start)
+        answer = json.loads(text) if text else {}
+        if response.status >= 400:
+            raise Refused(f"{method} {path}: {response.status} {answer.get('error', answer)}")
+        return answer
+
+    def get(self, path):
+        return self.request("GET", path)
+
+    def create(self, scenario):
+        return self.request("POST", "/api/simulations", scenario)
+
+    def press(self, simulation, button):
+        return self.request("POST", f"/api/simulations/{simulation}/{button}", {})
+
+    def record(self, simulation, on):
+        return self.request("POST", f"/api/simulations/{simulation}/recording", {"record": on})["path"]
+
+    def status(self, simulation):
+        return self.get(f"/api/simulations/{simulation}")
+
+    def simulations(self):
+        return [line["name"] for line in self.get("/api/simulations")]
+
+    def destroy(self, simulation):
+        return self.request("DELETE", f"/api/simulations/{simulation}")
+
+    def footprint(self):
+        """What the server holds; memory in MiB."""
+        process = Path("/proc") / str(self.server.pid)
+        status = dict(line.split(":", 1) for line in (process / "status").read_text().splitlines())
+        return {"threads": int(status["Threads"]), "descriptors": len(list((process / "fd").iterdir())),
+                "memory_mib": round(int(status["VmRSS"].split()[0]) / 1024)}
+
+    # The end
+
+    def end_victims(self):
+        """Sentences for simulations that hang though their behaviours are dead."""
+        for process in self.behaviours:
+            process.kill()
+            process.wait()
+        broken = []
+        for name in self.simulations():
+            if name == "witness":
+                continue
+            patience = Patience(f"the end of {name}")
+            while True:
+                status = self.status(name)
+                alive = [robot for robot in status["robots"]
+                         if not robot["is_avatar"] and robot["agent_phase"] in ("running", "waiting")]
+                if status["phase"] not in ("running", "starting", "stopping") or not alive:
+                    break
+                if patience.is_over():
+                    broken.append(f"{name} is {status['phase']} and waits for '{status['waiting_for']}', whose "
+                                  f"process is dead: {alive}")
+                    break
+                patience.wait()
+            self.destroy(name)
+        return broken
+
+    def close(self):
+        for process in [*self.behaviours, *self.others, self.server, self.broker]:
+            process.kill()
+            process.wait()
+
+
+def free_port():
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        return listener.getsockname()[1]
+
+
+def proceed(process):
+    """Lets a stopped process go on, if it is still there."""
+    try:
+        process.send_signal(signal.SIGCONT)
+    except ProcessLookupError:
+        pass
