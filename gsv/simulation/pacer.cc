@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "gsv/simulation/totals.h"
+
 namespace gsv::simulation {
 namespace {
 
@@ -25,6 +27,7 @@ bool Pacer::StepStarts(WallTime now) {
   const bool late = now - due_ > period_;
   if (late) {
     ++late_steps_;
+    ++ProcessTotals().late_steps;
     due_ = now;
   }
   due_ += period_;

@@ -7,6 +7,7 @@
 
 #include "gsv/dynamics/world_engine.h"
 #include "gsv/sensing/ground.h"
+#include "gsv/simulation/limits.h"
 #include "gsv/simulation/stepping_simulation.h"
 
 namespace gsv::simulation {
@@ -98,11 +99,26 @@ geometry::Pose SteppingSimulation::StandingPose(const model::Model& model, geome
   return pose;
 }
 
+namespace {
+
+base::Status CheckRoomFor(std::size_t more, const std::vector<world::Body>& bodies) {
+  const std::size_t most = ProcessLimits().robots;
+  const auto there = static_cast<std::size_t>(std::count_if(
+      bodies.begin(), bodies.end(), [](const world::Body& body) { return body.is_robot; }));
+  if (there <= most && more <= most - there) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "a simulation holds at most " + std::to_string(most) +
+                        " robots here; remove some first, or raise --limit robots");
+}
+
+}  // namespace
+
 base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& robots) {
   const auto world_lock = LockWorld();
   if (!world_lock) return RefuseStuck();
   if (auto ok = NameRobots(robots); !ok) return ok;
   std::vector<world::Body> bodies = layout_->bodies;
+  if (auto ok = CheckRoomFor(robots.size(), bodies); !ok) return ok;
   std::vector<std::string> added;
   for (const RobotSpecification& robot : robots) {
     world::Body body;

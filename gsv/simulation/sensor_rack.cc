@@ -1,14 +1,10 @@
 #include "gsv/simulation/sensor_rack.h"
 
+#include "gsv/simulation/limits.h"
+
 #include <algorithm>
 
 namespace gsv::simulation {
-namespace {
-
-constexpr std::size_t kMaxSensorsPerRobot = 1024;
-
-}  // namespace
-
 SensorRack::SensorRack(std::string robot, const std::shared_ptr<const model::Model>& model,
                        SensorDesigns& designs)
     : robot_(std::move(robot)), designs_(designs) {
@@ -60,8 +56,10 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
   const auto design = MakeSensorDesign(std::move(description), designs_.types(), where);
   if (!design) return base::Fail(design.error());
   const std::lock_guard lock(mutex_);
-  if (slots_.size() >= kMaxSensorsPerRobot) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "a robot carries at most 1024 sensors",
+  if (const std::size_t most = ProcessLimits().sensors_of_a_robot; slots_.size() >= most) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "a robot carries at most " + std::to_string(most) +
+                          " sensors here; close one first, or raise --limit sensors_of_a_robot",
                       where);
   }
   if (Seek(name) != nullptr) {

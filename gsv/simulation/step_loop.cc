@@ -7,6 +7,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/simulation/stepping_simulation.h"
+#include "gsv/simulation/totals.h"
 
 namespace gsv::simulation {
 namespace {
@@ -218,6 +219,7 @@ std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
 
 void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot,
                                    WallTime start) {
+  ++ProcessTotals().steps;
   const WallTime end = WallNow();
   const std::lock_guard lock(shared_->mutex);
   shared_->history.Publish(snapshot);  // with the phase that comes of it: see status()
