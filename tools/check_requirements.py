@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Checks that docs/requirements.md is kept: every use case names tests, and they ran and passed.
 
-usage: check_requirements.py REQUIREMENTS.md JUNIT.xml
+usage: check_requirements.py REQUIREMENTS.md JUNIT.xml [PAGE.md ...]
 
 The requirements are sections ("## RQ1 …") of table rows
     | RQ1.1 | what somebody does | `Suite.Name`, `a-ctest-name` |
+In the other pages, every test named in the last column of a table headed "Shown by" must have
+passed as well.
 The JUnit file is what `ctest --output-junit` writes. Prints one sentence for each thing that is
 wrong and exits 1 when there is any. A test that was skipped did not run.
 """
@@ -82,11 +84,27 @@ def unkept(sections, outcomes, source):
                     yield f"{place}: the test {test} {says[result]}"
 
 
+def read_promises(text, source):
+    """The tests that a page's tables name as what shows a thing, as use cases by line."""
+    promises, shows = [], False
+    for number, line in enumerate(text.splitlines(), start=1):
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if not line.startswith("|"):
+            shows = False
+        elif cells[-1] == "Shown by":
+            shows = True
+        elif shows and NAME.search(cells[-1]):
+            promises.append(UseCase("this row", number, NAME.findall(cells[-1])))
+    if not promises:
+        return [], [f"{source}: no table here names a test"]
+    return promises, []
+
+
 def main(arguments):
-    if len(arguments) != 2:
+    if len(arguments) < 2:
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    source, junit = arguments
+    source, junit, *pages = arguments
     sections, problems = read_requirements(Path(source).read_text(encoding="utf-8"), source)
     try:
         outcomes = read_outcomes(junit)
@@ -94,6 +112,10 @@ def main(arguments):
         print(f"{junit}: no test results to read ({error}); run the tests first")
         return 1
     problems += unkept(sections, outcomes, source)
+    for page in pages:
+        promises, wrong = read_promises(Path(page).read_text(encoding="utf-8"), page)
+        problems += wrong
+        problems += unkept({page: promises}, outcomes, page)
     for problem in problems:
         print(problem)
     count = sum(len(use_cases) for use_cases in sections.values())

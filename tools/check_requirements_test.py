@@ -37,14 +37,18 @@ JUNIT = """<?xml version="1.0" encoding="UTF-8"?>
 
 
 class CheckRequirements(unittest.TestCase):
-    def run_on(self, text, junit=JUNIT):
+    def run_on(self, text, junit=JUNIT, other=None):
         with tempfile.TemporaryDirectory() as folder:
             requirements, results = Path(folder, "requirements.md"), Path(folder, "junit.xml")
             requirements.write_text(text)
             results.write_text(junit)
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                code = check_requirements.main([str(requirements), str(results)])
+                pages = []
+                if other is not None:
+                    pages = [str(Path(folder, "other.md"))]
+                    Path(pages[0]).write_text(other)
+                code = check_requirements.main([str(requirements), str(results), *pages])
             return code, printed.getvalue()
 
     def assert_problem(self, overrides, sentence):
@@ -85,6 +89,16 @@ class CheckRequirements(unittest.TestCase):
             {"RQ8": "| RQ8.1 | x | `Good.Test` |\n| RQ9.2 | x | `Good.Test` |"},
             "RQ9.2 stands in the section RQ8",
         )
+
+    def test_tests_that_other_pages_name_must_have_passed(self):
+        head = "| Who | Shown by |\n|---|---|\n"
+        self.assertEqual(self.run_on(page(), other=f"{head}| x | `Good.Test` |\n| y | |")[0], 0)
+        code, printed = self.run_on(page(), other=f"{head}| x | `Bad.Test`, `Good.Test` |")
+        self.assertEqual(code, 1)
+        self.assertIn("other.md:3: this row: the test Bad.Test failed", printed)
+        # What stands in another column, or in a table of another kind, names no test.
+        code, printed = self.run_on(page(), other="| Name | At most |\n|---|---|\n| `Bad.Test` | 1 |")
+        self.assertIn("no table here names a test", printed)
 
     def test_results_that_cannot_be_read_are_a_sentence(self):
         code, printed = self.run_on(page(), junit="<testsuite>")

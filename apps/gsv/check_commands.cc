@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands.h"
+#include "apps/gsv/confinement.h"
 #include "apps/gsv/doctor.h"
 #include "apps/gsv/exit_code.h"
+#include "apps/gsv/exposure.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/limit_option.h"
 #include "apps/gsv/sensor_types.h"
@@ -18,6 +20,8 @@ struct CheckArguments {
   std::string file;
   std::vector<std::string> model_path, sensor_plugins;
   formats::ReadLimits limits;
+  Confinement confinement;
+  std::int64_t confined_seconds = 0;  // 0: not at all
   bool json = false;
   bool strict = false;
 };
@@ -62,7 +66,17 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   AddLimitOption(*command, arguments->limits);
   command->add_flag("--json", arguments->json, "one JSON object a line");
   command->add_flag("--strict", arguments->strict, "warnings count as errors");
+  // For TryToRead(), and in no help.
+  command->add_option("--confined-memory", arguments->confinement.memory_bytes)->group("");
+  command->add_option("--confined-time", arguments->confined_seconds)->group("");
   command->callback([arguments, line, read] {
+    if (arguments->confined_seconds > 0) {
+      arguments->confinement.processor_time = std::chrono::seconds(arguments->confined_seconds);
+      if (const auto confined = Confine(arguments->confinement); !confined) {
+        line.exit_code = Complain(confined.error());
+        return;
+      }
+    }
     SensorTypeOptions sensors;
     sensors.plugins.assign(arguments->sensor_plugins.begin(), arguments->sensor_plugins.end());
     auto types = MakeSensorTypes(
@@ -95,9 +109,21 @@ void AddCheckCommands(const CommandLine& line) {
              const auto model = library.ReadModel(file, problems);
              return model ? base::Status() : base::Fail(model.error());
            });
-  line.app
-      .add_subcommand("doctor", "Check this machine: cameras and how fast they are, viewer, worlds")
-      ->callback([line] { line.exit_code = Doctor(); });
+  struct DoctorArguments {
+    std::string broker;
+    bool security = false, json = false;
+  };
+  CLI::App* doctor = line.app.add_subcommand(
+      "doctor", "Check this machine: cameras and how fast they are, limits, ports, the broker");
+  auto asked = std::make_shared<DoctorArguments>();
+  CLI::Option* security = doctor->add_flag(
+      "--security", asked->security, "list what of GSV can be reached here instead, and by whom");
+  doctor->add_flag("--json", asked->json, "one object a program")->needs(security);
+  doctor->add_option("--broker", asked->broker, "a broker that should answer")
+      ->envname("GSV_BROKER");
+  doctor->callback([asked, line] {
+    line.exit_code = asked->security ? TellExposure(asked->json) : Doctor(asked->broker);
+  });
 }
 
 }  // namespace gsv::app

@@ -17,6 +17,7 @@ struct CommandLine {
 
 void AddRunCommand(const CommandLine& line);
 void AddCampaignCommand(const CommandLine& line);
+void AddCertificatesCommand(const CommandLine& line);
 void AddServeCommand(const CommandLine& line);
 void AddBrokerCommands(const CommandLine& line);     // broker, offers, types, links
 void AddCheckCommands(const CommandLine& line);      // world check, model check, doctor

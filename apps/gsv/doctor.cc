@@ -6,6 +6,7 @@
 #include "apps/gsv/bench/moving_scene.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
+#include "apps/gsv/machine_checks.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::app {
@@ -72,14 +73,16 @@ bool LookAtCameras(bool has_worlds) {
 
 }  // namespace
 
-int Doctor() {
+int Doctor(const std::string& broker) {
   std::error_code ignored;
   const bool viewer = std::filesystem::exists(ShareFolder() / "web" / "index.html", ignored);
   const bool worlds = std::filesystem::exists(ResolveWorld("office"), ignored);
   const bool cameras = LookAtCameras(worlds);
   std::printf("viewer: %s %s\n", viewer ? "ok," : "missing:", (ShareFolder() / "web").c_str());
   std::printf("worlds: %s %s\n", worlds ? "ok," : "missing:", (ShareFolder() / "worlds").c_str());
-  return cameras && viewer && worlds ? kOk : kInfrastructure;
+  const bool machine = CheckMachine();
+  const bool reached = CheckBroker(broker);
+  return cameras && viewer && worlds && machine && reached ? kOk : kInfrastructure;
 }
 
 }  // namespace gsv::app

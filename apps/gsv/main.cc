@@ -9,6 +9,50 @@
 #include "gsv/base/log.h"
 #include "gsv/simulation/simulation.h"
 
+namespace {
+
+struct LogArguments {
+  std::string level, format;
+  std::size_t lines = gsv::base::LogOptions{}.lines_per_second;
+};
+
+template <typename Parse>
+CLI::Validator ReadableBy(Parse parse) {
+  return CLI::Validator(
+      [parse](const std::string& text) {
+        const auto parsed = parse(text);
+        return parsed ? std::string() : parsed.error().Sentence();
+      },
+      "");
+}
+
+void AddLogOptions(CLI::App& app, LogArguments& log) {
+  app.add_option("--log-level", log.level,
+                 "what is logged, on stderr: trace, debug, info, warning, error or off "
+                 "(default: warning)")
+      ->check(ReadableBy(&gsv::base::ParseLogLevel))
+      ->envname("GSV_LOG_LEVEL");
+  app.add_option("--log-format", log.format, "text, or json: one object a line (default: text)")
+      ->check(ReadableBy(&gsv::base::ParseLogFormat))
+      ->envname("GSV_LOG_FORMAT");
+  app.add_option("--log-rate", log.lines,
+                 "lines a second that are logged in the long run; the rest is counted")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+}
+
+// Programs that this one starts log in the same way.
+void StartLog(const LogArguments& log, bool verbose) {
+  if (!log.level.empty()) setenv("GSV_LOG_LEVEL", log.level.c_str(), 1);
+  if (!log.format.empty()) setenv("GSV_LOG_FORMAT", log.format.c_str(), 1);
+  gsv::base::LogOptions options = gsv::base::LogOptionsOfEnvironment(spdlog::level::warn);
+  options.lines_per_second = log.lines;
+  if (verbose && log.level.empty()) options.level = spdlog::level::debug;
+  gsv::base::InitLogging(options);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace gsv::app;
   Signals signals;
@@ -21,8 +65,9 @@ int main(int argc, char** argv) {
   app.failure_message(CLI::FailureMessage::simple);
   bool verbose = false;
   app.add_flag("-v,--verbose", verbose, "say more about what happens, on stderr");
-  app.parse_complete_callback(
-      [&] { gsv::base::InitLogging(verbose ? spdlog::level::debug : spdlog::level::warn); });
+  LogArguments log;
+  AddLogOptions(app, log);
+  app.parse_complete_callback([&] { StartLog(log, verbose); });
   const CommandLine line{app, signals, exit_code};
   AddRunCommand(line);
   AddServeCommand(line);
@@ -36,6 +81,7 @@ int main(int argc, char** argv) {
   AddTestCommand(line);
   AddCampaignCommand(line);
   AddViewCommand(line);
+  AddCertificatesCommand(line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

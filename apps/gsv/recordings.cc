@@ -159,6 +159,7 @@ base::Status Recordings::FinishThatWhichIsOver(
   auto node = recordings_.extract(found);
   lock.unlock();
   if (const auto ok = Finish(node.mapped()); !ok) spdlog::error("{}", ok.error().Sentence());
+  CountEnded(node.mapped());
   return {};
 }
 
@@ -202,6 +203,29 @@ Recordings::State Recordings::RecordingOf(const std::string& simulation) {
   return last == last_.end() ? State() : last->second;
 }
 
+void Recordings::Add(const State& state, Totals& totals) {
+  if (state.is_recording) ++totals.under_way;
+  totals.messages += state.messages;
+  totals.dropped += state.dropped;
+  totals.bytes += state.bytes;
+}
+
+void Recordings::CountEnded(const Recording& recording) {
+  const std::lock_guard lock(mutex_);
+  Add(StateOf(recording), ended_);
+  ended_.under_way = 0;
+}
+
+Recordings::Totals Recordings::totals() {
+  const std::lock_guard lock(mutex_);
+  Totals totals = ended_;
+  for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
+  // One that is being finished counts among neither for a moment; what was told is not taken back.
+  told_ = {totals.under_way, std::max(totals.messages, told_.messages),
+           std::max(totals.dropped, told_.dropped), std::max(totals.bytes, told_.bytes)};
+  return told_;
+}
+
 Recordings::State Recordings::StateOf(const Recording& recording) {
   const recording::McapWriter::Progress progress = recording.recorder->progress();
   return {recording.recorder->is_recording(), recording.path, progress.messages, progress.dropped,
@@ -221,6 +245,7 @@ base::Status Recordings::Stop(const std::string& simulation) {
     return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
   }
   const base::Status finished = Finish(node.mapped());
+  CountEnded(node.mapped());
   State state = StateOf(node.mapped());
   state.is_recording = false;
   lock.lock();
@@ -235,6 +260,7 @@ base::Status Recordings::StopAll() {
   base::Status first;
   for (auto& [name, recording] : recordings) {
     const base::Status stopped = Finish(recording);
+    CountEnded(recording);
     if (stopped) continue;
     if (first) {
       first = stopped;

@@ -67,6 +67,7 @@ class Recordings final : public gateway::RecordingSwitch {
   base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override;
   base::Status StopRecording(const std::string& simulation) override { return Stop(simulation); }
   State RecordingOf(const std::string& simulation) override;
+  Totals totals() override;
   // kNotFound when that simulation is not recorded. Another error is why the recording ended early.
   base::Status Stop(const std::string& simulation);
   // The first error, if there is one; the others are logged.
@@ -83,12 +84,16 @@ class Recordings final : public gateway::RecordingSwitch {
   base::Status FinishThatWhichIsOver(const std::shared_ptr<simulation::Simulation>& simulation);
   static base::Status Finish(Recording& recording);
   static State StateOf(const Recording& recording);
+  static void Add(const State& state, Totals& totals);
+  void CountEnded(const Recording& recording);
 
   const std::filesystem::path folder_;
   std::mutex starting_;                          // one at a time; taken before mutex_
   std::mutex mutex_;                             // never held while the disk is waited for
   std::map<std::string, Recording> recordings_;  // by the simulation's name
   std::map<std::string, State> last_;            // that ended, by the simulation's name
+  Totals ended_;                                 // of those that ended
+  Totals told_;                                  // last
 };
 
 }  // namespace gsv::app

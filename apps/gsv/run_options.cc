@@ -83,7 +83,7 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
       ->envname("GSV_BROKER");
   command.add_option("--model-path", a.model_path, "a folder to look for models in");
   AddSensorPluginOption(command, a.sensor_plugins);
-  AddLimitOption(command, a.limits);
+  AddLimitOption(command, a.limits, a.server_limits);
   AddViewerOptions(command, a.web);
   AddRecordingsOption(command, a.web);
   command.add_flag("--headless", a.headless, "without a viewer");
@@ -272,6 +272,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
                                     options.scenario.model_path.end());
   options.runtime.sensors.plugins.assign(a.sensor_plugins.begin(), a.sensor_plugins.end());
   options.runtime.limits = a.limits;
+  options.runtime.server_limits = a.server_limits;
   options.runtime.viewer = !a.headless;
   options.runtime.web = a.web;
   options.wall_timeout = a.wall_timeout;

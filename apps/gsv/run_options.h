@@ -46,6 +46,7 @@ struct RunArguments {
   std::string world;
   std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
   formats::ReadLimits limits;
+  ServerLimits server_limits;
   std::string broker, name, mode_on_failure, record, record_pictures, failure_picture;
   std::vector<std::string> record_topics, record_rates;
   // Those that a scenario's file may say as well are empty where they were not given.

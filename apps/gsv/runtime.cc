@@ -11,6 +11,7 @@
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/simulation_builder.h"
 #include "gsv/base/log.h"
+#include "gsv/broker/client/client_errors.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/orb.h"
@@ -52,17 +53,19 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   reading.model_path = options.model_path;
   reading.limits = options.limits;
   reading.check_sensor = CheckBy(*sensors);
+  simulation::ProcessLimits() = options.server_limits.simulation;
   runtime->host_ = std::make_shared<services::SimulationHost>(
-      *std::move(sensors), std::make_shared<formats::ModelLibrary>(std::move(reading)));
+      *std::move(sensors), std::make_shared<formats::ModelLibrary>(std::move(reading)),
+      options.server_limits.simulations);
   auto folder = RecordingsFolder(options.web.recordings);
   if (!folder) return base::Fail(folder.error());
   runtime->recordings_ = std::make_unique<Recordings>(*std::move(folder));
   const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
   runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);
   runtime->launcher_ = std::make_unique<BehaviourLauncher>(*runtime->broker_);
-  runtime->builder_ =
-      std::make_unique<SimulationBuilder>(*runtime->host_, *runtime->behaviours_, *runtime->broker_,
-                                          *runtime->recordings_, options.model_path);
+  runtime->builder_ = std::make_unique<SimulationBuilder>(
+      *runtime->host_, *runtime->behaviours_, *runtime->broker_, *runtime->recordings_,
+      options.model_path, options.server_limits.reading);
   if (options.viewer) {
     if (auto ok = runtime->StartGateway(options); !ok) return base::Fail(ok.error());
   }
@@ -105,12 +108,19 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
 base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway::GatewayOptions gateway;
   gateway.web_root = ShareFolder() / "web";
+  gateway.broker_calls = [] {
+    const broker::CallCounts& counts = broker::ProcessCallCounts();
+    return gateway::metrics::BrokerCalls{counts.made, counts.failed};
+  };
   gateway.pages["broker"] = [page = std::make_shared<const BrokerPage>(orb_, broker_->reference())](
                                 const gateway::Request& request) { return page->Handle(request); };
   gateway.pages["instances"] =
       [page = std::make_shared<InstancesPage>(orb_, broker_->reference(),
                                               HostName() + ":" + std::to_string(getpid()))](
           const gateway::Request& request) { return page->Handle(request); };
+  gateway.limits = options.server_limits.web;
+  gateway.uploads = options.server_limits.uploads;
+  gateway.replays = options.server_limits.replays;
   gateway.recordings = recordings_.get();
   gateway.recordings_folder = recordings_->folder();
   gateway.factory = builder_.get();

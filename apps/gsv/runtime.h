@@ -13,6 +13,7 @@
 #include "apps/gsv/child_process.h"
 #include "apps/gsv/running_instances.h"
 #include "apps/gsv/sensor_types.h"
+#include "apps/gsv/server_limits.h"
 #include "apps/gsv/viewer_options.h"
 #include "gsv/formats/read_limits.h"
 #include "gsv/services/broker_behaviours.h"
@@ -29,6 +30,7 @@ struct RuntimeOptions {
   std::vector<std::filesystem::path> model_path;
   SensorTypeOptions sensors;
   formats::ReadLimits limits;
+  ServerLimits server_limits;
   bool viewer = true;
   ViewerOptions web;
 };

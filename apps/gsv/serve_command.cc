@@ -15,6 +15,7 @@ struct ServeArguments {
   std::string broker, name = "gsv";
   std::vector<std::string> model_path, sensor_plugins;
   formats::ReadLimits limits;
+  ServerLimits server_limits;
   ViewerOptions web;
   bool headless = false;
 };
@@ -25,6 +26,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
   options.sensors.plugins.assign(arguments.sensor_plugins.begin(), arguments.sensor_plugins.end());
   options.limits = arguments.limits;
+  options.server_limits = arguments.server_limits;
   options.viewer = !arguments.headless;
   options.web = arguments.web;
   auto runtime = Runtime::Start(options);
@@ -50,7 +52,7 @@ void AddServeCommand(const CommandLine& line) {
   command->add_option("--name", arguments->name, "the name in the offer")->capture_default_str();
   command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
   AddSensorPluginOption(*command, arguments->sensor_plugins);
-  AddLimitOption(*command, arguments->limits);
+  AddLimitOption(*command, arguments->limits, arguments->server_limits);
   AddViewerOptions(*command, arguments->web);
   AddRecordingsOption(*command, arguments->web);
   command->add_flag("--headless", arguments->headless, "without a viewer");

@@ -44,6 +44,12 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
   return specification;
 }
 
+// A world that ships with gsv.
+bool IsOurs(const fs::path& file) {
+  std::error_code ignored;
+  return fs::equivalent(file.parent_path(), ShareFolder() / "worlds", ignored);
+}
+
 }  // namespace
 
 void SimulationBuilder::OfferThrough(services::SimulationServiceServant* service) {
@@ -98,6 +104,11 @@ FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const st
     const std::lock_guard lock(mutex_);
     for (const KnownWorld& known : known_) {
       if (known.file == read.file && known.changed == read.changed) return known;
+    }
+  }
+  if (!IsOurs(read.file)) {
+    if (auto ok = TryToRead(read.file, model_path_, reading_); !ok) {
+      return Wrong("world", ok.error());
     }
   }
   base::Problems problems;

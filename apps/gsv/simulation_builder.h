@@ -12,6 +12,7 @@
 
 #include "apps/gsv/population.h"
 #include "apps/gsv/recordings.h"
+#include "apps/gsv/trial_reading.h"
 #include "gsv/gateway/simulation_factory.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
@@ -21,15 +22,17 @@ namespace gsv::app {
 
 class SimulationBuilder final : public gateway::SimulationFactory {
  public:
-  // All outlive it. `model_path`: folders whose models are shown besides ours.
+  // All outlive it. `model_path`: folders whose models are shown besides ours. `reading`: for
+  // worlds that are not ours.
   SimulationBuilder(services::SimulationHost& host, services::BrokerBehaviours& behaviours,
                     broker::BrokerClient& broker, Recordings& recordings,
-                    std::vector<std::filesystem::path> model_path)
+                    std::vector<std::filesystem::path> model_path, const TrialLimits& reading = {})
       : host_(host),
         behaviours_(behaviours),
         broker_(broker),
         recordings_(recordings),
-        model_path_(std::move(model_path)) {}
+        model_path_(std::move(model_path)),
+        reading_(reading) {}
 
   // What is created from now on is in that service's list as well; null: no longer.
   void OfferThrough(services::SimulationServiceServant* service);
@@ -67,6 +70,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   broker::BrokerClient& broker_;
   Recordings& recordings_;
   const std::vector<std::filesystem::path> model_path_;
+  const TrialLimits reading_;
   std::mutex mutex_;
   std::vector<KnownWorld> known_;  // the newest last
   services::SimulationServiceServant* service_ = nullptr;

@@ -7,6 +7,7 @@
 #include "apps/gsv/installation.h"
 #include "apps/gsv/remote_simulations.h"
 #include "apps/gsv/viewer_options.h"
+#include "gsv/base/log.h"
 #include "gsv/gateway/relay.h"
 
 namespace gsv::app {
@@ -61,6 +62,7 @@ void AddViewCommand(const CommandLine& line) {
       ->envname("GSV_TOKEN");
   AddViewerOptions(*command, arguments->web);
   command->callback([arguments, line] {
+    base::HideInLog(arguments->token);
     const auto url = ViewerOf(arguments->instance, arguments->broker);
     if (!url) {
       line.exit_code = Complain(url.error());

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "gsv/base/log.h"
+
 namespace gsv::app {
 namespace {
 
@@ -11,6 +13,7 @@ std::function<void(const std::string&)> TakeToken(std::string& token) {
     if (const auto good = gateway::access::CheckToken(text); !good) {
       throw CLI::ValidationError(good.error().Sentence());
     }
+    base::HideInLog(text);
     token = text;
   };
 }
@@ -39,6 +42,15 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options) {
           "--watch-token", TakeToken(options.tokens.watch),
           "who shows it may watch; without it watching is free on this machine")
       ->envname("GSV_WATCH_TOKEN");
+  CLI::Option* certificate =
+      command
+          .add_option("--tls-certificate", options.tls.certificate,
+                      "a PEM file, for HTTPS; `gsv certificates make` makes one")
+          ->envname("GSV_TLS_CERTIFICATE");
+  CLI::Option* key = command.add_option("--tls-key", options.tls.key, "its key, a PEM file")
+                         ->envname("GSV_TLS_KEY");
+  certificate->needs(key);
+  key->needs(certificate);
 }
 
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options) {

@@ -20,9 +20,11 @@ struct ViewerOptions {
   std::string listen = "127.0.0.1";  // an address of this machine
   std::vector<std::string> names;    // of this machine, under which the viewer may be opened
   gateway::access::Tokens tokens;
+  gateway::TlsFiles tls;
 };
 
-// Adds --port, --listen, --allow-host, --control-token and --watch-token.
+// Adds --port, --listen, --allow-host, --control-token, --watch-token, --tls-certificate and
+// --tls-key.
 void AddViewerOptions(CLI::App& command, ViewerOptions& options);
 // Adds --recordings, where simulations run.
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
@@ -35,9 +37,11 @@ base::Result<std::unique_ptr<Started>> StartViewer(
         start) {
   constexpr std::uint16_t kUsualPort = 8080;
   const bool is_given = options.port >= 0;
+  gateway.version = GSV_VERSION;
   gateway.host = options.listen;
   gateway.allowed_hosts = options.names;
   gateway.tokens = options.tokens;
+  gateway.tls = options.tls;
   gateway.port = is_given ? static_cast<std::uint16_t>(options.port) : kUsualPort;
   auto started = start(gateway);
   if (started || is_given) return started;

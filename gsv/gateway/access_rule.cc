@@ -32,16 +32,20 @@ std::string Authority(std::string_view host, std::uint16_t port) {
 
 AccessRule::AccessRule(std::string_view host, std::uint16_t port,
                        const std::vector<std::string>& more_hosts,
-                       std::vector<std::string> more_origins, bool takes_addresses)
-    : port_(port), takes_addresses_(takes_addresses), origins_(std::move(more_origins)) {
+                       std::vector<std::string> more_origins, bool takes_addresses, bool is_secure)
+    : scheme_(is_secure ? "https://" : "http://"),
+      port_(port),
+      usual_port_(is_secure ? 443 : 80),
+      takes_addresses_(takes_addresses),
+      origins_(std::move(more_origins)) {
   std::vector<std::string> names{"127.0.0.1", "localhost", "::1", std::string(host)};
   names.insert(names.end(), more_hosts.begin(), more_hosts.end());
   for (const std::string& name : names) {
     hosts_.push_back(LowerCase(Authority(name, port)));
-    // Browsers leave out the port of plain HTTP.
-    if (port == 80) hosts_.push_back(hosts_.back().substr(0, hosts_.back().rfind(':')));
+    // Browsers leave out the usual port.
+    if (port == usual_port_) hosts_.push_back(hosts_.back().substr(0, hosts_.back().rfind(':')));
   }
-  for (const std::string& allowed : hosts_) origins_.push_back("http://" + allowed);
+  for (const std::string& allowed : hosts_) origins_.push_back(scheme_ + allowed);
 }
 
 bool AccessRule::IsAddress(const std::string& authority) const {
@@ -49,7 +53,7 @@ bool AccessRule::IsAddress(const std::string& authority) const {
   std::string name = authority;
   if (name.ends_with(ending)) {
     name.resize(name.size() - ending.size());
-  } else if (port_ != 80) {
+  } else if (port_ != usual_port_) {
     return false;
   }
   if (name.starts_with('[') && name.ends_with(']')) name = name.substr(1, name.size() - 2);
@@ -63,13 +67,13 @@ base::Status AccessRule::Check(std::string_view host, std::string_view origin) c
   const bool is_address = takes_addresses_ && IsAddress(asked);
   if (!is_address && !Contains(hosts_, asked)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "the Host header is " + Quoted(host) + "; open http://" + hosts_.front() +
+                      "the Host header is " + Quoted(host) + "; open " + scheme_ + hosts_.front() +
                           "/ instead, or allow this name when you start the server");
   }
-  const bool is_own = is_address && LowerCase(origin) == "http://" + asked;
+  const bool is_own = is_address && LowerCase(origin) == scheme_ + asked;
   if (!origin.empty() && !is_own && !Contains(origins_, LowerCase(origin))) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "a page of " + Quoted(origin) + " may not use this server; open http://" +
+                      "a page of " + Quoted(origin) + " may not use this server; open " + scheme_ +
                           hosts_.front() + "/ instead, or allow this origin when you start it");
   }
   return {};

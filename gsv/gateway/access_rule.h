@@ -19,9 +19,11 @@ class AccessRule {
   // Always allowed: 127.0.0.1, localhost, [::1] and `host`, with `port`. `more_hosts` are further
   // names of this machine, without a port; `more_origins` further origins as browsers write them
   // ("https://app.example.org"). `takes_addresses`: any address is allowed as well, as it stands
-  // for no name that somebody could point here.
+  // for no name that somebody could point here. `is_secure`: pages are served by HTTPS, and only
+  // such pages are its own.
   AccessRule(std::string_view host, std::uint16_t port, const std::vector<std::string>& more_hosts,
-             std::vector<std::string> more_origins, bool takes_addresses = false);
+             std::vector<std::string> more_origins, bool takes_addresses = false,
+             bool is_secure = false);
 
   // `origin` is empty when there is no such header, as with programs other than browsers.
   base::Status Check(std::string_view host, std::string_view origin) const;
@@ -29,7 +31,8 @@ class AccessRule {
  private:
   bool IsAddress(const std::string& authority) const;
 
-  const std::uint16_t port_;
+  const std::string scheme_;  // "http://"
+  const std::uint16_t port_, usual_port_;
   const bool takes_addresses_;
   std::vector<std::string> hosts_;
   std::vector<std::string> origins_;

@@ -46,6 +46,7 @@ class ApiTest : public ::testing::Test {
 // Remembers what it was told.
 class FakeRecordings final : public RecordingSwitch {
  public:
+  Totals totals() override { return {}; }
   base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override {
     if (state.is_recording) return base::Fail(base::ErrorCode::kInvalidArgument, "it is recorded");
     state = {true, simulation->specification().name + ".mcap", 5, 1, 99};

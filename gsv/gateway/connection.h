@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include <boost/asio/ssl/context.hpp>
+
 #include "gsv/gateway/access_rule.h"
 #include "gsv/gateway/server.h"
 
@@ -15,8 +17,9 @@ struct ServerContext {
   AccessRule access;
   access::TokenRule tokens;
   Handler& handler;
-  std::atomic<std::size_t> connections{0};
-  std::atomic<std::size_t> uploads{0};  // that are being read, into memory
+  const std::shared_ptr<metrics::Traffic> traffic;
+  const std::shared_ptr<boost::asio::ssl::context> tls;  // null: plain HTTP
+  std::atomic<std::size_t> uploads{0};                   // that are being read, into memory
   std::atomic<bool> stopping{false};
 };
 
@@ -32,9 +35,9 @@ struct Ticket {
 class ConnectionSlot {
  public:
   explicit ConnectionSlot(std::shared_ptr<ServerContext> context) : context_(std::move(context)) {
-    ++context_->connections;
+    ++context_->traffic->connections;
   }
-  ~ConnectionSlot() { --context_->connections; }
+  ~ConnectionSlot() { --context_->traffic->connections; }
   ConnectionSlot(const ConnectionSlot&) = delete;
   ConnectionSlot& operator=(const ConnectionSlot&) = delete;
 
@@ -47,9 +50,9 @@ class UploadSlot {
  public:
   // Null: there is none.
   static std::unique_ptr<UploadSlot> Take(std::shared_ptr<ServerContext> context) {
-    constexpr std::size_t kMostUploads = 4;
+    const std::size_t most = context->options.limits.uploads_at_once;
     auto slot = std::unique_ptr<UploadSlot>(new UploadSlot(std::move(context)));
-    return slot->number_ <= kMostUploads ? std::move(slot) : nullptr;
+    return slot->number_ <= most ? std::move(slot) : nullptr;
   }
   ~UploadSlot() { --context_->uploads; }
   UploadSlot(const UploadSlot&) = delete;

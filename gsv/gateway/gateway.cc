@@ -33,15 +33,18 @@ class LocalGateway final : public Gateway, private Handler {
              !options.recordings_folder.empty()),
         pages_(options.pages),
         takes_uploads_(options.factory != nullptr),
+        uploads_(options.uploads),
+        monitor_({options.version, directory.get(), options.recordings, options.broker_calls}),
         publisher_(std::move(directory), watchers_, commanders_, options.recordings) {
     if (!options.recordings_folder.empty()) {
-      replays_.emplace(options.recordings_folder, options.only_recording);
+      replays_.emplace(options.recordings_folder, options.only_recording, options.replays);
     }
   }
 
   ~LocalGateway() override { Stop(); }
 
-  base::Status Open(const ServerOptions& options) {
+  base::Status Open(ServerOptions options) {
+    options.traffic = monitor_.traffic();
     base::Result<std::unique_ptr<Server>> server = Server::Start(options, *this);
     if (!server) return base::Fail(server.error());
     server_ = std::move(*server);
@@ -74,6 +77,7 @@ class LocalGateway final : public Gateway, private Handler {
 
   Response Answer(const Request& request) {
     const std::vector<std::string>& path = request.target.segments;
+    if (auto answer = monitor_.Answer(request)) return *std::move(answer);
     if (path.size() > 1 && path[0] == "api") {
       if (const auto page = pages_.find(path[1]); page != pages_.end())
         return page->second(request);
@@ -93,7 +97,6 @@ class LocalGateway final : public Gateway, private Handler {
     if (path == std::vector<std::string>{"ws"}) {
       return ErrorResponse(426, "this address is for WebSockets that speak foxglove.sdk.v1");
     }
-    if (path == std::vector<std::string>{"healthz"}) return JsonResponse(200, R"({"ok":true})");
     return files_.Get(request);
   }
 
@@ -126,6 +129,7 @@ class LocalGateway final : public Gateway, private Handler {
   const std::map<std::string, std::function<Response(const Request&)>> pages_;
   const bool takes_uploads_;
   uploads::UploadsApi uploads_;
+  const metrics::Monitor monitor_;
   WorkerPool readers_{2, kWaitingRequests};
   WorkerPool commanders_{2, kWaitingRequests};
   WorkerPool watchers_{2, kWaitingReadings};

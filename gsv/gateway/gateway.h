@@ -11,13 +11,19 @@
 #include <string>
 
 #include "gsv/gateway/http.h"
+#include "gsv/gateway/metrics/metrics_page.h"
 #include "gsv/gateway/ports.h"
+#include "gsv/gateway/recordings/replay_sessions.h"
 #include "gsv/gateway/server.h"
 #include "gsv/gateway/simulation_factory.h"
+#include "gsv/gateway/uploads/upload_folder.h"
 
 namespace gsv::gateway {
 
 struct GatewayOptions : ServerOptions {
+  std::string version;  // of the program, for /metrics
+  // Null: /metrics says nothing of the broker.
+  std::function<metrics::BrokerCalls()> broker_calls{};
   std::filesystem::path web_root;  // the viewer's files; may be absent
   // Null: nothing is recorded. Outlives the gateway.
   RecordingSwitch* recordings = nullptr;
@@ -26,6 +32,8 @@ struct GatewayOptions : ServerOptions {
   // The folder whose recordings can be listed and replayed here; empty: none can.
   std::filesystem::path recordings_folder{};
   std::string only_recording{};  // of those in the folder; empty: all
+  uploads::UploadLimits uploads{};
+  recordings::SessionLimits replays{};
   // By NAME: who answers what is at and below /api/NAME.
   std::map<std::string, std::function<Response(const Request&)>> pages{};
 };

@@ -2,10 +2,12 @@
 
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <boost/asio/dispatch.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -50,6 +52,9 @@ std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
 // For one file to arrive.
 constexpr std::chrono::minutes kUploadTime{5};
 
+// For a client to begin TLS, and for one to take leave.
+constexpr std::chrono::seconds kHandshakeTime{10}, kLeaveTime{1};
+
 // "/ws", and for a replay of one's own "/replays/NAME/ws".
 bool IsSocket(const Target& target) {
   const std::vector<std::string>& path = target.segments;
@@ -57,37 +62,68 @@ bool IsSocket(const Target& target) {
   return is_place && path.back() == "ws";
 }
 
-class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
+std::string PathOf(const Target& target) {
+  std::string path;
+  for (const std::string& segment : target.segments) path += "/" + segment;
+  return path.empty() ? "/" : path;
+}
+
+using KeepTrack = std::function<void(std::weak_ptr<Connection>)>;
+
+template <typename Stream>
+class HttpSession final : public Connection,
+                          public std::enable_shared_from_this<HttpSession<Stream>> {
  public:
-  HttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
-              std::unique_ptr<ConnectionSlot> slot,
-              std::function<void(std::weak_ptr<Connection>)> keep_track)
-      : stream_(std::move(socket)),
+  // `buffer`: what has been read already.
+  HttpSession(Stream stream, beast::flat_buffer buffer, std::shared_ptr<ServerContext> context,
+              std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
+      : stream_(std::move(stream)),
+        buffer_(std::move(buffer)),
         context_(std::move(context)),
         slot_(std::move(slot)),
         keep_track_(std::move(keep_track)) {}
+
+  void Begin() {
+    if constexpr (kIsTls) {
+      tcp().expires_after(kHandshakeTime);
+      is_idle_ = true;
+      stream_.async_handshake(
+          boost::asio::ssl::stream_base::server, buffer_.data(),
+          [self = this->shared_from_this()](error_code error, std::size_t used) {
+            self->is_idle_ = false;
+            if (error) return self->tcp().close();
+            self->buffer_.consume(used);
+            self->Read();
+          });
+    } else {
+      Read();
+    }
+  }
 
   void Read() {
     parser_.emplace();
     parser_->header_limit(limits().header_bytes);
     // OnHeader() limits it. Boost 1.74 takes boost::none for zero.
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
-    stream_.expires_after(limits().request_time);
+    tcp().expires_after(limits().request_time);
     is_idle_ = true;
     http::async_read_header(stream_, buffer_, *parser_,
-                            [self = shared_from_this()](error_code error, std::size_t) {
+                            [self = this->shared_from_this()](error_code error, std::size_t) {
                               self->is_idle_ = false;
                               self->OnHeader(error);
                             });
   }
 
   void Shutdown() override {
-    if (is_idle_) stream_.close();
+    if (is_idle_) tcp().close();
   }
 
-  void Cut() override { stream_.close(); }
+  void Cut() override { tcp().close(); }
 
  private:
+  static constexpr bool kIsTls = std::is_same_v<Stream, TlsStream>;
+
+  beast::tcp_stream& tcp() { return beast::get_lowest_layer(stream_); }
   const ServerLimits& limits() const { return context_->options.limits; }
 
   // What is too long, or not for who sends it, is refused before it is read.
@@ -97,7 +133,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     version_ = request.version();
     const base::Result<Target> target = ParseTarget(View(request.target()));
     const bool is_upload = target && uploads::IsUpload(*target);
-    body_limit_ = is_upload ? uploads::kLargestUpload : limits().body_bytes;
+    body_limit_ = is_upload ? limits().upload_bytes : limits().body_bytes;
     if (parser_->content_length().value_or(0) > body_limit_) {
       return Complain(make_error_code(http::error::body_limit));
     }
@@ -112,11 +148,12 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
         keep_alive_ = false;
         return Write(ErrorResponse(503, "others are uploading files; try again in a moment"));
       }
-      stream_.expires_after(kUploadTime);
+      tcp().expires_after(kUploadTime);
     }
-    http::async_read(
-        stream_, buffer_, *parser_,
-        [self = shared_from_this()](error_code failed, std::size_t) { self->OnRead(failed); });
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = this->shared_from_this()](error_code failed, std::size_t) {
+                       self->OnRead(failed);
+                     });
   }
 
   void Complain(error_code error) {
@@ -134,7 +171,10 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     is_head_ = request.method() == http::verb::head;
     const base::Status allowed = context_->access.Check(View(request[http::field::host]),
                                                         View(request[http::field::origin]));
-    if (!allowed) return Write(ErrorResponse(403, allowed.error().Sentence()));
+    if (!allowed) {
+      spdlog::info("refused a request: {}", allowed.error().Sentence());
+      return Write(ErrorResponse(403, allowed.error().Sentence()));
+    }
     base::Result<Target> target = ParseTarget(View(request.target()));
     if (!target) return Write(ErrorResponse(target.error()));
     if (std::optional<Response> refusal = Refusal(*target)) return Write(std::move(*refusal));
@@ -166,8 +206,11 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     if (need.right == access::Right::kNone) return std::nullopt;
     const Ticket ticket = TicketFor(target);
     if (ticket.right < need.right) {
-      return ErrorResponse(ticket.shows_token ? 403 : 401,
-                           context_->tokens.Refusal(ticket.shows_token, ticket.right, need.right));
+      const std::string why =
+          context_->tokens.Refusal(ticket.shows_token, ticket.right, need.right);
+      // The path alone: a query may hold a token.
+      spdlog::info("refused {} {}: {}", View(parser_->get().method_string()), PathOf(target), why);
+      return ErrorResponse(ticket.shows_token ? 403 : 401, why);
     }
     if (!need.acts) return std::nullopt;
     const base::Status may = context_->handler.MayAct(ticket.viewer);
@@ -185,8 +228,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     request.if_none_match = Text(message, http::field::if_none_match);
     request.viewer = std::string(View(message["Gsv-Viewer"]));
     upload_.reset();
-    stream_.expires_never();  // whoever answers has limits of their own
-    context_->handler.Handle(std::move(request), [self = shared_from_this()](
+    tcp().expires_never();  // whoever answers has limits of their own
+    context_->handler.Handle(std::move(request), [self = this->shared_from_this()](
                                                      Response response) mutable {
       auto executor = self->stream_.get_executor();
       boost::asio::post(executor, [self = std::move(self), answer = std::move(response)]() mutable {
@@ -208,14 +251,15 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     }
     base::Result<std::shared_ptr<Hub>> hub = context_->handler.FindHub(target);
     if (!hub) return Write(ErrorResponse(hub.error()));
-    stream_.expires_never();
+    tcp().expires_never();
     Ticket ticket = TicketFor(target);
-    keep_track_(StartWebSocketSession(stream_.release_socket(), parser_->release(), subprotocol,
+    keep_track_(StartWebSocketSession(std::move(stream_), parser_->release(), subprotocol,
                                       std::move(*hub), context_, std::move(slot_),
                                       std::move(ticket)));
   }
 
   void Write(Response response) {
+    ++context_->traffic->answers.at(static_cast<std::size_t>(response.status / 100));
     keep_alive_ = keep_alive_ && !context_->stopping;
     if (is_head_ || response.status == 304) {
       http::response<http::empty_body> message = Header<http::empty_body>(response);
@@ -250,24 +294,106 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   template <typename Body>
   void Send(http::response<Body> response, SharedBytes bytes) {
     auto message = std::make_shared<http::response<Body>>(std::move(response));
-    stream_.expires_after(limits().request_time);
-    http::async_write(stream_, *message,
-                      [self = shared_from_this(), message, bytes](error_code error, std::size_t) {
-                        self->OnWritten(error);
-                      });
+    tcp().expires_after(limits().request_time);
+    http::async_write(
+        stream_, *message,
+        [self = this->shared_from_this(), message, bytes](error_code error, std::size_t length) {
+          self->context_->traffic->sent_bytes += length;
+          self->OnWritten(error);
+        });
   }
 
   void OnWritten(error_code error) {
     if (error) return;
     if (keep_alive_ && !context_->stopping) return Read();
-    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, error);
+    if constexpr (kIsTls) {
+      tcp().expires_after(kLeaveTime);
+      stream_.async_shutdown([self = this->shared_from_this()](error_code) { self->HangUp(); });
+    } else {
+      HangUp();
+    }
+  }
+
+  void HangUp() {
+    error_code ignored;
+    tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
     Drain();
   }
 
   // Takes what the client still sends, so that closing does not destroy our answer on its way.
   void Drain() {
     is_idle_ = true;
-    stream_.expires_after(std::chrono::seconds(1));
+    tcp().expires_after(kLeaveTime);
+    buffer_.clear();
+    tcp().async_read_some(buffer_.prepare(4096),
+                          [self = this->shared_from_this()](error_code error, std::size_t) {
+                            if (!error) self->Drain();
+                          });
+  }
+
+  Stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  std::shared_ptr<ServerContext> context_;
+  std::unique_ptr<ConnectionSlot> slot_;
+  KeepTrack keep_track_;
+  std::unique_ptr<UploadSlot> upload_;  // while one is read
+  std::uint64_t body_limit_ = 0;
+  unsigned version_ = 11;
+  bool keep_alive_ = false;
+  bool is_head_ = false;
+  bool is_idle_ = false;  // waits for bytes that may never come
+};
+
+// Looks at a connection's first bytes: TLS goes on by TLS; who speaks plain HTTP is told where to
+// go, and nothing else.
+class TlsDoor final : public Connection, public std::enable_shared_from_this<TlsDoor> {
+ public:
+  TlsDoor(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+          std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
+      : stream_(std::move(socket)),
+        context_(std::move(context)),
+        slot_(std::move(slot)),
+        keep_track_(std::move(keep_track)) {}
+
+  void Open() {
+    stream_.expires_after(kHandshakeTime);
+    beast::async_detect_ssl(stream_, buffer_,
+                            [self = shared_from_this()](error_code error, bool is_tls) {
+                              if (error) return self->stream_.close();
+                              is_tls ? self->LetIn() : self->TurnAway();
+                            });
+  }
+
+  void Shutdown() override { stream_.close(); }
+  void Cut() override { stream_.close(); }
+
+ private:
+  void LetIn() {
+    stream_.expires_never();
+    const auto session = std::make_shared<HttpSession<TlsStream>>(
+        TlsStream(beast::tcp_stream(stream_.release_socket()), *context_->tls), std::move(buffer_),
+        context_, std::move(slot_), keep_track_);
+    keep_track_(session);
+    session->Begin();
+  }
+
+  void TurnAway() {
+    static constexpr std::string_view kAnswer =
+        "HTTP/1.1 400 Bad Request\r\nConnection: close\r\nContent-Type: application/json\r\n\r\n"
+        "{\"error\":\"this server speaks HTTPS only; open the address with https://\"}";
+    boost::asio::async_write(stream_, boost::asio::buffer(kAnswer.data(), kAnswer.size()),
+                             [self = shared_from_this()](error_code error, std::size_t) {
+                               if (error) return;
+                               self->stream_.socket().shutdown(
+                                   boost::asio::ip::tcp::socket::shutdown_send, error);
+                               self->Drain();
+                             });
+  }
+
+  // As HttpSession does.
+  void Drain() {
+    stream_.expires_after(kLeaveTime);
     buffer_.clear();
     stream_.async_read_some(buffer_.prepare(4096),
                             [self = shared_from_this()](error_code error, std::size_t) {
@@ -277,16 +403,9 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
-  std::optional<http::request_parser<http::string_body>> parser_;
-  std::shared_ptr<ServerContext> context_;
+  const std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
-  std::function<void(std::weak_ptr<Connection>)> keep_track_;
-  std::unique_ptr<UploadSlot> upload_;  // while one is read
-  std::uint64_t body_limit_ = 0;
-  unsigned version_ = 11;
-  bool keep_alive_ = false;
-  bool is_head_ = false;
-  bool is_idle_ = false;  // waits for bytes that may never come
+  const KeepTrack keep_track_;
 };
 
 }  // namespace
@@ -294,10 +413,17 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
                       std::unique_ptr<ConnectionSlot> slot,
                       std::function<void(std::weak_ptr<Connection>)> keep_track) {
-  const auto session = std::make_shared<HttpSession>(std::move(socket), std::move(context),
-                                                     std::move(slot), keep_track);
+  if (context->tls != nullptr) {
+    const auto door = std::make_shared<TlsDoor>(std::move(socket), std::move(context),
+                                                std::move(slot), keep_track);
+    keep_track(door);
+    return door->Open();
+  }
+  const auto session = std::make_shared<HttpSession<PlainStream>>(
+      PlainStream(std::move(socket)), beast::flat_buffer(), std::move(context), std::move(slot),
+      keep_track);
   keep_track(session);
-  session->Read();
+  session->Begin();
 }
 
 }  // namespace gsv::gateway

@@ -11,7 +11,8 @@
 
 namespace gsv::gateway {
 
-// Starts to serve `socket`. `keep_track` is told of this session and of the one that replaces it.
+// Starts to serve `socket`, by TLS where the context says so. `keep_track` is told of this session
+// and of the one that replaces it.
 void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
                       std::unique_ptr<ConnectionSlot> slot,
                       std::function<void(std::weak_ptr<Connection>)> keep_track);

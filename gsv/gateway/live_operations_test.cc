@@ -16,6 +16,7 @@ using testing::ScriptedSimulation;
 // Keeps what it is told; one recording, /tmp/arena.mcap.
 class OneRecording final : public RecordingSwitch {
  public:
+  Totals totals() override { return {}; }
   base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override {
     if (is_recording_) {
       return base::Fail(base::ErrorCode::kInvalidArgument, "it is being recorded");

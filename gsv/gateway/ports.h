@@ -1,6 +1,7 @@
 // What the gateway needs from the program around it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,12 @@ class RecordingSwitch {
   virtual base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) = 0;
   virtual base::Status StopRecording(const std::string& simulation) = 0;
   virtual State RecordingOf(const std::string& simulation) = 0;
+
+  // Of all recordings since this process started.
+  struct Totals {
+    std::uint64_t under_way = 0, messages = 0, dropped = 0, bytes = 0;
+  };
+  virtual Totals totals() = 0;
 };
 
 }  // namespace gsv::gateway

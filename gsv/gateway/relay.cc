@@ -25,11 +25,12 @@ constexpr std::chrono::seconds kRequestTime{60};
 class LocalRelay final : public Relay, private Handler {
  public:
   LocalRelay(const GatewayOptions& options, upstream::Address address)
-      : address_(std::move(address)), files_(options.web_root) {}
+      : address_(std::move(address)), files_(options.web_root), monitor_({options.version}) {}
 
   ~LocalRelay() override { Stop(); }
 
-  base::Status Open(const ServerOptions& options) {
+  base::Status Open(ServerOptions options) {
+    options.traffic = monitor_.traffic();
     if (base::Status answered = Probe(); !answered) return answered;
     base::Result<std::unique_ptr<Server>> server = Server::Start(options, *this);
     if (!server) return base::Fail(server.error());
@@ -83,12 +84,12 @@ class LocalRelay final : public Relay, private Handler {
 
   Response Answer(const Request& request) const {
     const std::vector<std::string>& path = request.target.segments;
+    if (auto answer = monitor_.Answer(request)) return *std::move(answer);
     if (!path.empty() && (path[0] == "api" || path[0] == "replays")) {
       base::Result<Response> answer = upstream::Fetch(address_, request, kRequestTime);
       return answer ? *answer : ErrorResponse(answer.error());
     }
     if (request.method != "GET") return MethodNotAllowed("GET");
-    if (path == std::vector<std::string>{"healthz"}) return JsonResponse(200, R"({"ok":true})");
     return files_.Get(request);
   }
 
@@ -115,6 +116,7 @@ class LocalRelay final : public Relay, private Handler {
 
   const upstream::Address address_;
   StaticFiles files_;
+  const metrics::Monitor monitor_;
   boost::asio::io_context io_{1};
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};

@@ -17,15 +17,19 @@ constexpr std::size_t kWaitingRequests = 256;
 class LocalReplayGateway final : public ReplayGateway, private Handler {
  public:
   LocalReplayGateway(const GatewayOptions& options, ReplayPlayer& player)
-      : player_(player), files_(options.web_root), api_(player, options.only_recording) {
+      : player_(player),
+        files_(options.web_root),
+        api_(player, options.only_recording),
+        monitor_({options.version}) {
     if (!options.recordings_folder.empty()) {
-      replays_.emplace(options.recordings_folder, options.only_recording);
+      replays_.emplace(options.recordings_folder, options.only_recording, options.replays);
     }
   }
 
   ~LocalReplayGateway() override { Stop(); }
 
-  base::Status Open(const ServerOptions& options) {
+  base::Status Open(ServerOptions options) {
+    options.traffic = monitor_.traffic();
     base::Result<std::unique_ptr<Server>> server = Server::Start(options, *this);
     if (!server) return base::Fail(server.error());
     server_ = std::move(*server);
@@ -51,6 +55,7 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
 
   Response Answer(const Request& request) {
     const std::vector<std::string>& path = request.target.segments;
+    if (auto answer = monitor_.Answer(request)) return *std::move(answer);
     if (path.size() > 1 && path[0] == "api" && path[1] == "viewers")
       return viewers_.Handle(request);
     if (replays_ && path.size() > 1 && path[0] == "api" && path[1] == "recordings") {
@@ -64,7 +69,6 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
     if (path == std::vector<std::string>{"ws"}) {
       return ErrorResponse(426, "this address is for WebSockets that speak foxglove.sdk.v1");
     }
-    if (path == std::vector<std::string>{"healthz"}) return JsonResponse(200, R"({"ok":true})");
     return files_.Get(request);
   }
 
@@ -86,6 +90,7 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
   ReplayApi api_;
   access::ViewersApi viewers_;
   std::optional<recordings::RecordingsApi> replays_;
+  const metrics::Monitor monitor_;
   WorkerPool workers_{2, kWaitingRequests};
   std::unique_ptr<Server> server_;
 };

@@ -12,16 +12,19 @@ bool SendQueue::PushControl(SharedBytes message, bool is_text) {
   return true;
 }
 
-void SendQueue::PushData(const foxglove::BinaryHeader& header, SharedBytes payload) {
+std::size_t SendQueue::PushData(const foxglove::BinaryHeader& header, SharedBytes payload) {
   Outgoing message{false, true, header, std::move(payload)};
   const std::lock_guard lock(mutex_);
+  std::size_t dropped = 0;
   while (!data_.empty() && (data_.size() >= limits_.data_messages ||
                             data_bytes_ + message.size() > limits_.data_bytes)) {
     Take(data_, data_bytes_);
-    ++dropped_;
+    ++dropped;
   }
+  dropped_ += dropped;
   data_bytes_ += message.size();
   data_.push_back(std::move(message));
+  return dropped;
 }
 
 std::optional<Outgoing> SendQueue::Pop() {

@@ -38,8 +38,8 @@ class SendQueue {
 
   // False: too much waits already; the message was not queued.
   [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
-  // The newest message is always kept, however large it is.
-  void PushData(const foxglove::BinaryHeader& header, SharedBytes payload);
+  // The newest message is always kept, however large it is. Gives how many older ones were dropped.
+  std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload);
   // The next to be written: control before data, each in the order it came.
   std::optional<Outgoing> Pop();
 

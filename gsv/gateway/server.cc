@@ -13,6 +13,7 @@
 
 #include "gsv/base/log.h"
 #include "gsv/gateway/http_session.h"
+#include "gsv/gateway/tls_context.h"
 
 namespace gsv::gateway {
 namespace {
@@ -84,6 +85,7 @@ class BeastServer final : public Server {
  public:
   BeastServer(const ServerOptions& options, Handler& handler) : acceptor_(io_), pause_(io_) {
     options_ = options;
+    if (options_.traffic == nullptr) options_.traffic = std::make_shared<metrics::Traffic>();
     name_ = options.host;
     handler_ = &handler;
   }
@@ -95,6 +97,11 @@ class BeastServer final : public Server {
     if (!endpoint) return base::Fail(endpoint.error());
     const asio::ip::address address = endpoint->address();
     if (!address.is_loopback() && options_.tokens.empty()) return base::Fail(NeedsToken(options_));
+    if (!options_.tls.empty()) {
+      auto tls = MakeTlsContext(options_.tls);
+      if (!tls) return base::Fail(tls.error());
+      tls_ = *std::move(tls);
+    }
     if (address.is_unspecified()) name_ = asio::ip::host_name();
     if (base::Status listening = Listen(acceptor_, *endpoint, options_); !listening) {
       return listening;
@@ -103,8 +110,9 @@ class BeastServer final : public Server {
     context_ = std::shared_ptr<ServerContext>(
         new ServerContext{options_,
                           AccessRule(name_, port_, options_.allowed_hosts, options_.allowed_origins,
-                                     address.is_unspecified()),
-                          access::TokenRule(options_.tokens, !address.is_loopback()), *handler_});
+                                     address.is_unspecified(), tls_ != nullptr),
+                          access::TokenRule(options_.tokens, !address.is_loopback()), *handler_,
+                          options_.traffic, tls_});
     Accept();
     thread_ = std::thread([this] {
       io_.run();
@@ -114,7 +122,9 @@ class BeastServer final : public Server {
   }
 
   std::uint16_t port() const override { return port_; }
-  std::string url() const override { return "http://" + Authority(name_, port_) + "/"; }
+  std::string url() const override {
+    return (tls_ ? "https://" : "http://") + Authority(name_, port_) + "/";
+  }
 
   void Stop() override {
     if (!thread_.joinable()) return;
@@ -146,7 +156,10 @@ class BeastServer final : public Server {
   }
 
   void Serve(tcp::socket socket) {
-    if (context_->connections >= options_.limits.connections) return TurnAway(socket);
+    if (options_.traffic->connections >= options_.limits.connections) {
+      ++options_.traffic->turned_away;
+      return TurnAway(socket);
+    }
     error_code ignored;
     socket.set_option(tcp::no_delay(true), ignored);
     std::erase_if(connections_, [](const auto& connection) { return connection.expired(); });
@@ -167,6 +180,7 @@ class BeastServer final : public Server {
   }
 
   ServerOptions options_;
+  std::shared_ptr<asio::ssl::context> tls_;
   std::string name_;  // under which others reach it
   Handler* handler_ = nullptr;
   std::shared_ptr<ServerContext> context_;

@@ -1,4 +1,5 @@
-// Listens on one port; speaks HTTP and WebSocket with those who connect.
+// Listens on one port; speaks HTTP and WebSocket with those who connect, over TLS if it has a
+// certificate.
 //
 // Threads   one thread serves all connections and never waits for anybody. A Handler is called on
 //           it and returns at once.
@@ -17,6 +18,7 @@
 #include "gsv/gateway/access/token_rule.h"
 #include "gsv/gateway/http.h"
 #include "gsv/gateway/hub.h"
+#include "gsv/gateway/metrics/traffic.h"
 #include "gsv/gateway/send_queue.h"
 
 namespace gsv::gateway {
@@ -25,10 +27,19 @@ struct ServerLimits {
   std::size_t connections = 256;
   std::uint32_t header_bytes = 16u << 10;
   std::uint64_t body_bytes = 64u << 10;
+  std::uint64_t upload_bytes = 64u << 20;          // of one file
+  std::size_t uploads_at_once = 4;                 // each in memory until it is there
   std::size_t message_bytes = 256u << 10;          // of one WebSocket message from a client
   std::chrono::milliseconds request_time{30'000};  // to send a request, or to take its answer
   std::chrono::milliseconds idle_time{60'000};  // a viewer that answers no ping for so long is gone
   SendLimits send;
+};
+
+// PEM files. Both or none.
+struct TlsFiles {
+  std::string certificate, key;  // with the certificates that lead to the authority's; the key
+
+  bool empty() const { return certificate.empty() && key.empty(); }
 };
 
 struct ServerOptions {
@@ -38,7 +49,9 @@ struct ServerOptions {
   std::vector<std::string> allowed_origins;
   // Without one of them nobody is served who comes from another machine.
   access::Tokens tokens;
+  TlsFiles tls{};  // empty: plain HTTP
   ServerLimits limits;
+  std::shared_ptr<metrics::Traffic> traffic{};  // where it is counted; null: nowhere that is seen
 };
 
 class Handler {
@@ -54,8 +67,8 @@ class Handler {
 
 class Server {
  public:
-  // `handler` outlives the server. Fails when the port cannot be had, and with kInvalidArgument
-  // when other machines could reach it and it has no token.
+  // `handler` outlives the server. Fails when the port cannot be had or the certificate cannot be
+  // used, and with kInvalidArgument when other machines could reach it and it has no token.
   static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options,
                                                      Handler& handler);
   virtual ~Server() = default;

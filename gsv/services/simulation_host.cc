@@ -11,10 +11,11 @@ base::Result<std::string> SimulationHost::FreeName(std::string wanted) const {
     return std::any_of(simulations_.begin(), simulations_.end(),
                        [&](const auto& s) { return s->specification().name == name; });
   };
-  if (simulations_.size() >= kMaxSimulations) {
+  if (simulations_.size() >= most_simulations_) {
     return base::Fail(base::ErrorCode::kUnavailable, "this server already runs " +
-                                                         std::to_string(kMaxSimulations) +
-                                                         " simulations; destroy one first");
+                                                         std::to_string(most_simulations_) +
+                                                         " simulations; destroy one first, or "
+                                                         "raise --limit simulations");
   }
   if (!wanted.empty()) {
     if (wanted.size() > 128 || wanted.find('/') != std::string::npos) {

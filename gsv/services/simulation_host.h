@@ -15,14 +15,17 @@
 
 namespace gsv::services {
 
-// At most this many simulations at once in one process.
-inline constexpr std::size_t kMaxSimulations = 64;
+// So many simulations at once in one process, if nothing else is said.
+inline constexpr std::size_t kUsualMostSimulations = 64;
 
 class SimulationHost {
  public:
   SimulationHost(std::shared_ptr<const sensing::SensorRegistry> sensors,
-                 std::shared_ptr<formats::ModelLibrary> library)
-      : sensors_(std::move(sensors)), library_(std::move(library)) {}
+                 std::shared_ptr<formats::ModelLibrary> library,
+                 std::size_t most_simulations = kUsualMostSimulations)
+      : sensors_(std::move(sensors)),
+        library_(std::move(library)),
+        most_simulations_(most_simulations) {}
 
   // Reads the world, unless `specification.world` is given, and creates a simulation of it. An
   // empty name is chosen, a taken one is an error. What the files lack is added to `problems`.
@@ -47,6 +50,7 @@ class SimulationHost {
 
   const std::shared_ptr<const sensing::SensorRegistry> sensors_;
   const std::shared_ptr<formats::ModelLibrary> library_;
+  const std::size_t most_simulations_;
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<simulation::Simulation>> simulations_;
 };

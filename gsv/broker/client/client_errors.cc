@@ -174,7 +174,13 @@ Error OfSystem(const std::string& where) {
 
 }  // namespace
 
+CallCounts& ProcessCallCounts() {
+  static CallCounts counts;
+  return counts;
+}
+
 base::Error ErrorOfCurrentException(const std::string& where) {
+  ++ProcessCallCounts().failed;
   try {
     try {
       throw;

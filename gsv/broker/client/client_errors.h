@@ -1,6 +1,8 @@
 // What a broker raises, as sentences.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <string>
 
 #include <omniORB4/CORBA.h>
@@ -13,9 +15,16 @@ namespace gsv::broker {
 // `where` is the broker's address.
 base::Error ErrorOfCurrentException(const std::string& where);
 
+// Calls made by this process so far, and how many of them failed. Any thread.
+struct CallCounts {
+  std::atomic<std::uint64_t> made{0}, failed{0};
+};
+CallCounts& ProcessCallCounts();
+
 // Runs `call` and turns what it throws into an error. Errors that it returns pass.
 template <typename Call>
 auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
+  ++ProcessCallCounts().made;
   try {
     return call();
   } catch (const CORBA::Exception&) {
@@ -27,6 +36,7 @@ auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
 // when it uses the old connection, which fails once.
 template <typename Call>
 auto GuardedRepeatable(const std::string& where, const Call& call) -> decltype(call()) {
+  ++ProcessCallCounts().made;
   try {
     return call();
   } catch (const CORBA::COMM_FAILURE&) {

@@ -5,7 +5,7 @@ namespace gsv::gateway::access {
 Need NeedOf(std::string_view method, const Target& target) {
   const std::vector<std::string>& path = target.segments;
   const std::string place = path.empty() ? "" : path[0];
-  if (place == "ws" || place == "replays") return {Right::kWatch};
+  if (place == "ws" || place == "replays" || place == "metrics") return {Right::kWatch};
   if (place != "api") return {Right::kNone};
   if (method == "GET" || method == "HEAD") return {Right::kWatch};
   const std::string what = path.size() < 2 ? "" : path[1];

@@ -13,8 +13,9 @@ namespace gsv::gateway::recordings {
 
 class RecordingsApi {
  public:
-  explicit RecordingsApi(std::filesystem::path folder, std::string only = {})
-      : folder_(std::move(folder), std::move(only)) {}
+  explicit RecordingsApi(std::filesystem::path folder, std::string only = {},
+                         const SessionLimits& limits = {})
+      : folder_(std::move(folder), std::move(only)), sessions_(limits) {}
 
   // `request.target` begins with "api", "recordings".
   Response Handle(const Request& request);

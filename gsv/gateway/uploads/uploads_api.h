@@ -10,13 +10,12 @@
 
 namespace gsv::gateway::uploads {
 
-// Of one file. The server refuses what is longer before it has read it.
-inline constexpr std::uint64_t kLargestUpload = std::uint64_t{64} << 20;
-
 bool IsUpload(const Target& target);
 
 class UploadsApi {
  public:
+  explicit UploadsApi(const UploadLimits& limits = {}) : folder_(limits) {}
+
   // `request.target` begins with "api", "uploads".
   Response Handle(const Request& request);
 

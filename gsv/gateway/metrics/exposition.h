@@ -1,0 +1,44 @@
+// Numbers for a monitoring system, as text.
+//
+// Format  Prometheus' text format 0.0.4
+//         (https://prometheus.io/docs/instrumenting/exposition_formats/).
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace gsv::gateway::metrics {
+
+class Exposition {
+ public:
+  enum class Kind { kCounter, kGauge };
+  struct Label {
+    std::string_view name, value;
+  };
+
+  // The samples that follow are of this name, which occurs once.
+  void Begin(std::string_view name, Kind kind, std::string_view help);
+  void Add(double value, std::initializer_list<Label> labels = {});
+  void Add(std::uint64_t value, std::initializer_list<Label> labels = {});
+
+  // A family of one sample.
+  template <typename Number>
+  void Put(std::string_view name, Kind kind, std::string_view help, Number value) {
+    Begin(name, kind, help);
+    Add(value);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  void Line(std::initializer_list<Label> labels, const std::string& value);
+
+  std::string name_;
+  std::string text_;
+};
+
+inline constexpr std::string_view kContentType = "text/plain; version=0.0.4; charset=utf-8";
+
+}  // namespace gsv::gateway::metrics

@@ -1,0 +1,127 @@
+#include "gsv/gateway/metrics/metrics_page.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "gsv/base/log.h"
+#include "gsv/gateway/metrics/exposition.h"
+#include "gsv/gateway/metrics/process_usage.h"
+#include "gsv/simulation/totals.h"
+
+namespace gsv::gateway::metrics {
+namespace {
+
+using simulation::Phase;
+constexpr auto kCounter = Exposition::Kind::kCounter;
+constexpr auto kGauge = Exposition::Kind::kGauge;
+
+constexpr std::array kPhases{Phase::kCreated, Phase::kStarting, Phase::kRunning, Phase::kPaused,
+                             Phase::kStopped, Phase::kFinished, Phase::kFailed};
+
+void PutSimulations(SimulationDirectory& directory, Exposition& out) {
+  std::array<std::uint64_t, kPhases.size()> by_phase{};
+  std::uint64_t robots = 0;
+  std::vector<double> factors;
+  for (const auto& each : directory.List()) {
+    const simulation::SimulationStatus status = each->status();
+    ++by_phase[static_cast<std::size_t>(status.phase)];
+    robots += status.robots.size();
+    if (status.phase == Phase::kRunning) factors.push_back(status.real_time_factor);
+  }
+  out.Begin("gsv_simulations", kGauge, "Simulations that there are, by phase.");
+  for (const Phase phase : kPhases) {
+    out.Add(by_phase[static_cast<std::size_t>(phase)], {{"phase", ToString(phase)}});
+  }
+  out.Put("gsv_robots", kGauge, "Robots and avatars of all simulations.", robots);
+  out.Begin(
+      "gsv_real_time_factor", kGauge,
+      "Simulated seconds a second, of the simulations that run: the slowest and the fastest.");
+  if (!factors.empty()) {
+    out.Add(*std::min_element(factors.begin(), factors.end()), {{"of", "slowest"}});
+    out.Add(*std::max_element(factors.begin(), factors.end()), {{"of", "fastest"}});
+  }
+  const simulation::Totals& totals = simulation::ProcessTotals();
+  out.Put("gsv_steps_total", kCounter, "Steps taken by all simulations.", totals.steps.load());
+  out.Put("gsv_late_steps_total", kCounter,
+          "Steps in real time that began a step's length or more too late.",
+          totals.late_steps.load());
+}
+
+void PutRecordings(RecordingSwitch& recordings, Exposition& out) {
+  const RecordingSwitch::Totals totals = recordings.totals();
+  out.Put("gsv_recordings", kGauge, "Recordings under way.", totals.under_way);
+  out.Put("gsv_recorded_bytes_total", kCounter, "Bytes written to recordings.", totals.bytes);
+  out.Put("gsv_recorded_messages_total", kCounter, "Messages recorded.", totals.messages);
+  out.Put("gsv_recording_dropped_messages_total", kCounter,
+          "Messages that were not recorded, as the disk was too slow.", totals.dropped);
+}
+
+void PutTraffic(const Traffic& traffic, Exposition& out) {
+  out.Put("gsv_connections", kGauge, "Connections to the viewer's port.",
+          traffic.connections.load());
+  out.Put("gsv_connections_turned_away_total", kCounter,
+          "Connections refused, as there were too many.", traffic.turned_away.load());
+  out.Put("gsv_viewers", kGauge, "Viewers that follow a simulation.", traffic.viewers.load());
+  out.Put("gsv_sent_bytes_total", kCounter, "Bytes of answers and updates sent to viewers.",
+          traffic.sent_bytes.load());
+  out.Put("gsv_dropped_updates_total", kCounter,
+          "Updates that were not sent, as a viewer was too slow.", traffic.dropped_updates.load());
+  out.Begin("gsv_http_answers_total", kCounter, "HTTP answers, by the class of their status.");
+  for (const char* status : {"1xx", "2xx", "3xx", "4xx", "5xx"}) {
+    out.Add(traffic.answers[status[0] - '0'].load(), {{"status", status}});
+  }
+}
+
+void PutBroker(const BrokerCalls& calls, Exposition& out) {
+  out.Put("gsv_broker_calls_total", kCounter, "Calls to the broker.", calls.made);
+  out.Put("gsv_broker_errors_total", kCounter, "Calls to the broker that failed.", calls.failed);
+}
+
+// The names that Prometheus' own client libraries give.
+void PutProcess(const MetricsSources& sources, Exposition& out) {
+  const ProcessUsage usage = ReadProcessUsage();
+  out.Begin("gsv_build_info", kGauge, "1; the version is the label.");
+  out.Add(std::uint64_t{1}, {{"version", sources.version}});
+  out.Put("gsv_uptime_seconds", kGauge, "Since this process started.", usage.uptime);
+  out.Put("process_start_time_seconds", kGauge, "When this process started, since 1970.",
+          usage.start_time);
+  out.Put("process_cpu_seconds_total", kCounter, "Processor time used.", usage.processor_seconds);
+  out.Put("process_resident_memory_bytes", kGauge, "Memory in use.", usage.resident_bytes);
+  out.Put("process_threads", kGauge, "Threads of this process.", usage.threads);
+  out.Put("process_open_fds", kGauge, "Descriptors that are open.", usage.descriptors);
+  out.Put("process_max_fds", kGauge, "Descriptors that may be open.", usage.most_descriptors);
+}
+
+void PutLog(Exposition& out) {
+  const base::LogCounts counts = base::CountsOfLog();
+  out.Put("gsv_log_lines_total", kCounter, "Lines written to the log.", counts.written);
+  out.Put("gsv_log_suppressed_lines_total", kCounter,
+          "Lines that were not written to the log, as there were too many.", counts.suppressed);
+}
+
+}  // namespace
+
+Response MetricsPage(const MetricsSources& sources, const Traffic& traffic) {
+  Exposition out;
+  if (sources.directory != nullptr) PutSimulations(*sources.directory, out);
+  if (sources.recordings != nullptr) PutRecordings(*sources.recordings, out);
+  PutTraffic(traffic, out);
+  if (sources.broker_calls) PutBroker(sources.broker_calls(), out);
+  PutLog(out);
+  PutProcess(sources, out);
+  Response response;
+  response.content_type = std::string(kContentType);
+  response.body = SharedBytes(std::string(out.text()));
+  return response;
+}
+
+std::optional<Response> Monitor::Answer(const Request& request) const {
+  const std::vector<std::string>& path = request.target.segments;
+  if (path.size() != 1 || (path[0] != "healthz" && path[0] != "metrics")) return std::nullopt;
+  if (request.method != "GET") return MethodNotAllowed("GET");
+  return path[0] == "healthz" ? JsonResponse(200, R"({"ok":true})")
+                              : MetricsPage(sources_, *traffic_);
+}
+
+}  // namespace gsv::gateway::metrics

@@ -1,0 +1,16 @@
+// What a server shows to those who connect by TLS.
+#pragma once
+
+#include <memory>
+
+#include <boost/asio/ssl/context.hpp>
+
+#include "gsv/base/error.h"
+#include "gsv/gateway/server.h"
+
+namespace gsv::gateway {
+
+// TLS 1.2 and 1.3. Fails with a sentence when the files cannot be used: see tls::CheckKeyPair().
+base::Result<std::shared_ptr<boost::asio::ssl::context>> MakeTlsContext(const TlsFiles& files);
+
+}  // namespace gsv::gateway
