@@ -44,9 +44,10 @@ struct TestResult {
   enum class Status { kPassed, kFailed, kError, kInterrupted };
   TestCase test;
   Status status = Status::kError;
-  std::string message;  // why it did not pass
-  std::string folder;   // with what a failure left; empty: nothing
-  std::string command;  // that shows it again
+  std::string message;        // why it did not pass
+  bool is_bad_input = false;  // what it names is not there, or of no use
+  std::string folder;         // with what a failure left; empty: nothing
+  std::string command;        // that shows it again
   double wall_seconds = 0;
   std::vector<std::string> hashes;  // by repetition
   nlohmann::ordered_json report;    // of `gsv run`, of the last repetition; empty: none came

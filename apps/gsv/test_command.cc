@@ -151,12 +151,17 @@ int RunTests(const TestArguments& arguments, Signals& signals) {
   if (arguments.json) {
     std::puts(ToJson(results, wall).c_str());
   } else {
-    std::printf("%zu passed, %zu failed, %zu errors in %.1f s\n", passed,
-                Count(results, TestResult::Status::kFailed),
-                Count(results, TestResult::Status::kError), wall);
+    const std::size_t errors = Count(results, TestResult::Status::kError);
+    std::printf("%zu passed, %zu failed, %zu error%s in %.1f s\n", passed,
+                Count(results, TestResult::Status::kFailed), errors, errors == 1 ? "" : "s", wall);
   }
   if (session.is_cancelled()) return kInterrupted;
-  return passed == results.size() ? kOk : kAssertionFailed;
+  if (passed == results.size()) return kOk;
+  // Nothing but what is not there, or cannot be used, kept them from passing.
+  const bool is_bad_input = std::all_of(results.begin(), results.end(), [](const auto& result) {
+    return result.is_bad_input || result.status == TestResult::Status::kPassed;
+  });
+  return is_bad_input ? kBadModel : kAssertionFailed;
 }
 
 }  // namespace

@@ -186,6 +186,7 @@ TestResult RunTestCase(const TestCase& test, const TestOptions& options,
       break;
     }
     result.status = StatusOf(*outcome);
+    result.is_bad_input = outcome->ending == "exit code 3";
     result.report = outcome->report;
     result.hashes.push_back(outcome->report.value("state_hash", ""));
     if (result.status == TestResult::Status::kPassed && result.hashes.back() != result.hashes[0]) {

@@ -49,7 +49,7 @@ TEST_F(TestCommand, AFolderOfScenariosPassesOrNot) {
   EXPECT_THAT(run.out, HasSubstr("PASS  " + (folder_.path() / "t/good").string()));
   EXPECT_THAT(run.out, HasSubstr("violated at 0.5 s"));
   EXPECT_THAT(run.out, HasSubstr("the distance of pebble from (3, 4) was 5 m (at most 0.25"));
-  EXPECT_THAT(run.out, HasSubstr("1 passed, 1 failed, 1 errors"));
+  EXPECT_THAT(run.out, HasSubstr("1 passed, 1 failed, 1 error in"));
   const std::string xml = TextOf(junit);
   EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" errors=\"1\""));
   EXPECT_THAT(xml, HasSubstr("name=\"worse\""));
@@ -117,10 +117,20 @@ TEST_F(TestCommand, BadInputIsToldBeforeAnythingRuns) {
   EXPECT_THAT(endless.err, HasSubstr("a test needs an end: duration"));
 }
 
+TEST_F(TestCommand, AWorldThatIsNotThereIsBadInputAndOneError) {
+  const std::string lost =
+      folder_.Write("lost.yaml", "world: atlantis\nduration: 1\nrobots: [{model: pebble}]\n");
+  const std::string good = Scenario("good.yaml", "");
+  const Outcome run = Test({lost, good, "--no-record"});
+  EXPECT_EQ(run.ending, "exit code 3");
+  EXPECT_THAT(run.out, HasSubstr("1 passed, 0 failed, 1 error in"));
+  EXPECT_THAT(run.out, HasSubstr("atlantis"));
+}
+
 TEST_F(TestCommand, WhatIsExpectedOfNobodyIsAnErrorWithItsPlace) {
   const std::string file = Scenario("marvin.yaml", "expect: [{never_collides: marvin}]\n");
   const Outcome run = Test({file, "--no-record"});
-  EXPECT_EQ(run.ending, "exit code 1");
+  EXPECT_EQ(run.ending, "exit code 3");
   EXPECT_THAT(run.out, HasSubstr("marvin.yaml:4:10: nothing that stands in the world is called"));
 }
 
