@@ -5,6 +5,15 @@ namespace {
 
 using base::ErrorCode;
 
+// A reason may begin with the name of what it is about, which `where` gives already, or with one of
+// its parts: then the reason says more.
+void NameOnce(base::Error& error) {
+  if (error.where.empty() || !error.message.starts_with(error.where)) return;
+  const std::string rest = error.message.substr(error.where.size());
+  if (rest.starts_with(": ")) error.message = rest.substr(2);
+  if (rest.starts_with("/")) error.where.clear();
+}
+
 // sba exceptions all carry one member, the reason.
 template <typename Exception>
 bool Matches(const CORBA::UserException& exception, const std::string& where, ErrorCode code,
@@ -12,6 +21,7 @@ bool Matches(const CORBA::UserException& exception, const std::string& where, Er
   const Exception* found = Exception::_downcast(&exception);
   if (found == nullptr) return false;
   error = {code, std::string(found->reason), where};
+  NameOnce(error);
   return true;
 }
 

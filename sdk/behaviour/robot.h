@@ -100,7 +100,10 @@ template <typename Kind>
 base::Result<std::unique_ptr<Kind>> Robot::Open(const std::string& sensor) {
   auto port = OpenPort(sensor);
   if (!port) return base::Fail(port.error());
-  if ((*port)->traits().type != Kind::kType) {
+  const std::string& type = (*port)->traits().type;
+  bool is_of_kind = type == Kind::kType;
+  if constexpr (requires { Kind::Is(type); }) is_of_kind = Kind::Is(type);
+  if (!is_of_kind) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the sensor \"" + sensor + "\" is no " + Kind::kType, name());
   }

@@ -123,7 +123,10 @@ class Lidar : public Sensor {
 class Camera : public Sensor {
  public:
   static constexpr const char* kType = "camera";
+  static constexpr const char* kWideAngleType = "wideangle_camera";  // with another lens
   using Sensor::Sensor;
+
+  static bool Is(const std::string& type) { return type == kType || type == kWideAngleType; }
 
   Picture TakePicture() { return port().TakePicture(); }
 };

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "sdk/behaviour/actuators.h"
 #include "sdk/behaviour/sonar_ring.h"
 #include "sdk/python/values.h"
 #include "sdk/remote_robot.h"
@@ -25,7 +26,7 @@ py::object MakeSensor(std::unique_ptr<SensorPort> port) {
       {Sonar::kType, Make<Sonar>},
       {Lidar::kType, Make<Lidar>},
       {Camera::kType, Make<Camera>},
-      {"wideangle_camera", Make<Camera>},
+      {Camera::kWideAngleType, Make<Camera>},
       {DepthCamera::kType, Make<DepthCamera>},
       {SegmentationCamera::kType, Make<SegmentationCamera>},
       {BoundingBoxCamera::kType, Make<BoundingBoxCamera>},
@@ -39,7 +40,11 @@ py::object MakeSensor(std::unique_ptr<SensorPort> port) {
       {Bumper::kType, Make<Bumper>},
       {JointEncoders::kType, Make<JointEncoders>},
       {Battery::kType, Make<Battery>},
-      {Radio::kType, Make<Radio>}};
+      {Radio::kType, Make<Radio>},
+      {Lamp::kType, Make<Lamp>},
+      {Gripper::kType, Make<Gripper>},
+      {Speaker::kType, Make<Speaker>},
+      {Microphone::kType, Make<Microphone>}};
   const auto maker = makers.find(port->traits().type);
   return maker != makers.end() ? maker->second(std::move(port)) : Make<Sensor>(std::move(port));
 }

@@ -3,8 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "sdk/behaviour/sensors.h"
-#include "sdk/python/values.h"
+#include "sdk/python/kinds.h"
 
 namespace gsv::python {
 namespace {
@@ -116,15 +115,6 @@ void BindPlainData(py::module_& module) {
         return py::str("<{} values of \"{}\" at {:.3f} s>")
             .format(r.values.size(), r.sensor, SecondsOf(r.time));
       });
-}
-
-// A class of sensors, whose TYPE is what models call it.
-template <typename Kind>
-py::class_<Kind> BindKind(py::module_& module, const char* name, py::class_<Sensor>& sensor,
-                          const char* description) {
-  py::class_<Kind> kind(module, name, sensor, description);
-  kind.attr("TYPE") = Kind::kType;
-  return kind;
 }
 
 void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
@@ -277,6 +267,7 @@ void BindSensors(py::module_& module) {
   BindRangeAndVision(module, sensor);
   BindMotion(module, sensor);
   BindBody(module, sensor);
+  BindActuators(module, sensor);
 }
 
 }  // namespace gsv::python

@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <future>
+#include <memory>
 
 #include <gtest/gtest-spi.h>
 
@@ -47,6 +49,46 @@ TEST_F(ASimulator, RunsWhatATestAsksFor) {
   ASSERT_TRUE(state);
   EXPECT_EQ(state->robots.at(0).place.x, 1);
   EXPECT_EQ(state->time, std::chrono::seconds(1));
+}
+
+// Says on `seen` how wide the picture of its wide-angle camera is.
+class Looks final : public Behaviour {
+ public:
+  explicit Looks(std::promise<int>& seen) : seen_(seen) {}
+  base::Status Init(Robot& robot) override {
+    auto camera = robot.OpenCamera("eye");
+    if (!camera) return base::Fail(camera.error());
+    camera_ = *std::move(camera);
+    return {};
+  }
+  void Run(Robot& robot) override {
+    if (robot.SleepFor(100ms)) seen_.set_value(camera_->TakePicture().width);
+  }
+
+ private:
+  std::promise<int>& seen_;
+  std::unique_ptr<Camera> camera_;
+};
+
+TEST_F(ASimulator, ACameraWithAWideAngleLensIsACamera) {
+  const auto folder = base::TemporaryFolder::Make("gsv-fixture");
+  ASSERT_TRUE(folder);
+  const std::string model = folder->path() / "eye.sdf";
+  std::ofstream(model)
+      << "<sdf version='1.9'><model name='eye'><link name='base'><collision name='c'><geometry>"
+         "<sphere><radius>0.1</radius></sphere></geometry></collision><sensor name='eye' "
+         "type='wideanglecamera'><camera><horizontal_fov>2.5</horizontal_fov><image>"
+         "<width>32</width><height>24</height></image></camera></sensor></link>"
+         "<plugin filename='gz-sim-velocity-control-system' name='v'/></model></sdf>";
+  auto simulation = simulator().Create({.world = "playground"});
+  ASSERT_TRUE(simulation) << simulation.error().Sentence();
+  std::promise<int> seen;
+  const auto added = (*simulation)->AddRobot({.model = model, .own_behaviour = [&seen] {
+                                                return std::make_unique<Looks>(seen);
+                                              }});
+  ASSERT_TRUE(added) << added.error().Sentence();
+  ASSERT_TRUE((*simulation)->RunUntil(std::chrono::seconds(1)));
+  EXPECT_EQ(seen.get_future().get(), 32);
 }
 
 }  // namespace

@@ -9,24 +9,33 @@ chooses. With pytest, name this module in conftest.py and take the fixture `simu
         simulation.run_until(10)
         assert simulation.state().robots["pebble"].distance > 1
 
+A scenario is a test, too (docs/testing.md):
+
+    def test_keeps_off_the_walls(expect_passes):
+        expect_passes("scenarios/wander.yaml")
+
 A behaviour that is a program, in whatever language, is started with `simulator.start("gsv-wander")`
 and named: `behaviour="wander"`.
 """
 
 from __future__ import annotations
 
+import dataclasses
+import json
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Iterator, Union
 
 from gsv.applications import Application, Simulation
-from gsv.errors import NotFound, Unavailable
+from gsv.errors import BadModel, NotFound, Unavailable
 
 _PACKAGE = Path(__file__).absolute().parent
+_BAD_SCENARIO = 3  # exit code
 
 
 def find_program(name: str) -> str:
@@ -105,6 +114,31 @@ class PrivateSimulator:
                           f"{complaints.read().strip()}")
 
 
+@dataclass(frozen=True)
+class ScenarioResult:
+    """What `gsv test` says of a scenario."""
+
+    scenario: str
+    status: str  # "passed", "failed", "error", "interrupted"
+    message: str  # why it did not pass
+    folder: str  # with what a failure left; empty: nothing
+    state_hashes: list[str]  # at the end, by repetition
+    report: dict[str, Any]  # that of `gsv run --json`; empty: none came
+
+
+def run_scenarios(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
+    """Runs `gsv test ARGUMENT…`: files, folders, and options such as "--repeat", "3". Raises
+    BadModel, with gsv's words, for what is no scenario or not there."""
+    command = [find_program("gsv"), "test", "--json", *(os.fspath(each) for each in arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    if done.stdout:
+        fields = [field.name for field in dataclasses.fields(ScenarioResult)]
+        return [ScenarioResult(**{field: result[field] for field in fields})
+                for result in json.loads(done.stdout)["results"]]
+    error = BadModel if done.returncode == _BAD_SCENARIO else Unavailable
+    raise error(done.stderr.strip() or f"gsv test ended with exit code {done.returncode}")
+
+
 try:
     import pytest
 except ImportError:  # PrivateSimulator serves without
@@ -129,3 +163,18 @@ else:
         yield create
         for simulation in created:
             simulation.destroy()
+
+    @pytest.fixture
+    def expect_passes(tmp_path: Path) -> Callable[..., list[ScenarioResult]]:
+        """Runs scenarios as run_scenarios() does, and fails the test with their words where one
+        does not pass. What failures leave lies in the test's tmp_path."""
+
+        def expect(*arguments: Union[str, os.PathLike[str]]) -> list[ScenarioResult]:
+            results = run_scenarios("--failures", tmp_path / "gsv-failures", *arguments)
+            complaints = [f"{each.scenario}: {each.message}\n{each.folder}"
+                          for each in results if each.status != "passed"]
+            if complaints:
+                pytest.fail("\n".join(complaints), pytrace=False)
+            return results
+
+        return expect

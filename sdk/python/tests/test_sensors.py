@@ -144,6 +144,18 @@ def test_sensors_are_found_by_name_and_checked_by_type(simulate, world):
     assert sonar.traits.parameters["max"] > 1
 
 
+def test_a_refusal_names_the_robot_once(simulate, world):
+    def prepare(robot):
+        with pytest.raises(gsv.Refused) as none:
+            robot.open("nose")
+        with pytest.raises(gsv.Refused) as unknown:
+            robot.create("smell", "nose")
+        return str(none.value), str(unknown.value)
+
+    assert in_run(simulate, world, prepare, lambda robot, said: said) == (
+        'pebble: the robot has no sensor "nose"', 'pebble/nose: there is no sensor type "smell"')
+
+
 def test_a_reading_outlives_its_sensor(simulate, world):
     values = in_run(simulate, world, lambda robot: robot.open("sonar_00"),
                     lambda robot, sonar: sonar.measure().values)

@@ -1,0 +1,104 @@
+// Lamps, grippers, speakers and microphones: what is refused is raised.
+#include "sdk/behaviour/actuators.h"
+
+#include "sdk/python/kinds.h"
+
+namespace gsv::python {
+namespace {
+
+// Tells an actuator something without the GIL.
+template <typename Command>
+void Tell(const Command& command) {
+  base::Status told;
+  {
+    const py::gil_scoped_release release;
+    told = command();
+  }
+  ValueOrRaise(std::move(told));
+}
+
+void BindLamp(py::module_& module, py::class_<Sensor>& sensor) {
+  py::class_<Colour>(module, "Colour", "Red, green and blue, each from 0 to 1.")
+      .def(py::init<double, double, double>(), py::arg("red") = 1.0, py::arg("green") = 1.0,
+           py::arg("blue") = 1.0)
+      .def_readonly("red", &Colour::red)
+      .def_readonly("green", &Colour::green)
+      .def_readonly("blue", &Colour::blue)
+      .def("__iter__",
+           [](const Colour& c) { return py::iter(py::make_tuple(c.red, c.green, c.blue)); })
+      .def("__repr__", [](const Colour& c) {
+        return py::str("Colour(red={:.3g}, green={:.3g}, blue={:.3g})")
+            .format(c.red, c.green, c.blue);
+      });
+  auto lamp = BindKind<Lamp>(module, "Lamp", sensor, "A lamp, or an LED.");
+  lamp.def(
+          "shine",
+          [](Lamp& self, const Colour& colour, double brightness) {
+            Tell([&] { return self.Shine(colour, brightness); });
+          },
+          py::arg("colour") = Colour{}, py::arg("brightness") = 1.0, "brightness from 0 to 1")
+      .def("switch_off", [](Lamp& self) { Tell([&] { return self.SwitchOff(); }); })
+      .def("look", &Lamp::Look, LetOthersRun(), "how it glows");
+  py::class_<Lamp::Glow>(lamp, "Glow")
+      .def_readonly("brightness", &Lamp::Glow::brightness, "0: off")
+      .def_readonly("colour", &Lamp::Glow::colour);
+}
+
+void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
+  auto gripper =
+      BindKind<Gripper>(module, "Gripper", sensor, "Two jaws, which hold what is between them.");
+  gripper
+      .def(
+          "grip", [](Gripper& self) { Tell([&] { return self.Grip(); }); },
+          "Closes, on what is loose and between the jaws: that is held until they open.")
+      .def("let_go", [](Gripper& self) { Tell([&] { return self.LetGo(); }); })
+      .def("feel", &Gripper::Feel, LetOthersRun(), "how its jaws stand");
+  py::class_<Gripper::Jaws>(gripper, "Jaws")
+      .def_readonly("opening", &Gripper::Jaws::opening, "m")
+      .def_readonly("told_to_open", &Gripper::Jaws::told_to_open)
+      .def_readonly("held", &Gripper::Jaws::held, "a body; empty: nothing");
+}
+
+void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
+  auto speaker = BindKind<Speaker>(module, "Speaker", sensor, "Makes sounds.");
+  speaker
+      .def(
+          "play",
+          [](Speaker& self, const std::string& sound, double frequency, double duration,
+             double volume) {
+            Tell([&] { return self.Play(sound, frequency, duration, volume); });
+          },
+          py::arg("sound"), py::arg("frequency"), py::arg("duration"), py::arg("volume") = 1.0,
+          "\"tone\", \"buzz\", \"chirp\" or \"noise\"; Hz, s, and a volume from 0 to 1.")
+      .def(
+          "beep",
+          [](Speaker& self, double frequency, double duration) {
+            Tell([&] { return self.Beep(frequency, duration); });
+          },
+          py::arg("frequency") = 880.0, py::arg("duration") = 0.2)
+      .def("silence", [](Speaker& self) { Tell([&] { return self.Silence(); }); })
+      .def("playing", &Speaker::Playing, LetOthersRun(), "what it plays");
+  py::class_<Speaker::Sound>(speaker, "Sound")
+      .def_readonly("name", &Speaker::Sound::name, "empty: it is silent")
+      .def_readonly("frequency", &Speaker::Sound::frequency, "Hz")
+      .def_readonly("volume", &Speaker::Sound::volume)
+      .def_readonly("elapsed", &Speaker::Sound::elapsed, "s")
+      .def_readonly("left", &Speaker::Sound::left, "s");
+  auto microphone = BindKind<Microphone>(module, "Microphone", sensor, "Hears what sounds.");
+  microphone.def("listen", &Microphone::Listen, LetOthersRun());
+  py::class_<Microphone::Hearing>(microphone, "Hearing")
+      .def_readonly("level", &Microphone::Hearing::level, "dB re 20 µPa, of all that sounds")
+      .def_readonly("frequency", &Microphone::Hearing::frequency,
+                    "Hz, of the loudest; 0: none is louder than the noise of the place")
+      .def_readonly("source", &Microphone::Hearing::source, "ROBOT/SPEAKER of that");
+}
+
+}  // namespace
+
+void BindActuators(py::module_& module, py::class_<Sensor>& sensor) {
+  BindLamp(module, sensor);
+  BindGripper(module, sensor);
+  BindSound(module, sensor);
+}
+
+}  // namespace gsv::python
