@@ -13,6 +13,11 @@ namespace {
 
 // Reading a world and initialising behaviours may take long.
 constexpr std::chrono::milliseconds kCreateTimeout{120'000};
+// A wait for the next phase is answered after two seconds. A server that answers none of them for
+// so long is lost.
+constexpr std::chrono::milliseconds kWaitTimeout{10'000};
+constexpr std::chrono::seconds kServerPatience{30};
+constexpr int kConnectionsTried = 16;
 
 const char* Text(sba::SimulationPhase phase) {
   switch (phase) {
@@ -104,9 +109,14 @@ class SimulationProxy final : public RemoteSimulation {
         simulation_(sba::Simulation::_duplicate(simulation)),
         server_(std::move(server)) {
     orb::LimitCalls(simulation_, kCreateTimeout);
+    // Another reference, since time limits are a reference's.
+    const CORBA::String_var text = orb_->orb()->object_to_string(simulation);
+    const CORBA::Object_var object = orb_->orb()->string_to_object(text);
+    waiting_ = sba::Simulation::_unchecked_narrow(object);
+    orb::LimitCalls(waiting_, kWaitTimeout);
   }
   ~SimulationProxy() override {
-    (void)orb::Call(server_, [this] { simulation_->destroy(); });  // the server may be gone
+    (void)Ask([this] { simulation_->destroy(); });  // the server may be gone
   }
 
   base::Result<std::string> AddRobot(const RobotRequest& request) override {
@@ -121,42 +131,42 @@ class SimulationProxy final : public RemoteSimulation {
       const PortableServer::POA_var poa = orb::RootPoa(orb_->orb());
       robot.behaviour = sdk::NewBehaviour(poa, request.own_behaviour);
     }
-    auto added = orb::Call(server_, [&] {
+    auto added = Ask([&] {
       const CORBA::String_var name = simulation_->add_robot(robot);
       return std::string(name);
     });
     if (!added && request.own_behaviour) {
       // Unless the simulator has done so already.
-      (void)orb::Call(server_, [&] { robot.behaviour->destroy(); });
+      (void)Ask([&] { robot.behaviour->destroy(); });
     }
     return added;
   }
   base::Status RemoveRobot(const std::string& name) override {
-    return orb::Call(server_, [&] { simulation_->remove_robot(name.c_str()); });
+    return Ask([&] { simulation_->remove_robot(name.c_str()); });
   }
 
   base::Status Start() override {
-    return orb::Call(server_, [this] { simulation_->start(); });
+    return Ask([this] { simulation_->start(); });
   }
   base::Status Pause() override {
-    return orb::Call(server_, [this] { simulation_->pause(); });
+    return Ask([this] { simulation_->pause(); });
   }
   base::Status Resume() override {
-    return orb::Call(server_, [this] { simulation_->resume(); });
+    return Ask([this] { simulation_->resume(); });
   }
   base::Status Stop() override {
-    return orb::Call(server_, [this] { simulation_->stop(); });
+    return Ask([this] { simulation_->stop(); });
   }
 
   base::Status Reset() override {
-    return orb::Call(server_, [this] { simulation_->reset(); });
+    return Ask([this] { simulation_->reset(); });
   }
 
   base::Status RunUntil(SimTime until, std::chrono::seconds patience,
                         const std::function<bool()>& go_on) override {
     const auto give_up = std::chrono::steady_clock::now() + patience;
-    if (auto ok = orb::Call(server_, [&] { simulation_->run_until(until.count()); }); !ok)
-      return ok;
+    if (auto ok = Ask([&] { simulation_->run_until(until.count()); }); !ok) return ok;
+    auto heard = std::chrono::steady_clock::now();
     auto phase = sba::PHASE_STARTING;
     while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
       if (std::chrono::steady_clock::now() > give_up) {
@@ -167,9 +177,16 @@ class SimulationProxy final : public RemoteSimulation {
         return base::Fail(base::ErrorCode::kEnded, "the wait was interrupted", server_);
       }
       const auto known = phase;
-      auto next = orb::Call(server_, [&] { return simulation_->await_change(known); });
-      if (!next) return base::Fail(next.error());
-      phase = *next;
+      auto next = Ask([&] { return waiting_->await_change(known); });
+      const auto now = std::chrono::steady_clock::now();
+      if (next) {
+        phase = *next;
+        heard = now;
+      } else if (next.error().code != base::ErrorCode::kTimeout || !lost_.empty()) {
+        return base::Fail(next.error());
+      } else if (now - heard > kServerPatience) {
+        return Lose("it has not answered for too long");
+      }
     }
     if (phase == sba::PHASE_PAUSED || phase == sba::PHASE_FINISHED) return {};
     auto state = State();
@@ -180,37 +197,73 @@ class SimulationProxy final : public RemoteSimulation {
   }
 
   base::Result<SimulationState> State() override {
-    return orb::Call(server_, [this] {
-      const sba::SimulationState_var state = simulation_->state();
-      return FromIdl(state.in());
+    auto state = Ask([this] {
+      const sba::SimulationState_var answer = simulation_->state();
+      return FromIdl(answer.in());
     });
+    if (state) known_ = *state;
+    if (lost_.empty()) return state;
+    known_.phase = "lost";
+    known_.failure = lost_;
+    return known_;
   }
 
   base::Result<std::string> StateHash() override {
-    return orb::Call(server_, [this] {
+    return Ask([this] {
       const CORBA::String_var hash = simulation_->state_hash();
       return std::string(hash);
     });
   }
 
   base::Result<std::string> ViewerUrl() override {
-    return orb::Call(server_, [this] {
+    return Ask([this] {
       const CORBA::String_var url = simulation_->viewer_url();
       return std::string(url);
     });
   }
 
   base::Status StartRecording(const std::string& path) override {
-    return orb::Call(server_, [&] { simulation_->start_recording(path.c_str()); });
+    return Ask([&] { simulation_->start_recording(path.c_str()); });
   }
   base::Status StopRecording() override {
-    return orb::Call(server_, [this] { simulation_->stop_recording(); });
+    return Ask([this] { simulation_->stop_recording(); });
   }
 
  private:
+  // Nothing is asked of a server that is lost.
+  template <typename Question>
+  auto Ask(Question question) -> base::Result<decltype(question())> {
+    if (!lost_.empty()) return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
+    auto answer = orb::Call(server_, question);
+    const bool is_doubtful = !answer && answer.error().code == base::ErrorCode::kUnavailable;
+    if (is_doubtful && IsServerGone()) return Lose("nobody accepts connections there any more");
+    return answer;
+  }
+  // A connection that broke says little, and there may be several: a port that refuses says all.
+  bool IsServerGone() {
+    for (int i = 0; i < kConnectionsTried; ++i) {
+      try {
+        (void)waiting_->_non_existent();
+        return false;
+      } catch (const CORBA::COMM_FAILURE&) {
+      } catch (const CORBA::TRANSIENT& exception) {
+        if (orb::MeansGone(exception)) return true;
+      } catch (const CORBA::SystemException&) {
+        return false;
+      }
+    }
+    return false;
+  }
+  tl::unexpected<base::Error> Lose(const std::string& why) {
+    lost_ = "the simulation is lost with its server: " + why;
+    return base::Fail(base::ErrorCode::kUnavailable, lost_, server_);
+  }
+
   const std::shared_ptr<sdk::SharedOrb> orb_;
-  sba::Simulation_var simulation_;
+  sba::Simulation_var simulation_, waiting_;
   const std::string server_;
+  std::string lost_;       // why; empty: it is not
+  SimulationState known_;  // the last
 };
 
 class BrokerApplication final : public Application {

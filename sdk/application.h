@@ -25,8 +25,8 @@ struct SimulationRequest {
   SimTime step{0};    // 0: the world's
   std::uint64_t seed = 0;
   std::string name;  // empty: the server chooses
-  // Further ones by the names of sba::SimulationSpecification::options: "model_path", "on_failure",
-  // "deadline_s".
+  // Further ones by the names of sba::SimulationSpecification::options: "on_failure", "deadline_s",
+  // "abandoned_after_s".
   std::map<std::string, std::string> options;
 };
 
@@ -48,7 +48,9 @@ struct RobotState {
 };
 
 struct SimulationState {
-  std::string phase;  // "created", "running", "paused", …
+  // "created", "running", "paused", …; "lost": its server is gone, and it with that; time and
+  // robots are as they were when they were last asked for.
+  std::string phase;
   SimTime time{0};
   double real_time_factor = 0;
   std::uint64_t late_steps = 0;
@@ -58,6 +60,9 @@ struct SimulationState {
 };
 
 // A simulation on some server. It is destroyed with this.
+//
+// Once its server is gone (its port refuses connections, or RunUntil() heard nothing from it for
+// half a minute), it is lost for good: every call fails with kUnavailable and says so, but State().
 class RemoteSimulation {
  public:
   virtual ~RemoteSimulation() = default;
@@ -90,8 +95,8 @@ class Application {
   static base::Result<std::unique_ptr<Application>> Connect(const std::string& broker);
   virtual ~Application() = default;
 
-  // On the first simulator, in the order of `preference` ("first", "min simulations", "random"),
-  // whose offer matches `constraint` (over the properties of docs/services.md; empty: any).
+  // On the first simulator, in the order of `preference` ("first", "min load", "random"), whose
+  // offer matches `constraint` (over the properties of docs/services.md; empty: any).
   virtual base::Result<std::unique_ptr<RemoteSimulation>> Create(
       const SimulationRequest& request, const std::string& constraint = "",
       const std::string& preference = "first") = 0;

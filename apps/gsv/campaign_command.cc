@@ -11,6 +11,7 @@
 
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
+#include "apps/gsv/servers/scenario_servers.h"
 #include "apps/gsv/test_cases.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/campaign/local_engine.h"
@@ -24,13 +25,15 @@ using campaign::Campaign;
 using campaign::RunResult;
 
 struct CampaignArguments {
-  std::string file, results, failures, csv, svg, html;
+  std::string file, results, failures, csv, svg, html, broker, servers;
   std::vector<std::string> by, metrics;
   int jobs = 0;
   double timeout = 300;
   std::int64_t run = 0;
   bool json = false;
 };
+
+constexpr int kRunsWithServers = 64;  // at once, waiting for room included
 
 // FILE.yaml has its results in FILE.sqlite.
 std::string ResultsFile(const CampaignArguments& arguments) {
@@ -77,8 +80,10 @@ nlohmann::ordered_json MetricsOf(const nlohmann::ordered_json& report) {
 
 class RunTaker {
  public:
-  RunTaker(const Campaign& campaign, const CampaignArguments& arguments, fs::path folder)
-      : campaign_(campaign), folder_(std::move(folder)) {
+  // `servers`: that do the runs; null: this machine does.
+  RunTaker(const Campaign& campaign, const CampaignArguments& arguments, fs::path folder,
+           ScenarioServers* servers)
+      : campaign_(campaign), folder_(std::move(folder)), servers_(servers) {
     options_.timeout = arguments.timeout;
     options_.failures = arguments.failures;
     options_.record = !arguments.failures.empty();
@@ -96,11 +101,9 @@ class RunTaker {
       result.message = scenario.error().Sentence();
       return result;
     }
-    const fs::path file = folder_ / fmt::format("run_{:06}.yaml", run);
-    std::ofstream(file) << *scenario;
-    const TestResult test = RunTestCase({file, file.stem().string()}, options_, is_cancelled);
-    std::error_code ignored;
-    fs::remove(file, ignored);
+    const TestResult test = servers_ != nullptr
+                                ? servers_->Run(*scenario, options_.timeout, is_cancelled)
+                                : RunHere(run, *scenario, is_cancelled);
     if (test.status == TestResult::Status::kInterrupted) return std::nullopt;
     if (test.status == TestResult::Status::kPassed) result.status = "passed";
     if (test.status == TestResult::Status::kFailed) result.status = "failed";
@@ -109,14 +112,26 @@ class RunTaker {
     result.sim_time = test.report.value("sim_time_s", 0.0);
     result.wall_time = test.wall_seconds;
     const fs::path recording = fs::path(test.folder) / "run.mcap";
+    std::error_code ignored;
     if (!test.folder.empty() && fs::exists(recording, ignored)) result.recording = recording;
     result.metrics = MetricsOf(test.report);
     return result;
   }
 
  private:
+  TestResult RunHere(std::int64_t run, const std::string& scenario,
+                     const std::atomic<bool>& is_cancelled) const {
+    const fs::path file = folder_ / fmt::format("run_{:06}.yaml", run);
+    std::ofstream(file) << scenario;
+    TestResult result = RunTestCase({file, file.stem().string()}, options_, is_cancelled);
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    return result;
+  }
+
   const Campaign& campaign_;
   const fs::path folder_;
+  ScenarioServers* const servers_;
   TestOptions options_;
 };
 
@@ -145,9 +160,9 @@ int TellStatus(campaign::Results& results, bool json) {
                                       {"errors", by_status["error"]}};
     std::puts(line.dump().c_str());
   } else {
-    std::printf("%zu of %lld runs: %zu passed, %zu failed, %zu errors\n", all->size(),
+    std::printf("%zu of %lld runs: %zu passed, %zu failed, %zu error%s\n", all->size(),
                 static_cast<long long>(*planned), by_status["passed"], by_status["failed"],
-                by_status["error"]);
+                by_status["error"], by_status["error"] == 1 ? "" : "s");
   }
   return by_status["passed"] == all->size() ? kOk : kAssertionFailed;
 }
@@ -159,11 +174,18 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   if (!results) return Complain(results.error());
   const auto folder = base::TemporaryFolder::Make("gsv-campaign");
   if (!folder) return Complain(folder.error());
-  const RunTaker taker(campaign, arguments, folder->path());
+  std::unique_ptr<ScenarioServers> servers;
+  if (!arguments.broker.empty()) {
+    auto found = ScenarioServers::Find(arguments.broker, arguments.servers);
+    if (!found) return Complain(found.error());
+    servers = *std::move(found);
+  }
+  const RunTaker taker(campaign, arguments, folder->path(), servers.get());
   bool is_interrupted = false;
   campaign::LocalEngine engine;
-  engine.jobs = arguments.jobs > 0
-                    ? arguments.jobs
+  engine.jobs = arguments.jobs > 0 ? arguments.jobs
+                : servers != nullptr
+                    ? kRunsWithServers
                     : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   engine.take = [&](std::int64_t run, const std::atomic<bool>& is_cancelled) {
     return taker.Take(run, is_cancelled);
@@ -171,10 +193,13 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   engine.tell = &TellProgress;
   engine.is_interrupted = [&] {
     is_interrupted = is_interrupted || signals.WaitFor(0) != 0;
-    return is_interrupted;
+    return is_interrupted || (servers != nullptr && !servers->failure().empty());
   };
   if (auto ok = engine.Run(**results); !ok) return Complain(ok.error());
   const int code = TellStatus(**results, arguments.json);
+  if (servers != nullptr && !servers->failure().empty() && !is_interrupted) {
+    return Complain({base::ErrorCode::kUnavailable, servers->failure()});
+  }
   if (!is_interrupted) return code;
   std::fprintf(stderr, "gsv: interrupted; the same command goes on where this stopped\n");
   return kInterrupted;
@@ -242,7 +267,8 @@ void AddCampaignCommand(const CommandLine& line) {
     return sub;
   };
   CLI::App* run = add("run", "Do all runs that are not done yet; exit code 1 if one did not pass");
-  run->add_option("-j,--jobs", arguments->jobs, "how many at once; 0: one a processor")
+  run->add_option("-j,--jobs", arguments->jobs,
+                  "how many at once; 0: one a processor, or as many as the servers take")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   run->add_option("--timeout", arguments->timeout, "wall seconds a run may take")
@@ -251,6 +277,15 @@ void AddCampaignCommand(const CommandLine& line) {
   run->add_option("--failures", arguments->failures,
                   "a folder in which each failure leaves its recording and a picture; without it "
                   "nothing is recorded");
+  CLI::Option* broker =
+      run->add_option("--broker", arguments->broker,
+                      "do them on the servers that this broker knows (gsv serve --scenarios N), "
+                      "corbaloc::1.2@HOST:PORT/TradingService; without it: here")
+          ->excludes("--failures");
+  run->add_option("--servers", arguments->servers,
+                  "with --broker: which servers, as a constraint over docs/services.md's "
+                  "properties; without it: all")
+      ->needs(broker);
   run->callback([=] { line.exit_code = RunCampaign(*arguments, line.signals); });
   CLI::App* status = add("status", "How many runs are done, and how many passed");
   status->callback([=] {

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <thread>
 
 #include "apps/gsv/broker_page.h"
@@ -26,6 +28,12 @@ constexpr std::chrono::seconds kBrokerStartTimeout{15};
 std::string HostName() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "localhost";
+}
+
+std::vector<broker::Property> WithLoad(std::vector<broker::Property> properties,
+                                       services::ServerLoad& load) {
+  std::ranges::move(load.Properties(), std::back_inserter(properties));
+  return properties;
 }
 
 class HostDirectory final : public gateway::SimulationDirectory {
@@ -152,8 +160,12 @@ services::ServiceHooks Runtime::Hooks() {
   return hooks;
 }
 
-base::Status Runtime::OfferService(const std::string& name) {
+base::Status Runtime::OfferService(const std::string& name, int scenarios) {
   const PortableServer::POA_var poa = orb::RootPoa(orb_);
+  if (scenarios > 0) scenarios_ = new ScenarioServiceServant(poa, scenarios);
+  load_ = new services::ServerLoad(
+      *host_, [this] { return scenarios_.in() == nullptr ? 0 : scenarios_->under_way(); });
+  const PortableServer::ObjectId_var load_id = poa->activate_object(load_);
   service_ = new services::SimulationServiceServant(poa, *host_, behaviours_.get(), Hooks());
   for (const auto& simulation : host_->List()) service_->Publish(simulation);
   builder_->OfferThrough(service_);
@@ -166,10 +178,13 @@ base::Status Runtime::OfferService(const std::string& name) {
   offer.pid = static_cast<std::int32_t>(getpid());
   offer.viewer_url = viewer_url_;
   offer.cores = static_cast<std::int32_t>(std::thread::hardware_concurrency());
-  auto exported =
-      broker_->Export(broker::SimulationServiceType().name, reference, PropertiesOf(offer));
+  auto exported = broker_->Export(broker::SimulationServiceType().name, reference,
+                                  WithLoad(PropertiesOf(offer), *load_));
   if (!exported) return base::Fail(exported.error());
-  service_offer_ = *exported;
+  offers_.push_back(*exported);
+  if (scenarios > 0) {
+    if (auto ok = OfferScenarios(name, scenarios); !ok) return ok;
+  }
   if (auto record = InstanceRecord::Write(broker_->reference())) {
     record_ = *std::move(record);
   } else {
@@ -178,16 +193,35 @@ base::Status Runtime::OfferService(const std::string& name) {
   return {};
 }
 
+base::Status Runtime::OfferScenarios(const std::string& name, int scenarios) {
+  const PortableServer::POA_var poa = orb::RootPoa(orb_);
+  const PortableServer::ObjectId_var id = poa->activate_object(scenarios_);
+  const CORBA::Object_var reference = poa->id_to_reference(id);
+  const broker::ServiceType& type = broker::ScenarioServiceType();
+  if (auto ok = broker_->EnsureServiceType(type); !ok) return ok;
+  broker::ScenarioServiceOffer offer;
+  offer.name = name;
+  offer.host = HostName();
+  offer.pid = static_cast<std::int32_t>(getpid());
+  offer.slots = scenarios;
+  offer.cores = static_cast<std::int32_t>(std::thread::hardware_concurrency());
+  auto exported = broker_->Export(type.name, reference, WithLoad(PropertiesOf(offer), *load_));
+  if (!exported) return base::Fail(exported.error());
+  offers_.push_back(*exported);
+  return {};
+}
+
 Runtime::~Runtime() {
   record_.reset();
-  if (!service_offer_.empty()) (void)broker_->Withdraw(service_offer_);  // the broker may be gone
+  for (const std::string& offer : offers_) (void)broker_->Withdraw(offer);  // it may be gone
+  if (scenarios_.in() != nullptr) scenarios_->Close();
   gateway_.reset();
   builder_.reset();
   if (host_ != nullptr) {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();
   }
   if (recordings_ != nullptr) recordings_->StopAll();
-  if (!service_offer_.empty()) service_->Close();
+  if (service_.in() != nullptr) service_->Close();
   if (host_ != nullptr) {
     // Ending a simulation tells its behaviours, so it comes before their programs end.
     for (const auto& simulation : host_->List())
@@ -197,6 +231,8 @@ Runtime::~Runtime() {
   if (!CORBA::is_nil(orb_)) {
     orb_->shutdown(true);
     service_ = nullptr;
+    scenarios_ = nullptr;
+    load_ = nullptr;
     orb_->destroy();
   }
 }

@@ -14,9 +14,11 @@
 #include "apps/gsv/running_instances.h"
 #include "apps/gsv/sensor_types.h"
 #include "apps/gsv/server_limits.h"
+#include "apps/gsv/servers/scenario_service.h"
 #include "apps/gsv/viewer_options.h"
 #include "gsv/formats/read_limits.h"
 #include "gsv/services/broker_behaviours.h"
+#include "gsv/services/server_load.h"
 #include "gsv/services/simulation_host.h"
 #include "gsv/services/simulation_servant.h"
 
@@ -48,14 +50,16 @@ class Runtime {
   const std::string& viewer_url() const { return viewer_url_; }  // empty: none
 
   // Registers sba::SimulationService, with the simulations that are there, with the broker until
-  // this ends, and notes for this user's other commands where it is.
-  base::Status OfferService(const std::string& name);
+  // this ends, and notes for this user's other commands where it is. Besides, sba::ScenarioService
+  // for so many `scenarios` at once, if there are any.
+  base::Status OfferService(const std::string& name, int scenarios = 0);
 
  private:
   Runtime() = default;
   base::Status StartBroker(const RuntimeOptions& options);
   base::Status StartGateway(const RuntimeOptions& options);
   services::ServiceHooks Hooks();
+  base::Status OfferScenarios(const std::string& name, int scenarios);
 
   std::unique_ptr<ChildProcess> broker_process_;
   CORBA::ORB_var orb_;
@@ -68,7 +72,9 @@ class Runtime {
   std::unique_ptr<gateway::Gateway> gateway_;
   std::string viewer_url_;
   PortableServer::Servant_var<services::SimulationServiceServant> service_;
-  std::string service_offer_;
+  PortableServer::Servant_var<ScenarioServiceServant> scenarios_;
+  PortableServer::Servant_var<services::ServerLoad> load_;
+  std::vector<std::string> offers_;  // their ids
   std::unique_ptr<InstanceRecord> record_;
 };
 

@@ -17,6 +17,7 @@ struct ServeArguments {
   formats::ReadLimits limits;
   ServerLimits server_limits;
   ViewerOptions web;
+  int scenarios = 0;
   bool headless = false;
 };
 
@@ -31,7 +32,8 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.web = arguments.web;
   auto runtime = Runtime::Start(options);
   if (!runtime) return Complain(runtime.error());
-  if (auto ok = (*runtime)->OfferService(arguments.name); !ok) return Complain(ok.error());
+  if (auto ok = (*runtime)->OfferService(arguments.name, arguments.scenarios); !ok)
+    return Complain(ok.error());
   if (!(*runtime)->viewer_url().empty())
     std::printf("viewer: %s\n", (*runtime)->viewer_url().c_str());
   std::printf("broker: %s\n", (*runtime)->broker().reference().c_str());
@@ -55,6 +57,12 @@ void AddServeCommand(const CommandLine& line) {
   AddLimitOption(*command, arguments->limits, arguments->server_limits);
   AddViewerOptions(*command, arguments->web);
   AddRecordingsOption(*command, arguments->web);
+  command
+      ->add_option("--scenarios", arguments->scenarios,
+                   "take whole scenarios from campaigns (gsv campaign run --broker), so many at "
+                   "once, and run them with the behaviours that are installed here; 0: none")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
   command->add_flag("--headless", arguments->headless, "without a viewer");
   command->callback([arguments, line] { line.exit_code = Serve(*arguments, line.signals); });
 }

@@ -46,7 +46,11 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
                                       "duration", "seed",  "robots", "avatars"};
   for (const auto& [name, value] : json.items()) {
     if (std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
-      return Refused(name.substr(0, 128), "there is no such field");
+      std::string sentence = "there is no such field; there are:";
+      for (const std::string_view known : kKnown) {
+        sentence += (known == kKnown[0] ? " " : ", ") + std::string(known);
+      }
+      return Refused(name.substr(0, 128), sentence + ", record");
     }
   }
   for (const char* list : {"robots", "avatars"}) {

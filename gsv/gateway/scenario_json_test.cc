@@ -90,6 +90,14 @@ TEST(ScenarioJson, WhatIsWrongIsRefusedWithItsField) {
   }
 }
 
+TEST(ScenarioJson, AnUnknownFieldIsRefusedWithThoseThatAreKnown) {
+  const auto request = ParseSimulationRequest(R"({"world": "w", "wolrd": 1})");
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().error.message,
+            "there is no such field; there are: name, world, mode, factor, step, duration, seed, "
+            "robots, avatars, record");
+}
+
 TEST(ScenarioJson, MoreRobotsThanAnybodyTypesAreRefused) {
   std::string body = R"({"world": "w", "robots": [{"model": "m"})";
   for (int i = 0; i < 1000; ++i) body += R"(,{"model": "m"})";

@@ -1,5 +1,6 @@
 #include "gsv/services/conversions.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -105,6 +106,18 @@ sba::NameValues ToIdl(const model::Parameters& parameters) {
     ++i;
   }
   return values;
+}
+
+void RefuseUnknown(const model::Parameters& options,
+                   std::initializer_list<std::string_view> known) {
+  for (const auto& [name, value] : options) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string reason = name + ": there is no such option; there are:";
+    for (const std::string_view each : known) {
+      reason += (each == *known.begin() ? " " : ", ") + std::string(each);
+    }
+    throw sba::Refused(reason.c_str());
+  }
 }
 
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading) {

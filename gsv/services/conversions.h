@@ -1,6 +1,9 @@
 // Our plain data to and from that of the IDL.
 #pragma once
 
+#include <initializer_list>
+#include <string_view>
+
 #include "gsv/geometry/pose.h"
 #include "gsv/model/sensor_description.h"
 #include "gsv/sensing/reading.h"
@@ -18,6 +21,8 @@ sba::SensorTraits ToIdl(const model::SensorDescription& description,
 // Numbers and flags are recognised in the parameters' text.
 model::Parameters FromIdl(const sba::NameValues& values);
 sba::NameValues ToIdl(const model::Parameters& parameters);
+// Raises sba::Refused, naming those that are known, for an option that is none of them.
+void RefuseUnknown(const model::Parameters& options, std::initializer_list<std::string_view> known);
 
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
 

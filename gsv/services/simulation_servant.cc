@@ -27,9 +27,11 @@ simulation::Specification FromIdl(const sba::SimulationSpecification& in) {
   out.duration = base::SimTime(in.duration_ns);
   out.keep = in.keep;
   const model::Parameters options = services::FromIdl(in.options);
-  if (model::TextOr(options, "on_failure", "go_on") == "fail") {
-    out.on_failure = simulation::FailurePolicy::kFail;
-  }
+  RefuseUnknown(options, {"abandoned_after_s", "deadline_s", "on_failure"});
+  const std::string on_failure = model::TextOr(options, "on_failure", "go_on");
+  if (on_failure != "go_on" && on_failure != "fail")
+    throw sba::Refused("on_failure must be go_on or fail");
+  if (on_failure == "fail") out.on_failure = simulation::FailurePolicy::kFail;
   const double deadline_s = model::NumberOr(options, "deadline_s", 10.0);
   if (!(deadline_s > 0 && deadline_s <= 86'400))
     throw sba::Refused("deadline_s must lie in (0, 86400]");
@@ -98,6 +100,7 @@ std::string SimulationServant::Add(const sba::RobotSpecification& robot, bool is
   out.world_from_robot = FromIdl(robot.start);
   out.is_avatar = is_avatar;
   const model::Parameters options = FromIdl(robot.options);
+  RefuseUnknown(options, {"allow_unmanaged", "on_ground"});
   out.on_ground = model::FlagOr(options, "on_ground", true);
   out.allow_unmanaged = model::FlagOr(options, "allow_unmanaged", false);
   base::Problems problems;

@@ -5,9 +5,10 @@ usage: slow_link.py MILLISECONDS
 
 Makes a namespace whose only way to this host takes that much longer for every round trip, says
     ready NAMESPACE ADDRESS_HERE ADDRESS_THERE
-on stdout, and carries packets until it is told to end (SIGTERM, or the end of stdin's owner). The
-link is two TUN devices whose packets pass through this program, half the time each way. Where that
-is not permitted it says why on stderr and exits with 77.
+on stdout, and carries packets until it is told to end (SIGTERM, or the end of stdin's owner). All
+addresses of this host are reached from there. The link is two TUN devices whose packets pass
+through this program, half the time each way. Where that is not permitted it says why on stderr and
+exits with 77.
 """
 
 import collections
@@ -45,6 +46,7 @@ def set_up(namespace, here, there, address_here, address_there):
     ip("-n", namespace, "address", "add", address_there + "/30", "dev", there)
     ip("-n", namespace, "link", "set", there, "up")
     ip("-n", namespace, "link", "set", "lo", "up")
+    ip("-n", namespace, "route", "add", "default", "via", address_here)
     return ends
 
 

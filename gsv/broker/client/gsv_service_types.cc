@@ -15,6 +15,18 @@ PropertyDefinition Flag(std::string name, PropertyMode mode) {
   return {std::move(name), {Scalar::kBoolean, false, {}, {}}, mode};
 }
 
+void TakeText(const PropertyList& properties, const char* name, std::string& text) {
+  const Value* value = properties.Find(name);
+  if (value == nullptr) return;
+  if (const auto* found = value->As<std::string>()) text = *found;
+}
+
+void TakeNumber(const PropertyList& properties, const char* name, std::int32_t& number) {
+  const Value* value = properties.Find(name);
+  if (value == nullptr) return;
+  if (const auto* found = value->As<std::int64_t>()) number = static_cast<std::int32_t>(*found);
+}
+
 }  // namespace
 
 const ServiceType& AgentBehaviourFactoryType() {
@@ -41,6 +53,17 @@ const ServiceType& SimulationServiceType() {
   return type;
 }
 
+const ServiceType& ScenarioServiceType() {
+  static const ServiceType type{.name = "gsv::ScenarioService",
+                                .interface_name = "IDL:gsv/sba/ScenarioService:1.0",
+                                .properties = {Text("name", PropertyMode::kMandatory),
+                                               Text("host", PropertyMode::kMandatoryReadonly),
+                                               Number("pid", PropertyMode::kMandatoryReadonly),
+                                               Number("slots", PropertyMode::kMandatory),
+                                               Number("cores", PropertyMode::kNormal)}};
+  return type;
+}
+
 std::vector<Property> PropertiesOf(const BehaviourOffer& offer) {
   return {{"name", Value::String(offer.name)},
           {"description", Value::String(offer.description)},
@@ -51,18 +74,10 @@ std::vector<Property> PropertiesOf(const BehaviourOffer& offer) {
 
 BehaviourOffer BehaviourOfferFrom(const PropertyList& properties) {
   BehaviourOffer offer;
-  const auto text = [&](const char* name, std::string& out) {
-    const Value* value = properties.Find(name);
-    if (value == nullptr) return;
-    if (const auto* found = value->As<std::string>()) out = *found;
-  };
-  text("name", offer.name);
-  text("description", offer.description);
-  text("host", offer.host);
-  if (const Value* pid = properties.Find("pid");
-      pid != nullptr && pid->As<std::int64_t>() != nullptr) {
-    offer.pid = static_cast<std::int32_t>(*pid->As<std::int64_t>());
-  }
+  TakeText(properties, "name", offer.name);
+  TakeText(properties, "description", offer.description);
+  TakeText(properties, "host", offer.host);
+  TakeNumber(properties, "pid", offer.pid);
   if (const Value* managed = properties.Find("time_managed");
       managed != nullptr && managed->As<bool>() != nullptr) {
     offer.time_managed = *managed->As<bool>();
@@ -75,8 +90,25 @@ std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer) {
           {"host", Value::String(offer.host)},
           {"pid", Value::Long(offer.pid)},
           {"viewer_url", Value::String(offer.viewer_url)},
-          {"simulations", Value::Long(offer.simulations)},
           {"cores", Value::Long(offer.cores)}};
+}
+
+std::vector<Property> PropertiesOf(const ScenarioServiceOffer& offer) {
+  return {{"name", Value::String(offer.name)},
+          {"host", Value::String(offer.host)},
+          {"pid", Value::Long(offer.pid)},
+          {"slots", Value::Long(offer.slots)},
+          {"cores", Value::Long(offer.cores)}};
+}
+
+ScenarioServiceOffer ScenarioServiceOfferFrom(const PropertyList& properties) {
+  ScenarioServiceOffer offer;
+  TakeText(properties, "name", offer.name);
+  TakeText(properties, "host", offer.host);
+  TakeNumber(properties, "pid", offer.pid);
+  TakeNumber(properties, "slots", offer.slots);
+  TakeNumber(properties, "cores", offer.cores);
+  return offer;
 }
 
 }  // namespace gsv::broker

@@ -13,6 +13,8 @@ namespace gsv::broker {
 const ServiceType& AgentBehaviourFactoryType();
 // sba::SimulationService.
 const ServiceType& SimulationServiceType();
+// sba::ScenarioService.
+const ServiceType& ScenarioServiceType();
 
 struct BehaviourOffer {
   std::string name;  // "wander"
@@ -29,10 +31,21 @@ struct SimulationServiceOffer {
   std::string name;  // of the server
   std::string host;
   std::int32_t pid = 0;
-  std::string viewer_url;        // empty: nowhere
-  std::int32_t simulations = 0;  // how many it runs now
+  std::string viewer_url;  // empty: nowhere
   std::int32_t cores = 1;
 };
 std::vector<Property> PropertiesOf(const SimulationServiceOffer& offer);
+
+// How many scenarios a server runs at once is its `slots`.
+struct ScenarioServiceOffer {
+  std::string name;  // of the server
+  std::string host;
+  std::int32_t pid = 0;
+  std::int32_t slots = 0;
+  std::int32_t cores = 1;
+};
+std::vector<Property> PropertiesOf(const ScenarioServiceOffer& offer);
+// Properties that are missing keep their defaults.
+ScenarioServiceOffer ScenarioServiceOfferFrom(const PropertyList& properties);
 
 }  // namespace gsv::broker

@@ -35,8 +35,8 @@ void PrintOffers(const std::vector<OfferDescription>& offers, std::ostream& out)
 void PrintServiceTypes(const std::vector<ServiceType>& types, std::ostream& out);
 
 // NDJSON: {"id":…, "type":…, "address":…, "interface":…, "properties":{name: value, …}} a line. A
-// value that JSON cannot hold is {"type": its IDL type}; text that is not UTF-8 is mended with
-// U+FFFD.
+// value that JSON cannot hold is {"type": its IDL type}, a dynamic one {"dynamic": the type that it
+// will have}; text that is not UTF-8 is mended with U+FFFD.
 void PrintOffersJson(const std::vector<OfferDescription>& offers, std::ostream& out);
 // {"name":…, "interface":…, "super_types":[…], "masked":…, "incarnation":…,
 //  "properties":[{"name":…, "type":…, "readonly":…, "mandatory":…}, …]} a line.

@@ -18,7 +18,10 @@ Json ToJson(const ScalarValue& value) {
 }
 
 Json ToJson(const Value& value) {
-  if (const OtherValue* other = value.AsOther()) return {{"type", other->type_name}};
+  if (const OtherValue* other = value.AsOther()) {
+    if (other->promised_type != nullptr) return {{"dynamic", other->promised_type->Spelling()}};
+    return {{"type", other->type_name}};
+  }
   if (const Value::Sequence* sequence = value.AsSequence()) {
     Json array = Json::array();
     for (const ScalarValue& element : *sequence) array.push_back(ToJson(element));

@@ -47,10 +47,11 @@ class Application(_native.Application):
                lockstep: bool = True, factor: float = 1.0, step: float = 0.0, seed: int = 0,
                name: str = "", options: Mapping[str, str] = {}) -> Simulation:
         """A simulation of `world` on the first simulator, in the order of `preference` ("first",
-        "min simulations", "random"), whose offer matches `constraint` (over the properties of
+        "min load", "random"), whose offer matches `constraint` (over the properties of
         docs/services.md). Lockstep: as fast as possible and repeating to the bit; otherwise `factor`
         times real time. `step` in seconds; 0: the world's. `options` are those of
-        sba::SimulationSpecification: "model_path", "on_failure", "deadline_s"."""
+        sba::SimulationSpecification: "on_failure", "deadline_s",
+        "abandoned_after_s"."""
         simulation = Simulation(self, world, constraint, preference, lockstep, factor, step, seed,
                                 name, dict(options))
         end_at_exit(simulation, _native.Simulation.destroy)

@@ -17,7 +17,7 @@ class Ahead(gsv.Behaviour):
 
 def test_a_simulator_is_found_by_constraint(simulator):
     with simulator.create("playground", constraint="cores >= 1 and name == 'gsv'",
-                          preference="min simulations") as simulation:
+                          preference="min load") as simulation:
         assert simulation.state().phase == "created"
     with pytest.raises(gsv.NotFound, match="no simulator is offered for the constraint"):
         simulator.create("playground", constraint="cores > 100000")

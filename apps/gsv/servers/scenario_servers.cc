@@ -1,0 +1,241 @@
+#include "apps/gsv/servers/scenario_servers.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "gsv/broker/client/corbaloc.h"
+#include "gsv/broker/client/gsv_service_types.h"
+#include "gsv/orb/errors.h"
+#include "gsv/orb/orb.h"
+
+namespace gsv::app {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::size_t kMostServers = 1000;
+constexpr int kMostLost = 5;  // servers, one after the other, with the same run
+constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
+constexpr milliseconds kServerCallTimeout{5000};  // a wait for the end is answered after two
+
+base::Error NoServers(const std::string& broker, const std::string& constraint) {
+  return {base::ErrorCode::kUnavailable,
+          "no server that takes scenarios is offered" +
+              (constraint.empty() ? "" : " for the constraint: " + constraint) +
+              "; start one with gsv serve --scenarios 2 --broker " + broker,
+          broker};
+}
+
+// Whether a server that was heard is to be given up.
+class Patience {
+ public:
+  bool IsOverAfter(const base::Error& error) {
+    ++failures_;
+    if (error.code == base::ErrorCode::kEnded) return true;  // it was restarted, or gave the run up
+    // A connection that broke tells little, a port that refuses then that the process has ended.
+    if (error.code != base::ErrorCode::kTimeout && failures_ > 1) return true;
+    return Clock::now() - heard_ >= kSilence;
+  }
+  void Renew() {
+    failures_ = 0;
+    heard_ = Clock::now();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  int failures_ = 0;
+  Clock::time_point heard_ = Clock::now();
+};
+
+TestResult ResultFrom(const sba::ScenarioOutcome& outcome) {
+  TestResult result;
+  const std::string status(outcome.status);
+  if (status == "passed") result.status = TestResult::Status::kPassed;
+  if (status == "failed") result.status = TestResult::Status::kFailed;
+  result.message = outcome.message;
+  result.wall_seconds = outcome.wall_s;
+  result.report = nlohmann::ordered_json::parse(outcome.report.in(), nullptr, false);
+  if (!result.report.is_object()) result.report = nlohmann::ordered_json::object();
+  result.hashes.push_back(result.report.value("state_hash", ""));
+  return result;
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<ScenarioServers>> ScenarioServers::Find(
+    const std::string& broker, const std::string& constraint) {
+  auto reference = broker::NormaliseReference(broker);
+  if (!reference) return base::Fail(reference.error());
+  auto orb = orb::StartOrb({});
+  if (!orb) return base::Fail(orb.error());
+  auto client = broker::BrokerClient::Connect(*orb, *reference);
+  if (!client) return base::Fail(client.error());
+  std::unique_ptr<ScenarioServers> servers(
+      new ScenarioServers(*orb, *std::move(client), constraint));
+  if (auto ok = servers->Refresh(); !ok) return base::Fail(ok.error());
+  if (servers->servers_.empty()) return base::Fail(NoServers(*reference, constraint));
+  return servers;
+}
+
+ScenarioServers::~ScenarioServers() {
+  servers_.clear();
+  orb_->destroy();
+}
+
+base::Status ScenarioServers::Refresh() {
+  auto offers =
+      broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load", kMostServers);
+  // A broker that no such server has ever registered with does not know the type.
+  if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
+  const std::lock_guard lock(mutex_);
+  is_refreshing_ = false;
+  refreshed_ = Clock::now();
+  if (!offers) return base::Fail(offers.error());
+  Merge(*offers);
+  return {};
+}
+
+void ScenarioServers::Merge(const std::vector<broker::FoundOffer>& offers) {
+  std::vector<std::shared_ptr<Server>> known;
+  for (const broker::FoundOffer& offer : offers) {
+    const CORBA::String_var key = orb_->object_to_string(offer.object);
+    const auto found = std::find_if(servers_.begin(), servers_.end(),
+                                    [&](const auto& server) { return server->key == key.in(); });
+    if (found != servers_.end()) {
+      known.push_back(*found);
+      continue;
+    }
+    const auto described = broker::ScenarioServiceOfferFrom(offer.properties);
+    auto server = std::make_shared<Server>();
+    server->key = key;
+    server->name = fmt::format("{} ({}:{})", described.name, described.host, described.pid);
+    server->slots = described.slots;
+    server->service = sba::ScenarioService::_unchecked_narrow(offer.object);
+    orb::LimitCalls(server->service, kServerCallTimeout);
+    known.push_back(std::move(server));
+  }
+  servers_ = std::move(known);
+}
+
+std::shared_ptr<ScenarioServers::Server> ScenarioServers::Roomiest() {
+  const auto now = Clock::now();
+  std::shared_ptr<Server> best;
+  for (const auto& server : servers_) {
+    if (server->given >= server->slots || now < server->avoided_until) continue;
+    if (best == nullptr || server->given * best->slots < best->given * server->slots) best = server;
+  }
+  return best;
+}
+
+std::shared_ptr<ScenarioServers::Server> ScenarioServers::Acquire(
+    const std::atomic<bool>& is_cancelled) {
+  std::unique_lock lock(mutex_);
+  if (served_ == Clock::time_point{}) served_ = Clock::now();
+  while (!is_cancelled && failure_.empty()) {
+    if (!is_refreshing_ && Clock::now() - refreshed_ >= kRefreshPeriod) {
+      is_refreshing_ = true;
+      lock.unlock();
+      (void)Refresh();  // a broker that is away for a while: with the servers that are known
+      lock.lock();
+    }
+    if (auto server = Roomiest()) {
+      ++server->given;
+      served_ = Clock::now();
+      return server;
+    }
+    const bool is_anybody_there =
+        std::any_of(servers_.begin(), servers_.end(), [](const auto& server) {
+          return server->given > 0 || Clock::now() >= server->avoided_until;
+        });
+    if (is_anybody_there) served_ = Clock::now();
+    if (Clock::now() - served_ > kWithoutServers) {
+      failure_ = NoServers(broker_.reference(), constraint_).Sentence();
+    }
+    room_.wait_for(lock, milliseconds(500));
+  }
+  return nullptr;
+}
+
+void ScenarioServers::Release(Server& server, Ending ending) {
+  const std::lock_guard lock(mutex_);
+  --server.given;
+  served_ = Clock::now();
+  if (ending == Ending::kNoRoom) server.avoided_until = Clock::now() + kRefreshPeriod;
+  if (ending == Ending::kLost) {
+    if (Clock::now() >= server.avoided_until) {
+      std::fprintf(stderr, "gsv: warning: %s is lost; its runs are given to others\n",
+                   server.name.c_str());
+    }
+    server.avoided_until = Clock::now() + kAvoidLost;
+  }
+  room_.notify_one();
+}
+
+TestResult ScenarioServers::Run(const std::string& scenario, double timeout,
+                                const std::atomic<bool>& is_cancelled) {
+  TestResult result;
+  for (int lost = 0; lost < kMostLost;) {
+    const auto server = Acquire(is_cancelled);
+    if (server == nullptr) {
+      result.status = TestResult::Status::kInterrupted;
+      return result;
+    }
+    const Ending ending = RunAt(*server, scenario, timeout, is_cancelled, result);
+    Release(*server, ending);
+    if (ending == Ending::kDone) return result;
+    lost += ending == Ending::kLost;
+  }
+  result.message = fmt::format("{} servers were lost with it, one after the other", kMostLost);
+  return result;
+}
+
+ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string& scenario,
+                                               double timeout,
+                                               const std::atomic<bool>& is_cancelled,
+                                               TestResult& result) {
+  sba::NameValues options;
+  options.length(1);
+  options[0].name = "timeout_s";
+  options[0].value = fmt::format("{}", timeout).c_str();
+  const auto started = orb::Call(server.name, [&] {
+    return sba::ScenarioRun_var(server.service->run(scenario.c_str(), options));
+  });
+  if (!started && started.error().code == base::ErrorCode::kInvalidArgument) {
+    result.message = started.error().Sentence();  // another server would refuse it, too
+    return Ending::kDone;
+  }
+  if (!started) return Ending::kLost;
+  const sba::ScenarioRun_var run(*started);
+  if (CORBA::is_nil(run)) return Ending::kNoRoom;
+  orb::LimitCalls(run, kServerCallTimeout);
+  Patience patience;
+  while (!is_cancelled) {
+    const auto outcome = orb::Call(server.name, [&]() -> std::unique_ptr<TestResult> {
+      if (!run->await_end()) return nullptr;
+      const sba::ScenarioOutcome_var outcome = run->outcome();
+      return std::make_unique<TestResult>(ResultFrom(outcome));
+    });
+    if (!outcome) {
+      if (patience.IsOverAfter(outcome.error())) return Ending::kLost;
+      continue;
+    }
+    patience.Renew();
+    if (*outcome == nullptr) continue;
+    result = std::move(**outcome);
+    (void)orb::Call(server.name, [&] { run->destroy(); });  // else it forgets it by itself
+    return Ending::kDone;
+  }
+  (void)orb::Call(server.name, [&] { run->destroy(); });
+  result.status = TestResult::Status::kInterrupted;
+  return Ending::kDone;
+}
+
+std::string ScenarioServers::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+}  // namespace gsv::app

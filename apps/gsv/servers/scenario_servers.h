@@ -1,0 +1,74 @@
+// Servers that run scenarios for others, found through a broker: for a campaign that has more runs
+// than one machine is to do.
+//
+// Who joins or leaves while it works is noticed: the broker is asked again about once a second. A
+// server that is killed, or that nobody reaches for ten seconds, is lost, and what was under way
+// there is given to another.
+//
+// Threads  any number call Run(), each for a run of its own.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/test_cases.h"
+#include "gsv/broker/client/broker_client.h"
+#include "idl/scenario.hh"
+
+namespace gsv::app {
+
+class ScenarioServers {
+ public:
+  // `constraint`: over the properties of gsv::ScenarioService (docs/services.md); empty: any.
+  // kUnavailable when there is none. Starts this process's ORB.
+  static base::Result<std::unique_ptr<ScenarioServers>> Find(const std::string& broker,
+                                                             const std::string& constraint);
+  ~ScenarioServers();
+
+  // Runs it where there is most room, waiting for room, and comes back with its outcome: status,
+  // message, report, wall time. kInterrupted when it was cancelled or there are no servers any
+  // more.
+  TestResult Run(const std::string& scenario, double timeout,
+                 const std::atomic<bool>& is_cancelled);
+
+  // Why it gave up: there was no server for a minute. Empty: it did not.
+  std::string failure() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Server {
+    std::string key, name;  // its reference; what people call it
+    sba::ScenarioService_var service;
+    int slots = 0, given = 0;
+    Clock::time_point avoided_until{};  // it was lost, or has no room
+  };
+  enum class Ending { kDone, kNoRoom, kLost };
+
+  ScenarioServers(CORBA::ORB_var orb, broker::BrokerClient broker, std::string constraint)
+      : orb_(std::move(orb)), broker_(std::move(broker)), constraint_(std::move(constraint)) {}
+
+  base::Status Refresh();
+  void Merge(const std::vector<broker::FoundOffer>& offers);
+  std::shared_ptr<Server> Acquire(const std::atomic<bool>& is_cancelled);
+  std::shared_ptr<Server> Roomiest();  // under the lock; null: none has room
+  void Release(Server& server, Ending ending);
+  Ending RunAt(Server& server, const std::string& scenario, double timeout,
+               const std::atomic<bool>& is_cancelled, TestResult& result);
+
+  CORBA::ORB_var orb_;
+  broker::BrokerClient broker_;
+  const std::string constraint_;
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable room_;
+  std::vector<std::shared_ptr<Server>> servers_;  // as the broker orders them
+  bool is_refreshing_ = false;
+  Clock::time_point refreshed_{}, served_{};  // served_: when there last was a server
+  std::string failure_;
+};
+
+}  // namespace gsv::app

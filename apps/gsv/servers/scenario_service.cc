@@ -1,0 +1,235 @@
+#include "apps/gsv/servers/scenario_service.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "apps/gsv/test_cases.h"
+#include "gsv/base/log.h"
+#include "gsv/base/temporary_folder.h"
+#include "gsv/orb/errors.h"
+#include "gsv/scenario/scenario_file.h"
+#include "gsv/services/conversions.h"
+
+namespace gsv::app {
+namespace {
+
+using RunClock = std::chrono::steady_clock;
+using RunSeconds = std::chrono::duration<double>;
+
+constexpr std::chrono::milliseconds kRunLease{2000};
+constexpr double kDefaultTimeout = 300, kDefaultAbandoned = 60;  // s of wall time
+constexpr std::size_t kMostKept = 1000;  // runs, those included whose outcome nobody has fetched
+
+// What a server runs for others; Refused says what is wrong with anything else.
+void RefuseUnlessRunnable(const std::string& text) {
+  base::Problems problems;
+  const auto scenario = orb::ValueOrThrow(scenario::ParseScenario(text, "scenario", problems),
+                                          orb::kRefused | orb::kFailed);
+  for (const base::Problem& problem : problems) {
+    if (problem.severity == base::Problem::Severity::kError)
+      throw sba::Refused(problem.Sentence().c_str());
+  }
+  if (scenario.duration.value_or(0) <= 0)
+    throw sba::Refused("the scenario needs an end: duration, in simulated seconds");
+  if (!scenario.record.empty())
+    throw sba::Refused("a server records no scenario for others: leave out record");
+}
+
+double SecondsOption(const model::Parameters& options, const char* name, double otherwise) {
+  const auto found = options.find(name);
+  if (found == options.end()) return otherwise;
+  const double* seconds = std::get_if<double>(&found->second);
+  if (seconds != nullptr && *seconds >= 1 && *seconds <= 1e6) return *seconds;
+  throw sba::Refused(fmt::format("{} must be a number from 1 to 1e6", name).c_str());
+}
+
+const char* StatusText(TestResult::Status status) {
+  switch (status) {
+    case TestResult::Status::kPassed:
+      return "passed";
+    case TestResult::Status::kFailed:
+      return "failed";
+    default:
+      return "error";
+  }
+}
+
+}  // namespace
+
+class ScenarioRunServant final : public POA_sba::ScenarioRun {
+ public:
+  ScenarioRunServant(ScenarioServiceServant& service, std::string scenario, double timeout,
+                     double abandoned_after)
+      : service_(service),
+        scenario_(std::move(scenario)),
+        timeout_(timeout),
+        abandoned_after_(abandoned_after),
+        thread_([this] { Work(); }) {}
+  ~ScenarioRunServant() override { Cancel(); }
+
+  CORBA::Boolean await_end() override {
+    NoteQuestion();
+    std::unique_lock lock(mutex_);
+    const bool is_over = ended_.wait_for(lock, kRunLease, [this] { return result_.has_value(); });
+    if (is_over) RaiseIfGivenUp();
+    return is_over;
+  }
+
+  sba::ScenarioOutcome* outcome() override {
+    NoteQuestion();
+    const std::lock_guard lock(mutex_);
+    if (!result_) throw sba::NotRunning("the scenario is still under way");
+    RaiseIfGivenUp();
+    auto* outcome = new sba::ScenarioOutcome;
+    outcome->status = StatusText(result_->status);
+    outcome->message = result_->message.c_str();
+    outcome->report =
+        result_->report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+            .c_str();
+    outcome->wall_s = result_->wall_seconds;
+    return outcome;
+  }
+
+  void destroy() override {
+    Cancel();
+    service_.Forget(this);
+  }
+
+  void Cancel() { is_cancelled_ = true; }
+  bool is_under_way() const {
+    const std::lock_guard lock(mutex_);
+    return !result_;
+  }
+  bool IsAbandoned() const {
+    return RunClock::now().time_since_epoch() - asked_.load() > RunSeconds(abandoned_after_);
+  }
+
+ private:
+  // Under the lock: what the server has given up has no outcome.
+  void RaiseIfGivenUp() const {
+    if (result_->status == TestResult::Status::kInterrupted)
+      throw sba::Ended("the server gave the scenario up");
+  }
+  void NoteQuestion() { asked_ = RunClock::now().time_since_epoch(); }
+
+  void Work() {
+    TestResult result;
+    if (const auto folder = base::TemporaryFolder::Make("gsv-served"); !folder) {
+      result.message = folder.error().Sentence();
+    } else {
+      const std::filesystem::path file = folder->path() / "scenario.yaml";
+      std::ofstream(file) << scenario_;
+      TestOptions options;
+      options.timeout = timeout_;
+      options.record = false;
+      options.threads = 1;
+      result = RunTestCase({file, "scenario"}, options, is_cancelled_);
+    }
+    const std::lock_guard lock(mutex_);
+    result_ = std::move(result);
+    ended_.notify_all();
+  }
+
+  ScenarioServiceServant& service_;
+  const std::string scenario_;
+  const double timeout_, abandoned_after_;
+  std::atomic<RunClock::duration> asked_{RunClock::now().time_since_epoch()};
+  std::atomic<bool> is_cancelled_{false};
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable ended_;
+  std::optional<TestResult> result_;
+  std::jthread thread_;  // the last member: it uses all others
+};
+
+namespace {
+
+using HeldRun = PortableServer::Servant_var<ScenarioRunServant>;
+
+HeldRun Hold(ScenarioRunServant* run) {
+  run->_add_ref();
+  return HeldRun(run);
+}
+
+}  // namespace
+
+ScenarioServiceServant::ScenarioServiceServant(PortableServer::POA_ptr poa, int capacity)
+    : poa_(PortableServer::POA::_duplicate(poa)),
+      capacity_(capacity),
+      janitor_([this] { EndAbandoned(); }) {}
+
+ScenarioServiceServant::~ScenarioServiceServant() { Close(); }
+
+sba::ScenarioRun_ptr ScenarioServiceServant::run(const char* scenario,
+                                                 const sba::NameValues& options) {
+  const model::Parameters values = services::FromIdl(options);
+  services::RefuseUnknown(values, {"abandoned_after_s", "timeout_s"});
+  const double timeout = SecondsOption(values, "timeout_s", kDefaultTimeout);
+  const double abandoned = SecondsOption(values, "abandoned_after_s", kDefaultAbandoned);
+  RefuseUnlessRunnable(scenario);
+  const std::lock_guard lock(mutex_);
+  if (closing_) throw sba::Failed("the server is ending");
+  const auto busy = std::count_if(runs_.begin(), runs_.end(),
+                                  [](const auto* run) { return run->is_under_way(); });
+  if (busy >= capacity_ || runs_.size() >= kMostKept) return sba::ScenarioRun::_nil();
+  auto* run = new ScenarioRunServant(*this, scenario, timeout, abandoned);
+  const PortableServer::ServantBase_var owned(run);
+  const PortableServer::ObjectId_var id = poa_->activate_object(run);
+  runs_.insert(run);
+  return run->_this();
+}
+
+int ScenarioServiceServant::under_way() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<int>(std::count_if(runs_.begin(), runs_.end(),
+                                        [](const auto* run) { return run->is_under_way(); }));
+}
+
+void ScenarioServiceServant::Forget(ScenarioRunServant* run) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (runs_.erase(run) == 0) return;  // somebody else has
+  }
+  const PortableServer::ObjectId_var id = poa_->servant_to_id(run);
+  poa_->deactivate_object(id);
+}
+
+void ScenarioServiceServant::EndAbandoned() {
+  std::unique_lock lock(mutex_);
+  while (!closing_) {
+    closing_changed_.wait_for(lock, std::chrono::seconds(1), [this] { return closing_; });
+    std::vector<HeldRun> abandoned;
+    for (ScenarioRunServant* run : runs_) {
+      if (run->IsAbandoned()) abandoned.push_back(Hold(run));
+    }
+    lock.unlock();
+    for (HeldRun& run : abandoned) {
+      spdlog::warn("a scenario was given up, since nobody has asked about it for too long");
+      run->Cancel();
+      Forget(run.in());
+    }
+    abandoned.clear();  // waits for its end
+    lock.lock();
+  }
+}
+
+void ScenarioServiceServant::Close() {
+  std::vector<HeldRun> runs;
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+    for (ScenarioRunServant* run : runs_) {
+      run->Cancel();
+      runs.push_back(Hold(run));
+    }
+  }
+  closing_changed_.notify_all();
+  for (HeldRun& run : runs) Forget(run.in());
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,40 @@
+// How busy a server is: dynamic properties of its offers, which the broker asks for whenever a
+// query needs them.
+//
+//   simulations   long    how many it has
+//   load          double  what it runs at the moment (simulations that advance, and scenarios), for
+//                         each of the machine's cores
+//   load_average  double  of the machine over the last minute, whoever works there, for each core
+//
+// Threads  ORB threads.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <COS/CosTradingDynamic.hh>
+
+#include "gsv/broker/language/property.h"
+#include "gsv/services/simulation_host.h"
+
+namespace gsv::services {
+
+class ServerLoad final : public POA_CosTradingDynamic::DynamicPropEval {
+ public:
+  // `host` outlives it. `scenarios`: how many are under way; may be empty.
+  ServerLoad(const SimulationHost& host, std::function<int()> scenarios)
+      : host_(host), scenarios_(std::move(scenarios)) {}
+
+  CORBA::Any* evalDP(const char* name, CORBA::TypeCode_ptr type, const CORBA::Any& info) override;
+
+  // To be exported, once it is active.
+  std::vector<broker::Property> Properties();
+
+ private:
+  double Load() const;
+
+  const SimulationHost& host_;
+  const std::function<int()> scenarios_;
+};
+
+}  // namespace gsv::services
