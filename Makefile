@@ -2,7 +2,8 @@
 # (tools/setup) and build what they need: `make run` no tests.
 # `make install` installs into PREFIX (/usr/local), `make deb` makes Debian packages in build/release/packages.
 # `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build);
-# it also tries the packages on a bare Debian, which needs root and debootstrap.
+# it also runs a campaign of 500 runs by a Slurm of its own, and tries the packages on a bare Debian, which
+# needs root and debootstrap.
 # `make chaos` kills, stops, floods and fills up all that a server lives with for CHAOS_SECONDS (3600).
 # `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60); it needs clang.
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"

@@ -38,9 +38,28 @@ struct Campaign {
   base::Result<std::string> ScenarioWith(const std::vector<std::string>& values) const;
   // Whatever bears on the runs: equal texts, equal runs.
   std::string Definition() const;
+  std::string Identity() const;  // of the definition: sixteen hexadecimal digits
+};
+
+// How a queue is asked for machines, which has no bearing on the runs.
+struct SlurmOptions {
+  std::string partition, time_limit;  // of a task, as sbatch has it; empty: the queue's own
+  std::vector<std::string> options;   // more of sbatch's
+  std::size_t runs_a_task = 0;        // 0: so many that 1,000 tasks take all
+};
+
+struct Engine {
+  std::string name = "local";  // or "slurm"
+  SlurmOptions slurm;
 };
 
 // Each value is tried in the scenario by itself; what is wrong with any is added to `problems`.
-base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
+// `engine`: what the file says about where to run it.
+base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
+                                    Engine* engine = nullptr);
+
+// A campaign as a text that holds all of it, for machines that take part.
+std::string ToJson(const Campaign& campaign);
+base::Result<Campaign> CampaignInJson(const std::string& text);
 
 }  // namespace gsv::campaign

@@ -74,6 +74,10 @@ TEST_F(CampaignTest, MistakesAreToldBeforeAnythingRuns) {
       {"scenario: s.yaml\nparameters: {seed: {gauss: [1, 2]}}", "a parameter is a list"},
       {"scenario: s.yaml\nparameters: {'robots[3].x': [1]}", "the scenario has no such place"},
       {"scenario: s.yaml\nparameters: {seed: [1, -1]}", "seed = -1: seed must be a whole number"},
+      {"scenario: s.yaml\nengine: pbs",
+       "c.yaml:2:9: there is no engine \"pbs\"; take local or slurm"},
+      {"scenario: s.yaml\nslurm: {queue: short}", "there is no key \"queue\" here"},
+      {"scenario: s.yaml\nslurm: {runs_a_task: 0}", "runs_a_task must be"},
       {"scenario: s.yaml\nruns: 3", "there is no key \"runs\" here"}};
   for (const auto& [text, sentence] : bad) {
     const auto campaign = Read(text);
@@ -132,6 +136,35 @@ TEST_F(CampaignTest, ResultsOfAnotherCampaignAreLeftAlone) {
   std::ofstream(file()) << "no database, but long enough to be taken for one, if nobody looked";
   EXPECT_FALSE(Results::Open(file()));
   EXPECT_EQ(Results::Open(file() + "x").error().code, base::ErrorCode::kNotFound);
+}
+
+TEST_F(CampaignTest, ALockedOrTornResultsFileLosesNothing) {
+  const auto campaign = Read("scenario: s.yaml\nparameters: {seed: {from: 0, to: 999}}");
+  ASSERT_TRUE(campaign);
+  std::vector<RunResult> many;
+  for (std::int64_t run = 1; run < 1000; ++run) many.push_back({run, "passed"});
+  {
+    const auto results = Results::OpenToAdd(file(), *campaign);
+    ASSERT_TRUE(results);
+    auto other = broker::Database::Open(file());
+    ASSERT_TRUE(other && other->Run("BEGIN IMMEDIATE"));
+    const auto refused = (*results)->Add(many);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, base::ErrorCode::kUnavailable);
+    EXPECT_EQ(refused.error().Sentence(),
+              file() +
+                  ": database is locked: another program holds it; once that has ended, the "
+                  "same command goes on");
+    ASSERT_TRUE(other->Run("ROLLBACK"));
+    ASSERT_TRUE((*results)->Add(many));
+  }
+  const auto size = std::filesystem::file_size(file());
+  std::filesystem::resize_file(file(), size / 2);
+  const auto torn = Results::Open(file());
+  const auto all = torn ? (*torn)->All() : base::Fail(torn.error());
+  ASSERT_FALSE(all);
+  EXPECT_THAT(all.error().Sentence(), HasSubstr(file()));
+  EXPECT_THAT(all.error().Sentence(), HasSubstr("malformed"));
 }
 
 TEST(CampaignStatistics, IntervalsAreThoseOfTheBooks) {

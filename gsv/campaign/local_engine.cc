@@ -67,15 +67,21 @@ base::Status LocalEngine::Run(Results& results) const {
   for (std::int64_t run = 0; run < *planned; ++run) {
     if (!done->contains(run)) left.push_back(run);
   }
-  Progress progress{static_cast<std::size_t>(*planned), done->size()};
+  return Take(std::move(left), {static_cast<std::size_t>(*planned), done->size()},
+              [&](const std::vector<RunResult>& more) { return results.Add(more); });
+}
+
+base::Status LocalEngine::Take(
+    std::vector<std::int64_t> runs, Progress progress,
+    const std::function<base::Status(const std::vector<RunResult>&)>& keep) const {
   const auto start = EngineClock::now();
+  const std::size_t to_take = runs.size();
   std::size_t taken = 0;
-  const std::size_t to_take = left.size();
-  Work work(*this, std::move(left));
+  Work work(*this, std::move(runs));
   while (!work.IsOver()) {
     const std::vector<RunResult> collected = work.Collect();
     if (!collected.empty()) {
-      if (auto ok = results.Add(collected); !ok) return ok;
+      if (auto ok = keep(collected); !ok) return ok;
     }
     taken += collected.size();
     progress.done += collected.size();

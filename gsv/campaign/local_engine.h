@@ -25,6 +25,9 @@ struct LocalEngine {
   // Until all are in the results, or it is interrupted: then what is under way is given up, and
   // what is done is kept. Fails when the results cannot be written.
   base::Status Run(Results& results) const;
+  // The same of these runs, each given to `keep` once. `progress`: as it stands before.
+  base::Status Take(std::vector<std::int64_t> runs, Progress progress,
+                    const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;
 };
 
 }  // namespace gsv::campaign

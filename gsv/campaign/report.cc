@@ -100,7 +100,7 @@ std::string ToText(const Report& report) {
     text.erase(text.find_last_not_of(' ') + 1);
     text += "\n";
   }
-  return text;
+  return report.queue.empty() ? text : text + report.queue + "\n";
 }
 
 std::string ToSvg(const Report& report) {
@@ -156,9 +156,10 @@ std::string ToHtml(const Report& report) {
       Escaped(report.title), runs, report.planned, passed, Words(PassRate(passed, runs)));
   html += ToSvg(report) + "<table>\n" + cells(Header(report), "th");
   for (const Group& group : report.groups) html += cells(Row(report, group), "td");
+  html += "</table>\n";
+  if (!report.queue.empty()) html += "<p>" + Escaped(report.queue) + "</p>\n";
   return html +
-         "</table>\n<p>Shares with Wilson's 95 % interval, means with Student's.</p>\n"
-         "</body></html>\n";
+         "<p>Shares with Wilson's 95 % interval, means with Student's.</p>\n</body></html>\n";
 }
 
 std::string ToCsv(const std::vector<RunResult>& results,

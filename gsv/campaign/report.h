@@ -23,6 +23,7 @@ struct Report {
   std::vector<std::string> parameters;  // that are looked at
   std::vector<std::string> metrics;     // that are shown
   std::vector<Group> groups;            // in the order of their first runs
+  std::string queue;                    // what the queue cost, a sentence; empty: there was none
 };
 
 // `by`: the parameters to look at; empty: those with 12 values at most. `metrics`: the names to

@@ -1,12 +1,13 @@
 // What came of a campaign's runs: one SQLite file.
 //
-// Format   tables `campaign` (key, value) and `runs` (run, parameters, status, message, state_hash,
-//          sim_time_s, wall_s, recording, metrics; parameters and metrics are JSON objects), in WAL
-//          mode: what was added survives the end of the process at any moment. A run is in it once,
-//          or not yet.
+// Format   tables `campaign` (key, value), `runs` (run, parameters, status, message, state_hash,
+//          sim_time_s, wall_s, recording, metrics; parameters and metrics are JSON objects) and
+//          `attempts` (the fields of Attempt), in WAL mode: what was added survives the end of the
+//          process at any moment. A run is in it once, or not yet.
 // Threads  one at a time. One process at a time adds: the others are refused.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <set>
@@ -32,30 +33,56 @@ struct RunResult {
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();  // numbers by name
 };
 
+// One process that took a share of the runs, on some machine.
+struct Attempt {
+  std::string journal;  // the file that it wrote
+  std::string share;    // what it was to do; another attempt may have the same
+  std::string job;      // the queue's name for it; empty: there is no queue
+  std::string node;     // the machine
+  int at_once = 1;      // runs
+  double submitted = 0, started = 0, ended = 0;  // s since 1970; ended: as far as is known
+  std::size_t runs = 0;                          // that it did
+  double run_seconds = 0;                        // wall time of these, added up
+
+  friend bool operator==(const Attempt&, const Attempt&) = default;
+};
+
 class Results {
  public:
   // For a driver: makes the file if there is none. Refuses one of another campaign, one that is no
-  // results' file, and one that another driver adds to.
-  static base::Result<std::unique_ptr<Results>> OpenToAdd(const std::string& file,
-                                                          const Campaign& campaign);
+  // results' file, and one that another process still adds to after
+  // `patience` (kNotRunning): who only gathers is done soon.
+  static base::Result<std::unique_ptr<Results>> OpenToAdd(
+      const std::string& file, const Campaign& campaign,
+      std::chrono::milliseconds patience = std::chrono::milliseconds(0));
   // To look at; kNotFound when there is none.
   static base::Result<std::unique_ptr<Results>> Open(const std::string& file);
   ~Results();
 
-  // All of them, or none. A run that is there already stays as it was.
-  base::Status Add(const std::vector<RunResult>& results);
+  // All of them, or none. A run that is there already stays as it was; of an attempt, by its
+  // journal, the newest is kept.
+  base::Status Add(const std::vector<RunResult>& results,
+                   const std::vector<Attempt>& attempts = {});
 
   base::Result<std::set<std::int64_t>> DoneRuns();
-  base::Result<std::vector<RunResult>> All();  // by number
+  base::Result<std::size_t> NotPassed();
+  base::Result<std::vector<RunResult>> All();     // by number
+  base::Result<std::vector<Attempt>> Attempts();  // by the instant at which they started
   base::Result<std::int64_t> PlannedRuns();
   // The paths that are varied, in order.
   base::Result<std::vector<std::string>> Parameters();
 
  private:
-  explicit Results(broker::Database database) : database_(std::move(database)) {}
-  base::Status Begin(const Campaign& campaign, const std::string& file);
+  Results(broker::Database database, std::string file)
+      : database_(std::move(database)), file_(std::move(file)) {}
+  base::Status Begin(const Campaign& campaign);
+  // What SQLite said, with the file and what to do.
+  tl::unexpected<base::Error> Refused(const base::Error& error) const;
+  base::Status Insert(const std::vector<RunResult>& results);
+  base::Status Insert(const std::vector<Attempt>& attempts);
 
   broker::Database database_;
+  const std::string file_;
   int lock_ = -1;
 };
 

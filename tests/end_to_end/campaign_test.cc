@@ -80,6 +80,24 @@ TEST_F(CampaignCommand, ARunCanBeHadByItself) {
   EXPECT_EQ(Campaign("show", {"8"}).ending, "exit code 2");
 }
 
+TEST_F(CampaignCommand, SharesOfAnotherQueueAreGatheredAndGoOnWhereTheyWere) {
+  EXPECT_EQ(Campaign("run", {"--shard", "1/3", "--jobs", "1"}).ending, "exit code 0");
+  EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 3);
+  // Again, as a queue would that takes it for lost: nothing is left to do.
+  EXPECT_EQ(Campaign("run", {"--shard", "1/3"}).ending, "exit code 0");
+  EXPECT_EQ(Campaign("run", {"--shard", "3/3", "--jobs", "1"}).ending, "exit code 0");
+  const Outcome report = Campaign("report", {"--by", "robots[0].x"});
+  EXPECT_THAT(report.out, HasSubstr("0            3 "));  // runs 0, 2, 6 of 0, 3, 6, 2, 5
+  const Outcome rest = Campaign("run", {"--json"});
+  EXPECT_EQ(rest.ending, "exit code 1") << rest.err;
+  EXPECT_EQ(rest.LastLine()["done"], 8);
+  EXPECT_EQ(rest.LastLine()["failed"], 4);
+  // The results' file can be made again from what the shares left.
+  std::filesystem::remove(folder_.path() / "c.sqlite");
+  EXPECT_EQ(Campaign("status", {"--json"}).LastLine()["done"], 5);
+  EXPECT_EQ(Campaign("run", {"--shard", "4/3"}).ending, "exit code 2");
+}
+
 TEST_F(CampaignCommand, BadInputIsTold) {
   const std::string bad = folder_.Write("bad.yaml", "scenario: s.yaml\nparameters: {sed: [1]}\n");
   const Outcome run = RunProgram("gsv", {"campaign", "run", bad});
@@ -87,6 +105,11 @@ TEST_F(CampaignCommand, BadInputIsTold) {
   EXPECT_THAT(run.err, HasSubstr("sed = 1: there is no key \"sed\" here"));
   EXPECT_EQ(RunProgram("gsv", {"campaign", "run", folder_.path() / "none.yaml"}).ending,
             "exit code 3");
+  EXPECT_EQ(Campaign("run", {"--engine", "pbs"}).ending, "exit code 2");
+  const std::string pbs = folder_.Write("pbs.yaml", "scenario: s.yaml\nengine: pbs\n");
+  const Outcome engine = RunProgram("gsv", {"campaign", "run", pbs});
+  EXPECT_EQ(engine.ending, "exit code 3");
+  EXPECT_THAT(engine.err, HasSubstr("pbs.yaml:2:9: there is no engine \"pbs\""));
   const std::string torn = folder_.Write("torn.sqlite", "SQLite format 3, and then nothing of it");
   const Outcome report = RunProgram("gsv", {"campaign", "report", torn});
   EXPECT_EQ(report.ending, "exit code 5");

@@ -1,0 +1,75 @@
+#include "gsv/campaign/queue_cost.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace gsv::campaign {
+
+std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts) {
+  QueueCost cost;
+  std::set<std::string> nodes;
+  std::map<std::string, double> waits;  // by share
+  std::multimap<double, int> changes;   // of the slots in use, by time
+  double submitted = 0, first = 0, last = 0;
+  for (const Attempt& attempt : attempts) {
+    if (attempt.job.empty()) continue;
+    const double wait = attempt.started - attempt.submitted;
+    const auto [entry, is_first] = waits.try_emplace(attempt.share, wait);
+    entry->second = std::min(entry->second, wait);
+    const bool any = cost.tasks++ > 0;
+    cost.requeued += !is_first;
+    nodes.insert(attempt.node);
+    cost.run_seconds += attempt.run_seconds;
+    cost.task_seconds += attempt.at_once * (attempt.ended - attempt.started);
+    submitted = any ? std::min(submitted, attempt.submitted) : attempt.submitted;
+    first = any ? std::min(first, attempt.started) : attempt.started;
+    last = std::max(last, attempt.ended);
+    changes.emplace(attempt.started, attempt.at_once);
+    changes.emplace(attempt.ended, -attempt.at_once);
+  }
+  if (cost.tasks == 0) return std::nullopt;
+  // At one instant those that end make room first.
+  int in_use = 0, most = 0;
+  for (auto change = changes.begin(); change != changes.end();) {
+    const auto [begin, end] = changes.equal_range(change->first);
+    for (auto each = begin; each != end; ++each) in_use += std::min(each->second, 0);
+    for (auto each = begin; each != end; ++each) in_use += std::max(each->second, 0);
+    most = std::max(most, in_use);
+    change = end;
+  }
+  cost.nodes = nodes.size();
+  cost.slots = static_cast<std::size_t>(most);
+  for (const auto& [share, wait] : waits) {
+    cost.mean_wait += wait / static_cast<double>(waits.size());
+    cost.longest_wait = std::max(cost.longest_wait, wait);
+  }
+  cost.idle_seconds = std::max(0.0, most * (last - first) - cost.task_seconds);
+  cost.span = last - submitted;
+  return cost;
+}
+
+std::string Sentence(const QueueCost& cost) {
+  const auto tasks = static_cast<double>(cost.tasks);
+  return fmt::format(
+      "queue: {} tasks ({} requeued) on {} nodes, {} runs at once at most; they waited for {:.1f} "
+      "s "
+      "({:.1f} s the longest); runs took {:.1f} s in all, their tasks {:.2f} s each beside them; "
+      "between tasks, slots were empty for {:.2f} s a task; {:.1f} s from first submission to last "
+      "end",
+      cost.tasks, cost.requeued, cost.nodes, cost.slots, cost.mean_wait, cost.longest_wait,
+      cost.run_seconds, (cost.task_seconds - cost.run_seconds) / tasks, cost.idle_seconds / tasks,
+      cost.span);
+}
+
+nlohmann::ordered_json ToJson(const QueueCost& cost) {
+  return {{"tasks", cost.tasks},           {"requeued", cost.requeued},
+          {"nodes", cost.nodes},           {"slots", cost.slots},
+          {"mean_wait_s", cost.mean_wait}, {"longest_wait_s", cost.longest_wait},
+          {"runs_s", cost.run_seconds},    {"tasks_s", cost.task_seconds},
+          {"idle_s", cost.idle_seconds},   {"span_s", cost.span}};
+}
+
+}  // namespace gsv::campaign

@@ -1,0 +1,295 @@
+#include "gsv/campaign/slurm_engine.h"
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace gsv::campaign {
+namespace {
+
+using DriverClock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kGatherPeriod{500};
+constexpr auto kSilence = std::chrono::seconds(30);  // after which it is said why nothing comes
+constexpr std::size_t kFewTasks = 1000;
+constexpr std::size_t kMostAttempts = 3;  // at a run during which its task ends
+constexpr int kGone = 2;                  // looks in a row that do not find a task
+constexpr std::size_t kMostOfLog = 1000;  // bytes that are shown of it
+
+std::string EndOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  std::string end = text.str();
+  if (end.size() > kMostOfLog) end = "…" + end.substr(end.size() - kMostOfLog);
+  while (!end.empty() && end.back() == '\n') end.pop_back();
+  return end;
+}
+
+class SlurmDriver {
+ public:
+  SlurmDriver(const SlurmEngine& engine, Spool& spool, Results& results)
+      : engine_(engine), spool_(spool), results_(results) {}
+
+  base::Status Run() {
+    auto batches = spool_.Batches();
+    if (!batches) return base::Fail(batches.error());
+    batches_ = *std::move(batches);
+    progress_.planned = spool_.campaign().runs();
+    if (auto ok = TakeIn(); !ok) return ok;
+    done_before_ = done_.size();
+    auto next_look = start_;
+    while (done_.size() < progress_.planned) {
+      if (DriverClock::now() >= next_look) {
+        if (auto ok = LookAndHandOut(); !ok) return ok;
+        if (!engine_.waits && IsAllHandedOut()) return {};
+        next_look = DriverClock::now() + engine_.look_period;
+      }
+      if (engine_.is_interrupted(std::min(kGatherPeriod, engine_.look_period))) return {};
+      if (auto ok = TakeIn(); !ok) return ok;
+    }
+    return {};
+  }
+
+ private:
+  // Gathers, and learns what is done.
+  base::Status TakeIn() {
+    const auto gathered = Gather(spool_, results_);
+    if (!gathered) return base::Fail(gathered.error());
+    if (*gathered > 0 || done_.empty()) {
+      auto done = results_.DoneRuns();
+      if (!done) return base::Fail(done.error());
+      if (done->size() != done_.size()) last_news_ = DriverClock::now();
+      done_ = *std::move(done);
+      const auto not_passed = results_.NotPassed();
+      if (!not_passed) return base::Fail(not_passed.error());
+      progress_.not_passed = *not_passed;
+    }
+    progress_.done = done_.size();
+    const double seconds = std::chrono::duration<double>(DriverClock::now() - start_).count();
+    if (done_.size() > done_before_) {
+      progress_.seconds_left = seconds / static_cast<double>(done_.size() - done_before_) *
+                               static_cast<double>(progress_.planned - done_.size());
+    }
+    if (engine_.tell) engine_.tell(progress_);
+    return {};
+  }
+
+  base::Status LookAndHandOut() {
+    const std::vector<Batch> open = OpenBatches();
+    auto tasks = engine_.queue.TasksOf(open);
+    if (!tasks) {
+      // What it holds is not known, so that nothing can be handed out; what runs goes on.
+      if (!has_looked_) return base::Fail(tasks.error());
+      if (!std::exchange(is_silent_, true))
+        engine_.say(tasks.error().Sentence() + "; it is asked again, what runs goes on");
+      return {};
+    }
+    has_looked_ = true;
+    is_silent_ = false;
+    for (const Batch& batch : open) {
+      for (std::size_t task = 0; task < batch.tasks(); ++task) {
+        const std::string share = batch.ShareOf(task);
+        looks_without_[share] = tasks->contains(share) ? 0 : looks_without_[share] + 1;
+      }
+    }
+    SayWhyNothingComes(*tasks);
+    // What a task that is gone has left may have come between gathering and looking.
+    if (auto ok = TakeIn(); !ok) return ok;
+    if (auto ok = DropBatchesThatCameToNothing(); !ok) return ok;
+    auto missing = MissingRuns();
+    if (!missing) return base::Fail(missing.error());
+    if (missing->empty()) return {};
+    if (is_waiting_to_hand_out_ && tasks->size() >= tasks_at_refusal_) return {};
+    return HandOut(*std::move(missing), tasks->size());
+  }
+
+  // Those with runs that are not done.
+  std::vector<Batch> OpenBatches() const {
+    std::vector<Batch> open;
+    for (const Batch& batch : batches_) {
+      if (std::any_of(batch.runs.begin(), batch.runs.end(),
+                      [this](std::int64_t run) { return !done_.contains(run); }))
+        open.push_back(batch);
+    }
+    return open;
+  }
+
+  bool IsGone(const Batch& batch, std::size_t task) const {
+    const auto looks = looks_without_.find(batch.ShareOf(task));
+    return looks != looks_without_.end() && looks->second >= kGone;
+  }
+
+  // Of a task that one look did not find, the next one decides.
+  bool IsAllHandedOut() const {
+    return !is_waiting_to_hand_out_ &&
+           std::none_of(looks_without_.begin(), looks_without_.end(),
+                        [](const auto& looks) { return looks.second > 0 && looks.second < kGone; });
+  }
+
+  // A batch that left the queue before any of its runs had begun: one of an earlier driver may have
+  // been cancelled, or never been submitted. With one of our own something is wrong.
+  base::Status DropBatchesThatCameToNothing() {
+    for (const Batch& batch : OpenBatches()) {
+      bool came_to_nothing = true;
+      for (std::size_t task = 0; task < batch.tasks() && came_to_nothing; ++task)
+        came_to_nothing = IsGone(batch, task) && !HasBegun(batch.ShareOf(task));
+      if (!came_to_nothing) continue;
+      spool_.Remove(batch);
+      std::erase_if(batches_, [&](const Batch& one) { return one.number == batch.number; });
+      if (!ours_.contains(batch.number)) continue;
+      const auto log = spool_.logs() / (batch.name + "-0.log");
+      const std::string said = EndOf(log);
+      return base::Fail(
+          base::ErrorCode::kUnavailable,
+          fmt::format(
+              "Slurm's job {} ended before any of its runs had begun{}", batch.job,
+              said.empty() ? "; was it cancelled, or can the nodes not write there?" : ": " + said),
+          log);
+    }
+    return {};
+  }
+
+  bool HasBegun(const std::string& share) const {
+    const std::string prefix = share + ".";
+    for (auto reader = spool_.read().lower_bound(prefix);
+         reader != spool_.read().end() && reader->first.starts_with(prefix); ++reader) {
+      const auto& attempt = reader->second.attempt();
+      if (attempt && (attempt->runs > 0 || !reader->second.open_runs().empty())) return true;
+    }
+    return false;
+  }
+
+  // Neither done nor in the queue; those last during which a task has ended already. One that went
+  // so too often becomes an error.
+  base::Result<std::vector<std::int64_t>> MissingRuns() {
+    std::set<std::int64_t> queued;
+    for (const Batch& batch : OpenBatches()) {
+      for (std::size_t task = 0; task < batch.tasks(); ++task) {
+        if (IsGone(batch, task)) continue;
+        for (const std::int64_t run : batch.RunsOf(task)) queued.insert(run);
+      }
+    }
+    std::map<std::int64_t, std::size_t> attempts;
+    for (const auto& [name, reader] : spool_.read()) {
+      for (const std::int64_t run : reader.open_runs()) ++attempts[run];
+    }
+    std::vector<std::int64_t> missing;
+    std::vector<RunResult> given_up;
+    for (std::int64_t run = 0; run < static_cast<std::int64_t>(progress_.planned); ++run) {
+      if (done_.contains(run) || queued.contains(run)) continue;
+      if (const auto found = attempts.find(run);
+          found != attempts.end() && found->second >= kMostAttempts) {
+        given_up.push_back(GivenUp(run));
+      } else {
+        missing.push_back(run);
+      }
+    }
+    std::stable_sort(missing.begin(), missing.end(),
+                     [&](std::int64_t a, std::int64_t b) { return attempts[a] < attempts[b]; });
+    if (given_up.empty()) return missing;
+    if (auto ok = results_.Add(given_up); !ok) return base::Fail(ok.error());
+    for (const RunResult& result : given_up) done_.insert(result.run);
+    return missing;
+  }
+
+  RunResult GivenUp(std::int64_t run) const {
+    RunResult result{run, "error"};
+    result.message = fmt::format(
+        "its task ended {} times while it ran; look at the queue's limits on memory and time, and "
+        "at {}",
+        kMostAttempts, spool_.logs().string());
+    const auto values = spool_.campaign().ValuesOf(static_cast<std::size_t>(run));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      result.parameters[spool_.campaign().parameters[i].path] = values[i];
+    return result;
+  }
+
+  base::Status HandOut(std::vector<std::int64_t> runs, std::size_t tasks_in_queue) {
+    const auto most = engine_.queue.MostTasks();
+    if (!most) return base::Fail(most.error());
+    const std::size_t tasks = std::min(*most, kFewTasks);
+    const std::size_t runs_a_task =
+        engine_.runs_a_task > 0 ? engine_.runs_a_task : (runs.size() + tasks - 1) / tasks;
+    for (std::size_t first = 0; first < runs.size(); first += *most * runs_a_task) {
+      const std::size_t end = std::min(runs.size(), first + *most * runs_a_task);
+      Batch batch = NewBatch(runs_a_task);
+      batch.runs.assign(runs.begin() + static_cast<std::ptrdiff_t>(first),
+                        runs.begin() + static_cast<std::ptrdiff_t>(end));
+      if (auto ok = spool_.Put(batch); !ok) return ok;
+      auto job = engine_.queue.Submit(spool_, batch);
+      if (!job && job.error().code == base::ErrorCode::kNotRunning) {
+        spool_.Remove(batch);
+        if (tasks_in_queue == 0) return base::Fail(job.error());
+        if (!std::exchange(is_waiting_to_hand_out_, true)) {
+          engine_.say(fmt::format("{}; {} runs wait here until the queue is shorter",
+                                  job.error().Sentence(), runs.size() - first));
+        }
+        tasks_at_refusal_ = tasks_in_queue;
+        return {};
+      }
+      if (!job) return base::Fail(job.error());
+      batch.job = *std::move(job);
+      if (auto ok = spool_.Put(batch); !ok) return ok;
+      engine_.say(fmt::format("Slurm has {} runs in {} tasks: job {}, {}", batch.runs.size(),
+                              batch.tasks(), batch.job, batch.name));
+      tasks_in_queue += batch.tasks();
+      ours_.insert(batch.number);
+      batches_.push_back(std::move(batch));
+    }
+    is_waiting_to_hand_out_ = false;
+    return {};
+  }
+
+  Batch NewBatch(std::size_t runs_a_task) const {
+    Batch batch;
+    batch.number = batches_.empty() ? 1 : batches_.back().number + 1;
+    batch.submitted = WallSeconds();
+    // Unlike any other, though somebody removes the spool and starts again.
+    batch.name = fmt::format("gsv-{}-{}-{:x}", spool_.campaign().Identity().substr(0, 8),
+                             batch.number, static_cast<std::int64_t>(1e3 * batch.submitted));
+    batch.runs_a_task = runs_a_task;
+    batch.timeout = engine_.timeout;
+    batch.failures = engine_.failures;
+    return batch;
+  }
+
+  void SayWhyNothingComes(const std::map<std::string, QueuedTask>& tasks) {
+    std::map<std::string, std::size_t> reasons;
+    for (const auto& [share, task] : tasks) {
+      if (task.state != "PENDING") return;
+      ++reasons[task.reason];
+    }
+    if (reasons.empty() || DriverClock::now() - last_news_ < kSilence) return;
+    std::string sentence = "all tasks wait in the queue:";
+    for (const auto& [reason, count] : reasons)
+      sentence += fmt::format(" {} for {},", count, reason);
+    sentence.pop_back();
+    if (sentence != std::exchange(last_said_, sentence)) engine_.say(sentence);
+  }
+
+  const SlurmEngine& engine_;
+  Spool& spool_;
+  Results& results_;
+  const DriverClock::time_point start_ = DriverClock::now();
+  DriverClock::time_point last_news_ = start_;
+  std::vector<Batch> batches_;  // by number
+  std::set<int> ours_;          // that this driver handed out
+  std::set<std::int64_t> done_;
+  std::size_t done_before_ = 0;  // this driver
+  Progress progress_;
+  std::map<std::string, int> looks_without_;  // by share, since it was last in the queue
+  bool has_looked_ = false, is_silent_ = false, is_waiting_to_hand_out_ = false;
+  std::size_t tasks_at_refusal_ = 0;
+  std::string last_said_;
+};
+
+}  // namespace
+
+base::Status SlurmEngine::Run(Spool& spool, Results& results) const {
+  return SlurmDriver(*this, spool, results).Run();
+}
+
+}  // namespace gsv::campaign

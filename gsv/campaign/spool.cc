@@ -1,0 +1,205 @@
+#include "gsv/campaign/spool.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace gsv::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string TextOf(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// All of it or nothing, whoever ends when.
+base::Status PutInPlace(const fs::path& file, const std::string& text) {
+  const fs::path draft = fmt::format("{}.{}.draft", file.string(), getpid());
+  const int descriptor = open(draft.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
+  bool ok = descriptor >= 0 &&
+            write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+            fsync(descriptor) == 0;
+  int error = errno;
+  if (descriptor >= 0) close(descriptor);
+  if (ok && rename(draft.c_str(), file.c_str()) != 0) {
+    ok = false;
+    error = errno;
+  }
+  if (ok) return {};
+  unlink(draft.c_str());
+  return base::Fail(base::ErrorCode::kUnavailable,
+                    std::string("cannot be written: ") + std::strerror(error), file);
+}
+
+base::Result<std::vector<fs::path>> FilesIn(const fs::path& folder, std::string_view ending) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().native().ends_with(ending)) files.push_back(entry->path());
+  }
+  if (error) {
+    return base::Fail(base::ErrorCode::kUnavailable, "cannot be read: " + error.message(), folder);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> Batch::RunsOf(std::size_t task) const {
+  const std::size_t first = std::min(task * runs_a_task, runs.size());
+  const std::size_t end = std::min(first + runs_a_task, runs.size());
+  return {runs.begin() + static_cast<std::ptrdiff_t>(first),
+          runs.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+std::string Batch::ShareOf(std::size_t task) const {
+  return fmt::format("batch-{:04}-task-{:04}", number, task);
+}
+
+std::string ShardName(std::size_t index, std::size_t count) {
+  return fmt::format("shard-{}-of-{}", index, count);
+}
+
+base::Result<Batch> ReadBatch(const fs::path& file) {
+  Batch batch;
+  try {
+    const auto json = nlohmann::json::parse(TextOf(file));
+    batch.number = json.at("number");
+    batch.name = json.at("name");
+    batch.job = json.at("job");
+    batch.submitted = json.at("submitted");
+    batch.runs_a_task = std::max<std::size_t>(1, json.at("runs_a_task"));
+    batch.runs = json.at("runs").get<std::vector<std::int64_t>>();
+    batch.timeout = json.at("timeout_s");
+    batch.failures = json.at("failures");
+  } catch (const nlohmann::json::exception&) {
+    return base::Fail(
+        base::ErrorCode::kCorrupt,
+        "it does not say what was handed to the queue; remove it once the queue holds "
+        "no job of this campaign (squeue)",
+        file);
+  }
+  return batch;
+}
+
+base::Result<Spool> Spool::Make(const fs::path& folder, const Campaign& campaign) {
+  std::error_code error;
+  fs::create_directories(folder / "journals", error);
+  if (!error) fs::create_directories(folder / "logs", error);
+  if (error) {
+    return base::Fail(base::ErrorCode::kUnavailable, "cannot be made: " + error.message(), folder);
+  }
+  // Shards that start together write the same.
+  const fs::path whole = fs::absolute(folder, error);
+  if (!fs::exists(whole / "plan.json", error)) {
+    if (auto ok = PutInPlace(whole / "plan.json", ToJson(campaign)); !ok)
+      return base::Fail(ok.error());
+  }
+  auto spool = Open(whole);
+  if (spool && spool->campaign().Identity() != campaign.Identity()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "holds runs of another campaign, or of this one before it was changed; name "
+                      "another file by --results, or remove the folder",
+                      folder);
+  }
+  return spool;
+}
+
+base::Result<Spool> Spool::Open(const fs::path& folder) {
+  std::error_code error;
+  const fs::path file = folder / "plan.json";
+  if (!fs::exists(file, error))
+    return base::Fail(base::ErrorCode::kNotFound, "nothing was handed out from here", folder);
+  auto campaign = CampaignInJson(TextOf(file));
+  if (!campaign) return base::Fail(campaign.error().code, campaign.error().message, file);
+  return Spool(folder, *std::move(campaign));
+}
+
+fs::path Spool::FileOf(const Batch& batch) const {
+  return folder_ / fmt::format("batch-{:04}.json", batch.number);
+}
+
+base::Result<std::vector<Batch>> Spool::Batches() const {
+  const auto files = FilesIn(folder_, ".json");
+  if (!files) return base::Fail(files.error());
+  std::vector<Batch> batches;
+  for (const fs::path& file : *files) {
+    if (!file.filename().native().starts_with("batch-")) continue;
+    auto batch = ReadBatch(file);
+    if (!batch) return base::Fail(batch.error());
+    batches.push_back(*std::move(batch));
+  }
+  std::sort(batches.begin(), batches.end(),
+            [](const Batch& a, const Batch& b) { return a.number < b.number; });
+  return batches;
+}
+
+base::Status Spool::Put(const Batch& batch) const {
+  const nlohmann::ordered_json json{{"number", batch.number},
+                                    {"name", batch.name},
+                                    {"job", batch.job},
+                                    {"submitted", batch.submitted},
+                                    {"runs_a_task", batch.runs_a_task},
+                                    {"timeout_s", batch.timeout},
+                                    {"failures", batch.failures},
+                                    {"runs", batch.runs}};
+  return PutInPlace(FileOf(batch), json.dump() + "\n");
+}
+
+void Spool::Remove(const Batch& batch) const {
+  std::error_code ignored;
+  fs::remove(FileOf(batch), ignored);
+}
+
+base::Result<std::vector<RunResult>> Spool::Collect(const std::string& share) {
+  const auto files = FilesIn(journals(), ".journal");
+  if (!files) return base::Fail(files.error());
+  for (const fs::path& file : *files) {
+    const std::string name = file.filename();
+    if (share.empty() || name.starts_with(share + ".")) readers_.try_emplace(name, file);
+  }
+  std::vector<RunResult> results;
+  for (auto& [name, reader] : readers_) {
+    auto more = reader.ReadOn();
+    if (!more) return base::Fail(more.error());
+    std::move(more->begin(), more->end(), std::back_inserter(results));
+  }
+  return results;
+}
+
+std::vector<Attempt> Spool::Attempts() const {
+  std::vector<Attempt> attempts;
+  for (const auto& [name, reader] : readers_) {
+    if (reader.attempt()) attempts.push_back(*reader.attempt());
+  }
+  return attempts;
+}
+
+base::Result<std::size_t> Gather(Spool& spool, Results& results) {
+  std::vector<Attempt> before = spool.Attempts();
+  const auto collected = spool.Collect();
+  if (!collected) return base::Fail(collected.error());
+  std::vector<Attempt> attempts = spool.Attempts();
+  if (collected->empty() && attempts == before) return std::size_t{0};
+  const auto planned = static_cast<std::int64_t>(spool.campaign().runs());
+  std::vector<RunResult> known;
+  for (const RunResult& result : *collected) {
+    if (result.run >= 0 && result.run < planned) known.push_back(result);
+  }
+  if (auto ok = results.Add(known, attempts); !ok) return base::Fail(ok.error());
+  return known.size();
+}
+
+}  // namespace gsv::campaign
