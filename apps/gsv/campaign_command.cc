@@ -97,7 +97,8 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   if (const int code = GatherSpool(file); code != kOk) return code;
   auto results = campaign::Results::OpenToAdd(file, campaign, kLockPatience);
   if (!results) return Complain(results.error());
-  const bool is_slurm = (arguments.engine.empty() ? engine.name : arguments.engine) == "slurm";
+  const bool is_slurm = options.broker.empty() &&
+                        (arguments.engine.empty() ? engine.name : arguments.engine) == "slurm";
   const int code = is_slurm ? RunBySlurm(campaign, **results, file, options, signals)
                             : RunHere(campaign, **results, options, signals);
   if (code != kOk && code != kInterrupted) return code;
