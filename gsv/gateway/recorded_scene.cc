@@ -1,5 +1,6 @@
 #include "gsv/gateway/recorded_scene.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -88,6 +89,11 @@ const std::map<std::string, std::size_t>& RecordedScene::BodyPoses(
   static const std::map<std::string, std::size_t> kNone;
   const auto found = scenes_.find(layout_version);
   return found == scenes_.end() ? kNone : found->second.body_poses;
+}
+
+bool RecordedScene::HasBody(const std::string& name) const {
+  return std::any_of(scenes_.begin(), scenes_.end(),
+                     [&](const auto& scene) { return scene.second.body_poses.contains(name); });
 }
 
 base::Result<SharedBytes> RecordedScene::Model(const std::string& id) const {

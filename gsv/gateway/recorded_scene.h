@@ -31,6 +31,9 @@ class RecordedScene {
   // pose.
   const std::map<std::string, std::size_t>& BodyPoses(std::uint32_t layout_version) const;
 
+  // Whether one of the scenes has a body of this name.
+  bool HasBody(const std::string& name) const;
+
   // The GLB file of a model. kNotFound.
   base::Result<SharedBytes> Model(const std::string& id) const;
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/rcl_interfaces.h"
 
 namespace gsv::gateway {
 namespace {
@@ -11,7 +12,8 @@ namespace {
 using recording::MessageBlock;
 
 constexpr std::size_t kMostEvents = 1000;
-constexpr std::size_t kMostEventBytes = 1 << 20;
+constexpr std::size_t kMostLines = 5000;
+constexpr std::size_t kMostBytes = 1 << 20;
 
 // A block without an index may hold anything.
 bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels) {
@@ -25,7 +27,8 @@ bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels)
 RecordedTimeline::RecordedTimeline(const recording::McapReader& reader)
     : reader_(reader),
       pose_channels_(ChannelsOf("/gsv/poses")),
-      event_channels_(ChannelsOf("/gsv/events")) {}
+      event_channels_(ChannelsOf("/gsv/events")),
+      log_channels_(ChannelsOf("/rosout")) {}
 
 RecordedTimeline::ChannelIds RecordedTimeline::ChannelsOf(const std::string& topic) const {
   ChannelIds ids;
@@ -71,29 +74,50 @@ const std::vector<RecordedEvent>& RecordedTimeline::Events() const {
   return events_;
 }
 
-std::vector<RecordedEvent> RecordedTimeline::ReadEvents() const {
-  std::vector<RecordedEvent> events;
+const std::vector<RecordedLine>& RecordedTimeline::Log() const {
+  std::call_once(log_once_, [this] { log_ = ReadLog(); });
+  return log_;
+}
+
+template <typename Message, typename Entry, typename Use>
+std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::size_t most,
+                                             Use use) const {
+  std::vector<Entry> entries;
   std::size_t bytes = 0;
-  const auto is_full = [&] { return events.size() >= kMostEvents || bytes > kMostEventBytes; };
+  const auto is_full = [&] { return entries.size() >= most || bytes > kMostBytes; };
   for (const MessageBlock& block : reader_.summary().blocks) {
     if (is_full()) break;
-    if (!MayHold(block, event_channels_)) continue;
+    if (!MayHold(block, channels)) continue;
     const base::Result<recording::BlockMessages> content = reader_.Messages(block);
     if (!content) continue;
     for (const recording::MessageRecord& message : content->messages) {
       if (is_full()) break;
-      if (!event_channels_.contains(message.channel_id)) continue;
-      auto event = messages::Decode<messages::gsv_msgs::LifecycleEvent>(
-          std::as_bytes(std::span(message.data)));
-      if (!event) continue;
+      if (!channels.contains(message.channel_id)) continue;
+      auto decoded = messages::Decode<Message>(std::as_bytes(std::span(message.data)));
+      if (!decoded) continue;
       bytes += message.data.size();
-      events.push_back({message.log_time, std::move(event->event), std::move(event->robot),
-                        std::move(event->detail)});
+      entries.push_back(use(message.log_time, std::move(*decoded)));
     }
   }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const RecordedEvent& a, const RecordedEvent& b) { return a.time < b.time; });
-  return events;
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.time < b.time; });
+  return entries;
+}
+
+std::vector<RecordedEvent> RecordedTimeline::ReadEvents() const {
+  using messages::gsv_msgs::LifecycleEvent;
+  return ReadAll<LifecycleEvent, RecordedEvent>(
+      event_channels_, kMostEvents, [](base::SimTime time, LifecycleEvent event) {
+        return RecordedEvent{time, std::move(event.event), std::move(event.robot),
+                             std::move(event.detail)};
+      });
+}
+
+std::vector<RecordedLine> RecordedTimeline::ReadLog() const {
+  using messages::rcl_interfaces::Log;
+  return ReadAll<Log, RecordedLine>(log_channels_, kMostLines, [](base::SimTime time, Log line) {
+    return RecordedLine{time, line.level, std::move(line.name), std::move(line.msg)};
+  });
 }
 
 }  // namespace gsv::gateway

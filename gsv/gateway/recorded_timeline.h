@@ -20,6 +20,13 @@ struct RecordedEvent {
   std::string event, robot, detail;
 };
 
+// A message of /rosout.
+struct RecordedLine {
+  base::SimTime time{};
+  int level = 20;          // as rcl_interfaces/msg/Log has them: 10 debug to 50 fatal
+  std::string name, text;  // who said it, and what
+};
+
 class RecordedTimeline {
  public:
   // `reader` must outlive this.
@@ -32,16 +39,24 @@ class RecordedTimeline {
   // By time; the first thousand. The first call reads the blocks that hold them.
   const std::vector<RecordedEvent>& Events() const;
 
+  // By time; the first five thousand. Likewise.
+  const std::vector<RecordedLine>& Log() const;
+
  private:
   using ChannelIds = std::set<std::uint16_t>;
 
   ChannelIds ChannelsOf(const std::string& topic) const;
   std::vector<RecordedEvent> ReadEvents() const;
+  std::vector<RecordedLine> ReadLog() const;
+  // Of each message of these channels, as far as the limits allow, what `use` makes of it.
+  template <typename Message, typename Entry, typename Use>
+  std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t most, Use use) const;
 
   const recording::McapReader& reader_;
-  const ChannelIds pose_channels_, event_channels_;
-  mutable std::once_flag events_once_;
+  const ChannelIds pose_channels_, event_channels_, log_channels_;
+  mutable std::once_flag events_once_, log_once_;
   mutable std::vector<RecordedEvent> events_;
+  mutable std::vector<RecordedLine> log_;
 };
 
 }  // namespace gsv::gateway

@@ -1,5 +1,6 @@
 #include "gsv/gateway/replay_api.h"
 
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -15,6 +16,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
+constexpr std::size_t kUsualCurvePoints = 4000;
 constexpr double kLatest = 9e9;  // s: what nanoseconds can hold
 
 using Action = std::function<base::Status(ReplayPlayer& player, const std::string& body)>;
@@ -66,6 +68,20 @@ Response JsonOr(const base::Result<SharedBytes>& json) {
   response.content_type = "application/json";
   response.body = *json;
   return response;
+}
+
+curves::CurveWish CurveWishOf(const Target& target) {
+  curves::CurveWish wish{.most = kUsualCurvePoints};
+  for (const auto& [name, value] : target.query) {
+    if (name == "topic") wish.topic = value;
+    if (name == "robot") wish.robot = value;
+    if (name == "key") wish.key = value;
+    if (name != "most") continue;
+    const auto parsed = std::from_chars(value.data(), value.data() + value.size(), wish.most);
+    const bool is_number = parsed.ec == std::errc() && parsed.ptr == value.data() + value.size();
+    if (!is_number) wish.most = 0;  // is refused with the others that are out of range
+  }
+  return wish;
 }
 
 }  // namespace
@@ -139,6 +155,8 @@ Response ReplayApi::OfSimulation(const Request& request) {
   if (path[3] == "scene") return is_get ? JsonOr(player_.SceneNow()) : MethodNotAllowed("GET");
   if (path[3] == "replay") return Replay(request);
   if (path[3] == "events") return is_get ? Events() : MethodNotAllowed("GET");
+  if (path[3] == "log") return is_get ? Log() : MethodNotAllowed("GET");
+  if (path[3] == "curve") return is_get ? Curve(request.target) : MethodNotAllowed("GET");
   if (!Actions().contains(path[3])) return NoSuchAddress();
   return is_get ? MethodNotAllowed("POST") : Act(path[3], request.body);
 }
@@ -178,6 +196,33 @@ Response ReplayApi::Events() const {
                     {"detail", event.detail}});
   }
   return JsonResponse(200, list.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
+}
+
+Response ReplayApi::Log() const {
+  OrderedJson list = OrderedJson::array();
+  for (const RecordedLine& line : player_.timeline().Log()) {
+    list.push_back({{"time_s", base::ToSeconds(line.time)},
+                    {"level", line.level},
+                    {"name", line.name},
+                    {"text", line.text}});
+  }
+  return JsonResponse(200, list.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
+}
+
+Response ReplayApi::Curve(const Target& target) const {
+  const base::Result<curves::Curve> curve = player_.curves().Get(CurveWishOf(target));
+  if (!curve) return ErrorResponse(curve.error());
+  OrderedJson times = OrderedJson::array(), values = OrderedJson::array();
+  for (const curves::Point& point : curve->points) {
+    times.push_back(base::ToSeconds(point.time));
+    values.push_back(point.value);  // what is not finite becomes null
+  }
+  const OrderedJson json{
+      {"time_s", std::move(times)}, {"values", std::move(values)},
+      {"samples", curve->samples},  {"is_whole", curve->is_whole},
+      {"done", curve->is_done},     {"read_to_s", base::ToSeconds(curve->read_to)},
+      {"problem", curve->problem}};
+  return JsonResponse(200, json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
 // /api/models/ID.glb

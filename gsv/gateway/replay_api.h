@@ -4,6 +4,10 @@
 //   GET  /api/simulations/NAME/replay {"start_s", "end_s", "time_s", "speed", "loop"}
 //   POST /api/simulations/NAME/replay {"speed": S, "loop": B}, both or one of them
 //   GET  /api/simulations/NAME/events [{"time_s", "event", "robot", "detail"}]
+//   GET  /api/simulations/NAME/log    [{"time_s", "level", "name", "text"}]
+//   GET  /api/simulations/NAME/curve?topic=T&key=K&most=N   a value over the whole recording, read
+//        in the background: {"time_s", "values", "samples", "is_whole", "done", "read_to_s",
+//        "problem"}; robot=R in place of topic=T, or neither, see curves/curve_source.h
 //
 // A status also holds what GET replay gives. `stop` and `reset` both go back to the start.
 //
@@ -37,6 +41,8 @@ class ReplayApi {
   Response Status() const;
   Response Replay(const Request& request);
   Response Events() const;
+  Response Log() const;
+  Response Curve(const Target& target) const;
   Response Model(const Request& request) const;
 
   ReplayPlayer& player_;

@@ -66,6 +66,55 @@ TEST_F(ReplayGatewayTest, AViewerIsToldHowThingsStandBeforeItPlays) {
   EXPECT_EQ(status.robots[0].name, "robot");
 }
 
+// Asks until the whole of it is read.
+json WholeCurve(std::uint16_t port, const std::string& query) {
+  const std::string target = "/api/simulations/simulation/curve?" + query;
+  for (;;) {
+    const HttpReply reply = testing::Fetch(port, "GET", target);
+    const json curve = json::parse(reply.body);
+    if (reply.status != 200 || curve["done"] == true) return curve;
+    std::this_thread::yield();
+  }
+}
+
+TEST_F(ReplayGatewayTest, TellsAValueOverTheWholeRecording) {
+  const json x = WholeCurve(port(), "robot=robot&key=x");
+  EXPECT_EQ(x["is_whole"], true);
+  EXPECT_EQ(x["problem"], "");
+  EXPECT_EQ(x["read_to_s"], 2.0);
+  const auto times = x["time_s"].get<std::vector<double>>();
+  const auto places = x["values"].get<std::vector<double>>();
+  ASSERT_EQ(times.size(), places.size());
+  ASSERT_GT(times.size(), 30u);
+  EXPECT_EQ(times.back(), 2.0);
+  // It drives at 0.5 m/s from its first or second step on.
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(places[i], 0.5 * times[i], 0.011);
+  const json speed = WholeCurve(port(), "robot=robot&key=speed&most=4");
+  EXPECT_EQ(speed["is_whole"], false);
+  EXPECT_LE(speed["values"].size(), 4u);
+  EXPECT_NEAR(speed["values"].back(), 0.5, 1e-6);
+  EXPECT_EQ(WholeCurve(port(), "key=late_steps")["values"].back(), 0);
+}
+
+TEST_F(ReplayGatewayTest, RefusesACurveThatIsNotThere) {
+  const std::string path = "/api/simulations/simulation/curve";
+  EXPECT_EQ(Get(path).status, 400);
+  EXPECT_EQ(Get(path + "?robot=other&key=x").status, 404);
+  EXPECT_EQ(Get(path + "?topic=/other&key=x").status, 404);
+  EXPECT_EQ(Get(path + "?robot=robot&key=x&most=many").status, 400);
+  EXPECT_EQ(Post("curve", "{}").status, 405);
+}
+
+TEST_F(ReplayGatewayTest, TellsTheWholeLog) {
+  const json log = json::parse(Get("/api/simulations/simulation/log").body);
+  ASSERT_EQ(log.size(), 2u);
+  EXPECT_EQ(log[0]["text"], "started");
+  EXPECT_EQ(log[0]["name"], "gsv");
+  EXPECT_EQ(log[0]["level"], 20);
+  EXPECT_EQ(log[1]["text"], "finished");
+  EXPECT_EQ(log[1]["time_s"], 2.0);
+}
+
 TEST_F(ReplayGatewayTest, PlaysToTheEnd) {
   Open(PathFor("run"), {.speed = 20});
   Viewer viewer(port());

@@ -70,6 +70,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
       name_(NameOf(*reader_, path)),
       scene_(*reader_),
       timeline_(*reader_),
+      curves_(*reader_, scene_),
       problems_(reader_->summary().problems),
       clock_(reader_->summary().start, reader_->summary().end, options.speed, options.loop),
       stream_(
@@ -170,6 +171,7 @@ void ReplayPlayer::Stop() {
     changed_.notify_all();
   }
   if (thread_.joinable()) thread_.join();
+  curves_.Stop();
   hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
 }
 

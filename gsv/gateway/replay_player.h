@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "gsv/gateway/curves/recorded_curves.h"
 #include "gsv/gateway/recorded_scene.h"
 #include "gsv/gateway/recorded_timeline.h"
 #include "gsv/gateway/replay_clock.h"
@@ -33,6 +34,8 @@ class ReplayPlayer {
   const std::shared_ptr<Hub>& hub() const { return stream_.hub(); }
   const RecordedScene& scene() const { return scene_; }
   const RecordedTimeline& timeline() const { return timeline_; }
+  // Values over the whole recording.
+  curves::RecordedCurves& curves() { return curves_; }
   // What the file lacks.
   const base::Problems& problems() const { return problems_; }
 
@@ -74,6 +77,7 @@ class ReplayPlayer {
   base::SimTime step_ = std::chrono::milliseconds(10);
   const RecordedScene scene_;
   const RecordedTimeline timeline_;
+  curves::RecordedCurves curves_;
   base::Problems problems_;
 
   mutable std::mutex mutex_;

@@ -8,6 +8,7 @@ import { openBrowser, openPage, requireFromWeb, waitUntilDrawn } from "./browser
 import { record, startReplay, startServer } from "./server.mjs";
 
 const AXE = fs.readFileSync(requireFromWeb.resolve("axe-core/axe.min.js"), "utf8");
+const WATCH = "watching-0123456789abcdef";
 const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
 
 let folder;
@@ -19,7 +20,7 @@ before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-accessibility-"));
   const file = path.join(folder, "run.mcap");
   await record(file, [...RUN, "--lockstep", "--duration", "2"]);
-  live = await startServer(RUN);
+  live = await startServer([...RUN, "--recordings", folder]);
   await pauseAt(live.url);
   replay = await startReplay([file, "--paused"]);
   browser = await openBrowser({ width: 1100, height: 700 });
@@ -104,10 +105,49 @@ test("the page on which one joins", async () => {
   await page.close();
 });
 
-test("a recording", async () => {
-  const page = await openFilled(replay.url);
+test("the page of recordings, whole ones and others", async () => {
+  const { page } = await openPage(browser, `${live.url}recordings.html`);
+  await page.locator(".recording").first().waitFor();
+  await judge(page);
+  fs.writeFileSync(path.join(folder, "broken.mcap"), "no recording");
+  await page.reload();
+  await page.getByText("cut off").waitFor();
   await judge(page);
   await page.close();
+});
+
+test("a recording, with its log", async () => {
+  const page = await openFilled(replay.url);
+  await page.getByRole("button", { name: "Log", exact: true }).click();
+  await page.locator(".log-line").first().waitFor();
+  await judge(page);
+  await page.close();
+});
+
+test("the pages on which a token is asked for, and a page of recordings without any", async () => {
+  const empty = fs.mkdtempSync(path.join(folder, "empty-"));
+  const server = await startServer([...RUN, "--watch-token", WATCH, "--recordings", empty]);
+  try {
+    const { page } = await openPage(browser, server.url);
+    await page.getByText("This server takes a token").waitFor();
+    await judge(page);
+    await page.getByLabel("Token").fill("not the right one");
+    await page.keyboard.press("Enter");
+    await page.getByText("this token is not the right one").waitFor();
+    await judge(page);
+    for (const name of ["recordings", "join", "broker"]) {
+      await page.goto(`${server.url}${name}.html`);
+      await page.getByText("this token is not the right one").first().waitFor();
+      await judge(page);
+    }
+    await page.goto(`${server.url}recordings.html#token=${WATCH}`);
+    await page.reload();
+    await page.getByText("No recording yet").waitFor();
+    await judge(page);
+    await page.close();
+  } finally {
+    await server.stop();
+  }
 });
 
 test("the broker's page", async () => {

@@ -15,6 +15,7 @@ import { listenForKeys } from "./input/Keyboard";
 import { createCameraPane } from "./panels/CameraPane";
 import { createHelpSheet } from "./panels/HelpSheet";
 import { createInspector } from "./panels/Inspector";
+import { createLogPanel } from "./panels/LogPanel";
 import { createNotices } from "./panels/Notices";
 import { createOverlay } from "./panels/Overlay";
 import { createControlQuestion } from "./panels/PeopleMenu";
@@ -161,6 +162,7 @@ page.append(
   createSetUpPanel(app),
   view,
   createPlotPanel(app),
+  createLogPanel(app),
   createTimeline(app),
   createStatusBar(app),
   createHelpSheet(app),
@@ -182,6 +184,8 @@ listenForKeys(app);
 new AvatarSteering(avatarToDrive, drive).listen(window);
 exposeForTests(store, world);
 app.plots.start();
+app.wholeCurves.start();
+app.logFeed.start();
 app.records.start();
 app.link.start(window);
 // A replay of one's own is nobody else's to watch or to move.

@@ -3,10 +3,12 @@ import { JsonServer, simulationPath } from "./JsonServer";
 import { SetUpApi } from "./SetUpApi";
 import { Credentials } from "./credentials";
 import { ViewersApi } from "./ViewersApi";
+import type { CurveOf, WholeCurve } from "./curve";
+import { curveQuery, parseCurve } from "./curve";
 import type { Recording } from "./recording";
 import { parseRecording } from "./recording";
-import type { RecordedEvent, Replay } from "./replay";
-import { parseEvents, parseReplay } from "./replay";
+import type { RecordedEvent, RecordedLine, Replay } from "./replay";
+import { parseEvents, parseLog, parseReplay } from "./replay";
 import type { SceneDescription } from "./scene";
 import { parseScene } from "./scene";
 import type { SimulationStatus, SimulationSummary } from "./status";
@@ -89,6 +91,16 @@ export class SimulationApi {
   // What happened in a recording, by time.
   async events(name: string): Promise<RecordedEvent[]> {
     return parseEvents(await this.server.get(`${simulationPath(name)}/events`));
+  }
+
+  // The log of a recording, by time.
+  async log(name: string): Promise<RecordedLine[]> {
+    return parseLog(await this.server.get(`${simulationPath(name)}/log`));
+  }
+
+  // A value over the whole of a recording, as far as it is read; at most so many points.
+  async curve(name: string, of: CurveOf, most: number): Promise<WholeCurve> {
+    return parseCurve(await this.server.get(`${simulationPath(name)}/curve?${curveQuery(of, most)}`));
   }
 
   async recording(name: string): Promise<Recording> {

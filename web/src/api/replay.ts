@@ -15,6 +15,13 @@ export interface RecordedEvent {
   detail: string;
 }
 
+export interface RecordedLine {
+  time: number; // s, simulated
+  level: number; // as rcl_interfaces/msg/Log has it: 10 debug to 50 fatal
+  name: string;
+  text: string;
+}
+
 export function parseReplay(json: unknown): Replay {
   const replay = objectAt(json, "replay");
   return {
@@ -33,6 +40,18 @@ export function parseEvents(json: unknown): RecordedEvent[] {
       event: textAt(event.event, `events[${i}].event`),
       robot: textOr(event.robot, ""),
       detail: textOr(event.detail, ""),
+    };
+  });
+}
+
+export function parseLog(json: unknown): RecordedLine[] {
+  return listAt(json, "log").map((each, i) => {
+    const line = objectAt(each, `log[${i}]`);
+    return {
+      time: numberAt(line.time_s, `log[${i}].time_s`),
+      level: numberAt(line.level, `log[${i}].level`),
+      name: textOr(line.name, ""),
+      text: textAt(line.text, `log[${i}].text`),
     };
   });
 }

@@ -9,6 +9,7 @@ import type { Placed } from "../state/scenario";
 import { findRobot } from "../state/scenario";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
+import type { Log } from "../state/log";
 import type { OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
 import type { State, ViewMode } from "../state/State";
@@ -17,18 +18,22 @@ import { download, fileName } from "./files";
 import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
 import { LinkControl } from "./LinkControl";
+import { LogFeed } from "./LogFeed";
 import { dismiss, notify } from "./notices";
 import { PlotFeed } from "./PlotFeed";
 import { PeopleControl } from "./PeopleControl";
 import { RecordControl } from "./RecordControl";
 import { ReplayControl } from "./ReplayControl";
 import type { Session } from "./Session";
+import { WholeCurves } from "./WholeCurves";
 import { SetUpControl } from "./SetUpControl";
 
 export class App {
   readonly replay: ReplayControl;
   readonly link: LinkControl;
   readonly plots: PlotFeed;
+  readonly wholeCurves: WholeCurves;
+  readonly logFeed: LogFeed;
   readonly setUp: SetUpControl;
   readonly edits: EditControl;
   readonly records: RecordControl;
@@ -45,6 +50,8 @@ export class App {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
     this.link = new LinkControl(this, world);
     this.plots = new PlotFeed(store, session, () => this.onPlotData());
+    this.wholeCurves = new WholeCurves(store, api, (id, curve) => this.plots.takeWhole(id, curve));
+    this.logFeed = new LogFeed(store, session, api);
     this.setUp = new SetUpControl(store, session, api.setUp);
     this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world, body) }, () =>
       this.act("pause"),
@@ -152,6 +159,11 @@ export class App {
 
   openPlots(open: boolean): void {
     this.store.set(({ plots }) => ({ plots: { ...plots, open } }));
+  }
+
+  // Opens or closes the log, or chooses among its lines.
+  changeLog(change: Partial<Omit<Log, "lines">>): void {
+    this.store.set(({ log }) => ({ log: { ...log, ...change } }));
   }
 
   // Draws a value against simulated time from now on.

@@ -140,3 +140,23 @@ test("another simulation's curves begin anew", () => {
   store.set({ simulation: "yard" });
   expect(samples(feed, A, "x")).toEqual([]);
 });
+
+test("of a recording the whole curve stands for what is played", () => {
+  const replay = { start: 0, end: 20, speed: 1, loop: false };
+  const { feed, onData } = feeding([curve(A, "x")], { replay });
+  feed.takePoses(poses(10, 1));
+  const id = curveId(A, "x");
+  const whole = { isWhole: true, done: true, problem: "" };
+  feed.takeWhole(id, { ...whole, times: Float64Array.of(0, 5, 20), values: Float64Array.of(7, NaN, 9) });
+  expect(onData).toHaveBeenCalled();
+  feed.takePoses(poses(12, 3));
+  expect(samples(feed, A, "x")).toEqual([
+    [0, 7],
+    [5, NaN],
+    [20, 9],
+  ]);
+  expect(feed.isThinned(id)).toBe(false);
+  feed.takeWhole(id, { ...whole, isWhole: false, times: Float64Array.of(1), values: Float64Array.of(2) });
+  expect(samples(feed, A, "x")).toEqual([[1, 2]]);
+  expect(feed.isThinned(id)).toBe(true);
+});

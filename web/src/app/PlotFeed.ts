@@ -1,5 +1,7 @@
 // Collects the values of the plots' curves as they arrive, each by its simulated instant. Sensors
-// are subscribed only while one of their values is plotted.
+// are subscribed only while one of their values is plotted. Of a recording the server tells the whole
+// curve, which then stands for what is played.
+import type { WholeCurve } from "../api/curve";
 import { robotsOf } from "../api/scene";
 import { anglesOf, stampOf, valuesOf } from "../live/values";
 import { Series } from "../live/Series";
@@ -24,6 +26,7 @@ interface PlacedAt {
 
 export class PlotFeed {
   private readonly series = new Map<string, Series>(); // by curve
+  private readonly whole = new Map<string, WholeCurve>(); // that the server has told
   private readonly ends = new Map<string, () => void>(); // by topic
   private readonly last = new Map<string, PlacedAt>(); // by robot
   private simulation: string | null = null;
@@ -50,6 +53,21 @@ export class PlotFeed {
 
   seriesOf(id: string): Series | null {
     return this.series.get(id) ?? null;
+  }
+
+  // Whether a recording has more of its values than are plotted.
+  isThinned(id: string): boolean {
+    return this.whole.get(id)?.isWhole === false;
+  }
+
+  // All that is known of a recording's curve.
+  takeWhole(id: string, curve: WholeCurve): void {
+    const series = this.series.get(id);
+    if (!series) return;
+    this.whole.set(id, curve);
+    series.clear();
+    curve.times.forEach((time, i) => series.push(time, curve.values[i]!));
+    this.onData();
   }
 
   takePoses({ stamp, layout_version, poses }: PosesMessage): void {
@@ -107,7 +125,7 @@ export class PlotFeed {
     let isNews = false;
     for (const curve of this.store.get().plots.curves) {
       const value = isMeant(curve) ? values[curve.key] : undefined;
-      if (value === undefined) continue;
+      if (value === undefined || this.whole.has(curve.id)) continue;
       this.series.get(curve.id)?.push(time, value);
       isNews = true;
     }
@@ -131,7 +149,11 @@ export class PlotFeed {
     this.simulation = simulation;
     if (isOther) this.forget();
     const ids = new Set(plots.curves.map(({ id }) => id));
-    for (const id of [...this.series.keys()]) if (!ids.has(id)) this.series.delete(id);
+    for (const id of [...this.series.keys()]) {
+      if (ids.has(id)) continue;
+      this.series.delete(id);
+      this.whole.delete(id);
+    }
     for (const id of ids) if (!this.series.has(id)) this.series.set(id, new Series());
     const topics = new Set(plots.curves.flatMap(({ source: s }) => (s.kind === "sensor" ? [s.topic] : [])));
     const present = scene ? robotsOf(scene).flatMap(({ sensors }) => sensors.map(({ topic }) => topic)) : [];
@@ -156,6 +178,7 @@ export class PlotFeed {
     for (const end of this.ends.values()) end();
     this.ends.clear();
     this.series.clear();
+    this.whole.clear();
     this.last.clear();
     this.newest = -Infinity;
   }

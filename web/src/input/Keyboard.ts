@@ -25,6 +25,7 @@ const COMMANDS: Record<string, (app: App) => void> = {
   v: (app) => app.toggleViewMode("eye"),
   o: (app) => app.orbit(),
   p: (app) => app.openPlots(!app.store.get().plots.open),
+  g: (app) => app.changeLog({ open: !app.store.get().log.open }),
   l: (app) => app.copyLink(),
   x: (app) => void app.savePicture(),
   m: (app) => app.film(),

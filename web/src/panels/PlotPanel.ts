@@ -1,8 +1,11 @@
 // The panel of plots: values against simulated time, several curves, as a table for other programs.
 import { download, fileName } from "../app/files";
 import type { App } from "../app/App";
+import { notify } from "../app/notices";
+import { MOST_SAMPLES } from "../live/Series";
 import { csvOf } from "../live/csv";
 import type { DrawnCurve, PlotView } from "../plot/strips";
+import type { Range } from "../plot/scale";
 import { drawPlot, timeAt, timeRange } from "../plot/strips";
 import type { Curve } from "../state/plots";
 import { MOST_CURVES, ROBOT_VALUES, SIMULATION_VALUES, SPANS, curveName } from "../state/plots";
@@ -109,6 +112,10 @@ function spanChoice(app: App): HTMLElement {
   choice.append(
     ...SPANS.map((span) => new Option(span === null ? "All" : `Last ${spanLabel(span)}`, String(span))),
   );
+  app.store.watch(
+    ({ replay }) => replay !== null,
+    (isReplay) => (choice.options[SPANS.indexOf(null)]!.text = isReplay ? "Whole recording" : "All"),
+  );
   choice.addEventListener("change", () => {
     const span = choice.value === "null" ? null : Number(choice.value);
     app.store.set(({ plots }) => ({ plots: { ...plots, span } }));
@@ -124,6 +131,10 @@ function spanLabel(seconds: number): string {
   return seconds < 120 ? `${seconds} s` : `${seconds / 60} min`;
 }
 
+const THINNED =
+  `Of a curve with more than ${MOST_SAMPLES.toLocaleString("en")} values the table holds the least and the ` +
+  "greatest of each short stretch; gsv rec export writes every one.";
+
 function saveTable(app: App): void {
   const { plots, simulation, time } = app.store.get();
   const columns = plots.curves.flatMap((curve) => {
@@ -131,11 +142,14 @@ function saveTable(app: App): void {
     return series ? [{ name: curveName(curve), unit: curve.unit, series }] : [];
   });
   download(fileName(simulation, time, "plot", "csv"), new Blob([csvOf(columns)], { type: "text/csv" }));
+  if (!plots.curves.some(({ id }) => app.plots.isThinned(id))) return;
+  notify(app.store, "note", THINNED);
 }
 
 class Drawing {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private pointed: number | null = null; // CSS pixels from the canvas' left
+  private heldSpan: Range | null = null; // while a recording is dragged: the axis stays
   private readonly values = new Map<string, HTMLElement>();
   private readonly instant = element("span", { class: "plot-instant number" });
 
@@ -146,6 +160,12 @@ class Drawing {
   ) {
     canvas.addEventListener("pointermove", (event) => this.point(event.offsetX));
     canvas.addEventListener("pointerleave", () => this.point(null));
+    canvas.addEventListener("pointerdown", (event) => this.hold(event));
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => this.letGo());
+    app.store.watch(
+      ({ replay }) => replay !== null,
+      (isReplay) => (canvas.title = isReplay ? "Click or drag to go to an instant" : ""),
+    );
   }
 
   request(): void {
@@ -174,26 +194,51 @@ class Drawing {
 
   private point(x: number | null): void {
     this.pointed = x;
+    if (this.heldSpan && x !== null) this.seek(x);
     this.request();
   }
 
-  private draw(): void {
-    const { plots, time, replay } = this.app.store.get();
-    const context = this.canvas.getContext("2d");
-    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
-    const curves = plots.curves.flatMap((curve): (DrawnCurve & Curve)[] => {
+  // A recording goes where the plot is pressed, and along while it is held.
+  private hold({ button, pointerId, offsetX }: PointerEvent): void {
+    if (button !== 0 || !this.app.store.get().replay) return;
+    this.canvas.setPointerCapture(pointerId);
+    this.heldSpan = this.span();
+    this.point(offsetX);
+  }
+
+  private letGo(): void {
+    this.heldSpan = null;
+    this.request();
+  }
+
+  private seek(x: number): void {
+    void this.app.replay.seek(timeAt(x, { width: this.canvas.clientWidth, time: this.span() }));
+  }
+
+  private curves(): (DrawnCurve & Curve)[] {
+    return this.app.store.get().plots.curves.flatMap((curve) => {
       const series = this.app.plots.seriesOf(curve.id);
       return series ? [{ ...curve, series }] : [];
     });
-    const span = timeRange(curves, plots.span, time);
-    const view = { width, height, time: span };
+  }
+
+  private span(): Range {
+    if (this.heldSpan) return this.heldSpan;
+    const { plots, time, replay } = this.app.store.get();
+    return timeRange(this.curves(), plots.span, time, replay && { min: replay.start, max: replay.end });
+  }
+
+  private draw(): void {
+    const { time, replay } = this.app.store.get();
+    const context = this.canvas.getContext("2d");
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    const curves = this.curves();
+    const view = { width, height, time: this.span(), ...(replay && { present: time }) };
     const pointed = this.pointed === null ? null : timeAt(this.pointed, view);
     this.showValues(curves, pointed ?? time);
     if (!context || width === 0) return;
     this.fit(context, width, height);
-    // A recording goes on to both sides of the present instant.
-    const cursor = pointed ?? (replay && plots.span === null ? time : null);
-    drawPlot(context, curves, { ...view, cursor } satisfies PlotView, lookOf(this.canvas));
+    drawPlot(context, curves, { ...view, cursor: pointed } satisfies PlotView, lookOf(this.canvas));
   }
 
   private fit(context: CanvasRenderingContext2D, width: number, height: number): void {

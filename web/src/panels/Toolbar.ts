@@ -38,6 +38,7 @@ export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => v
       element("span", { class: "divider", "aria-hidden": "true" }),
       createOverlayMenu(app),
       plotsButton(app),
+      logButton(app),
       createShareMenu(app, hasView),
       createPeopleMenu(app),
       element("span", { class: "divider", "aria-hidden": "true" }),
@@ -138,17 +139,18 @@ function sidebarButton(toggle: () => void): HTMLElement {
 }
 
 // A name where there is one simulation, a choice where there are several.
+// Also the page's heading, whatever is there to choose from.
 function simulationChoice(app: App): HTMLElement {
   const place = element("div", { class: "simulation-choice" });
   app.store.watch(
     ({ simulations, simulation }) => [simulation, ...(simulations ?? []).map(({ name }) => name)],
     ([chosen, ...names]) => {
-      if (!chosen) return place.replaceChildren();
+      if (!chosen) return place.replaceChildren(element("h1", { class: "unseen" }, "Viewer"));
       if (names.length < 2) return place.replaceChildren(element("h1", {}, chosen));
       const choice = element("select", { "aria-label": "Simulation" });
       for (const name of names) choice.append(new Option(name ?? "", name ?? "", false, name === chosen));
       choice.addEventListener("change", () => app.session.join(choice.value));
-      place.replaceChildren(choice);
+      place.replaceChildren(element("h1", {}, choice));
     },
     shallowEqual,
   );
@@ -234,6 +236,15 @@ function plotsButton(app: App): HTMLElement {
   const button = viewButton("plot", "Plots", "P", () => app.openPlots(!app.store.get().plots.open));
   app.store.watch(
     ({ plots }) => plots.open,
+    (open) => button.setAttribute("aria-pressed", String(open)),
+  );
+  return button;
+}
+
+function logButton(app: App): HTMLElement {
+  const button = viewButton("log", "Log", "G", () => app.changeLog({ open: !app.store.get().log.open }));
+  app.store.watch(
+    ({ log }) => log.open,
     (open) => button.setAttribute("aria-pressed", String(open)),
   );
   return button;

@@ -22,6 +22,7 @@ export interface PlotView {
   height: number;
   time: Range; // s, simulated
   cursor: number | null; // s: the instant that is pointed at
+  present?: number; // s: where a recording stands
 }
 
 export const LEFT_PX = 54;
@@ -59,7 +60,8 @@ export function drawPlot(
     const members = curves.filter((curve) => curve.unit === unit);
     drawStrip(context, members, unit, { ...view, top, height }, look);
   }
-  if (view.cursor !== null) drawCursor(context, view, look);
+  if (view.present !== undefined) drawInstant(context, view.present, view, look, []);
+  if (view.cursor !== null) drawInstant(context, view.cursor, view, look, [3, 3]);
 }
 
 interface StripView extends PlotView {
@@ -152,11 +154,17 @@ function drawTimeAxis(context: CanvasRenderingContext2D, view: PlotView, look: P
   }
 }
 
-function drawCursor(context: CanvasRenderingContext2D, view: PlotView, look: PlotLook): void {
-  const x = Math.round(place(view.cursor!, view.time, LEFT_PX, view.width - RIGHT_PX)) + 0.5;
+function drawInstant(
+  context: CanvasRenderingContext2D,
+  time: number,
+  view: PlotView,
+  look: PlotLook,
+  dashes: number[],
+): void {
+  const x = Math.round(place(time, view.time, LEFT_PX, view.width - RIGHT_PX)) + 0.5;
   if (x < LEFT_PX || x > view.width - RIGHT_PX) return;
   context.strokeStyle = look.ink;
-  context.setLineDash([3, 3]);
+  context.setLineDash(dashes);
   line(context, x, TOP_PX, x, view.height - BOTTOM_PX);
   context.setLineDash([]);
 }
@@ -194,8 +202,14 @@ export function gapOf(series: Series, time: Range): number {
   return Math.max(SHORTEST_GAP_S, GAP_INTERVALS * steps[steps.length >> 1]!);
 }
 
-// The time that the axis spans: the newest `span` seconds before `now`, or all there is (null).
-export function timeRange(curves: DrawnCurve[], span: number | null, now: number): Range {
+// The time that the axis spans: the newest `span` seconds before `now`, or all there is (null), which
+// of a recording is `whole`.
+export function timeRange(
+  curves: DrawnCurve[],
+  span: number | null,
+  now: number,
+  whole: Range | null = null,
+): Range {
   const starts = curves.filter(({ series }) => series.length > 0).map(({ series }) => series.timeAt(0));
   const ends = curves
     .filter(({ series }) => series.length > 0)
@@ -204,6 +218,7 @@ export function timeRange(curves: DrawnCurve[], span: number | null, now: number
     const max = Math.max(now, span);
     return { min: max - span, max };
   }
+  if (whole) return { min: whole.min, max: Math.max(whole.max, whole.min + 0.1) };
   const min = Math.min(now, ...starts);
   return { min, max: Math.max(now, min + 1, ...ends) };
 }

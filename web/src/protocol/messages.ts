@@ -94,6 +94,13 @@ export interface LifecycleEventMessage {
   detail: string;
 }
 
+export interface LogMessage {
+  stamp: Time;
+  level: number;
+  name: string;
+  msg: string;
+}
+
 export function seconds(time: Time): number {
   return time.sec + time.nsec * 1e-9;
 }

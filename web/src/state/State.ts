@@ -9,6 +9,8 @@ import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
 import type { People } from "../api/ViewersApi";
 import type { Editing } from "./editing";
+import type { Log } from "./log";
+import { NO_LOG } from "./log";
 import { NO_PEOPLE } from "./people";
 import type { Shown } from "./overlays";
 import { FIRST_SHOWN } from "./overlays";
@@ -63,6 +65,7 @@ export interface State {
   camera: CameraChoice | null;
   cameraOpen: boolean; // whether its picture is shown
   plots: Plots;
+  log: Log;
   pending: Action | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
@@ -95,6 +98,7 @@ export const initialState: State = {
   camera: null,
   cameraOpen: true,
   plots: NO_PLOTS,
+  log: NO_LOG,
   pending: null,
   notices: [],
   helpOpen: false,

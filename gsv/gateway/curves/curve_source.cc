@@ -1,0 +1,193 @@
+#include "gsv/gateway/curves/curve_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "gsv/gateway/curves/field_value.h"
+#include "gsv/messages/definition.h"
+#include "gsv/messages/gsv_msgs.h"
+
+namespace gsv::gateway::curves {
+namespace {
+
+using recording::MessageRecord;
+
+constexpr base::SimTime kLongestGap = std::chrono::seconds(1);  // between poses that give a speed
+constexpr std::size_t kLongestKey = 200;
+
+using ChannelIds = std::set<std::uint16_t>;
+
+ChannelIds ChannelsNamed(const recording::McapReader& reader, const std::string& topic) {
+  ChannelIds ids;
+  for (const auto& [id, channel] : reader.summary().channels) {
+    if (channel.topic == topic && channel.message_encoding == "cdr") ids.insert(id);
+  }
+  return ids;
+}
+
+auto NoSuchTopic(const std::string& topic) {
+  return base::Fail(base::ErrorCode::kNotFound, "the recording has no topic '" +
+                                                    topic.substr(0, kLongestKey) +
+                                                    "' that can be read; see `gsv rec info`");
+}
+
+class FieldSource final : public CurveSource {
+ public:
+  FieldSource(std::map<std::uint16_t, messages::Definition> definitions, std::string key)
+      : definitions_(std::move(definitions)), key_(std::move(key)) {}
+
+  std::optional<double> SampleIn(const MessageRecord& message) override {
+    const auto definition = definitions_.find(message.channel_id);
+    if (definition == definitions_.end()) return std::nullopt;
+    const auto content = definition->second.Decode(message.data);
+    return content ? FieldValue(*content, key_) : std::nullopt;
+  }
+
+ private:
+  const std::map<std::uint16_t, messages::Definition> definitions_;
+  const std::string key_;
+};
+
+base::Result<std::unique_ptr<CurveSource>> MakeFieldSource(const recording::McapReader& reader,
+                                                           const CurveWish& wish) {
+  std::map<std::uint16_t, messages::Definition> definitions;
+  for (const std::uint16_t id : ChannelsNamed(reader, wish.topic)) {
+    const auto& summary = reader.summary();
+    const auto schema = summary.schemas.find(summary.channels.at(id).schema_id);
+    if (schema == summary.schemas.end() || schema->second.encoding != "ros2msg") continue;
+    auto definition = messages::Definition::Parse(schema->second.name, schema->second.data);
+    if (definition) definitions.emplace(id, *std::move(definition));
+  }
+  if (definitions.empty()) return NoSuchTopic(wish.topic);
+  return std::make_unique<FieldSource>(std::move(definitions), wish.key);
+}
+
+// What /gsv/status says of a robot, or of the simulation.
+class StatusSource final : public CurveSource {
+ public:
+  StatusSource(ChannelIds channels, const CurveWish& wish)
+      : channels_(std::move(channels)), robot_(wish.robot), key_(wish.key) {}
+
+  std::optional<double> SampleIn(const MessageRecord& message) override {
+    if (!channels_.contains(message.channel_id)) return std::nullopt;
+    const auto status = messages::Decode<messages::gsv_msgs::SimulationStatus>(message.data);
+    if (!status) return std::nullopt;
+    if (key_ == "real_time_factor") return status->real_time_factor;
+    if (key_ == "late_steps") return static_cast<double>(status->late_steps);
+    const auto robot = std::find_if(status->robots.begin(), status->robots.end(),
+                                    [&](const auto& each) { return each.name == robot_; });
+    if (robot == status->robots.end()) return std::nullopt;
+    return key_ == "distance" ? robot->distance_m : static_cast<double>(robot->collisions);
+  }
+
+ private:
+  const ChannelIds channels_;
+  const std::string robot_, key_;
+};
+
+class PoseSource final : public CurveSource {
+ public:
+  PoseSource(ChannelIds channels, const RecordedScene& scene, const CurveWish& wish)
+      : channels_(std::move(channels)), scene_(scene), robot_(wish.robot), key_(wish.key) {}
+
+  std::optional<double> SampleIn(const MessageRecord& message) override {
+    if (!channels_.contains(message.channel_id)) return std::nullopt;
+    const auto poses = messages::Decode<messages::gsv_msgs::Poses>(message.data);
+    if (!poses) return std::nullopt;
+    const auto& places = scene_.BodyPoses(poses->layout_version);
+    const auto place = places.find(robot_);
+    if (place == places.end() || place->second >= poses->poses.size() / 7) return std::nullopt;
+    Numbers now;
+    std::copy_n(poses->poses.begin() + static_cast<std::ptrdiff_t>(7 * place->second), 7,
+                now.begin());
+    return Value(message.log_time, now);
+  }
+
+ private:
+  using Numbers = std::array<double, 7>;  // x y z qx qy qz qw
+
+  std::optional<double> Value(base::SimTime time, const Numbers& now) {
+    if (key_ == "x") return now[0];
+    if (key_ == "y") return now[1];
+    if (key_ == "z") return now[2];
+    const bool is_rate = key_ == "speed" || key_ == "turn_rate";
+    if (!is_rate) return AngleOf(now[3], now[4], now[5], now[6], key_);
+    const base::SimTime elapsed = time - time_;
+    const auto before = std::exchange(before_, now);
+    time_ = time;
+    if (!before || elapsed <= base::SimTime(0) || elapsed >= kLongestGap) return std::nullopt;
+    return Rate(*before, now) / base::ToSeconds(elapsed);
+  }
+
+  // What changed between two poses: metres, or radians the short way round.
+  double Rate(const Numbers& before, const Numbers& now) const {
+    if (key_ == "speed") {
+      return std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]);
+    }
+    const auto yaw = [](const Numbers& pose) {
+      return *AngleOf(pose[3], pose[4], pose[5], pose[6], "yaw");
+    };
+    return std::remainder(yaw(now) - yaw(before), 2 * std::numbers::pi);
+  }
+
+  const ChannelIds channels_;
+  const RecordedScene& scene_;
+  const std::string robot_, key_;
+  std::optional<Numbers> before_;
+  base::SimTime time_{};
+};
+
+base::Result<std::unique_ptr<CurveSource>> MakeRobotSource(const recording::McapReader& reader,
+                                                           const RecordedScene& scene,
+                                                           const CurveWish& wish) {
+  static const std::set<std::string> kOfPoses{"x",     "y",   "z",     "roll",
+                                              "pitch", "yaw", "speed", "turn_rate"};
+  static const std::set<std::string> kOfStatus{"distance", "collisions"};
+  const bool is_of_poses = kOfPoses.contains(wish.key);
+  if (!is_of_poses && !kOfStatus.contains(wish.key)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "a robot's 'key' is x, y, z, roll, pitch, yaw, speed, turn_rate, distance "
+                      "or collisions");
+  }
+  if (!scene.HasBody(wish.robot)) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "the recording has no robot '" + wish.robot.substr(0, kLongestKey) + "'");
+  }
+  const std::string topic = is_of_poses ? "/gsv/poses" : "/gsv/status";
+  ChannelIds channels = ChannelsNamed(reader, topic);
+  if (channels.empty()) return NoSuchTopic(topic);
+  if (is_of_poses) return std::make_unique<PoseSource>(std::move(channels), scene, wish);
+  return std::make_unique<StatusSource>(std::move(channels), wish);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
+                                                           const RecordedScene& scene,
+                                                           const CurveWish& wish) {
+  const bool names_both = !wish.topic.empty() && !wish.robot.empty();
+  if (names_both || wish.key.empty() || wish.key.size() > kLongestKey) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "name a curve by 'key', of at most 200 characters, with 'topic' or 'robot' "
+                      "or neither");
+  }
+  if (!wish.topic.empty()) return MakeFieldSource(reader, wish);
+  if (!wish.robot.empty()) return MakeRobotSource(reader, scene, wish);
+  if (wish.key != "real_time_factor" && wish.key != "late_steps") {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the simulation's 'key' is real_time_factor or late_steps; give 'robot' or "
+                      "'topic' for others");
+  }
+  ChannelIds channels = ChannelsNamed(reader, "/gsv/status");
+  if (channels.empty()) return NoSuchTopic("/gsv/status");
+  return std::make_unique<StatusSource>(std::move(channels), wish);
+}
+
+}  // namespace gsv::gateway::curves

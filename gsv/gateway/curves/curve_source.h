@@ -1,0 +1,42 @@
+// Where a curve's samples come from: which messages of a recording, and what of them.
+//
+// Input  hostile: what makes no sense gives no sample.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/gateway/recorded_scene.h"
+#include "gsv/recording/mcap_reader.h"
+
+namespace gsv::gateway::curves {
+
+// One of these:
+//   topic, key     a number of the topic's messages, see field_value.h
+//   robot, key     x, y, z (m), roll, pitch, yaw (rad), speed (m/s), turn_rate (rad/s) of its
+//                  poses, and distance (m), collisions of its status
+//   key            real_time_factor or late_steps of the simulation
+struct CurveWish {
+  std::string topic, robot, key;
+  std::size_t most = 0;  // points
+
+  friend bool operator==(const CurveWish&, const CurveWish&) = default;
+};
+
+class CurveSource {
+ public:
+  virtual ~CurveSource() = default;
+  // The sample in a message, which come by time. Nothing: it holds none.
+  virtual std::optional<double> SampleIn(const recording::MessageRecord& message) = 0;
+};
+
+// `reader` and `scene` outlive the source. kNotFound: the recording has no such topic or robot;
+// kInvalidArgument: there is no such value. Each with a sentence.
+base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
+                                                           const RecordedScene& scene,
+                                                           const CurveWish& wish);
+
+}  // namespace gsv::gateway::curves

@@ -1,0 +1,131 @@
+#include "gsv/gateway/curves/recorded_curves.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace gsv::gateway::curves {
+namespace {
+
+constexpr std::size_t kMostCurves = 16;
+constexpr int kMessagesBetweenLooks = 256;  // at the clock, and whether anybody still wants it
+
+}  // namespace
+
+struct RecordedCurves::Job {
+  Job(const CurveWish& wished, std::unique_ptr<CurveSource> made, const recording::Summary& summary)
+      : wish(wished),
+        source(std::move(made)),
+        points(summary.start, summary.end, wished.most),
+        read_to(summary.start) {}
+
+  const CurveWish wish;
+  const std::unique_ptr<CurveSource> source;  // of the thread that reads
+  std::atomic<bool> is_dropped = false;
+
+  std::mutex mutex;  // of what follows
+  CurvePoints points;
+  base::SimTime read_to;
+  bool is_done = false;
+  std::string problem;
+};
+
+base::Result<Curve> RecordedCurves::Get(const CurveWish& wish) {
+  if (wish.most < 2 || wish.most > kMostCurvePoints) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "'most' is from 2 to 100000 points");
+  }
+  std::shared_ptr<Job> job;
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_stopping_) {
+      return base::Fail(base::ErrorCode::kUnavailable, "the server is shutting down");
+    }
+    job = Find(wish);
+    if (!job) {
+      auto source = MakeCurveSource(reader_, scene_, wish);
+      if (!source) return base::Fail(source.error());
+      job = std::make_shared<Job>(wish, *std::move(source), reader_.summary());
+      jobs_.push_back(job);
+      if (jobs_.size() > kMostCurves) {
+        jobs_.front()->is_dropped = true;
+        jobs_.erase(jobs_.begin());
+      }
+      if (!thread_.joinable()) thread_ = std::thread([this] { Run(); });
+      changed_.notify_all();
+    }
+  }
+  const std::lock_guard lock(job->mutex);
+  return Curve{job->points.Points(), job->points.samples(), job->points.is_whole(),
+               job->is_done,         job->read_to,          job->problem};
+}
+
+std::shared_ptr<RecordedCurves::Job> RecordedCurves::Find(const CurveWish& wish) {
+  const auto found =
+      std::find_if(jobs_.begin(), jobs_.end(), [&](const auto& job) { return job->wish == wish; });
+  if (found == jobs_.end()) return nullptr;
+  std::rotate(found, found + 1, jobs_.end());
+  return jobs_.back();
+}
+
+void RecordedCurves::Stop() {
+  std::thread thread;
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+    for (const auto& job : jobs_) job->is_dropped = true;
+    thread.swap(thread_);
+    changed_.notify_all();
+  }
+  if (thread.joinable()) thread.join();
+}
+
+void RecordedCurves::Run() {
+  const auto is_waiting = [](const std::shared_ptr<Job>& job) {
+    const std::lock_guard lock(job->mutex);
+    return !job->is_done;
+  };
+  for (;;) {
+    std::shared_ptr<Job> job;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] {
+        return is_stopping_ || std::any_of(jobs_.begin(), jobs_.end(), is_waiting);
+      });
+      if (is_stopping_) return;
+      job = *std::find_if(jobs_.begin(), jobs_.end(), is_waiting);
+    }
+    Read(*job);
+  }
+}
+
+void RecordedCurves::Read(Job& job) {
+  const auto end = std::chrono::steady_clock::now() + longest_;
+  recording::MessageCursor cursor = reader_.Messages();
+  const auto finish = [&](const std::string& problem) {
+    const std::lock_guard lock(job.mutex);
+    job.is_done = true;
+    if (!problem.empty()) job.problem = problem;
+  };
+  for (int count = 1;; ++count) {
+    if (count % kMessagesBetweenLooks == 0) {
+      if (job.is_dropped) return finish("nobody asked for it any more");
+      if (std::chrono::steady_clock::now() > end) {
+        return finish("reading the recording took too long, so the curve ends early");
+      }
+    }
+    const auto message = cursor.Next();
+    if (!message) {  // the next call goes on behind the damage
+      const std::lock_guard lock(job.mutex);
+      job.problem = message.error().Sentence();
+      continue;
+    }
+    if (!*message) break;
+    const std::optional<double> sample = job.source->SampleIn(**message);
+    const std::lock_guard lock(job.mutex);
+    job.read_to = (*message)->log_time;
+    if (sample) job.points.Add((*message)->log_time, *sample);
+  }
+  finish("");
+}
+
+}  // namespace gsv::gateway::curves

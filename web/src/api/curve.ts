@@ -1,0 +1,38 @@
+// A value over the whole of a recording, as far as the server has read it.
+import { listAt, numberAt, objectAt, textOr } from "./json";
+
+// What is asked for: a number of a topic's messages, of a robot, or (neither) of the simulation.
+export interface CurveOf {
+  topic?: string;
+  robot?: string;
+  key: string;
+}
+
+export interface WholeCurve {
+  times: Float64Array; // s, simulated, ascending
+  values: Float64Array; // NaN: an echo that did not come, a value that dropped out
+  isWhole: boolean; // every sample is there; else of equal stretches the least and the greatest
+  done: boolean; // all of the recording is read, or as much as will be
+  problem: string; // why something is missing; empty: nothing is
+}
+
+export function parseCurve(json: unknown): WholeCurve {
+  const curve = objectAt(json, "curve");
+  const times = listAt(curve.time_s, "curve.time_s").map((each, i) => numberAt(each, `curve.time_s[${i}]`));
+  const values = listAt(curve.values, "curve.values");
+  if (values.length !== times.length) {
+    throw new Error(`curve.values: expected ${times.length} of them, found ${values.length}`);
+  }
+  return {
+    times: Float64Array.from(times),
+    values: Float64Array.from(values, (each) => (typeof each === "number" ? each : NaN)),
+    isWhole: curve.is_whole === true,
+    done: curve.done === true,
+    problem: textOr(curve.problem, ""),
+  };
+}
+
+export function curveQuery({ topic, robot, key }: CurveOf, most: number): string {
+  const of = topic ? `topic=${encodeURIComponent(topic)}&` : robot ? `robot=${encodeURIComponent(robot)}&` : "";
+  return `${of}key=${encodeURIComponent(key)}&most=${most}`;
+}
