@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_table.h"
+#include "gsv/base/test_within.h"
 #include "gsv/dynamics/planar_mover.h"
-#include "gsv/dynamics/test_table.h"
 #include "gsv/dynamics/test_world.h"
 
 namespace gsv::dynamics {
@@ -56,8 +57,8 @@ TestWorld AroundTheSquare(std::shared_ptr<model::Model> robot, double turn) {
 TEST(PlanarFidelity, PerfectWheelsCloseTheSquare) {
   for (const double turn : {1.0, -1.0}) {
     TestWorld world = AroundTheSquare(TwoWheeled(1, 1), turn);
-    EXPECT_NEAR(world.position("robot").x, 0, 1e-9);
-    EXPECT_NEAR(world.position("robot").y, 0, 1e-9);
+    EXPECT_WITHIN(world.position("robot").x, 0, 1e-9, "m");
+    EXPECT_WITHIN(world.position("robot").y, 0, 1e-9, "m");
     EXPECT_NEAR(geometry::WrapAngle(world.yaw("robot")), 0, 1e-9);
   }
 }
@@ -67,22 +68,22 @@ TEST(PlanarFidelity, UnequalWheelsMissItByTheTextbooksError) {
   // robots", IEEE Trans. Robotics and Automation 12(6), 1996: with the ratio E of the right wheel's
   // diameter to the left one's, each side is an arc of radius R = b/2 (E + 1) / (E - 1) that turns
   // by beta = L / R, and the end is off by 2 L beta along both axes.
-  testing::Table table("umbmark");
+  base::testing::Table table("umbmark");
   for (const double ratio : {1.00002, 1.00005, 1.0001, 1.00015, 1.0002}) {
     const double left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
     const double beta = kSide / (kSeparation / 2 * (ratio + 1) / (ratio - 1));
     const double expected = 2 * kSide * beta;
     for (const double turn : {1.0, -1.0}) {
       TestWorld world = AroundTheSquare(TwoWheeled(left, right), turn);
-      EXPECT_NEAR(world.position("robot").x, turn * expected, 0.02 * expected);
-      EXPECT_NEAR(world.position("robot").y, -expected, 0.02 * expected);
-      EXPECT_NEAR(geometry::WrapAngle(world.yaw("robot")), 4 * beta, 0.02 * 4 * beta);
+      EXPECT_WITHIN_PERCENT(world.position("robot").x, turn * expected, 2);
+      EXPECT_WITHIN_PERCENT(world.position("robot").y, -expected, 2);
+      EXPECT_WITHIN_PERCENT(geometry::WrapAngle(world.yaw("robot")), 4 * beta, 2);
       // The wheels have turned for a perfect square: odometry does not see the error.
       table.Row({ratio, turn * world.position("robot").x, -world.position("robot").y, expected});
       const double left_path = world.joint("robot", 0) * kRadius;
       const double right_path = world.joint("robot", 1) * kRadius;
-      EXPECT_NEAR((left_path + right_path) / 2, 4 * kSide, 1e-9);
-      EXPECT_NEAR((right_path - left_path) / kSeparation, turn * 2 * kPi, 1e-9);
+      EXPECT_WITHIN((left_path + right_path) / 2, 4 * kSide, 1e-9, "m");
+      EXPECT_WITHIN((right_path - left_path) / kSeparation, turn * 2 * kPi, 1e-9, "rad");
     }
   }
 }
@@ -97,11 +98,11 @@ TEST(PlanarFidelity, AnAccelerationLimitIsKept) {
   world.Run(3, 0.001);
   // Two seconds to get going, 1 m, and one at 1 m/s; a step's length at most between the sum and
   // the integral.
-  EXPECT_NEAR(world.position("robot").x, 2, 0.002);
+  EXPECT_WITHIN(world.position("robot").x, 2, 0.002, "m");
   world.Command("robot", {0, 0, 0});
   world.Run(1, 0.001);
   // v² / 2 a
-  EXPECT_NEAR(world.position("robot").x, 2 + 0.25, 0.002);
+  EXPECT_WITHIN(world.position("robot").x, 2 + 0.25, 0.002, "m");
   EXPECT_EQ(world.body("robot").drive.actual.linear, 0);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/dynamics/test_world.h"
 
 namespace gsv::dynamics {
@@ -28,8 +29,8 @@ TEST(PlanarMover, DrivesAHalfCircleExactly) {
   const double step = base::ToSeconds(base::FromSeconds(kPi / 100));
   world.Run(100 * step, step);
   const double angle = 100 * step;
-  EXPECT_NEAR(world.position("robot").x, 1 + 2 * std::sin(angle), 1e-12);
-  EXPECT_NEAR(world.position("robot").y, 2 + 2 * (1 - std::cos(angle)), 1e-12);
+  EXPECT_WITHIN(world.position("robot").x, 1 + 2 * std::sin(angle), 1e-12, "m");
+  EXPECT_WITHIN(world.position("robot").y, 2 + 2 * (1 - std::cos(angle)), 1e-12, "m");
   EXPECT_EQ(world.position("robot").z, 0.5);
   EXPECT_NEAR(geometry::WrapAngle(world.yaw("robot") - angle), 0, 1e-12);
   EXPECT_NEAR(world.body("robot").distance, 2 * angle, 1e-12);
@@ -71,7 +72,7 @@ TEST(PlanarMover, StopsWhereTheWallIs) {
   ASSERT_TRUE(world.Start());
   world.Command("robot", {0.7, 0, 0});
   world.Run(5, 0.01);
-  EXPECT_NEAR(world.position("robot").x, 2 - 0.05 - 0.2, kGap);
+  EXPECT_WITHIN(world.position("robot").x, 2 - 0.05 - 0.2, kGap, "m");
   EXPECT_LT(world.position("robot").x, 2 - 0.05 - 0.2);
   EXPECT_EQ(world.body("robot").linear_velocity, geometry::Vector3{});
   EXPECT_EQ(world.body("robot").collisions, 1u);
@@ -89,7 +90,7 @@ TEST(PlanarMover, NeverStepsOverAThinWall) {
     world.Command("robot", {10, 0, 0});
     for (int i = 0; i < 20; ++i) world.Step(0.1);
     const auto& p = world.position("robot");
-    EXPECT_NEAR(std::hypot(p.x, p.y), 2 - 0.0005 - 0.2, kGap) << yaw;
+    EXPECT_WITHIN(std::hypot(p.x, p.y), 2 - 0.0005 - 0.2, kGap, "m") << yaw;
   }
 }
 

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_table.h"
+#include "gsv/base/test_within.h"
 #include "gsv/dynamics/test_rigid_world.h"
-#include "gsv/dynamics/test_table.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -35,9 +36,9 @@ TEST(RigidFidelity, ABodyFallsAlongTheParabola) {
   ASSERT_TRUE(world.Start());
   world.body("ball").linear_velocity = {3, -1, 2};
   world.Run(1, kStep);
-  EXPECT_NEAR(world.position("ball").x, 3, 1e-9);
-  EXPECT_NEAR(world.position("ball").y, -1, 1e-9);
-  EXPECT_NEAR(world.position("ball").z, 10 + 2 - kG / 2, 1e-9);
+  EXPECT_WITHIN(world.position("ball").x, 3, 1e-9, "m");
+  EXPECT_WITHIN(world.position("ball").y, -1, 1e-9, "m");
+  EXPECT_WITHIN(world.position("ball").z, 10 + 2 - kG / 2, 1e-9, "m");
   EXPECT_NEAR(world.body("ball").linear_velocity.z, 2 - kG, 1e-9);
 }
 
@@ -47,12 +48,12 @@ TEST(RigidFidelity, AStepOfAnySizeGivesTheSameFall) {
     world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 2), At(0, 0, 10));
     ASSERT_TRUE(world.Start());
     world.Run(1, step);
-    EXPECT_NEAR(world.position("ball").z, 10 - kG / 2, 1e-9) << step;
+    EXPECT_WITHIN(world.position("ball").z, 10 - kG / 2, 1e-9, "m") << step;
   }
 }
 
 TEST(RigidFidelity, ABallBouncesToTheSquareOfItsRestitution) {
-  testing::Table table("bounce");
+  base::testing::Table table("bounce");
   for (const double restitution : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
     TestWorld world = WorldOnGround(SurfaceOf(1, 1));
     world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 1, SurfaceOf(1, restitution)),
@@ -65,7 +66,7 @@ TEST(RigidFidelity, ABallBouncesToTheSquareOfItsRestitution) {
       if (world.body("ball").linear_velocity.z < 0) break;
       highest = std::max(highest, world.position("ball").z - 0.1);
     }
-    EXPECT_NEAR(highest, restitution * restitution, 0.01) << restitution;
+    EXPECT_WITHIN(highest, restitution * restitution, 0.01, "m") << restitution;
     table.Row({restitution, highest, restitution * restitution});
   }
 }
@@ -76,14 +77,13 @@ TEST(RigidFidelity, ASlidingBoxStopsAfterTheFrictionDistance) {
   world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)), At(0, 0, 0.05));
   ASSERT_TRUE(world.Start());
   world.body("box").linear_velocity = {speed, 0, 0};
-  testing::Table table("friction");
+  base::testing::Table table("friction");
   for (int i = 0; i <= 1000; ++i) {
     const double sliding = std::min(kStep * i, speed / (mu * kG));
     table.Row({kStep * i, world.position("box").x, (speed - mu * kG * sliding / 2) * sliding});
     if (i < 1000) world.Step(kStep);
   }
-  EXPECT_NEAR(world.position("box").x, speed * speed / (2 * mu * kG),
-              0.005 * speed * speed / (2 * mu * kG));
+  EXPECT_WITHIN_PERCENT(world.position("box").x, speed * speed / (2 * mu * kG), 0.5);
   EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
 }
 
@@ -104,19 +104,23 @@ double SlideDown(double angle, double seconds, Vector3& velocity) {
 
 TEST(RigidFidelity, ABoxOnAnInclineStaysBelowTheFrictionAngle) {
   Vector3 velocity;
-  EXPECT_NEAR(SlideDown(std::atan(kInclineFriction) - 0.01, 10, velocity), 0, 1e-5);
+  EXPECT_WITHIN(SlideDown(std::atan(kInclineFriction) - 0.01, 10, velocity), 0, 1e-5, "m");
   EXPECT_EQ(velocity, Vector3{});
 }
 
 TEST(RigidFidelity, ABoxOnAnInclineSlidesAboveTheFrictionAngle) {
-  testing::Table table("incline");
+  base::testing::Table table("incline");
   Vector3 velocity;
   for (const double beyond : {-0.1, -0.05, -0.01, 0.05, 0.1, 0.15, 0.2, 0.3}) {
     const double angle = std::atan(kInclineFriction) + beyond;
     const double slope = std::sin(angle) - kInclineFriction * std::cos(angle);
     const double expected = std::max(0.0, kG * slope * 2 * 2 / 2);
     const double slid = SlideDown(angle, 2, velocity);
-    EXPECT_NEAR(slid, expected, 0.005 * expected + 1e-5) << beyond;
+    if (beyond < 0) {
+      EXPECT_WITHIN(slid, 0, 1e-5, "m") << beyond;
+    } else {
+      EXPECT_WITHIN_PERCENT(slid, expected, 0.5) << beyond;
+    }
     table.Row({angle, slid, expected});
   }
 }
@@ -130,13 +134,13 @@ TEST(RigidFidelity, ABallRollsDownAnInclineAtFiveSeventhsOfTheSlope) {
   ASSERT_TRUE(world.Start());
   world.Run(2, kStep);
   const double expected = 5.0 / 7 * kG * std::sin(angle) * 2 * 2 / 2;
-  EXPECT_NEAR((Inverse(incline) * world.position("ball")).x, expected, 0.005 * expected);
+  EXPECT_WITHIN_PERCENT((Inverse(incline) * world.position("ball")).x, expected, 0.5);
 }
 
 TEST(RigidFidelity, ACollisionKeepsMomentum) {
   const double speed = 2, e = 0.7 * 0.7;  // the product of both surfaces'
   const model::Surface bouncy = SurfaceOf(0, 0.7);
-  testing::Table table("momentum");
+  base::testing::Table table("momentum");
   for (const double mass : {0.25, 0.5, 1.0, 2.0, 3.0, 4.0}) {
     TestWorld world(MakeWorldEngine());
     world.AddRigid("a", SolidOf(geometry::Sphere{0.1}, mass, bouncy), At(0, 0, 100));
@@ -145,9 +149,9 @@ TEST(RigidFidelity, ACollisionKeepsMomentum) {
     world.body("a").linear_velocity = {speed, 0, 0};
     world.Run(1, kStep);
     const double va = world.body("a").linear_velocity.x, vb = world.body("b").linear_velocity.x;
-    EXPECT_NEAR(mass * va + vb, mass * speed, 1e-9) << mass;
+    EXPECT_WITHIN(mass * va + vb, mass * speed, 1e-9, "kg m/s") << mass;
     // Give or take the depth at which bodies rest in each other, in one substep.
-    EXPECT_NEAR(vb - va, e * speed, 0.0101) << mass;
+    EXPECT_WITHIN(vb - va, e * speed, 0.0101, "m/s") << mass;
     EXPECT_EQ(world.body("a").collisions, 1u) << mass;
     table.Row({mass, va, vb, speed * (mass - e) / (mass + 1), speed * mass * (1 + e) / (mass + 1)});
   }
@@ -159,9 +163,9 @@ TEST(RigidFidelity, ABoxAtRestNeitherSinksNorDrifts) {
   ASSERT_TRUE(world.Start());
   world.Run(1, kStep);
   const Vector3 settled = world.position("box");
-  EXPECT_NEAR(settled.x, 1, 1e-9);
-  EXPECT_NEAR(settled.y, 2, 1e-9);
-  EXPECT_NEAR(settled.z, 0.25, 2e-5);
+  EXPECT_WITHIN(settled.x, 1, 1e-9, "m");
+  EXPECT_WITHIN(settled.y, 2, 1e-9, "m");
+  EXPECT_WITHIN(settled.z, 0.25, 2e-5, "m");
   world.Run(60, kStep);
   EXPECT_EQ(world.position("box"), settled);
 }
@@ -173,7 +177,7 @@ TEST(RigidFidelity, AStackStandsForAMinute) {
     world.AddRigid("box" + std::to_string(i), box, At(0, 0, 0.25 + 0.5 * i));
   }
   ASSERT_TRUE(world.Start());
-  testing::Table table("stack");
+  base::testing::Table table("stack");
   for (int i = 0; i <= 600; ++i) {
     const Vector3& top = world.position("box4");
     table.Row({0.1 * i, 1e6 * (top.z - 2.25), 1e6 * std::hypot(top.x, top.y)});
@@ -181,9 +185,9 @@ TEST(RigidFidelity, AStackStandsForAMinute) {
   }
   for (int i = 0; i < 5; ++i) {
     const Vector3& at = world.position("box" + std::to_string(i));
-    EXPECT_NEAR(at.x, 0, 1e-4) << i;
-    EXPECT_NEAR(at.y, 0, 1e-4) << i;
-    EXPECT_NEAR(at.z, 0.25 + 0.5 * i, 1e-4) << i;
+    EXPECT_WITHIN(at.x, 0, 1e-4, "m") << i;
+    EXPECT_WITHIN(at.y, 0, 1e-4, "m") << i;
+    EXPECT_WITHIN(at.z, 0.25 + 0.5 * i, 1e-4, "m") << i;
     EXPECT_EQ(world.body("box" + std::to_string(i)).linear_velocity, Vector3{}) << i;
   }
 }
@@ -199,20 +203,20 @@ TEST(RigidFidelity, EnergyNeverGrows) {
   world.body("can").linear_velocity = {-2, 0, 1};
   double energy = EnergyOf(world);
   const double most = energy;
-  testing::Table table("energy");
+  base::testing::Table table("energy");
   for (int i = 0; i < 5000; ++i) {
     world.Step(kStep);
     const double now = EnergyOf(world);
     if (i % 5 == 0) table.Row({kStep * (i + 1), now});
     // What a substep's rounding of a turn and the slop of a contact make.
-    ASSERT_LE(now, energy + 2e-4 * most) << "step " << i;
+    ASSERT_WITHIN(100 * std::max(now - energy, 0.0) / most, 0, 0.02, "% a step") << i;
     energy = now;
   }
   EXPECT_LT(energy, 0.8 * most);
 }
 
 TEST(RigidFidelity, AFastBodyDoesNotCrossAThinWall) {
-  testing::Table table("wall");
+  base::testing::Table table("wall");
   for (const double speed : {5.0, 10.0, 20.0, 30.0, 50.0, 70.0, 90.0}) {
     std::vector<double> row = {speed};
     for (const double step : {0.001, 0.01, 0.1}) {

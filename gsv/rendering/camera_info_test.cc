@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/rendering/camera_sensor.h"
 #include "gsv/rendering/optics.h"
@@ -58,8 +59,8 @@ TEST(CameraInfo, OfAPinholeFollowsFromItsFieldOfView) {
   EXPECT_EQ(info.d, (std::vector<double>{0, 0, 0, 0, 0}));
   const double k[] = {f, 0, 320, 0, f, 240, 0, 0, 1};
   const double p[] = {f, 0, 320, 0, 0, f, 240, 0, 0, 0, 1, 0};
-  for (int i = 0; i < 9; ++i) EXPECT_NEAR(info.k[i], k[i], 1e-9) << i;
-  for (int i = 0; i < 12; ++i) EXPECT_NEAR(info.p[i], p[i], 1e-9) << i;
+  for (int i = 0; i < 9; ++i) EXPECT_WITHIN(info.k[i], k[i], 1e-9, "pixel") << i;
+  for (int i = 0; i < 12; ++i) EXPECT_WITHIN(info.p[i], p[i], 1e-9, "pixel") << i;
   EXPECT_EQ(info.header.frame_id, "robot/front/optical");
   EXPECT_EQ(info.header.stamp.sec, 1);
   EXPECT_EQ(info.header.stamp.nanosec, 250'000'000u);
@@ -87,8 +88,8 @@ TEST(CameraInfo, LeadsRosToTheSamePixels) {
       const auto shown = lens.Project({3, left, up});
       ASSERT_TRUE(shown);
       const geometry::Vector2 said = PlumbBob(info, -left, -up, 3);
-      EXPECT_NEAR(said.x, shown->x, 1e-9);
-      EXPECT_NEAR(said.y, shown->y, 1e-9);
+      EXPECT_WITHIN(said.x, shown->x, 1e-9, "pixel");
+      EXPECT_WITHIN(said.y, shown->y, 1e-9, "pixel");
     }
   }
 }
@@ -102,10 +103,10 @@ TEST(CameraInfo, OfAnEquidistantLensHoldsPixelsARadian) {
   EXPECT_EQ(info.distortion_model, "equidistant");
   EXPECT_EQ(info.d, (std::vector<double>{0, 0, 0, 0}));
   // The half of the width, 300 pixels, spans a quarter turn.
-  EXPECT_NEAR(info.k[0], 300 / (std::numbers::pi / 2), 1e-9);
+  EXPECT_WITHIN(info.k[0], 300 / (std::numbers::pi / 2), 1e-9, "pixel");
   const auto at_one_radian = LensFor(description).Project({std::cos(1), -std::sin(1), 0});
   ASSERT_TRUE(at_one_radian);
-  EXPECT_NEAR(at_one_radian->x, info.k[2] + info.k[0], 1e-9);
+  EXPECT_WITHIN(at_one_radian->x, info.k[2] + info.k[0], 1e-9, "pixel");
 }
 
 TEST(CameraInfo, OfALensThatRosHasNoModelOfSaysNothing) {

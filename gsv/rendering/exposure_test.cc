@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/rendering/test_scene.h"
 
 namespace gsv::rendering {
@@ -41,7 +42,7 @@ TEST_F(ExposureTest, AStopHalvesOrDoublesTheLight) {
     for (const int grey : {10, 60, 120, 180}) {
       const double light = std::min(1.0, Linear(grey / 255.0) * std::exp2(stops));
       const model::Image picture = Exposed({{"exposure", stops}}, static_cast<std::uint8_t>(grey));
-      EXPECT_NEAR(picture.pixels[0], Encoded(light), 0.51) << stops << " " << grey;
+      EXPECT_WITHIN(picture.pixels[0], Encoded(light), 0.51, "level") << stops << " " << grey;
     }
   }
 }
@@ -54,9 +55,9 @@ TEST_F(ExposureTest, NothingAskedForChangesNothing) {
 TEST_F(ExposureTest, CornersAreDarkerByTheSquareOfTheDistance) {
   const model::Image picture = Exposed({{"vignetting", 0.6}}, 200);
   const double light = Linear(200 / 255.0);
-  EXPECT_NEAR(Brightness(picture, 50, 40), 200, 1);
+  EXPECT_WITHIN(Brightness(picture, 50, 40), 200, 1, "level");
   const double corner = 49.5 * 49.5 + 39.5 * 39.5, whole = 50 * 50 + 40 * 40;
-  EXPECT_NEAR(Brightness(picture, 0, 0), Encoded(light * (1 - 0.6 * corner / whole)), 1);
+  EXPECT_WITHIN(Brightness(picture, 0, 0), Encoded(light * (1 - 0.6 * corner / whole)), 1, "level");
   EXPECT_NEAR(Brightness(picture, 99, 79), Brightness(picture, 0, 0), 0);
 }
 
@@ -67,10 +68,10 @@ TEST_F(ExposureTest, NoiseHasItsMeanAndDeviation) {
   const double n = static_cast<double>(picture.pixels.size());
   const double mean = sum / n, deviation = std::sqrt(squares / n - mean * mean);
   const double expected = 0.05 * 255;
-  EXPECT_NEAR(mean, 120 + 0.02 * 255, 3 * expected / std::sqrt(n));
+  EXPECT_WITHIN_3_SIGMA(mean, 120 + 0.02 * 255, expected / std::sqrt(n));
   // Rounding to whole numbers adds a twelfth to the variance.
-  EXPECT_NEAR(deviation, std::sqrt(expected * expected + 1.0 / 12),
-              3 * expected / std::sqrt(2 * n));
+  EXPECT_WITHIN_3_SIGMA(deviation, std::sqrt(expected * expected + 1.0 / 12),
+                        expected / std::sqrt(2 * n));
 }
 
 TEST_F(ExposureTest, NoiseIsThatOfTheStepAndOfNothingElse) {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
+
 namespace gsv::rendering {
 namespace {
 
@@ -32,8 +34,8 @@ TEST(Lens, APlainPinholeIsTheCamerasOwn) {
   EXPECT_TRUE(lens.is_plain());
   const auto at = lens.Project({2, -0.5, 0.25});
   ASSERT_TRUE(at);
-  EXPECT_NEAR(at->x, 320 + 320 * 0.25, 1e-9);
-  EXPECT_NEAR(at->y, 240 - 320 * 0.125, 1e-9);
+  EXPECT_WITHIN(at->x, 320 + 320 * 0.25, 1e-9, "pixel");
+  EXPECT_WITHIN(at->y, 240 - 320 * 0.125, 1e-9, "pixel");
   EXPECT_FALSE(lens.Project({-1, 0, 0}));
 }
 
@@ -51,8 +53,8 @@ TEST(Lens, DistortsAsThePublishedEquationsDo) {
   for (const auto& c : cases) {
     const auto at = lens.Project(c.point);
     ASSERT_TRUE(at);
-    EXPECT_NEAR(at->x, c.expected.x, 1e-9);
-    EXPECT_NEAR(at->y, c.expected.y, 1e-9);
+    EXPECT_WITHIN(at->x, c.expected.x, 1e-9, "pixel");
+    EXPECT_WITHIN(at->y, c.expected.y, 1e-9, "pixel");
   }
 }
 
@@ -80,8 +82,8 @@ TEST(Lens, RaysGoWherePointsComeFrom) {
       EXPECT_NEAR(Norm(*ray), 1, 1e-12);
       const auto back = lens.Project(far(random) * *ray);
       ASSERT_TRUE(back) << u << " " << v;
-      EXPECT_NEAR(back->x, u, 1e-6);
-      EXPECT_NEAR(back->y, v, 1e-6);
+      EXPECT_WITHIN(back->x, u, 1e-6, "pixel");
+      EXPECT_WITHIN(back->y, v, 1e-6, "pixel");
     }
     EXPECT_GT(seen, 150);
   }
@@ -118,8 +120,9 @@ TEST(Lens, WideViewsSpanTheirAngleByTheirFunction) {
       // To the right, which is -y.
       const auto at = lens->Project({std::cos(angle), -std::sin(angle), 0});
       ASSERT_TRUE(at) << c.type;
-      EXPECT_NEAR(at->x, 320 + 320 * c.radius(angle) / c.radius(fov / 2), 1e-9) << c.type;
-      EXPECT_NEAR(at->y, 240, 1e-9) << c.type;
+      EXPECT_WITHIN(at->x, 320 + 320 * c.radius(angle) / c.radius(fov / 2), 1e-9, "pixel")
+          << c.type;
+      EXPECT_WITHIN(at->y, 240, 1e-9, "pixel") << c.type;
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/rendering/test_scene.h"
 
 namespace gsv::rendering {
@@ -401,11 +402,11 @@ TEST_F(PICTURE_SUITE, AnLedGlowsWhereItIsMountedAndLightsNothing) {
              lit = TakeWith(*renderer_, scene_, led, 1);
   EXPECT_EQ(FindBlob(*dark, 0).pixels, 0);
   const Blob ball = FindBlob(*lit, 0);
-  EXPECT_NEAR(ball.u, 80, 0.5);
-  EXPECT_NEAR(ball.v, 60, 0.5);
+  EXPECT_WITHIN(ball.u, 80, 0.5, "pixel");
+  EXPECT_WITHIN(ball.v, 60, 0.5, "pixel");
   // A ball of 0.1 m, 2 m away.
   const double radius = 0.1 / 2 * 80 / std::tan(0.5);
-  EXPECT_NEAR(ball.pixels, kPi * radius * radius, 0.15 * kPi * radius * radius);
+  EXPECT_WITHIN_PERCENT(ball.pixels, kPi * radius * radius, 15);
   EXPECT_EQ(RedAt(*lit, 40), RedAt(*dark, 40));
 }
 

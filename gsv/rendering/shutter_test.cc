@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/rendering/camera_sensor.h"
 #include "gsv/rendering/light_encoding.h"
 #include "gsv/rendering/test_scene.h"
@@ -95,9 +96,9 @@ TEST_F(ShutterTest, WhatMovesIsBlurredAlongItsWay) {
   // In 0.1 s it goes 0.2 m; it came from the right, and is now where it is. The samples are in the
   // middle of 32 parts.
   const double way = Focal() * 2 * 0.1 / kDistance;
-  EXPECT_NEAR(moved.width() - still.width(), way * 31 / 32, 1.5);
-  EXPECT_NEAR(moved.last - still.last, way * 63 / 64, 1.5);
-  EXPECT_NEAR(moved.first, still.first, 1.5);
+  EXPECT_WITHIN(moved.width() - still.width(), way * 31 / 32, 1.5, "pixel");
+  EXPECT_WITHIN(moved.last - still.last, way * 63 / 64, 1.5, "pixel");
+  EXPECT_WITHIN(moved.first, still.first, 1.5, "pixel");
 }
 
 // While it is open the light of the thing passes a column for a part of the time.
@@ -111,7 +112,7 @@ TEST_F(ShutterTest, LightIsSharedOutOverTheWay) {
   // 0.2 m of 0.8 m: a quarter of the thing's light, else the background's.
   const int column = kWidth / 2 + static_cast<int>(Focal() * 0.4 / kDistance);
   const float expected = 0.25f * light_at(still, kWidth / 2) + 0.75f * light_at(still, column);
-  EXPECT_NEAR(light_at(blurred, column), expected, 0.02);
+  EXPECT_WITHIN(100 * light_at(blurred, column), 100 * expected, 2, "% of white");
   EXPECT_GT(light_at(still, kWidth / 2), 0.5);
 }
 
@@ -123,8 +124,8 @@ TEST_F(ShutterTest, ATurningCameraBlursWhatStands) {
   turning_ = 0;
   const RedColumns still = RedIn(Taken({}), kHeight / 2);
   // It looked 0.1 rad to the right of where it looks now: the thing was to the left.
-  EXPECT_NEAR(still.first - turned.first, Focal() * std::tan(0.1 * 63 / 64), 2);
-  EXPECT_NEAR(turned.last, still.last, 1.5);
+  EXPECT_WITHIN(still.first - turned.first, Focal() * std::tan(0.1 * 63 / 64), 2, "pixel");
+  EXPECT_WITHIN(turned.last, still.last, 1.5, "pixel");
 }
 
 TEST_F(ShutterTest, ARollingShutterLeansWhatMoves) {
@@ -133,7 +134,7 @@ TEST_F(ShutterTest, ARollingShutterLeansWhatMoves) {
   for (int row = 5; row < kHeight; row += 23) {
     const double age = 0.05 * (1 - (row + 0.5) / kHeight);
     const double expected = kWidth / 2.0 + Focal() * 4 * age / kDistance;
-    EXPECT_NEAR(RedIn(picture, row).middle(), expected, 1) << row;
+    EXPECT_WITHIN(RedIn(picture, row).middle(), expected, 1, "pixel") << row;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/vision_msgs.h"
@@ -99,7 +100,7 @@ TEST_F(SurveyTest, DepthOfAPlaneIsThatOfItsEquation) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const double expected = Dot(on_face - Vector3{0.3, 0, 1}, normal) / Dot(RayOf(x, y), normal);
-      EXPECT_NEAR(reading.values[2 + y * kWidth + x], expected, 1e-5 * expected) << x << " " << y;
+      EXPECT_WITHIN_PERCENT(reading.values[2 + y * kWidth + x], expected, 0.001) << x << " " << y;
     }
   }
 }
@@ -111,7 +112,7 @@ TEST_F(SurveyTest, DepthOfTheGroundIsThatOfItsEquation) {
     const double down = -RayOf(0, y).z;
     const double depth = reading.values[2 + y * kWidth + 7];
     if (down <= 0.021) continue;  // beyond 50 m
-    EXPECT_NEAR(depth, 1 / down, 1e-4 / down) << y;
+    EXPECT_WITHIN_PERCENT(depth, 1 / down, 0.01) << y;
   }
   EXPECT_EQ(reading.values[2 + 7], std::numeric_limits<double>::infinity());  // the sky
 }
@@ -146,8 +147,8 @@ TEST_F(SurveyTest, DepthNoiseHasItsDeviation) {
     const double error = reading.values[2 + i] - 4;
     sum += error, squares += error * error;
   }
-  EXPECT_NEAR(sum / n, 0, 3 * 0.05 / std::sqrt(n));
-  EXPECT_NEAR(squares / n, 0.0025, 3 * 0.0025 * std::sqrt(2.0 / n));
+  EXPECT_WITHIN_3_SIGMA(sum / n, 0, 0.05 / std::sqrt(n));
+  EXPECT_WITHIN_3_SIGMA(squares / n, 0.0025, 0.0025 * std::sqrt(2.0 / n));
 }
 
 void AddThings(const std::function<void(const char*, geometry::Shape, geometry::Pose)>& add) {
@@ -174,7 +175,7 @@ TEST_F(SurveyTest, SegmentationNamesWhatRaysHit) {
     }
   }
   // The ball is drawn of triangles: at its rim a pixel may miss them.
-  EXPECT_LE(differing, 6);
+  EXPECT_WITHIN(differing, 0, 6, "of 3,072 pixels");
 }
 
 TEST_F(SurveyTest, TheColoursOfASegmentationTellItsLabels) {
@@ -208,10 +209,10 @@ TEST_F(SurveyTest, ABoundingBoxHoldsWhatIsSeen) {
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
   ASSERT_EQ(reading.values.size(), 4u);
   // Its left side is seen as well, which reaches back to 4 m.
-  EXPECT_NEAR(reading.values[0], kWidth / 2 + kFocal * 0.5 / 4, 1);
-  EXPECT_NEAR(reading.values[1], kHeight / 2 - kFocal * 0.5 / 3, 1);
-  EXPECT_NEAR(reading.values[2], kWidth / 2 + kFocal * 1.5 / 3, 1);
-  EXPECT_NEAR(reading.values[3], kHeight / 2 + kFocal * 0.5 / 3, 1);
+  EXPECT_WITHIN(reading.values[0], kWidth / 2 + kFocal * 0.5 / 4, 1, "pixel");
+  EXPECT_WITHIN(reading.values[1], kHeight / 2 - kFocal * 0.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[2], kWidth / 2 + kFocal * 1.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[3], kHeight / 2 + kFocal * 0.5 / 3, 1, "pixel");
   const auto message = Sent<messages::vision_msgs::Detection2DArray>(description, reading);
   ASSERT_EQ(message.detections.size(), 1u);
   EXPECT_EQ(message.detections[0].id, "box");

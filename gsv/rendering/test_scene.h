@@ -83,13 +83,9 @@ struct Blob {
   int pixels = 0;
 };
 
-// What a pixel counts by, so that anti-aliased edges count less: how far its channel is above the
-// others, or the channel alone, whatever light gleams on it besides.
-enum class BlobWeight { kAboveOthers, kChannel };
-
-// `channel` 0, 1 or 2: pixels in which it is more than `margin` above both others.
-inline Blob FindBlob(const model::Image& picture, int channel, int margin = 40,
-                     BlobWeight by = BlobWeight::kAboveOthers) {
+// `channel` 0, 1 or 2: pixels in which it is more than `margin` above both others. Each counts by
+// how far it is above them, so that anti-aliased edges count less.
+inline Blob FindBlob(const model::Image& picture, int channel, int margin = 40) {
   Blob blob;
   double weight = 0;
   for (int y = 0; y < picture.height; ++y) {
@@ -98,11 +94,10 @@ inline Blob FindBlob(const model::Image& picture, int channel, int margin = 40,
           &picture.pixels[(static_cast<std::size_t>(y) * picture.width + x) * 3];
       const int above = p[channel] - std::max(p[(channel + 1) % 3], p[(channel + 2) % 3]);
       if (above <= margin) continue;
-      const int counts = by == BlobWeight::kChannel ? p[channel] : above;
       ++blob.pixels;
-      weight += counts;
-      blob.u += counts * (x + 0.5);
-      blob.v += counts * (y + 0.5);
+      weight += above;
+      blob.u += above * (x + 0.5);
+      blob.v += above * (y + 0.5);
     }
   }
   if (weight > 0) blob.u /= weight, blob.v /= weight;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/sensing/actuator.h"
 #include "gsv/sensing/lamp.h"
@@ -133,7 +134,7 @@ TEST_F(ActuatorReadings, ASpeakerSaysWhatItPlaysAndHowLong) {
 TEST_F(ActuatorReadings, AMicrophoneHearsByTheInverseSquareLaw) {
   const auto microphone = MakeDevice(MicrophoneType(), {{"ambient", -100.0}});
   const auto speaker = MakeDevice(SpeakerType(), {{"loudness", 85.0}});
-  EXPECT_NEAR(Sampled(*microphone, "ear").values[0], -100, 1e-9);
+  EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], -100, 1e-9, "dB");
   EXPECT_EQ(Sampled(*microphone, "ear").values[1], 0);
   EXPECT_EQ(Sampled(*microphone, "ear").labels->front(), "");
 
@@ -142,18 +143,19 @@ TEST_F(ActuatorReadings, AMicrophoneHearsByTheInverseSquareLaw) {
   const double near_level = 85 + 20 * std::log10(0.5) - 20 * std::log10(2.0);
   const double far_level = 85 - 20;
   Tell({near});
-  EXPECT_NEAR(Sampled(*microphone, "ear").values[0], near_level, 1e-9);
+  EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], near_level, 1e-9, "dB");
   Tell({far});
-  EXPECT_NEAR(Sampled(*microphone, "ear").values[0], far_level, 1e-9);
+  EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], far_level, 1e-9, "dB");
   Tell({far, near});
   const Reading both = Sampled(*microphone, "ear");
-  EXPECT_NEAR(both.values[0],
-              10 * std::log10(std::pow(10, near_level / 10) + std::pow(10, far_level / 10)), 1e-9);
+  EXPECT_WITHIN(both.values[0],
+                10 * std::log10(std::pow(10, near_level / 10) + std::pow(10, far_level / 10)), 1e-9,
+                "dB");
   EXPECT_EQ(both.values[1], 440);
   EXPECT_EQ(both.labels->front(), "near/speaker");
   // Its own robot's speaker is no nearer than 0.1 m.
   Tell({Told(*speaker, "ear", {{440, 2, 1}, "tone"})});
-  EXPECT_NEAR(Sampled(*microphone, "ear").values[0], 85 + 20, 1e-9);
+  EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], 85 + 20, 1e-9, "dB");
 }
 
 TEST_F(ActuatorReadings, WhatIsQuieterThanThePlaceIsNotTold) {

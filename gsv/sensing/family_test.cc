@@ -1,10 +1,13 @@
 // The sensors that feel motion, place and touch, against closed forms.
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/nav_msgs.h"
 #include "gsv/messages/ros_gz_interfaces.h"
@@ -97,34 +100,42 @@ class FamilyTest : public ::testing::Test {
   RaySceneCache rays_;
 };
 
+using Units = std::vector<std::string>;
+const Units kImu = {"rad/s", "rad/s", "rad/s", "m/s²", "m/s²", "m/s²"};
+
+// Values whose unit is named leave behind how near they came.
 void ExpectValues(const Reading& reading, const std::vector<double>& expected,
-                  double tolerance = 1e-12) {
+                  const Units& units = {}, double bound = 1e-12) {
   ASSERT_GE(reading.values.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_NEAR(reading.values[i], expected[i], tolerance) << "value " << i;
+    if (i < units.size()) {
+      EXPECT_WITHIN(reading.values[i], expected[i], bound, units[i]) << "value " << i;
+    } else {
+      EXPECT_NEAR(reading.values[i], expected[i], bound) << "value " << i;
+    }
   }
 }
 
 TEST_F(FamilyTest, AnImuAtRestFeelsWhatHoldsItUp) {
-  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 0, 9.8});
+  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 0, 9.8}, kImu);
   // On its left side, what holds it up comes from its right: along its own y, upwards.
   body().world_from_model.orientation = geometry::FromRollPitchYaw({kPi / 2, 0, 0});
-  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 9.8, 0});
+  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 9.8, 0}, kImu);
 }
 
 TEST_F(FamilyTest, AnImuInFreeFallFeelsNothing) {
   acceleration().linear = {0, 0, -9.8};
   body().linear_velocity = {0, 0, -3};
-  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 0, 0});
+  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 0, 0}, kImu);
 }
 
 TEST_F(FamilyTest, AnImuOnATurntableFeelsTheCentripetalForce) {
   const double rate = 3;
   body().angular_velocity = {0, 0, rate};
-  ExpectValues(Sample(Description("imu")), {0, 0, rate, -rate * rate * 0.2, 0, 9.8});
+  ExpectValues(Sample(Description("imu")), {0, 0, rate, -rate * rate * 0.2, 0, 9.8}, kImu);
   // That speeds up.
   acceleration().angular = {0, 0, 2};
-  ExpectValues(Sample(Description("imu")), {0, 0, rate, -rate * rate * 0.2, 2 * 0.2, 9.8});
+  ExpectValues(Sample(Description("imu")), {0, 0, rate, -rate * rate * 0.2, 2 * 0.2, 9.8}, kImu);
 }
 
 TEST_F(FamilyTest, AnImuOnATurretFeelsItTurn) {
@@ -132,10 +143,10 @@ TEST_F(FamilyTest, AnImuOnATurretFeelsItTurn) {
   description.link = 1;
   snapshot_->state.joint_positions[0] = 1.1;
   snapshot_->state.joint_velocities[0] = 2;
-  ExpectValues(Sample(description), {0, 0, 2, -4 * 0.2, 0, 9.8});
+  ExpectValues(Sample(description), {0, 0, 2, -4 * 0.2, 0, 9.8}, kImu);
   // On a base that turns the other way it stands still.
   body().angular_velocity = {0, 0, -2};
-  ExpectValues(Sample(description), {0, 0, 0, 0, 0, 9.8});
+  ExpectValues(Sample(description), {0, 0, 0, 0, 0, 9.8}, kImu);
 }
 
 TEST_F(FamilyTest, AnImuTellsItsOrientationIfItShould) {
@@ -154,7 +165,7 @@ TEST_F(FamilyTest, AnImuTellsItsOrientationIfItShould) {
 
 TEST_F(FamilyTest, AMagnetometerTurnsTheField) {
   // It faces y: its x is the world's y, its y the world's -x.
-  ExpectValues(Sample(Description("magnetometer")), {2e-5, -1e-5, -4e-5}, 1e-18);
+  ExpectValues(Sample(Description("magnetometer")), {2e-5, -1e-5, -4e-5}, {"T", "T", "T"}, 1e-18);
   EXPECT_NEAR(
       Sent<messages::sensor_msgs::MagneticField>(Description("magnetometer")).magnetic_field.x,
       2e-5, 1e-18);
@@ -163,8 +174,9 @@ TEST_F(FamilyTest, AMagnetometerTurnsTheField) {
 TEST_F(FamilyTest, AnAltimeterMeasuresFromWhereItStarted) {
   body().world_from_model.position.z += 2;
   body().linear_velocity = {5, 0, -0.5};
-  ExpectValues(Sample(Description("altimeter")), {2, -0.5, 0.3});
-  ExpectValues(Sample(Description("altimeter", {{"vertical_reference", -1.0}})), {3.3, -0.5, -1});
+  ExpectValues(Sample(Description("altimeter")), {2, -0.5, 0.3}, {"m", "m/s", "m"});
+  ExpectValues(Sample(Description("altimeter", {{"vertical_reference", -1.0}})), {3.3, -0.5, -1},
+               {"m", "m/s", "m"});
   EXPECT_EQ(
       Sent<messages::ros_gz_interfaces::Altimeter>(Description("altimeter")).vertical_velocity,
       -0.5);
@@ -183,7 +195,7 @@ TEST_F(FamilyTest, ASatelliteReceiverTellsWhereItIsAndHowItMoves) {
   const double a = 6378137.0 + 100.3, e2 = (2 - 1 / 298.257223563) / 298.257223563;
   const Reading reading = Sample(Description("navsat"));
   ExpectValues(reading, {0.2 / (6378137.0 * (1 - e2) + 100.3) * 180 / kPi, 1 / a * 180 / kPi},
-               1e-12);
+               {"°", "°"});
   EXPECT_NEAR(reading.values[2], 100.3, 1e-6);
   EXPECT_EQ(reading.values[3], 1);
   EXPECT_EQ(reading.values[4], 2);
@@ -233,11 +245,11 @@ TEST_F(FamilyTest, JointEncodersCountTheirTurns) {
   snapshot_->state.joint_positions[0] = 1.0;
   snapshot_->state.joint_velocities[0] = -0.5;
   const Reading reading = Sample(Description("joint_state"));
-  ExpectValues(reading, {1, -0.5});
+  ExpectValues(reading, {1, -0.5}, {"rad", "rad/s"});
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"turret"});
   // Of 1 rad a hundred counts a turn show fifteen.
   ExpectValues(Sample(Description("joint_encoders", {{"counts_per_turn", 100.0}})),
-               {15 * 2 * kPi / 100, -0.5});
+               {15 * 2 * kPi / 100, -0.5}, {"rad", "rad/s"});
   const auto message = Sent<messages::sensor_msgs::JointState>(Description("joint_encoders"));
   EXPECT_EQ(message.name, std::vector<std::string>{"turret"});
   EXPECT_EQ(message.position, std::vector<double>{1.0});
@@ -254,7 +266,8 @@ TEST_F(FamilyTest, ABatteryFallsByTimeAndByWay) {
   body().distance = 300;
   body().linear_velocity = {0, 0.5, 0};
   // 0.5 Ah for half an hour at 1 A and 0.5 Ah for 300 m leave 1 of 2 Ah; 1 A + 3 A a m/s are drawn.
-  ExpectValues(Sample(Description("battery", parameters)), {11 - 0.5 * 4, 4, 1, 2, 0.5});
+  ExpectValues(Sample(Description("battery", parameters)), {11 - 0.5 * 4, 4, 1, 2, 0.5},
+               {"V", "A", "Ah", "Ah"});
   const auto message =
       Sent<messages::sensor_msgs::BatteryState>(Description("battery", parameters));
   EXPECT_EQ(message.current, -4);

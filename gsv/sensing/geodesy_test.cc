@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <ignition/math/SphericalCoordinates.hh>
 
+#include "gsv/base/test_within.h"
 #include "gsv/sensing/test_rays.h"
 
 namespace gsv::sensing {
@@ -15,9 +16,9 @@ using geometry::Vector3;
 constexpr double kPi = std::numbers::pi;
 
 TEST(Geodesy, FindsThePlacesWhoseCoordinatesEverybodyKnows) {
-  EXPECT_NEAR(EcefOf({0, 0, 0}).x, 6378137.0, 1e-9);
-  EXPECT_NEAR(EcefOf({kPi / 2, 0, 0}).z, 6356752.314245, 1e-6);  // TR8350.2, table 3.3
-  EXPECT_NEAR(EcefOf({0, kPi / 2, 100}).y, 6378237.0, 1e-9);
+  EXPECT_WITHIN(EcefOf({0, 0, 0}).x, 6378137.0, 1e-9, "m");
+  EXPECT_WITHIN(EcefOf({kPi / 2, 0, 0}).z, 6356752.314245, 1e-6, "m");  // TR8350.2, table 3.3
+  EXPECT_WITHIN(EcefOf({0, kPi / 2, 100}).y, 6378237.0, 1e-9, "m");
 }
 
 TEST(Geodesy, ComesBackToWhereItWas) {
@@ -26,9 +27,9 @@ TEST(Geodesy, ComesBackToWhereItWas) {
     const GeodeticPlace place{random.Uniform(-kPi / 2, kPi / 2), random.Uniform(-kPi, kPi),
                               random.Uniform(-1e4, 1e6)};
     const GeodeticPlace back = PlaceOf(EcefOf(place));
-    EXPECT_NEAR(back.latitude, place.latitude, 1e-14);
-    EXPECT_NEAR(back.longitude, place.longitude, 1e-14);
-    EXPECT_NEAR(back.altitude, place.altitude, 1e-8);
+    EXPECT_WITHIN(back.latitude, place.latitude, 1e-14, "rad");
+    EXPECT_WITHIN(back.longitude, place.longitude, 1e-14, "rad");
+    EXPECT_WITHIN(back.altitude, place.altitude, 1e-8, "m");
   }
 }
 
@@ -40,10 +41,10 @@ TEST(Geodesy, SmallWaysAreArcsOfTheRadiiOfCurvature) {
   const double s = std::sin(origin.latitude), w = 1 - e2 * s * s;
   const double along = a * (1 - e2) / (w * std::sqrt(w)), across = a / std::sqrt(w);
   const double way = 10;
-  EXPECT_NEAR((PlaceOf(origin, {0, way, 0}).latitude - origin.latitude) * along, way, 1e-4);
-  EXPECT_NEAR((PlaceOf(origin, {way, 0, 0}).longitude - origin.longitude) * across *
-                  std::cos(origin.latitude),
-              way, 1e-4);
+  EXPECT_WITHIN((PlaceOf(origin, {0, way, 0}).latitude - origin.latitude) * along, way, 1e-4, "m");
+  EXPECT_WITHIN((PlaceOf(origin, {way, 0, 0}).longitude - origin.longitude) * across *
+                    std::cos(origin.latitude),
+                way, 1e-4, "m");
   EXPECT_NEAR(PlaceOf(origin, {0, 0, way}).altitude, way, 1e-8);
 }
 
@@ -61,9 +62,9 @@ TEST(Geodesy, AgreesWithGazebosOwnLibrary) {
     const auto expected = theirs.PositionTransform(
         {point.x, point.y, point.z}, SphericalCoordinates::LOCAL2, SphericalCoordinates::SPHERICAL);
     const GeodeticPlace place = PlaceOf(origin, point);
-    EXPECT_NEAR(place.latitude, expected.X(), 1e-12);
-    EXPECT_NEAR(std::remainder(place.longitude - expected.Y(), 2 * kPi), 0, 1e-11);
-    EXPECT_NEAR(place.altitude, expected.Z(), 1e-3);
+    EXPECT_WITHIN(place.latitude, expected.X(), 1e-12, "rad");
+    EXPECT_WITHIN(std::remainder(place.longitude - expected.Y(), 2 * kPi), 0, 1e-11, "rad");
+    EXPECT_WITHIN(place.altitude, expected.Z(), 1e-3, "m");
   }
 }
 

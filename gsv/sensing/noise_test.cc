@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/sensing/drift.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/sensing/test_snapshot.h"
@@ -31,16 +32,16 @@ Moments MomentsOf(int count, const std::function<double(int)>& value) {
   return {mean, squares / count - mean * mean};
 }
 
-// Of `count` normal values of variance 1: their mean and variance err by this at 3 sigma.
-double MeanBound(int count) { return 3 / std::sqrt(double(count)); }
-double VarianceBound(int count) { return 3 * std::sqrt(2.0 / count); }
+// The deviations of the mean and the variance of `count` normal values of variance 1.
+double MeanSigma(int count) { return 1 / std::sqrt(double(count)); }
+double VarianceSigma(int count) { return std::sqrt(2.0 / count); }
 
 TEST(Drift, HasVarianceOneAtEveryInstant) {
   for (const double seconds : {0.0, 0.1, 3.3, 100.0, 639.99, 5000.0}) {
     const Moments moments = MomentsOf(
         kMany, [&](int i) { return DriftAt(FromSeconds(seconds), 10, kSeed, std::uint64_t(i)); });
-    EXPECT_NEAR(moments.mean, 0, MeanBound(kMany)) << seconds;
-    EXPECT_NEAR(moments.variance, 1, VarianceBound(kMany)) << seconds;
+    EXPECT_WITHIN_3_SIGMA(moments.mean, 0, MeanSigma(kMany)) << seconds;
+    EXPECT_WITHIN_3_SIGMA(moments.variance, 1, VarianceSigma(kMany)) << seconds;
   }
 }
 
@@ -55,8 +56,8 @@ TEST(Drift, ForgetsByTheCorrelationTime) {
                DriftAt(FromSeconds(middle + lag / 2), 10, kSeed, std::uint64_t(i));
       }
       const double rho = std::exp(-lag / 10);
-      const double bound = 3 * std::sqrt((1 + rho * rho) / kMany);
-      EXPECT_NEAR(sum / kMany, rho, bound) << lag << " s about " << middle;
+      const double sigma = std::sqrt((1 + rho * rho) / kMany);
+      EXPECT_WITHIN_3_SIGMA(sum / kMany, rho, sigma) << lag << " s about " << middle;
     }
   }
 }
@@ -104,8 +105,8 @@ TEST_F(NoiseTest, WhiteNoiseHasItsMeanAndDeviation) {
   const Moments moments = MomentsOf(kMany, [&](int i) {
     return Read("a", {{"mean", 0.3}, {"stddev", 0.5}}, i);
   });
-  EXPECT_NEAR(moments.mean, 5.3, 0.5 * MeanBound(kMany));
-  EXPECT_NEAR(moments.variance, 0.25, 0.25 * VarianceBound(kMany));
+  EXPECT_WITHIN_3_SIGMA(moments.mean, 5.3, 0.5 * MeanSigma(kMany));
+  EXPECT_WITHIN_3_SIGMA(moments.variance, 0.25, 0.25 * VarianceSigma(kMany));
 }
 
 TEST_F(NoiseTest, ABiasStaysAndIsAnotherOnEachSensor) {
@@ -114,8 +115,8 @@ TEST_F(NoiseTest, ABiasStaysAndIsAnotherOnEachSensor) {
   EXPECT_NE(Read("a", noise, 0), Read("a", noise, 0, kSeed + 1));
   const Moments moments =
       MomentsOf(kMany, [&](int i) { return Read(std::to_string(i), noise, 7); });
-  EXPECT_NEAR(moments.mean, 6, 0.5 * MeanBound(kMany));
-  EXPECT_NEAR(moments.variance, 0.25, 0.25 * VarianceBound(kMany));
+  EXPECT_WITHIN_3_SIGMA(moments.mean, 6, 0.5 * MeanSigma(kMany));
+  EXPECT_WITHIN_3_SIGMA(moments.variance, 0.25, 0.25 * VarianceSigma(kMany));
 }
 
 TEST_F(NoiseTest, ADriftHasTheDeviationThatGazebosTendsTo) {
@@ -123,7 +124,7 @@ TEST_F(NoiseTest, ADriftHasTheDeviationThatGazebosTendsTo) {
                                    {"dynamic_bias_correlation_time", 8.0}};
   const Moments moments =
       MomentsOf(kMany, [&](int i) { return Read(std::to_string(i), noise, 300); });
-  EXPECT_NEAR(moments.variance, 0.2 * 0.2 * 8 / 2, 0.16 * VarianceBound(kMany));
+  EXPECT_WITHIN_3_SIGMA(moments.variance, 0.2 * 0.2 * 8 / 2, 0.16 * VarianceSigma(kMany));
   EXPECT_NEAR(Read("a", noise, 300), Read("a", noise, 301), 0.1);
 }
 
@@ -138,7 +139,7 @@ TEST_F(NoiseTest, ReadingsDropOutAsOftenAsTheyShould) {
   const double p = 0.1;
   int dropped = 0;
   for (int i = 0; i < kMany; ++i) dropped += std::isnan(Read("a", {{"dropout_probability", p}}, i));
-  EXPECT_NEAR(double(dropped) / kMany, p, 3 * std::sqrt(p * (1 - p) / kMany));
+  EXPECT_WITHIN_3_SIGMA(double(dropped) / kMany, p, std::sqrt(p * (1 - p) / kMany));
 }
 
 TEST_F(NoiseTest, OutliersStrikeAsOftenAndAsFarAsTheyShould) {
@@ -151,8 +152,8 @@ TEST_F(NoiseTest, OutliersStrikeAsOftenAndAsFarAsTheyShould) {
     struck += error != 0;
     squares += error * error;
   }
-  EXPECT_NEAR(double(struck) / kMany, p, 3 * std::sqrt(p * (1 - p) / kMany));
-  EXPECT_NEAR(squares / struck, 9, 9 * VarianceBound(struck));
+  EXPECT_WITHIN_3_SIGMA(double(struck) / kMany, p, std::sqrt(p * (1 - p) / kMany));
+  EXPECT_WITHIN_3_SIGMA(squares / struck, 9, 9 * VarianceSigma(struck));
 }
 
 TEST_F(NoiseTest, NoneIsNone) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/sensing/radio_link.h"
 #include "gsv/sensing/test_snapshot.h"
@@ -54,13 +55,13 @@ TEST_F(RadioLink, InTheOpenIsAsFriisSays) {
   const double received = watts * std::pow(10, 0.25) * std::pow(10, 0.6) *
                           std::pow(wavelength / (4 * std::numbers::pi * 8), 2);
   ASSERT_TRUE(Heard());
-  EXPECT_NEAR(*Heard(), 10 * std::log10(received / 1e-3), 1e-9);
+  EXPECT_WITHIN(*Heard(), 10 * std::log10(received / 1e-3), 1e-9, "dB");
 }
 
 TEST_F(RadioLink, FallsWithTheExponentAsGiven) {
   const double square = *Heard();
   from_.path_loss_exponent = 3.5;
-  EXPECT_NEAR(square - *Heard(), 10 * 1.5 * std::log10(8), 1e-9);
+  EXPECT_WITHIN(square - *Heard(), 10 * 1.5 * std::log10(8), 1e-9, "dB");
 }
 
 TEST_F(RadioLink, EndsWhereTheReceiverIsDeaf) {
@@ -93,7 +94,7 @@ TEST_F(RadioLink, LosesAtEachWall) {
   const double in_the_open = *Heard();
   from_.wall_loss = 12;
   Stand({Wall("one", 2), Wall("two", 3), Wall("thick", 5, 1.5)});
-  EXPECT_NEAR(*Heard(), in_the_open - 3 * 12, 1e-9);
+  EXPECT_WITHIN(*Heard(), in_the_open - 3 * 12, 1e-9, "dB");
 }
 
 TEST_F(RadioLink, LosesNothingAtWhatStandsBesideOrAtTheRobotsThemselves) {

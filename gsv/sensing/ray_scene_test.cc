@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
 #include "gsv/sensing/test_rays.h"
 #include "gsv/sensing/test_snapshot.h"
 
@@ -80,7 +81,7 @@ TEST(RayScene, AgreesWithLookingAtEverything) {
       ASSERT_EQ(found.has_value(), expected.has_value()) << world << " " << i;
       if (!found) continue;
       ++hits;
-      ASSERT_NEAR(found->distance, expected->distance, 1e-9) << world << " " << i;
+      ASSERT_WITHIN(found->distance, expected->distance, 1e-9, "m") << world << " " << i;
       ASSERT_EQ(found->body, expected->body) << world << " " << i;
       ASSERT_LE(Dot(found->normal, ray.direction), 1e-12) << world << " " << i;
       ASSERT_NEAR(Norm(found->normal), 1, 1e-9) << world << " " << i;
@@ -118,7 +119,7 @@ TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
     ASSERT_EQ(found.has_value(), expected.has_value()) << i;
     if (!found) continue;
     ++hits;
-    ASSERT_NEAR(found->distance, expected->distance, 1e-9) << i;
+    ASSERT_WITHIN(found->distance, expected->distance, 1e-9, "m") << i;
     ASSERT_EQ(found->body, expected->body) << i;
   }
   EXPECT_GT(hits, 100);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/base/random.h"
+#include "gsv/base/test_within.h"
 
 namespace gsv::sensing {
 namespace {
@@ -37,19 +38,20 @@ TEST(RayShape, RespectsTheLengthOfTheRay) {
 
 TEST(RayShape, HitsRoundShapesWhereTheirEquationsSay) {
   // At height 0.6 a unit sphere is 0.8 wide.
-  EXPECT_NEAR(DistanceTo(geometry::Sphere{1}, {5, 0, 0.6}, {-1, 0, 0}), 4.2, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Cylinder{1, 2}, {5, 0.6, 0.5}, {-1, 0, 0}), 4.2, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Cylinder{1, 2}, {0.5, 0, 9}, {0, 0, -1}), 8, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Capsule{1, 2}, {0, 0, 9}, {0, 0, -1}), 7, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Capsule{1, 2}, {0.6, 0, 9}, {0, 0, -1}), 7.2, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Ellipsoid{{1, 2, 3}}, {0, 0, 9}, {0, 0, -1}), 6, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Ellipsoid{{1, 2, 3}}, {9, 1.2, 0}, {-1, 0, 0}), 8.2, 1e-12);
+  EXPECT_WITHIN(DistanceTo(geometry::Sphere{1}, {5, 0, 0.6}, {-1, 0, 0}), 4.2, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Cylinder{1, 2}, {5, 0.6, 0.5}, {-1, 0, 0}), 4.2, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Cylinder{1, 2}, {0.5, 0, 9}, {0, 0, -1}), 8, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Capsule{1, 2}, {0, 0, 9}, {0, 0, -1}), 7, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Capsule{1, 2}, {0.6, 0, 9}, {0, 0, -1}), 7.2, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Ellipsoid{{1, 2, 3}}, {0, 0, 9}, {0, 0, -1}), 6, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Ellipsoid{{1, 2, 3}}, {9, 1.2, 0}, {-1, 0, 0}), 8.2, 1e-12,
+                "m");
   // Halfway up a cone is half as wide.
-  EXPECT_NEAR(DistanceTo(geometry::Cone{1, 2}, {5, 0, 0}, {-1, 0, 0}), 4.5, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Cone{1, 2}, {0.5, 0, 9}, {0, 0, -1}), 9, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Cone{1, 2}, {0.5, 0, -9}, {0, 0, 1}), 8, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Plane{}, {3, 4, 2}, {0, 0.6, -0.8}), 2.5, 1e-12);
-  EXPECT_NEAR(DistanceTo(geometry::Plane{}, {3, 4, -2}, {0, 0, 1}), 2, 1e-12);
+  EXPECT_WITHIN(DistanceTo(geometry::Cone{1, 2}, {5, 0, 0}, {-1, 0, 0}), 4.5, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Cone{1, 2}, {0.5, 0, 9}, {0, 0, -1}), 9, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Cone{1, 2}, {0.5, 0, -9}, {0, 0, 1}), 8, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Plane{}, {3, 4, 2}, {0, 0.6, -0.8}), 2.5, 1e-12, "m");
+  EXPECT_WITHIN(DistanceTo(geometry::Plane{}, {3, 4, -2}, {0, 0, 1}), 2, 1e-12, "m");
 }
 
 TEST(RayShape, HitsATriangleAndItsEdgeButNotBesideIt) {
@@ -141,7 +143,7 @@ TEST(RayShape, AgreesWithMarchingAlongRandomRays) {
     }
     if (hit) {  // the surface is there, also where the steps missed a short chord
       const Vector3 p = ray.origin + *hit * ray.direction;
-      ASSERT_NEAR(std::visit(Implicit{p}, shape), 0, 1e-9) << i;
+      ASSERT_WITHIN(std::visit(Implicit{p}, shape), 0, 1e-9, "m") << i;
     }
   }
   EXPECT_GT(hits, 700);

@@ -1,4 +1,5 @@
 // Grippers: what they take hold of, where it goes, and when they let go.
+#include "gsv/base/test_within.h"
 #include "gsv/simulation/test_simulation.h"
 
 namespace gsv::simulation {
@@ -93,7 +94,7 @@ TEST(Gripping, WhatIsBetweenTheJawsGoesWithTheRobotUntilTheyOpen) {
     RunTo(*simulation, instant);
     const geometry::Pose expected = PoseOf(*simulation, "robot") * robot_from_post;
     const geometry::Pose post = PoseOf(*simulation, "post");
-    EXPECT_LT(Norm(post.position - expected.position), 1e-12);
+    EXPECT_WITHIN(Norm(post.position - expected.position), 0, 1e-12, "m");
     EXPECT_NEAR(geometry::Yaw(post.orientation), geometry::Yaw(expected.orientation), 1e-12);
   }
   EXPECT_GT(Norm(PoseOf(*simulation, "post").position - start.position), 0.2);
@@ -125,7 +126,7 @@ TEST(Gripping, WhatIsHeldIsStoppedByAWall) {
   RunTo(*simulation, 1900ms);
   EXPECT_EQ(HeldBy(*simulation, "robot"), "post");
   // The wall's face stands at x = 2.9.
-  EXPECT_NEAR(PoseOf(*simulation, "post").position.x + kWidth / 2, 2.9, 1e-4);
+  EXPECT_WITHIN(PoseOf(*simulation, "post").position.x + kWidth / 2, 2.9, 1e-4, "m");
 }
 
 TEST(Gripping, ARobotThatForcesMoveHoldsAsWell) {

@@ -2,6 +2,7 @@
 // read. docs/fidelity.md lists what is expected.
 #include <numbers>
 
+#include "gsv/base/test_within.h"
 #include "gsv/simulation/test_simulation.h"
 
 namespace gsv::simulation {
@@ -89,29 +90,29 @@ TEST(MotionSensors, AnOdometerClosesTheSquareThatUnequalWheelsMiss) {
   const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
   const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
   ASSERT_EQ(driven.values.size(), 5u);
-  EXPECT_NEAR(driven.values[0], 0, 1e-9);
-  EXPECT_NEAR(driven.values[1], 0, 1e-9);
+  EXPECT_WITHIN(driven.values[0], 0, 1e-9, "m");
+  EXPECT_WITHIN(driven.values[1], 0, 1e-9, "m");
   EXPECT_NEAR(geometry::WrapAngle(driven.values[2]), 0, 1e-9);
   const double expected = 2 * 2 * 2 / (kSeparation / 2 * (ratio + 1) / (ratio - 1));
-  EXPECT_NEAR(driven.pose.position.x, expected, 0.05 * expected);
-  EXPECT_NEAR(driven.pose.position.y, -expected, 0.05 * expected);
+  EXPECT_WITHIN_PERCENT(driven.pose.position.x, expected, 5);
+  EXPECT_WITHIN_PERCENT(driven.pose.position.y, -expected, 5);
 }
 
 TEST(MotionSensors, AnImuOnASpinningRobotFeelsItsCentripetalForce) {
   const Driven driven = Drive(Rover("imu"), {{{0, 0, 2}, 1s}});
   ASSERT_EQ(driven.values.size(), 10u);
   EXPECT_NEAR(driven.values[2], 2, 1e-9);
-  EXPECT_NEAR(driven.values[3], -2 * 2 * 0.15, 1e-9);
-  EXPECT_NEAR(driven.values[4], 0, 1e-9);
-  EXPECT_NEAR(driven.values[5], 9.8, 1e-9);
+  EXPECT_WITHIN(driven.values[3], -2 * 2 * 0.15, 1e-9, "m/s²");
+  EXPECT_WITHIN(driven.values[4], 0, 1e-9, "m/s²");
+  EXPECT_WITHIN(driven.values[5], 9.8, 1e-9, "m/s²");
 }
 
 TEST(MotionSensors, AnImuOnARobotThatCirclesFeelsTheCircle) {
   // At 0.5 m/s and 0.5 rad/s: 0.25 m/s² to the left, less what the step of 10 ms blurs.
   const Driven driven = Drive(Rover("imu"), {{{0.5, 0, 0.5}, 1s}});
   ASSERT_EQ(driven.values.size(), 10u);
-  EXPECT_NEAR(driven.values[4], 0.25, 1e-3);
-  EXPECT_NEAR(driven.values[3], -0.5 * 0.5 * 0.15, 2e-3);
+  EXPECT_WITHIN(driven.values[4], 0.25, 1e-3, "m/s²");
+  EXPECT_WITHIN(driven.values[3], -0.5 * 0.5 * 0.15, 2e-3, "m/s²");
 }
 
 TEST(MotionSensors, AnImuOnAFallingRobotFeelsNothing) {
@@ -126,7 +127,8 @@ TEST(MotionSensors, AnImuOnAFallingRobotFeelsNothing) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   const auto reading = simulation->Watch("robot", "imu");
   ASSERT_TRUE(reading);
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(reading->values[i], 0, 1e-6) << i;
+  for (int i = 0; i < 3; ++i) EXPECT_WITHIN(reading->values[i], 0, 1e-6, "rad/s") << i;
+  for (int i = 3; i < 6; ++i) EXPECT_WITHIN(reading->values[i], 0, 1e-6, "m/s²") << i;
   EXPECT_LT(StatusOf(*simulation, "robot").world_from_robot.position.z, 2.6);
 }
 
@@ -134,8 +136,8 @@ TEST(MotionSensors, JointEncodersSeeTheWheelsRoll) {
   const Driven driven = Drive(Rover("joint_encoders"), {{{0.5, 0, 0}, 2s}});
   EXPECT_EQ(*driven.labels, (std::vector<std::string>{"left", "right"}));
   ASSERT_EQ(driven.values.size(), 4u);
-  EXPECT_NEAR(driven.values[0], 1 / kRadius, 1e-9);
-  EXPECT_NEAR(driven.values[1], 0.5 / kRadius, 1e-9);
+  EXPECT_WITHIN(driven.values[0], 1 / kRadius, 1e-9, "rad");
+  EXPECT_WITHIN(driven.values[1], 0.5 / kRadius, 1e-9, "rad");
 }
 
 TEST(MotionSensors, ABumperFeelsTheWall) {
@@ -145,15 +147,15 @@ TEST(MotionSensors, ABumperFeelsTheWall) {
   const Driven driven = Drive(Rover("contact"), {{{0.5, 0, 0}, 2s}}, 2.0);
   EXPECT_EQ(*driven.labels, std::vector<std::string>{"wall"});
   ASSERT_EQ(driven.values.size(), 8u);
-  EXPECT_NEAR(driven.values[0], 0.05, 1e-3);  // the face, from the sensor 0.15 m ahead
+  EXPECT_WITHIN(driven.values[0], 0.05, 1e-3, "m");  // the face, from the sensor 0.15 m ahead
   EXPECT_NEAR(driven.values[3], 1, 1e-6);
 }
 
 TEST(MotionSensors, ABatteryFallsAsTheRobotDrives) {
   const Driven driven = Drive(Rover("battery"), {{{0.5, 0, 0}, 4s}});
   ASSERT_EQ(driven.values.size(), 5u);
-  EXPECT_NEAR(driven.values[2], 5 - (0.5 * 4 + 4 * 2.0) / 3600, 1e-12);
-  EXPECT_NEAR(driven.values[1], 0.5 + 4 * 0.5, 1e-9);
+  EXPECT_WITHIN(driven.values[2], 5 - (0.5 * 4 + 4 * 2.0) / 3600, 1e-12, "Ah");
+  EXPECT_WITHIN(driven.values[1], 0.5 + 4 * 0.5, 1e-9, "A");
 }
 
 }  // namespace

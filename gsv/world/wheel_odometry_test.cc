@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/test_within.h"
+
 namespace gsv::world {
 namespace {
 
@@ -64,8 +66,8 @@ TEST(WheelOdometry, FollowsAnArcExactlyWhateverTheStep) {
   const double left = (1 - kSeparation / 2) * kPi / 2, right = (1 + kSeparation / 2) * kPi / 2;
   for (const int steps : {1, 7, 1000}) {
     const Odometry odometry = AfterRolling(left / steps, right / steps, steps);
-    EXPECT_NEAR(odometry.place.x, 1, 1e-9) << steps;
-    EXPECT_NEAR(odometry.place.y, 1, 1e-9) << steps;
+    EXPECT_WITHIN(odometry.place.x, 1, 1e-9, "m") << steps;
+    EXPECT_WITHIN(odometry.place.y, 1, 1e-9, "m") << steps;
     EXPECT_NEAR(odometry.place.cosine, 0, 1e-9) << steps;
     EXPECT_NEAR(odometry.place.sine, 1, 1e-9) << steps;
     EXPECT_NEAR(odometry.angular, kPi / 2 / steps / kStep, 1e-6) << steps;

@@ -1,5 +1,6 @@
 // What a test measures, as a table for tools/plot_fidelity: the file NAME.dat in the folder that
-// the environment names in GSV_FIDELITY_DATA. Without it, nothing.
+// the environment names in GSV_FIDELITY_DATA, to which each table of the name adds. Without it,
+// nothing.
 #pragma once
 
 #include <cstdlib>
@@ -8,13 +9,13 @@
 #include <string>
 #include <vector>
 
-namespace gsv::dynamics::testing {
+namespace gsv::base::testing {
 
 class Table {
  public:
   explicit Table(const std::string& name) {
     if (const char* folder = std::getenv("GSV_FIDELITY_DATA")) {
-      file_.open(folder + ("/" + name + ".dat"));
+      file_.open(folder + ("/" + name + ".dat"), std::ios::app);
     }
   }
   void Row(const std::vector<double>& values) {
@@ -27,4 +28,4 @@ class Table {
   std::ofstream file_;
 };
 
-}  // namespace gsv::dynamics::testing
+}  // namespace gsv::base::testing

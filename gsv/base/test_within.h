@@ -1,0 +1,81 @@
+// Tests that a measured value is near the expected one, and that leave behind how near it was.
+//
+//   EXPECT_WITHIN(robot.x, 2.0, 1e-9, "m") << "at " << speed;  // |measured - expected| <= 1e-9
+//   EXPECT_WITHIN_PERCENT(period, expected, 0.1);              // of the expected value
+//   EXPECT_WITHIN_3_SIGMA(mean, 0.0, 1 / std::sqrt(count));    // of the statistic's deviation
+//
+// The running test keeps the largest error for each bound and unit as its property (GoogleTest's
+// RecordProperty) "within BOUND UNIT", as in "within 1e-09 m": "3.2e-14".
+// tools/make_fidelity_tables reads these. What is not a number is not near anything.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace gsv::base::testing {
+
+inline std::string Written(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+// Keeps the error with the running test, unless it keeps a larger one of this bound and unit.
+inline void KeepLargest(double error, double bound, const std::string& unit) {
+  const std::string key = "within " + Written(bound) + " " + unit;
+  const ::testing::TestInfo* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+  for (int i = 0; i < test->result()->test_property_count(); ++i) {
+    const ::testing::TestProperty& kept = test->result()->GetTestProperty(i);
+    if (kept.key() == key && !(error > std::strtod(kept.value(), nullptr))) return;
+  }
+  ::testing::Test::RecordProperty(key, Written(error));
+}
+
+// `error` is in the unit, as `bound` is; the texts are what stands in the source.
+inline ::testing::AssertionResult Judged(double error, double bound, const std::string& unit,
+                                         const char* measured_text, double measured,
+                                         const char* expected_text, double expected) {
+  KeepLargest(error, bound, unit);
+  if (error <= bound) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure()
+         << measured_text << " is " << ::testing::PrintToString(measured) << ", " << Written(error)
+         << " " << unit << " from " << expected_text << ", which is "
+         << ::testing::PrintToString(expected) << "; at most " << Written(bound) << " " << unit
+         << " are allowed";
+}
+
+inline ::testing::AssertionResult Within(const char* measured_text, const char* expected_text,
+                                         const char*, const char*, double measured, double expected,
+                                         double bound, const std::string& unit) {
+  return Judged(std::abs(measured - expected), bound, unit, measured_text, measured, expected_text,
+                expected);
+}
+
+inline ::testing::AssertionResult WithinPercent(const char* measured_text,
+                                                const char* expected_text, const char*,
+                                                double measured, double expected, double percent) {
+  return Judged(100 * std::abs((measured - expected) / expected), percent, "%", measured_text,
+                measured, expected_text, expected);
+}
+
+inline ::testing::AssertionResult Within3Sigma(const char* measured_text, const char* expected_text,
+                                               const char*, double measured, double expected,
+                                               double sigma) {
+  return Judged(std::abs(measured - expected) / sigma, 3, "σ", measured_text, measured,
+                expected_text, expected);
+}
+
+}  // namespace gsv::base::testing
+
+#define EXPECT_WITHIN(measured, expected, bound, unit) \
+  EXPECT_PRED_FORMAT4(::gsv::base::testing::Within, measured, expected, bound, unit)
+#define ASSERT_WITHIN(measured, expected, bound, unit) \
+  ASSERT_PRED_FORMAT4(::gsv::base::testing::Within, measured, expected, bound, unit)
+#define EXPECT_WITHIN_PERCENT(measured, expected, percent) \
+  EXPECT_PRED_FORMAT3(::gsv::base::testing::WithinPercent, measured, expected, percent)
+#define EXPECT_WITHIN_3_SIGMA(measured, expected, sigma) \
+  EXPECT_PRED_FORMAT3(::gsv::base::testing::Within3Sigma, measured, expected, sigma)
