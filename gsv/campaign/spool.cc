@@ -73,6 +73,11 @@ std::string ShardName(std::size_t index, std::size_t count) {
 }
 
 base::Result<Batch> ReadBatch(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      "is not there; does this machine see the folder of the campaign?", file);
+  }
   Batch batch;
   try {
     const auto json = nlohmann::json::parse(TextOf(file));

@@ -85,6 +85,8 @@ TEST_F(SpoolTest, ABatchIsReadAsItWasWritten) {
   EXPECT_EQ(read.timeout, 12.5);
   std::ofstream(spool->FileOf(batch)) << "{\"number\": 2, \"na";
   EXPECT_EQ(spool->Batches().error().code, base::ErrorCode::kCorrupt);
+  EXPECT_THAT(ReadBatch(folder_ / "batch-0003.json").error().Sentence(),
+              HasSubstr("does this machine see the folder"));
 }
 
 TEST_F(SpoolTest, AJournalIsReadWhileItGrowsAndATornLineCountsForNothing) {
