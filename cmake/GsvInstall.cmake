@@ -30,13 +30,14 @@ foreach(TARGET gsv_shared_sdk gsv_plugin_sdk)
 endforeach()
 
 # gsv: programs, and what they need to run.
-set(GSV_PROGRAMS gsv gsv-wander gsv-cruise gsv-follow-wall gsv-goto)
-set(GSV_PLUGINS behaviour_wander behaviour_cruise behaviour_follow-wall behaviour_goto)
+set(GSV_PROGRAMS gsv gsv-wander gsv-cruise gsv-fetch gsv-follow-wall gsv-goto)
+set(GSV_PLUGINS behaviour_wander behaviour_cruise behaviour_fetch behaviour_follow-wall behaviour_goto)
 install(TARGETS ${GSV_PROGRAMS} RUNTIME DESTINATION bin COMPONENT gsv)
 install(TARGETS ${GSV_PLUGINS} LIBRARY DESTINATION lib/gsv COMPONENT gsv)
 install(DIRECTORY assets/models assets/worlds ${CMAKE_BINARY_DIR}/share/gsv/web
   DESTINATION share/gsv COMPONENT gsv)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/gsv COMPONENT gsv)
+install(FILES docs/gsv.1 DESTINATION share/man/man1 COMPONENT gsv)
 
 # libgsv: the shared library alone. libgsv-dev: what compiles against it.
 install(TARGETS gsv_shared_sdk EXPORT gsvTargets
@@ -62,10 +63,11 @@ install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
 # Behaviours and applications need sdk/ and gsv/base; what implements hardware, gsv/orb, the broker's
 # client and the stubs; a sensor from outside, the rest.
 foreach(FOLDER sdk sdk/behaviour gsv/base gsv/orb gsv/broker/client gsv/broker/language gsv/broker/offers
-    gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing gsv/scenario gsv/simulation gsv/services)
+    gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing gsv/simulation gsv/services)
   file(GLOB HEADERS CONFIGURE_DEPENDS ${FOLDER}/*.h)
   install(FILES ${HEADERS} DESTINATION include/gsv/${FOLDER} COMPONENT libgsv-dev)
 endforeach()
+install(FILES gsv/scenario/fault.h DESTINATION include/gsv/gsv/scenario COMPONENT libgsv-dev)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/ DESTINATION include/gsv COMPONENT libgsv-dev
   FILES_MATCHING PATTERN "*.h" PATTERN "*.hh")
 

@@ -1,6 +1,7 @@
 """An installed GSV runs, and behaviours and applications are built with it outside of its tree."""
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -53,6 +54,13 @@ def test_programs_find_worlds_models_and_the_viewer(prefix):
     run(prefix / "bin/gsv", "run", "--duration", "1", "--lockstep", "--headless")
     run(prefix / "bin/gsv", "run", "maze", "--robot", "pebble@0,0", "--behaviour", "follow-wall",
         "--in-process", "--duration", "1", "--lockstep", "--headless")
+
+
+def test_the_manual_page_names_every_command(prefix):
+    page = (prefix / "share/man/man1/gsv.1").read_text()
+    commands = run(prefix / "bin/gsv", "--help").split("Subcommands:\n")[1]
+    for name in re.findall(r"^  (\w+)", commands, re.MULTILINE):
+        assert re.search(rf"^\.BR? .*\b{name}\b", page, re.MULTILINE), name
 
 
 def test_nothing_installed_names_the_folders_it_was_made_in(prefix):
