@@ -54,6 +54,17 @@ test("it opens with our first world, shown, and what there is to choose from", a
   expect(store.get().simulation).toBeNull();
 });
 
+test("a world that is dropped while the form still opens is kept", async () => {
+  const { app, store } = testApp({}, { setUp: api } as never);
+  let answer = (_worlds: string[]) => {};
+  api.worlds.mockReturnValueOnce(new Promise((resolve) => (answer = resolve)));
+  const opening = app.setUp.open();
+  await app.setUp.drop([{ path: "mine.world", file: new File(["<sdf/>"], "mine.world") }]);
+  answer(["maze", "office"]);
+  await opening;
+  expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/mine.world");
+});
+
 test("without robots it says what to do, without offers which command starts one", async () => {
   const { app, panel } = await opened();
   expect(panel.textContent).toContain("No robots yet.");

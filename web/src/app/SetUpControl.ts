@@ -45,7 +45,8 @@ export class SetUpControl {
     await this.ask(async () => {
       const [worlds, models] = await Promise.all([this.api.worlds(), this.api.models()]);
       const world = worlds.includes(FIRST_WORLD) ? FIRST_WORLD : (worlds[0] ?? "");
-      this.patch(({ scenario }) => ({ worlds, models, scenario: { ...scenario, world } }));
+      // Somebody may have dropped a world meanwhile.
+      this.patch(({ scenario }) => ({ worlds, models, scenario: { ...scenario, world: scenario.world || world } }));
     });
     await this.preview();
   }
