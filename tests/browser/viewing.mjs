@@ -22,7 +22,7 @@ export async function settled(page) {
     let frames = window.gsv.frames;
     while (still < 20) {
       await frame();
-      still = window.gsv.frames === frames ? still + 1 : 0;
+      still = window.gsv.frames === frames && !window.gsv.isDrawing ? still + 1 : 0;
       frames = window.gsv.frames;
     }
   });

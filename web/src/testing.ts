@@ -9,6 +9,8 @@ export interface PageHandle {
   ready: Promise<void>;
   // Pictures drawn so far.
   readonly frames: number;
+  // Whether a picture is being drawn, or will be.
+  readonly isDrawing: boolean;
   // Simulated seconds, as shown.
   readonly time: number;
   readonly phase: string | null;
@@ -35,6 +37,9 @@ export function exposeForTests(store: Store<State>, world: World3D | null): void
     ready: firstPicture(store, world),
     get frames() {
       return world?.frames ?? 0;
+    },
+    get isDrawing() {
+      return world?.isDrawing ?? false;
     },
     get time() {
       return store.get().time;

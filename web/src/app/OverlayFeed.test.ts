@@ -38,6 +38,11 @@ test("only what is shown is asked for", () => {
   expect(topicsToDraw({ ...showing(["points", "frames"]), scene: null })).toEqual([]);
 });
 
+test("radio is heard of whatever is mounted when the scene is told: behaviours bring radios along", () => {
+  expect(topicsToDraw(showing(["actuators"]))).toEqual(["/gsv/radio"]);
+  expect(topicsToDraw(showing(["actuators"], { scene: scene({ bodies: [] }) }))).toEqual([]);
+});
+
 test("of a crowd's sensors only so many are heard, the selected robot's first", () => {
   const crowd = scene({ bodies: Array.from({ length: 100 }, (_, i) => robot(`r${i}`)) });
   const topics = topicsToDraw(showing(["points"], { scene: crowd, selection: "r70" }));

@@ -12,13 +12,6 @@ const MOST_READINGS = 16; // sensors at once
 const FRAMES_TOPIC = "/tf_static";
 const BUMPERS = ["contact", "bumper"];
 const RADIO_TOPIC = "/gsv/radio";
-const RADIOS = [
-  "radio",
-  "transceiver",
-  "wireless_transceiver",
-  "wireless_transmitter",
-  "wireless_receiver",
-];
 const MOST_ACTUATORS = 32;
 const SPEAKERS = ["speaker", "buzzer"];
 const ACTUATORS = ["gripper", "lamp", "led", ...SPEAKERS];
@@ -42,10 +35,11 @@ export function topicsToDraw({ scene, shown, selection, viewMode }: State): stri
     ...sensors.filter(acts).slice(0, MOST_ACTUATORS),
   ];
   const needsFrames = readings.length > 0 || shown.cameras || shown.frames || viewMode === "eye";
-  const hasRadio = shown.actuators && sensors.some(({ type }) => RADIOS.includes(type));
+  // Whether it has a radio or not: a behaviour may mount one at any time.
+  const mayHaveRadio = shown.actuators && robotsOf(scene).length > 0;
   return [
     ...(needsFrames && scene ? [FRAMES_TOPIC] : []),
-    ...(hasRadio ? [RADIO_TOPIC] : []),
+    ...(mayHaveRadio ? [RADIO_TOPIC] : []),
     ...readings.map(({ topic }) => topic),
   ];
 }

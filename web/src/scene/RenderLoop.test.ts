@@ -35,34 +35,62 @@ test("it goes on while frames differ, and asks for none afterwards", () => {
     () => {},
   );
   loop.request();
+  expect(loop.isBusy).toBe(true);
   for (let now = 0; now < 160; now += 16) frameAt(now);
   expect(loop.frames).toBe(3);
   expect(asked).toEqual([]);
+  expect(loop.isBusy).toBe(false);
 });
 
-test("only the time between successive frames counts as a frame's", () => {
+test("a frame takes until it is drawn; another tab that was looked at meanwhile does not count", () => {
   const took = vi.fn();
-  let goesOn = true;
-  const loop = new RenderLoop(() => goesOn, took);
+  const loop = new RenderLoop(() => true, took);
   loop.request();
   frameAt(0);
-  goesOn = false;
   frameAt(20);
+  frameAt(60_000);
+  frameAt(60_030);
+  expect(took.mock.calls).toEqual([[20], [30]]);
+  expect(loop.frames).toBe(4);
+});
+
+test("the next frame begins when the last one is drawn", () => {
+  let isDrawn = false;
+  const fence = { mark: () => (isDrawn = false), isReached: () => isDrawn };
+  const took = vi.fn();
+  const loop = new RenderLoop(() => false, took, fence);
   loop.request();
-  frameAt(500);
-  expect(took.mock.calls).toEqual([[20]]);
+  frameAt(0);
+  loop.request();
+  frameAt(16);
+  frameAt(32);
+  expect(loop.frames).toBe(1);
+  isDrawn = true;
+  frameAt(48);
+  expect(loop.frames).toBe(2);
+  expect(took.mock.calls).toEqual([[48]]);
 });
 
 test("after a frame that kept the machine busy it rests, whoever asks", () => {
-  const loop = new RenderLoop(
-    () => true,
-    () => {},
-  );
-  loop.request();
-  frameAt(0);
-  frameAt(200);
-  loop.request();
-  expect(asked).toEqual([]);
-  vi.advanceTimersByTime(100);
-  expect(asked).toHaveLength(1);
+  for (const [took, rest] of [
+    [130, 80],
+    [300, 150],
+    [3000, 400],
+  ] as const) {
+    const loop = new RenderLoop(
+      () => true,
+      () => {},
+    );
+    loop.request();
+    frameAt(0);
+    frameAt(took);
+    loop.request();
+    vi.advanceTimersByTime(rest - 1);
+    expect(asked).toEqual([]);
+    vi.advanceTimersByTime(1);
+    expect(asked).toHaveLength(1);
+    frameAt(took + rest);
+    expect(loop.frames).toBe(2);
+    asked = [];
+  }
 });

@@ -1,49 +1,80 @@
-// Draws a frame when somebody asked for one: a page on which nothing changes costs nothing.
+// Draws a frame when somebody asked for one: a page on which nothing changes costs nothing. The next
+// one begins when the last is drawn, not only ordered: else a click waits for all that are under way.
 
-// A longer gap is not a slow frame but a page that had nothing to draw.
-const LONGEST_FRAME_MS = 1000;
+// Who was away longer (another tab was looked at) has not drawn slowly.
+const LONGEST_FRAME_MS = 10_000;
 // Without a graphics card a frame may keep the whole machine busy: then the loop rests between two
 // frames, for the buttons' sake and the simulation's.
-const EXHAUSTING_MS = 150;
+const EXHAUSTING_MS = 120;
+const SHORTEST_REST_MS = 80;
 const LONGEST_REST_MS = 400;
+
+// Whether what was ordered is drawn.
+export interface Fence {
+  mark(): void;
+  isReached(): boolean;
+}
+
+const AT_ONCE: Fence = { mark: () => {}, isReached: () => true };
 
 export class RenderLoop {
   frames = 0;
-  private scheduled = 0;
+  private scheduled = false;
   private resting: ReturnType<typeof setTimeout> | undefined;
-  private lastMs = -Infinity;
-  private continued = false;
+  private beganMs: number | null = null; // the frame that is being drawn
+  private isWanted = false; // another one
 
-  // `draw` tells whether the next frame will differ, so that it is drawn as well.
+  // `draw` tells whether the next frame will differ, so that it is drawn as well. `onFrameTook` is told
+  // how long a frame took until it was drawn.
   constructor(
     private readonly draw: (nowMs: number) => boolean,
     private readonly onFrameTook: (milliseconds: number) => void,
+    private readonly fence = AT_ONCE,
   ) {}
 
+  // Whether a frame is being drawn, or will be.
+  get isBusy(): boolean {
+    return this.isWanted || this.beganMs !== null;
+  }
+
   request(): void {
-    if (this.scheduled || this.resting !== undefined) return;
-    this.scheduled = requestAnimationFrame((now) => this.frame(now));
+    this.isWanted = true;
+    if (this.resting === undefined) this.schedule();
+  }
+
+  private schedule(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame((now) => {
+      this.scheduled = false;
+      this.frame(now);
+    });
   }
 
   private frame(now: number): void {
-    this.scheduled = 0;
+    if (this.beganMs !== null) {
+      const took = now - this.beganMs;
+      if (took < LONGEST_FRAME_MS && !this.fence.isReached()) return this.schedule();
+      this.beganMs = null;
+      if (took < LONGEST_FRAME_MS) this.onFrameTook(took);
+      if (took > EXHAUSTING_MS && took < LONGEST_FRAME_MS) return this.rest(took);
+    }
+    if (!this.isWanted) return;
     this.frames += 1;
-    const took = now - this.lastMs;
-    if (this.continued && took < LONGEST_FRAME_MS) this.onFrameTook(took);
-    this.lastMs = now;
-    this.continued = this.draw(performance.now());
-    if (!this.continued) return;
-    if (took > EXHAUSTING_MS && took < LONGEST_FRAME_MS) this.rest(took);
-    else this.request();
+    this.beganMs = now;
+    this.isWanted = false; // drawing may ask for another
+    this.isWanted = this.draw(performance.now()) || this.isWanted;
+    this.fence.mark();
+    this.schedule();
   }
 
   private rest(took: number): void {
     this.resting = setTimeout(
       () => {
         this.resting = undefined;
-        this.request();
+        if (this.isWanted) this.schedule();
       },
-      Math.min(LONGEST_REST_MS, took / 2),
+      Math.min(LONGEST_REST_MS, Math.max(SHORTEST_REST_MS, took / 2)),
     );
   }
 }

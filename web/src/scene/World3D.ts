@@ -13,6 +13,7 @@ import type { BodyLayer } from "./BodyLayer";
 import type { ViewNumbers } from "./CameraRig";
 import { CollisionLayer } from "./CollisionLayer";
 import { CameraRig } from "./CameraRig";
+import { fenceOf } from "./fence";
 import { FrameRate } from "./FrameRate";
 import { LabelLayer } from "./LabelLayer";
 import { ModelLibrary } from "./ModelLibrary";
@@ -26,6 +27,7 @@ import { RenderLoop } from "./RenderLoop";
 import { RobotPlaces } from "./RobotPlaces";
 import { RobotWatch } from "./RobotWatch";
 import { SceneParts } from "./SceneParts";
+import { ShadowPace } from "./ShadowPace";
 import { ShownPoses } from "./ShownPoses";
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
@@ -63,6 +65,7 @@ export class World3D {
   private width = 1;
   private height = 1;
   private readonly frameRate: FrameRate;
+  private readonly shadows = new ShadowPace();
 
   // Throws where the browser has no WebGL 2.
   constructor(
@@ -82,7 +85,8 @@ export class World3D {
     this.labels = new LabelLayer((name) => events.onPick(name));
     this.loop = new RenderLoop(
       (now) => this.draw(now),
-      (took) => this.quality.frameTook(took) && this.resize(),
+      (took) => this.tookFrame(took),
+      fenceOf(this.renderer.getContext() as WebGL2RenderingContext),
     );
     this.rig = new CameraRig(canvas, () => this.loop.request());
     this.watch = new RobotWatch(this.rig);
@@ -97,6 +101,11 @@ export class World3D {
 
   get frames(): number {
     return this.loop.frames;
+  }
+
+  // Whether a picture is being drawn, or will be.
+  get isDrawing(): boolean {
+    return this.loop.isBusy;
   }
 
   // Shows another scene, or none. The camera stays where it is when only the layout changed.
@@ -273,9 +282,14 @@ export class World3D {
     this.loop.request();
   }
 
+  private tookFrame(milliseconds: number): void {
+    this.shadows.frameTook(milliseconds);
+    if (this.quality.frameTook(milliseconds)) this.resize();
+  }
+
   private draw(now: number): boolean {
     if (!this.arranger.holds && this.poses.show(now)) {
-      this.renderer.shadowMap.needsUpdate = true;
+      this.shadows.moved();
       this.watch.move();
     }
     const isFlying = this.rig.update(now);
@@ -284,10 +298,12 @@ export class World3D {
     if (this.parts) this.parts.grid.visible = this.shown.grid;
     this.watch.showRing();
     this.arranger.showHandle();
+    const isMoving = !this.poses.isSettled(now);
+    if (this.shadows.areDue(isMoving)) this.renderer.shadowMap.needsUpdate = true;
     this.renderer.render(this.scene, this.rig.camera);
     this.placeLabels();
     this.frameRate.count(this.frames, now);
-    return isFlying || !this.poses.isSettled(now);
+    return isFlying || isMoving;
   }
 
   private placeLabels(): void {

@@ -1,0 +1,63 @@
+// Many robots on a floor of their own, and how long a click takes until its answer is on the screen.
+import fs from "node:fs";
+import path from "node:path";
+
+const BETWEEN_M = 1;
+const FLOOR = `<?xml version="1.0"?>
+<sdf version="1.9">
+  <world name="floor">
+    <light type="directional" name="sun"><direction>-0.4 0.3 -1</direction><diffuse>0.9 0.9 0.9 1</diffuse></light>
+    <model name="floor">
+      <static>true</static>
+      <link name="link">
+        <collision name="collision"><geometry><plane><normal>0 0 1</normal><size>60 60</size></plane></geometry></collision>
+        <visual name="visual">
+          <geometry><plane><normal>0 0 1</normal><size>60 60</size></plane></geometry>
+          <material><diffuse>0.6 0.6 0.58 1</diffuse></material>
+        </visual>
+      </link>
+    </model>
+  </world>
+</sdf>
+`;
+
+// What `gsv run` takes for so many robots that wander, in a square; the world's file is in `folder`.
+export function crowd(folder, robots) {
+  const world = path.join(folder, "floor.sdf");
+  fs.writeFileSync(world, FLOOR);
+  const side = Math.ceil(Math.sqrt(robots));
+  const place = (i) => ((i - (side - 1) / 2) * BETWEEN_M).toFixed(1);
+  const all = Array.from({ length: robots }, (_, i) => `pebble@${place(i % side)},${place(Math.floor(i / side))}`);
+  return [world, ...all.flatMap((robot) => ["--robot", robot]), "--behaviour", "wander", "--in-process"];
+}
+
+// From now on the page notes for each press how long it took until a robot was shown as selected, in
+// the list and the inspector, and that picture was drawn.
+export async function noteClicks(page) {
+  await page.evaluate(() => {
+    const noted = (window.testClicks = []);
+    let pressed = null;
+    addEventListener("pointerup", ({ timeStamp }) => (pressed = timeStamp), { capture: true });
+    new MutationObserver((changes) => {
+      const chosen = changes.find(({ target }) => target.ariaPressed === "true")?.target.dataset.robot;
+      if (chosen === undefined || pressed === null) return;
+      const from = pressed;
+      pressed = null;
+      // After the next frame: what was changed now is painted.
+      requestAnimationFrame(() =>
+        setTimeout(() => {
+          const inspected = document.querySelector("section.inspector h2")?.textContent ?? "";
+          noted.push({ robot: chosen, inspected, took: performance.now() - from });
+        }),
+      );
+    }).observe(document.querySelector("nav.sidebar"), { attributeFilter: ["aria-pressed"], subtree: true });
+  });
+}
+
+// Does `click`, and gives what the page noted of it.
+export async function clickNoted(page, click) {
+  const count = await page.evaluate(() => window.testClicks.length);
+  await click();
+  await page.waitForFunction((before) => window.testClicks.length > before, count);
+  return page.evaluate(() => window.testClicks.at(-1));
+}

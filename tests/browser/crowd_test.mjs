@@ -1,0 +1,69 @@
+// A thousand robots on one page, drawn without a graphics card: it answers clicks all the same, in the
+// list and in the picture. How soon is measured by bench/viewing.mjs.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { clickNoted, crowd, noteClicks } from "./crowd.mjs";
+import { isBlank, picture } from "./pixels.mjs";
+import { startServer } from "./server.mjs";
+import { ask, until, viewClip } from "./viewing.mjs";
+
+const ROBOTS = 1000;
+
+let folder;
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-crowd-"));
+  server = await startServer(crowd(folder, ROBOTS));
+  browser = await openBrowser({ width: 1280, height: 800 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page, 300_000);
+  await noteClicks(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  if (folder) fs.rmSync(folder, { recursive: true, force: true });
+});
+
+test("a thousand robots are listed and drawn, and they move", async () => {
+  await page.getByRole("heading", { name: `${ROBOTS} robots` }).waitFor();
+  assert.equal(await page.locator("[data-robot]").count(), ROBOTS);
+  assert.equal(isBlank(await picture(page, await viewClip(page))), false);
+  const time = (await ask(page, "")).time_s;
+  await until(async () => (await page.evaluate(() => window.gsv.time)) > time, "the next instant");
+});
+
+test("a click in the list shows the robot in the inspector", async () => {
+  const names = await page.evaluate(() => window.gsv.robots);
+  const robot = names.at(-1);
+  const { robot: chosen, inspected } = await clickNoted(page, () =>
+    page.locator(`[data-robot="${robot}"]`).click(),
+  );
+  assert.equal(chosen, robot);
+  assert.equal(inspected, robot);
+});
+
+test("a click on a robot in the picture chooses it, or one beside it", async () => {
+  const before = await page.locator('[data-robot][aria-pressed="true"]').getAttribute("data-robot");
+  const place = await page.evaluate((last) => {
+    const isSeen = ({ x, y }) => document.elementFromPoint(x, y)?.tagName === "CANVAS";
+    const places = window.gsv.robots.map((name) => name !== last && window.gsv.robotScreenPosition(name));
+    return places.find((each) => each && isSeen(each));
+  }, before);
+  const { robot, inspected } = await clickNoted(page, () => page.mouse.click(place.x, place.y));
+  assert.equal(inspected, robot);
+  assert.notEqual(robot, before);
+});
+
+test("all this needed no other host and raised no error", () => {
+  assert.deepEqual(faults, []);
+});

@@ -1,0 +1,31 @@
+import { expect, test } from "vitest";
+import { ShadowPace } from "./ShadowPace";
+
+function due(pace: ShadowPace, frames: number): boolean[] {
+  return Array.from({ length: frames }, () => {
+    pace.moved();
+    return pace.areDue(true);
+  });
+}
+
+test("while frames are fast each that shows something elsewhere has its shadows", () => {
+  const pace = new ShadowPace();
+  expect(pace.areDue(true)).toBe(false);
+  expect(due(pace, 3)).toEqual([true, true, true]);
+  expect(pace.areDue(false)).toBe(false);
+});
+
+test("while they are slow every fourth has", () => {
+  const pace = new ShadowPace();
+  pace.frameTook(200);
+  expect(due(pace, 9)).toEqual([false, false, false, true, false, false, false, true, false]);
+  pace.frameTook(20);
+  expect(due(pace, 2)).toEqual([true, true]);
+});
+
+test("what has come to rest has its shadow at once", () => {
+  const pace = new ShadowPace();
+  pace.frameTook(200);
+  expect(due(pace, 2)).toEqual([false, false]);
+  expect(pace.areDue(false)).toBe(true);
+});
