@@ -1,4 +1,4 @@
-// Which models can be robots.
+// Which models there are, and which of them can be robots.
 #pragma once
 
 #include <filesystem>
@@ -13,5 +13,8 @@ namespace gsv::app {
 // may have one, so the first call takes its time; the library keeps what it has read.
 std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
                                          const std::vector<std::filesystem::path>& folders);
+
+// The names of all models in these folders, in order, each once; nothing is read.
+std::vector<std::string> FindModels(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace gsv::app

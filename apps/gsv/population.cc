@@ -204,4 +204,34 @@ FieldResult<std::string> AddOne(Simulation& simulation, formats::ModelLibrary& l
   return Wrong(is_behaviours ? "behaviour" : "", added.error());
 }
 
+FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibrary& library,
+                                      const gateway::ObjectRequest& request,
+                                      base::Problems& problems) {
+  simulation::ObjectSpecification object;
+  object.name = request.name;
+  object.copy_of = request.copy_of;
+  if (!request.model.empty()) {
+    auto model =
+        library.ReadModel(request.model, problems, simulation.specification().world->source);
+    if (!model) return Wrong("model", model.error());
+    object.model = *std::move(model);
+  }
+  if (request.place) {
+    object.world_from_object = request.place->world_from_body;
+    object.on_ground = request.place->on_ground;
+    auto name = simulation.AddObject(std::move(object));
+    return name ? FieldResult<std::string>(*std::move(name)) : Wrong("", name.error());
+  }
+  base::Error refusal;
+  for (int n = 0; n < kPlacesTried; ++n) {
+    object.world_from_object = SpiralPlace(n).pose();
+    auto name = simulation.AddObject(object);
+    if (name) return *std::move(name);
+    refusal = name.error();
+    // Elsewhere it would be the same: its name, its model, or that the simulation runs.
+    if (refusal.code != base::ErrorCode::kBadModel) break;
+  }
+  return Wrong("", refusal);
+}
+
 }  // namespace gsv::app

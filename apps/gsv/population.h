@@ -47,4 +47,11 @@ FieldResult<std::string> AddOne(simulation::Simulation& simulation, formats::Mod
                                 const scenario::RobotEntry& robot, bool is_avatar,
                                 const BehaviourMaker& make, base::Problems& problems);
 
+// A thing that is no robot; without a place at the first one that is free, as a robot. Gives the
+// name under which it stands.
+FieldResult<std::string> AddOneObject(simulation::Simulation& simulation,
+                                      formats::ModelLibrary& library,
+                                      const gateway::ObjectRequest& object,
+                                      base::Problems& problems);
+
 }  // namespace gsv::app

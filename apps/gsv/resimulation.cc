@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/gsv/edit_repetition.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/run.h"
@@ -156,40 +158,46 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
     std::stable_sort(acts.commands.begin(), acts.commands.end(),
                      [](const auto& a, const auto& b) { return a.time < b.time; });
   }
-  run.make_behaviour = [robots](const std::string& robot, const std::string& behaviour) {
+  run.make_behaviour = [robots](const std::string& robot, const std::string& behaviour,
+                                base::SimTime from) {
     const RecordedActs& acts = (*robots)[robot];
-    return std::make_shared<hosting::RecordedCommands>(behaviour, acts.commands, acts.uses_radio);
+    hosting::TimedCommands commands = acts.commands;
+    // One of the same name may have been there before, and was removed.
+    std::erase_if(commands, [&](const hosting::TimedCommand& each) { return each.time < from; });
+    return std::make_shared<hosting::RecordedCommands>(behaviour, std::move(commands),
+                                                       acts.uses_radio);
   };
   return {};
 }
 
-// What people changed in mid-run is no part of the command; without it the run goes otherwise.
-base::Status CheckThatNobodyEdited(const recording::McapReader& reader, const std::string& file) {
-  using messages::gsv_msgs::LifecycleEvent;
-  const recording::Summary& summary = reader.summary();
-  recording::MessageCursor cursor = reader.Messages();
-  bool has_begun = false;
-  for (;;) {
-    const auto record = cursor.Next();
-    if (!record) return base::Fail(record.error());
-    if (!*record) return {};
-    const auto channel = summary.channels.find((*record)->channel_id);
-    if (channel == summary.channels.end() || channel->second.topic != "/gsv/events") continue;
-    const auto message = messages::Decode<LifecycleEvent>((*record)->data);
-    if (!message) return base::Fail(message.error());
-    const std::string& event = message->event;
-    has_begun = has_begun || event == "started";
-    const bool is_edit = event == "body_placed" || event == "robot_removed" ||
-                         event == "robot_added" || event == "avatar_added";
-    if (!is_edit || (!has_begun && event != "body_placed" && event != "robot_removed")) continue;
-    return base::Fail(
-        base::ErrorCode::kInvalidArgument,
-        "cannot be simulated again: somebody changed what stands there by hand (" + event + " " +
-            message->robot + " at " +
-            fmt::format("{:.3f}", base::ToSeconds(messages::ToSimTime(message->stamp))) +
-            " s), and the recorded command does not repeat that; replay it instead",
-        file);
+// All topics of both, but those that tell what people did.
+std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
+                                             const recording::McapReader& second) {
+  std::set<std::string> topics;
+  for (const auto* reader : {&first, &second}) {
+    for (const auto& [id, channel] : reader->summary().channels) topics.insert(channel.topic);
   }
+  for (const char* topic : {"/gsv/events", "/rosout", "/gsv/edits"}) topics.erase(topic);
+  return {topics.begin(), topics.end()};
+}
+
+// What was not recorded cannot be done once more.
+base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
+  const auto refuse = [&](const std::string& reason) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "cannot be simulated again: " + reason + "; replay it instead", info.path);
+  };
+  if (info.start > base::SimTime(0)) {
+    return refuse(
+        fmt::format("it begins in mid-run, at {:.3f} s, and what came before is not known",
+                    base::ToSeconds(info.start)));
+  }
+  for (const recording::MetadataRecord& record : info.metadata) {
+    const auto edited = record.values.find("edited");
+    if (edited == record.values.end() || edited->second != "true") continue;
+    return refuse("somebody changed what stands there by hand before it was recorded");
+  }
+  return {};
 }
 
 void Print(const std::optional<recording::Difference>& difference,
@@ -217,7 +225,9 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   if (!call) return base::Fail(call.error());
   const auto recorded = recording::McapReader::Open(options.file);
   if (!recorded) return base::Fail(recorded.error());
-  if (auto ok = CheckThatNobodyEdited(**recorded, options.file); !ok) return base::Fail(ok.error());
+  if (auto ok = CheckThatItIsWhole(*info); !ok) return base::Fail(ok.error());
+  auto doings = ReadDoings(**recorded, options.file, options.commands);
+  if (!doings) return base::Fail(doings.error());
   auto folder = base::TemporaryFolder::Make("gsv-again");
   if (!folder) return base::Fail(folder.error());
 
@@ -235,6 +245,8 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   run->scenario.expect.clear();  // it was judged then
   run->record = (folder->path() / "again.mcap").string();
   run->specification.duration = info->end;
+  const bool had_people = doings->was_held_up || !doings->edits.empty();
+  run->edits = std::move(doings->edits);
   if (options.commands) {
     if (auto ok = UseRecordedCommands(**recorded, *run); !ok) return base::Fail(ok.error());
   }
@@ -243,8 +255,13 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
 
   const auto again = recording::McapReader::Open(run->record);
   if (!again) return base::Fail(again.error());
-  const auto difference = recording::FirstDifference(
-      **recorded, **again, options.commands ? MotionTopics() : std::vector<std::string>());
+  std::vector<std::string> topics;  // empty: all
+  if (options.commands) {
+    topics = MotionTopics();
+  } else if (had_people) {
+    topics = TopicsWithoutPeople(**recorded, **again);
+  }
+  const auto difference = recording::FirstDifference(**recorded, **again, topics);
   if (!difference) return base::Fail(difference.error());
   Print(*difference, *info, options.json);
   return *difference ? kAssertionFailed : kOk;

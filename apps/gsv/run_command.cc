@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands.h"
+#include "apps/gsv/edit_repetition.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/picture.h"
@@ -196,7 +197,8 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
     if (auto ok = (*runtime)->recordings().Start(*simulation, options.record, choice); !ok)
       return base::Fail(ok.error());
   }
-  if (auto ok = (*simulation)->Start(); !ok) return base::Fail(ok.error());
+  const auto started = RunWithEdits(**runtime, **simulation, options, signals);
+  if (!started || *started != kOk) return started;
   int exit_code = JudgeBehaviours(**simulation, Await(**simulation, options, signals));
   std::vector<verdict::Finding> findings;
   exit_code = JudgeExpectations(**judge, options, findings, exit_code);

@@ -28,10 +28,12 @@ struct RunOptions {
   std::map<std::string, std::string> behaviour_of;     // by robot
   std::map<std::string, model::Movement> movement_of;  // by robot
   bool in_process = false;                             // behaviours are plug-ins, not programs
-  // Makes robots' behaviours in place of the ones that are named, when it is set.
-  std::function<std::shared_ptr<simulation::BehaviourPort>(const std::string& robot,
-                                                           const std::string& behaviour)>
+  // Makes the behaviour of a robot that comes at that time, in place of the one that is named, when
+  // it is set.
+  std::function<std::shared_ptr<simulation::BehaviourPort>(
+      const std::string& robot, const std::string& behaviour, base::SimTime from)>
       make_behaviour;
+  std::vector<simulation::Edit> edits;  // to be made in mid-run, in this order
   simulation::Specification specification;
   std::string record;  // a file; empty: no recording
   RecordingChoice recording;

@@ -78,8 +78,9 @@ void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& 
 
 class RunBehaviours {
  public:
-  RunBehaviours(Runtime& runtime, const RunOptions& options)
-      : runtime_(runtime), options_(options) {}
+  // `from`: when their robots come.
+  RunBehaviours(Runtime& runtime, const RunOptions& options, base::SimTime from = {})
+      : runtime_(runtime), options_(options), from_(from) {}
 
   // Starts programs where nobody offers what is wanted.
   base::Status Ensure(const std::vector<PlacedRobot>& robots) {
@@ -103,7 +104,7 @@ class RunBehaviours {
 
  private:
   base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(const scenario::RobotEntry& robot) {
-    if (options_.make_behaviour) return options_.make_behaviour(robot.name, robot.behaviour);
+    if (options_.make_behaviour) return options_.make_behaviour(robot.name, robot.behaviour, from_);
     if (!robot.behaviour_constraint.empty())
       return runtime_.behaviours().Get(robot.behaviour_constraint);
     if (options_.in_process) return InProcessBehaviour(robot.behaviour);
@@ -112,6 +113,7 @@ class RunBehaviours {
 
   Runtime& runtime_;
   const RunOptions& options_;
+  const base::SimTime from_;
 };
 
 // The scenario as it came to be.
@@ -145,6 +147,16 @@ scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
 }
 
 }  // namespace
+
+base::Result<std::shared_ptr<simulation::BehaviourPort>> LateBehaviour(
+    Runtime& runtime, const RunOptions& options, const scenario::RobotEntry& robot,
+    base::SimTime from) {
+  RunBehaviours behaviours(runtime, options, from);
+  if (auto ok = behaviours.Ensure({{robot, 0}}); !ok) return base::Fail(ok.error());
+  auto behaviour = behaviours.Make(robot);
+  if (!behaviour) return base::Fail(behaviour.error().error);
+  return *std::move(behaviour);
+}
 
 base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simulation,
                                              const RunOptions& options, base::Problems& problems) {

@@ -11,4 +11,10 @@ namespace gsv::app {
 base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, simulation::Simulation& simulation,
                                              const RunOptions& options, base::Problems& problems);
 
+// The behaviour of a robot that comes at that time, its program started if it is missing; null
+// where it has none.
+base::Result<std::shared_ptr<simulation::BehaviourPort>> LateBehaviour(
+    Runtime& runtime, const RunOptions& options, const scenario::RobotEntry& robot,
+    base::SimTime from);
+
 }  // namespace gsv::app

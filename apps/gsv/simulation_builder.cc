@@ -68,11 +68,24 @@ std::vector<std::string> SimulationBuilder::Worlds() {
   return names;
 }
 
-std::vector<SimulationBuilder::ModelLine> SimulationBuilder::Models() {
+std::vector<fs::path> SimulationBuilder::ModelFolders() const {
   std::vector<fs::path> folders{ShareFolder() / "models"};
   folders.insert(folders.end(), model_path_.begin(), model_path_.end());
+  return folders;
+}
+
+std::vector<std::string> SimulationBuilder::Objects() {
+  std::vector<std::string> objects = FindModels(ModelFolders());
+  const std::vector<std::string> robots = FindRobotModels(host_.library(), ModelFolders());
+  std::erase_if(objects, [&](const std::string& name) {
+    return std::binary_search(robots.begin(), robots.end(), name);
+  });
+  return objects;
+}
+
+std::vector<SimulationBuilder::ModelLine> SimulationBuilder::Models() {
   std::vector<ModelLine> models;
-  for (const std::string& name : FindRobotModels(host_.library(), folders)) {
+  for (const std::string& name : FindRobotModels(host_.library(), ModelFolders())) {
     models.push_back({name, name == "avatar"});
   }
   return models;
@@ -190,6 +203,12 @@ FieldResult<std::string> SimulationBuilder::AddRobot(const std::shared_ptr<Simul
                                                      bool is_avatar) {
   base::Problems problems;
   return AddOne(*simulation, host_.library(), robot, is_avatar, BehaviourChoice(), problems);
+}
+
+FieldResult<std::string> SimulationBuilder::AddObject(const std::shared_ptr<Simulation>& simulation,
+                                                      const gateway::ObjectRequest& object) {
+  base::Problems problems;
+  return AddOneObject(*simulation, host_.library(), object, problems);
 }
 
 }  // namespace gsv::app

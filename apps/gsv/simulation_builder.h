@@ -39,6 +39,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
 
   std::vector<std::string> Worlds() override;
   std::vector<ModelLine> Models() override;
+  std::vector<std::string> Objects() override;
   base::Result<Behaviours> FindBehaviours(const std::string& constraint) override;
   gateway::FieldResult<Preview> Show(const gateway::SimulationRequest& request) override;
   gateway::FieldResult<std::shared_ptr<simulation::Simulation>> Create(
@@ -47,6 +48,9 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   gateway::FieldResult<std::string> AddRobot(
       const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
       bool is_avatar) override;
+  gateway::FieldResult<std::string> AddObject(
+      const std::shared_ptr<simulation::Simulation>& simulation,
+      const gateway::ObjectRequest& object) override;
 
  private:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
@@ -58,6 +62,7 @@ class SimulationBuilder final : public gateway::SimulationFactory {
     std::vector<std::string> warnings;
   };
 
+  std::vector<std::filesystem::path> ModelFolders() const;
   gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
   gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
       const scenario::RobotEntry& robot);

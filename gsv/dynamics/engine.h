@@ -32,7 +32,9 @@ class Engine {
   // `tolerance` metres): two robots at one place, a robot inside a wall.
   virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
 
-  // Those of them that one body has part in: much cheaper than all.
+  // Those of them that one body has part in: much cheaper than all. Of an object those as well of
+  // which no robot is a part: objects in each other or in walls. Two that stand still for good may
+  // overlap, and nothing is known of what is inside of a mesh and touches its surface nowhere.
   virtual std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                                  double tolerance) = 0;
 };

@@ -105,6 +105,12 @@ void RigidEngine::GoOn(base::SimTime step, const world::State& before, world::St
   }
 }
 
+std::vector<world::Contact> RigidEngine::OverlapsOf(const world::State& state, int body,
+                                                    double tolerance) {
+  if (!has_bodies()) return {};
+  return RigidWorld(*parts_->kit, parts_->scene, state, state, 0).OverlapsOf(body, tolerance);
+}
+
 void RigidEngine::AddContacts(const world::State& before, world::State& state,
                               std::vector<world::Contact>& contacts) {
   const world::Layout& layout = parts_->scene.layout();

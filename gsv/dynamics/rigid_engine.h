@@ -46,6 +46,9 @@ class RigidEngine {
             const std::vector<world::Contact>& contacts, world::State& state);
   // After that: robots that pushed go on as fast as what they pushed.
   void GoOn(base::SimTime step, const world::State& before, world::State& state) const;
+  // What overlaps `body` in `state` by more than `tolerance` metres, as far as one of the two moves
+  // by forces, by (first, second). Of each contact only the pair and the depth are told.
+  std::vector<world::Contact> OverlapsOf(const world::State& state, int body, double tolerance);
   // Adds the contacts of the rigid bodies in Move() to those of the planar ones.
   void AddContacts(const world::State& before, world::State& state,
                    std::vector<world::Contact>& contacts);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "gsv/dynamics/plane_pairs.h"
 
@@ -207,6 +208,31 @@ void RigidWorld::Run(std::span<Push> pushes, RigidContacts& contacts) {
   for (std::size_t i = 0; i < pushes.size(); ++i) {
     if (pushes_[i] != nullptr) pushes[i].achieved = pushes_[i]->Achieved();
   }
+}
+
+std::vector<world::Contact> RigidWorld::OverlapsOf(int body, double tolerance) {
+  world_.performDiscreteCollisionDetection();
+  std::map<BodyPair, double> depths;
+  for (int i = 0; i < kit_.dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *kit_.dispatcher.getManifoldByIndexInternal(i);
+    const int a = static_cast<Owner*>(manifold.getBody0()->getUserPointer())->solid->body;
+    const int b = static_cast<Owner*>(manifold.getBody1()->getUserPointer())->solid->body;
+    if (a == b || (a != body && b != body)) continue;
+    for (int p = 0; p < manifold.getNumContacts(); ++p) {
+      const double depth = -manifold.getContactPoint(p).getDistance();
+      if (!(depth > tolerance)) continue;
+      double& deepest = depths[{std::min(a, b), std::max(a, b)}];
+      deepest = std::max(deepest, depth);
+    }
+  }
+  std::vector<world::Contact> contacts;
+  for (const auto& [pair, depth] : depths) {
+    world::Contact& contact = contacts.emplace_back();
+    contact.first = pair.first;
+    contact.second = pair.second;
+    contact.depth = depth;
+  }
+  return contacts;
 }
 
 void RigidWorld::Store(world::State& state) const {

@@ -37,6 +37,9 @@ class RigidWorld {
 
   // Takes the step.
   void Run(std::span<Push> pushes, RigidContacts& contacts);
+  // Takes none: what overlaps `body` by more than `tolerance` metres at the start, by (first,
+  // second), one contact for each pair.
+  std::vector<world::Contact> OverlapsOf(int body, double tolerance);
   // Writes where the rigid bodies are and how they move.
   void Store(world::State& state) const;
   // Where each rigid body may get to in a step like this one, from where it is.

@@ -33,7 +33,11 @@ class WorldEngine final : public Engine {
 
   std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                          double tolerance) override {
-    return planar_->OverlapsOf(state, body, tolerance);
+    std::vector<world::Contact> contacts = planar_->OverlapsOf(state, body, tolerance);
+    if (layout_->bodies[body].is_robot) return contacts;
+    const std::vector<world::Contact> further = rigid_.OverlapsOf(state, body, tolerance);
+    contacts.insert(contacts.end(), further.begin(), further.end());
+    return contacts;
   }
 
  private:

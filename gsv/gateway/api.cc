@@ -120,6 +120,10 @@ Response Api::OfSimulation(const Request& request) {
     return request.method == "POST" ? factory_->AddRobot(simulation, request.body)
                                     : MethodNotAllowed("POST");
   }
+  if (path[3] == "objects" && factory_) {
+    return request.method == "POST" ? factory_->AddObject(simulation, request.body)
+                                    : MethodNotAllowed("POST");
+  }
   if (path[3] == "scene") return is_get ? Scene(*simulation) : MethodNotAllowed("GET");
   if (path[3] == "recording") return Recording(request, simulation);
   const SimulationCommand* command = FindSimulationCommand(path[3]);
@@ -146,12 +150,17 @@ Response Api::Recording(const Request& request, const SimulationPointer& simulat
   return JsonResponse(200, RecordingJson(recordings_->RecordingOf(name)));
 }
 
-// Below /api/simulations/NAME: robots/ROBOT, robots/ROBOT/drive and bodies/BODY/place.
+// Below /api/simulations/NAME: robots/ROBOT, objects/OBJECT, robots/ROBOT/drive and
+// bodies/BODY/place.
 Response Api::OfBody(const Request& request, const SimulationPointer& simulation) const {
   const std::vector<std::string>& path = request.target.segments;
   const bool is_post = request.method == "POST";
   if (path.size() == 5 && path[3] == "robots") {
     return request.method == "DELETE" ? RemoveRobot(*simulation, path[4])
+                                      : MethodNotAllowed("DELETE");
+  }
+  if (path.size() == 5 && path[3] == "objects") {
+    return request.method == "DELETE" ? RemoveObject(*simulation, path[4])
                                       : MethodNotAllowed("DELETE");
   }
   if (path.size() != 6) return NoSuchAddress();

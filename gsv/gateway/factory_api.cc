@@ -54,7 +54,9 @@ Response FactoryApi::Models() const {
   for (const SimulationFactory::ModelLine& model : factory_.Models()) {
     models.push_back({{"name", model.name}, {"is_avatar", model.is_avatar}});
   }
-  return JsonResponse(200, Text({{"models", std::move(models)}}));
+  FactoryJson objects = FactoryJson::array();
+  for (const std::string& name : factory_.Objects()) objects.push_back({{"name", name}});
+  return JsonResponse(200, Text({{"models", std::move(models)}, {"objects", std::move(objects)}}));
 }
 
 Response FactoryApi::Behaviours(const Target& target) const {
@@ -109,8 +111,22 @@ Response FactoryApi::AddRobot(const std::shared_ptr<simulation::Simulation>& sim
   return JsonResponse(201, Text({{"name", *name}}));
 }
 
+Response FactoryApi::AddObject(const std::shared_ptr<simulation::Simulation>& simulation,
+                               const std::string& body) const {
+  const auto object = ParseObjectRequest(body);
+  if (!object) return Refusal(object.error());
+  const auto name = factory_.AddObject(simulation, *object);
+  if (!name) return Refusal(name.error());
+  return JsonResponse(201, Text({{"name", *name}}));
+}
+
 Response RemoveRobot(simulation::Simulation& simulation, const std::string& robot) {
   const base::Status removed = simulation.RemoveRobot(robot);
+  return removed ? JsonResponse(200, "{}") : ErrorResponse(removed.error());
+}
+
+Response RemoveObject(simulation::Simulation& simulation, const std::string& object) {
+  const base::Status removed = simulation.RemoveObject(object);
   return removed ? JsonResponse(200, "{}") : ErrorResponse(removed.error());
 }
 
@@ -118,7 +134,7 @@ Response PlaceBody(simulation::Simulation& simulation, const std::string& name,
                    const std::string& body) {
   const auto place = ParsePlace(body);
   if (!place) return Refusal(place.error());
-  const base::Status placed = simulation.PlaceBody(name, place->pose(), !place->z.has_value());
+  const base::Status placed = simulation.PlaceBody(name, place->world_from_body, place->on_ground);
   if (!placed) return Refusal({placed.error(), ""});
   return JsonResponse(200, "{}");
 }

@@ -28,6 +28,8 @@ class FactoryApi {
   Response Destroy(const std::string& simulation) const;
   Response AddRobot(const std::shared_ptr<simulation::Simulation>& simulation,
                     const std::string& body) const;
+  Response AddObject(const std::shared_ptr<simulation::Simulation>& simulation,
+                     const std::string& body) const;
 
  private:
   SimulationFactory& factory_;
@@ -36,6 +38,7 @@ class FactoryApi {
 
 // What needs no factory.
 Response RemoveRobot(simulation::Simulation& simulation, const std::string& robot);
+Response RemoveObject(simulation::Simulation& simulation, const std::string& object);
 Response PlaceBody(simulation::Simulation& simulation, const std::string& name,
                    const std::string& body);
 

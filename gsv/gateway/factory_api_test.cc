@@ -20,6 +20,7 @@ class FakeFactory final : public SimulationFactory {
 
   std::vector<std::string> Worlds() override { return {"maze", "<b>office</b>"}; }
   std::vector<ModelLine> Models() override { return {{"avatar", true}, {"pebble", false}}; }
+  std::vector<std::string> Objects() override { return {"crate"}; }
   base::Result<Behaviours> FindBehaviours(const std::string& constraint) override {
     if (constraint == "1 +") {
       return base::Fail(base::ErrorCode::kInvalidArgument, "it ends too early", constraint);
@@ -47,7 +48,15 @@ class FakeFactory final : public SimulationFactory {
     return robot.model + (is_avatar ? "_avatar" : "_robot");
   }
 
+  FieldResult<std::string> AddObject(const std::shared_ptr<simulation::Simulation>&,
+                                     const ObjectRequest& object) override {
+    if (refusal) return tl::make_unexpected(*refusal);
+    asked = object;
+    return object.model + object.copy_of;
+  }
+
   std::optional<FieldError> refusal;
+  ObjectRequest asked;  // for last
 
  private:
   testing::SimulationList& list_;
@@ -91,6 +100,7 @@ TEST_F(FactoryApiTest, ListsWhatThereIsToChooseFrom) {
   EXPECT_EQ(Ask("GET", "/api/worlds", 200)["worlds"][1]["name"], "<b>office</b>");
   const auto models = Ask("GET", "/api/models", 200)["models"];
   EXPECT_EQ(models[0], (FactoryTestJson{{"name", "avatar"}, {"is_avatar", true}}));
+  EXPECT_EQ(Ask("GET", "/api/models", 200)["objects"][0]["name"], "crate");
   const auto found = Ask("GET", "/api/behaviours?constraint=pid%20%3E%200", 200);
   EXPECT_EQ(found["behaviours"][0]["description"], "pid > 0");
   EXPECT_EQ(found["start_command"], "gsv-wander");
@@ -138,6 +148,43 @@ TEST_F(FactoryApiTest, RobotsAreAddedAndBodiesPlaced) {
   Ask("GET", robots, 405);
   Ask("GET", robots + "/m", 405);
   Ask("POST", "/api/simulations/run/bodies/m", 404);
+}
+
+TEST_F(FactoryApiTest, ObjectsAreAddedOfAModelOrAsACopy) {
+  list_->Add(std::make_shared<ScriptedSimulation>("run", 1));
+  const std::string objects = "/api/simulations/run/objects";
+  EXPECT_EQ(Ask("POST", objects, 201, R"({"model": "crate"})")["name"], "crate");
+  EXPECT_FALSE(factory_.asked.place);
+  Ask("POST", objects, 201, R"({"copy_of": "ball", "name": "b", "x": 1, "y": 2, "z": 3,
+                                "roll": 1.5707963267948966})");
+  EXPECT_EQ(factory_.asked.copy_of, "ball");
+  EXPECT_EQ(factory_.asked.name, "b");
+  ASSERT_TRUE(factory_.asked.place);
+  EXPECT_FALSE(factory_.asked.place->on_ground);
+  const geometry::Pose& pose = factory_.asked.place->world_from_body;
+  EXPECT_EQ(pose.position, (geometry::Vector3{1, 2, 3}));
+  EXPECT_NEAR((pose.orientation * geometry::Vector3{0, 1, 0}).z, 1, 1e-12);
+}
+
+TEST_F(FactoryApiTest, AnObjectThatMakesNoSenseNamesItsField) {
+  list_->Add(std::make_shared<ScriptedSimulation>("run", 1));
+  const std::string objects = "/api/simulations/run/objects";
+  const std::pair<const char*, const char*> wrong[]{
+      {R"({})", "model"},
+      {R"({"model": "a", "copy_of": "b"})", "model"},
+      {R"({"model": 7})", "model"},
+      {R"({"model": "a", "x": 1})", "y"},
+      {R"({"model": "a", "x": "left", "y": 1})", "x"},
+      {R"({"model": "a", "x": 1, "y": 1, "roll": "over"})", "roll"},
+      {R"({"model": "a", "x": 1, "y": 1, "pitch": 1e300})", "pitch"},
+      {R"({"model": "a", "x": 1, "y": 1, "colour": "red"})", "colour"}};
+  for (const auto& [body, field] : wrong) {
+    const auto refused = Ask("POST", objects, 400, body);
+    EXPECT_EQ(refused["field"], field) << body;
+    EXPECT_FALSE(refused["error"].get<std::string>().empty());
+  }
+  Ask("GET", objects, 405);
+  Ask("GET", objects + "/crate", 405);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "gsv/gateway/scenario_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@ namespace {
 using ScenarioJson = nlohmann::json;
 
 constexpr std::size_t kMostRobots = 1000;
+constexpr double kMostTurns = 1e3;  // rad
 
 tl::unexpected<FieldError> Refused(std::string field, std::string sentence) {
   return tl::make_unexpected(
@@ -32,6 +34,24 @@ FieldResult<bool> TakeFlag(ScenarioJson& json, const char* name) {
   if (value.is_null()) return false;
   if (!value.is_boolean()) return Refused(name, "expected true or false");
   return value.get<bool>();
+}
+
+FieldResult<double> TakeAngle(ScenarioJson& json, const char* name) {
+  const ScenarioJson value = json.value(name, ScenarioJson());
+  json.erase(name);
+  if (value.is_null()) return 0;
+  if (!value.is_number() || !(std::abs(value.get<double>()) <= kMostTurns)) {
+    return Refused(name, "expected an angle in radians");
+  }
+  return value.get<double>();
+}
+
+FieldResult<std::string> TakeName(ScenarioJson& json, const char* name) {
+  const ScenarioJson value = json.value(name, ScenarioJson());
+  json.erase(name);
+  if (value.is_null()) return std::string();
+  if (!value.is_string()) return Refused(name, "expected a text");
+  return value.get<std::string>();
 }
 
 // The first of what is wrong.
@@ -97,11 +117,43 @@ FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
   return Judged(std::move(robot), problems);
 }
 
-FieldResult<scenario::Place> ParsePlace(std::string_view body) {
-  const auto json = ParseRequestObject(body);
+FieldResult<Placement> ParsePlace(std::string_view body) {
+  auto json = ParseRequestObject(body);
   if (!json) return tl::make_unexpected(json.error());
+  const auto roll = TakeAngle(*json, "roll");
+  if (!roll) return tl::make_unexpected(roll.error());
+  const auto pitch = TakeAngle(*json, "pitch");
+  if (!pitch) return tl::make_unexpected(pitch.error());
   base::Problems problems;
-  return Judged(scenario::ParsePlaceJson(json->dump(), problems), problems);
+  const auto place = Judged(scenario::ParsePlaceJson(json->dump(), problems), problems);
+  if (!place) return tl::make_unexpected(place.error());
+  Placement placement{place->pose(), !place->z.has_value()};
+  if (*roll != 0 || *pitch != 0) {
+    placement.world_from_body.orientation = geometry::FromRollPitchYaw({*roll, *pitch, place->yaw});
+  }
+  return placement;
+}
+
+FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body) {
+  auto json = ParseRequestObject(body);
+  if (!json) return tl::make_unexpected(json.error());
+  ObjectRequest object;
+  const std::pair<const char*, std::string*> texts[]{
+      {"name", &object.name}, {"model", &object.model}, {"copy_of", &object.copy_of}};
+  for (const auto& [name, text] : texts) {
+    auto taken = TakeName(*json, name);
+    if (!taken) return tl::make_unexpected(taken.error());
+    *text = *std::move(taken);
+  }
+  if (object.model.empty() == object.copy_of.empty()) {
+    return Refused("model", object.model.empty() ? "choose a model, or a thing to copy"
+                                                 : "either a model or a thing to copy, not both");
+  }
+  if (json->empty()) return object;
+  const auto place = ParsePlace(json->dump());
+  if (!place) return tl::make_unexpected(place.error());
+  object.place = *place;
+  return object;
 }
 
 }  // namespace gsv::gateway

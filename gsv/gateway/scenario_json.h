@@ -24,7 +24,10 @@ struct RobotToAdd {
 // only the model is needed.
 FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body);
 
-// {x, y, z, yaw}; x and y are needed.
-FieldResult<scenario::Place> ParsePlace(std::string_view body);
+// {x, y, z, roll, pitch, yaw}; x and y are needed.
+FieldResult<Placement> ParsePlace(std::string_view body);
+
+// {name, model, copy_of, x, y, z, roll, pitch, yaw}; either the model or whose copy it is.
+FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body);
 
 }  // namespace gsv::gateway

@@ -117,8 +117,9 @@ TEST(ScenarioJson, ARobotIsAddedWithOrWithoutAPlace) {
 TEST(ScenarioJson, APlaceNeedsBothCoordinates) {
   const auto place = ParsePlace(R"({"x": 1, "y": 2})");
   ASSERT_TRUE(place);
-  EXPECT_EQ(place->yaw, 0);
-  EXPECT_EQ(*place, (scenario::Place{1, 2, {}, 0}));
+  EXPECT_TRUE(place->on_ground);
+  EXPECT_EQ(place->world_from_body.position, (geometry::Vector3{1, 2, 0}));
+  EXPECT_EQ(place->world_from_body.orientation, geometry::Quaternion{});
   EXPECT_EQ(ParsePlace(R"({})").error().field, "x");
   EXPECT_EQ(ParsePlace(R"({"x": 1})").error().field, "y");
   EXPECT_EQ(ParsePlace(R"({"y": 1, "x": "far"})").error().field, "x");

@@ -29,6 +29,20 @@ struct SimulationRequest {
   bool record = false;  // to a file that the server names
 };
 
+// Where a body is to stand.
+struct Placement {
+  geometry::Pose world_from_body;
+  bool on_ground = true;  // the height counts for nothing
+};
+
+// A thing that is no robot: of a model, or like a body that stands in the simulation, came with its
+// world or was removed from it.
+struct ObjectRequest {
+  std::string name;                // empty: after its model
+  std::string model, copy_of;      // one of the two
+  std::optional<Placement> place;  // without one: the first that is free
+};
+
 class SimulationFactory {
  public:
   struct ModelLine {
@@ -52,8 +66,9 @@ class SimulationFactory {
 
   virtual ~SimulationFactory() = default;
 
-  virtual std::vector<std::string> Worlds() = 0;  // ours
-  virtual std::vector<ModelLine> Models() = 0;    // that can be robots, ours and on the model path
+  virtual std::vector<std::string> Worlds() = 0;   // ours
+  virtual std::vector<ModelLine> Models() = 0;     // that can be robots, ours and on the model path
+  virtual std::vector<std::string> Objects() = 0;  // models that are no robots, as well
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;
 
   // As it would stand at its start, without behaviours.
@@ -66,6 +81,8 @@ class SimulationFactory {
   virtual FieldResult<std::string> AddRobot(
       const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
       bool is_avatar) = 0;
+  virtual FieldResult<std::string> AddObject(
+      const std::shared_ptr<simulation::Simulation>& simulation, const ObjectRequest& object) = 0;
 };
 
 }  // namespace gsv::gateway

@@ -34,11 +34,16 @@ double FootprintRadius(const Model& model) {
   return radius;
 }
 
-double LowestPoint(const Model& model) {
+double LowestPoint(const Model& model) { return LowestPoint(model, {}); }
+
+double LowestPoint(const Model& model, const geometry::Quaternion& world_from_model) {
+  // About the vertical nothing gets lower, not even by a rounding.
+  const bool is_level = world_from_model.x == 0 && world_from_model.y == 0;
   double lowest = 0;
   bool any = false;
   ForEachCorner(model, [&](const Vector3& p) {
-    lowest = any ? std::min(lowest, p.z) : p.z;
+    const double z = is_level ? p.z : (world_from_model * p).z;
+    lowest = any ? std::min(lowest, z) : z;
     any = true;
   });
   return lowest;

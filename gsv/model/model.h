@@ -129,5 +129,7 @@ double FootprintRadius(const Model& model);
 // The lowest z, in the model's frame, of the boxes around all collisions (a Plane counts for
 // nothing); 0 without any. Exact for boxes; for round shapes that lie askew it is a lower bound.
 double LowestPoint(const Model& model);
+// The same of the model when it is turned, below its origin.
+double LowestPoint(const Model& model, const geometry::Quaternion& world_from_model);
 
 }  // namespace gsv::model

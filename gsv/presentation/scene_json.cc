@@ -127,6 +127,15 @@ Json JointsJson(const model::Model& model, const std::set<int>& moving) {
   return joints;
 }
 
+// Came with the world and never moves: what nobody can take away.
+bool IsFixed(const world::Layout& layout, const world::Body& body) {
+  const auto& models = layout.description->models;
+  return body.is_static &&
+         std::any_of(models.begin(), models.end(), [&](const model::PlacedModel& placed) {
+           return placed.name == body.name && (placed.is_static || placed.model->is_static);
+         });
+}
+
 Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose,
               const std::set<int>& moving) {
   Json links = Json::array();
@@ -135,6 +144,7 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
             {"is_static", body.is_static}, {"is_robot", body.is_robot},
             {"is_avatar", body.is_avatar}, {"pose", PoseJson(pose)},
             {"links", std::move(links)},   {"sensors", SensorsJson(source, body)}};
+  if (body.is_static && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
   if (const std::string id = source.identify_collisions(body.model); !id.empty()) {
     json["collisions"] = id;
   }

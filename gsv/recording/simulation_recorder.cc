@@ -30,6 +30,7 @@ MetadataRecord Describe(const Simulation& simulation, const StringMap& further) 
                          {"seed", std::to_string(specification.seed)},
                          {"step_ns", std::to_string(step.count())},
                          {"factor", std::to_string(specification.factor)}}};
+  if (simulation.was_edited()) record.values["edited"] = "true";
   record.values.insert(further.begin(), further.end());
   return record;
 }

@@ -4,6 +4,7 @@
 
 #include "gsv/base/hash.h"
 #include "gsv/messages/time.h"
+#include "gsv/presentation/edit_message.h"
 
 namespace gsv::recording {
 namespace {
@@ -28,7 +29,8 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
       diagnostics_(writer, selection, "/diagnostics", {.reproducible = false}),
       events_(writer, selection, "/gsv/events"),
       log_(writer, selection, "/rosout"),
-      hash_(writer, selection, "/gsv/state_hash") {}
+      hash_(writer, selection, "/gsv/state_hash"),
+      writer_(writer) {}
 
 void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
   const base::SimTime time = snapshot->state.time;
@@ -119,6 +121,9 @@ void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
 void StateTopics::RecordEvent(const simulation::Event& event) {
   events_.Write(event.time, presentation::EventMessage(event));
   log_.Write(event.time, presentation::LogMessage(event));
+  if (event.edit == nullptr) return;
+  if (!edits_) edits_.emplace(writer_, Selection{}, "/gsv/edits");
+  edits_->Write(event.time, presentation::EditMessage(*event.edit));
 }
 
 }  // namespace gsv::recording

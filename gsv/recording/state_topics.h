@@ -1,6 +1,7 @@
 // The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
 // /gsv/actuators, /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout,
-// /gsv/state_hash (docs/formats/messages.md).
+// /gsv/state_hash (docs/formats/messages.md). /gsv/edits appears with the first edit, whatever was
+// selected: without it nobody can make the run once more.
 #pragma once
 
 #include <map>
@@ -60,6 +61,8 @@ class StateTopics {
   TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
   TopicWriter<messages::rcl_interfaces::Log> log_;
   TopicWriter<messages::gsv_msgs::StateHash> hash_;
+  std::optional<TopicWriter<messages::gsv_msgs::Edit>> edits_;
+  McapWriter& writer_;
 };
 
 }  // namespace gsv::recording

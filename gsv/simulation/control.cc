@@ -159,6 +159,8 @@ base::Status SteppingSimulation::Go(SimTime until, std::int64_t steps) {
     if (auto ok = CheckFaults(); !ok) return ok;
   }
   ++run_;
+  was_started_ = true;
+  run_through_.reset();
   run_until_ = until;
   steps_left_ = steps;
   if (shared_->phase == Phase::kPaused) {
@@ -169,6 +171,7 @@ base::Status SteppingSimulation::Go(SimTime until, std::int64_t steps) {
     return {};
   }
   AddEvent("started");
+  turns_have_begun_ = true;
   SetPhase(Phase::kStarting);
   StartAgents(AgentsWithBehaviour());
   if (starts_pending_ == 0) SetPhase(Phase::kRunning);
@@ -207,6 +210,7 @@ base::Status SteppingSimulation::Pause() {
     if (shared_->phase == Phase::kPaused) return {};
     if (auto ok = RefuseUnless({Phase::kStarting, Phase::kRunning}, "pause"); !ok) return ok;
     run_until_ = SimTime(0);
+    run_through_.reset();
     steps_left_ = -1;
     SetPhase(Phase::kPaused);
     AddEvent("paused");
@@ -261,6 +265,19 @@ base::Status SteppingSimulation::RunUntil(SimTime until) {
   return {};
 }
 
+base::Status SteppingSimulation::RunThrough(SimTime until) {
+  const std::lock_guard control(control_mutex_);
+  const std::lock_guard lock(shared_->mutex);
+  if (auto ok = RefuseUnless({Phase::kCreated, Phase::kPaused}, "run"); !ok) return ok;
+  if (until < shared_->now) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the time to run through is over",
+                      specification_.name);
+  }
+  if (auto ok = Go(SimTime(0), -1); !ok) return ok;
+  run_through_ = until;
+  return {};
+}
+
 base::Status SteppingSimulation::Stop() {
   const std::lock_guard control(control_mutex_);
   const std::lock_guard lock(shared_->mutex);
@@ -308,6 +325,7 @@ base::Status SteppingSimulation::Reset() {
     shared_->history.Restart(
         std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}, {}}));
     shared_->now = SimTime(0);
+    turns_have_begun_ = false;
     shared_->end_reason.clear();
     for (const auto& [name, agent] : agents_) {
       agent->ResetClocks();
@@ -317,6 +335,7 @@ base::Status SteppingSimulation::Reset() {
     failure_.clear();
     final_hash_.clear();
     run_until_ = SimTime(0);
+    run_through_.reset();
     steps_left_ = -1;
     pacer_.ResetLateSteps();
     statistics_ = RunStatistics();
@@ -459,10 +478,11 @@ std::vector<model::SensorDescription> SteppingSimulation::sensors(const std::str
   return found == nullptr ? std::vector<model::SensorDescription>() : found->Sensors();
 }
 
-void SteppingSimulation::AddEvent(std::string kind, std::string robot, std::string detail) {
+void SteppingSimulation::AddEvent(std::string kind, std::string robot, std::string detail,
+                                  std::shared_ptr<const Edit> edit) {
   const auto snapshot = shared_->history.latest();
-  const Event event{snapshot->state.step, snapshot->state.time, std::move(kind), std::move(robot),
-                    std::move(detail)};
+  const Event event{snapshot->state.step, snapshot->state.time, std::move(kind),
+                    std::move(robot),     std::move(detail),    std::move(edit)};
   const std::lock_guard lock(events_mutex_);
   events_.push_back(event);
   if (events_.size() > kMaxEvents) {

@@ -16,12 +16,6 @@ namespace {
 // m: two bodies that are placed closer than touching by more than this are in each other.
 constexpr double kPlacingTolerance = 1e-3;
 
-std::string PlaceText(const geometry::Pose& pose) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.3g, %.3g)", pose.position.x, pose.position.y);
-  return text;
-}
-
 base::Status CheckBehaviour(const BehaviourPort& behaviour, Mode mode, const std::string& robot) {
   if (mode != Mode::kLockstep || behaviour.time_managed()) return {};
   return base::Fail(base::ErrorCode::kBehaviour,
@@ -48,6 +42,18 @@ base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
   return CheckBehaviour(*robot.behaviour, mode, where);
 }
 
+Edit EditOf(const RobotSpecification& robot) {
+  Edit edit;
+  edit.kind = robot.is_avatar ? Edit::Kind::kAddAvatar : Edit::Kind::kAddRobot;
+  edit.body = robot.name;
+  edit.model = SourceOf(*robot.model);
+  if (robot.behaviour != nullptr) edit.behaviour = robot.behaviour->name();
+  edit.movement = robot.movement;
+  edit.world_from_body = robot.world_from_robot;
+  edit.on_ground = robot.on_ground;
+  return edit;
+}
+
 // At its initial pose, as somebody has put it down there by hand.
 void PutAtRest(const world::Layout& layout, int body, world::State& state) {
   world::BodyState& placed = state.bodies[body];
@@ -61,15 +67,28 @@ void PutAtRest(const world::Layout& layout, int body, world::State& state) {
 
 }  // namespace
 
+std::string PlaceText(const geometry::Pose& pose) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.3g, %.3g)", pose.position.x, pose.position.y);
+  return text;
+}
+
+std::string SourceOf(const model::Model& model) {
+  return model.source.empty() ? model.name : model.source;
+}
+
+base::Status SteppingSimulation::CheckName(const std::string& name) const {
+  if (name.size() <= 128 && name.find('/') == std::string::npos) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "a name has 1 to 128 characters and no \"/\"", name);
+}
+
 base::Status SteppingSimulation::NameRobots(std::vector<RobotSpecification>& robots) const {
   std::map<std::string, int> taken;
   for (const world::Body& body : layout_->bodies) taken[body.name] = 1;
   for (const RobotSpecification& robot : robots) {
     if (robot.name.empty()) continue;
-    if (robot.name.size() > 128 || robot.name.find('/') != std::string::npos) {
-      return base::Fail(base::ErrorCode::kInvalidArgument,
-                        "a robot's name has 1 to 128 characters and no \"/\"", robot.name);
-    }
+    if (auto ok = CheckName(robot.name); !ok) return ok;
     if (++taken[robot.name] > 1) {
       return base::Fail(base::ErrorCode::kInvalidArgument, "a body of that name is there already",
                         robot.name);
@@ -95,7 +114,7 @@ geometry::Pose SteppingSimulation::StandingPose(const model::Model& model, geome
   };
   const auto solids = shared_->rays.At(shared_->history.latest());
   const double floor = sensing::FloorHeight(*solids, pose.position.x, pose.position.y, may_carry);
-  pose.position.z = floor - model::LowestPoint(model);
+  pose.position.z = floor - model::LowestPoint(model, pose.orientation);
   return pose;
 }
 
@@ -135,6 +154,9 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
     added.push_back(robot.name);
   }
   if (auto ok = ChangeLayout(std::move(bodies), added); !ok) return ok;
+  for (const RobotSpecification& robot : robots) {
+    Tell(EditOf(robot), robot.is_avatar ? "avatar_added" : "robot_added");
+  }
   const std::lock_guard lock(shared_->mutex);
   for (const RobotSpecification& robot : robots) {
     auto agent = std::make_shared<RobotAgent>(robot.name, robot.model, robot.is_avatar, shared_);
@@ -240,7 +262,8 @@ base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const std::string& name = placed[i];
     const int body = layout.Find(name);
-    if (stands_free[body]) continue;
+    const bool is_robot = layout.bodies[body].is_robot;
+    if (is_robot && stands_free[body]) continue;
     const geometry::Pose wanted = layout.bodies[body].initial_pose;
     const int intruded = Intruded(layout, state, body);
     if (intruded < 0) continue;
@@ -248,7 +271,7 @@ base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
     const auto rest = placed.begin() + static_cast<std::ptrdiff_t>(i) + 1;
     if (std::find(rest, placed.end(), layout.bodies[intruded].name) != placed.end()) continue;
     // What stands more outside of a wall than in it is put before it.
-    if (!layout.bodies[intruded].is_robot && StepAside(layout, body, state)) {
+    if (is_robot && !layout.bodies[intruded].is_robot && StepAside(layout, body, state)) {
       AddEvent("robot_moved", name,
                "starts at " + PlaceText(state.bodies[body].world_from_model) + ", since at " +
                    PlaceText(wanted) + " it would stand in \"" + layout.bodies[intruded].name +
@@ -297,12 +320,12 @@ base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
   for (const RobotSpecification& robot : robots) {
     if (auto ok = CheckRobot(robot, specification_.mode); !ok) return base::Fail(ok.error());
   }
+  AwaitTurns();
   if (auto ok = PlaceRobots(robots); !ok) return base::Fail(ok.error());
   std::vector<std::string> names;
   for (const RobotSpecification& robot : robots) names.push_back(robot.name);
   std::vector<AgentPtr> with_behaviour;
   for (const RobotSpecification& robot : robots) {
-    AddEvent(robot.is_avatar ? "avatar_added" : "robot_added", robot.name);
     if (robot.behaviour == nullptr) continue;
     const AgentPtr agent = FindAgent(robot.name);
     if (auto ok = robot.behaviour->Init(agent); !ok) {
@@ -324,7 +347,7 @@ base::Status SteppingSimulation::RemoveFromWorld(const std::vector<std::string>&
   std::erase_if(bodies, [&](const world::Body& body) {
     return std::find(names.begin(), names.end(), body.name) != names.end();
   });
-  const std::lock_guard lock(shared_->mutex);
+  Lock lock(shared_->mutex);
   for (const std::string& name : names) {
     const auto it = agents_.find(name);
     it->second->MarkGone();
@@ -342,6 +365,13 @@ base::Status SteppingSimulation::RemoveFromWorld(const std::vector<std::string>&
   (void)ChangeLayout(std::move(bodies), {});  // fewer bodies always fit
   IndexAgents();
   shared_->changed.notify_all();
+  lock.unlock();
+  for (const std::string& name : names) {
+    Edit edit;
+    edit.kind = Edit::Kind::kRemove;
+    edit.body = name;
+    Tell(std::move(edit), "robot_removed");
+  }
   return {};
 }
 
@@ -351,36 +381,8 @@ base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
     return base::Fail(base::ErrorCode::kNotFound, "there is no robot \"" + name + "\"",
                       specification_.name);
   }
-  if (auto ok = RemoveFromWorld({name}); !ok) return ok;
-  AddEvent("robot_removed", name);
-  return {};
-}
-
-base::Status SteppingSimulation::PlaceBody(const std::string& name,
-                                           const geometry::Pose& world_from_body, bool on_ground) {
-  const std::lock_guard control(control_mutex_);
-  if (!geometry::IsFinite(world_from_body)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "the pose is not finite", name);
-  }
-  const auto world_lock = LockWorld();
-  if (!world_lock) return RefuseStuck();
-  {
-    const std::lock_guard lock(shared_->mutex);
-    const char* const action = "move what stands in it";
-    if (auto ok = RefuseUnless({Phase::kCreated, Phase::kPaused}, action); !ok) return ok;
-  }
-  const int body = layout_->Find(name);
-  if (body < 0 || layout_->bodies[body].is_static) {
-    return base::Fail(base::ErrorCode::kNotFound,
-                      body < 0 ? "there is nothing of that name" : "it is fixed to the world",
-                      name);
-  }
-  std::vector<world::Body> bodies = layout_->bodies;
-  bodies[body].initial_pose =
-      on_ground ? StandingPose(*bodies[body].model, world_from_body, body) : world_from_body;
-  if (auto ok = ChangeLayout(std::move(bodies), {name}); !ok) return ok;
-  AddEvent("body_placed", name, "at " + PlaceText(state_.bodies[body].world_from_model));
-  return {};
+  AwaitTurns();
+  return RemoveFromWorld({name});
 }
 
 base::Status SteppingSimulation::CommandJoint(const std::string& body, const std::string& joint,

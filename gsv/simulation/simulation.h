@@ -44,6 +44,17 @@ struct RobotSpecification {
   std::optional<model::Movement> movement;  // without one, as its model says
 };
 
+// Something that is no robot, to be put into the world.
+struct ObjectSpecification {
+  std::string name;                           // empty: the model's name, numbered if taken
+  std::shared_ptr<const model::Model> model;  // null: the model of `copy_of`
+  // A body that stands here, came with the world, or was removed by hand.
+  std::string copy_of;
+  geometry::Pose world_from_object;
+  // Lowered or lifted onto the floor at its place, see sensing/ground.h.
+  bool on_ground = true;
+};
+
 class Simulation : public std::enable_shared_from_this<Simulation> {
  public:
   // `sensors` outlives the simulation. Fails when the specification or the world cannot be run.
@@ -64,10 +75,17 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Result<std::vector<std::string>> AddRobots(
       std::vector<RobotSpecification> robots) = 0;
   virtual base::Status RemoveRobot(const std::string& name) = 0;
-  // Puts a body that can move (a robot, an avatar, an object) elsewhere, at rest, while the
-  // simulation is created or paused; `on_ground` as for robots. Before the first step that is where
-  // it starts, also after a reset. What its wheels have measured and its behaviour believes stays
-  // as it was. Fails when the place is taken.
+  // Puts a thing that is no robot into the world, at rest, while the simulation is created or
+  // paused, and gives the name under which it stands. Fails when the place or the name is taken, or
+  // the model has a drive.
+  virtual base::Result<std::string> AddObject(ObjectSpecification object) = 0;
+  // Takes one away, while the simulation is created or paused. What came with the world and is
+  // fixed to it stays.
+  virtual base::Status RemoveObject(const std::string& name) = 0;
+  // Puts a body (a robot, an avatar, an object) elsewhere, at rest, while the simulation is created
+  // or paused; `on_ground` as for robots. Before the first step that is where it starts, also after
+  // a reset. What its wheels have measured and its behaviour believes stays as it was. Fails when
+  // the place is taken, and for what came with the world and is fixed to it.
   virtual base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
                                  bool on_ground) = 0;
   // Gives a behaviour to a robot that has none, such as one that came with the world.
@@ -89,6 +107,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Status Step(std::int64_t count) = 0;
   // Runs until the simulated time `until`, then freezes: nobody is woken at that instant.
   virtual base::Status RunUntil(SimTime until) = 0;
+  // The same from a pause or the start, but those whose waits end at that instant, which may be
+  // now, have their turn: it freezes when a step would be taken.
+  virtual base::Status RunThrough(SimTime until) = 0;
   virtual base::Status Stop() = 0;
   // Back to the start: bodies, time, behaviours (initialised anew). Blocks while these answer.
   virtual base::Status Reset() = 0;
@@ -123,6 +144,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
 
   // Events from number `first` on, counted from 0 (bounded: the oldest are dropped).
   virtual std::vector<Event> events(std::uint64_t first) const = 0;
+
+  // Whether anybody was added, removed or placed since it was first started.
+  virtual bool was_edited() const = 0;
 
   // From the next step on; kept alive until removed or the simulation ends.
   virtual void AddObserver(std::shared_ptr<Observer> observer) = 0;

@@ -15,6 +15,8 @@ namespace {
 // Turns that one thread takes at a time: some tens of microseconds of work.
 constexpr std::size_t kTurnsAPiece = 16;
 
+constexpr const char* kAsFarAsTold = "as far as it was told to run";
+
 // Has the calling thread run before those of a crowd of behaviours, which all want to run at the
 // instant of a step. It takes what the system grants: raising a priority needs CAP_SYS_NICE or a
 // limit (ulimit -e) of 30 or more.
@@ -55,6 +57,12 @@ void SteppingSimulation::RunLoop() {
       continue;
     }
     if (!AllWait(lock) || !IsDue(lock)) continue;
+    if (run_through_ && shared_->now >= *run_through_) {
+      run_through_.reset();
+      SetPhase(Phase::kPaused);
+      AddEvent("paused", {}, kAsFarAsTold);
+      continue;
+    }
     lock.unlock();
     TakeStep();
     lock.lock();
@@ -62,6 +70,7 @@ void SteppingSimulation::RunLoop() {
 }
 
 void SteppingSimulation::WakeAgents() {
+  turns_have_begun_ = true;
   const bool has_reported_deaths = std::exchange(shared_->has_reported_deaths, false);
   if (!has_reported_deaths && !shared_->sleepers.HasDue(shared_->now)) return;
   const WallTime wall_now = WallNow();
@@ -224,6 +233,7 @@ void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>&
   const std::lock_guard lock(shared_->mutex);
   shared_->history.Publish(snapshot);  // with the phase that comes of it: see status()
   shared_->now = snapshot->state.time;
+  turns_have_begun_ = false;
   statistics_.Stepped(end, shared_->now, end - start);
   // A step that was under way when somebody paused and asked for steps is none of these.
   if (steps_left_ > 0 && stepped_run_ == run_) --steps_left_;
@@ -235,7 +245,7 @@ void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>&
     steps_left_ = -1;
     if (shared_->phase == Phase::kRunning) {
       SetPhase(Phase::kPaused);
-      AddEvent("paused", {}, "as far as it was told to run");
+      AddEvent("paused", {}, kAsFarAsTold);
     }
   }
 }

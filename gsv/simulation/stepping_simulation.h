@@ -26,6 +26,9 @@
 
 namespace gsv::simulation {
 
+std::string PlaceText(const geometry::Pose& pose);  // "(1, 2)"
+std::string SourceOf(const model::Model& model);    // its file, or its name if it has none
+
 class SteppingSimulation final : public Simulation {
  public:
   SteppingSimulation(Specification specification,
@@ -39,6 +42,8 @@ class SteppingSimulation final : public Simulation {
 
   base::Result<std::vector<std::string>> AddRobots(std::vector<RobotSpecification> robots) override;
   base::Status RemoveRobot(const std::string& name) override;
+  base::Result<std::string> AddObject(ObjectSpecification object) override;
+  base::Status RemoveObject(const std::string& name) override;
   base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
                          bool on_ground) override;
   base::Status SetBehaviour(const std::string& robot,
@@ -52,6 +57,7 @@ class SteppingSimulation final : public Simulation {
   base::Status Resume() override;
   base::Status Step(std::int64_t count) override;
   base::Status RunUntil(SimTime until) override;
+  base::Status RunThrough(SimTime until) override;
   base::Status Stop() override;
   base::Status Reset() override;
   base::Status SetFactor(double factor) override;
@@ -72,6 +78,7 @@ class SteppingSimulation final : public Simulation {
   std::vector<model::SensorDescription> sensors(const std::string& robot) const override;
   const sensing::SensorRegistry& sensor_types() const override { return *sensors_; }
   std::vector<Event> events(std::uint64_t first) const override;
+  bool was_edited() const override;
   void AddObserver(std::shared_ptr<Observer> observer) override;
   void RemoveObserver(const std::shared_ptr<Observer>& observer) override;
 
@@ -87,7 +94,8 @@ class SteppingSimulation final : public Simulation {
   void EndAgents(std::string reason);
   void TellBehaviours(const char* what, base::Status (BehaviourPort::*call)());
   void ReportIfFailed(const AgentPtr& agent, const char* what, const base::Status& status);
-  void AddEvent(std::string kind, std::string robot = {}, std::string detail = {});
+  void AddEvent(std::string kind, std::string robot = {}, std::string detail = {},
+                std::shared_ptr<const Edit> edit = nullptr);
   AgentPtr FindAgent(const std::string& robot) const;
   std::vector<AgentPtr> AgentsWithBehaviour() const;
 
@@ -110,6 +118,19 @@ class SteppingSimulation final : public Simulation {
   bool StepAside(const world::Layout& layout, int body, world::State& state);
   base::Status RemoveFromWorld(const std::vector<std::string>& names);
   void IndexAgents();
+  base::Status CheckName(const std::string& name) const;
+
+  // editing.cc: what people change by hand.
+  // Waits for the end of the turns of behaviours elsewhere, if they are not taking long.
+  void AwaitTurns();
+  // Under world_mutex_, when it has been done: tells of it.
+  void Tell(Edit edit, const char* event, const std::string& detail = {});
+  base::Status CheckMayEdit() const;
+  // The body of that name; -1 and why not when it is fixed, or not there.
+  base::Result<int> FindLoose(const std::string& name) const;
+  base::Result<world::Body> BodyOf(const ObjectSpecification& object) const;
+  base::Result<std::string> NameOf(const ObjectSpecification& object,
+                                   const model::Model& model) const;
   // Has the engine move what stands in `layout`, with what `state` says is held.
   base::Status SetEngineLayout(const std::shared_ptr<const world::Layout>& layout,
                                const world::State& state);
@@ -181,6 +202,8 @@ class SteppingSimulation final : public Simulation {
   std::size_t faults_done_ = 0;
   // Where static bodies stood that faults have moved; guarded by world_mutex_.
   std::map<std::string, geometry::Pose> stood_at_;
+  // Objects that were taken away, the newest last; guarded by world_mutex_.
+  std::deque<world::Body> removed_;
 
   // A turn is under way that has lasted longer than the deadline, with world_mutex_ held. Changes
   // under shared_->mutex.
@@ -195,7 +218,10 @@ class SteppingSimulation final : public Simulation {
   std::set<std::string> watched_now_;  // robots whose behaviour is being asked for a sign of life
   bool restart_pacing_ = false;
   int starts_pending_ = 0;
-  SimTime run_until_{0};           // 0: none
+  SimTime run_until_{0};  // 0: none
+  std::optional<SimTime> run_through_;
+  bool turns_have_begun_ = false;  // those who wake at this instant were woken
+  bool was_started_ = false, was_edited_ = false;
   std::int64_t steps_left_ = -1;   // -1: no limit
   std::uint64_t run_ = 0;          // grows whenever it is told to go
   std::uint64_t stepped_run_ = 0;  // in which the present step began

@@ -24,6 +24,34 @@ const char* ToString(Phase phase) {
   return "";
 }
 
+const char* ToString(Edit::Kind kind) {
+  switch (kind) {
+    case Edit::Kind::kAddRobot:
+      return "add_robot";
+    case Edit::Kind::kAddAvatar:
+      return "add_avatar";
+    case Edit::Kind::kAddObject:
+      return "add_object";
+    case Edit::Kind::kRemove:
+      return "remove";
+    case Edit::Kind::kPlace:
+      return "place";
+  }
+  return "";
+}
+
+const char* ToString(Edit::Moment moment) {
+  switch (moment) {
+    case Edit::Moment::kBeforeTurns:
+      return "before_turns";
+    case Edit::Moment::kAfterTurns:
+      return "after_turns";
+    case Edit::Moment::kAmidTurns:
+      return "amid_turns";
+  }
+  return "";
+}
+
 const char* ToString(AgentPhase phase) {
   switch (phase) {
     case AgentPhase::kNone:

@@ -12,6 +12,7 @@
 #include "gsv/model/world_description.h"
 #include "gsv/scenario/fault.h"
 #include "gsv/sensing/reading.h"
+#include "gsv/simulation/edit.h"
 
 namespace gsv::simulation {
 
@@ -91,6 +92,7 @@ struct Event {
   std::string kind;   // "started", "paused", "resumed", "stopped", "robot_added", "agent_dead", …
   std::string robot;  // empty: the simulation
   std::string detail;
+  std::shared_ptr<const Edit> edit;  // null: nobody was added, removed or placed
 };
 
 }  // namespace gsv::simulation

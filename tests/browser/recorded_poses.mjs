@@ -1,4 +1,4 @@
-// The poses in a recording, read by other people's code: what a replay has to show.
+// The messages of a recording, read by other people's code: what a replay has to show.
 import fs from "node:fs";
 import { requireFromWeb } from "./browser.mjs";
 
@@ -7,10 +7,13 @@ const { parse } = requireFromWeb("@foxglove/rosmsg");
 const { MessageReader } = requireFromWeb("@foxglove/rosmsg2-serialization");
 const fzstd = requireFromWeb("fzstd");
 
-const TOPIC = "/gsv/poses";
-
 // [{time, poses}], by time; `poses` are seven numbers each, as the scene lists them.
 export async function readPoses(file) {
+  return (await readTopic(file, "/gsv/poses")).map(({ time, message }) => ({ time, poses: message.poses }));
+}
+
+// [{time, message}], by time.
+export async function readTopic(file, topic) {
   const bytes = fs.readFileSync(file);
   const reader = await McapIndexedReader.Initialize({
     readable: {
@@ -19,12 +22,12 @@ export async function readPoses(file) {
     },
     decompressHandlers: { zstd: (data) => fzstd.decompress(data) },
   });
-  const channel = [...reader.channelsById.values()].find(({ topic }) => topic === TOPIC);
+  const channel = [...reader.channelsById.values()].find((each) => each.topic === topic);
   const schema = reader.schemasById.get(channel.schemaId);
   const decoder = new MessageReader(parse(new TextDecoder().decode(schema.data), { ros2: true }));
   const messages = [];
-  for await (const { logTime, data } of reader.readMessages({ topics: [TOPIC] })) {
-    messages.push({ time: Number(logTime) / 1e9, poses: decoder.readMessage(data).poses });
+  for await (const { logTime, data } of reader.readMessages({ topics: [topic] })) {
+    messages.push({ time: Number(logTime) / 1e9, message: decoder.readMessage(data) });
   }
   return messages;
 }

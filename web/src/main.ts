@@ -54,7 +54,7 @@ function createWorld(host: HTMLElement): World3D | null {
         fixedQuality: parameters.get("quality") === "high",
       },
       {
-        onPick: (robot) => app.select(robot),
+        onPick: (body) => app.pick(body),
         onPlace: (body, place) => app.place(body, place),
         onModelsMissing: (modelsMissing) => store.set({ modelsMissing }),
         onProblem: (sentence) => notify(store, "error", sentence),
@@ -113,6 +113,10 @@ function connectWorld(world: World3D): void {
       world.select(selection);
       showSelectedPose();
     },
+  );
+  store.watch(
+    ({ editing }) => editing?.chosen ?? null,
+    (object) => world.choose(object),
   );
   store.watch(
     ({ viewMode }) => viewMode,

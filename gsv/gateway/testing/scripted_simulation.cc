@@ -200,7 +200,7 @@ void ScriptedSimulation::Mount(const std::string& robot, model::SensorDescriptio
 
 void ScriptedSimulation::AddEvent(const std::string& kind) {
   const std::lock_guard lock(mutex_);
-  events_.push_back({snapshot_->state.step, time_, kind, "", ""});
+  events_.push_back({snapshot_->state.step, time_, kind, "", "", nullptr});
 }
 
 void ScriptedSimulation::set_on_watch(std::function<base::Status(const std::string&)> on_watch) {
@@ -262,12 +262,17 @@ double ScriptedSimulation::factor() const {
   return factor_;
 }
 base::Status ScriptedSimulation::RunUntil(base::SimTime) { return Refused(); }
+base::Status ScriptedSimulation::RunThrough(base::SimTime) { return Refused(); }
 
 base::Result<std::vector<std::string>> ScriptedSimulation::AddRobots(
     std::vector<simulation::RobotSpecification>) {
   return base::Fail(Refused().error());
 }
 base::Status ScriptedSimulation::RemoveRobot(const std::string&) { return Refused(); }
+base::Result<std::string> ScriptedSimulation::AddObject(simulation::ObjectSpecification) {
+  return base::Fail(Refused().error());
+}
+base::Status ScriptedSimulation::RemoveObject(const std::string&) { return Refused(); }
 base::Status ScriptedSimulation::PlaceBody(const std::string&, const geometry::Pose&, bool) {
   return Refused();
 }

@@ -40,6 +40,9 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Result<std::vector<std::string>> AddRobots(
       std::vector<simulation::RobotSpecification> robots) override;
   base::Status RemoveRobot(const std::string& name) override;
+  base::Result<std::string> AddObject(simulation::ObjectSpecification object) override;
+  base::Status RemoveObject(const std::string& name) override;
+  bool was_edited() const override { return false; }
   base::Status PlaceBody(const std::string& name, const geometry::Pose& world_from_body,
                          bool on_ground) override;
   base::Status SetBehaviour(const std::string& robot,
@@ -51,6 +54,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Status Resume() override;
   base::Status Step(std::int64_t count) override;
   base::Status RunUntil(base::SimTime until) override;
+  base::Status RunThrough(base::SimTime until) override;
   base::Status Stop() override;
   base::Status Reset() override;
   base::Status SetFactor(double factor) override;

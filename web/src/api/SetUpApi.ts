@@ -35,7 +35,17 @@ export interface BodyPlace {
   x: number;
   y: number;
   z?: number; // without it: on the ground
+  roll?: number;
+  pitch?: number;
   yaw: number;
+}
+
+// A thing that is no robot: of a model, or like one that stands there or was removed.
+export interface NewObject {
+  name: string; // empty: after its model
+  model?: string;
+  copy_of?: string;
+  place: BodyPlace | null; // null: the first that is free
 }
 
 export interface Preview {
@@ -73,6 +83,12 @@ export class SetUpApi {
       const model = objectAt(each, "models");
       return { name: textAt(model.name, "name"), isAvatar: model.is_avatar === true };
     });
+  }
+
+  // Those that are no robots.
+  async objectModels(): Promise<string[]> {
+    const answer = objectAt(await this.server.get("api/models", LONG_TIMEOUT_MS), "models");
+    return listAt(answer.objects ?? [], "objects").map((each) => textAt(objectAt(each, "objects").name, "name"));
   }
 
   async behaviours(constraint = ""): Promise<Behaviours> {
@@ -131,6 +147,17 @@ export class SetUpApi {
 
   async removeRobot(simulation: string, robot: string): Promise<void> {
     await this.server.delete(`${simulationPath(simulation)}/robots/${encodeURIComponent(robot)}`);
+  }
+
+  // Gives the name under which it stands.
+  async addObject(simulation: string, { place, ...object }: NewObject): Promise<string> {
+    const body = { ...object, ...place };
+    const answer = await this.server.post(`${simulationPath(simulation)}/objects`, body, LONG_TIMEOUT_MS);
+    return textAt(objectAt(answer, "object").name, "name");
+  }
+
+  async removeObject(simulation: string, object: string): Promise<void> {
+    await this.server.delete(`${simulationPath(simulation)}/objects/${encodeURIComponent(object)}`);
   }
 
   async placeBody(simulation: string, body: string, place: BodyPlace): Promise<void> {

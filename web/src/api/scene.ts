@@ -40,6 +40,7 @@ export interface SceneBody {
   name: string;
   model: string; // the ID under which its shape is fetched
   isStatic: boolean;
+  isFixed: boolean; // static, and came with the world: nobody can move it or take it away
   isRobot: boolean;
   isAvatar: boolean;
   pose: PoseNumbers;
@@ -119,6 +120,7 @@ function parseBody(value: unknown, where: string): SceneBody {
     name: textAt(body.name, `${where}.name`),
     model: textAt(body.model, `${where}.model`),
     isStatic: body.is_static === true,
+    isFixed: body.is_static === true && body.is_fixed !== false,
     isRobot: body.is_robot === true,
     isAvatar: body.is_avatar === true,
     pose: numbersAt(body.pose, 7, `${where}.pose`),

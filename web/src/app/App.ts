@@ -12,6 +12,7 @@ import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../sta
 import type { Log } from "../state/log";
 import type { OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
+import { chosenOf } from "../state/editing";
 import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
 import { download, fileName } from "./files";
@@ -24,6 +25,7 @@ import { PlotFeed } from "./PlotFeed";
 import { PeopleControl } from "./PeopleControl";
 import { RecordControl } from "./RecordControl";
 import { ReplayControl } from "./ReplayControl";
+import { rotationOf } from "./SelectedPose";
 import type { Session } from "./Session";
 import { WholeCurves } from "./WholeCurves";
 import { SetUpControl } from "./SetUpControl";
@@ -90,6 +92,7 @@ export class App {
 
   // The camera pane turns to the selected robot's camera, if it has one.
   select(robot: string | null): void {
+    this.edits.choose(null);
     this.store.set(({ selection, selectedPose, viewMode, scene, camera }) => ({
       selection: robot,
       selectedPose: robot === selection ? selectedPose : null,
@@ -97,6 +100,17 @@ export class App {
       camera:
         camera?.robot === robot ? camera : (camerasOf(scene).find((each) => each.robot === robot) ?? camera),
     }));
+  }
+
+  // What was clicked at: a robot is selected, and while one edits an object is chosen.
+  pick(body: string | null): void {
+    const { scene, editing } = this.store.get();
+    const known = scene?.bodies.find(({ name }) => name === body);
+    const isObject = known !== undefined && !known.isRobot && !known.isAvatar;
+    if (!isObject) return this.select(body);
+    if (!editing) return;
+    this.select(null);
+    this.edits.choose(known.name);
   }
 
   // Looks that way at the selected robot, or the first one when none is; a second time ends it.
@@ -113,11 +127,18 @@ export class App {
   }
 
   removeSelected(): void {
-    const { setUp, selection } = this.store.get();
+    const { setUp, selection, editing } = this.store.get();
+    if (editing?.chosen) return void this.edits.removeObject(editing.chosen);
     if (selection === null) return;
     const found = setUp && findRobot(setUp.scenario, selection);
     if (found) this.setUp.removeRobot(found.list, found.index);
     else if (!setUp) void this.edits.remove(selection);
+  }
+
+  // Counter-clockwise, in radians, while one edits.
+  turnSelected(angle: number): void {
+    const body = chosenOf(this.store.get());
+    if (this.store.get().editing && body !== null) void this.edits.turn(body, angle);
   }
 
   undo(): void {
@@ -223,6 +244,8 @@ export class App {
 }
 
 function placeIn(world: World3D | null, body: string): Required<BodyPlace> | null {
-  const e = world?.latestPose(body)?.pose.elements;
-  return e ? { x: e[12]!, y: e[13]!, z: e[14]!, yaw: Math.atan2(e[1]!, e[0]!) } : null;
+  const pose = world?.bodyPose(body);
+  if (!pose) return null;
+  const [x, y, z] = pose.elements.slice(12) as [number, number, number];
+  return { x, y, z, ...rotationOf(pose) };
 }

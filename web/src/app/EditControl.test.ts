@@ -5,6 +5,7 @@ import { newRobot, EMPTY_SCENARIO } from "../state/scenario";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";
+import { body, scene } from "../scene/testScene";
 import { EditControl } from "./EditControl";
 
 const BEFORE = { x: 0, y: 0, z: 0.1, yaw: 0 };
@@ -15,14 +16,18 @@ async function editing(phase: "paused" | "running" = "paused") {
     ...initialState,
     abilities: { ...initialState.abilities, creates: true },
     simulation: "house",
+    scene: scene({ bodies: [body("a"), body("box", { isRobot: false })] }),
     status: simulationStatus(phase, { robots: [robotStatus("a")] }),
   });
   const api = {
     models: vi.fn(async () => []),
+    objectModels: vi.fn(async () => ["crate"]),
     behaviours: vi.fn(async () => ({ offers: [], startCommand: "" })),
     placeBody: vi.fn(async () => {}),
     addRobot: vi.fn(async () => "b_2"),
     removeRobot: vi.fn(async () => {}),
+    addObject: vi.fn(async () => "crate_2"),
+    removeObject: vi.fn(async () => {}),
   };
   const pause = vi.fn(async () => store.set({ status: simulationStatus("paused") }));
   const control = new EditControl(store, api as never, { placeOf: () => BEFORE }, pause);
@@ -73,4 +78,50 @@ test("what runs is paused first, and editing ends when it goes on", async () => 
   expect(store.get().editing).not.toBeNull();
   store.set({ status: simulationStatus("running") });
   expect(store.get().editing).toBeNull();
+});
+
+test("an object that was added is chosen, and goes and comes under its name", async () => {
+  const { store, api, control } = await editing();
+  expect(store.get().editing!.objects).toEqual(["crate"]);
+  store.set({ scene: scene({ bodies: [body("crate_2", { isRobot: false })] }) });
+  expect(await control.addObject({ name: "", model: "crate", place: null })).toBe(true);
+  expect(api.addObject).toHaveBeenCalledWith("house", { name: "", model: "crate", place: null });
+  expect(store.get().editing).toMatchObject({ chosen: "crate_2", undo: ["add crate"] });
+  await control.undo();
+  expect(api.removeObject).toHaveBeenCalledWith("house", "crate_2");
+  await control.redo();
+  expect(api.addObject).toHaveBeenLastCalledWith("house", { name: "crate_2", model: "crate", place: BEFORE });
+});
+
+test("an object that was removed comes back as a copy of itself, where it stood", async () => {
+  const { api, control } = await editing();
+  await control.removeObject("box");
+  await control.undo();
+  expect(api.addObject).toHaveBeenCalledWith("house", { name: "box", copy_of: "box", place: BEFORE });
+});
+
+test("a turn leaves an object at its height; a move puts it on the floor", async () => {
+  const { store, api, control } = await editing();
+  await control.turn("box", 0.5);
+  expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", { ...BEFORE, yaw: 0.5, roll: 0, pitch: 0 });
+  await control.place("box", AFTER);
+  expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", { ...AFTER, roll: 0, pitch: 0 });
+  expect(store.get().editing!.undo).toEqual(["turn box", "move box"]);
+});
+
+test("a turn goes on from the last one, whether or not the scene shows it yet", async () => {
+  const { api, control } = await editing();
+  await control.turn("box", 0.5);
+  await control.turn("box", 0.25);
+  expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", expect.objectContaining({ yaw: 0.75 }));
+  await control.undo();
+  expect(api.placeBody).toHaveBeenLastCalledWith("house", "box", expect.objectContaining({ yaw: 0.5 }));
+});
+
+test("what is chosen is let go of when it is gone", async () => {
+  const { store, control } = await editing();
+  control.choose("box");
+  expect(store.get().editing!.chosen).toBe("box");
+  store.set({ scene: scene({ bodies: [body("a")] }) });
+  expect(store.get().editing!.chosen).toBeNull();
 });

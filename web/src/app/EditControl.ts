@@ -1,6 +1,6 @@
 // Changes who stands in a simulation that stands still, with undo and redo. The server knows of no
 // history: an edit is taken back by doing its opposite.
-import type { BodyPlace, SetUpApi } from "../api/SetUpApi";
+import type { BodyPlace, NewObject, SetUpApi } from "../api/SetUpApi";
 import type { Placed, RobotSetUp } from "../state/scenario";
 import type { Editing } from "../state/editing";
 import { FIRST_EDITING, canEdit } from "../state/editing";
@@ -9,6 +9,7 @@ import type { Store } from "../state/Store";
 import { notify } from "./notices";
 
 const MOST_EDITS = 100;
+const STANDS_M = 1e-6; // who moved by less was turned
 
 interface Edit {
   name: string; // "move pebble"
@@ -18,12 +19,14 @@ interface Edit {
 
 export interface Bodies {
   // Where a body was last reported; null while unknown.
-  placeOf(body: string): Required<BodyPlace> | null;
+  placeOf(body: string): (BodyPlace & { z: number }) | null;
 }
 
 export class EditControl {
   private done: Edit[] = []; // the newest last
   private takenBack: Edit[] = [];
+  // What was put somewhere, until a scene shows it there.
+  private unseen: { body: string; place: BodyPlace } | null = null;
 
   constructor(
     private readonly store: Store<State>,
@@ -36,6 +39,14 @@ export class EditControl {
       ({ status, simulation }) => `${status?.phase === "paused" || status?.phase === "created"} ${simulation}`,
       () => this.store.get().editing && this.end(),
     );
+    store.watch(
+      ({ scene }) => scene,
+      (scene) => {
+        this.unseen = null;
+        const chosen = this.store.get().editing?.chosen ?? null;
+        if (chosen !== null && !scene?.bodies.some(({ name }) => name === chosen)) this.choose(null);
+      },
+    );
   }
 
   async toggle(): Promise<void> {
@@ -47,20 +58,69 @@ export class EditControl {
     this.takenBack = [];
     this.store.set({ editing: FIRST_EDITING });
     await this.ask(async () => {
-      const [models, behaviours] = await Promise.all([this.api.models(), this.api.behaviours()]);
-      this.patch({ models, behaviours });
+      const { api } = this;
+      const [models, objects, behaviours] = await Promise.all([
+        api.models(),
+        api.objectModels(),
+        api.behaviours(),
+      ]);
+      this.patch({ models, objects, behaviours });
     });
+  }
+
+  // The object that edits are about from now on; null: the selected robot.
+  choose(object: string | null): void {
+    if (this.store.get().editing?.chosen !== object) this.patch({ chosen: object });
   }
 
   // Resolves to whether it stands there now.
   place(body: string, place: Placed): Promise<boolean> {
     const { simulation } = this.store.get();
-    const before = this.bodies.placeOf(body);
+    const before = this.placeOf(body);
     if (!simulation || !before) return Promise.resolve(false);
+    const isTurn = Math.hypot(place.x - before.x, place.y - before.y) < STANDS_M;
+    const wanted = this.isObject(body) ? asObject(place, before, isTurn) : place;
     return this.do({
-      name: `move ${body}`,
-      apply: () => this.api.placeBody(simulation, body, place),
-      revert: () => this.api.placeBody(simulation, body, before),
+      name: `${isTurn ? "turn" : "move"} ${body}`,
+      apply: () => this.put(simulation, body, wanted),
+      revert: () => this.put(simulation, body, before),
+    });
+  }
+
+  // Counter-clockwise, in radians.
+  turn(body: string, angle: number): Promise<boolean> {
+    const before = this.placeOf(body);
+    if (!before) return Promise.resolve(false);
+    return this.place(body, { x: before.x, y: before.y, yaw: before.yaw + angle });
+  }
+
+  // What comes is chosen, so that it can be put where it belongs.
+  async addObject(object: NewObject): Promise<boolean> {
+    const { simulation } = this.store.get();
+    if (!simulation) return false;
+    let { name, place } = object;
+    const isThere = await this.do({
+      name: `add ${object.model ?? object.copy_of}`,
+      apply: async () => {
+        name = await this.api.addObject(simulation, { ...object, name, place });
+      },
+      revert: async () => {
+        place = this.placeOf(name) ?? place; // it comes back where it stood
+        await this.api.removeObject(simulation, name);
+      },
+    });
+    if (isThere) this.choose(name);
+    return isThere;
+  }
+
+  removeObject(object: string): Promise<boolean> {
+    const { simulation } = this.store.get();
+    const place = this.placeOf(object);
+    if (!simulation || !place) return Promise.resolve(false);
+    return this.do({
+      name: `remove ${object}`,
+      apply: () => this.api.removeObject(simulation, object),
+      revert: async () => void (await this.api.addObject(simulation, { name: object, copy_of: object, place })),
     });
   }
 
@@ -74,7 +134,7 @@ export class EditControl {
         name = await this.api.addRobot(simulation, { ...robot, name, place }, isAvatar);
       },
       revert: async () => {
-        place = this.bodies.placeOf(name) ?? place; // it comes back where it stood
+        place = this.placeOf(name) ?? place; // it comes back where it stood
         await this.api.removeRobot(simulation, name);
       },
     });
@@ -84,7 +144,7 @@ export class EditControl {
   remove(robot: string): Promise<boolean> {
     const { simulation, status, scene } = this.store.get();
     const known = status?.robots.find(({ name }) => name === robot);
-    const place = this.bodies.placeOf(robot);
+    const place = this.placeOf(robot);
     if (!simulation || !known || !place) return Promise.resolve(false);
     const { model, behaviour } = known;
     const isAvatar = scene?.bodies.some(({ name, isAvatar }) => name === robot && isAvatar) === true;
@@ -110,6 +170,21 @@ export class EditControl {
     this.takenBack.pop();
     this.done.push(edit);
     this.tell();
+  }
+
+  private async put(simulation: string, body: string, place: BodyPlace): Promise<void> {
+    await this.api.placeBody(simulation, body, place);
+    this.unseen = { body, place };
+  }
+
+  private placeOf(body: string): (BodyPlace & { z: number }) | null {
+    const seen = this.bodies.placeOf(body);
+    return seen && this.unseen?.body === body ? { ...seen, ...this.unseen.place } : seen;
+  }
+
+  private isObject(body: string): boolean {
+    const known = this.store.get().scene?.bodies.find(({ name }) => name === body);
+    return known !== undefined && !known.isRobot && !known.isAvatar;
   }
 
   private async do(edit: Edit): Promise<boolean> {
@@ -156,4 +231,10 @@ export class EditControl {
       this.patch({ isBusy: false });
     }
   }
+}
+
+// An object lies as it lay; turned on the spot, it stays at its height, too.
+function asObject(place: Placed, before: BodyPlace, isTurn: boolean): BodyPlace {
+  const { roll = 0, pitch = 0, z } = before;
+  return { ...place, roll, pitch, ...(isTurn && z !== undefined && { z }) };
 }

@@ -39,10 +39,16 @@ export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) =
   return Object.hasOwn(COMMANDS, key.toLowerCase()) ? COMMANDS[key.toLowerCase()]! : null;
 }
 
-// Taking back what was changed, and taking it away.
+const TURN = Math.PI / 12;
+
+// Taking back what was changed, turning it, and taking it away.
 export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): ((app: App) => void) | null {
   if (altKey) return null;
-  if (!ctrlKey && !metaKey) return key === "Delete" ? (app) => app.removeSelected() : null;
+  if (!ctrlKey && !metaKey) {
+    if (key === "[") return (app) => app.turnSelected(TURN);
+    if (key === "]") return (app) => app.turnSelected(-TURN);
+    return key === "Delete" ? (app) => app.removeSelected() : null;
+  }
   const lower = key.toLowerCase();
   if (lower === "y" || (lower === "z" && shiftKey)) return (app) => app.redo();
   return lower === "z" ? (app) => app.undo() : null;

@@ -1,18 +1,32 @@
-// What changes who stands in a simulation that stands still.
+// What changes who stands in a simulation that stands still, and what lies about.
 import type { App } from "../app/App";
 import type { Behaviours } from "../api/SetUpApi";
+import type { State } from "../state/State";
+import { shallowEqual } from "../state/Store";
+import { chosenOf, copiesOf } from "../state/editing";
 import { EMPTY_SCENARIO, newRobot } from "../state/scenario";
+import type { Option } from "../setup/fields";
 import { choiceField } from "../setup/fields";
 import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
 
+const TURN = Math.PI / 12;
+
+// Of what is no robot; a robot's value is its model.
+const OBJECT = "object ";
+const COPY = "copy ";
+
 export function createEditPanel(app: App): HTMLElement {
-  const model = choiceField("Model", () => {});
+  const model = choiceField("Model", () => offerBehaviour());
   const behaviour = choiceField("Behaviour", () => {});
   const [modelSelect, behaviourSelect] = [model, behaviour].map((each) => each.element.querySelector("select")!);
-  const add = button("Add", () => void addRobot(app, modelSelect!.value, behaviourSelect!.value));
+  const add = button("Add", () => void addChosen(app, modelSelect!.value, behaviourSelect!.value));
   const remove = button("Remove", () => app.removeSelected());
+  const turns = [
+    pictureButton("Turn left", "turnLeft", () => app.turnSelected(TURN)),
+    pictureButton("Turn right", "turnRight", () => app.turnSelected(-TURN)),
+  ];
   const undo = pictureButton("Undo", "undo", () => app.undo());
   const redo = pictureButton("Redo", "redo", () => app.redo());
   const hint = element("p", { class: "hint" });
@@ -20,16 +34,21 @@ export function createEditPanel(app: App): HTMLElement {
     "section",
     { class: "card edit", "aria-label": "Edit" },
     element("div", { class: "field-pair" }, model.element, behaviour.element, add),
-    element("div", { class: "edit-buttons" }, undo, redo, remove),
+    element("div", { class: "edit-buttons" }, undo, redo, ...turns, remove),
     hint,
   );
+  const offerBehaviour = () => (behaviourSelect!.disabled = !isRobot(modelSelect!.value));
 
   app.store.watch(
-    ({ editing }) => editing?.models,
+    modelsOf,
     (models) => {
-      model.offer((models ?? []).map(({ name }) => ({ value: name, label: name })));
-      modelSelect!.selectedIndex = 0;
+      const before = modelSelect!.value;
+      model.offer(models);
+      modelSelect!.value = before;
+      if (modelSelect!.selectedIndex < 0) modelSelect!.selectedIndex = 0;
+      offerBehaviour();
     },
+    (a, b) => a.length === b.length && a.every((option, i) => shallowEqual(option, b[i])),
   );
   app.store.watch(
     ({ editing }) => editing?.behaviours ?? null,
@@ -45,21 +64,18 @@ export function createEditPanel(app: App): HTMLElement {
       if (!editing) return;
       name(undo, "Undo", editing.undo.at(-1), editing.isBusy);
       name(redo, "Redo", editing.redo.at(-1), editing.isBusy);
-      add.disabled = editing.isBusy || editing.models.length === 0;
+      add.disabled = editing.isBusy || editing.models.length + editing.objects.length === 0;
     },
   );
-  app.store.watch(
-    ({ selection }) => selection,
-    (selection) => {
-      remove.disabled = selection === null;
-      setText(
-        hint,
-        selection === null
-          ? "Drag what can move. Click a robot to choose it, then the floor to put it there."
-          : `Click the floor to put ${selection} there; drag its arrow's tip to turn it.`,
-      );
-    },
-  );
+  app.store.watch(chosenOf, (chosen) => {
+    for (const each of [remove, ...turns]) each.disabled = chosen === null;
+    setText(
+      hint,
+      chosen === null
+        ? "Drag what can move. Click a robot or an object to choose it, then the floor to put it there."
+        : `Click the floor to put ${chosen} there; drag its arrow's tip to turn it.`,
+    );
+  });
   return panel;
 }
 
@@ -68,7 +84,7 @@ function button(label: string, onclick: () => void): HTMLButtonElement {
 }
 
 function pictureButton(label: string, picture: IconName, onclick: () => void): HTMLButtonElement {
-  return element("button", { class: "button", type: "button", "aria-label": label, onclick }, icon(picture));
+  return element("button", { class: "button", type: "button", "aria-label": label, title: label, onclick }, icon(picture));
 }
 
 function name(button: HTMLButtonElement, verb: string, edit: string | undefined, isBusy: boolean): void {
@@ -76,9 +92,32 @@ function name(button: HTMLButtonElement, verb: string, edit: string | undefined,
   button.title = edit === undefined ? verb : `${verb}: ${edit}`;
 }
 
+function isRobot(choice: string): boolean {
+  return !choice.startsWith(OBJECT) && !choice.startsWith(COPY);
+}
+
+function modelsOf({ editing, scene }: State): Option[] {
+  if (!editing) return [];
+  return [
+    ...editing.models.map(({ name }) => ({ value: name, label: name, group: "Robots" })),
+    ...editing.objects.map((name) => ({ value: OBJECT + name, label: name, group: "Objects" })),
+    ...copiesOf(scene).map((name) => ({ value: COPY + name, label: `like ${name}`, group: "One more of these" })),
+  ];
+}
+
 function optionsOf(behaviours: Behaviours | null) {
   const names = [...new Set((behaviours?.offers ?? []).map((offer) => offer.name))].sort();
   return [{ value: "", label: "None" }, ...names.map((value) => ({ value, label: value }))];
+}
+
+async function addChosen(app: App, choice: string, behaviour: string): Promise<void> {
+  if (choice.startsWith(OBJECT)) {
+    await app.edits.addObject({ name: "", model: choice.slice(OBJECT.length), place: null });
+  } else if (choice.startsWith(COPY)) {
+    await app.edits.addObject({ name: "", copy_of: choice.slice(COPY.length), place: null });
+  } else {
+    await addRobot(app, choice, behaviour);
+  }
 }
 
 async function addRobot(app: App, model: string, behaviour: string): Promise<void> {

@@ -48,7 +48,8 @@ const KEYS: [heading: string, lines: Line[]][] = [
     "Edit",
     [
       [["Ctrl Z"], "Take back the last change (Ctrl Shift Z: do it again)"],
-      [["Delete"], "Remove the selected robot"],
+      [["Delete"], "Remove the selected robot or object"],
+      [["[", "]"], "Turn it by 15° to the left or right"],
     ],
   ],
   [
@@ -66,8 +67,8 @@ const GESTURES: [gesture: string, meaning: string][] = [
   ["Right drag, or two fingers", "Move the view"],
   ["Wheel, or pinch", "Zoom to the pointer"],
   ["Click a robot", "Select it"],
-  ["Drag a robot, while editing", "Move it; its arrow's tip turns it"],
-  ["Click the floor, while editing", "Put the selected robot there"],
+  ["Drag a robot or object, while editing", "Move it; its arrow's tip turns it"],
+  ["Click the floor, while editing", "Put there what is selected"],
 ];
 
 export function createHelpSheet(app: App): HTMLElement {

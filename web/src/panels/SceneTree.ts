@@ -1,7 +1,7 @@
 // The list at the side: the robots and how they are doing, and what else is in the world.
 import type { App } from "../app/App";
 import type { RobotStatus } from "../api/status";
-import type { SceneDescription } from "../api/scene";
+import type { SceneBody, SceneDescription } from "../api/scene";
 import { robotsOf } from "../api/scene";
 import { shallowEqual } from "../state/Store";
 import { element, setText } from "../ui/element";
@@ -48,9 +48,13 @@ export function createSceneTree(app: App): HTMLElement {
   app.store.watch(
     ({ scene }) => scene,
     (scene) => {
-      showWorld(world, scene);
+      showWorld(app, world, scene);
       updateRows(app, robots, rows, app.store.get().status?.robots ?? []); // who is an avatar
     },
+  );
+  app.store.watch(
+    ({ editing }) => `${editing !== null} ${editing?.chosen}`,
+    () => showWorld(app, world, app.store.get().scene),
   );
   return tree;
 }
@@ -123,11 +127,24 @@ function updateRows(app: App, list: HTMLElement, rows: Map<string, RobotRow>, st
   }
 }
 
-function showWorld(details: HTMLElement, scene: SceneDescription | null): void {
+function showWorld(app: App, details: HTMLElement, scene: SceneDescription | null): void {
   const bodies = scene?.bodies.filter(({ isRobot, isAvatar }) => !isRobot && !isAvatar) ?? [];
   details.hidden = bodies.length === 0;
   details.replaceChildren(
     element("summary", {}, `World: ${count(bodies.length, "object")}`),
-    element("ul", {}, ...bodies.map(({ name }) => element("li", {}, name))),
+    element("ul", {}, ...bodies.map((body) => element("li", {}, objectEntry(app, body)))),
   );
+}
+
+// While one edits, what can be moved can be chosen here.
+function objectEntry(app: App, { name, isFixed }: SceneBody): string | HTMLElement {
+  const { editing } = app.store.get();
+  if (!editing || isFixed) return name;
+  const entry = element(
+    "button",
+    { class: "button plain small", type: "button", "data-object": name, onclick: () => app.pick(name) },
+    name,
+  );
+  entry.setAttribute("aria-pressed", String(editing.chosen === name));
+  return entry;
 }

@@ -45,7 +45,9 @@ beforeEach(() => {
   host.getBoundingClientRect = () => new DOMRect(0, 0, SIZE, SIZE);
   host.setPointerCapture = () => {};
   const floor = body("floor", { model: "floor", isRobot: false, isStatic: true, pose: [0, 0, -0.2, ...HERE.slice(3)] });
-  bodies = new BodyLayer(scene({ bodies: [body("a", { model: "cart" }), floor] }));
+  const shelf = body("shelf", { model: "cart", isRobot: false, isStatic: true, isFixed: false, pose: [-4, 0, 0, ...HERE.slice(3)] });
+  const lying = body("box", { model: "cart", isRobot: false, pose: [0, 4, 0, Math.SQRT1_2, 0, 0, Math.SQRT1_2] });
+  bodies = new BodyLayer(scene({ bodies: [body("a", { model: "cart" }), floor, shelf, lying] }));
   bodies.addModel("cart", box(1));
   bodies.addModel("floor", box(100));
   bodies.group.updateMatrixWorld(true);
@@ -122,6 +124,35 @@ test("a click on the floor puts the selected robot there, heading as before", ()
   selection = "a";
   arranger.placeAt({ x: SIZE / 2 + 3 * PX, y: SIZE / 2 });
   expect(onPlace).toHaveBeenCalledWith("a", { x: expect.closeTo(3, 6), y: expect.closeTo(0, 6), yaw: 0 });
+});
+
+test("an object is chosen by a press, and keeps lying as it lies when it is turned", () => {
+  pointer("pointerdown", 0, 4);
+  pointer("pointerup", 0, 4);
+  expect(onPick).toHaveBeenCalledWith("box");
+  selection = "box";
+  arranger.showHandle();
+  const tip = arranger.handle.tip!;
+  pointer("pointerdown", tip.x, tip.y);
+  pointer("pointermove", 0, 7);
+  const [x, y, z] = [new Vector3(), new Vector3(), new Vector3()];
+  bodies.poseOf(3)!.extractBasis(x, y, z);
+  expect(y.z).toBeCloseTo(1, 6); // rolled by a quarter turn, as before
+  expect(x.y).toBeCloseTo(1, 6);
+  pointer("pointerup", 0, 7);
+  expect(onPlace).toHaveBeenCalledWith("box", expect.objectContaining({ yaw: expect.closeTo(Math.PI / 2, 6) }));
+});
+
+test("what stands firm is dragged only once it was chosen", () => {
+  pointer("pointerdown", -4, 0);
+  pointer("pointermove", -4, 2);
+  pointer("pointerup", -4, 2);
+  expect(onPlace).not.toHaveBeenCalled();
+  selection = "shelf";
+  pointer("pointerdown", -4, 0);
+  pointer("pointermove", -4, 2);
+  pointer("pointerup", -4, 2);
+  expect(onPlace).toHaveBeenCalledWith("shelf", { x: expect.closeTo(-4, 6), y: expect.closeTo(2, 6), yaw: 0 });
 });
 
 test("while nothing may be moved it does nothing", () => {

@@ -1,6 +1,6 @@
 // Moves what stands in the world by hand, while that is allowed: drag a body over the floor, drag the
-// tip of the selected robot's arrow to turn it, click on the floor to put it there. Every other
-// gesture is the view's.
+// tip of the chosen one's arrow to turn it, click on the floor to put it there. Every other gesture
+// is the view's.
 import type { Camera } from "three";
 import { Matrix4, Plane, Vector3 } from "three";
 import type { SceneBody } from "../api/scene";
@@ -24,7 +24,7 @@ export interface ArrangerView {
 }
 
 export interface ArrangerEvents {
-  onPick(robot: string): void;
+  onPick(body: string): void;
   // Resolves to whether it stands there now.
   onPlace(body: string, place: Placed): Promise<boolean>;
 }
@@ -97,7 +97,8 @@ export class Arranger {
     const body = turns ? this.selected() : (bodies?.pick(this.ray(start)) ?? null);
     const index = body && bodies ? bodies.indexOf(body.name) : -1;
     const before = bodies?.poseOf(index)?.clone();
-    if (!body || !before || body.isStatic) return;
+    // What stands firm is taken hold of once it was chosen.
+    if (!body || !before || body.isFixed || (body.isStatic && body.name !== this.view.selection())) return;
     const grip = this.onPlane(start, before.elements[14]!);
     if (!grip) return;
     event.stopPropagation();
@@ -125,11 +126,8 @@ export class Arranger {
     this.drag = null;
     if (!drag) return;
     event.stopPropagation();
-    const { name, isRobot, isAvatar } = drag.body;
-    if (!drag.isMoved) {
-      if (isRobot || isAvatar) this.events.onPick(name);
-      return;
-    }
+    const { name } = drag.body;
+    if (!drag.isMoved) return this.events.onPick(name);
     void this.events.onPlace(name, drag.place).then((stands) => stands || this.giveUp());
   }
 
@@ -180,7 +178,8 @@ function turned(before: Matrix4, point: Vector3): Placed {
   return { x, y, yaw: Math.atan2(point.y - y, point.x - x) };
 }
 
-// world_from_body there, as high as before.
+// world_from_body there, as high and as tilted as before.
 function atPlace(before: Matrix4, { x, y, yaw }: Placed): Matrix4 {
-  return new Matrix4().makeRotationZ(yaw).setPosition(x, y, before.elements[14]!);
+  const turn = new Matrix4().makeRotationZ(yaw - placeOf(before).yaw);
+  return turn.multiply(before).setPosition(x, y, before.elements[14]!);
 }

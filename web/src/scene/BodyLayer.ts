@@ -151,7 +151,7 @@ export class BodyLayer {
     bodies.forEach((body, instance) => {
       const placed = this.placedPart(part, body, mesh, instance);
       place(placed);
-      if (this.scene.bodies[body]!.isStatic) return;
+      if (this.scene.bodies[body]!.isFixed) return;
       this.moving.push(placed);
       mesh.frustumCulled = false;
     });

@@ -9,12 +9,14 @@ export class RobotWatch {
   readonly ring = new SelectionRing();
   robots: RobotPlaces | null = null; // of the present scene
   private robot: string | null = null;
+  private object: string | null = null; // that is chosen to be moved
   private mode: ViewMode = "orbit";
 
   constructor(private readonly rig: CameraRig) {}
 
+  // What is to be moved by hand.
   get selection(): string | null {
-    return this.robot;
+    return this.object ?? this.robot;
   }
 
   private get isEye(): boolean {
@@ -23,7 +25,8 @@ export class RobotWatch {
 
   // With every picture.
   showRing(): void {
-    const place = this.robot === null || this.isEye ? null : this.robots?.ringOf(this.robot);
+    const { selection } = this;
+    const place = selection === null || this.isEye ? null : this.robots?.ringOf(selection);
     if (place) this.ring.place(place.position, place.radius);
     else this.ring.hide();
   }
@@ -32,6 +35,10 @@ export class RobotWatch {
     if (robot !== this.robot) this.rig.follow(null); // the next one is flown to
     this.robot = robot;
     this.update();
+  }
+
+  choose(object: string | null): void {
+    this.object = object;
   }
 
   setMode(mode: ViewMode): void {

@@ -153,6 +153,12 @@ export class World3D {
     this.loop.request();
   }
 
+  // The object that is to be moved by hand.
+  choose(object: string | null): void {
+    this.watch.choose(object);
+    this.loop.request();
+  }
+
   setViewMode(mode: ViewMode): void {
     this.watch.setMode(mode);
     this.loop.request();
@@ -207,6 +213,12 @@ export class World3D {
   // world_from_robot as last reported and its simulated time; null while unknown.
   latestPose(robot: string): { pose: Matrix4; stamp: number } | null {
     return this.poses.latestOf(robot);
+  }
+
+  // world_from_body of whatever stands there; null while unknown.
+  bodyPose(body: string): Matrix4 | null {
+    const index = this.bodies?.indexOf(body) ?? -1;
+    return this.poses.latestOf(body)?.pose ?? this.bodies?.poseOf(index) ?? null;
   }
 
   // Where a robot's middle is drawn on the page; null when it is not in the picture.
@@ -313,8 +325,18 @@ export class World3D {
 
   private click(place: ScreenPlace): void {
     const robot = this.robotAt(place);
-    if (robot === null && this.arranger.isOn && this.watch.selection !== null) this.arranger.placeAt(place);
+    const firm = robot === null ? this.firmAt(place) : null;
+    if (firm !== null) this.events.onPick(firm);
+    else if (robot === null && this.arranger.isOn && this.watch.selection !== null) this.arranger.placeAt(place);
     else this.events.onPick(robot);
+  }
+
+  // What stands firm and was put there by hand, so that it can be taken away again.
+  private firmAt(place: ScreenPlace): string | null {
+    if (!this.arranger.isOn) return null;
+    const ray = rayThrough(place, this.host.getBoundingClientRect(), this.rig.camera);
+    const hit = this.bodies?.pick(ray);
+    return hit?.isStatic && !hit.isFixed && hit.name !== this.watch.selection ? hit.name : null;
   }
 
   private robotAt(place: ScreenPlace): string | null {

@@ -8,6 +8,7 @@ export function body(name: string, more: Partial<SceneBody> = {}): SceneBody {
     name,
     model: "cart-1",
     isStatic: false,
+    isFixed: more.isStatic === true,
     isRobot: true,
     isAvatar: false,
     pose: HERE,

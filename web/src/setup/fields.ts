@@ -66,6 +66,7 @@ export function checkField(label: string, take: (value: boolean) => void): Field
 export interface Option {
   value: string;
   label: string;
+  group?: string; // under which heading it stands; options of one group follow each other
 }
 
 export interface ChoiceField extends Field<string> {
@@ -84,10 +85,22 @@ export function choiceField(label: string, take: (value: string) => void): Choic
   return {
     ...field,
     offer: (options) => {
-      select.replaceChildren(...options.map(({ value, label }) => new Option(label, value)));
+      select.replaceChildren(...grouped(options));
       select.value = shown;
     },
   };
+}
+
+function grouped(options: Option[]): HTMLElement[] {
+  const children: HTMLElement[] = [];
+  for (const { value, label, group } of options) {
+    const last = children.at(-1);
+    const choice = new Option(label, value);
+    if (group === undefined) children.push(choice);
+    else if (last instanceof HTMLOptGroupElement && last.label === group) last.append(choice);
+    else children.push(element("optgroup", { label: group }, choice));
+  }
+  return children;
 }
 
 const OTHER = "\0other"; // no name holds it

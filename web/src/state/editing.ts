@@ -1,17 +1,42 @@
 // Editing a simulation that stands still: what can be added, done again and taken back.
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
+import type { SceneDescription } from "../api/scene";
 import { mayAct } from "./people";
 import type { State } from "./State";
 
 export interface Editing {
   models: ModelChoice[];
+  objects: string[]; // models of things that are no robots
+  chosen: string | null; // the object that is to be moved, turned or removed; null: the selected robot
   behaviours: Behaviours | null; // null: not known yet
   undo: string[]; // what each edit did, the newest last
   redo: string[];
   isBusy: boolean;
 }
 
-export const FIRST_EDITING: Editing = { models: [], behaviours: null, undo: [], redo: [], isBusy: false };
+export const FIRST_EDITING: Editing = {
+  models: [],
+  objects: [],
+  chosen: null,
+  behaviours: null,
+  undo: [],
+  redo: [],
+  isBusy: false,
+};
+
+// What can be taken hold of by hand, but for robots: the name of one body of each model.
+export function copiesOf(scene: SceneDescription | null): string[] {
+  const names = new Map<string, string>(); // by model
+  for (const { name, model, isRobot, isAvatar, isFixed } of scene?.bodies ?? []) {
+    if (!isRobot && !isAvatar && !isFixed && !names.has(model)) names.set(model, name);
+  }
+  return [...names.values()].sort();
+}
+
+// What edits are about: the chosen object, or else the selected robot.
+export function chosenOf({ editing, selection }: State): string | null {
+  return editing?.chosen ?? selection;
+}
 
 // What runs is paused first.
 export function canEdit({ abilities, replay, status, setUp, people }: State): boolean {

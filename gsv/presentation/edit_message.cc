@@ -1,0 +1,85 @@
+#include "gsv/presentation/edit_message.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include "gsv/messages/time.h"
+
+namespace gsv::presentation {
+namespace {
+
+using simulation::Edit;
+
+constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 62;
+constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edit::Kind::kAddObject,
+                              Edit::Kind::kRemove, Edit::Kind::kPlace};
+constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
+                                  Edit::Moment::kAmidTurns};
+constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
+
+const char* ToString(model::Movement movement) {
+  return movement == model::Movement::kRigid ? "rigid" : "planar";
+}
+
+// Which of them has that name.
+template <typename Value, std::size_t kCount>
+std::optional<Value> Named(const std::string& name, const Value (&values)[kCount]) {
+  const auto found = std::find_if(std::begin(values), std::end(values),
+                                  [&](Value value) { return name == ToString(value); });
+  return found == std::end(values) ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+messages::gsv_msgs::Edit EditMessage(const simulation::Edit& edit) {
+  messages::gsv_msgs::Edit message;
+  message.stamp = messages::ToMessage(edit.time);
+  message.step = static_cast<std::uint64_t>(edit.step);
+  message.kind = ToString(edit.kind);
+  message.moment = ToString(edit.moment);
+  message.halt = edit.halt;
+  message.body = edit.body;
+  message.model = edit.model;
+  message.copy_of = edit.copy_of;
+  message.behaviour = edit.behaviour;
+  if (edit.movement) message.movement = ToString(*edit.movement);
+  const auto& [p, q] = edit.world_from_body;
+  message.pose.position = {p.x, p.y, p.z};
+  message.pose.orientation.x = q.x;
+  message.pose.orientation.y = q.y;
+  message.pose.orientation.z = q.z;
+  message.pose.orientation.w = q.w;
+  message.on_ground = edit.on_ground;
+  return message;
+}
+
+base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message) {
+  const auto& [p, q] = message.pose;
+  const auto kind = Named(message.kind, kKinds);
+  const auto moment = Named(message.moment, kMoments);
+  simulation::Edit edit;
+  edit.movement = Named(message.movement, kMovements);
+  edit.world_from_body = {{p.x, p.y, p.z}, {q.w, q.x, q.y, q.z}};
+  const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  if (!kind || !moment || message.body.empty() || message.step > kMostSteps ||
+      (!edit.movement && !message.movement.empty()) || !geometry::IsFinite(edit.world_from_body) ||
+      !(std::abs(length - 1) < 1e-6)) {
+    return base::Fail(base::ErrorCode::kCorrupt,
+                      "the recording has an edit that nobody can have made", message.body);
+  }
+  edit.step = static_cast<std::int64_t>(message.step);
+  edit.time = messages::ToSimTime(message.stamp);
+  edit.kind = *kind;
+  edit.moment = *moment;
+  edit.halt = message.halt;
+  edit.body = message.body;
+  edit.model = message.model;
+  edit.copy_of = message.copy_of;
+  edit.behaviour = message.behaviour;
+  edit.on_ground = message.on_ground;
+  return edit;
+}
+
+}  // namespace gsv::presentation

@@ -1,0 +1,217 @@
+// Things are put into a paused simulation, turned and taken away, and the recording of it all is
+// simulated again.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
+import { readTopic } from "./recorded_poses.mjs";
+import { program, startServer } from "./server.mjs";
+import { ask, phaseIs, settled, until } from "./viewing.mjs";
+
+const RUN = ["playground", "--robot", "pebble@0,-1.5", "--behaviour", "wander"];
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-edited-"));
+const recording = path.join(folder, "edited.mcap");
+
+let server;
+let browser;
+let page;
+let faults;
+
+before(async () => {
+  server = await startServer([...RUN, "--record", recording]);
+  browser = await openBrowser({ width: 1100, height: 700 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  fs.rmSync(folder, { recursive: true, force: true });
+});
+
+const press = (name) => page.getByRole("button", { name, exact: true }).click();
+const body = async (name) => (await ask(page, "/scene")).bodies.find((each) => each.name === name);
+const place = async (name) => (await body(name))?.pose;
+const onScreen = (name) => page.evaluate((name) => window.gsv.robotScreenPosition(name), name);
+const model = () => page.getByRole("region", { name: "Edit" }).getByLabel("Model", { exact: true });
+const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+const yawOf = ([, , , x, y, z, w]) => Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+
+// The page shows what the server has.
+async function shown(name, isThere = true) {
+  await page.locator(".world-tree li", { hasText: name }).waitFor({ state: isThere ? "attached" : "detached" });
+  await settled(page);
+}
+
+// What both buttons offer: it differs after each press, also after one of two equal edits.
+const offered = () =>
+  page.evaluate(() => ["Undo", "Redo"].map((each) => document.querySelector(`.edit [aria-label="${each}"]`).title).join());
+
+async function pressAsOftenAsItGoes(name) {
+  const button = page.locator(`.edit [aria-label="${name}"]`);
+  for (let times = 0; ; ++times) {
+    await settled(page);
+    if (await button.isDisabled()) return times;
+    const before = await offered();
+    await button.click();
+    await until(async () => (await offered()) !== before, "what comes of the press");
+  }
+}
+
+test("a thing that is added stands there and is chosen", async () => {
+  await phaseIs(page, "running");
+  await press("Edit");
+  await phaseIs(page, "paused");
+  await page.locator(".edit option", { hasText: "crate" }).waitFor({ state: "attached" });
+  await page.keyboard.press("t");
+  await settled(page);
+  await model().selectOption({ label: "crate" });
+  await press("Add");
+  await shown("crate");
+  assert.equal((await body("crate")).is_fixed, false);
+  await page.getByText("Click the floor to put crate there").waitFor();
+});
+
+test("it is turned by its arrow's tip, and by a key", async () => {
+  await page.waitForFunction(() => window.gsv.turnHandle() !== null);
+  const tip = await page.evaluate(() => window.gsv.turnHandle());
+  const middle = await onScreen("crate");
+  await page.mouse.move(tip.x, tip.y);
+  await page.mouse.down();
+  await page.mouse.move(middle.x + 40, middle.y - 40, { steps: 3 });
+  await page.mouse.move(middle.x, middle.y - 60, { steps: 3 }); // y is upwards in the picture
+  await page.mouse.up();
+  await until(async () => Math.abs(yawOf(await place("crate")) - Math.PI / 2) < 0.15, "the turned crate");
+  const turned = yawOf(await place("crate"));
+  await page.waitForFunction(() => !document.querySelector('.edit [aria-label="Undo"]').disabled);
+  await settled(page);
+  await page.keyboard.press("]");
+  await until(async () => Math.abs(yawOf(await place("crate")) - turned + Math.PI / 12) < 1e-6, "15° less");
+});
+
+test("a click on the floor puts it there, which another viewer sees", async () => {
+  const { page: other } = await openPage(browser, server.url);
+  await waitUntilDrawn(other);
+  const at = await onScreen("crate");
+  const before = await place("crate");
+  await page.mouse.click(at.x + 70, at.y - 50);
+  await until(async () => distance(await place("crate"), before) > 0.5, "the moved crate");
+  await settled(page);
+  const now = await onScreen("crate");
+  assert.ok(Math.hypot(now.x - at.x - 70, now.y - at.y + 50) < 12, "it stands where the click was");
+  await other.locator(".world-tree li", { hasText: "crate" }).waitFor({ state: "attached" });
+  await settled(other);
+  const there = await other.evaluate(() => window.gsv.robotScreenPosition("crate"));
+  assert.notEqual(there, null);
+  await other.close();
+});
+
+test("what is removed comes back; all is taken back and done again", async () => {
+  await model().selectOption({ label: "can" });
+  await press("Add");
+  await shown("can");
+  const stood = await place("can");
+  await page.locator(".world-tree summary").click();
+  await page.locator('[data-object="crate"]').click();
+  await page.getByText("Click the floor to put crate there").waitFor();
+  await page.keyboard.press("r");
+  await settled(page);
+  await keepPicture(page, "edit-objects");
+  await page.locator('[data-object="can"]').click();
+  await page.keyboard.press("Delete");
+  await shown("can", false);
+  await press("Undo");
+  await shown("can");
+  assert.ok(distance(await place("can"), stood) < 1e-6);
+  const crate = await place("crate");
+  assert.equal(await pressAsOftenAsItGoes("Undo"), 5); // the can, a move, two turns, the crate
+  await shown("crate", false);
+  assert.equal(await body("can"), undefined);
+  assert.equal(await pressAsOftenAsItGoes("Redo"), 6);
+  assert.ok(distance(await place("crate"), crate) < 1e-6);
+  assert.ok(Math.abs(yawOf(await place("crate")) - yawOf(crate)) < 1e-6);
+  assert.equal(await body("can"), undefined); // its removal was done again as well
+  await press("Undo");
+  await shown("can");
+});
+
+test("what cannot be is refused with a sentence", async () => {
+  const refusal = async (what) => (await ask(page, "/objects", what)).error;
+  assert.match(await refusal({ model: "can", x: 5.1, y: 0 }), /no room at \(5\.1, 0\): .* "east_wall"/);
+  assert.match(await refusal({ model: "unicorn", x: 1, y: 1 }), /unicorn/);
+  assert.match(await refusal({ model: "can", name: "crate", x: 1, y: 1 }), /of that name is there already/);
+  assert.match(await refusal({ model: "can", x: "left", y: 1 }), /./);
+  assert.match(await refusal({ model: "pebble", x: 1, y: 1 }), /as a robot/);
+  assert.match((await ask(page, "/bodies/east_wall/place", { x: 1, y: 1 })).error, /fixed to the world/);
+});
+
+test("when it goes on nothing can be changed", async () => {
+  await press("Resume");
+  await phaseIs(page, "running");
+  const then = await page.evaluate(() => window.gsv.time);
+  assert.match((await ask(page, "/objects", { model: "can", x: 1, y: 1 })).error, /must be created or paused/);
+  await page.waitForFunction((then) => window.gsv.time > then + 1, then);
+  assert.deepEqual(faults.filter((fault) => !/status of 4\d\d/.test(fault)), []);
+});
+
+test("the recording holds the edits, and simulated again it is the same", async () => {
+  await browser.close();
+  browser = undefined;
+  await server.stop();
+  server = undefined;
+  const edits = (await readTopic(recording, "/gsv/edits")).map(({ message }) => message);
+  assert.deepEqual(
+    edits.slice(0, 4).map(({ kind, body }) => `${kind} ${body}`),
+    ["add_object crate", "place crate", "place crate", "place crate"],
+  );
+  assert.match(edits[0].model, /crate\/model\.sdf$/);
+  assert.ok(edits.some(({ copy_of }) => copy_of === "can"));
+  const again = spawnSync(program(), ["replay", recording, "--resimulate", "--commands", "--json"], { encoding: "utf8" });
+  assert.equal(JSON.parse(again.stdout).equal, true, again.stdout + again.stderr);
+  assert.equal(again.status, 0);
+});
+
+// Past the page: steps are counted, so that what behaviours decide can be repeated, too.
+test("in lockstep a run with live behaviours repeats its edits to the bit", async () => {
+  const file = path.join(folder, "lockstep.mcap");
+  server = await startServer([...RUN, "--lockstep", "--record", file]);
+  const api = `${server.url}api/simulations/simulation`;
+  const post = async (what, content = {}) => {
+    const headers = { "content-type": "application/json" };
+    const answer = await fetch(`${api}${what}`, { method: "POST", headers, body: JSON.stringify(content) });
+    const text = await answer.text();
+    assert.ok(answer.ok, `${what}: ${text}`);
+    return JSON.parse(text);
+  };
+  const phase = async () => (await (await fetch(api)).json()).phase;
+  const halt = () => until(async () => (await phase()) === "paused", "the pause");
+  await until(async () => (await phase()) === "running", "the run");
+  await post("/pause"); // somewhere amid the behaviours' turns
+  await post("/objects", { model: "can", x: 1, y: 0 });
+  await post("/step", { count: 100 });
+  await halt();
+  await post("/bodies/can/place", { x: 0, y: 1, roll: 1.5 });
+  await post("/robots", { model: "rover4", name: "late", x: -1, y: 0, behaviour: "wander" });
+  await post("/objects", { copy_of: "can", x: 1, y: 1, yaw: 1 });
+  await post("/step", { count: 100 });
+  await halt();
+  await fetch(`${api}/objects/can`, { method: "DELETE" });
+  await post("/resume");
+  await post("/pause");
+  await post("/bodies/can_2/place", { x: -1, y: -1 });
+  await post("/step", { count: 50 });
+  await halt();
+  await fetch(`${api}/robots/late`, { method: "DELETE" });
+  await post("/step", { count: 50 });
+  await halt();
+  await server.stop();
+  server = undefined;
+  const again = spawnSync(program(), ["replay", file, "--resimulate", "--json"], { encoding: "utf8" });
+  assert.equal(JSON.parse(again.stdout || "{}").equal, true, again.stdout + again.stderr);
+  assert.equal(again.status, 0);
+});
