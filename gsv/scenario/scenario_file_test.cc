@@ -172,6 +172,13 @@ TEST(ScenarioFile, ANumberInQuotesIsAText) {
                           "\"true\""));
 }
 
+TEST(ScenarioFile, ARecordingIsNamedNotWished) {
+  EXPECT_THAT(Complaints("record: true\n"),
+              ElementsAre("room.yaml:1:9: record must be a file, NAME.mcap, or a folder, found "
+                          "\"true\""));
+  EXPECT_THAT(Complaints("record: truth\n"), ElementsAre());
+}
+
 TEST(ScenarioFile, ABehaviourIsChosenByNameOrByConstraint) {
   const Scenario scenario =
       Parsed("robots: [{model: pebble, behaviour_constraint: \"name == 'wander'\"}]");

@@ -66,6 +66,17 @@ std::optional<double> ReadStep(YamlMapping& mapping) {
   return step;
 }
 
+// What a person asks a server for is no name.
+std::string ReadRecord(YamlMapping& mapping) {
+  const std::string record = mapping.Text("record").value_or("");
+  if (record == "true" || record == "false") {
+    mapping.Complain("record",
+                     "record must be a file, NAME.mcap, or a folder, found \"" + record + "\"");
+    return {};
+  }
+  return record;
+}
+
 }  // namespace
 
 std::optional<Place> ReadPlaceKeys(YamlMapping& mapping) {
@@ -111,7 +122,7 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.model_path = mapping.Texts("model_path");
   scenario.robots = ReadRobots(mapping, "robots");
   scenario.avatars = ReadRobots(mapping, "avatars");
-  scenario.record = mapping.Text("record").value_or("");
+  scenario.record = ReadRecord(mapping);
   scenario.record_topics = mapping.Texts("record_topics");
   scenario.record_rates = ReadRates(mapping);
   scenario.record_png = mapping.IsSecond("record_pictures", "jpeg", "png");

@@ -7,13 +7,20 @@ export type TextFile = Pick<File, "name" | "size" | "text">;
 
 const LARGEST_BYTES = 1_000_000;
 
-export function scenarioFileName({ name, world }: Scenario): string {
-  const title = name || world.split("/").at(-1) || "simulation";
-  return `${title.replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80)}.yaml`;
+export function scenarioFileName(scenario: Scenario): string {
+  return `${titleOf(scenario)}.yaml`;
 }
 
+// A server names recordings itself; in a file `gsv run` has to be told their name.
 export function scenarioFile(scenario: Scenario): Blob {
-  return new Blob([`${JSON.stringify(scenarioJson(scenario), null, 2)}\n`], { type: "application/yaml" });
+  const json = scenarioJson(scenario);
+  if (scenario.record) json.record = `${titleOf(scenario)}.mcap`;
+  return new Blob([`${JSON.stringify(json, null, 2)}\n`], { type: "application/yaml" });
+}
+
+function titleOf({ name, world }: Scenario): string {
+  const title = name || world.split("/").at(-1) || "simulation";
+  return title.replace(/[^\p{L}\p{N} _.-]+/gu, "_").slice(0, 80);
 }
 
 // Throws a sentence on what is no scenario.
