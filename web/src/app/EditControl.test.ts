@@ -1,4 +1,5 @@
 import { expect, test, vi } from "vitest";
+import type { BodyPlace } from "../api/SetUpApi";
 import { ApiError } from "../api/JsonServer";
 import { robotStatus, simulationStatus } from "../panels/testApp";
 import { newRobot, EMPTY_SCENARIO } from "../state/scenario";
@@ -11,7 +12,7 @@ import { EditControl } from "./EditControl";
 const BEFORE = { x: 0, y: 0, z: 0.1, yaw: 0 };
 const AFTER = { x: 1, y: 2, yaw: 0.5 };
 
-async function editing(phase: "paused" | "running" = "paused") {
+async function editing(here: BodyPlace & { z: number } = BEFORE, phase: "paused" | "running" = "paused") {
   const store = new Store<State>({
     ...initialState,
     abilities: { ...initialState.abilities, creates: true },
@@ -30,7 +31,7 @@ async function editing(phase: "paused" | "running" = "paused") {
     removeObject: vi.fn(async () => {}),
   };
   const pause = vi.fn(async () => store.set({ status: simulationStatus("paused") }));
-  const control = new EditControl(store, api as never, { placeOf: () => BEFORE }, pause);
+  const control = new EditControl(store, api as never, { placeOf: () => here }, pause);
   await control.toggle();
   return { store, api, pause, control };
 }
@@ -64,6 +65,13 @@ test("what was removed comes back where it stood, with its behaviour by name", a
   expect(api.addRobot).toHaveBeenCalledWith("house", again, false);
 });
 
+test("a robot comes back on its wheels: its request takes no roll and pitch", async () => {
+  const { api, control } = await editing({ ...BEFORE, roll: 0, pitch: 0 });
+  await control.remove("a");
+  await control.undo();
+  expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ place: BEFORE }), false);
+});
+
 test("what the server refuses is told and is no edit", async () => {
   const { store, api, control } = await editing();
   api.placeBody.mockRejectedValueOnce(new ApiError(422, "there is no room at (1, 2)"));
@@ -73,7 +81,7 @@ test("what the server refuses is told and is no edit", async () => {
 });
 
 test("what runs is paused first, and editing ends when it goes on", async () => {
-  const { store, pause } = await editing("running");
+  const { store, pause } = await editing(BEFORE, "running");
   expect(pause).toHaveBeenCalledOnce();
   expect(store.get().editing).not.toBeNull();
   store.set({ status: simulationStatus("running") });

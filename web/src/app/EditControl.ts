@@ -134,7 +134,7 @@ export class EditControl {
         name = await this.api.addRobot(simulation, { ...robot, name, place }, isAvatar);
       },
       revert: async () => {
-        place = this.placeOf(name) ?? place; // it comes back where it stood
+        place = upright(this.placeOf(name)) ?? place; // it comes back where it stood
         await this.api.removeRobot(simulation, name);
       },
     });
@@ -144,7 +144,7 @@ export class EditControl {
   remove(robot: string): Promise<boolean> {
     const { simulation, status, scene } = this.store.get();
     const known = status?.robots.find(({ name }) => name === robot);
-    const place = this.placeOf(robot);
+    const place = upright(this.placeOf(robot));
     if (!simulation || !known || !place) return Promise.resolve(false);
     const { model, behaviour } = known;
     const isAvatar = scene?.bodies.some(({ name, isAvatar }) => name === robot && isAvatar) === true;
@@ -231,6 +231,11 @@ export class EditControl {
       this.patch({ isBusy: false });
     }
   }
+}
+
+// A robot is put on its wheels, and its request knows of no other way.
+function upright(place: (BodyPlace & { z: number }) | null) {
+  return place && { x: place.x, y: place.y, z: place.z, yaw: place.yaw };
 }
 
 // An object lies as it lay; turned on the spot, it stays at its height, too.
