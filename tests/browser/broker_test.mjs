@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
 import { gsv, startServer } from "./server.mjs";
 
 let server;
@@ -49,6 +50,7 @@ test("a constraint that does not match says which term failed", async () => {
   await page.getByText("0 of 1 offer matches", { exact: true }).waitFor();
   assert.match(await page.locator(".term[data-result='false']").innerText(), /pid < 0/);
   assert.match(await page.locator(".term[data-result='no value']").innerText(), /the offer has no wings/);
+  await keepPicture(page, "broker");
 });
 
 test("a constraint that is wrong is answered with the broker's sentence", async () => {

@@ -7,6 +7,9 @@ import process from "node:process";
 const folder = process.env.GSV_DOC_IMAGES;
 const QUALITY = 82;
 
+// At the end of a page's address: pictures for people have all their pixels, however slow that is.
+export const SHARP = folder ? "?quality=high" : "";
+
 export async function keepPicture(page, name) {
   if (!folder) return;
   fs.mkdirSync(folder, { recursive: true });

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { SHARP, keepPicture } from "./documentation.mjs";
 import { around, changedPixels, isBlank, isRed, isYellow, picture } from "./pixels.mjs";
 import { startServer } from "./server.mjs";
 import * as viewing from "./viewing.mjs";
@@ -27,7 +28,7 @@ let faults;
 before(async () => {
   server = await startServer(SIMULATION);
   browser = await openBrowser({ width: 1024, height: 680 });
-  ({ page, faults } = await openPage(browser, server.url));
+  ({ page, faults } = await openPage(browser, server.url + SHARP));
   await waitUntilDrawn(page);
 });
 
@@ -198,6 +199,7 @@ test("a click on a robot selects it and shows where it is", async () => {
   const shown = await inspector.locator("dd").first().textContent();
   const [x, y] = shown.split(",").map(Number.parseFloat);
   assert.ok(Math.hypot(x - pose.x_m, y - pose.y_m) < 0.02, `${shown} is not ${JSON.stringify(pose)}`);
+  await keepPicture(page, "run");
   await page.keyboard.press("Escape");
   await inspector.waitFor({ state: "hidden" });
 });
@@ -256,6 +258,17 @@ test("the keys drive the avatar, and letting go stops it", async () => {
     await page.waitForFunction((then) => window.gsv.time > then + 0.3, time);
     return (await avatar()).distance_m === before;
   }, "the avatar's standing still");
+  await page.locator(`[data-robot="${name}"]`).click();
+  const outside = await picture(page, await viewClip());
+  await page.keyboard.press("v");
+  await until(async () => {
+    const inside = await picture(page, await viewClip());
+    return changedPixels(outside, inside) > 0.3 * inside.width * inside.height;
+  }, "the view from the avatar's eyes");
+  await keepPicture(page, "walk");
+  await page.keyboard.press("o");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("r");
 });
 
 test("two browsers show the same phase, whoever presses", async () => {
