@@ -4,8 +4,8 @@
 //
 //   bench/viewing.mjs BUILD [WORLD [picture|clicks|frames]]
 //
-// BUILD is a release build (build/release); WORLD a world for the first picture, without it
-// turtlebot3_house of the real inputs. With a third word only that is measured. The machine should do
+// BUILD is a release build (build/release); WORLD a world for the first picture, without it the
+// TurtleBot3 house in GSV_REAL_DIR. With a third word only that is measured. The machine should do
 // nothing else: load_average says whether it did. Prints one JSON object; times in ms.
 import fs from "node:fs";
 import os from "node:os";
@@ -14,7 +14,7 @@ import process from "node:process";
 import { fileURLToPath } from "node:url";
 
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "..");
-const HOUSE = path.join(root, "../shared/real/turtlebot3/worlds/turtlebot3_house.world");
+const HOUSE = path.join(process.env.GSV_REAL_DIR ?? "", "turtlebot3/worlds/turtlebot3_house.world");
 const [build, world = HOUSE, only = ""] = process.argv.slice(2);
 if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|clicks|frames]]");
 process.env.GSV_BUILD_DIR = path.resolve(build);

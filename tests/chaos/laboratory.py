@@ -36,6 +36,7 @@ class Refused(Exception):
 
 class Laboratory:
     MEMORY_SLACK_MIB = 64  # malloc's arenas and the renderer's copies stay
+    SLACK = 4  # threads and descriptors: of omniORB's, which it keeps for a while for the next caller
 
     def __init__(self, build, folder):
         self.build = build
@@ -172,6 +173,7 @@ class Laboratory:
         for process in [*self.behaviours, *self.others, self.server, self.broker]:
             process.kill()
             process.wait()
+        subprocess.run(["umount", str(self.recordings)], capture_output=True, check=False)  # if it was a disk of its own
 
 
 def free_port():
