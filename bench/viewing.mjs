@@ -11,9 +11,7 @@ import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import process from "node:process";
-import { fileURLToPath } from "node:url";
 
-const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "..");
 const HOUSE = path.join(process.env.GSV_REAL_DIR ?? "", "turtlebot3/worlds/turtlebot3_house.world");
 const [build, world = HOUSE, only = ""] = process.argv.slice(2);
 if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|clicks|frames]]");
