@@ -232,7 +232,7 @@ class CommandServicesTest : public ::testing::Test {
 };
 
 TEST_F(CommandServicesTest, ATriggerTakesNothingHoweverNothingIsWritten) {
-  for (const std::string nothing :
+  for (const std::string& nothing :
        {std::string(), std::string("\0\1\0\0", 4), std::string("\0\1\0\0\0", 5)}) {
     count_ = -1;
     EXPECT_EQ((*Prepare(1, nothing))().size(), 4u + 1 + 3 + 4 + 5);  // true, and "well"

@@ -191,8 +191,8 @@ TEST_P(LensPicture, MeasuresTheDepthOfAWall) {
   EXPECT_GT(seen, 20'000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lenses, LensPicture, testing::ValuesIn(Cases()), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(Lenses, LensPicture, testing::ValuesIn(Cases()), [](const auto& tested) {
+  std::string name = tested.param.name;
   std::erase(name, ' ');
   return name;
 });

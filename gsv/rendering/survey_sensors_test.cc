@@ -33,7 +33,9 @@ Vector3 RayOf(int x, int y) {
 class SurveyTest : public ::testing::Test {
  protected:
   SurveyTest() {
-    if (renderer_) EXPECT_TRUE(AddSurveySensors(registry_, renderer_));
+    if (renderer_) {
+      EXPECT_TRUE(AddSurveySensors(registry_, renderer_));
+    }
     // To see and to touch, so that rays can be cast.
     Add("robot", geometry::Box{{0.4, 0.4, 0.4}}, PlanarPose(0, 0, 1, 0));
   }

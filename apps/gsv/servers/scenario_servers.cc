@@ -215,8 +215,8 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
   while (!is_cancelled) {
     const auto outcome = orb::Call(server.name, [&]() -> std::unique_ptr<TestResult> {
       if (!run->await_end()) return nullptr;
-      const sba::ScenarioOutcome_var outcome = run->outcome();
-      return std::make_unique<TestResult>(ResultFrom(outcome));
+      const sba::ScenarioOutcome_var ended = run->outcome();
+      return std::make_unique<TestResult>(ResultFrom(ended));
     });
     if (!outcome) {
       if (patience.IsOverAfter(outcome.error())) return Ending::kLost;
