@@ -1,8 +1,9 @@
 // The bodies of a scene. Bodies of one model share its geometry and are drawn in one call for each
 // part; a link that moves against its model is placed by its own pose.
-import type { Intersection, Raycaster } from "three";
+import type { Intersection, PerspectiveCamera, Raycaster } from "three";
 import { Group, InstancedMesh, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 import type { PoseNumbers, SceneBody, SceneDescription } from "../api/scene";
+import { CrowdDetail } from "./CrowdDetail";
 import type { ModelPart, ModelTemplate } from "./ModelTemplate";
 
 // A part of a body that moves: where its matrix is written after each update.
@@ -25,6 +26,7 @@ export class BodyLayer {
   private readonly moving: MovingPart[] = [];
   private readonly indices: Map<string, number>;
   private readonly poseEntries: Map<string, number>;
+  private readonly detail = new CrowdDetail();
 
   constructor(readonly scene: SceneDescription) {
     this.worldFromBody = scene.bodies.map((body) => matrixOf(body.pose));
@@ -47,7 +49,14 @@ export class BodyLayer {
   addModel(id: string, template: ModelTemplate): void {
     this.templates.set(id, template);
     const bodies = this.scene.bodies.flatMap((body, index) => (body.model === id ? [index] : []));
-    for (const part of template.parts) this.addPart(part, bodies);
+    const meshes = template.parts.map((part) => this.addPart(part, bodies));
+    const radius = template.bounds.getSize(new Vector3()).length() / 2;
+    this.detail.add(meshes, radius, bodies.map((body) => this.worldFromBody[body]!));
+  }
+
+  // As fine as it is seen from there, in a picture so many pixels high.
+  chooseDetail(camera: PerspectiveCamera, height: number): void {
+    this.detail.choose(camera, height);
   }
 
   // The poses in the order of the scene's list, seven numbers each.
@@ -124,6 +133,7 @@ export class BodyLayer {
   }
 
   dispose(): void {
+    this.detail.dispose();
     for (const mesh of this.bodiesOfMesh.keys()) if (mesh instanceof InstancedMesh) mesh.dispose();
     this.group.removeFromParent();
   }
@@ -141,7 +151,7 @@ export class BodyLayer {
     return index === undefined ? null : (this.scene.bodies[index] ?? null);
   }
 
-  private addPart(part: ModelPart, bodies: number[]): void {
+  private addPart(part: ModelPart, bodies: number[]): Mesh {
     const mesh =
       bodies.length === 1
         ? new Mesh(part.geometry, part.material)
@@ -157,6 +167,7 @@ export class BodyLayer {
     });
     this.bodiesOfMesh.set(mesh, bodies);
     this.group.add(mesh);
+    return mesh;
   }
 
   private placedPart(part: ModelPart, body: number, mesh: Mesh, instance: number): MovingPart {

@@ -307,6 +307,7 @@ export class World3D {
     const isFlying = this.rig.update(now);
     this.overlays.place();
     if (this.bodies) this.collisions.place(this.bodies);
+    this.bodies?.chooseDetail(this.rig.camera, this.height);
     if (this.parts) this.parts.grid.visible = this.shown.grid;
     this.watch.showRing();
     this.arranger.showHandle();
