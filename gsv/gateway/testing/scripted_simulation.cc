@@ -87,7 +87,7 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
 
  private:
   const std::string name_ = kAvatar;
-  const std::vector<model::Joint> joints_;
+  const std::vector<model::Joint> joints_{};
   mutable std::mutex mutex_;
   world::DriveCommand command_;
 };
