@@ -1,5 +1,6 @@
 #include "gsv/scenario/scenario_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -63,6 +64,17 @@ std::optional<std::size_t> LineThatIsNotUtf8(const std::string& text) {
   return std::nullopt;
 }
 
+// The first line, counted from 1, with a character that YAML leaves out: a control character other
+// than tabulator and line ends. Readers of YAML take them for this or that.
+std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
+  const auto is_control = [](unsigned char c) {
+    return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+  };
+  const auto found = std::find_if(text.begin(), text.end(), is_control);
+  if (found == text.end()) return std::nullopt;
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), found, '\n'));
+}
+
 // Seen from the file's folder, if it is there.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
@@ -84,6 +96,9 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   // A name of other bytes would come back as another name.
   if (const auto line = LineThatIsNotUtf8(text)) {
     return refuse("the text is not UTF-8", file + ":" + std::to_string(*line));
+  }
+  if (const auto line = LineWithControlCharacter(text)) {
+    return refuse("the text holds a control character", file + ":" + std::to_string(*line));
   }
   const YamlPlace place(YamlPlace::Naming::kLines, file, problems);
   try {

@@ -217,6 +217,14 @@ TEST(ScenarioFile, ATextThatIsNotUtf8IsRefused) {
             "\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80");
 }
 
+TEST(ScenarioFile, AControlCharacterIsRefused) {
+  for (const char c : {'\0', '\x01', '\v', '\f', '\x1b', '\x7f'}) {
+    EXPECT_THAT(Complaints("seed: 1\nworld: a" + std::string(1, c) + "b"),
+                ElementsAre("room.yaml:2: the text holds a control character"));
+  }
+  EXPECT_EQ(Parsed("world: a # with a\ttabulator\r\n").world, "a");
+}
+
 TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
   std::string robots = "robots:\n  - &r {";
   for (int i = 0; i < 10'000; ++i) robots += "k" + std::to_string(i) + ": 1, ";
