@@ -115,7 +115,7 @@ void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot
   };
   for (const auto& [topic, sensor] : sensors_) {
     if (!sensor->instants.Pass(snapshot->state.time) || sensor->has_failed) continue;
-    Sample sample{topic, sensor.get(), snapshot->layout->Find(sensor->robot), {}, {}, {}};
+    Sample sample{&topic, sensor.get(), snapshot->layout->Find(sensor->robot), {}, {}, {}};
     if (sample.body < 0) continue;
     if (sensor->sensor->TakesLong()) {
       slow.push_back(std::move(sample));
@@ -149,7 +149,7 @@ void SensorTopics::Write(Sample& sample) {
   }
   const base::SimTime time = sample.reading->time;
   if (sensor.is_wanted) {
-    if (!sensor.channel) sensor.channel = AddChannel(sample.topic, *sensor.type->schema);
+    if (!sensor.channel) sensor.channel = AddChannel(*sample.topic, *sensor.type->schema);
     if (!sensor.channel) {
       sensor.has_failed = true;
       return;
@@ -159,7 +159,7 @@ void SensorTopics::Write(Sample& sample) {
   if (sensor.has_companion) {
     const sensing::Companion& type = *sensor.type->companion;
     if (!sensor.companion_channel) {
-      sensor.companion_channel = AddChannel(sample.topic + "/" + type.topic, *type.schema);
+      sensor.companion_channel = AddChannel(*sample.topic + "/" + type.topic, *type.schema);
     }
     sensor.has_companion = sensor.companion_channel.has_value();
     if (!sensor.has_companion) return;

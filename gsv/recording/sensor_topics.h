@@ -57,7 +57,7 @@ class SensorTopics {
  private:
   struct Sensor;
   struct Sample {
-    std::string topic;
+    const std::string* topic = nullptr;  // the key in sensors_
     Sensor* sensor = nullptr;
     int body = 0;
     base::Result<sensing::Reading> reading;

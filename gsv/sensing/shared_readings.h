@@ -2,7 +2,7 @@
 // by its robot's behaviour, by the recording and by each viewer, and drawn once.
 //
 // Bounded      by the bytes of what is kept; the oldest goes first. What was read from a snapshot
-//              that is gone is not kept.
+//              that is gone goes with the next reading.
 // Threads      any; who asks for what another is just taking waits for him.
 // Determinism  a reading is a function of what it is found by here.
 #pragma once
