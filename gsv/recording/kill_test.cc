@@ -205,7 +205,7 @@ class Killing {
   int started_ = 0, again_ = 0, judged_ = 0, with_a_promise_ = 0;
 };
 
-TEST(Kill, AtTwoHundredMomentsLosesASecondAtMost) {
+TEST(Promise, KillingLosesASecondOfARecordingAtMost) {
   const auto folder = base::TemporaryFolder::Make("gsv-kill");
   ASSERT_TRUE(folder);
   Killing killing(folder->path());

@@ -244,6 +244,47 @@ class CutNetwork(Attack):
         subprocess.run(["ip", "link", "set", "lo", "up"], check=True)
 
 
+class BadNetwork(Attack):
+    """The laboratory's own network is slow and loses packets for a while.
+
+    By netem where the kernel has it; else by a narrow line whose queue holds 30 ms and drops the rest.
+    """
+
+    def __init__(self, laboratory, chance):
+        super().__init__(laboratory, chance)
+        if os.environ.get("GSV_CHAOS_NETWORK") != "own":
+            self.refusal = "a network of its own takes root (unshare --net)"
+            return
+        self.has_netem = self.shape(["netem", "delay", "1ms"]) is None
+        if not self.has_netem:
+            self.refusal = self.shape(self.narrow_line(8))
+        self.end()
+
+    def shape(self, how):
+        """What the kernel says against it; None: nothing."""
+        try:
+            said = subprocess.run(["tc", "qdisc", "replace", "dev", "lo", "root", *how], capture_output=True, text=True,
+                                  check=False)
+        except FileNotFoundError:
+            return "tc is not there (iproute2)"
+        return said.stderr.strip() if said.returncode != 0 else None
+
+    def narrow_line(self, megabits):
+        return ["tbf", "rate", f"{megabits}mbit", "burst", "64kbit", "latency", "30ms"]
+
+    def strike(self):
+        if self.has_netem:
+            self.shape(["netem", "delay", f"{self.chance.randrange(1, 100)}ms", "10ms", "loss",
+                        f"{self.chance.randrange(0, 20)}%"])
+        else:
+            self.shape(self.narrow_line(self.chance.choice([1, 2, 8])))
+        time.sleep(self.chance.uniform(0.5, 2))
+        self.end()
+
+    def end(self):
+        subprocess.run(["tc", "qdisc", "del", "dev", "lo", "root"], capture_output=True, check=False)
+
+
 def listening_ports(pid):
     """The TCP ports of 127.0.0.1 on which the process listens."""
     inodes = set()
@@ -264,4 +305,4 @@ def listening_ports(pid):
 
 
 ATTACKS = [StartBehaviour, KillBehaviour, StopBehaviour, CreateSimulation, PressButtons, DestroySimulation, Record,
-           StalledViewers, Noise, Flood, KillApplication, KillBroker, BadDisk, CutNetwork]
+           StalledViewers, Noise, Flood, KillApplication, KillBroker, BadDisk, CutNetwork, BadNetwork]

@@ -5,7 +5,7 @@ usage: tests/chaos/chaos.py BUILD [--seconds 60] [--seed 1] [--report FILE.json]
 
 A `gsv serve` runs simulations while, in an order that the seed decides, behaviours are killed and
 stopped, viewers stall, ports are flooded with noise, the broker is killed and started again, the disk
-of the recordings fills up and turns read-only, and the network of another host is cut, slow and lossy.
+of the recordings fills up and turns read-only, and the network is cut, slow and lossy.
 What may not suffer:
 
 - a witness, a lockstep simulation whose outcome must be the same to the last digit each time;
