@@ -15,7 +15,7 @@ CHAOS_SECONDS ?= 3600
 CHAOS_SEED ?= 1
 BUILD := build/$(PRESET)
 
-.PHONY: run test install deb soak chaos build configure setup asan tsan fuzz format clean
+.PHONY: run test install deb soak chaos build configure setup asan tsan ubsan fuzz format clean
 
 run: configure
 	cmake --build $(BUILD) --target programs --parallel $(JOBS)
@@ -54,7 +54,7 @@ configure: setup
 setup:
 	tools/setup
 
-asan tsan:
+asan tsan ubsan:
 	$(MAKE) test PRESET=$@
 
 fuzz:
