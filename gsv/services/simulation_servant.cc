@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
+
+#include <malloc.h>
 
 #include "gsv/base/log.h"
 #include "gsv/orb/errors.h"
@@ -210,7 +213,7 @@ SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
       host_(host),
       behaviours_(behaviours),
       hooks_(std::move(hooks)),
-      janitor_([this] { StopAbandoned(); }) {}
+      janitor_([this] { KeepHouse(); }) {}
 
 SimulationServiceServant::~SimulationServiceServant() {
   {
@@ -293,10 +296,12 @@ base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
   (void)host_.Remove(simulation);
   const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
   poa_->deactivate_object(id);
+  const std::lock_guard lock(mutex_);
+  has_destroyed_ = true;
   return {};
 }
 
-void SimulationServiceServant::StopAbandoned() {
+void SimulationServiceServant::KeepHouse() {
   std::unique_lock lock(mutex_);
   while (!closing_) {
     closing_changed_.wait_for(lock, std::chrono::seconds(1), [this] { return closing_; });
@@ -304,8 +309,12 @@ void SimulationServiceServant::StopAbandoned() {
     for (const auto& [name, servant] : servants_) {
       if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());
     }
+    const bool has_destroyed = std::exchange(has_destroyed_, false);
     // Stopping one may take long, as when it is being reset: nobody else waits for that.
     lock.unlock();
+    // What a simulation took is free then, but spread over the arenas of many threads, of which
+    // glibc by itself gives back no more than the tops.
+    if (has_destroyed) malloc_trim(0);
     for (const auto& simulation : abandoned) {
       const Phase phase = simulation->status().phase;
       if (phase == Phase::kStopped || phase == Phase::kFinished || phase == Phase::kFailed)

@@ -92,7 +92,8 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
  private:
   sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
                                sba::SimulationSpecification specification);
-  void StopAbandoned();
+  // Until it closes: stops simulations whose creators have gone, and gives back memory.
+  void KeepHouse();
 
   PortableServer::POA_var poa_;
   SimulationHost& host_;
@@ -101,6 +102,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   std::mutex mutex_;
   std::condition_variable closing_changed_;
   bool closing_ = false;
+  bool has_destroyed_ = false;                          // since the janitor's last round
   std::map<std::string, SimulationServant*> servants_;  // by simulation; the POA holds them
   std::jthread janitor_;
 };

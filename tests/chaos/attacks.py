@@ -195,39 +195,48 @@ class KillBroker(Attack):
 
 
 class BadDisk(Attack):
-    """The disk of the recordings is full, or may not be written to, for a while."""
+    """The disk of the recordings is full, may not be written to, or answers nobody for a while."""
 
     SIZE = 8 << 20  # bytes
 
     def __init__(self, laboratory, chance):
         super().__init__(laboratory, chance)
-        folder = str(laboratory.recordings)
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={self.SIZE}", "tmpfs", folder],
-                                 capture_output=True, text=True, check=False)
-        self.refusal = mounted.stderr.strip() if mounted.returncode != 0 else None
+        self.folder = str(laboratory.recordings)
         self.filler = laboratory.recordings / "filler"
+        image = laboratory.folder / "disk"
+        with open(image, "wb") as file:
+            file.truncate(self.SIZE)
+        # A disk of its own can be frozen; where that cannot be had, memory is full or read-only as well.
+        self.may_freeze = (run(["mkfs.ext4", "-q", str(image)]) is None
+                           and run(["mount", "-o", "loop", str(image), self.folder]) is None)
+        if not self.may_freeze:
+            self.refusal = run(["mount", "-t", "tmpfs", "-o", f"size={self.SIZE}", "tmpfs", self.folder])
 
     def strike(self):
-        if self.chance.random() < 0.5:
-            with open(self.filler, "wb", buffering=0) as filler:
-                try:
-                    while filler.write(bytes(1 << 16)) == 1 << 16:
-                        pass
-                except OSError:
-                    pass  # full
-            time.sleep(self.chance.uniform(0.5, 1.5))
-            self.filler.unlink()
-        else:
-            self.remount("ro")
-            time.sleep(self.chance.uniform(0.1, 1))
-            self.remount("rw")
+        self.chance.choice([self.fill, self.forbid, self.freeze] if self.may_freeze else [self.fill, self.forbid])()
         # What users do with a disk that fills up.
         for recording in sorted(self.laboratory.recordings.glob("*.mcap"))[:-2]:
             recording.unlink()
 
-    def remount(self, how):
-        subprocess.run(["mount", "-o", f"remount,{how}", str(self.laboratory.recordings)], capture_output=True,
-                       check=False)  # not read-only while a recording is being written
+    def fill(self):
+        with open(self.filler, "wb", buffering=0) as filler:
+            try:
+                while filler.write(bytes(1 << 16)) == 1 << 16:
+                    pass
+            except OSError:
+                pass  # full
+        time.sleep(self.chance.uniform(0.5, 1.5))
+        self.filler.unlink()
+
+    def forbid(self):
+        run(["mount", "-o", "remount,ro", self.folder])  # refused while a recording is being written
+        time.sleep(self.chance.uniform(0.1, 1))
+        run(["mount", "-o", "remount,rw", self.folder])
+
+    def freeze(self):
+        # By a shell, which thaws it whatever becomes of this program.
+        seconds = self.chance.uniform(0.1, 1.5)
+        run(["sh", "-c", f'fsfreeze -f "$0"; sleep {seconds}; fsfreeze -u "$0"', self.folder])
 
 
 class CutNetwork(Attack):
@@ -262,12 +271,7 @@ class BadNetwork(Attack):
 
     def shape(self, how):
         """What the kernel says against it; None: nothing."""
-        try:
-            said = subprocess.run(["tc", "qdisc", "replace", "dev", "lo", "root", *how], capture_output=True, text=True,
-                                  check=False)
-        except FileNotFoundError:
-            return "tc is not there (iproute2)"
-        return said.stderr.strip() if said.returncode != 0 else None
+        return run(["tc", "qdisc", "replace", "dev", "lo", "root", *how])
 
     def narrow_line(self, megabits):
         return ["tbf", "rate", f"{megabits}mbit", "burst", "64kbit", "latency", "30ms"]
@@ -282,7 +286,17 @@ class BadNetwork(Attack):
         self.end()
 
     def end(self):
-        subprocess.run(["tc", "qdisc", "del", "dev", "lo", "root"], capture_output=True, check=False)
+        run(["tc", "qdisc", "del", "dev", "lo", "root"])
+
+
+def run(command):
+    """None, or what the command says against it."""
+    environment = {**os.environ, "PATH": os.environ.get("PATH", "") + ":/usr/sbin:/sbin"}
+    try:
+        ended = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    except FileNotFoundError as error:
+        return str(error)
+    return ended.stderr.strip() or command[0] if ended.returncode != 0 else None
 
 
 def listening_ports(pid):
