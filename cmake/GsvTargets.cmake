@@ -21,12 +21,12 @@ function(gsv_precompile TARGET KIND)
   target_precompile_headers(${TARGET} REUSE_FROM ${OWNER})
 endfunction()
 
-# gsv_compile_together(TARGET GROUP FILE …) has a release build compile these files of a target as one:
+# gsv_compile_together(TARGET GROUP FILE …) has all builds but dev compile these files of a target as one:
 # for neighbours whose time to compile is that of the same large headers and templates (libsdformat, Boost.Beast,
-# nlohmann::json, CLI11). Their unnamed namespaces are then one, so their names must differ. Other
-# builds compile them one by one, which shows a missing include.
+# nlohmann::json, CLI11). Their unnamed namespaces are then one, so their names must differ. dev
+# compiles them one by one, which shows a missing include and rebuilds sooner.
 function(gsv_compile_together TARGET GROUP)
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
     set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${GROUP})
   endif()
