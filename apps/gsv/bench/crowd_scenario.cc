@@ -105,8 +105,10 @@ std::vector<simulation::RobotSpecification> CrowdRobots(int robots, std::uint64_
     robot.name = "robot_" + std::to_string(i);
     robot.model = model;
     robot.on_ground = false;
-    const double x = raster.Line(i % raster.columns + 0.5) + Uniform(noise, -0.2, 0.2);
-    const double y = raster.Line(i / raster.columns + 0.5) + Uniform(noise, -0.2, 0.2);
+    const int row = i / raster.columns;
+    const int column = i % raster.columns;
+    const double x = raster.Line(column + 0.5) + Uniform(noise, -0.2, 0.2);
+    const double y = raster.Line(row + 0.5) + Uniform(noise, -0.2, 0.2);
     robot.world_from_robot =
         PlanarPose(x, y, 0, Uniform(noise, -std::numbers::pi, std::numbers::pi));
   }

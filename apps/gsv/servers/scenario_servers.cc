@@ -208,7 +208,7 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
     return Ending::kDone;
   }
   if (!started) return Ending::kLost;
-  const sba::ScenarioRun_var run(*started);
+  const sba::ScenarioRun_var& run = *started;
   if (CORBA::is_nil(run)) return Ending::kNoRoom;
   orb::LimitCalls(run, kServerCallTimeout);
   Patience patience;

@@ -49,8 +49,8 @@ class ScenarioServers {
   };
   enum class Ending { kDone, kNoRoom, kLost };
 
-  ScenarioServers(CORBA::ORB_var orb, broker::BrokerClient broker, std::string constraint)
-      : orb_(std::move(orb)), broker_(std::move(broker)), constraint_(std::move(constraint)) {}
+  ScenarioServers(const CORBA::ORB_var& orb, broker::BrokerClient broker, std::string constraint)
+      : orb_(orb), broker_(std::move(broker)), constraint_(std::move(constraint)) {}
 
   base::Status Refresh();
   void Merge(const std::vector<broker::FoundOffer>& offers);
