@@ -35,7 +35,8 @@ class LocalGateway final : public Gateway, private Handler {
         takes_uploads_(options.factory != nullptr),
         uploads_(options.uploads),
         monitor_({options.version, directory.get(), options.recordings, options.broker_calls}),
-        publisher_(std::move(directory), watchers_, commanders_, options.recordings) {
+        publisher_(std::move(directory), watchers_, commanders_, options.recordings,
+                   &viewers_.desk()) {
     if (!options.recordings_folder.empty()) {
       replays_.emplace(options.recordings_folder, options.only_recording, options.replays);
     }
@@ -100,7 +101,9 @@ class LocalGateway final : public Gateway, private Handler {
     return files_.Get(request);
   }
 
-  base::Status MayAct(const std::string& viewer) override { return viewers_.MayAct(viewer); }
+  base::Status MayAct(const std::string& viewer, const std::string& simulation) override {
+    return viewers_.MayAct(viewer, simulation);
+  }
 
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
     if (replays_ && recordings::IsOfReplaySession(target)) {

@@ -212,8 +212,8 @@ class HttpSession final : public Connection,
       spdlog::info("refused {} {}: {}", View(parser_->get().method_string()), PathOf(target), why);
       return ErrorResponse(ticket.shows_token ? 403 : 401, why);
     }
-    if (!need.acts) return std::nullopt;
-    const base::Status may = context_->handler.MayAct(ticket.viewer);
+    if (need.acts_on.empty()) return std::nullopt;
+    const base::Status may = context_->handler.MayAct(ticket.viewer, need.acts_on);
     return may ? std::nullopt : std::optional<Response>(ErrorResponse(may.error()));
   }
 

@@ -8,9 +8,21 @@ namespace gsv::gateway {
 using foxglove::ChannelId;
 using foxglove::StatusLevel;
 
+namespace {
+
+std::string SimulationOf(const foxglove::ServerInfo& info) {
+  const auto found = info.metadata.find("simulation");
+  return found == info.metadata.end() ? std::string() : found->second;
+}
+
+}  // namespace
+
 Hub::Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
          std::shared_ptr<Operations> operations)
-    : info_(std::move(info)), on_demand_(std::move(on_demand)), desk_(std::move(operations)) {
+    : info_(std::move(info)),
+      simulation_(SimulationOf(info_)),
+      on_demand_(std::move(on_demand)),
+      desk_(std::move(operations)) {
   info_.capabilities.push_back("connectionGraph");
   for (std::string& name : desk_.capabilities()) info_.capabilities.push_back(std::move(name));
 }

@@ -29,6 +29,9 @@ class Hub {
   Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
       std::shared_ptr<Operations> operations = nullptr);
 
+  // The name of what its clients watch, as it tells them; empty: it tells none.
+  const std::string& simulation() const { return simulation_; }
+
   // The clients' side.
   void Add(std::shared_ptr<Client> client,
            std::string_view subprotocol = foxglove::kSubprotocols.front());
@@ -98,6 +101,7 @@ class Hub {
   void PublishGraph();
 
   foxglove::ServerInfo info_;
+  const std::string simulation_;
   const std::function<void()> on_demand_;
   mutable std::mutex mutex_;
   foxglove::ChannelId next_channel_ = 1;

@@ -27,7 +27,7 @@ foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
 
 LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation,
                        WorkerPool& watchers, WorkerPool& commanders, RecordingSwitch* recordings,
-                       std::function<void()> on_demand)
+                       std::function<void()> on_demand, access::ControlDesk* desk)
     : hub_(std::make_shared<Hub>(
           InfoOf(*simulation), std::move(on_demand),
           std::make_shared<LiveOperations>(simulation, commanders, recordings))),
@@ -37,7 +37,8 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       refresh_pacing_(kRefreshRate),
       commands_(hub_),
       contacts_(hub_, kContactTopic, CollectContacts),
-      radio_(hub_, kRadioTopic, CollectTransmissions) {
+      radio_(hub_, kRadioTopic, CollectTransmissions),
+      viewers_(hub_, desk) {
   const std::vector<foxglove::ChannelId> channels =
       hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
                        ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
@@ -60,6 +61,7 @@ void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation
   status_.Publish(*simulation, now);
   events_.Publish(*simulation);
   commands_.Publish(*snapshot);
+  viewers_.Publish(now);
   sensors_->Publish(simulation, snapshot, now);
   hub_->PublishChanges();
 }

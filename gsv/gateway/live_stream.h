@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gsv/gateway/access/viewers_topic.h"
 #include "gsv/gateway/command_topic.h"
 #include "gsv/gateway/event_topics.h"
 #include "gsv/gateway/hub.h"
@@ -26,9 +27,10 @@ class LiveStream {
  public:
   // Keeps the simulation alive only while a round or a reading is under way. `on_demand`: see Hub.
   // Readings are taken on `watchers`, commands obeyed on `commanders`. `recordings` may be null:
-  // then viewers cannot have it recorded.
+  // then viewers cannot have it recorded. `desk`: see ViewersTopic.
   LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& watchers,
-             WorkerPool& commanders, RecordingSwitch* recordings, std::function<void()> on_demand);
+             WorkerPool& commanders, RecordingSwitch* recordings, std::function<void()> on_demand,
+             access::ControlDesk* desk = nullptr);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
@@ -69,6 +71,7 @@ class LiveStream {
   CommandTopic commands_;
   ContactTopic contacts_;
   RadioTopic radio_;
+  access::ViewersTopic viewers_;
   std::shared_ptr<SensorTopics> sensors_;
 };
 

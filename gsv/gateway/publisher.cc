@@ -11,11 +11,12 @@ constexpr double kDirectoryRate = 2;  // Hz: how soon it is seen that a simulati
 }  // namespace
 
 Publisher::Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
-                     WorkerPool& commanders, RecordingSwitch* recordings)
+                     WorkerPool& commanders, RecordingSwitch* recordings, access::ControlDesk* desk)
     : directory_(std::move(directory)),
       watchers_(watchers),
       commanders_(commanders),
       recordings_(recordings),
+      desk_(desk),
       directory_pacing_(kDirectoryRate) {
   thread_ = std::thread([this] { Run(); });
 }
@@ -27,8 +28,8 @@ std::shared_ptr<Hub> Publisher::HubOf(const std::shared_ptr<simulation::Simulati
   for (const Entry& entry : entries_) {
     if (entry.simulation.lock() == simulation) return entry.stream->hub();
   }
-  auto stream = std::make_shared<LiveStream>(simulation, watchers_, commanders_, recordings_,
-                                             [this] { Wake(); });
+  auto stream = std::make_shared<LiveStream>(
+      simulation, watchers_, commanders_, recordings_, [this] { Wake(); }, desk_);
   if (is_stopping_) stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
   entries_.push_back({simulation->specification().name, simulation, stream});
   return stream->hub();

@@ -17,9 +17,10 @@ namespace gsv::gateway {
 class Publisher {
  public:
   // Readings are taken on `watchers`, viewers' commands obeyed on `commanders`; both, and
-  // `recordings`, which may be null, outlive the publisher and all its streams.
+  // `recordings` and `desk`, which may be null, outlive the publisher and all its streams.
   Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
-            WorkerPool& commanders, RecordingSwitch* recordings);
+            WorkerPool& commanders, RecordingSwitch* recordings,
+            access::ControlDesk* desk = nullptr);
   ~Publisher();
 
   // The hub of a simulation, made when it is first asked for.
@@ -47,6 +48,7 @@ class Publisher {
   WorkerPool& watchers_;
   WorkerPool& commanders_;
   RecordingSwitch* const recordings_;
+  access::ControlDesk* const desk_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Entry> entries_;

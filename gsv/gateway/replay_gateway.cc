@@ -72,7 +72,9 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
     return files_.Get(request);
   }
 
-  base::Status MayAct(const std::string& viewer) override { return viewers_.MayAct(viewer); }
+  base::Status MayAct(const std::string& viewer, const std::string& simulation) override {
+    return viewers_.MayAct(viewer, simulation);
+  }
 
   base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
     if (replays_ && recordings::IsOfReplaySession(target)) {

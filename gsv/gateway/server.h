@@ -61,8 +61,10 @@ class Handler {
   virtual void Handle(Request request, Respond respond) = 0;
   // The hub that a WebSocket at this target is to be a client of.
   virtual base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) = 0;
-  // Why the viewer of this key (empty: none) may not act now on what all see; see ControlDesk.
-  virtual base::Status MayAct(const std::string& /*viewer*/) { return {}; }
+  // Why the viewer of this key (empty: none) may not act now on that simulation; see ControlDesk.
+  virtual base::Status MayAct(const std::string& /*viewer*/, const std::string& /*simulation*/) {
+    return {};
+  }
 };
 
 class Server {

@@ -77,7 +77,7 @@ class WebSocketSession final : public Client,
   base::Status MayAct() override {
     if (ticket_.is_private) return {};
     if (ticket_.right == access::Right::kControl) {
-      return context_->handler.MayAct(ticket_.viewer);
+      return context_->handler.MayAct(ticket_.viewer, hub_->simulation());
     }
     return base::Fail(
         base::ErrorCode::kNotRunning,

@@ -71,7 +71,38 @@ test("it passes by itself to who asks when the holder leaves", async () => {
   await ada.page.getByRole("button", { name: "Let go of control" }).click();
 });
 
+test("two simulations of a server are held by two people", async () => {
+  bob = await openPage(browsers[1], server.url);
+  await waitUntilDrawn(bob.page);
+  const created = await bob.page.evaluate(async () => {
+    const body = JSON.stringify({ name: "second", world: "office", robots: [] });
+    const headers = { "content-type": "application/json" };
+    return (await fetch("api/simulations", { method: "POST", headers, body })).status;
+  });
+  assert.equal(created, 201);
+  await bob.page.goto(`${server.url}?simulation=second`);
+  await waitUntilDrawn(bob.page);
+  await ada.page.getByRole("button", { name: "Take control" }).click();
+  await bob.page.getByRole("button", { name: "Viewers" }).click();
+  await bob.page.getByRole("listitem").filter({ hasText: "Ada · at simulation · holds control" }).waitFor();
+  await bob.page.getByRole("button", { name: "Take control" }).click();
+  await bob.page.getByRole("button", { name: "Let go of control" }).waitFor();
+  await ada.page.getByRole("listitem").filter({ hasText: "Bob · at second · holds control" }).waitFor();
+  const act = (page, simulation, action) =>
+    page.evaluate(
+      async ([simulation, action]) =>
+        (await fetch(`api/simulations/${simulation}/${action}`, { method: "POST", body: "{}" })).status,
+      [simulation, action],
+    );
+  // Past the page there is no key: whoever holds control keeps it from strangers.
+  for (const simulation of ["simulation", "second"]) assert.equal(await act(ada.page, simulation, "reset"), 409);
+  await bob.page.getByRole("button", { name: "Start" }).click();
+  await phaseIs(bob.page, "running");
+  await ada.page.getByRole("button", { name: "Let go of control" }).click();
+});
+
 test("two people press everything at once: both pages show the server's truth in the end", async () => {
+  await bob.page.close();
   bob = await openPage(browsers[1], server.url);
   await waitUntilDrawn(bob.page);
   await ada.page.keyboard.press("Escape");

@@ -54,22 +54,26 @@ TEST(Tokens, GiveRights) {
 }
 
 TEST(Needs, FollowTheAddress) {
+  using Named = std::pair<Right, std::string>;
   const auto need = [](const char* method, const char* target) {
     const Need found = NeedOf(method, ParseTarget(target).value());
-    return std::pair(found.right, found.acts);
+    return Named(found.right, found.acts_on);
   };
-  EXPECT_EQ(need("GET", "/"), std::pair(Right::kNone, false));
-  EXPECT_EQ(need("GET", "/healthz"), std::pair(Right::kNone, false));
-  EXPECT_EQ(need("GET", "/ws?simulation=a"), std::pair(Right::kWatch, false));
-  EXPECT_EQ(need("GET", "/api/simulations"), std::pair(Right::kWatch, false));
-  EXPECT_EQ(need("POST", "/replays/1/api/simulations/a/seek"), std::pair(Right::kWatch, false));
-  EXPECT_EQ(need("POST", "/api/recordings/a/replay"), std::pair(Right::kWatch, false));
-  EXPECT_EQ(need("POST", "/api/viewers"), std::pair(Right::kWatch, false));
-  EXPECT_EQ(need("POST", "/api/viewers/me/control"), std::pair(Right::kControl, false));
-  EXPECT_EQ(need("POST", "/api/preview"), std::pair(Right::kControl, false));
+  EXPECT_EQ(need("GET", "/"), Named(Right::kNone, ""));
+  EXPECT_EQ(need("GET", "/healthz"), Named(Right::kNone, ""));
+  EXPECT_EQ(need("GET", "/ws?simulation=a"), Named(Right::kWatch, ""));
+  EXPECT_EQ(need("GET", "/api/simulations/a"), Named(Right::kWatch, ""));
+  EXPECT_EQ(need("POST", "/replays/1/api/simulations/a/seek"), Named(Right::kWatch, ""));
+  EXPECT_EQ(need("POST", "/api/recordings/a/replay"), Named(Right::kWatch, ""));
+  EXPECT_EQ(need("POST", "/api/viewers"), Named(Right::kWatch, ""));
+  EXPECT_EQ(need("POST", "/api/viewers/me/control"), Named(Right::kControl, ""));
+  EXPECT_EQ(need("POST", "/api/preview"), Named(Right::kControl, ""));
+  EXPECT_EQ(need("POST", "/api/simulations"), Named(Right::kControl, ""));
+  EXPECT_EQ(need("PUT", "/api/uploads/1/a.sdf"), Named(Right::kControl, ""));
   for (const char* method : {"POST", "PUT", "DELETE", "PATCH", "NONSENSE"}) {
-    EXPECT_EQ(need(method, "/api/simulations/a/pause"), std::pair(Right::kControl, true)) << method;
-    EXPECT_EQ(need(method, "/%61pi/simulations"), std::pair(Right::kControl, true)) << method;
+    EXPECT_EQ(need(method, "/api/simulations/a%20b"), Named(Right::kControl, "a b")) << method;
+    EXPECT_EQ(need(method, "/api/simulations/a/pause"), Named(Right::kControl, "a")) << method;
+    EXPECT_EQ(need(method, "/%61pi/simulations/a/b/c"), Named(Right::kControl, "a")) << method;
   }
 }
 
@@ -97,7 +101,8 @@ class AccessTest : public ::testing::Test {
     return Ask("POST", "/api/simulations/arena/reset", headers).status;
   }
   std::string Enter(const std::string& name) const {
-    const HttpReply reply = Ask("POST", "/api/viewers", entering_, json{{"name", name}}.dump());
+    const HttpReply reply = Ask("POST", "/api/viewers", entering_,
+                                json{{"name", name}, {"simulation", "arena"}}.dump());
     EXPECT_EQ(reply.status, 201) << reply.body;
     return json::parse(reply.body)["key"];
   }
@@ -167,7 +172,8 @@ TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
   const std::string ada = Enter("Ada <b>"), bob = Enter("Bob");
   const json taken =
       json::parse(Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})").body);
-  EXPECT_EQ(taken["holder"], taken["you"]);
+  EXPECT_EQ(taken["viewers"][0]["number"], taken["you"]);
+  EXPECT_EQ(taken["viewers"][0]["holds_control"], true);
   EXPECT_EQ(Reset(As(ada)), 200);
   for (const std::string& other : {As(bob), std::string(), As("nobody")}) {
     EXPECT_EQ(Reset(other), 409) << other;
@@ -178,14 +184,49 @@ TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
   EXPECT_NE(looks.CallRefusedService("start").find("holds control"), std::string::npos);
   Ask("POST", "/api/viewers/me/control", As(bob), R"({"wants":true})");
   const json told = json::parse(Ask("GET", "/api/viewers", As(ada)).body);
-  EXPECT_EQ(told["asking"].size(), 1u);
-  EXPECT_GT(told["passes_in_s"], 0);
+  EXPECT_EQ(told["viewers"][1]["asks"], 1);
+  EXPECT_GT(told["viewers"][1]["passes_in_s"], 0);
   EXPECT_EQ(told.dump().find(bob), std::string::npos);  // keys are nobody else's
   EXPECT_EQ(Ask("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 200);
   EXPECT_EQ(Reset(As(bob)), 200);
   EXPECT_TRUE(looks.CallService("start").first);
   EXPECT_EQ(Ask("DELETE", "/api/viewers/me", As(bob)).status, 200);
   EXPECT_EQ(Reset(), 200);
+}
+
+TEST_F(AccessTest, TwoSimulationsAreHeldByTwoPeople) {
+  directory_->Add(std::make_shared<testing::ScriptedSimulation>("other", 1));
+  Start({});
+  const std::string ada = Enter("Ada"), bob = Enter("Bob");
+  EXPECT_EQ(Ask("POST", "/api/viewers/me", As(bob), R"({"simulation":"other"})").status, 200);
+  for (const std::string& person : {ada, bob}) {
+    Ask("POST", "/api/viewers/me/control", As(person), R"({"wants":true})");
+  }
+  const auto reset = [&](const std::string& person, const std::string& simulation) {
+    return Ask("POST", "/api/simulations/" + simulation + "/reset", As(person)).status;
+  };
+  EXPECT_EQ(reset(ada, "arena"), 200);
+  EXPECT_EQ(reset(bob, "other"), 200);
+  EXPECT_EQ(reset(ada, "other"), 409);
+  EXPECT_EQ(reset(bob, "arena"), 409);
+  // By its WebSocket each acts on what that one shows, whatever they say they look at.
+  Viewer stranger(gateway_->port(), "/ws?simulation=other&viewer=" + ada);
+  EXPECT_NE(stranger.CallRefusedService("start").find("Bob holds control"), std::string::npos);
+  Viewer holder(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);
+  EXPECT_TRUE(holder.CallService("start").first);
+}
+
+TEST_F(AccessTest, WhoWatchesIsToldAtOnceWhoHoldsControl) {
+  Start({});
+  const std::string ada = Enter("Ada");
+  Viewer viewer(gateway_->port(), "/ws?simulation=arena&viewer=" + ada);
+  viewer.Subscribe(1, "/gsv/viewers");
+  const auto heard = [&] { return viewer.ReceiveData(1).payload; };
+  EXPECT_NE(heard().find(R"("holds_control":false)"), std::string::npos);
+  Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})");
+  const std::string told = heard();
+  EXPECT_NE(told.find(R"("holds_control":true)"), std::string::npos);
+  EXPECT_EQ(told.find(ada), std::string::npos);  // keys are nobody else's
 }
 
 TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
@@ -196,6 +237,9 @@ TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
   }
   EXPECT_EQ(Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":1})").status, 400);
   EXPECT_EQ(Ask("POST", "/api/viewers/me", As("x"), R"({"name":"y"})").status, 404);
+  EXPECT_EQ(Ask("POST", "/api/viewers/me", As(ada), R"({"simulation":[]})").status, 400);
+  const std::string long_name = json{{"simulation", std::string(2000, 'a')}}.dump();
+  EXPECT_EQ(Ask("POST", "/api/viewers/me", As(ada), long_name).status, 400);
   EXPECT_EQ(Ask("POST", "/api/viewers/2").status, 404);
   EXPECT_EQ(Ask("PUT", "/api/viewers").status, 405);
   EXPECT_EQ(Ask("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 409);

@@ -32,18 +32,23 @@ std::string CleanName(const std::string& name) {
   return clean.substr(first, clean.find_last_not_of(' ') - first + 1);
 }
 
+std::string NameFor(const std::string& name, std::uint64_t number) {
+  const std::string clean = CleanName(name);
+  return clean.empty() ? "viewer " + std::to_string(number) : clean;
+}
+
 }  // namespace
 
-base::Result<ControlDesk::Admission> ControlDesk::Enter(const std::string& name, Time now) {
+base::Result<ControlDesk::Admission> ControlDesk::Enter(const std::string& name,
+                                                        const std::string& simulation, Time now) {
   const std::lock_guard lock(mutex_);
   Settle(now);
   if (viewers_.size() >= kMostViewers) {
     return base::Fail(base::ErrorCode::kUnavailable, "a thousand people are watching already");
   }
   Admission admission{next_++, NewKey()};
-  std::string clean = CleanName(name);
-  if (clean.empty()) clean = "viewer " + std::to_string(admission.number);
-  viewers_[admission.key] = {{admission.number, std::move(clean)}, now};
+  ++version_;
+  viewers_[admission.key] = {{admission.number, NameFor(name, admission.number), simulation}, now};
   return admission;
 }
 
@@ -62,9 +67,21 @@ base::Status ControlDesk::Rename(const std::string& key, const std::string& name
   const std::lock_guard lock(mutex_);
   const base::Result<Viewer*> viewer = Find(key, now);
   if (!viewer) return base::Fail(viewer.error());
-  const std::string clean = CleanName(name);
   Person& person = (*viewer)->person;
-  person.name = clean.empty() ? "viewer " + std::to_string(person.number) : clean;
+  person.name = NameFor(name, person.number);
+  ++version_;
+  return {};
+}
+
+base::Status ControlDesk::Turn(const std::string& key, const std::string& simulation, Time now) {
+  const std::lock_guard lock(mutex_);
+  const base::Result<Viewer*> viewer = Find(key, now);
+  if (!viewer) return base::Fail(viewer.error());
+  if ((*viewer)->person.simulation == simulation) return {};
+  LetGo(key);
+  (*viewer)->person.simulation = simulation;
+  ++version_;
+  Settle(now);
   return {};
 }
 
@@ -78,10 +95,17 @@ base::Status ControlDesk::Leave(const std::string& key, Time now) {
 
 base::Status ControlDesk::Ask(const std::string& key, Time now) {
   const std::lock_guard lock(mutex_);
-  if (const auto viewer = Find(key, now); !viewer) return base::Fail(viewer.error());
-  const bool asks = std::any_of(questions_.begin(), questions_.end(),
+  const base::Result<Viewer*> viewer = Find(key, now);
+  if (!viewer) return base::Fail(viewer.error());
+  if ((*viewer)->person.simulation.empty()) {
+    return base::Fail(base::ErrorCode::kNotRunning, "you look at no simulation to control");
+  }
+  Control& control = ControlOf(**viewer);
+  const bool asks = std::any_of(control.questions.begin(), control.questions.end(),
                                 [&](const Question& question) { return question.key == key; });
-  if (holder_ != key && !asks) questions_.push_back({key, now});
+  if (control.holder == key || asks) return {};
+  control.questions.push_back({key, now});
+  ++version_;
   Settle(now);
   return {};
 }
@@ -89,51 +113,70 @@ base::Status ControlDesk::Ask(const std::string& key, Time now) {
 base::Status ControlDesk::Release(const std::string& key, Time now) {
   const std::lock_guard lock(mutex_);
   if (const auto viewer = Find(key, now); !viewer) return base::Fail(viewer.error());
-  std::erase_if(questions_, [&](const Question& question) { return question.key == key; });
-  if (holder_ == key) holder_.clear();
+  LetGo(key);
   Settle(now);
   return {};
 }
 
 base::Status ControlDesk::Answer(const std::string& key, bool grants, Time now) {
   const std::lock_guard lock(mutex_);
-  if (const auto viewer = Find(key, now); !viewer) return base::Fail(viewer.error());
-  if (holder_ != key || questions_.empty()) {
+  const base::Result<Viewer*> viewer = Find(key, now);
+  if (!viewer) return base::Fail(viewer.error());
+  Control& control = ControlOf(**viewer);
+  if (control.holder != key || control.questions.empty()) {
+    const bool holds = control.holder == key;
     return base::Fail(base::ErrorCode::kNotRunning,
-                      holder_ != key ? "you do not hold control" : "nobody asks for control");
+                      holds ? "nobody asks for control" : "you do not hold control");
   }
+  ++version_;
   if (grants) {
-    PassOn(now);
+    PassOn(control, now);
   } else {
-    questions_.pop_front();
-    if (!questions_.empty()) questions_.front().asked = now;
+    control.questions.pop_front();
+    if (!control.questions.empty()) control.questions.front().asked = now;
   }
   return {};
 }
 
 ControlDesk::Standing ControlDesk::See(const std::string& key, Time now) {
   const std::lock_guard lock(mutex_);
-  (void)Find(key, now);
+  const base::Result<Viewer*> you = Find(key, now);
   Standing standing;
-  for (const auto& [each, viewer] : viewers_) standing.viewers.push_back(viewer.person);
+  if (you) standing.you = (*you)->person.number;
+  for (const auto& [each, viewer] : viewers_) {
+    Person& person = standing.viewers.emplace_back(viewer.person);
+    const auto found = controls_.find(person.simulation);
+    if (found == controls_.end()) continue;
+    const Control& control = found->second;
+    person.holds = control.holder == each;
+    for (std::size_t i = 0; i < control.questions.size(); ++i) {
+      if (control.questions[i].key == each) person.asks = i + 1;
+    }
+    if (person.asks == 1) {
+      person.left = std::chrono::duration_cast<std::chrono::milliseconds>(
+          control.questions.front().asked + limits_.answer - now);
+    }
+  }
   std::sort(standing.viewers.begin(), standing.viewers.end(),
             [](const Person& a, const Person& b) { return a.number < b.number; });
-  standing.you = NumberOf(key);
-  standing.holder = NumberOf(holder_);
-  for (const Question& question : questions_) standing.asking.push_back(NumberOf(question.key));
-  if (!questions_.empty()) {
-    standing.left = std::chrono::duration_cast<std::chrono::milliseconds>(questions_.front().asked +
-                                                                          limits_.answer - now);
-  }
   return standing;
 }
 
-base::Status ControlDesk::MayAct(const std::string& key, Time now) {
+std::uint64_t ControlDesk::Version(Time now) {
+  const std::lock_guard lock(mutex_);
+  Settle(now);
+  return version_;
+}
+
+base::Status ControlDesk::MayAct(const std::string& key, const std::string& simulation, Time now) {
   const std::lock_guard lock(mutex_);
   (void)Find(key, now);
-  if (holder_.empty() || holder_ == key) return {};
+  const auto found = controls_.find(simulation);
+  if (found == controls_.end()) return {};
+  const std::string& holder = found->second.holder;
+  if (holder.empty() || holder == key) return {};
   return base::Fail(base::ErrorCode::kNotRunning,
-                    viewers_.at(holder_).person.name + " holds control; ask for it");
+                    viewers_.at(holder).person.name + " holds control; ask for it");
 }
 
 void ControlDesk::Settle(Time now) {
@@ -142,26 +185,37 @@ void ControlDesk::Settle(Time now) {
     if (now - viewer->second.seen > limits_.absence) Forget(std::string(viewer->first));
     viewer = next;
   }
-  if (questions_.empty()) return;
-  if (holder_.empty() || now - questions_.front().asked >= limits_.answer) PassOn(now);
+  for (auto entry = controls_.begin(); entry != controls_.end();) {
+    Control& control = entry->second;
+    if (!control.questions.empty() &&
+        (control.holder.empty() || now - control.questions.front().asked >= limits_.answer)) {
+      PassOn(control, now);
+      ++version_;
+    }
+    entry = control.holder.empty() ? controls_.erase(entry) : std::next(entry);
+  }
 }
 
 void ControlDesk::Forget(const std::string& key) {
-  std::erase_if(questions_, [&](const Question& question) { return question.key == key; });
-  if (holder_ == key) holder_.clear();
+  LetGo(key);
   viewers_.erase(key);
+  ++version_;
+}
+
+void ControlDesk::LetGo(const std::string& key) {
+  const auto found = controls_.find(viewers_.at(key).person.simulation);
+  if (found == controls_.end()) return;
+  Control& control = found->second;
+  std::erase_if(control.questions, [&](const Question& question) { return question.key == key; });
+  if (control.holder == key) control.holder.clear();
+  ++version_;
 }
 
 // The next question is a new holder's to answer.
-void ControlDesk::PassOn(Time now) {
-  holder_ = questions_.front().key;
-  questions_.pop_front();
-  if (!questions_.empty()) questions_.front().asked = now;
-}
-
-std::uint64_t ControlDesk::NumberOf(const std::string& key) const {
-  const auto found = viewers_.find(key);
-  return found == viewers_.end() ? 0 : found->second.person.number;
+void ControlDesk::PassOn(Control& control, Time now) {
+  control.holder = control.questions.front().key;
+  control.questions.pop_front();
+  if (!control.questions.empty()) control.questions.front().asked = now;
 }
 
 }  // namespace gsv::gateway::access

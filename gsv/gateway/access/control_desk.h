@@ -1,8 +1,9 @@
-// Who is watching, under which names, and who of them holds control.
+// Who is watching, under which names, and who of them holds control of what they watch.
 //
-// While nobody holds control, all may act. Who asks gets it at once if it is free; else the holder
-// is told, and grants it or keeps it; it passes by itself when the holder does not answer in time,
-// or leaves. Viewers are there as long as they keep asking how things stand.
+// Each viewer looks at one simulation, or at none. While nobody holds control of a simulation, all
+// may act on it. Who asks gets it at once if it is free; else the holder is told, and grants it or
+// keeps it; it passes by itself when the holder does not answer in time, leaves, or looks at
+// another simulation. Viewers are there as long as they keep asking how things stand.
 //
 // Threads  any; nothing blocks.
 // Bounded  kMostViewers.
@@ -33,13 +34,15 @@ class ControlDesk {
   struct Person {
     std::uint64_t number = 0;  // never used again
     std::string name;
+    std::string simulation;  // that they look at; empty: none
+    bool holds = false;      // control of it
+    std::size_t asks = 0;    // for it: the how manieth in the row, from 1; 0: does not
+    std::chrono::milliseconds
+        left{};  // of the first in the row: until it passes to them unanswered
   };
   struct Standing {
-    std::vector<Person> viewers;        // by number
-    std::uint64_t you = 0;              // 0: you are none of them
-    std::uint64_t holder = 0;           // 0: nobody, so that all may act
-    std::vector<std::uint64_t> asking;  // in the order of their questions
-    std::chrono::milliseconds left{};   // until the first of them gets it without an answer
+    std::vector<Person> viewers;  // by number
+    std::uint64_t you = 0;        // 0: you are none of them
   };
   struct Admission {
     std::uint64_t number = 0;
@@ -49,10 +52,13 @@ class ControlDesk {
   explicit ControlDesk(const ControlLimits& limits = {}) : limits_(limits) {}
 
   // `name` empty: "viewer NUMBER". kUnavailable: too many are there.
-  base::Result<Admission> Enter(const std::string& name, Time now);
+  base::Result<Admission> Enter(const std::string& name, const std::string& simulation, Time now);
   // These fail with kNotFound when no viewer has this key, any more.
   base::Status Rename(const std::string& key, const std::string& name, Time now);
+  // Looks at another simulation from now on; empty: at none.
+  base::Status Turn(const std::string& key, const std::string& simulation, Time now);
   base::Status Leave(const std::string& key, Time now);
+  // kNotRunning: who asks looks at no simulation.
   base::Status Ask(const std::string& key, Time now);
   // Lets go of control, or of the question for it.
   base::Status Release(const std::string& key, Time now);
@@ -61,8 +67,10 @@ class ControlDesk {
 
   // How things stand; whose key it is counts as there.
   Standing See(const std::string& key, Time now);
-  // kNotRunning with a sentence: somebody else holds control.
-  base::Status MayAct(const std::string& key, Time now);
+  // Another number whenever something is otherwise than before.
+  std::uint64_t Version(Time now);
+  // kNotRunning with a sentence: somebody else holds control of the simulation.
+  base::Status MayAct(const std::string& key, const std::string& simulation, Time now);
 
  private:
   struct Viewer {
@@ -73,20 +81,26 @@ class ControlDesk {
     std::string key;
     Time asked;
   };
+  // Of one simulation.
+  struct Control {
+    std::string holder;  // a key; empty: nobody
+    std::deque<Question> questions;
+  };
 
   // With mutex_ held:
   void Settle(Time now);  // lets go of who is gone, and passes control on where it is due
   void Forget(const std::string& key);
-  void PassOn(Time now);
+  void LetGo(const std::string& key);
+  static void PassOn(Control& control, Time now);
   base::Result<Viewer*> Find(const std::string& key, Time now);
-  std::uint64_t NumberOf(const std::string& key) const;
+  Control& ControlOf(const Viewer& viewer) { return controls_[viewer.person.simulation]; }
 
   const ControlLimits limits_;
   std::mutex mutex_;
-  std::map<std::string, Viewer> viewers_;  // by key
+  std::map<std::string, Viewer> viewers_;    // by key
+  std::map<std::string, Control> controls_;  // by simulation
   std::uint64_t next_ = 1;
-  std::string holder_;  // a key; empty: nobody
-  std::deque<Question> questions_;
+  std::uint64_t version_ = 1;
 };
 
 }  // namespace gsv::gateway::access

@@ -11,9 +11,8 @@ Need NeedOf(std::string_view method, const Target& target) {
   const std::string what = path.size() < 2 ? "" : path[1];
   if (what == "recordings") return {Right::kWatch};
   if (what == "viewers") return {path.size() > 3 ? Right::kControl : Right::kWatch};
-  // It names files on the server's machine, and changes nothing.
-  if (what == "preview") return {Right::kControl};
-  return {Right::kControl, true};
+  if (what == "simulations" && path.size() > 2) return {Right::kControl, path[2]};
+  return {Right::kControl};
 }
 
 }  // namespace gsv::gateway::access

@@ -14,6 +14,9 @@ std::string Text(const ViewersJson& json) {
   return json.dump(-1, ' ', false, ViewersJson::error_handler_t::replace);
 }
 
+// A simulation's name is no longer than an address that it stands in.
+constexpr std::size_t kLongestSimulation = 1024;
+
 template <typename T>
 std::optional<T> MemberOf(const std::string& body, const char* name) {
   const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
@@ -44,10 +47,28 @@ Response ViewersApi::Handle(const Request& request) {
 
 Response ViewersApi::Enter(const Request& request) {
   const auto name = MemberOf<std::string>(request.body, "name");
-  if (!name) return Expected(R"({"name": text})");
-  const auto admission = desk_.Enter(*name, Clock::now());
+  const std::string simulation = MemberOf<std::string>(request.body, "simulation").value_or("");
+  if (!name || simulation.size() > kLongestSimulation) {
+    return Expected(R"({"name": text, "simulation": its name})");
+  }
+  const auto admission = desk_.Enter(*name, simulation, Clock::now());
   if (!admission) return ErrorResponse(admission.error());
   return JsonResponse(201, Text({{"number", admission->number}, {"key", admission->key}}));
+}
+
+base::Status ViewersApi::Change(const Request& request) {
+  const auto name = MemberOf<std::string>(request.body, "name");
+  const auto simulation = MemberOf<std::string>(request.body, "simulation");
+  if ((!name && !simulation) || (simulation && simulation->size() > kLongestSimulation)) {
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        R"(this address takes {"name": text, "simulation": its name}, or one of both)");
+  }
+  const auto now = Clock::now();
+  if (name) {
+    if (base::Status done = desk_.Rename(request.viewer, *name, now); !done) return done;
+  }
+  return simulation ? desk_.Turn(request.viewer, *simulation, now) : base::Status();
 }
 
 Response ViewersApi::OfMe(const Request& request) {
@@ -60,9 +81,7 @@ Response ViewersApi::OfMe(const Request& request) {
   } else if (request.method != "POST") {
     return MethodNotAllowed(what.empty() ? "POST, DELETE" : "POST");
   } else if (what.empty()) {
-    const auto name = MemberOf<std::string>(request.body, "name");
-    if (!name) return Expected(R"({"name": text})");
-    done = desk_.Rename(request.viewer, *name, now);
+    done = Change(request);
   } else if (what == "control") {
     const auto wants = MemberOf<bool>(request.body, "wants");
     if (!wants) return Expected(R"({"wants": true or false})");
@@ -78,17 +97,20 @@ Response ViewersApi::OfMe(const Request& request) {
 }
 
 Response ViewersApi::Standing(const std::string& viewer) {
-  const ControlDesk::Standing standing = desk_.See(viewer, Clock::now());
+  return JsonResponse(200, StandingJson(desk_.See(viewer, Clock::now())));
+}
+
+std::string StandingJson(const ControlDesk::Standing& standing) {
   ViewersJson viewers = ViewersJson::array();
   for (const ControlDesk::Person& person : standing.viewers) {
-    viewers.push_back({{"number", person.number}, {"name", person.name}});
+    viewers.push_back({{"number", person.number},
+                       {"name", person.name},
+                       {"simulation", person.simulation},
+                       {"holds_control", person.holds},
+                       {"asks", person.asks},
+                       {"passes_in_s", static_cast<double>(person.left.count()) / 1000}});
   }
-  return JsonResponse(200,
-                      Text({{"viewers", std::move(viewers)},
-                            {"you", standing.you},
-                            {"holder", standing.holder},
-                            {"asking", standing.asking},
-                            {"passes_in_s", static_cast<double>(standing.left.count()) / 1000}}));
+  return Text({{"viewers", std::move(viewers)}, {"you", standing.you}});
 }
 
 }  // namespace gsv::gateway::access

@@ -1,19 +1,20 @@
 // Who else is watching, and who of them holds control.
 import type { Credentials } from "./credentials";
 import type { JsonServer } from "./JsonServer";
-import { listAt, numberAt, numberOr, objectAt, textAt } from "./json";
+import { listAt, numberAt, numberOr, objectAt, textAt, textOr } from "./json";
 
 export interface Person {
   number: number;
   name: string;
+  simulation: string; // that they look at; empty: none
+  holds: boolean; // control of it
+  asks: number; // for it: the place in the row, from 1; 0: does not
+  passesIn: number; // s, of the first in the row: until it passes to them without an answer
 }
 
 export interface People {
-  viewers: Person[];
+  viewers: Person[]; // of the whole server
   you: number; // 0: none of them
-  holder: number; // 0: nobody, so that all may act
-  asking: number[]; // for control, the first one first
-  passesIn: number; // s, until the first of them gets it without an answer
 }
 
 export class ViewersApi {
@@ -22,9 +23,14 @@ export class ViewersApi {
     private readonly credentials: Credentials,
   ) {}
 
-  async enter(name: string): Promise<void> {
-    const answer = objectAt(await this.server.post("api/viewers", { name }), "viewer");
+  // `simulation`: that this page shows; empty: none.
+  async enter(name: string, simulation: string): Promise<void> {
+    const answer = objectAt(await this.server.post("api/viewers", { name, simulation }), "viewer");
     this.credentials.viewer = textAt(answer.key, "viewer.key");
+  }
+
+  async turn(simulation: string): Promise<People> {
+    return parsePeople(await this.server.post("api/viewers/me", { simulation }));
   }
 
   async people(): Promise<People> {
@@ -54,14 +60,17 @@ export class ViewersApi {
 
 export function parsePeople(json: unknown): People {
   const people = objectAt(json, "viewers");
+  return { viewers: listAt(people.viewers, "viewers").map(parsePerson), you: numberOr(people.you, 0) };
+}
+
+function parsePerson(json: unknown): Person {
+  const viewer = objectAt(json, "viewer");
   return {
-    viewers: listAt(people.viewers, "viewers").map((each) => {
-      const viewer = objectAt(each, "viewer");
-      return { number: numberAt(viewer.number, "viewer.number"), name: textAt(viewer.name, "viewer.name") };
-    }),
-    you: numberOr(people.you, 0),
-    holder: numberOr(people.holder, 0),
-    asking: listAt(people.asking ?? [], "asking").map((each) => numberOr(each, 0)),
-    passesIn: numberOr(people.passes_in_s, 0),
+    number: numberAt(viewer.number, "viewer.number"),
+    name: textAt(viewer.name, "viewer.name"),
+    simulation: textOr(viewer.simulation, ""),
+    holds: viewer.holds_control === true,
+    asks: numberOr(viewer.asks, 0),
+    passesIn: numberOr(viewer.passes_in_s, 0),
   };
 }

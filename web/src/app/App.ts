@@ -59,7 +59,7 @@ export class App {
       this.act("pause"),
     );
     this.records = new RecordControl(store, api);
-    this.people = new PeopleControl(store, api.viewers, browserStorage());
+    this.people = new PeopleControl(store, session, api.viewers, browserStorage());
     this.filming = world && new Filming(store, () => world.video());
   }
 

@@ -1,20 +1,29 @@
-// Says this viewer's name, keeps asking who else is there and who holds control, and asks for it.
+// Says this viewer's name and what it looks at, hears who else is there and who holds control, and asks
+// for it.
 import { ApiError } from "../api/JsonServer";
 import type { People, ViewersApi } from "../api/ViewersApi";
-import { NO_PEOPLE, personOf } from "../state/people";
+import { parsePeople } from "../api/ViewersApi";
+import { holderOf, NO_PEOPLE, youOf } from "../state/people";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
+import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
+import type { Session } from "./Session";
 
-const POLL_MS = 1500;
+// The stream tells of changes at once. That this viewer is there has to be said again and again.
+const TOPIC = "/gsv/viewers";
+const PRESENCE_MS = 3000;
 const NAME = "gsv-name";
 
 export class PeopleControl {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private isThere = false;
+  private saidSimulation = "";
+  private endOfTopic = () => {};
 
   constructor(
     private readonly store: Store<State>,
+    private readonly session: Pick<Session, "subscribe">,
     private readonly api: ViewersApi,
     private readonly storage: Pick<Storage, "getItem" | "setItem"> | null,
   ) {}
@@ -24,6 +33,15 @@ export class PeopleControl {
       this.isThere = false;
       this.api.leave();
     });
+    this.store.watch(
+      ({ simulation, scene }) => ({ simulation, isThere: scene !== null }),
+      ({ isThere }) => {
+        this.endOfTopic();
+        this.endOfTopic = isThere ? this.session.subscribe<{ data: string }>(TOPIC, ({ data }) => this.hear(data)) : () => {};
+        if (this.isThere) void this.load();
+      },
+      shallowEqual,
+    );
     void this.follow();
   }
 
@@ -56,32 +74,42 @@ export class PeopleControl {
   private async follow(): Promise<void> {
     await this.load();
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => void this.follow(), POLL_MS);
+    this.timer = setTimeout(() => void this.follow(), PRESENCE_MS);
   }
 
   // After a server's restart, or an absence, the name is said again.
   async load(): Promise<void> {
+    const simulation = this.store.get().simulation ?? "";
     try {
-      if (!this.isThere) await this.api.enter(this.name);
+      if (!this.isThere) await this.api.enter(this.name, simulation);
+      const isNew = this.isThere && simulation !== this.saidSimulation;
       this.isThere = true;
-      const people = await this.api.people();
+      this.saidSimulation = simulation;
+      const people = isNew ? await this.api.turn(simulation) : await this.api.people();
       this.isThere = people.you !== 0;
       this.take(people);
     } catch (error) {
       // The connection tells of itself. A server that knows no viewers lets all act.
-      if (error instanceof ApiError) this.store.set({ people: NO_PEOPLE });
+      if (!(error instanceof ApiError)) return;
+      this.isThere = false;
+      this.store.set({ people: NO_PEOPLE });
     }
+  }
+
+  // What is told to all does not say who you are.
+  private hear(text: string): void {
+    const { you } = this.store.get().people;
+    if (you !== 0) this.take({ ...parsePeople(JSON.parse(text)), you });
   }
 
   private take(people: People): void {
     const before = this.store.get().people;
     this.store.set({ people });
-    if (before.holder === people.holder) return;
-    const holder = personOf(people, people.holder);
-    if (people.holder === people.you && holder) notify(this.store, "note", "You hold control.");
-    else if (before.holder === before.you && before.you !== 0 && holder) {
-      notify(this.store, "note", `${holder.name} holds control now.`);
+    const [now, then] = [holderOf(people), holderOf(before)];
+    if (now === null || now.number === then?.number) return;
+    if (now.number === people.you) notify(this.store, "note", "You hold control.");
+    else if (youOf(before)?.holds && youOf(people)?.simulation === youOf(before)?.simulation) {
+      notify(this.store, "note", `${now.name} holds control now.`);
     }
   }
 }
-

@@ -1,23 +1,20 @@
 // @vitest-environment jsdom
 import { expect, test, vi } from "vitest";
-import type { People } from "../api/ViewersApi";
+import type { Person } from "../api/ViewersApi";
 import { simulationStatus, testApp } from "./testApp";
 import { createControlQuestion, createPeopleMenu } from "./PeopleMenu";
 import { createToolbar } from "./Toolbar";
 
-const BOTH: People = {
-  viewers: [
-    { number: 1, name: "Ada" },
-    { number: 2, name: "<b>Bob</b>" },
-  ],
-  you: 1,
-  holder: 0,
-  asking: [],
-  passesIn: 0,
-};
+const ADA: Person = { number: 1, name: "Ada", simulation: "house", holds: false, asks: 0, passesIn: 0 };
+const BOB: Person = { ...ADA, number: 2, name: "<b>Bob</b>" };
 
-function page(people: Partial<People> = {}) {
-  const { app, store } = testApp({ people: { ...BOTH, ...people }, status: simulationStatus("running") });
+// You are Ada.
+const people = (ada: Partial<Person> = {}, bob: Partial<Person> = {}) => ({
+  people: { viewers: [{ ...ADA, ...ada }, { ...BOB, ...bob }], you: 1 },
+});
+
+function page(ada: Partial<Person> = {}, bob: Partial<Person> = {}) {
+  const { app, store } = testApp({ ...people(ada, bob), status: simulationStatus("running") });
   const menu = createPeopleMenu(app);
   const lines = () => [...menu.querySelectorAll("li")].map((line) => line.textContent);
   const button = () => [...menu.querySelectorAll("button")].at(-1)!;
@@ -25,7 +22,7 @@ function page(people: Partial<People> = {}) {
 }
 
 test("all who watch are listed by name, whatever it looks like", () => {
-  const { lines, menu } = page({ holder: 2 });
+  const { lines, menu } = page({}, { holds: true });
   expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · holds control"]);
   expect(menu.querySelector("b")).toBeNull();
   expect(menu.querySelector("button")!.title).toBe("Viewers (<b>Bob</b> holds control)");
@@ -34,41 +31,49 @@ test("all who watch are listed by name, whatever it looks like", () => {
 test("control is taken, asked for, and let go of", () => {
   const { app, store, button } = page();
   const want = vi.spyOn(app.people, "want").mockResolvedValue();
-  const steps: [Partial<People>, string, boolean][] = [
-    [{}, "Take control", true],
-    [{ holder: 1 }, "Let go of control", false],
-    [{ holder: 2 }, "Ask for control", true],
-    [{ holder: 2, asking: [1] }, "Ask no more", false],
+  const steps: [Partial<Person>, Partial<Person>, string, boolean][] = [
+    [{}, {}, "Take control", true],
+    [{ holds: true }, {}, "Let go of control", false],
+    [{}, { holds: true }, "Ask for control", true],
+    [{ asks: 1 }, { holds: true }, "Ask no more", false],
+    [{}, { holds: true, simulation: "cafe" }, "Take control", true],
   ];
-  for (const [people, label, wants] of steps) {
-    store.set({ people: { ...BOTH, ...people } });
+  for (const [ada, bob, label, wants] of steps) {
+    store.set(people(ada, bob));
     expect(button().textContent).toBe(label);
     button().click();
     expect(want).toHaveBeenLastCalledWith(wants);
   }
 });
 
+test("those who look at another simulation come last, and who looks at none can take none", () => {
+  const { store, lines, button } = page({}, { simulation: "cafe", holds: true });
+  expect(lines()).toEqual(["Ada · you", "<b>Bob</b> · at cafe · holds control"]);
+  store.set(people({ simulation: "" }));
+  expect(button().hidden).toBe(true);
+});
+
 test("the holder is told who asks, and answers", () => {
-  const { app, store } = page({ holder: 1 });
+  const { app, store } = page({ holds: true });
   const answer = vi.spyOn(app.people, "answer").mockResolvedValue();
   const card = createControlQuestion(app);
   expect(card.hidden).toBe(true);
-  store.set({ people: { ...BOTH, holder: 1, asking: [2], passesIn: 19.2 } });
+  store.set(people({ holds: true }, { asks: 1, passesIn: 19.2 }));
   expect(card.textContent).toContain("<b>Bob</b> asks for control. It passes in 20 s.");
   const [give, keep] = card.querySelectorAll("button");
   give!.click();
   expect(answer).toHaveBeenLastCalledWith(true);
   keep!.click();
   expect(answer).toHaveBeenLastCalledWith(false);
-  store.set({ people: { ...BOTH, holder: 2, asking: [1] } });
+  store.set(people({ asks: 1 }, { holds: true }));
   expect(card.hidden).toBe(true);
 });
 
 test("while somebody else holds control the buttons rest", () => {
-  const { app, store } = testApp({ status: simulationStatus("running"), people: BOTH });
+  const { app, store } = testApp({ status: simulationStatus("running"), ...people() });
   const bar = createToolbar(app, true, () => {});
   const pause = bar.querySelector<HTMLButtonElement>(".main-action")!;
   expect(pause.disabled).toBe(false);
-  store.set({ people: { ...BOTH, holder: 2 } });
+  store.set(people({}, { holds: true }));
   expect(pause.disabled).toBe(true);
 });

@@ -1,7 +1,7 @@
 // Who is watching: one's own name, the others', and who holds control.
 import type { App } from "../app/App";
-import type { People } from "../api/ViewersApi";
-import { asker, personOf } from "../state/people";
+import type { People, Person } from "../api/ViewersApi";
+import { asker, holderOf, together, youOf } from "../state/people";
 import { shallowEqual } from "../state/Store";
 import { element, setText } from "../ui/element";
 import { createMenu } from "../ui/menu";
@@ -16,7 +16,7 @@ export function createPeopleMenu(app: App): HTMLElement {
     (people) => {
       menu.element.hidden = people.viewers.length === 0;
       setText(number, people.viewers.length > 1 ? String(people.viewers.length) : "");
-      menu.button.classList.toggle("held", people.holder !== 0);
+      menu.button.classList.toggle("held", holderOf(people) !== null);
       menu.button.title = titleOf(people);
       list.replaceChildren(...lines(people).map((line) => element("li", {}, line)));
     },
@@ -26,20 +26,26 @@ export function createPeopleMenu(app: App): HTMLElement {
 }
 
 function titleOf(people: People): string {
-  const holder = personOf(people, people.holder);
+  const holder = holderOf(people);
   if (!holder) return "Viewers";
   return holder.number === people.you ? "Viewers (you hold control)" : `Viewers (${holder.name} holds control)`;
 }
 
-function lines({ viewers, you, holder, asking }: People): string[] {
-  return viewers.map(({ number, name }) => {
-    const notes = [
-      number === you && "you",
-      number === holder && "holds control",
-      asking.includes(number) && "asks for control",
-    ];
-    return [name, ...notes.filter(Boolean)].join(" · ");
-  });
+// Those who look at something else come last, with what it is.
+function lines(people: People): string[] {
+  const here = together(people);
+  const others = people.viewers.filter((person) => !here.includes(person));
+  return [...here.map((person) => line(person, people.you, "")), ...others.map((person) => line(person, people.you, person.simulation))];
+}
+
+function line({ number, name, holds, asks }: Person, you: number, simulation: string): string {
+  const notes = [
+    number === you && "you",
+    simulation !== "" && `at ${simulation}`,
+    holds && "holds control",
+    asks > 0 && "asks for control",
+  ];
+  return [name, ...notes.filter(Boolean)].join(" · ");
 }
 
 function nameField(app: App): HTMLElement {
@@ -47,7 +53,7 @@ function nameField(app: App): HTMLElement {
   field.value = app.people.name;
   field.addEventListener("change", () => void app.people.rename(field.value));
   app.store.watch(
-    ({ people }) => personOf(people, people.you)?.name ?? "",
+    ({ people }) => youOf(people)?.name ?? "",
     (name) => (field.placeholder = name),
   );
   return element("label", { class: "people-name" }, element("span", {}, "Your name"), field);
@@ -58,8 +64,14 @@ function controlButton(app: App): HTMLElement {
   const button = element("button", { class: "button", type: "button" });
   let wants = true;
   app.store.watch(
-    ({ people: { you, holder, asking } }) => ({ holds: holder === you, isFree: holder === 0, asks: asking.includes(you) }),
-    ({ holds, isFree, asks }) => {
+    ({ people }) => ({
+      holds: youOf(people)?.holds ?? false,
+      isFree: holderOf(people) === null,
+      asks: (youOf(people)?.asks ?? 0) > 0,
+      isHere: together(people).length > 0,
+    }),
+    ({ holds, isFree, asks, isHere }) => {
+      button.hidden = !isHere;
       wants = !holds && !asks;
       setText(button, labelOf(holds, isFree, asks));
     },
@@ -94,15 +106,22 @@ export function createControlQuestion(app: App): HTMLElement {
     sentence,
     element("div", {}, button("Give it", true, true), button("Keep it", false, false)),
   );
+  let countdown: ReturnType<typeof setInterval> | undefined;
   app.store.watch(
-    ({ people }) => {
-      const person = asker(people);
-      return person ? `${person.name} asks for control. It passes in ${Math.max(0, Math.ceil(people.passesIn))} s.` : "";
+    ({ people }) => asker(people),
+    (person) => {
+      clearInterval(countdown);
+      card.hidden = person === null;
+      if (person === null) return;
+      const end = performance.now() + person.passesIn * 1000;
+      const tell = () => {
+        const left = Math.max(0, Math.ceil((end - performance.now()) / 1000));
+        setText(sentence, `${person.name} asks for control. It passes in ${left} s.`);
+      };
+      tell();
+      countdown = setInterval(tell, 1000);
     },
-    (text) => {
-      card.hidden = text === "";
-      setText(sentence, text);
-    },
+    shallowEqual,
   );
   return card;
 }

@@ -1,19 +1,30 @@
-// Who of those who watch may act.
+// Who of those who watch may act on the simulation that this page shows.
 import type { People, Person } from "../api/ViewersApi";
 
-export const NO_PEOPLE: People = { viewers: [], you: 0, holder: 0, asking: [], passesIn: 0 };
+export const NO_PEOPLE: People = { viewers: [], you: 0 };
 
-// While nobody holds control, all may. The server has the last word.
-export function mayAct({ holder, you }: People): boolean {
-  return holder === 0 || holder === you;
+export function youOf({ viewers, you }: People): Person | null {
+  return viewers.find(({ number }) => number === you) ?? null;
 }
 
-export function personOf({ viewers }: People, number: number): Person | null {
-  return viewers.find((viewer) => viewer.number === number) ?? null;
+// Those who look at the same simulation as you.
+export function together(people: People): Person[] {
+  const simulation = youOf(people)?.simulation ?? "";
+  return simulation === "" ? [] : people.viewers.filter((person) => person.simulation === simulation);
+}
+
+export function holderOf(people: People): Person | null {
+  return together(people).find(({ holds }) => holds) ?? null;
+}
+
+// While nobody holds control, all may. The server has the last word.
+export function mayAct(people: People): boolean {
+  const holder = holderOf(people);
+  return holder === null || holder.number === people.you;
 }
 
 // Whose question you have to answer, if there is one.
 export function asker(people: People): Person | null {
-  const [first] = people.asking;
-  return people.holder === people.you && first !== undefined ? personOf(people, first) : null;
+  if (!youOf(people)?.holds) return null;
+  return together(people).find(({ asks }) => asks === 1) ?? null;
 }

@@ -1,0 +1,29 @@
+#include "gsv/gateway/access/viewers_topic.h"
+
+#include <utility>
+
+#include "gsv/gateway/access/viewers_api.h"
+#include "gsv/gateway/channels.h"
+#include "gsv/messages/std_msgs.h"
+
+namespace gsv::gateway::access {
+
+ViewersTopic::ViewersTopic(std::shared_ptr<Hub> hub, ControlDesk* desk)
+    : hub_(std::move(hub)), desk_(desk) {
+  if (desk_ == nullptr) return;
+  channel_ = hub_->Advertise({ChannelFor<messages::std_msgs::String>("/gsv/viewers")}).front();
+}
+
+void ViewersTopic::Publish(ControlDesk::Time now) {
+  if (desk_ == nullptr || !hub_->IsSubscribed(channel_)) return;
+  const std::uint64_t version = desk_->Version(now);
+  const bool is_news = version != version_;
+  if (!is_news && !hub_->HasNewcomers(channel_)) return;
+  version_ = version;
+  const std::string text = StandingJson(desk_->See("", now));
+  const Hub::Message message{0, Encoded(messages::std_msgs::String{text})};
+  if (is_news) return hub_->Publish(channel_, message);
+  hub_->Welcome(channel_, {&message, 1});
+}
+
+}  // namespace gsv::gateway::access
