@@ -162,3 +162,19 @@ test("a server that asks for a token to watch as well asks the page's reader", a
   await page.getByRole("button", { name: "Pause" }).click();
   await phaseIs(page, "paused");
 });
+
+test("so do the pages of instances, recordings and the broker", async () => {
+  for (const [name, ready] of [
+    ["join.html", ".instance .joinable"],
+    ["recordings.html", ".recording, .frame-list .hint"],
+    ["broker.html", ".offer, .summary"],
+  ]) {
+    const { page } = await openPage(browsers[1], `${server.url}${name}`); // a tab of its own knows no token
+    await page.getByRole("alert").filter({ hasText: "takes a token" }).waitFor();
+    await page.getByLabel("Token").fill(CONTROL);
+    await page.getByRole("button", { name: "Enter" }).click();
+    await page.locator(ready).first().waitFor();
+    assert.equal(await page.getByLabel("Token").isVisible(), false);
+    await page.close();
+  }
+});

@@ -14,6 +14,11 @@ export class ApiError extends Error {
   }
 }
 
+// Whether the server takes a token that was not shown, or was the wrong one.
+export function needsToken(error: unknown): boolean {
+  return error instanceof ApiError && (error.httpStatus === 401 || error.httpStatus === 403);
+}
+
 const TIMEOUT_MS = 10_000;
 
 export class JsonServer {

@@ -1,7 +1,7 @@
 // Keeps the store in step with the server: finds the simulation, fetches its scene, listens to its
 // live stream, and starts over when the connection was lost or the layout changed.
 import type { SimulationApi } from "../api/SimulationApi";
-import { ApiError } from "../api/SimulationApi";
+import { ApiError, needsToken } from "../api/JsonServer";
 import type { SceneDescription } from "../api/scene";
 import { camerasOf } from "../api/scene";
 import type { SimulationStatus } from "../api/status";
@@ -43,10 +43,6 @@ const NOTHING_WATCHED: Partial<State> = {
 export interface Wanted {
   simulation: string | null;
   recording: string | null; // that is to be replayed for this page alone
-}
-
-function needsToken(error: unknown): boolean {
-  return error instanceof ApiError && (error.httpStatus === 401 || error.httpStatus === 403);
 }
 
 export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };

@@ -1,5 +1,6 @@
 // What the server tells of its broker. Every call ends: with an answer, the server's sentence, or a
 // timeout.
+import type { JsonServer } from "../api/JsonServer";
 import type { JsonObject } from "../api/json";
 import { listAt, objectAt, textAt, textOr } from "../api/json";
 
@@ -54,10 +55,7 @@ export interface Question {
 const TIMEOUT_MS = 20_000;
 
 export class BrokerApi {
-  constructor(
-    private readonly base: string,
-    private readonly fetchPage: typeof fetch = (input, init) => fetch(input, init),
-  ) {}
+  constructor(private readonly server: JsonServer) {}
 
   async types(): Promise<{ broker: string; types: ServiceType[] }> {
     const answer = objectAt(await this.get("types"), "types");
@@ -81,16 +79,8 @@ export class BrokerApi {
     return listAt(answer.links, "links").map((link, i) => parseLink(objectAt(link, `links[${i}]`)));
   }
 
-  private async get(path: string): Promise<unknown> {
-    const url = new URL(`api/broker/${path}`, this.base).href;
-    const signal = AbortSignal.timeout(TIMEOUT_MS);
-    const response = await this.fetchPage(url, { signal }).catch(() => {
-      throw new Error("The server cannot be reached.");
-    });
-    const answer: unknown = await response.json().catch(() => null);
-    if (response.ok) return answer;
-    const sentence = textOr((answer as { error?: unknown } | null)?.error, "");
-    throw new Error(sentence || `The server answered ${response.status}.`);
+  private get(path: string): Promise<unknown> {
+    return this.server.get(`api/broker/${path}`, TIMEOUT_MS);
   }
 }
 

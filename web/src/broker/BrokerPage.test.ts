@@ -1,5 +1,6 @@
 // @vitest-environment jsdom
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
+import { JsonServer } from "../api/JsonServer";
 import { BrokerApi } from "./BrokerApi";
 import { BrokerPage } from "./BrokerPage";
 
@@ -25,17 +26,18 @@ const LINKS = { links: [{ name: "north", address: "c:3", answers: false }] };
 
 async function open(answers: Record<string, [status: number, body: unknown]>) {
   const asked: string[] = [];
-  const api = new BrokerApi("http://gsv/", (async (input: string) => {
+  const fetchPage = (async (input: string) => {
     const { pathname, search } = new URL(input);
     asked.push(pathname + search);
     const [status, body] = answers[pathname.split("/").at(-1)!]!;
     return new Response(JSON.stringify(body), { status });
-  }) as typeof fetch);
+  }) as typeof fetch;
   const host = document.createElement("div");
-  const page = new BrokerPage(api);
+  const admit = vi.fn();
+  const page = new BrokerPage(new BrokerApi(new JsonServer("http://gsv/", fetchPage)), admit);
   page.show(host);
   await page.load();
-  return { host, asked };
+  return { host, asked, admit };
 }
 
 async function find(host: HTMLElement, constraint: string) {
@@ -69,4 +71,17 @@ test("shows a refused constraint as the broker's sentence, and a link that does 
   });
   expect(host.querySelector("[role=alert]")!.textContent).toBe("expected a value at 9");
   expect(host.querySelector(".link")!.textContent).toContain("does not answer");
+});
+
+test("a server that takes a token is shown the one that is typed", async () => {
+  const answers: Parameters<typeof open>[0] = { types: [401, { error: "this takes a token" }], links: [401, {}] };
+  const { host, admit } = await open(answers);
+  expect(host.querySelector("[role=alert]")!.textContent).toBe("this takes a token");
+  answers.types = [200, TYPES];
+  answers.offers = [200, OFFERS];
+  host.querySelector<HTMLInputElement>(".token-field")!.value = " secret ";
+  host.querySelector(".answer form")!.dispatchEvent(new Event("submit", { cancelable: true }));
+  await vi.waitFor(() => expect(host.querySelector(".summary")).not.toBeNull());
+  expect(admit.mock.calls).toEqual([["secret"]]);
+  expect(host.querySelector(".token-field")).toBeNull();
 });

@@ -1,6 +1,8 @@
 // The broker page: service types, the offers of the chosen one with a constraint to try, and links.
 import { showFrame } from "../frame/frame";
+import { needsToken } from "../api/JsonServer";
 import { element } from "../ui/element";
+import { createTokenForm } from "../ui/tokenForm";
 import type { BrokerApi, Link, ServiceType } from "./BrokerApi";
 import { offerList } from "./OfferList";
 
@@ -16,7 +18,11 @@ export class BrokerPage {
   private type = "";
   private asked = 0;
 
-  constructor(private readonly api: BrokerApi) {}
+  // `admit`: that token is shown to the server from now on.
+  constructor(
+    private readonly api: BrokerApi,
+    private readonly admit: (token: string) => void,
+  ) {}
 
   show(page: HTMLElement): void {
     page.classList.add("broker-page");
@@ -43,6 +49,7 @@ export class BrokerPage {
       if (this.address) this.address.textContent = broker;
       this.types.replaceChildren(...types.map((type) => this.typeButton(type)));
       if (types.length === 0) this.types.replaceChildren(hint("The broker knows no service type yet."));
+      this.answer.replaceChildren();
       if (types[0]) await this.choose(types[0]);
     } catch (error) {
       this.complain(error);
@@ -114,7 +121,15 @@ export class BrokerPage {
   }
 
   private complain(error: unknown): void {
-    this.answer.replaceChildren(element("p", { class: "problem", role: "alert" }, (error as Error).message));
+    const sentence = element("p", { class: "problem", role: "alert" }, (error as Error).message);
+    this.answer.replaceChildren(sentence, ...(needsToken(error) ? [this.tokenForm()] : []));
+  }
+
+  private tokenForm(): HTMLElement {
+    return createTokenForm((token) => {
+      this.admit(token);
+      void this.load();
+    });
   }
 }
 

@@ -1,5 +1,7 @@
 // A page that is one list, asked for again and again: what it shows comes and goes.
-import { element } from "../ui/element";
+import { needsToken } from "../api/JsonServer";
+import { element, setText } from "../ui/element";
+import { createTokenForm } from "../ui/tokenForm";
 import type { Frame } from "./frame";
 import { showFrame } from "./frame";
 
@@ -17,24 +19,30 @@ export interface ListSource<Item> {
   empty: string | Node; // instead of no items
   fetch(): Promise<Listing<Item>>;
   show(item: Item): HTMLElement; // a list item
+  admit(token: string): void; // it is shown to the server from now on
 }
 
 export class ListPage<Item> {
   private readonly wrong = element("p", { class: "field-error", role: "alert" });
   private readonly list: HTMLElement;
   private readonly more = element("p", { class: "hint" });
+  private readonly token: HTMLElement;
   private frame: Frame | null = null;
   private shown = "";
 
   constructor(private readonly source: ListSource<Item>) {
     this.list = element("ul", { class: "frame-list", "aria-label": source.label });
+    this.token = createTokenForm((token) => {
+      source.admit(token);
+      void this.load();
+    });
   }
 
   show(page: HTMLElement): void {
     page.classList.add("list-page");
-    this.wrong.hidden = true;
+    this.wrong.hidden = this.token.hidden = true;
     this.more.hidden = true;
-    const view = element("main", { class: "view" }, this.wrong, this.list, this.more);
+    const view = element("main", { class: "view" }, this.wrong, this.token, this.list, this.more);
     this.frame = showFrame(page, this.source.title, view);
   }
 
@@ -46,15 +54,16 @@ export class ListPage<Item> {
   async load(): Promise<void> {
     try {
       const listing = await this.source.fetch();
-      this.wrong.hidden = true;
+      this.wrong.hidden = this.token.hidden = true;
       const text = JSON.stringify(listing);
       // What has not changed keeps the focus that may be in it.
       if (text === this.shown) return;
       this.shown = text;
       this.take(listing);
     } catch (error) {
-      this.wrong.textContent = (error as Error).message;
+      setText(this.wrong, (error as Error).message);
       this.wrong.hidden = false;
+      this.token.hidden = !needsToken(error);
     }
   }
 

@@ -9,7 +9,7 @@ async function open(instances: object[], status = 200) {
   const body = status === 200 ? { broker: "corbaloc:", instances } : { error: "the broker is silent" };
   const server = new JsonServer("http://gsv/", async () => new Response(JSON.stringify(body), { status }));
   const host = document.createElement("div");
-  const page = createJoinPage(server);
+  const page = createJoinPage(server, () => {});
   page.show(host);
   await page.load();
   return host;

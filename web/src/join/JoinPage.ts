@@ -6,8 +6,9 @@ import { count, formatTime } from "../ui/format";
 import type { Instance, JoinableSimulation } from "./instances";
 import { fetchInstances } from "./instances";
 
-export function createJoinPage(server: JsonServer): ListPage<Instance> {
+export function createJoinPage(server: JsonServer, admit: (token: string) => void): ListPage<Instance> {
   return new ListPage({
+    admit,
     title: "Join",
     label: "Instances",
     empty: "No instance is offered.",

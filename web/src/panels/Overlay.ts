@@ -3,6 +3,7 @@ import type { App } from "../app/App";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
+import { createTokenForm } from "../ui/tokenForm";
 
 type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
 
@@ -37,7 +38,7 @@ function content(app: App, situation: Situation): Node[] {
     case "none":
       return [];
     case "refused":
-      return [message("This server takes a token", app.store.get().refusal, tokenForm(app))];
+      return [message("This server takes a token", app.store.get().refusal, createTokenForm((token) => app.enterToken(token)))];
     case "missing":
       return [
         message(
@@ -83,22 +84,6 @@ function content(app: App, situation: Situation): Node[] {
         ),
       ];
   }
-}
-
-function tokenForm(app: App): HTMLElement {
-  const field = element("input", {
-    type: "password",
-    "aria-label": "Token",
-    autocomplete: "off",
-    spellcheck: "false",
-    class: "token-field",
-  });
-  const form = element("form", { class: "retry" }, field, element("button", { class: "button primary", type: "submit" }, "Enter"));
-  form.addEventListener("submit", (event) => {
-    event.preventDefault();
-    app.enterToken(field.value.trim());
-  });
-  return form;
 }
 
 // Where the server cannot create any there is none.

@@ -17,7 +17,7 @@ async function open(recordings: object[], more: object = {}) {
   const body = { folder: "/data", left_out: 0, recordings, ...more };
   const server = new JsonServer("http://gsv/", async () => new Response(JSON.stringify(body)));
   const host = document.createElement("div");
-  const page = createRecordingsPage(server);
+  const page = createRecordingsPage(server, () => {});
   page.show(host);
   await page.load();
   return host;

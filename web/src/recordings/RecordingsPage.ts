@@ -6,8 +6,9 @@ import { count, formatDate, formatSize, formatTime } from "../ui/format";
 import type { RecordingLine } from "./recordings";
 import { fetchRecordings, replayUrl } from "./recordings";
 
-export function createRecordingsPage(server: JsonServer): ListPage<RecordingLine> {
+export function createRecordingsPage(server: JsonServer, admit: (token: string) => void): ListPage<RecordingLine> {
   return new ListPage({
+    admit,
     title: "Recordings",
     label: "Recordings",
     empty: noRecordings(),
