@@ -1,5 +1,6 @@
 // Worlds from the user's machine: a file that is chosen, a folder that is dropped, and what is no world.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { keepPicture } from "./documentation.mjs";
@@ -82,8 +83,39 @@ test("a folder with its models is dropped, shown, and becomes a simulation", asy
   assert.deepEqual(faults, []);
 });
 
-test("a file that is no world has its sentence beside the field", async () => {
+// Made by Python's zipfile.
+function zipped(files) {
+  const make = `
+import io, json, sys, zipfile
+out = io.BytesIO()
+with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+    for name, text in json.load(sys.stdin).items(): archive.writestr(name, text)
+sys.stdout.buffer.write(out.getvalue())`;
+  return execFileSync("python3", ["-c", make], { input: JSON.stringify(files) });
+}
+
+const choose = (buffer) =>
+  page.getByLabel("World file").setInputFiles({ name: "lab.zip", mimeType: "application/zip", buffer });
+
+test("a zip archive with a world and its models is unpacked and shown", async () => {
   await page.getByRole("button", { name: "New simulation" }).click();
+  await choose(
+    zipped({ "lab/room.world": WORLD.replace("0 0 0.5", "2 0 0.5"), "lab/models/cube/model.config": CONFIG, "lab/models/cube/model.sdf": CUBE }),
+  );
+  await page.getByText("World: 1 object").waitFor({ state: "attached" });
+  assert.match(await page.getByLabel(/^Environment: /).inputValue(), /lab\/room\.world$/);
+  assert.equal(await objection().textContent(), "");
+});
+
+test("an archive whose names lead out of it, or that is cut off, is refused with a sentence", async () => {
+  await choose(zipped({ "room.world": WORLD, "../../evil.sh": "x" }));
+  await objection().filter({ hasText: 'lab.zip cannot be taken: the name "../../evil.sh" in it leads out of it.' }).waitFor();
+  await choose(zipped({ "room.world": WORLD }).subarray(0, -5));
+  await objection().filter({ hasText: "lab.zip cannot be taken: its end is missing" }).waitFor();
+  assert.deepEqual(faults, []);
+});
+
+test("a file that is no world has its sentence beside the field", async () => {
   await page.getByLabel("World file").setInputFiles({ name: "holiday.sdf", mimeType: "image/jpeg", buffer: Buffer.from("not XML at all") });
   await until(async () => /holiday\.sdf/.test((await objection().textContent()) ?? ""), "the objection");
   assert.ok(faults.every((fault) => /40|422/.test(fault)), faults.join());

@@ -2,7 +2,7 @@
 import type { RobotSetUp, Scenario } from "../state/scenario";
 import { robotJson, scenarioJson } from "../state/scenario";
 import type { JsonServer } from "./JsonServer";
-import type { DroppedFile } from "../setup/dropped";
+import type { DroppedFile } from "../setup/DroppedFile";
 import { simulationPath } from "./JsonServer";
 import { listAt, numbersAt, objectAt, textAt, textOr } from "./json";
 import type { SceneDescription } from "./scene";
@@ -120,9 +120,10 @@ export class SetUpApi {
     const begun = objectAt(await this.server.post("api/uploads", {}), "upload");
     const set = textAt(begun.upload, "upload");
     let first = "";
-    for (const { path, file } of files) {
+    for (const { path, content } of files) {
       const place = path.split("/").map(encodeURIComponent).join("/");
-      const answer = objectAt(await this.server.put(`api/uploads/${set}/${place}`, file, UPLOAD_TIMEOUT_MS), "upload");
+      const sent = this.server.put(`api/uploads/${set}/${place}`, await content(), UPLOAD_TIMEOUT_MS);
+      const answer = objectAt(await sent, "upload");
       first ||= textAt(answer.path, "path");
     }
     return first;

@@ -1,9 +1,15 @@
 // @vitest-environment jsdom
+import { Blob } from "node:buffer"; // jsdom's cannot be read
 import { beforeEach, expect, test, vi } from "vitest";
 import { ApiError } from "../api/JsonServer";
 import { testApp } from "../panels/testApp";
 import { body, scene } from "../scene/testScene";
+import type { DroppedFile } from "../setup/DroppedFile";
 import { createSetUpPanel } from "../setup/SetUpPanel";
+
+function dropped(path: string, size = 1): DroppedFile {
+  return { path, size, content: async () => new Blob([]) as never };
+}
 
 function fakeApi() {
   return {
@@ -59,7 +65,7 @@ test("a world that is dropped while the form still opens is kept", async () => {
   let answer = (_worlds: string[]) => {};
   api.worlds.mockReturnValueOnce(new Promise((resolve) => (answer = resolve)));
   const opening = app.setUp.open();
-  await app.setUp.drop([{ path: "mine.world", file: new File(["<sdf/>"], "mine.world") }]);
+  await app.setUp.drop([dropped("mine.world")]);
   answer(["maze", "office"]);
   await opening;
   expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/mine.world");
@@ -145,7 +151,6 @@ test("a scenario file is loaded, YAML as well, and what is none is refused with 
 
 test("a world that is dropped is uploaded and shown; what is none has its sentence beside the field", async () => {
   const { app, store, panel } = await opened();
-  const dropped = (path: string, size = 1) => ({ path, file: { size } as File });
   await app.setUp.drop([dropped("w/mesh.stl"), dropped("w/my.world")]);
   await settled(app);
   expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/w/my.world");

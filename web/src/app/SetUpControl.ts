@@ -9,8 +9,8 @@ import { EMPTY_SCENARIO, findRobot, newRobot } from "../state/scenario";
 import { withChangedRobot, withRobot, withoutRobot } from "../state/scenario";
 import type { SetUp } from "../state/setUp";
 import { changed, redone, undone } from "../state/setUp";
-import type { DroppedFile } from "../setup/dropped";
-import { worldFirst } from "../setup/dropped";
+import type { DroppedFile } from "../setup/DroppedFile";
+import { unpacked, worldFirst } from "../setup/dropped";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { download } from "./files";
@@ -130,7 +130,7 @@ export class SetUpControl {
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
     this.patch(() => ({ isBusy: true }));
     try {
-      const world = await this.api.upload(worldFirst(await files));
+      const world = await this.api.upload(worldFirst(await unpacked(await files)));
       this.change({ world });
     } catch (error) {
       this.patch(() => ({ isBusy: false, wrong: { field: "world", sentence: (error as Error).message } }));

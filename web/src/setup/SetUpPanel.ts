@@ -122,7 +122,7 @@ function uploads(app: App): HTMLElement {
     const file = element("input", {
       type: "file",
       "aria-label": isFolder ? "World folder" : "World file",
-      ...(isFolder ? { webkitdirectory: true } : { accept: ".sdf,.world,.urdf,.xml" }),
+      ...(isFolder ? { webkitdirectory: true } : { accept: ".sdf,.world,.urdf,.xml,.zip" }),
     });
     file.hidden = true;
     file.addEventListener("change", () => {

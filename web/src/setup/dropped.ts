@@ -1,18 +1,14 @@
-// Files that were dropped onto the page, or chosen: a world, or a folder that holds one.
-export interface DroppedFile {
-  path: string; // "world.sdf", "folder/meshes/cube.stl"
-  file: File;
-}
-
-export const LARGEST_FILE = 64 * 2 ** 20; // bytes; the server's limit
-const MOST_FILES = 2000;
+// Files that were dropped onto the page, or chosen: a world, or a folder or a zip archive that holds one.
+import type { DroppedFile } from "./DroppedFile";
+import { droppedFile, isHidden, LARGEST_FILE, MOST_FILES } from "./DroppedFile";
+import { filesInZip, isZip } from "./zip";
 
 // The order in which they are sent, the world first. Throws a sentence for people.
 export function worldFirst(files: readonly DroppedFile[]): DroppedFile[] {
   if (files.length > MOST_FILES) throw new Error(`These are ${files.length} files; at most ${MOST_FILES} can be taken.`);
-  const large = files.find(({ file }) => file.size > LARGEST_FILE);
+  const large = files.find(({ size }) => size > LARGEST_FILE);
   if (large) {
-    throw new Error(`${large.path} has ${Math.round(large.file.size / 2 ** 20)} MiB; at most 64 MiB can be taken.`);
+    throw new Error(`${large.path} has ${Math.round(large.size / 2 ** 20)} MiB; at most 64 MiB can be taken.`);
   }
   const world = files.length === 1 ? files[0] : [...files].sort(byLikelihood).find(({ path }) => rankOf(path) < 9);
   if (!world) throw new Error("There is no world among these files: its name ends in .world or .sdf.");
@@ -32,22 +28,26 @@ function rankOf(path: string): number {
   return /\.urdf$/i.test(path) ? 3 : 9;
 }
 
+// An archive on its own stands for what is in it. Throws a sentence for people.
+export async function unpacked(files: readonly DroppedFile[]): Promise<readonly DroppedFile[]> {
+  const [only, ...others] = files;
+  if (!only || others.length > 0) return files;
+  const content = await only.content();
+  return (await isZip(content)) ? filesInZip(only.path, content) : files;
+}
+
 // All that was dropped, folders with what is in them; hidden files are left where they are.
 export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
-  if (entries.length === 0) return [...transfer.files].map((file) => ({ path: file.name, file }));
+  if (entries.length === 0) return [...transfer.files].map((file) => droppedFile(file.name, file));
   return (await Promise.all(entries.map((entry) => filesOf(entry, "")))).flat();
 }
 
 // Of a chosen folder.
 export function chosenFiles(list: FileList): DroppedFile[] {
   return [...list]
-    .map((file) => ({ path: file.webkitRelativePath || file.name, file }))
+    .map((file) => droppedFile(file.webkitRelativePath || file.name, file))
     .filter(({ path }) => !isHidden(path));
-}
-
-function isHidden(path: string): boolean {
-  return path.split("/").some((part) => part.startsWith("."));
 }
 
 async function filesOf(entry: FileSystemEntry, above: string): Promise<DroppedFile[]> {
@@ -55,7 +55,7 @@ async function filesOf(entry: FileSystemEntry, above: string): Promise<DroppedFi
   const path = above + entry.name;
   if (entry.isFile) {
     const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
-    return [{ path, file }];
+    return [droppedFile(path, file)];
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   const found: DroppedFile[] = [];

@@ -1,0 +1,17 @@
+// One of the files that were dropped onto the page, or chosen, or lie in an archive that was.
+export interface DroppedFile {
+  path: string; // "world.sdf", "folder/meshes/cube.stl"
+  size: number; // bytes
+  content(): Promise<Blob>;
+}
+
+export const LARGEST_FILE = 64 * 2 ** 20; // bytes; the server's limit
+export const MOST_FILES = 2000;
+
+export function droppedFile(path: string, file: File): DroppedFile {
+  return { path, size: file.size, content: async () => file };
+}
+
+export function isHidden(path: string): boolean {
+  return path.split("/").some((part) => part.startsWith("."));
+}

@@ -1,0 +1,128 @@
+import { execFileSync } from "node:child_process";
+import { Readable, Writable } from "node:stream";
+import { createInflateRaw } from "node:zlib";
+import { expect, test } from "vitest";
+import type { Inflate } from "./zip";
+import { filesInZip, isZip } from "./zip";
+
+// Node 18 has no DecompressionStream for this.
+const inflate: Inflate = () => {
+  const duplex = createInflateRaw();
+  return { readable: Readable.toWeb(duplex) as ReadableStream, writable: Writable.toWeb(duplex) as WritableStream };
+};
+
+// Archives are made by Python's zipfile.
+const MAKE = `
+import io, json, sys, zipfile
+out = io.BytesIO()
+with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+    for entry in json.load(sys.stdin):
+        info = zipfile.ZipInfo(entry["path"])
+        info.compress_type = zipfile.ZIP_STORED if entry.get("stored") else zipfile.ZIP_DEFLATED
+        info.external_attr = entry.get("mode", 0o100644) << 16
+        archive.writestr(info, entry.get("text", "") * entry.get("times", 1))
+sys.stdout.buffer.write(out.getvalue())
+`;
+interface Made {
+  path: string;
+  text?: string;
+  times?: number;
+  mode?: number;
+  stored?: boolean;
+}
+
+function zipped(...entries: Made[]): Uint8Array {
+  const options = { input: JSON.stringify(entries), maxBuffer: 2 ** 26 };
+  return new Uint8Array(execFileSync("python3", ["-c", MAKE], options));
+}
+
+const file = (bytes: Uint8Array) => new File([bytes as BlobPart], "my.zip");
+const read = (bytes: Uint8Array) => filesInZip("my.zip", file(bytes), inflate);
+
+// Writes into each line of the list at the end.
+function patched(bytes: Uint8Array, offset: number, value: number, size: 2 | 4 = 4): Uint8Array {
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  for (let at = 0; at + 46 < bytes.length; ++at) {
+    if (view.getUint32(at, true) !== 0x02014b50) continue;
+    if (size === 2) view.setUint16(at + offset, value, true);
+    else view.setUint32(at + offset, value, true);
+  }
+  return bytes;
+}
+
+test("its files are unpacked as they were, deflated or stored, without folders and hidden ones", async () => {
+  const long = "solid cube\n".repeat(10_000);
+  const files = await read(
+    zipped(
+      { path: "lab/", mode: 0o40755 },
+      { path: "lab/räum.world", text: "<sdf/>" },
+      { path: "lab/meshes/cube.stl", text: long },
+      { path: "lab/plain.txt", text: "as it is", stored: true },
+      { path: "lab/empty" },
+      { path: "lab/.git/config", text: "x" },
+      { path: "__MACOSX/lab/räum.world", text: "x" },
+    ),
+  );
+  const found = await Promise.all(files.map(async ({ path, size, content }) => [path, size, await (await content()).text()]));
+  expect(found).toEqual([
+    ["lab/räum.world", 6, "<sdf/>"],
+    ["lab/meshes/cube.stl", long.length, long],
+    ["lab/plain.txt", 8, "as it is"],
+    ["lab/empty", 0, ""],
+  ]);
+});
+
+test("an archive is known by its first bytes", async () => {
+  expect(await isZip(file(zipped({ path: "a" })))).toBe(true);
+  expect(await isZip(file(zipped()))).toBe(true);
+  expect(await isZip(new File(["<sdf/>"], "a.zip"))).toBe(false);
+  expect(await isZip(new File(["P"], "a.zip"))).toBe(false);
+});
+
+test.each([
+  ["../a.world", "leads out of it"],
+  ["a/../../b", "leads out of it"],
+  ["/etc/passwd", "leads out of it"],
+  ["C:\\b", "leads out of it"],
+  ["a\\b", "leads out of it"],
+])("the name %s is refused", async (path, reason) => {
+  await expect(read(zipped({ path: "w.world" }, { path }))).rejects.toThrow(`my.zip cannot be taken: the name ${JSON.stringify(path)} in it ${reason}.`);
+});
+
+test("links, encryption and unknown methods are refused", async () => {
+  await expect(read(zipped({ path: "l", text: "/etc/passwd", mode: 0o120777 }))).rejects.toThrow("l in it is a symbolic link");
+  await expect(read(patched(zipped({ path: "a" }), 8, 1, 2))).rejects.toThrow("a in it is encrypted");
+  await expect(read(patched(zipped({ path: "a" }), 10, 14, 2))).rejects.toThrow("by a method that is not known here");
+});
+
+test("what would be too large is refused before anything is unpacked", async () => {
+  await expect(read(patched(zipped({ path: "a" }), 24, 2 ** 31))).rejects.toThrow("a in it has 2048 MiB unpacked; at most 64 MiB can be taken");
+  const nine = Array.from({ length: 9 }, (_, i) => ({ path: `${i}` }));
+  await expect(read(patched(zipped(...nine), 24, 60 * 2 ** 20))).rejects.toThrow("unpacked it has 540 MiB; at most 512 MiB can be taken");
+  const many = Array.from({ length: 2001 }, (_, i) => ({ path: `${i}` }));
+  await expect(read(zipped(...many))).rejects.toThrow("it holds 2001 files; at most 2000 can be taken");
+});
+
+test("a file that is longer or shorter than it says, or damaged, is refused when it is unpacked", async () => {
+  const unpack = async (bytes: Uint8Array) => (await read(bytes))[0]!.content();
+  const bomb = () => zipped({ path: "a", text: "0", times: 2 ** 22 });
+  await expect(unpack(patched(bomb(), 24, 100))).rejects.toThrow("a in it is longer than it says");
+  await expect(unpack(patched(bomb(), 24, 2 ** 22 + 1))).rejects.toThrow("a in it is damaged");
+  await expect(unpack(patched(bomb(), 16, 1))).rejects.toThrow("a in it is damaged");
+  await expect(unpack(patched(bomb(), 42, 7))).rejects.toThrow("a in it is damaged");
+  await expect(unpack(patched(bomb(), 42, 2 ** 31))).rejects.toThrow("a in it is damaged");
+});
+
+test("an archive that is cut off, or whose list lies, is refused", async () => {
+  const bytes = zipped({ path: "a", text: "x" });
+  await expect(read(bytes.slice(0, -10))).rejects.toThrow("its end is missing");
+  await expect(read(bytes.slice(0, 4))).rejects.toThrow("its end is missing");
+  const counted = zipped({ path: "a" });
+  new DataView(counted.buffer).setUint16(counted.length - 12, 9, true);
+  await expect(read(counted)).rejects.toThrow("its list of files is damaged");
+  const named = patched(zipped({ path: "a" }), 28, 0xffff, 2);
+  await expect(read(named)).rejects.toThrow("its list of files is damaged");
+  const far = zipped({ path: "a" });
+  new DataView(far.buffer).setUint32(far.length - 6, 0xfffffffe, true);
+  await expect(read(far)).rejects.toThrow("its list of files is damaged");
+});
