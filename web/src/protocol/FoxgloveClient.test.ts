@@ -136,6 +136,33 @@ test("who wants the newest only is spared what came before it", async () => {
   expect(newest.mock.calls.length).toBeLessThan(50);
 });
 
+test("a message that took long is followed by a rest, and then by the newest", async () => {
+  const server = await serve();
+  const { client } = connectTo(server);
+  let now = 0;
+  const clock = vi.spyOn(performance, "now").mockImplementation(() => now);
+  const timeout = vi.spyOn(globalThis, "setTimeout");
+  const heard: number[] = [];
+  client.subscribe<{ number: number }>(
+    "/greeting",
+    ({ number }) => {
+      heard.push(number);
+      now += 30;
+    },
+    { newestOnly: true },
+  );
+  await vi.waitFor(() => expect(server.heard).toHaveLength(1));
+  server.send(greeting(1, 1, ""));
+  await vi.waitFor(() => expect(heard).toEqual([1]));
+  timeout.mockClear();
+  server.send(greeting(1, 2, ""));
+  await vi.waitFor(() => expect(timeout.mock.calls.map(([, wait]) => wait)).toContain(120));
+  server.send(greeting(1, 3, ""));
+  await vi.waitFor(() => expect(heard).toEqual([1, 3]));
+  clock.mockRestore();
+  timeout.mockRestore();
+});
+
 test("ending a subscription tells the server, and late messages are dropped", async () => {
   const server = await serve();
   const { client, problems } = connectTo(server);

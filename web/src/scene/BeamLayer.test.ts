@@ -33,26 +33,26 @@ const beam = [
 ];
 
 test("a beam moves and turns along with its robot", () => {
-  const layer = new BeamLayer();
+  const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam), new Matrix4().makeTranslation(2, 0, 0));
   const shown = new Matrix4().makeRotationZ(Math.PI / 2).setPosition(0, 10, 0);
-  layer.place(() => shown);
+  layer.place(() => shown, () => 0);
   const expected = [0, 11, 0.2, 0, 13, 0.2];
   drawn(layer).forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 6));
 });
 
 test("beams without a robot to hang on are not drawn", () => {
-  const layer = new BeamLayer();
+  const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam), new Matrix4());
-  layer.place(() => null);
+  layer.place(() => null, () => 0);
   expect(layer.segments).toBe(0);
 });
 
 test("each end has its own colour; beams that are given none are red", () => {
-  const layer = new BeamLayer();
+  const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam, { colors: [YELLOW, YELLOW] }), new Matrix4());
   layer.setRobot("b", marker(beam), new Matrix4());
-  layer.place(() => new Matrix4());
+  layer.place(() => new Matrix4(), () => 0);
   const colours = layer.lines.geometry.getAttribute("instanceColorStart");
   expect([colours.getX(0), colours.getY(0), colours.getZ(0)]).toEqual([1, 1, 0]);
   expect(colours.getX(1)).toBe(1);
@@ -60,20 +60,30 @@ test("each end has its own colour; beams that are given none are red", () => {
 });
 
 test("many robots' beams fit", () => {
-  const layer = new BeamLayer();
+  const layer = new BeamLayer(10_000);
   const many = Array.from({ length: 48 }, (_, i) => ({ x: i, y: 0, z: 0 }));
   for (let robot = 0; robot < 100; robot++) layer.setRobot(`r${robot}`, marker(many), new Matrix4());
-  layer.place(() => new Matrix4());
+  layer.place(() => new Matrix4(), () => 0);
   expect(layer.segments).toBe(2400);
   expect(drawn(layer).at(-3)).toBe(47);
 });
 
+test("of more beams than can be drawn those of the robots in front are, each robot's whole", () => {
+  const layer = new BeamLayer(5);
+  const two = [...beam, ...beam];
+  for (const robot of ["c", "a", "b"]) layer.setRobot(robot, marker(two), new Matrix4());
+  const at = (robot: string) => new Matrix4().makeTranslation(0, "abc".indexOf(robot), 0);
+  layer.place(at, (_robot, frame) => frame.elements[13]!);
+  expect(layer.segments).toBe(4);
+  expect(drawn(layer).filter((_, i) => i % 3 === 1)).toEqual([0, 0, 0, 0, 1, 1, 1, 1]);
+});
+
 test("a robot without beams any more loses its lines", () => {
-  const layer = new BeamLayer();
+  const layer = new BeamLayer(10_000);
   layer.setRobot("a", marker(beam), new Matrix4());
   layer.setRobot("b", marker(beam), new Matrix4());
   layer.setRobot("a", marker([]), new Matrix4());
   layer.keepOnly(new Set(["a"]));
-  layer.place(() => new Matrix4());
+  layer.place(() => new Matrix4(), () => 0);
   expect(layer.segments).toBe(0);
 });

@@ -21,6 +21,11 @@ interface RobotBeams {
   colours: Float32Array; // r g b of each end
 }
 
+interface PlacedBeams extends RobotBeams {
+  robot: string;
+  frame: Matrix4; // world_from_robot, as shown
+}
+
 export class BeamLayer {
   readonly lines: LineSegments2;
   private readonly beams = new Map<string, RobotBeams>();
@@ -35,7 +40,8 @@ export class BeamLayer {
   private positions = new Float32Array(0);
   private colours = new Float32Array(0);
 
-  constructor() {
+  // Draws at most so many beams.
+  constructor(private readonly most: number) {
     this.lines = new LineSegments2(segmentsGeometry(this.positions, this.colours), this.material);
     this.lines.frustumCulled = false;
     this.lines.raycast = () => {};
@@ -73,16 +79,19 @@ export class BeamLayer {
     for (const robot of [...this.beams.keys()]) if (!robots.has(robot)) this.beams.delete(robot);
   }
 
-  // Places the beams with the robots as they are shown now.
-  place(worldFromRobot: (robot: string) => Matrix4 | null): void {
-    let ends = 0;
-    for (const { pointsInRobot } of this.beams.values()) ends += pointsInRobot.length / 3;
+  // Places the beams with the robots as they are shown now. Where there are more than can be drawn,
+  // those of the robots with the lowest `rank` are.
+  place(worldFromRobot: (robot: string) => Matrix4 | null, rank: (robot: string, frame: Matrix4) => number): void {
+    const placed = [...this.beams].flatMap(([robot, beams]) => {
+      const frame = worldFromRobot(robot);
+      return frame ? [{ ...beams, frame, robot }] : [];
+    });
+    const drawn = this.chosen(placed, rank);
+    const ends = drawn.reduce((sum, { pointsInRobot }) => sum + pointsInRobot.length / 3, 0);
     if (ends / 2 > this.capacity) this.grow(ends / 2);
     const point = new Vector3();
     let at = 0;
-    for (const [robot, { pointsInRobot, colours }] of this.beams) {
-      const frame = worldFromRobot(robot);
-      if (!frame) continue;
+    for (const { frame, pointsInRobot, colours } of drawn) {
       this.colours.set(colours, at);
       for (let i = 0; i < pointsInRobot.length; i += 3) {
         point.fromArray(pointsInRobot, i).applyMatrix4(frame).toArray(this.positions, at);
@@ -90,6 +99,14 @@ export class BeamLayer {
       }
     }
     uploadSegments(this.lines.geometry as LineSegmentsGeometry, at / 6);
+  }
+
+  private chosen(placed: PlacedBeams[], rank: (robot: string, frame: Matrix4) => number): PlacedBeams[] {
+    const count = (beams: readonly PlacedBeams[]) => beams.reduce((sum, { pointsInRobot }) => sum + pointsInRobot.length / 6, 0);
+    if (count(placed) <= this.most) return placed;
+    const ranked = placed.map((each) => ({ each, rank: rank(each.robot, each.frame) })).sort((a, b) => a.rank - b.rank);
+    let left = this.most;
+    return ranked.flatMap(({ each }) => ((left -= each.pointsInRobot.length / 6) >= 0 ? [each] : []));
   }
 
   dispose(): void {

@@ -1,10 +1,11 @@
 // The bodies of a scene. Bodies of one model share its geometry and are drawn in one call for each
 // part; a link that moves against its model is placed by its own pose.
-import type { Intersection, PerspectiveCamera, Raycaster } from "three";
+import type { Box3, Intersection, PerspectiveCamera, Raycaster } from "three";
 import { Group, InstancedMesh, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 import type { PoseNumbers, SceneBody, SceneDescription } from "../api/scene";
 import { CrowdDetail } from "./CrowdDetail";
 import type { ModelPart, ModelTemplate } from "./ModelTemplate";
+import { boundsOf } from "./ModelTemplate";
 
 // A part of a body that moves: where its matrix is written after each update.
 interface MovingPart {
@@ -49,8 +50,8 @@ export class BodyLayer {
   addModel(id: string, template: ModelTemplate): void {
     this.templates.set(id, template);
     const bodies = this.scene.bodies.flatMap((body, index) => (body.model === id ? [index] : []));
-    const meshes = template.parts.map((part) => this.addPart(part, bodies));
-    const radius = template.bounds.getSize(new Vector3()).length() / 2;
+    const meshes = template.parts.map((part) => ({ mesh: this.addPart(part, bodies), size: sizeOf(boundsOf(part)) }));
+    const radius = sizeOf(template.bounds) / 2;
     this.detail.add(meshes, radius, bodies.map((body) => this.worldFromBody[body]!));
   }
 
@@ -176,6 +177,11 @@ export class BodyLayer {
       ? { mesh, instance, frame: link, frameFromPart: part.linkFromPart }
       : { mesh, instance, frame: this.worldFromBody[body]!, frameFromPart: part.modelFromPart };
   }
+}
+
+// From corner to corner.
+function sizeOf(bounds: Box3): number {
+  return bounds.getSize(new Vector3()).length();
 }
 
 const worldFromPart = new Matrix4();

@@ -8,7 +8,8 @@ function crowd(count: number) {
   const mesh = new InstancedMesh(new SphereGeometry(RADIUS), new MeshBasicMaterial(), count);
   const places = Array.from({ length: count }, (_, i) => new Matrix4().makeTranslation(0.3 * i, 0, 0));
   const detail = new CrowdDetail();
-  detail.add([mesh], RADIUS, places);
+  const wheel = new InstancedMesh(new SphereGeometry(RADIUS / 4), new MeshBasicMaterial(), count);
+  detail.add([{ mesh, size: 2 * RADIUS }, { mesh: wheel, size: RADIUS / 2 }], RADIUS, places);
   const camera = new PerspectiveCamera(90);
   // A picture 800 pixels high of 90 degrees: 400 pixels a metre at a metre, so the nearest measures
   // 80 pixels across at a metre.
@@ -17,7 +18,7 @@ function crowd(count: number) {
     detail.choose(camera, 800);
     return mesh.geometry;
   };
-  return { mesh, look, fine: mesh.geometry };
+  return { mesh, wheel, look, fine: mesh.geometry };
 }
 
 describe("CrowdDetail", () => {
@@ -36,6 +37,14 @@ describe("CrowdDetail", () => {
     box.computeBoundingBox();
     expect(box.boundingBox!.max.z).toBeCloseTo(RADIUS, 6);
     expect(box.boundingBox!.min.z).toBeCloseTo(-RADIUS, 6);
+  });
+
+  it("leaves small parts out while it draws boxes", () => {
+    const { mesh, wheel, look } = crowd(50);
+    look(100);
+    expect([mesh.visible, wheel.visible]).toEqual([true, false]);
+    look(1);
+    expect([mesh.visible, wheel.visible]).toEqual([true, true]);
   });
 
   it("leaves a few as they are", () => {

@@ -1,5 +1,5 @@
-// Of a crowd that is far away each part is drawn as a box: a thousand robots of a few pixels need no
-// thousands of triangles each, which without a graphics card take seconds.
+// Of a crowd that is far away each part is drawn as a box, and small parts are not drawn: a thousand
+// robots of a few pixels need no thousands of triangles each, which without a graphics card take seconds.
 import type { BufferGeometry, Matrix4, Mesh, PerspectiveCamera } from "three";
 import { BoxGeometry, Vector3 } from "three";
 
@@ -7,11 +7,14 @@ const SMALLEST_CROWD = 50;
 // Pixels of the page that the nearest of a crowd measures across; between the two it stays as it is.
 const COARSE_BELOW = 12;
 const FINE_ABOVE = 16;
+// Of the largest part; at the pixels above such a part is two or three pixels wide.
+const SMALL_SHARE = 0.4;
 
 interface Part {
   mesh: Mesh;
   fine: BufferGeometry;
   coarse: BufferGeometry;
+  isSmall: boolean;
 }
 
 interface Crowd {
@@ -24,10 +27,17 @@ interface Crowd {
 export class CrowdDetail {
   private readonly crowds: Crowd[] = [];
 
-  // Meshes that together show bodies of one model, which stand at `places`; few are left as they are.
-  add(meshes: readonly Mesh[], radius: number, places: readonly Matrix4[]): void {
+  // Meshes, each so many metres large, that together show bodies of one model, which stand at `places`;
+  // few are left as they are.
+  add(meshes: readonly { mesh: Mesh; size: number }[], radius: number, places: readonly Matrix4[]): void {
     if (places.length < SMALLEST_CROWD || !(radius > 0)) return;
-    const parts = meshes.map((mesh) => ({ mesh, fine: mesh.geometry, coarse: boxAround(mesh.geometry) }));
+    const largest = Math.max(...meshes.map(({ size }) => size));
+    const parts = meshes.map(({ mesh, size }) => ({
+      mesh,
+      fine: mesh.geometry,
+      coarse: boxAround(mesh.geometry),
+      isSmall: size < SMALL_SHARE * largest,
+    }));
     this.crowds.push({ parts, radius, places, isCoarse: false });
   }
 
@@ -39,7 +49,10 @@ export class CrowdDetail {
       const isCoarse = crowd.isCoarse ? across < FINE_ABOVE : across < COARSE_BELOW;
       if (isCoarse === crowd.isCoarse) continue;
       crowd.isCoarse = isCoarse;
-      for (const { mesh, fine, coarse } of crowd.parts) mesh.geometry = isCoarse ? coarse : fine;
+      for (const { mesh, fine, coarse, isSmall } of crowd.parts) {
+        mesh.geometry = isCoarse ? coarse : fine;
+        mesh.visible = !isCoarse || !isSmall;
+      }
     }
   }
 

@@ -62,7 +62,8 @@ function linkAbove(node: Object3D, root: Object3D, links: Set<string>): Object3D
   return null;
 }
 
-function boundsOf(part: ModelPart): Box3 {
+// In the model's frame.
+export function boundsOf(part: ModelPart): Box3 {
   if (!part.geometry.boundingBox) part.geometry.computeBoundingBox();
   return (part.geometry.boundingBox ?? new Box3()).clone().applyMatrix4(part.modelFromPart);
 }

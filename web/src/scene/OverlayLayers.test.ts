@@ -1,4 +1,5 @@
 import type { InterleavedBufferAttribute, Points } from "three";
+import { Vector3 } from "three";
 import type { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import type { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { expect, test } from "vitest";
@@ -47,7 +48,7 @@ function only(...names: OverlayName[]): Shown {
 }
 
 function layers(shown: Shown) {
-  const overlays = new OverlayLayers();
+  const overlays = new OverlayLayers(10_000);
   const bodies = new BodyLayer(SCENE);
   overlays.setScene(bodies);
   bodies.setPoses(POSES);
@@ -73,19 +74,19 @@ test("points stand where their sensor is mounted, on a link that has turned", ()
     ranges: new Float32Array([2]),
   };
   overlays.takeReading("/a/scan", scan);
-  overlays.place();
+  overlays.place(new Vector3());
   expect(points.geometry.drawRange.count).toBe(1);
   const place = Array.from(points.geometry.getAttribute("position").array.slice(0, 3));
   // One metre along the arm to the sensor, two more to the point: the arm looks along y.
   [10, 3, 1].forEach((value, i) => expect(place[i]).toBeCloseTo(value, 5));
   overlays.keepReadings(new Set());
-  overlays.place();
+  overlays.place(new Vector3());
   expect(points.geometry.drawRange.count).toBe(0);
 });
 
 test("what a camera sees is a pyramid of its own angles", () => {
   const { overlays, lines, segments } = layers(only("cameras"));
-  overlays.place();
+  overlays.place(new Vector3());
   expect(segments(lines)).toBe(8);
   const ends = lines.geometry.getAttribute("instanceEnd") as InterleavedBufferAttribute;
   // The first edge ends at the upper left corner: a metre ahead, a metre left, half a metre up.
@@ -96,19 +97,19 @@ test("contacts are drawn while they last", () => {
   const { overlays, lines, segments } = layers(only("contacts"));
   const contact = { other: "wall", point: { x: 0, y: 0, z: 0 }, normal: { x: 1, y: 0, z: 0 }, depth: 0 };
   overlays.takeReading("/a/bumper", { contacts: [contact] });
-  overlays.place();
+  overlays.place(new Vector3());
   expect(segments(lines)).toBe(4);
   overlays.takeReading("/a/bumper", { contacts: [] });
-  overlays.place();
+  overlays.place(new Vector3());
   expect(lines.visible).toBe(false);
 });
 
 test("frames are those of the robots, and of the selected one all", () => {
   const { overlays, lines, segments } = layers(only("frames"));
-  overlays.place();
+  overlays.place(new Vector3());
   expect(segments(lines)).toBe(3);
   overlays.select("a");
-  overlays.place();
+  overlays.place(new Vector3());
   expect(segments(lines)).toBe(3 * (1 + 1 + SENSORS.length));
 });
 
@@ -120,12 +121,12 @@ test("trails grow unseen, stay over a change of the layout, and go with the scen
   overlays.takePoses({ step: 2, stamp: 2, poses: moved });
   overlays.setScene(null);
   overlays.setScene(new BodyLayer(SCENE));
-  overlays.place();
+  overlays.place(new Vector3());
   expect(trails.visible).toBe(false);
   overlays.show(only("trails"));
-  overlays.place();
+  overlays.place(new Vector3());
   expect(segments(trails)).toBe(1);
   overlays.setScene(new BodyLayer({ ...SCENE, name: "other" }));
-  overlays.place();
+  overlays.place(new Vector3());
   expect(segments(trails)).toBe(0);
 });

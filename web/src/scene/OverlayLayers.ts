@@ -1,6 +1,6 @@
 // What is drawn over the world: beams, points, contacts, camera views, trails, axes, actuators.
 import type { Matrix4 } from "three";
-import { Group } from "three";
+import { Group, Vector3 } from "three";
 import type { SceneSensor } from "../api/scene";
 import { robotsOf } from "../api/scene";
 import type { TouchPoint } from "../live/clouds";
@@ -37,7 +37,7 @@ export interface MountedSensor extends SceneSensor {
 export class OverlayLayers {
   readonly group = new Group();
   readonly frames = new SensorFrames();
-  private readonly beams = new BeamLayer();
+  private readonly beams: BeamLayer;
   private readonly points = new PointLayer();
   private readonly lines = new LineLayer({ widthPx: 2, onTop: true });
   private readonly trailLines = new LineLayer({ widthPx: 2.5 });
@@ -53,7 +53,8 @@ export class OverlayLayers {
   private shown: Shown = FIRST_SHOWN;
   private selection: string | null = null;
 
-  constructor() {
+  constructor(mostBeams: number) {
+    this.beams = new BeamLayer(mostBeams);
     this.group.add(this.beams.lines, this.points.points, this.lines.lines, this.trailLines.lines, this.devices.group);
   }
 
@@ -125,8 +126,8 @@ export class OverlayLayers {
     }
   }
 
-  // Places everything with the bodies as they are shown now.
-  place(): void {
+  // Places everything with the bodies as they are shown now, seen from `eye`.
+  place(eye: Vector3): void {
     const { bodies, shown } = this;
     this.beams.lines.visible = shown.beams;
     this.points.points.visible = shown.points;
@@ -134,7 +135,7 @@ export class OverlayLayers {
     this.devices.group.visible = shown.actuators;
     this.player.play(shown.sound ? this.devices.sounds : SILENCE);
     if (!bodies) return;
-    if (shown.beams) this.beams.place((robot) => bodies.poseOf(bodies.indexOf(robot)));
+    if (shown.beams) this.placeBeams(bodies, eye);
     if (shown.points) this.points.place((topic) => this.worldFromSensor(topic, bodies));
     this.drawLines(bodies);
     if (shown.trails) {
@@ -142,6 +143,15 @@ export class OverlayLayers {
       this.trails.draw(this.trailLines);
       this.trailLines.finish();
     }
+  }
+
+  // The selected robot's first, then the nearest robots'.
+  private placeBeams(bodies: BodyLayer, eye: Vector3): void {
+    const place = new Vector3();
+    this.beams.place(
+      (robot) => bodies.poseOf(bodies.indexOf(robot)),
+      (robot, frame) => (robot === this.selection ? -1 : place.setFromMatrixPosition(frame).distanceToSquared(eye)),
+    );
   }
 
   private drawLines(bodies: BodyLayer): void {

@@ -19,6 +19,12 @@ test("slow frames cost pixels, down to a bound", () => {
   expect(quality.pixelRatio).toBeCloseTo(0.6);
 });
 
+test("very slow frames are believed sooner", () => {
+  const quality = new Quality(1, false);
+  frames(quality, 3, 300);
+  expect(quality.pixelRatio).toBeCloseTo(0.8);
+});
+
 test("the pixels come back when there is time for them", () => {
   const quality = new Quality(1, false);
   frames(quality, 12, 80);

@@ -2,6 +2,7 @@
 // more again when there is time.
 
 const SLOW_MS = 55;
+const VERY_SLOW_MS = 200; // counts as often as it could have been slow
 const FAST_MS = 20;
 const PATIENCE = 12; // frames in a row
 const LOWEST = 0.6;
@@ -25,7 +26,7 @@ export class Quality {
   // Told the time between two successive frames; true when the pixel ratio changed.
   frameTook(milliseconds: number): boolean {
     if (this.fixed) return false;
-    this.slow = milliseconds > SLOW_MS ? this.slow + 1 : 0;
+    this.slow = milliseconds > SLOW_MS ? this.slow + (milliseconds > VERY_SLOW_MS ? 4 : 1) : 0;
     this.fast = milliseconds < FAST_MS ? this.fast + 1 : 0;
     if (this.slow >= PATIENCE && this.scale > LOWEST) return this.rescale(this.scale * 0.8);
     if (this.fast >= 10 * PATIENCE && this.scale < 1) return this.rescale(this.scale * 1.25);

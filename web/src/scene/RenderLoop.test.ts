@@ -11,6 +11,7 @@ beforeEach(() => {
 });
 afterEach(() => {
   vi.unstubAllGlobals();
+  vi.restoreAllMocks();
   vi.useRealTimers();
 });
 
@@ -93,4 +94,26 @@ test("after a frame that kept the machine busy it rests, whoever asks", () => {
     expect(loop.frames).toBe(2);
     asked = [];
   }
+});
+
+test("where frames are slow, one that is pressed into begins when the page has answered", () => {
+  const drawnAfterPress = (took: number) => {
+    const now = vi.spyOn(performance, "now").mockReturnValue(0);
+    const loop = new RenderLoop(
+      () => true,
+      () => {},
+    );
+    loop.request();
+    frameAt(0);
+    now.mockReturnValue(took);
+    loop.holdBack();
+    frameAt(took);
+    const during = loop.frames;
+    now.mockReturnValue(took + 121);
+    frameAt(took + 121);
+    asked = [];
+    return [during, loop.frames];
+  };
+  expect(drawnAfterPress(80)).toEqual([1, 2]);
+  expect(drawnAfterPress(20)[0]).toBe(2); // the next frame will not be felt
 });

@@ -8,6 +8,9 @@ const LONGEST_FRAME_MS = 10_000;
 const EXHAUSTING_MS = 120;
 const SHORTEST_REST_MS = 80;
 const LONGEST_REST_MS = 400;
+// What a person has pressed is answered by the page before the next slow frame begins.
+const SLOW_MS = 50;
+const ANSWER_MS = 120;
 
 // Whether what was ordered is drawn.
 export interface Fence {
@@ -23,6 +26,8 @@ export class RenderLoop {
   private resting: ReturnType<typeof setTimeout> | undefined;
   private beganMs: number | null = null; // the frame that is being drawn
   private isWanted = false; // another one
+  private isSlow = false; // the last one was
+  private heldUntilMs = -Infinity;
 
   // `draw` tells whether the next frame will differ, so that it is drawn as well. `onFrameTook` is told
   // how long a frame took until it was drawn.
@@ -42,6 +47,11 @@ export class RenderLoop {
     if (this.resting === undefined) this.schedule();
   }
 
+  // Somebody has pressed something.
+  holdBack(): void {
+    if (this.isSlow || this.beganMs !== null) this.heldUntilMs = performance.now() + ANSWER_MS;
+  }
+
   private schedule(): void {
     if (this.scheduled) return;
     this.scheduled = true;
@@ -56,10 +66,12 @@ export class RenderLoop {
       const took = now - this.beganMs;
       if (took < LONGEST_FRAME_MS && !this.fence.isReached()) return this.schedule();
       this.beganMs = null;
+      this.isSlow = took > SLOW_MS;
       if (took < LONGEST_FRAME_MS) this.onFrameTook(took);
       if (took > EXHAUSTING_MS && took < LONGEST_FRAME_MS) return this.rest(took);
     }
     if (!this.isWanted) return;
+    if (this.isSlow && performance.now() < this.heldUntilMs) return this.schedule();
     this.frames += 1;
     this.beganMs = now;
     this.isWanted = false; // drawing may ask for another

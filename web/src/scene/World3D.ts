@@ -21,7 +21,7 @@ import { OverlayLayers } from "./OverlayLayers";
 import type { ScreenPlace } from "./picking";
 import { nearest, onClick, rayThrough, screenPlaceOf } from "./picking";
 import { pngOf, videoOf } from "./capture";
-import { Quality } from "./Quality";
+import { drawsInSoftware, Quality } from "./Quality";
 import { makeRenderer } from "./renderer";
 import { RenderLoop } from "./RenderLoop";
 import { RobotPlaces } from "./RobotPlaces";
@@ -29,6 +29,11 @@ import { RobotWatch } from "./RobotWatch";
 import { SceneParts } from "./SceneParts";
 import { ShadowPace } from "./ShadowPace";
 import { ShownPoses } from "./ShownPoses";
+
+// Where a graphics card draws, and where none does: there the beams of a crowd would take longer than all
+// the rest.
+const MOST_BEAMS = 20_000;
+const MOST_BEAMS_IN_SOFTWARE = 1000;
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
   onPick(robot: string | null): void;
@@ -52,7 +57,7 @@ export class World3D {
   private readonly library: ModelLibrary;
   private readonly loop: RenderLoop;
   private readonly quality: Quality;
-  private readonly overlays = new OverlayLayers();
+  private readonly overlays: OverlayLayers;
   private readonly collisions: CollisionLayer;
   private readonly poses = new ShownPoses((sample) => this.overlays.takePoses(sample));
   private readonly labels: LabelLayer;
@@ -73,7 +78,9 @@ export class World3D {
     options: WorldOptions,
     private readonly events: WorldEvents,
   ) {
-    this.renderer = makeRenderer(options.fixedQuality);
+    const isFine = options.fixedQuality || !drawsInSoftware();
+    this.renderer = makeRenderer(isFine);
+    this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE);
     const canvas = this.renderer.domElement;
     this.quality = new Quality(devicePixelRatio, options.fixedQuality);
     this.library = new ModelLibrary((id) => options.urlOfModel(id), () => options.headersOfModels());
@@ -93,6 +100,9 @@ export class World3D {
     this.arranger = new Arranger(this.arrangerView(), events);
     this.scene.add(this.overlays.group, this.watch.ring.mesh, this.arranger.handle.group);
     host.append(canvas, this.labels.element);
+    for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
+      addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
+    }
     canvas.addEventListener("webglcontextrestored", () => this.refresh());
     onClick(canvas, (place) => this.click(place));
     new ResizeObserver(() => this.resize()).observe(host);
@@ -305,7 +315,7 @@ export class World3D {
       this.watch.move();
     }
     const isFlying = this.rig.update(now);
-    this.overlays.place();
+    this.overlays.place(this.rig.camera.position);
     if (this.bodies) this.collisions.place(this.bodies);
     this.bodies?.chooseDetail(this.rig.camera, this.height);
     if (this.parts) this.parts.grid.visible = this.shown.grid;
