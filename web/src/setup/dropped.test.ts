@@ -28,5 +28,5 @@ test("only an archive on its own is unpacked", async () => {
   expect(await unpacked(files)).toBe(files);
   expect(await unpacked(files.slice(1))).toEqual(files.slice(1));
   const zip = { ...file("a.zip"), content: async () => new Blob([new Uint8Array([0x50, 0x4b, 3, 4])]) };
-  await expect(unpacked([zip])).rejects.toThrow("a.zip cannot be taken: its end is missing");
+  await expect(unpacked([zip])).rejects.toThrow("a.zip cannot be taken: its list of files is missing or damaged");
 });
