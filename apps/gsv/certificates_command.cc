@@ -14,8 +14,8 @@ namespace gsv::app {
 namespace {
 
 struct CertificatesArguments {
-  std::string folder, name = "server";
-  std::vector<std::string> hosts;
+  std::string folder;
+  std::vector<std::string> names{"server"}, hosts;
   int days = 365;
 };
 
@@ -43,8 +43,13 @@ base::Status MakeCertificates(const CertificatesArguments& arguments) {
     }
   }
   const std::vector<std::string> hosts = arguments.hosts.empty() ? UsualHosts() : arguments.hosts;
-  return tls::MakeCertificate(arguments.folder,
-                              {arguments.name, hosts, ValidityOf(arguments.days)});
+  for (const std::string& name : arguments.names) {
+    if (auto ok = tls::MakeCertificate(arguments.folder, {name, hosts, ValidityOf(arguments.days)});
+        !ok) {
+      return ok;
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -54,11 +59,14 @@ void AddCertificatesCommand(const CommandLine& line) {
       "certificates", "Make certificates for TLS, by an authority of one's own");
   group->require_subcommand(1);
   CLI::App* command = group->add_subcommand(
-      "make", "Make one, and the authority that signs it if the folder holds none");
+      "make", "Make them, and the authority that signs them if the folder holds none");
   auto arguments = std::make_shared<CertificatesArguments>();
   command->add_option("folder", arguments->folder, "where the authority and what it signs lie")
       ->required();
-  command->add_option("--name", arguments->name, "whose it is; the files are called so")
+  command
+      ->add_option("--name", arguments->names,
+                   "whose it is; the files are called so. Several make as many")
+      ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("--host", arguments->hosts,
                       "a name or address under which the server is called; without it: this "
@@ -75,11 +83,11 @@ void AddCertificatesCommand(const CommandLine& line) {
       return;
     }
     const std::filesystem::path folder = arguments->folder;
-    std::printf(
-        "certificate: %s\nkey:         %s (keep it to yourself)\n"
-        "authority:   %s (give it to those who connect)\n",
-        (folder / (arguments->name + ".pem")).c_str(),
-        (folder / (arguments->name + "-key.pem")).c_str(), (folder / "ca.pem").c_str());
+    for (const std::string& name : arguments->names) {
+      std::printf("certificate: %s\nkey:         %s (keep it to yourself)\n",
+                  (folder / (name + ".pem")).c_str(), (folder / (name + "-key.pem")).c_str());
+    }
+    std::printf("authority:   %s (give it to those who connect)\n", (folder / "ca.pem").c_str());
   });
 }
 
