@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -41,6 +43,37 @@ void AddLogOptions(CLI::App& app, LogArguments& log) {
       ->capture_default_str();
 }
 
+struct CorbaArguments {
+  std::string certificate, key, authority;
+  bool is_insecure = false;
+};
+
+void AddCorbaOptions(CLI::App& app, CorbaArguments& corba) {
+  app.add_option("--corba-certificate", corba.certificate,
+                 "a PEM file, by which all of CORBA goes by TLS and only to those whose "
+                 "certificate is of the same authority; `gsv certificates make` makes one")
+      ->envname("GSV_CORBA_CERTIFICATE");
+  app.add_option("--corba-key", corba.key, "its key (default: NAME-key.pem beside NAME.pem)")
+      ->envname("GSV_CORBA_KEY");
+  app.add_option("--corba-authority", corba.authority,
+                 "whose certificates are taken (default: ca.pem beside NAME.pem)")
+      ->envname("GSV_CORBA_AUTHORITY");
+  app.add_flag("--insecure-corba", corba.is_insecure,
+               "listen beyond this machine without a certificate, too: whoever reaches it may "
+               "call (GSV_INSECURE_CORBA=1)");
+}
+
+// Where orb::PrepareAccess() looks, and programs that this one starts.
+void UseCorbaOptions(const CorbaArguments& corba) {
+  const auto set = [](const char* name, const std::string& path) {
+    if (!path.empty()) setenv(name, std::filesystem::absolute(path).c_str(), 1);
+  };
+  set("GSV_CORBA_CERTIFICATE", corba.certificate);
+  set("GSV_CORBA_KEY", corba.key);
+  set("GSV_CORBA_AUTHORITY", corba.authority);
+  if (corba.is_insecure) setenv("GSV_INSECURE_CORBA", "1", 1);
+}
+
 // Programs that this one starts log in the same way.
 void StartLog(const LogArguments& log, bool verbose) {
   if (!log.level.empty()) setenv("GSV_LOG_LEVEL", log.level.c_str(), 1);
@@ -67,7 +100,12 @@ int main(int argc, char** argv) {
   app.add_flag("-v,--verbose", verbose, "say more about what happens, on stderr");
   LogArguments log;
   AddLogOptions(app, log);
-  app.parse_complete_callback([&] { StartLog(log, verbose); });
+  CorbaArguments corba;
+  AddCorbaOptions(app, corba);
+  app.parse_complete_callback([&] {
+    StartLog(log, verbose);
+    UseCorbaOptions(corba);
+  });
   const CommandLine line{app, signals, exit_code};
   AddRunCommand(line);
   AddServeCommand(line);

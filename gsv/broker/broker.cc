@@ -28,6 +28,7 @@
 #include "gsv/broker/trader/service_reference.h"
 #include "gsv/broker/transport/checked_transport.h"
 #include "gsv/broker/transport/process_limits.h"
+#include "gsv/orb/corba_access.h"
 
 namespace gsv::broker {
 namespace {
@@ -36,16 +37,19 @@ constexpr const char* kKey = "TradingService";
 
 constexpr unsigned long kThreadStackBytes = 1ul << 20;
 
-std::string Endpoint(const BrokerOptions& options) {
-  return fmt::format("giop:tcp:{}:{}", options.host,
-                     options.port == 0 ? std::string() : std::to_string(options.port));
+base::Result<orb::OrbAccess> PrepareAccess(const BrokerOptions& options) {
+  return orb::PrepareAccess(options.host, options.port,
+                            [](std::shared_ptr<const orb::TlsContext> context) {
+                              return MakeCheckedTlsTransport(std::move(context), MaxConnections());
+                            });
 }
 
-CORBA::ORB_ptr StartOrb(const BrokerOptions& options) {
-  const std::string endpoint = Endpoint(options);
+CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
   // docs/broker.md gives the reasons.
   const char* settings[][2] = {
-      {"endPoint", endpoint.c_str()},
+      {"endPoint", access.endpoint.c_str()},
+      {"clientTransportRule", access.client_rules[0]},
+      {"clientTransportRule", access.client_rules[1]},
       {"giopMaxMsgSize", "65536"},
       {"threadPerConnectionPolicy", "1"},
       {"threadPerConnectionUpperLimit", "256"},
@@ -136,9 +140,9 @@ typename Interface::_ptr_type Activate(PortableServer::POA_ptr poa, const char* 
 
 class Broker::Impl {
  public:
-  explicit Impl(const BrokerOptions& options)
+  Impl(const BrokerOptions& options, const orb::OrbAccess& access)
       : objects_(options.limits, std::random_device()(), std::random_device()()) {
-    objects_.orb = StartOrb(options);
+    objects_.orb = StartOrb(access);
   }
 
   ~Impl() {
@@ -189,7 +193,8 @@ class Broker::Impl {
     const auto address = ReadReference(ior.in());
     if (!address) throw CORBA::INTERNAL(0, CORBA::COMPLETED_NO);
     port_ = address->port;
-    reference_ = fmt::format("corbaloc::1.2@{}/{}", address->Address(), kKey);
+    reference_ = fmt::format("corbaloc:{}:1.2@{}/{}", address->takes_tls ? "ssliop" : "",
+                             address->Address(), kKey);
 
     PortableServer::POAManager_var(root->the_POAManager())->activate();
     PortableServer::POAManager_var(poa->the_POAManager())->activate();
@@ -221,8 +226,10 @@ class Broker::Impl {
 };
 
 base::Result<std::unique_ptr<Broker>> Broker::Start(const BrokerOptions& options) {
+  const auto access = PrepareAccess(options);
+  if (!access) return base::Fail(access.error());
   try {
-    auto impl = std::make_unique<Impl>(options);
+    auto impl = std::make_unique<Impl>(options, *access);
     if (!options.data_file.empty()) {
       if (auto ok = impl->Remember(options.data_file); !ok) return base::Fail(ok.error());
     }

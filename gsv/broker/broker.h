@@ -1,11 +1,12 @@
-// The Trading Service as a server on TCP: CosTrading Lookup, Register, Link, Proxy and Admin, and
-// the ServiceTypeRepository, at "corbaloc::1.2@HOST:PORT/TradingService".
+// The Trading Service as a server on TCP, or TLS as the environment says (orb/corba_access.h):
+// CosTrading Lookup, Register, Link, Proxy and Admin, and the ServiceTypeRepository, at
+// "corbaloc::1.2@HOST:PORT/TradingService".
 //
 // One in a process, which should do nothing else with CORBA: what an `any` may hold bounds the
 // size of every message of its ORB (64 KiB), see docs/broker.md.
 //
-// Errors   kUnavailable: the port is in use, or the host is not this machine's; and those of
-//          OfferFile.
+// Errors   kUnavailable: the port is in use, or the host is not this machine's; those of
+//          OfferFile, and of orb::PrepareAccess().
 // Threads  every member may be called at any time.
 #pragma once
 

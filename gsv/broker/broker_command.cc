@@ -10,12 +10,13 @@ namespace gsv::broker {
 namespace {
 
 constexpr int kOk = 0;
+constexpr int kUsage = 2;
 constexpr int kInfrastructure = 5;
 constexpr int kInterrupted = 130;
 
 int Complain(const base::Error& error) {
   std::fprintf(stderr, "%s\n", error.Sentence().c_str());
-  return kInfrastructure;
+  return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
 // False when the parent is gone already.

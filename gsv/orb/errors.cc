@@ -1,5 +1,8 @@
 #include "gsv/orb/errors.h"
 
+#include "gsv/orb/corba_access.h"
+#include "gsv/orb/tls_channel.h"
+
 namespace gsv::orb {
 namespace {
 
@@ -27,7 +30,22 @@ bool Matches(const CORBA::UserException& exception, const std::string& where, Er
 
 }  // namespace
 
+std::string WhyNotConnected(const CORBA::SystemException& exception) {
+  std::string tls_failure = TakeTlsFailure();
+  const bool is_transient = CORBA::TRANSIENT::_downcast(&exception) != nullptr;
+  if (is_transient && exception.minor() == omni::TRANSIENT_NoUsableProfile && SpeaksTls()) {
+    return "it takes no TLS, and is not on this machine: give it a certificate, or say "
+           "--insecure-corba (GSV_INSECURE_CORBA=1)";
+  }
+  const bool is_about_connection =
+      is_transient || CORBA::COMM_FAILURE::_downcast(&exception) != nullptr;
+  return is_about_connection ? tls_failure : std::string();
+}
+
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where) {
+  if (const std::string why = WhyNotConnected(exception); !why.empty()) {
+    return {ErrorCode::kUnavailable, why, where};
+  }
   if (CORBA::TRANSIENT::_downcast(&exception) != nullptr) {
     if (exception.minor() == omni::TRANSIENT_CallTimedout) {
       return {ErrorCode::kTimeout, "did not answer in time", where};

@@ -15,13 +15,14 @@
 #include <omniORB4/omniIOR.h>
 #include <omniORB4/omniObjRef.h>
 
+#include "gsv/orb/corba_access.h"
 #include "gsv/orb/local_socket.h"
 
 namespace gsv::orb {
 
 base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
-  const std::string endpoint = "giop:tcp:" + options.host + ":" +
-                               (options.port > 0 ? std::to_string(options.port) : std::string());
+  const auto access = PrepareAccess(options.host, options.port);
+  if (!access) return base::Fail(access.error());
   const std::string max_message = std::to_string(options.max_message_bytes);
   const std::string call_timeout = std::to_string(options.call_timeout.count());
   const std::string connections = std::to_string(options.max_connections_per_server);
@@ -32,7 +33,9 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
     if (const auto socket = NewLocalSocket()) local_endpoint = "giop:unix:" + socket->native();
   }
   const char* settings[][2] = {
-      {"endPoint", endpoint.c_str()},
+      {"endPoint", access->endpoint.c_str()},
+      {"clientTransportRule", access->client_rules[0]},
+      {"clientTransportRule", access->client_rules[1]},
       {"giopMaxMsgSize", max_message.c_str()},
       {"clientCallTimeOutPeriod", call_timeout.c_str()},
       {"clientConnectTimeOutPeriod", "5000"},
@@ -69,6 +72,22 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   }
 }
 
+base::Result<CORBA::ORB_var> CallingOrb() {
+  const auto access = PrepareAccess("127.0.0.1", 0);
+  if (!access) return base::Fail(access.error());
+  const char* settings[][2] = {{"clientTransportRule", access->client_rules[0]},
+                               {"clientTransportRule", access->client_rules[1]},
+                               {nullptr, nullptr}};
+  try {
+    int no_arguments = 0;
+    return CORBA::ORB_var(CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings));
+  } catch (const CORBA::Exception& exception) {
+    return base::Fail(
+        base::ErrorCode::kUnavailable,
+        std::string("the object request broker did not start (") + exception._name() + ")");
+  }
+}
+
 PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb) {
   CORBA::Object_var object = orb->resolve_initial_references("RootPOA");
   return PortableServer::POA::_narrow(object);
@@ -100,10 +119,11 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
 std::string AddressOf(CORBA::Object_ptr object) {
   if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return {};
   omniIOR_var ior = object->_PR_getobj()->_getIOR();
-  constexpr std::string_view kTcp = "giop:tcp:";
   for (const omni::giopAddress* each : ior->getIORInfo()->addresses()) {
     const std::string_view address = each->address();  // "giop:tcp:127.0.0.1:40123"
-    if (address.starts_with(kTcp)) return std::string(address.substr(kTcp.size()));
+    for (const std::string_view transport : {"giop:tcp:", "giop:ssl:"}) {
+      if (address.starts_with(transport)) return std::string(address.substr(transport.size()));
+    }
   }
   return {};
 }

@@ -1,5 +1,6 @@
 // The ORB of this process, with the settings that a distributed simulator needs: loopback unless
-// told otherwise, a time limit on every call, idle connections closed, large messages for pictures.
+// told otherwise, TLS as the environment says (corba_access.h), a time limit on every call, idle
+// connections closed, large messages for pictures.
 //
 // Threads  StartOrb() once a process, before any other use of CORBA.
 #pragma once
@@ -24,8 +25,12 @@ struct OrbOptions {
   int max_connections_per_server = 4096;
 };
 
-// Starts the ORB and its root POA. Fails with a sentence when the port is taken.
+// Starts the ORB and its root POA. Fails with a sentence when the port is taken, a certificate
+// cannot be used, or the address takes one.
 base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options);
+
+// The process's ORB; where there is none, one that only calls others.
+base::Result<CORBA::ORB_var> CallingOrb();
 
 PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);  // the caller owns the reference
 
@@ -33,7 +38,8 @@ PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);  // the caller owns the ref
 // loopback host.
 base::Result<std::string> LocalAddressTowards(const std::string& host);
 
-// The host and port that a reference points to by TCP, "127.0.0.1:40123"; empty when it names none.
+// The host and port that a reference points to, by TCP or TLS, "127.0.0.1:40123"; empty when it
+// names none.
 std::string AddressOf(CORBA::Object_ptr object);
 
 // Limits how long calls through this reference may take, from all threads.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/group.h"
 #include "tests/support/other_host.h"
 
 namespace gsv::testing {
@@ -12,6 +13,7 @@ using ::testing::HasSubstr;
 TEST(CutNetwork, TheOffersOfAHostThatCannotBeReachedGoAway) {
   OtherHost host(1);
   if (!host.refusal().empty()) GTEST_SKIP() << host.refusal();
+  const Group group;
   Running broker("gsv", {"broker", "--listen", host.address_here(), "--port", "0", "--memory",
                          "--liveness-period", "0.2", "--liveness-patience", "3"});
   const std::string reference = broker.AwaitLine("corbaloc");

@@ -13,6 +13,7 @@
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/orb.h"
 #include "sdk/application.h"
+#include "tests/support/group.h"
 #include "tests/support/other_host.h"
 
 namespace gsv::testing {
@@ -66,6 +67,7 @@ std::map<std::string, std::string> RunsOf(const std::string& results, const std:
 TEST(Servers, ACampaignOutlivesAServerThatIsKilledAndOneThatIsCutOff) {
   OtherHost first(1), second(1), third(1);
   if (!first.refusal().empty()) GTEST_SKIP() << first.refusal();
+  const Group group;
   const BrokerProcess broker(first.address_here());
   const auto killed = Serve(broker.reference(), "killed", {"--scenarios", "1"}, first.wrapper());
   const auto cut = Serve(broker.reference(), "cut", {"--scenarios", "1"}, second.wrapper());

@@ -13,6 +13,7 @@
 #include "gsv/broker/client/client_errors.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/trader/service_reference.h"
+#include "gsv/orb/orb.h"
 
 namespace gsv::broker {
 namespace {
@@ -22,11 +23,6 @@ using Repository = CosTradingRepos::ServiceTypeRepository;
 
 constexpr unsigned long kPingMs = 1000;
 constexpr std::uint32_t kAskedAtOnce = 16;  // links whose targets are asked whether they answer
-
-CORBA::ORB_ptr ProcessOrb() {
-  int no_arguments = 0;
-  return CORBA::ORB_init(no_arguments, nullptr);
-}
 
 template <typename Interface>
 typename Interface::_var_type Resolve(CORBA::ORB_ptr orb, const std::string& reference,
@@ -46,8 +42,10 @@ auto WithLookup(const std::string& broker, std::chrono::milliseconds timeout, co
     -> decltype(call(CORBA::ORB_ptr(), CosTrading::Lookup_ptr())) {
   const auto reference = NormaliseReference(broker);
   if (!reference) return base::Fail(reference.error());
+  const auto process = orb::CallingOrb();
+  if (!process) return base::Fail(process.error());
+  const CORBA::ORB_var& orb = *process;
   return Guarded(*reference, [&]() -> decltype(call(CORBA::ORB_ptr(), CosTrading::Lookup_ptr())) {
-    const CORBA::ORB_var orb = ProcessOrb();
     const auto lookup = Resolve<CosTrading::Lookup>(orb, *reference, timeout);
     if (CORBA::is_nil(lookup)) {
       return base::Fail(ErrorCode::kUnavailable, "what answers at this address is not a broker",
@@ -161,8 +159,9 @@ base::Status BrokerAdministration::RemoveLink(const std::string& name) const {
 }
 
 base::Status BrokerAdministration::AddServiceType(const ServiceType& type) const {
-  const CORBA::ORB_var orb = ProcessOrb();
-  auto client = BrokerClient::Connect(orb, broker_, timeout_);
+  const auto orb = orb::CallingOrb();
+  if (!orb) return base::Fail(orb.error());
+  auto client = BrokerClient::Connect(*orb, broker_, timeout_);
   if (!client) return base::Fail(client.error());
   return client->EnsureServiceType(type);
 }
@@ -183,8 +182,9 @@ base::Status BrokerAdministration::RemoveServiceType(const std::string& name) co
 base::Result<std::string> BrokerAdministration::AddOffer(
     const std::string& type, const std::string& reference,
     const std::vector<std::string>& properties) const {
-  const CORBA::ORB_var orb = ProcessOrb();
-  auto client = BrokerClient::Connect(orb, broker_, timeout_);
+  const auto orb = orb::CallingOrb();
+  if (!orb) return base::Fail(orb.error());
+  auto client = BrokerClient::Connect(*orb, broker_, timeout_);
   if (!client) return base::Fail(client.error());
   const auto declared = client->DescribeServiceType(type);
   if (!declared) return base::Fail(declared.error());
@@ -195,7 +195,7 @@ base::Result<std::string> BrokerAdministration::AddOffer(
     values.push_back(std::move(*property));
   }
   try {
-    const CORBA::Object_var object = orb->string_to_object(reference.c_str());
+    const CORBA::Object_var object = (*orb)->string_to_object(reference.c_str());
     return client->Export(type, object, values);
   } catch (const CORBA::BAD_PARAM&) {
     return base::Fail(ErrorCode::kInvalidArgument,
@@ -204,8 +204,9 @@ base::Result<std::string> BrokerAdministration::AddOffer(
 }
 
 base::Status BrokerAdministration::RemoveOffer(const std::string& id) const {
-  const CORBA::ORB_var orb = ProcessOrb();
-  auto client = BrokerClient::Connect(orb, broker_, timeout_);
+  const auto orb = orb::CallingOrb();
+  if (!orb) return base::Fail(orb.error());
+  auto client = BrokerClient::Connect(*orb, broker_, timeout_);
   if (!client) return base::Fail(client.error());
   return client->Withdraw(id);
 }

@@ -8,6 +8,7 @@
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/encoding/corba_values.h"
 #include "gsv/broker/trader/service_reference.h"
+#include "gsv/orb/corba_access.h"
 
 namespace gsv::broker {
 namespace {
@@ -74,10 +75,10 @@ void AppendOffers(const CosTrading::OfferSeq& offers, std::size_t limit,
 base::Status CheckReachable(CORBA::ORB_ptr orb, CORBA::Object_ptr object,
                             const std::string& broker) {
   const std::string broker_host = HostOf(broker);
-  if (broker_host.empty() || IsLoopback(broker_host)) return {};
+  if (broker_host.empty() || orb::IsLoopback(broker_host)) return {};
   const CORBA::String_var ior = orb->object_to_string(object);
   const auto service = ReadReference(ior.in());
-  if (!service || !IsLoopback(service->host)) return {};
+  if (!service || !orb::IsLoopback(service->host)) return {};
   return base::Fail(ErrorCode::kInvalidArgument,
                     fmt::format("the service listens on {}, which the broker's host cannot reach; "
                                 "give it an -ORBendPoint on an outside address",

@@ -4,7 +4,9 @@
 #include <COS/CosTrading.hh>
 #include <COS/CosTradingRepos.hh>
 
+#include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/language/expression.h"
+#include "gsv/orb/errors.h"
 
 namespace gsv::broker {
 namespace {
@@ -155,10 +157,18 @@ Error OfSystem(const std::string& where) {
     if (e.minor() == omni::TRANSIENT_CallTimedout) {
       return {ErrorCode::kTimeout, "the broker does not answer in time", where};
     }
+    const std::string why = orb::WhyNotConnected(e);
     return {ErrorCode::kUnavailable,
-            "no broker answers at this address; start one with `gsv broker`", where};
-  } catch (const CORBA::COMM_FAILURE&) {
-    return {ErrorCode::kUnavailable, "the connection to the broker broke", where};
+            why.empty() ? "no broker answers at this address; start one with `gsv broker`" : why,
+            where};
+  } catch (const CORBA::COMM_FAILURE& e) {
+    const std::string why = orb::WhyNotConnected(e);
+    if (!why.empty()) return {ErrorCode::kUnavailable, why, where};
+    return {ErrorCode::kUnavailable,
+            TakesTls(where) ? "the connection to the broker broke"
+                            : "the connection to the broker broke; does it take TLS? Then its "
+                              "address has \"ssliop\" between the colons",
+            where};
   } catch (const CORBA::OBJECT_NOT_EXIST&) {
     return {ErrorCode::kUnavailable, "what answers at this address is not a broker", where};
   } catch (const CORBA::IMP_LIMIT&) {

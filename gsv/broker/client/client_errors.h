@@ -8,6 +8,7 @@
 #include <omniORB4/CORBA.h>
 
 #include "gsv/base/error.h"
+#include "gsv/orb/tls_channel.h"
 
 namespace gsv::broker {
 
@@ -25,6 +26,7 @@ CallCounts& ProcessCallCounts();
 template <typename Call>
 auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;
+  (void)orb::TakeTlsFailure();  // of another call
   try {
     return call();
   } catch (const CORBA::Exception&) {
@@ -37,6 +39,7 @@ auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
 template <typename Call>
 auto GuardedRepeatable(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;
+  (void)orb::TakeTlsFailure();  // of another call
   try {
     return call();
   } catch (const CORBA::COMM_FAILURE&) {

@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::string_view kScheme = "corbaloc:";
 constexpr std::string_view kProtocol = "iiop:";
+constexpr std::string_view kTlsProtocol = "ssliop:";
 
 base::Error Misspelt(std::string_view reference) {
   return {base::ErrorCode::kInvalidArgument,
@@ -23,19 +24,28 @@ base::Result<std::string> NormaliseReference(std::string_view reference) {
   }
   if (!reference.starts_with(kScheme)) return base::Fail(Misspelt(reference));
   std::string_view address = reference.substr(kScheme.size());
-  if (address.starts_with(kProtocol)) {
+  const bool takes_tls = address.starts_with(kTlsProtocol);
+  if (takes_tls) {
+    address.remove_prefix(kTlsProtocol.size());
+  } else if (address.starts_with(kProtocol)) {
     address.remove_prefix(kProtocol.size());
   } else if (address.starts_with(":")) {
     address.remove_prefix(1);
   } else {
-    return std::string(reference);  // another protocol: ssliop, rir
+    return std::string(reference);  // another protocol: rir
   }
   const std::size_t slash = address.find('/');
   if (slash == 0 || slash == std::string_view::npos || slash + 1 == address.size()) {
     return base::Fail(Misspelt(reference));
   }
   const bool has_version = address.substr(0, slash).find('@') != std::string_view::npos;
-  return "corbaloc::" + std::string(has_version ? "" : "1.2@") + std::string(address);
+  return std::string(kScheme) + (takes_tls ? std::string(kTlsProtocol) : ":") +
+         (has_version ? "" : "1.2@") + std::string(address);
+}
+
+bool TakesTls(std::string_view reference) {
+  if (const auto ior = ReadReference(reference)) return ior->takes_tls;
+  return reference.starts_with(std::string(kScheme) + std::string(kTlsProtocol));
 }
 
 std::string HostOf(std::string_view reference) {

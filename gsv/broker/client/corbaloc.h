@@ -1,4 +1,5 @@
-// Addresses of brokers, as people write them.
+// Addresses of brokers, as people write them: "corbaloc::HOST:PORT/TradingService", and with
+// "ssliop" between the colons that of one which takes TLS.
 #pragma once
 
 #include <string>
@@ -12,6 +13,9 @@ namespace gsv::broker {
 // 1.0), or an "IOR:" as it is.
 // Errors  kInvalidArgument, saying what a reference looks like.
 base::Result<std::string> NormaliseReference(std::string_view reference);
+
+// Whether it names one that takes TLS, and nothing else.
+bool TakesTls(std::string_view reference);
 
 // The host in a normalised reference; empty when it names none.
 std::string HostOf(std::string_view reference);

@@ -1,18 +1,11 @@
 #include "gsv/broker/client/offer_listing.h"
 
 #include "gsv/broker/client/broker_client.h"
-#include "gsv/broker/client/client_errors.h"
 #include "gsv/broker/trader/service_reference.h"
+#include "gsv/orb/orb.h"
 
 namespace gsv::broker {
 namespace {
-
-base::Result<CORBA::ORB_var> ProcessOrb(const std::string& where) {
-  return Guarded(where, []() -> base::Result<CORBA::ORB_var> {
-    int no_arguments = 0;
-    return CORBA::ORB_var(CORBA::ORB_init(no_arguments, nullptr));
-  });
-}
 
 OfferDescription Describe(CORBA::ORB_ptr orb, const DescribedOffer& offer) {
   const CORBA::String_var ior = orb->object_to_string(offer.object);
@@ -33,7 +26,7 @@ OfferDescription Describe(CORBA::ORB_ptr orb, const DescribedOffer& offer) {
 
 base::Result<std::vector<OfferDescription>> ListOffers(const std::string& broker,
                                                        std::chrono::milliseconds timeout) {
-  const auto orb = ProcessOrb(broker);
+  const auto orb = orb::CallingOrb();
   if (!orb) return base::Fail(orb.error());
   auto client = BrokerClient::Connect(*orb, broker, timeout);
   if (!client) return base::Fail(client.error());
@@ -52,7 +45,7 @@ base::Result<std::vector<OfferDescription>> ListOffers(const std::string& broker
 
 base::Result<std::vector<ServiceType>> ListServiceTypes(const std::string& broker,
                                                         std::chrono::milliseconds timeout) {
-  const auto orb = ProcessOrb(broker);
+  const auto orb = orb::CallingOrb();
   if (!orb) return base::Fail(orb.error());
   auto client = BrokerClient::Connect(*orb, broker, timeout);
   if (!client) return base::Fail(client.error());

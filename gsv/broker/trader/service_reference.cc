@@ -6,6 +6,7 @@ namespace gsv::broker {
 namespace {
 
 constexpr std::uint32_t kIiopProfile = 0;
+constexpr std::uint32_t kSslComponent = 20;
 
 std::optional<std::string> FromHex(std::string_view digits) {
   const auto nibble = [](char c) -> int {
@@ -73,6 +74,24 @@ class Encapsulation {
   bool ok_ = true;
 };
 
+// Of a profile, from its object key on; it stays as it is where there is none.
+void ReadTlsPort(Encapsulation& profile, ServiceReference& result) {
+  profile.Octets();  // the key
+  const std::uint32_t components = profile.Unsigned(4);
+  for (std::uint32_t i = 0; i < components && profile.ok(); ++i) {
+    const std::uint32_t tag = profile.Unsigned(4);
+    Encapsulation component(profile.Octets());
+    if (tag != kSslComponent) continue;
+    component.Unsigned(2);  // what the target supports and
+    component.Unsigned(2);  // what it requires
+    const std::uint32_t port = component.Unsigned(2);
+    if (!component.ok() || port == 0) return;
+    result.port = static_cast<std::uint16_t>(port);
+    result.takes_tls = true;
+    return;
+  }
+}
+
 }  // namespace
 
 std::string ServiceReference::Address() const {
@@ -96,18 +115,14 @@ base::Result<ServiceReference> ReadReference(std::string_view ior) {
     const std::uint32_t tag = reference.Unsigned(4);
     Encapsulation profile(reference.Octets());
     if (tag != kIiopProfile) continue;
-    profile.Octet();  // the major and
-    profile.Octet();  // the minor version of IIOP
+    profile.Octet();                             // the major and
+    const std::uint8_t minor = profile.Octet();  // the minor version of IIOP
     result.host = profile.String();
     result.port = static_cast<std::uint16_t>(profile.Unsigned(2));
     if (!profile.ok()) return corrupt();
+    if (result.port == 0 && minor > 0) ReadTlsPort(profile, result);
   }
   if (!reference.ok()) return corrupt();
   return result;
 }
-
-bool IsLoopback(std::string_view host) {
-  return host.starts_with("127.") || host == "::1" || host == "localhost";
-}
-
 }  // namespace gsv::broker

@@ -48,11 +48,54 @@ TEST(ServiceReference, RefusesWhatIsNoReference) {
   }
 }
 
-TEST(ServiceReference, KnowsLoopback) {
-  EXPECT_TRUE(IsLoopback("127.0.0.1"));
-  EXPECT_TRUE(IsLoopback("::1"));
-  EXPECT_TRUE(IsLoopback("localhost"));
-  EXPECT_FALSE(IsLoopback("10.0.0.1"));
+// The same for TLS: port 0, and a component TAG_SSL_SEC_TRANS with the port 0x1235 behind one of
+// another kind.
+constexpr std::string_view kTls =
+    "IOR:"
+    "00000000"                      // byte order, padding
+    "0000000a49444c3a413a312e3000"  // "IDL:A:1.0"
+    "0000"                          // padding
+    "00000001"                      // profiles
+    "00000000"                      // TAG_INTERNET_IOP
+    "00000034"                      // its size: 52
+    "000102"                        // byte order, IIOP 1.2
+    "00"                            // padding
+    "000000026800"                  // "h"
+    "0000"                          // no port
+    "000000016b"                    // object key
+    "000000"                        // padding
+    "00000002"                      // components
+    "00000063"                      // one that nobody knows
+    "00000002"                      // its size
+    "0001"                          // what it holds
+    "0000"                          // padding
+    "00000014"                      // TAG_SSL_SEC_TRANS
+    "00000008"                      // its size
+    "00000066"                      // byte order, padding, what it supports
+    "00661235";                     // what it requires, port
+
+TEST(ServiceReference, ReadsThePortOfTls) {
+  const auto reference = ReadReference(kTls);
+  ASSERT_TRUE(reference);
+  EXPECT_EQ(reference->Address(), "h:4661");
+  EXPECT_TRUE(reference->takes_tls);
+  EXPECT_FALSE(ReadReference(kBigEndian)->takes_tls);
+  for (std::size_t length = 0; length < kTls.size(); ++length) {
+    const auto cut = ReadReference(kTls.substr(0, length));
+    EXPECT_FALSE(cut && cut->takes_tls) << length;
+  }
+}
+
+TEST(Corbaloc, SaysWhetherTheBrokerTakesTls) {
+  EXPECT_EQ(*NormaliseReference("corbaloc:ssliop:h:1/TradingService"),
+            "corbaloc:ssliop:1.2@h:1/TradingService");
+  EXPECT_EQ(*NormaliseReference("corbaloc:ssliop:1.2@h:1/TradingService"),
+            "corbaloc:ssliop:1.2@h:1/TradingService");
+  EXPECT_EQ(HostOf("corbaloc:ssliop:1.2@h:1/K"), "h");
+  EXPECT_TRUE(TakesTls("corbaloc:ssliop:1.2@h:1/K"));
+  EXPECT_FALSE(TakesTls("corbaloc::1.2@h:1/K"));
+  EXPECT_TRUE(TakesTls(kTls));
+  EXPECT_FALSE(TakesTls(kBigEndian));
 }
 
 TEST(Corbaloc, PutsTheVersionInWhereItLacks) {

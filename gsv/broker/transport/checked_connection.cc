@@ -5,8 +5,6 @@
 #include <cstring>
 #include <utility>
 
-#include <sys/socket.h>
-
 namespace gsv::broker {
 namespace {
 
@@ -56,7 +54,7 @@ bool ConnectionTable::Readable(CheckedConnection* connection) {
   const Clock::time_point now = Clock::now();
   if (found->second == Clock::time_point()) found->second = now;
   DropLate(now);
-  connection->setSelectable(1);
+  connection->setSelectable(1, false);
   return false;
 }
 
@@ -75,10 +73,11 @@ void ConnectionTable::DropSilent() {
   silent->first->Drop();
 }
 
-CheckedConnection::CheckedConnection(omni::SocketHandle_t socket,
+CheckedConnection::CheckedConnection(std::unique_ptr<orb::TlsChannel> channel,
+                                     omni::SocketHandle_t socket,
                                      omni::SocketCollection* collection,
                                      std::shared_ptr<ConnectionTable> table)
-    : tcpConnection(socket, collection), table_(std::move(table)) {
+    : orb::Connection(std::move(channel), socket, collection), table_(std::move(table)) {
   table_->Add(this);
 }
 
@@ -98,8 +97,8 @@ void CheckedConnection::GiveTurn() {
 int CheckedConnection::Send(void* buffer, std::size_t size, const omni_time_t& deadline) {
   GiveTurn();
   // The ORB's own way asks first whether there is room, which there nearly always is.
-  const ssize_t sent = send(pd_socket, buffer, size, MSG_DONTWAIT | MSG_NOSIGNAL);
-  return sent > 0 ? static_cast<int>(sent) : tcpConnection::Send(buffer, size, deadline);
+  const ssize_t sent = TrySend(buffer, size);
+  return sent > 0 ? static_cast<int>(sent) : orb::Connection::Send(buffer, size, deadline);
 }
 
 int CheckedConnection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline) {
@@ -112,8 +111,8 @@ int CheckedConnection::Recv(void* buffer, std::size_t size, const omni_time_t& d
     if (!assembly.empty() && !until) until = Soon();
     const auto room = assembly.Next();
     // The rest of a message is mostly there with its header.
-    ssize_t received = assembly.empty() ? -1 : recv(pd_socket, room.bytes, room.size, MSG_DONTWAIT);
-    if (received < 0) received = tcpConnection::Recv(room.bytes, room.size, until);
+    ssize_t received = assembly.empty() ? -1 : TryReceive(room.bytes, room.size);
+    if (received < 0) received = orb::Connection::Recv(room.bytes, room.size, until);
     if (received <= 0) return static_cast<int>(received);
     Hear();
     assembly.Take(static_cast<std::size_t>(received));
@@ -132,7 +131,7 @@ bool CheckedConnection::Gather() {
   if (!lock) return true;  // a thread of the ORB reads
   while (!incoming_.whole()) {
     const auto room = incoming_.assembly().Next();
-    const ssize_t received = recv(pd_socket, room.bytes, room.size, MSG_DONTWAIT);
+    const ssize_t received = TryReceive(room.bytes, room.size);
     if (received < 0 && errno == EINTR) continue;
     if (received < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return false;
     if (received <= 0) return true;  // the ORB finds out why
@@ -150,7 +149,7 @@ void CheckedConnection::Drop() {
 int CheckedActiveConnection::Send(void* buffer, std::size_t size, const omni_time_t& deadline) {
   // The reply may come before this returns.
   const std::lock_guard lock(mutex_);
-  const int sent = tcpActiveConnection::Send(buffer, size, deadline);
+  const int sent = orb::ActiveConnection::Send(buffer, size, deadline);
   if (sent > 0) {
     replies_.Sending({static_cast<const char*>(buffer), size}, static_cast<std::size_t>(sent));
   }
@@ -160,7 +159,7 @@ int CheckedActiveConnection::Send(void* buffer, std::size_t size, const omni_tim
 int CheckedActiveConnection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline) {
   while (!incoming_.whole()) {
     const auto room = incoming_.assembly().Next();
-    const int received = tcpActiveConnection::Recv(room.bytes, room.size, deadline);
+    const int received = orb::ActiveConnection::Recv(room.bytes, room.size, deadline);
     if (received <= 0) return received;
     incoming_.assembly().Take(static_cast<std::size_t>(received));
     if (!incoming_.whole()) continue;

@@ -1,4 +1,4 @@
-// omniORB's TCP connections, which hand on nothing but whole messages that were looked through.
+// The ORB's connections, which hand on nothing but whole messages that were looked through.
 //
 // A message that is refused altogether (what is no GIOP, or too long) ends its connection.
 #pragma once
@@ -11,17 +11,9 @@
 #include <semaphore>
 #include <thread>
 
-// Each of omniORB's own headers needs those before it.
-// clang-format off
-#include <omniORB4/CORBA.h>
-#include <omniORB4/giopEndpoint.h>
-#include <tcpSocket.h>
-#include <SocketCollection.h>
-#include <omniORB4/tcpConnection.h>
-// clang-format on
-
 #include "gsv/broker/transport/message_assembly.h"
 #include "gsv/broker/transport/message_check.h"
+#include "gsv/orb/connection.h"
 
 namespace gsv::broker {
 
@@ -85,10 +77,10 @@ class ConnectionTable {
 };
 
 // One that a client made.
-class CheckedConnection : public omni::tcpConnection {
+class CheckedConnection : public orb::Connection {
  public:
-  CheckedConnection(omni::SocketHandle_t socket, omni::SocketCollection* collection,
-                    std::shared_ptr<ConnectionTable> table);
+  CheckedConnection(std::unique_ptr<orb::TlsChannel> channel, omni::SocketHandle_t socket,
+                    omni::SocketCollection* collection, std::shared_ptr<ConnectionTable> table);
   ~CheckedConnection() override;
 
   int Recv(void* buffer, std::size_t size, const omni_time_t& deadline) override;
@@ -114,9 +106,9 @@ class CheckedConnection : public omni::tcpConnection {
 };
 
 // One that the broker made.
-class CheckedActiveConnection : public omni::tcpActiveConnection {
+class CheckedActiveConnection : public orb::ActiveConnection {
  public:
-  using tcpActiveConnection::tcpActiveConnection;
+  using orb::ActiveConnection::ActiveConnection;
 
   int Send(void* buffer, std::size_t size, const omni_time_t& deadline) override;
   int Recv(void* buffer, std::size_t size, const omni_time_t& deadline) override;

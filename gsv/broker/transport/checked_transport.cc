@@ -1,68 +1,39 @@
 #include "gsv/broker/transport/checked_transport.h"
 
-#include <atomic>
-#include <cerrno>
 #include <memory>
 #include <utility>
 
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include "gsv/base/check.h"
 #include "gsv/broker/transport/checked_connection.h"
+#include "gsv/orb/endpoint.h"
+#include "gsv/orb/tls_transport.h"
 
 // They need the connection's.
 // clang-format off
 #include <omniORB4/tcpAddress.h>
-#include <omniORB4/tcpEndpoint.h>
 #include <omniORB4/tcpTransportImpl.h>
 // clang-format on
 
 namespace gsv::broker {
 namespace {
 
-class CheckedEndpoint : public omni::tcpEndpoint {
+class CheckedEndpoint : public orb::Endpoint {
  public:
-  CheckedEndpoint(const char* address, std::size_t connections)
-      : tcpEndpoint(address), table_(std::make_shared<ConnectionTable>(connections)) {}
-
-  omni::giopConnection* AcceptAndMonitor(omni::giopConnection::notifyReadable_t readable,
-                                         void* cookie) override {
-    readable_ = readable;
-    cookie_ = cookie;
-    setSelectable(1, false);
-    while (!poked_) {
-      accepted_ = -1;
-      if (!Select()) break;
-      if (accepted_ >= 0) return new CheckedConnection(accepted_, this, table_);
-    }
-    return nullptr;
-  }
-
-  void Poke() override {
-    poked_ = true;
-    tcpEndpoint::Poke();
-  }
+  CheckedEndpoint(const char* address, std::shared_ptr<const orb::TlsContext> context,
+                  std::size_t connections)
+      : Endpoint(address, std::move(context)),
+        table_(std::make_shared<ConnectionTable>(connections)) {}
 
  protected:
-  CORBA::Boolean notifyReadable(omni::SocketHolder* holder) override {
-    if (holder == static_cast<omni::SocketHolder*>(this)) {
-      accepted_ = accept4(pd_socket, nullptr, nullptr, SOCK_CLOEXEC);
-      if (accepted_ < 0 && errno == EBADF) return false;
-      setSelectable(1, false);
-      return true;
-    }
-    auto* const connection = static_cast<CheckedConnection*>(holder);
-    if (table_->Readable(connection)) readable_(cookie_, connection);
-    return true;
+  orb::Connection* MakeConnection(int socket, std::unique_ptr<orb::TlsChannel> channel) override {
+    return new CheckedConnection(std::move(channel), socket, this, table_);
+  }
+  bool ShallRead(orb::Connection* connection) override {
+    return table_->Readable(static_cast<CheckedConnection*>(connection));
   }
 
  private:
   std::shared_ptr<ConnectionTable> table_;
-  int accepted_ = -1;
-  omni::giopConnection::notifyReadable_t readable_ = nullptr;
-  void* cookie_ = nullptr;
-  std::atomic<bool> poked_ = false;  // by another thread
 };
 
 class CheckedAddress : public omni::tcpAddress {
@@ -81,7 +52,7 @@ class CheckedAddress : public omni::tcpAddress {
     if (address_.port == 0) return nullptr;
     const omni::SocketHandle_t socket =
         omni::tcpSocket::Connect(address_.host, address_.port, deadline, flags, timed_out);
-    return socket < 0 ? nullptr : new CheckedActiveConnection(socket);
+    return socket < 0 ? nullptr : new CheckedActiveConnection(nullptr, socket);
   }
 
  private:
@@ -93,7 +64,7 @@ class CheckedTransport : public omni::tcpTransportImpl {
   explicit CheckedTransport(std::size_t connections) : connections_(connections) {}
 
   omni::giopEndpoint* toEndpoint(const char* address) override {
-    return isValid(address) ? new CheckedEndpoint(address, connections_) : nullptr;
+    return isValid(address) ? new CheckedEndpoint(address, nullptr, connections_) : nullptr;
   }
   omni::giopAddress* toAddress(const char* text) override {
     IIOP::Address address;
@@ -104,7 +75,29 @@ class CheckedTransport : public omni::tcpTransportImpl {
   std::size_t connections_;
 };
 
+class CheckedTlsTransport : public orb::TlsTransport {
+ public:
+  CheckedTlsTransport(std::shared_ptr<const orb::TlsContext> context, std::size_t connections)
+      : TlsTransport(std::move(context)), connections_(connections) {}
+
+  omni::giopEndpoint* toEndpoint(const char* address) override {
+    return isValid(address) ? new CheckedEndpoint(address, context(), connections_) : nullptr;
+  }
+  omni::giopActiveConnection* MakeConnection(int socket,
+                                             std::unique_ptr<orb::TlsChannel> channel) override {
+    return new CheckedActiveConnection(std::move(channel), socket);
+  }
+
+ private:
+  std::size_t connections_;
+};
+
 }  // namespace
+
+std::unique_ptr<omni::giopTransportImpl> MakeCheckedTlsTransport(
+    std::shared_ptr<const orb::TlsContext> context, std::size_t connections) {
+  return std::make_unique<CheckedTlsTransport>(std::move(context), connections);
+}
 
 void InstallCheckedTransport(std::size_t connections) {
   // omniORB takes the first transport of a name; its own must give the name up.
