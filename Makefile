@@ -5,12 +5,14 @@
 # it also runs a campaign of 500 runs by a Slurm of its own, and tries the packages on a bare Debian, which
 # needs root and debootstrap.
 # `make chaos` kills, stops, floods and fills up all that a server lives with for CHAOS_SECONDS (3600).
-# `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60); it needs clang.
+# `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60), for which it needs clang, and sends
+# mutated requests to every servant of the real programs for as long (of PRESET; FUZZ_SEED says which).
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
 #   PRESET=dev    another preset of CMakePresets.json
 PRESET ?= release
 JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 60
+FUZZ_SEED ?= 1
 CHAOS_SECONDS ?= 3600
 CHAOS_SEED ?= 1
 BUILD := build/$(PRESET)
@@ -57,11 +59,13 @@ setup:
 asan tsan ubsan:
 	$(MAKE) test PRESET=$@
 
-fuzz:
+fuzz: configure
 	@command -v clang++ > /dev/null || { echo "make fuzz needs clang: apt-get install clang"; exit 5; }
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel $(JOBS)
 	tools/run_fuzzers build/fuzz $(FUZZ_SECONDS)
+	cmake --build $(BUILD) --target programs --parallel $(JOBS)
+	tests/giop/mutate.py $(BUILD) --seconds $(FUZZ_SECONDS) --seed $(FUZZ_SEED)
 
 format:
 	tools/format

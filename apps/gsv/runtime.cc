@@ -16,6 +16,7 @@
 #include "gsv/broker/client/client_errors.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/client/gsv_service_types.h"
+#include "gsv/broker/transport/message_check.h"
 #include "gsv/orb/orb.h"
 #include "gsv/rendering/renderer.h"
 #include "gsv/scenario/scenario.h"
@@ -99,6 +100,7 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
   if (!normalised) return base::Fail(normalised.error());
   orb::OrbOptions orb_options;
   orb_options.local_socket = true;
+  orb_options.check_request = &broker::CheckRequest;  // its load is asked for by evalDP
   if (const std::string host = broker::HostOf(*normalised); !host.empty()) {
     auto local = orb::LocalAddressTowards(host);
     if (!local) return base::Fail(local.error());

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "gsv/base/log.h"
+#include "gsv/orb/whole_transport.h"
 
 namespace gsv::orb {
 
@@ -223,7 +224,7 @@ void Endpoint::Dismiss() {
 }
 
 Connection* Endpoint::MakeConnection(int socket, std::unique_ptr<TlsChannel> channel) {
-  return new Connection(std::move(channel), socket, this);
+  return new WholeMessages<Connection>(CurrentMessageLimits(), std::move(channel), socket, this);
 }
 
 bool Endpoint::ShallRead(Connection* /*connection*/) { return true; }

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <memory>
@@ -17,6 +18,7 @@
 
 #include "gsv/orb/corba_access.h"
 #include "gsv/orb/local_socket.h"
+#include "gsv/orb/whole_transport.h"
 
 namespace gsv::orb {
 
@@ -24,7 +26,12 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   const auto access = PrepareAccess(options.host, options.port);
   if (!access) return base::Fail(access.error());
   const std::string max_message = std::to_string(options.max_message_bytes);
+  const std::string message_time =
+      std::to_string(std::chrono::milliseconds(options.message_time).count());
   const std::string call_timeout = std::to_string(options.call_timeout.count());
+  // It stands in for the call's where a call has to connect first.
+  const std::string connect_timeout =
+      std::to_string(std::min<std::int64_t>(options.call_timeout.count(), 5000));
   const std::string connections = std::to_string(options.max_connections_per_server);
   // A client closes an idle connection (60 s) before the server does (180 s); a message that
   // stops half-way is given up after 30 s.
@@ -38,8 +45,8 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {"clientTransportRule", access->client_rules[1]},
       {"giopMaxMsgSize", max_message.c_str()},
       {"clientCallTimeOutPeriod", call_timeout.c_str()},
-      {"clientConnectTimeOutPeriod", "5000"},
-      {"serverCallTimeOutPeriod", "30000"},
+      {"clientConnectTimeOutPeriod", connect_timeout.c_str()},
+      {"serverCallTimeOutPeriod", message_time.c_str()},
       {"inConScanPeriod", "180"},
       {"outConScanPeriod", "60"},
       {"scanGranularity", "5"},
@@ -54,6 +61,7 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {local_endpoint.empty() ? nullptr : "endPoint", local_endpoint.c_str()},  // or the end
       {nullptr, nullptr},
   };
+  InstallWholeTransports({options.max_message_bytes, options.message_time, options.check_request});
   try {
     int argc = 0;
     CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr, "omniORB4", settings);

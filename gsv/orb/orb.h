@@ -19,8 +19,11 @@ struct OrbOptions {
   std::string host = "127.0.0.1";  // the address to listen on
   int port = 0;                    // 0: the system chooses
   bool local_socket = false;       // besides, see local_socket.h; where that is possible
-  std::uint64_t max_message_bytes = 64u << 20;
+  std::uint64_t max_message_bytes = 64u << 20;  // with its header
+  std::chrono::seconds message_time{30};        // that a message may take to come
   std::chrono::milliseconds call_timeout{10'000};
+  // For what omniORB does not take without harm, see broker::CheckRequest(). Null: it sees all.
+  void (*check_request)(std::string& message) = nullptr;
   // A call in progress occupies its connection: at least as many as agents that wait at once.
   int max_connections_per_server = 4096;
 };

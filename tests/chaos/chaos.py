@@ -20,73 +20,22 @@ promise that was broken.
 
 import argparse
 import json
-import os
 import random
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
 from attacks import ATTACKS
-from laboratory import Laboratory, Patience
-
-WITNESS = {"name": "witness", "world": "playground", "mode": "lockstep", "seed": 7, "duration": 4,
-           "robots": [{"name": f"w{i}", "model": "pebble", "x": x, "y": -1.5, "behaviour": "witness"}
-                      for i, x in enumerate((-1.0, 0.0, 1.0))]}
-
-
-class Witness:
-    """Runs its simulation again and again, and compares."""
-
-    def __init__(self, laboratory):
-        self.laboratory = laboratory
-        laboratory.start_behaviour("witness", is_victim=False)
-        laboratory.create(WITNESS)
-        self.rounds = 0
-        self.expected = None
-        self.is_running = False
-
-    def look(self):
-        """A sentence if the outcome is another; takes no longer than two requests."""
-        if not self.is_running:
-            self.laboratory.press("witness", "start")
-            self.is_running = True
-            return None
-        status = self.laboratory.status("witness")
-        if status["phase"] == "failed":
-            return f"the witness failed: {status['failure']}"
-        if status["phase"] != "finished":
-            return None
-        outcome = json.dumps([status["step"], [[robot["pose"], robot["distance_m"], robot["collisions"]]
-                                               for robot in status["robots"]]])
-        self.laboratory.press("witness", "reset")
-        self.is_running = False
-        self.rounds += 1
-        if self.expected is None:
-            self.expected = outcome
-        return None if outcome == self.expected else f"the witness did\n{outcome}\ninstead of\n{self.expected}"
-
-    def run(self, rounds):
-        patience = Patience("the witness's run")
-        until = self.rounds + rounds
-        broken = None
-        while self.rounds < until and broken is None:
-            broken = self.look()
-            patience.wait()
-        return broken
-
+from laboratory import Laboratory, Patience, enter_own_network
+from witness import Witness, differences
 
 def settle(laboratory, before):
     """Sentences for what has not come back to what it was."""
     patience = Patience("the server's return to what it was")
     while True:
-        now = laboratory.footprint()
-        over = [f"{name}: {now[name]} instead of {before[name]}" for name in ("threads", "descriptors")
-                if now[name] > before[name] + laboratory.SLACK]
-        if now["memory_mib"] > before["memory_mib"] + laboratory.MEMORY_SLACK_MIB:
-            over.append(f"memory: {now['memory_mib']} MiB instead of {before['memory_mib']}")
+        over = differences("the server", before, laboratory.footprint())
         if not over or patience.is_over():
             return over
         patience.wait()
@@ -160,15 +109,6 @@ def check_restart(laboratory):
         if loss <= 1:
             return []
     return [f"the recordings of a server that was killed lack {losses} s"]
-
-
-def enter_own_network():
-    """Starts this program again where it may cut the network and mount disks, if it may."""
-    own = ["unshare", "--net", "--mount", "sh", "-c", 'ip link set lo up && exec "$@"', "sh"]
-    if "GSV_CHAOS_NETWORK" in os.environ or subprocess.run([*own, "true"], capture_output=True, check=False).returncode:
-        return
-    os.environ["GSV_CHAOS_NETWORK"] = "own"
-    os.execvp(own[0], [*own, sys.executable, *sys.argv])
 
 
 def main():

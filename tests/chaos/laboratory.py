@@ -6,10 +6,13 @@ import os
 import signal
 import socket
 import subprocess
+import sys
 import time
 from pathlib import Path
 
 TIMEOUT_S = 60  # of anything: who takes longer has hung
+MEMORY_SLACK_MIB = 64  # malloc's arenas and the renderer's copies stay
+SLACK = 4  # threads and descriptors: of omniORB's, which it keeps for a while for the next caller
 
 
 class Patience:
@@ -35,10 +38,8 @@ class Refused(Exception):
 
 
 class Laboratory:
-    MEMORY_SLACK_MIB = 64  # malloc's arenas and the renderer's copies stay
-    SLACK = 4  # threads and descriptors: of omniORB's, which it keeps for a while for the next caller
-
-    def __init__(self, build, folder):
+    def __init__(self, build, folder, serve=()):
+        self.serve = serve  # more arguments of the server
         self.build = build
         self.folder = folder
         self.recordings = folder / "recordings"
@@ -57,13 +58,16 @@ class Laboratory:
     # Programs
 
     def environment(self):
-        return {**os.environ, "HOME": str(self.folder), "XDG_RUNTIME_DIR": str(self.folder)}
+        # Memory that many of malloc's arenas hold free looks like a leak, and hides one.
+        return {**os.environ, "HOME": str(self.folder), "XDG_RUNTIME_DIR": str(self.folder),
+                "XDG_STATE_HOME": str(self.folder / "state"), "MALLOC_ARENA_MAX": "1"}
 
     def start(self, name, *arguments, line=None):
         log = open(self.folder / f"{name}-{self.count}.log", "wb")
         self.count += 1
         process = subprocess.Popen([str(self.build / "bin" / arguments[0]), *arguments[1:]], stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=log, env=self.environment())
+                                   stdout=subprocess.PIPE, stderr=log, env=self.environment(),
+                                   cwd=self.folder)
         process.behaviour = name
         if line:
             for said in process.stdout:
@@ -80,7 +84,7 @@ class Laboratory:
 
     def start_server(self):
         self.server = self.start("server", "gsv", "serve", "--broker", self.reference, "--port", str(self.viewer_port),
-                                 "--recordings", str(self.recordings), line="viewer:")
+                                 "--recordings", str(self.recordings), *self.serve, line="viewer:")
 
     def restart_server(self):
         self.server.kill()
@@ -137,11 +141,7 @@ class Laboratory:
         return self.request("DELETE", f"/api/simulations/{simulation}")
 
     def footprint(self):
-        """What the server holds; memory in MiB."""
-        process = Path("/proc") / str(self.server.pid)
-        status = dict(line.split(":", 1) for line in (process / "status").read_text().splitlines())
-        return {"threads": int(status["Threads"]), "descriptors": len(list((process / "fd").iterdir())),
-                "memory_mib": round(int(status["VmRSS"].split()[0]) / 1024)}
+        return footprint_of(self.server.pid)
 
     # The end
 
@@ -188,3 +188,20 @@ def proceed(process):
         process.send_signal(signal.SIGCONT)
     except ProcessLookupError:
         pass
+
+
+def footprint_of(pid):
+    """What a process holds; memory in MiB."""
+    process = Path("/proc") / str(pid)
+    status = dict(line.split(":", 1) for line in (process / "status").read_text().splitlines())
+    return {"threads": int(status["Threads"]), "descriptors": len(list((process / "fd").iterdir())),
+            "memory_mib": round(int(status["VmRSS"].split()[0]) / 1024)}
+
+
+def enter_own_network():
+    """Starts this program again where it may cut the network and mount disks, if it may."""
+    own = ["unshare", "--net", "--mount", "sh", "-c", 'ip link set lo up && exec "$@"', "sh"]
+    if "GSV_CHAOS_NETWORK" in os.environ or subprocess.run([*own, "true"], capture_output=True, check=False).returncode:
+        return
+    os.environ["GSV_CHAOS_NETWORK"] = "own"
+    os.execvp(own[0], [*own, sys.executable, *sys.argv])

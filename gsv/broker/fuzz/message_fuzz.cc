@@ -10,7 +10,6 @@
 
 #include "gsv/base/check.h"
 #include "gsv/broker/testing/raw_message.h"
-#include "gsv/broker/transport/message_assembly.h"
 #include "gsv/broker/transport/message_check.h"
 
 using namespace gsv::broker;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 namespace gsv::broker {
@@ -18,19 +17,6 @@ omni_time_t Soon() {
 }
 
 }  // namespace
-
-int IncomingMessage::HandOut(void* buffer, std::size_t size) {
-  if (assembly_.state() == MessageAssembly::State::kRefused) return -1;
-  const std::string& message = assembly_.message();
-  const std::size_t count = std::min(size, message.size() - handed_out_);
-  std::memcpy(buffer, message.data() + handed_out_, count);
-  handed_out_ += count;
-  if (handed_out_ == message.size()) {
-    assembly_.Reset();
-    handed_out_ = 0;
-  }
-  return static_cast<int>(count);
-}
 
 void ConnectionTable::Add(CheckedConnection* connection) {
   const std::lock_guard lock(mutex_);

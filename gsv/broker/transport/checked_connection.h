@@ -11,28 +11,14 @@
 #include <semaphore>
 #include <thread>
 
-#include "gsv/broker/transport/message_assembly.h"
 #include "gsv/broker/transport/message_check.h"
 #include "gsv/orb/connection.h"
+#include "gsv/orb/incoming_message.h"
 
 namespace gsv::broker {
 
 // What a message may be long, giopMaxMsgSize and its header.
 inline constexpr std::size_t kMessageBytes = 65'536;
-
-// A message on its way from the socket to the ORB. The functions are called with the connection's
-// lock held.
-class IncomingMessage {
- public:
-  MessageAssembly& assembly() { return assembly_; }
-  bool whole() const { return assembly_.state() != MessageAssembly::State::kIncomplete; }
-  // Copies up to `size` bytes of the message; -1 for one that is refused.
-  int HandOut(void* buffer, std::size_t size);
-
- private:
-  MessageAssembly assembly_{kMessageBytes + kGiopHeaderBytes};
-  std::size_t handed_out_ = 0;
-};
 
 // How many requests are worked on at once: about as many as there are processors. Dozens of threads
 // that stand in line for the ORB's one lock and the trader's would change places at each lock. Who
@@ -100,7 +86,7 @@ class CheckedConnection : public orb::Connection {
   std::shared_ptr<ConnectionTable> table_;
   std::atomic<Clock::rep> heard_ = Clock::now().time_since_epoch().count();
   std::mutex mutex_;
-  IncomingMessage incoming_;
+  orb::IncomingMessage incoming_{kMessageBytes + kGiopHeaderBytes};
   bool checked_ = false;
   std::atomic<bool> has_turn_ = false;  // from a request to its reply
 };
@@ -116,7 +102,7 @@ class CheckedActiveConnection : public orb::ActiveConnection {
  private:
   std::mutex mutex_;
   ReplyCheck replies_;
-  IncomingMessage incoming_;
+  orb::IncomingMessage incoming_{kMessageBytes + kGiopHeaderBytes};
 };
 
 }  // namespace gsv::broker

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "gsv/broker/transport/cdr_reader.h"
 #include "gsv/broker/transport/type_code_check.h"
 
 namespace gsv::broker {
@@ -20,7 +19,7 @@ using Signatures = std::map<std::string_view, std::string_view>;
 const Signatures& RequestSignatures() {
   static const Signatures signatures = {
       {"query", "sssPdu"},        {"export", "osP"},    {"modify", "sSP"},
-      {"export_proxy", "osPbsP"}, {"add_type", "ssDS"},
+      {"export_proxy", "osPbsP"}, {"add_type", "ssDS"}, {"evalDP", "sta"},
   };
   return signatures;
 }
@@ -164,28 +163,6 @@ void CutAt(std::string& message, std::size_t size) {
 }
 
 }  // namespace
-
-std::optional<GiopHeader> ReadGiopHeader(std::string_view bytes) {
-  if (bytes.substr(0, 5) != std::string_view("GIOP\x01", 5)) return std::nullopt;
-  const auto flags = static_cast<std::uint8_t>(bytes[6]);
-  GiopHeader header{.minor = static_cast<std::uint8_t>(bytes[5]),
-                    .type = static_cast<std::uint8_t>(bytes[7]),
-                    .little_endian = (flags & 1) != 0};
-  if (header.minor > 2) return std::nullopt;
-  header.more_fragments = header.minor > 0 && (flags & 2) != 0;
-  header.body_bytes = CdrReader(bytes, header.little_endian, header.minor, 8).ULong();
-  return header;
-}
-
-void CompleteGiopHeader(std::string& message) {
-  const bool little_endian = (message[6] & 1) != 0;
-  message[6] = little_endian ? '\x01' : '\x00';
-  const std::size_t body = message.size() - kGiopHeaderBytes;
-  for (int i = 0; i < 4; ++i) {
-    const int shift = 8 * (little_endian ? i : 3 - i);
-    message[8 + static_cast<std::size_t>(i)] = static_cast<char>(body >> shift);
-  }
-}
 
 void CheckRequest(std::string& message) {
   const auto header = ReadGiopHeader(message);

@@ -9,31 +9,21 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include "gsv/orb/cdr_reader.h"
+#include "gsv/orb/giop_header.h"
+#include "gsv/orb/message_assembly.h"
+
 namespace gsv::broker {
 
-inline constexpr std::size_t kGiopHeaderBytes = 12;
-
-struct GiopHeader {
-  enum Type : std::uint8_t {
-    kRequest = 0,
-    kReply = 1,
-    kFragment = 7,
-  };
-  int minor = 0;
-  std::uint8_t type = 0;
-  bool little_endian = false;
-  bool more_fragments = false;
-  std::size_t body_bytes = 0;
-};
-
-// Nothing for bytes that begin no message of GIOP 1.0 to 1.2. `bytes` are at least 12.
-std::optional<GiopHeader> ReadGiopHeader(std::string_view bytes);
-// The header of `message` then says how long it is, and that it is whole.
-void CompleteGiopHeader(std::string& message);
+using orb::CdrReader;
+using orb::CompleteGiopHeader;
+using orb::GiopHeader;
+using orb::kGiopHeaderBytes;
+using orb::MessageAssembly;
+using orb::ReadGiopHeader;
 
 // `message` is a whole one. Looks at nothing but requests.
 void CheckRequest(std::string& message);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "gsv/broker/testing/raw_message.h"
-#include "gsv/broker/transport/message_assembly.h"
 
 namespace gsv::broker {
 namespace {

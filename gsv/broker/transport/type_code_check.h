@@ -12,9 +12,11 @@
 #include <map>
 #include <vector>
 
-#include "gsv/broker/transport/cdr_reader.h"
+#include "gsv/orb/cdr_reader.h"
 
 namespace gsv::broker {
+
+using orb::CdrReader;
 
 struct TypeCodeLimits {
   std::size_t depth = 64;      // of types in types and values in values, together

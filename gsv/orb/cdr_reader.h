@@ -10,7 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace gsv::broker {
+namespace gsv::orb {
 
 class CdrReader {
  public:
@@ -112,4 +112,4 @@ class CdrReader {
   bool ok_ = true;
 };
 
-}  // namespace gsv::broker
+}  // namespace gsv::orb

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-namespace gsv::broker {
+namespace gsv::orb {
 
 class MessageAssembly {
  public:
@@ -50,4 +50,4 @@ class MessageAssembly {
   std::uint32_t request_ = 0;          // whose fragments are joined
 };
 
-}  // namespace gsv::broker
+}  // namespace gsv::orb

@@ -1,12 +1,12 @@
-#include "gsv/broker/transport/message_assembly.h"
+#include "gsv/orb/message_assembly.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "gsv/broker/transport/cdr_reader.h"
-#include "gsv/broker/transport/message_check.h"
+#include "gsv/orb/cdr_reader.h"
+#include "gsv/orb/giop_header.h"
 
-namespace gsv::broker {
+namespace gsv::orb {
 namespace {
 
 // Memory is taken as bytes come, not as they are announced.
@@ -75,4 +75,4 @@ void MessageAssembly::Reset() {
   if (message_.capacity() > kKept) message_.shrink_to_fit();
 }
 
-}  // namespace gsv::broker
+}  // namespace gsv::orb

@@ -1,0 +1,68 @@
+"""All that GSV's servants can be asked, from the IDL itself."""
+
+import importlib.util
+import json
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+IDL = HERE.parent.parent / "idl"
+
+OF_ALL = {"_is_a": (("in", "id", "string"),), "_non_existent": ()}  # what the ORB answers for every object
+
+
+@dataclass(frozen=True)
+class Operation:
+    interface: str  # of which it is asked: "sba::Sonar"
+    name: str       # as it stands in messages
+    parameters: tuple
+    result: object
+
+    def __str__(self):
+        return f"{self.interface}::{self.name}"
+
+
+class Contracts:
+    def __init__(self):
+        self.by_id = {}
+        for file in [*sorted(IDL.glob("*.idl")), HERE / "trading.idl"]:
+            told = subprocess.run(["omniidl", f"-I{IDL}", f"-p{HERE}", "-bsignatures", str(file)],
+                                  capture_output=True, text=True, check=True)
+            self.by_id.update(json.loads(told.stdout))
+        self.ids = {told["name"]: identity for identity, told in self.by_id.items()}
+        self.interfaces = sorted(self.ids)
+
+    def ancestors(self, interface):
+        """Itself first."""
+        found = [interface]
+        for base in self.by_id[self.ids[interface]]["bases"]:
+            found += [each for each in self.ancestors(self.by_id[base]["name"]) if each not in found]
+        return found
+
+    def operations(self, interface):
+        """What an object of that interface can be asked, what it inherits among it."""
+        return [Operation(interface, told["name"], tuple(tuple(each) for each in told["parameters"]),
+                          freeze(told["result"]))
+                for each in self.ancestors(interface) for told in self.by_id[self.ids[each]]["operations"]
+                ] + [Operation(interface, name, parameters, "boolean") for name, parameters in OF_ALL.items()]
+
+    def operation(self, interface, name):
+        return next(each for each in self.operations(interface) if each.name == name)
+
+
+def freeze(kind):
+    return kind if isinstance(kind, str) else tuple(kind)
+
+
+def standard_trading_operations():
+    """Interface -> its operations' names, as tools/check_conformance.py has them from the standard."""
+    where = HERE.parent.parent / "tools/check_conformance.py"
+    spec = importlib.util.spec_from_file_location("check_conformance", where)
+    standard = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(standard)
+    modules = {"ServiceTypeRepository": "CosTradingRepos", "DynamicPropEval": "CosTradingDynamic"}
+    found = {name: list(operations) for name, operations in standard.OPERATIONS.items()}
+    for name, attributes in standard.ATTRIBUTES.items():
+        found[name] = found.get(name, []) + [f"_get_{each}" for each in attributes.split()]
+    return {f"{modules.get(name, 'CosTrading')}::{name}": names for name, names in found.items()}
