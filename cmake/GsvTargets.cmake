@@ -128,6 +128,7 @@ endif()
 # Every test finds its way by these variables of its environment. CTest reads the file as it starts.
 file(WRITE ${CMAKE_BINARY_DIR}/gsv_test_environment.cmake
   "set(ENV{GSV_SOURCE_DIR} [==[${CMAKE_SOURCE_DIR}]==])\n"
+  "set(ENV{XDG_STATE_HOME} [==[${CMAKE_BINARY_DIR}/state]==])\n"
   "set(ENV{GSV_BUILD_DIR} [==[${CMAKE_BINARY_DIR}]==])\n"
   "set(ENV{GSV_REAL_DIR} [==[${GSV_REAL_DIR}]==])\n")
 set_property(DIRECTORY ${CMAKE_SOURCE_DIR}

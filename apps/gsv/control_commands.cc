@@ -9,6 +9,7 @@
 
 #include "apps/gsv/commands.h"
 #include "apps/gsv/exit_code.h"
+#include "apps/gsv/lost/server_note.h"
 #include "apps/gsv/remote_simulations.h"
 #include "gsv/gateway/status_json.h"
 #include "gsv/orb/errors.h"
@@ -60,6 +61,24 @@ struct Arguments {
   std::uint64_t steps = 1;
 };
 
+// What servers of this user were running when they ended without a word.
+int ListLost(const Arguments& arguments) {
+  int count = 0;
+  for (const LostSimulation& lost : LostSimulationsNoted(arguments.selection.broker)) {
+    const std::string& wanted = arguments.selection.simulation;
+    if (!wanted.empty() && lost.name != wanted) continue;
+    ++count;
+    if (arguments.json) {
+      std::puts(Describe(lost)
+                    .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                    .c_str());
+    } else {
+      std::printf("%s\n", Sentence(lost).c_str());
+    }
+  }
+  return count;
+}
+
 int List(const Arguments& arguments) {
   std::vector<std::string> silent;
   const auto simulations = FindSimulations(arguments.selection, silent);
@@ -73,7 +92,9 @@ int List(const Arguments& arguments) {
       Print(simulation);
     }
   }
-  if (simulations->empty() && !arguments.json) std::fprintf(stderr, "gsv: no simulation runs\n");
+  const int lost = arguments.selection.server.empty() ? ListLost(arguments) : 0;
+  if (simulations->empty() && lost == 0 && !arguments.json)
+    std::fprintf(stderr, "gsv: no simulation runs\n");
   return kOk;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <optional>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -17,22 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::streamsize kMaxFile = 16 * 1024;
-
-// Field 22 of /proc/PID/stat, see proc(5); nothing when there is no such process.
-std::optional<std::uint64_t> StartOf(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string text;
-  if (!std::getline(file, text)) return std::nullopt;
-  // The second field is the program's name in parentheses, and may hold anything.
-  const std::size_t name_end = text.rfind(')');
-  if (name_end == std::string::npos) return std::nullopt;
-  std::istringstream fields(text.substr(name_end + 1));
-  std::string skipped;
-  for (int field = 3; field < 22; ++field) fields >> skipped;
-  std::uint64_t start = 0;
-  if (!(fields >> start)) return std::nullopt;
-  return start;
-}
 
 std::optional<Instance> ReadInstance(const fs::path& file) {
   std::ifstream stream(file);
@@ -50,13 +33,29 @@ std::optional<Instance> ReadInstance(const fs::path& file) {
 
 }  // namespace
 
+std::optional<std::uint64_t> ProcessStart(pid_t pid) {
+  // Field 22 of /proc/PID/stat, see proc(5).
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  if (!std::getline(file, text)) return std::nullopt;
+  // The second field is the program's name in parentheses, and may hold anything.
+  const std::size_t name_end = text.rfind(')');
+  if (name_end == std::string::npos) return std::nullopt;
+  std::istringstream fields(text.substr(name_end + 1));
+  std::string skipped;
+  for (int field = 3; field < 22; ++field) fields >> skipped;
+  std::uint64_t start = 0;
+  if (!(fields >> start)) return std::nullopt;
+  return start;
+}
+
 base::Result<std::unique_ptr<InstanceRecord>> InstanceRecord::Write(const std::string& broker) {
   const auto folder = base::UserFolder();
   if (!folder) return base::Fail(folder.error());
   const fs::path file = *folder / (std::to_string(getpid()) + ".json");
   const fs::path draft = *folder / (std::to_string(getpid()) + ".draft");
   const nlohmann::json json = {
-      {"pid", getpid()}, {"started", StartOf(getpid()).value_or(0)}, {"broker", broker}};
+      {"pid", getpid()}, {"started", ProcessStart(getpid()).value_or(0)}, {"broker", broker}};
   // Renamed into place, so that nobody reads half of it.
   std::ofstream(draft) << json.dump() << '\n';
   std::error_code error;
@@ -78,7 +77,7 @@ std::vector<Instance> RunningInstances() {
   for (const fs::directory_entry& entry : fs::directory_iterator(*folder, error)) {
     if (entry.path().extension() != ".json") continue;
     const auto instance = ReadInstance(entry.path());
-    if (instance && StartOf(instance->pid) == instance->started) {
+    if (instance && ProcessStart(instance->pid) == instance->started) {
       instances.push_back(*instance);
     } else {
       fs::remove(entry.path(), error);

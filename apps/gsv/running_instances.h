@@ -9,12 +9,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gsv/base/error.h"
 
 namespace gsv::app {
+
+// When a process was started, in clock ticks after the machine's start; nothing when there is none
+// of that number.
+std::optional<std::uint64_t> ProcessStart(pid_t pid);
 
 struct Instance {
   pid_t pid = 0;

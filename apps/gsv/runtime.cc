@@ -10,6 +10,7 @@
 #include "apps/gsv/broker_page.h"
 #include "apps/gsv/installation.h"
 #include "apps/gsv/instances_page.h"
+#include "apps/gsv/lost/lost_page.h"
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/simulation_builder.h"
 #include "gsv/base/log.h"
@@ -69,6 +70,12 @@ base::Result<std::unique_ptr<Runtime>> Runtime::Start(const RuntimeOptions& opti
   auto folder = RecordingsFolder(options.web.recordings);
   if (!folder) return base::Fail(folder.error());
   runtime->recordings_ = std::make_unique<Recordings>(*std::move(folder));
+  if (!options.noted_as.empty()) {
+    runtime->lost_ = std::make_unique<LostSimulations>(
+        LostSimulations::Server{options.noted_as, runtime->broker_->reference(),
+                                runtime->recordings_->folder()},
+        *runtime->host_, *runtime->recordings_);
+  }
   const PortableServer::POA_var poa = orb::RootPoa(runtime->orb_);
   runtime->behaviours_ = std::make_unique<services::BrokerBehaviours>(*runtime->broker_, poa);
   runtime->launcher_ = std::make_unique<BehaviourLauncher>(*runtime->broker_);
@@ -128,6 +135,11 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
       [page = std::make_shared<InstancesPage>(orb_, broker_->reference(),
                                               HostName() + ":" + std::to_string(getpid()))](
           const gateway::Request& request) { return page->Handle(request); };
+  if (lost_ != nullptr) {
+    gateway.pages["lost"] = [this](const gateway::Request& request) {
+      return AnswerOfLost(*lost_, request);
+    };
+  }
   gateway.limits = options.server_limits.web;
   gateway.uploads = options.server_limits.uploads;
   gateway.replays = options.server_limits.replays;
@@ -223,6 +235,7 @@ Runtime::~Runtime() {
     for (const auto& simulation : host_->List()) (void)simulation->Stop();
   }
   if (recordings_ != nullptr) recordings_->StopAll();
+  lost_.reset();  // from here on nothing is lost any more
   if (service_.in() != nullptr) service_->Close();
   if (host_ != nullptr) {
     // Ending a simulation tells its behaviours, so it comes before their programs end.

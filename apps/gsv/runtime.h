@@ -24,6 +24,7 @@
 
 namespace gsv::app {
 
+class LostSimulations;
 class Recordings;
 class SimulationBuilder;
 
@@ -35,6 +36,9 @@ struct RuntimeOptions {
   ServerLimits server_limits;
   bool viewer = true;
   ViewerOptions web;
+  // Of a server that is to tell, when it is started again, what it ran when it was killed; empty:
+  // it is not noted.
+  std::string noted_as;
 };
 
 class Runtime {
@@ -66,6 +70,7 @@ class Runtime {
   std::unique_ptr<broker::BrokerClient> broker_;
   std::shared_ptr<services::SimulationHost> host_;
   std::unique_ptr<Recordings> recordings_;
+  std::unique_ptr<LostSimulations> lost_;  // null: nothing is noted
   std::unique_ptr<services::BrokerBehaviours> behaviours_;
   std::unique_ptr<BehaviourLauncher> launcher_;
   std::unique_ptr<SimulationBuilder> builder_;

@@ -30,6 +30,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   options.server_limits = arguments.server_limits;
   options.viewer = !arguments.headless;
   options.web = arguments.web;
+  options.noted_as = arguments.name;
   auto runtime = Runtime::Start(options);
   if (!runtime) return Complain(runtime.error());
   if (auto ok = (*runtime)->OfferService(arguments.name, arguments.scenarios); !ok)

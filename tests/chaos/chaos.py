@@ -87,6 +87,9 @@ def lose_recording(laboratory):
     laboratory.restart_server()
     if laboratory.simulations():
         return "a server that was started anew has simulations", 0
+    lost = [entry.get("replay") for entry in laboratory.get("/api/lost")["lost"] if entry["name"] == "lost"]
+    if lost != [file]:
+        return f"what ran when the server died is not told with its recording {file}: {lost}", 0
     listed = [entry["name"] for entry in laboratory.get("/api/recordings")["recordings"]]
     if file not in listed:
         return f"the recording {file} is not listed after the server's death: {listed}", 0

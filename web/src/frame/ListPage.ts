@@ -51,6 +51,17 @@ export class ListPage<Item> {
     setTimeout(() => void this.follow(), POLL_MS);
   }
 
+  // Once this is done, the list is another.
+  async after(action: Promise<void>): Promise<void> {
+    try {
+      await action;
+    } catch (error) {
+      this.complain(error);
+      return;
+    }
+    await this.load();
+  }
+
   async load(): Promise<void> {
     try {
       const listing = await this.source.fetch();
@@ -61,10 +72,14 @@ export class ListPage<Item> {
       this.shown = text;
       this.take(listing);
     } catch (error) {
-      setText(this.wrong, (error as Error).message);
-      this.wrong.hidden = false;
-      this.token.hidden = !needsToken(error);
+      this.complain(error);
     }
+  }
+
+  private complain(error: unknown): void {
+    setText(this.wrong, (error as Error).message);
+    this.wrong.hidden = false;
+    this.token.hidden = !needsToken(error);
   }
 
   private take({ note, items, more = "" }: Listing<Item>): void {

@@ -1,13 +1,20 @@
 // @vitest-environment jsdom
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
 import { JsonServer } from "../api/JsonServer";
 import { createJoinPage } from "./JoinPage";
 
 const SIMULATION = { name: "a b", phase: "running", mode: "lockstep", time_s: 75, robots: 2 };
 
-async function open(instances: object[], status = 200) {
+async function open(instances: object[], status = 200, lost: { number: number }[] | null = null) {
   const body = status === 200 ? { broker: "corbaloc:", instances } : { error: "the broker is silent" };
-  const server = new JsonServer("http://gsv/", async () => new Response(JSON.stringify(body), { status }));
+  const answer = async (input: RequestInfo | URL, init?: RequestInit) => {
+    const path = new URL(String(input)).pathname;
+    if (!path.startsWith("/api/lost")) return new Response(JSON.stringify(body), { status });
+    if (lost === null) return new Response("{}", { status: 404 });
+    if (init?.method === "DELETE") lost.splice(lost.findIndex(({ number }) => path === `/api/lost/${number}`), 1);
+    return new Response(JSON.stringify({ lost }), { status: 200 });
+  };
+  const server = new JsonServer("http://gsv/", answer);
   const host = document.createElement("div");
   const page = createJoinPage(server, () => {});
   page.show(host);
@@ -43,4 +50,20 @@ test("who does not answer is there with the reason; so is a silent broker", asyn
   expect(host.querySelector(".instance .field-error")!.textContent).toBe("h:3 does not answer");
   const silent = await open([], 504);
   expect(silent.querySelector("[role=alert]")!.textContent).toBe("the broker is silent");
+});
+
+test("what a server before has lost is told with its recording, until it is dismissed", async () => {
+  const lost = [
+    { number: 3, name: "<i>arena</i>", sentence: "arena was lost at about 12.3 s", replay: "a b.mcap" },
+    { number: 4, name: "maze", sentence: "maze was lost" },
+  ];
+  const host = await open([{ name: "one", place: "h:1", is_here: true, simulations: [] }], 200, lost);
+  const items = () => [...host.querySelectorAll(".lost")];
+  expect(items().map((item) => item.querySelector("h2")!.textContent)).toEqual(["Lost: <i>arena</i>", "Lost: maze"]);
+  expect(items()[0]!.textContent).toContain("arena was lost at about 12.3 s");
+  expect(items()[0]!.querySelector("a")!.getAttribute("href")).toBe("./?recording=a%20b.mcap");
+  expect(items()[1]!.querySelector("a")).toBeNull();
+  items()[0]!.querySelector("button")!.click();
+  await vi.waitFor(() => expect(items().map((item) => item.querySelector("h2")!.textContent)).toEqual(["Lost: maze"]));
+  expect(host.querySelectorAll(".instance").length).toBe(1);
 });

@@ -2,22 +2,47 @@
 import type { JsonServer } from "../api/JsonServer";
 import { ListPage } from "../frame/ListPage";
 import { element } from "../ui/element";
+import { replayUrl } from "../recordings/recordings";
 import { count, formatTime } from "../ui/format";
 import type { Instance, JoinableSimulation } from "./instances";
 import { fetchInstances } from "./instances";
+import type { LostSimulation } from "./lost";
+import { dismissLost, fetchLost } from "./lost";
 
-export function createJoinPage(server: JsonServer, admit: (token: string) => void): ListPage<Instance> {
-  return new ListPage({
+export function createJoinPage(
+  server: JsonServer,
+  admit: (token: string) => void,
+): ListPage<Instance | LostSimulation> {
+  const dismiss = (number: number) => void page.after(dismissLost(server, number));
+  const page: ListPage<Instance | LostSimulation> = new ListPage({
     admit,
     title: "Join",
     label: "Instances",
     empty: "No instance is offered.",
     fetch: async () => {
-      const { broker, instances } = await fetchInstances(server);
-      return { note: broker, items: instances };
+      const [{ broker, instances }, lost] = await Promise.all([fetchInstances(server), fetchLost(server)]);
+      return { note: broker, items: [...lost, ...instances] };
     },
-    show: instanceItem,
+    show: (item) => ("sentence" in item ? lostItem(item, dismiss) : instanceItem(item)),
   });
+  return page;
+}
+
+function lostItem({ number, name, sentence, replay }: LostSimulation, dismiss: (number: number) => void): HTMLElement {
+  const seen = element("button", { type: "button", "aria-label": `Dismiss ${name}` }, "Dismiss");
+  seen.addEventListener("click", () => dismiss(number));
+  return element(
+    "li",
+    { class: "card frame-item lost" },
+    element("h2", {}, `Lost: ${name}`),
+    element("p", {}, sentence),
+    element(
+      "div",
+      { class: "frame-row" },
+      replay !== "" && element("a", { class: "button", href: replayUrl(replay), "aria-label": `Replay ${replay}` }, "Replay"),
+      seen,
+    ),
+  );
 }
 
 function instanceItem(instance: Instance): HTMLElement {

@@ -1,0 +1,245 @@
+#include "apps/gsv/lost/server_note.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/running_instances.h"
+
+namespace gsv::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::streamsize kMostBytes = 8 << 20;  // of a note: 10,000 simulations with long names
+constexpr std::size_t kMostNotes = 1000;
+constexpr std::size_t kMostSimulations = 10'000;
+constexpr double kLongest = 1e12;  // s
+
+std::string LineOf(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return line;
+}
+
+std::string Host() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+json ToJson(const LostSimulation& simulation) {
+  json told = {{"name", simulation.name},    {"world", simulation.world},
+               {"phase", simulation.phase},  {"time_s", simulation.time_s},
+               {"noted", simulation.noted},  {"recording", simulation.recording},
+               {"server", simulation.server}};
+  if (simulation.whole_until_s) told["whole_until_s"] = *simulation.whole_until_s;
+  return told;
+}
+
+json ToJson(const std::vector<LostSimulation>& simulations) {
+  json list = json::array();
+  for (const LostSimulation& each : simulations) list.push_back(ToJson(each));
+  return list;
+}
+
+// Reads what is there; Ok() says whether all was of its kind.
+class Fields {
+ public:
+  explicit Fields(const json& object) : object_(object), ok_(object.is_object()) {}
+
+  bool ok() const { return ok_; }
+  std::string Text(const char* key) { return Take<std::string>(key, &json::is_string); }
+  std::uint64_t Count(const char* key) {
+    return Take<std::uint64_t>(key, &json::is_number_unsigned);
+  }
+  std::int64_t Whole(const char* key) { return Take<std::int64_t>(key, &json::is_number_integer); }
+  double Time(const char* key) {
+    const double time = Take<double>(key, &json::is_number);
+    if (!(std::abs(time) <= kLongest)) ok_ = false;
+    return time;
+  }
+  bool Has(const char* key) const { return ok_ && object_.contains(key); }
+  std::vector<LostSimulation> List(const char* key);
+
+ private:
+  template <typename T>
+  T Take(const char* key, bool (json::*is_kind)() const noexcept) {
+    ok_ = ok_ && object_.contains(key) && (object_[key].*is_kind)();
+    return ok_ ? object_[key].get<T>() : T{};
+  }
+
+  const json& object_;
+  bool ok_;
+};
+
+std::vector<LostSimulation> Fields::List(const char* key) {
+  std::vector<LostSimulation> list;
+  ok_ = ok_ && object_.contains(key) && object_[key].is_array() &&
+        object_[key].size() <= kMostSimulations;
+  if (!ok_) return list;
+  for (const json& each : object_[key]) {
+    Fields fields(each);
+    LostSimulation simulation{fields.Text("name"), fields.Text("world"), fields.Text("phase")};
+    simulation.time_s = fields.Time("time_s");
+    simulation.noted = fields.Whole("noted");
+    simulation.recording = fields.Text("recording");
+    simulation.server = fields.Text("server");
+    if (fields.Has("whole_until_s")) simulation.whole_until_s = fields.Time("whole_until_s");
+    ok_ = ok_ && fields.ok();
+    list.push_back(std::move(simulation));
+  }
+  return list;
+}
+
+std::optional<ServerNote> ReadNote(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(stream.rdbuf()), {});
+  const json told = json::parse(text, nullptr, false);
+  Fields fields(told);
+  ServerNote note;
+  note.pid = static_cast<pid_t>(fields.Count("pid"));
+  note.started = fields.Count("started");
+  note.boot = fields.Text("boot");
+  note.host = fields.Text("host");
+  note.server = fields.Text("server");
+  note.broker = fields.Text("broker");
+  note.recordings = fields.Text("recordings");
+  note.simulations = fields.List("simulations");
+  note.lost = fields.List("lost");
+  if (!fields.ok()) return std::nullopt;
+  return note;
+}
+
+}  // namespace
+
+std::string Sentence(const LostSimulation& lost) {
+  std::string recording = "it was not being recorded";
+  if (!lost.recording.empty()) {
+    recording = "recording " + lost.recording;
+    if (lost.whole_until_s) recording += fmt::format(", whole until {:.1f} s", *lost.whole_until_s);
+  }
+  return fmt::format(
+      "{} on {} was lost at about {:.1f} s ({}), when its server ended without a word; {}",
+      lost.name, lost.server, lost.time_s, lost.phase, recording);
+}
+
+nlohmann::ordered_json Describe(const LostSimulation& lost) {
+  nlohmann::ordered_json told = {
+      {"name", lost.name},        {"world", lost.world},         {"phase", "lost"},
+      {"last_phase", lost.phase}, {"time_s", lost.time_s},       {"noted", lost.noted},
+      {"server", lost.server},    {"recording", lost.recording}, {"sentence", Sentence(lost)}};
+  if (lost.whole_until_s) told["whole_until_s"] = *lost.whole_until_s;
+  return told;
+}
+
+ServerNote NewNote() {
+  ServerNote note;
+  note.pid = getpid();
+  note.started = ProcessStart(note.pid).value_or(0);
+  note.boot = LineOf("/proc/sys/kernel/random/boot_id");
+  note.host = Host();
+  return note;
+}
+
+bool IsOfTheLiving(const ServerNote& note) {
+  if (note.host != Host()) return true;
+  return note.boot == LineOf("/proc/sys/kernel/random/boot_id") &&
+         ProcessStart(note.pid) == note.started;
+}
+
+base::Result<fs::path> NotesFolder() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder;
+  if (state != nullptr && *state == '/') {
+    folder = state;
+  } else if (home != nullptr && *home == '/') {
+    folder = fs::path(home) / ".local/state";
+  } else {
+    return base::Fail(base::ErrorCode::kUnavailable, "neither XDG_STATE_HOME nor HOME is a folder");
+  }
+  folder /= "gsv/servers";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return base::Fail(base::ErrorCode::kUnavailable, error.message(), folder);
+  fs::permissions(folder, fs::perms::owner_all, error);
+  return folder;
+}
+
+fs::path NoteFile(const fs::path& folder, const ServerNote& note) {
+  return folder / fmt::format("{}-{}.json", note.pid, note.started);
+}
+
+base::Status WriteNote(const fs::path& file, const ServerNote& note) {
+  const json told = {{"pid", note.pid},
+                     {"started", note.started},
+                     {"boot", note.boot},
+                     {"host", note.host},
+                     {"server", note.server},
+                     {"broker", note.broker},
+                     {"recordings", note.recordings},
+                     {"simulations", ToJson(note.simulations)},
+                     {"lost", ToJson(note.lost)}};
+  fs::path draft = file;
+  draft.replace_extension(".draft");
+  std::error_code error;
+  std::ofstream stream(draft, std::ios::binary);
+  stream << told.dump(-1, ' ', false, json::error_handler_t::replace) << '\n';
+  stream.close();
+  if (!stream) {
+    fs::remove(draft, error);
+    return base::Fail(base::ErrorCode::kUnavailable, "cannot be written", draft);
+  }
+  fs::rename(draft, file, error);
+  if (error) return base::Fail(base::ErrorCode::kUnavailable, error.message(), file);
+  return {};
+}
+
+NotesFound ReadNotes(const fs::path& folder) {
+  NotesFound found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& file = entry->path();
+    if (file.extension() != ".json" || found.notes.size() >= kMostNotes) continue;
+    std::error_code gone;
+    const bool is_file = fs::is_regular_file(fs::symlink_status(file, gone));
+    const bool is_small = is_file && fs::file_size(file, gone) <= kMostBytes;
+    std::optional<ServerNote> note = is_small ? ReadNote(file) : std::nullopt;
+    if (note) {
+      found.notes.push_back({file, *std::move(note)});
+    } else if (fs::exists(fs::symlink_status(file, gone))) {
+      found.problems.push_back({base::Problem::Severity::kWarning,
+                                "it is no note of a server, and is thrown away", file.string()});
+      found.broken.push_back(file);
+    }
+  }
+  return found;
+}
+
+std::vector<LostSimulation> LostSimulationsNoted(const std::string& broker) {
+  std::vector<LostSimulation> lost;
+  const auto folder = NotesFolder();
+  if (!folder) return lost;
+  for (NoteFound& found : ReadNotes(*folder).notes) {
+    if (!broker.empty() && found.note.broker != broker) continue;
+    std::move(found.note.lost.begin(), found.note.lost.end(), std::back_inserter(lost));
+    if (IsOfTheLiving(found.note)) continue;
+    std::move(found.note.simulations.begin(), found.note.simulations.end(),
+              std::back_inserter(lost));
+  }
+  return lost;
+}
+
+}  // namespace gsv::app

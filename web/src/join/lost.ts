@@ -1,0 +1,36 @@
+// What servers before this one were running when they ended without a word, until somebody has seen it.
+import { ApiError } from "../api/JsonServer";
+import type { JsonServer } from "../api/JsonServer";
+import { listAt, numberAt, objectAt, textAt, textOr } from "../api/json";
+
+export interface LostSimulation {
+  number: number; // by which it is dismissed
+  name: string;
+  sentence: string;
+  replay: string; // the recording's name in the server's folder; empty: there is none
+}
+
+// Servers that keep no note, as those of `gsv run`, have no such list.
+export async function fetchLost(server: JsonServer): Promise<LostSimulation[]> {
+  try {
+    const answer = objectAt(await server.get("api/lost"), "lost");
+    return listAt(answer.lost, "lost").map(parseLost);
+  } catch (error) {
+    if (error instanceof ApiError && error.httpStatus === 404) return [];
+    throw error;
+  }
+}
+
+function parseLost(json: unknown): LostSimulation {
+  const lost = objectAt(json, "lost simulation");
+  return {
+    number: numberAt(lost.number, "lost.number"),
+    name: textAt(lost.name, "lost.name"),
+    sentence: textOr(lost.sentence, ""),
+    replay: textOr(lost.replay, ""),
+  };
+}
+
+export async function dismissLost(server: JsonServer, number: number): Promise<void> {
+  await server.delete(`api/lost/${number}`);
+}
