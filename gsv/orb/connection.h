@@ -22,6 +22,17 @@
 
 namespace gsv::orb {
 
+// Of an end of a connection by TLS, told by getsockname() or getpeername(). A peer that has gone
+// has no address any more; the ORB wants one all the same.
+template <typename Ask>
+CORBA::String_var TlsAddressOf(omni::SocketHandle_t socket, const Ask& ask) {
+  sockaddr_storage address{};
+  socklen_t length = sizeof address;
+  auto* const end = reinterpret_cast<sockaddr*>(&address);
+  if (ask(socket, end, &length) != 0) return "giop:ssl:255.255.255.255:65535";
+  return omni::tcpSocket::addrToURI(end, "giop:ssl");
+}
+
 template <typename Base>
 class MaybeTls : public Base {
  public:
@@ -31,13 +42,8 @@ class MaybeTls : public Base {
                     Arguments... arguments)
       : Base(socket, arguments...), channel_(std::move(channel)) {
     if (channel_ == nullptr) return;
-    sockaddr_storage address{};
-    socklen_t length = sizeof address;
-    auto* const own = reinterpret_cast<sockaddr*>(&address);
-    if (getsockname(socket, own, &length) == 0) {
-      own_address_ = omni::tcpSocket::addrToURI(own, "giop:ssl");
-    }
-    peer_address_ = omni::tcpSocket::peerToURI(socket, "giop:ssl");
+    own_address_ = TlsAddressOf(socket, getsockname);
+    peer_address_ = TlsAddressOf(socket, getpeername);
   }
 
   int Recv(void* buffer, std::size_t size, const omni_time_t& deadline) override {
@@ -57,12 +63,10 @@ class MaybeTls : public Base {
   }
   CORBA::Boolean Peek() override { return HasBytes() || Base::Peek(); }
   const char* myaddress() override {
-    return channel_ != nullptr && own_address_.in() != nullptr ? own_address_.in()
-                                                               : Base::myaddress();
+    return channel_ != nullptr ? own_address_.in() : Base::myaddress();
   }
   const char* peeraddress() override {
-    return channel_ != nullptr && peer_address_.in() != nullptr ? peer_address_.in()
-                                                                : Base::peeraddress();
+    return channel_ != nullptr ? peer_address_.in() : Base::peeraddress();
   }
 
  protected:

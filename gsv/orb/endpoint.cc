@@ -28,7 +28,8 @@ class Newcomer : public omni::SocketHolder {
   Newcomer(int socket, omni::SocketCollection* collection,
            const std::shared_ptr<const TlsContext>& context)
       : SocketHolder(socket),
-        channel_(std::make_unique<TlsChannel>(context, socket, TlsChannel::Side::kServer)) {
+        channel_(std::make_unique<TlsChannel>(context, socket, TlsChannel::Side::kServer)),
+        peer_(TlsAddressOf(socket, getpeername).in()) {
     collection->addSocket(this);
   }
   ~Newcomer() override {
@@ -41,9 +42,8 @@ class Newcomer : public omni::SocketHolder {
   const std::string& failure() const { return channel_->failure(); }
   // What it was told is lost if its socket is closed while bytes of it are unread.
   void Refuse(const std::string& why) {
-    const CORBA::String_var peer = omni::tcpSocket::peerToURI(pd_socket, "giop:ssl");
-    spdlog::warn("refused a CORBA connection from {}: {}",
-                 peer.in() != nullptr ? std::string_view(peer.in()).substr(9) : "?", why);
+    constexpr std::string_view kTransport = "giop:ssl:";
+    spdlog::warn("refused a CORBA connection from {}: {}", peer_.substr(kTransport.size()), why);
     is_refused_ = true;
     until_ = Clock::now() + kFarewellTime;
     shutdown(pd_socket, SHUT_WR);
@@ -69,6 +69,7 @@ class Newcomer : public omni::SocketHolder {
   }
 
   std::unique_ptr<TlsChannel> channel_;
+  const std::string peer_;
   Clock::time_point until_ = Clock::now() + kHandshakeTime;
   bool is_refused_ = false, is_gone_ = false;
 };

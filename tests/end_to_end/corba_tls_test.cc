@@ -96,7 +96,8 @@ class BrokerByTls {
         reference_(program_.AwaitLine("corbaloc")) {}
   const std::string& reference() const { return reference_; }
   int port() const { return PortOf(reference_); }
-  const Running& program() const { return program_; }
+  Running& program() { return program_; }
+  pid_t pid() { return program_.process().pid(); }
   Outcome Offers() const { return RunProgram("gsv", {"offers", "--broker", reference_}); }
 
  private:
@@ -122,7 +123,7 @@ TEST_F(CorbaTls, GivesTheHashThatPlainTcpGives) {
 }
 
 TEST_F(CorbaTls, EveryProgramSpeaksIt) {
-  const BrokerByTls broker;
+  BrokerByTls broker;
   EXPECT_THAT(broker.reference(), StartsWith("corbaloc:ssliop:1.2@127.0.0.1:"));
   Running behaviour("gsv-wander", {"--broker", broker.reference()});
   behaviour.AwaitLine("offered at");
@@ -165,7 +166,7 @@ TEST_F(CorbaTls, BeyondThisMachineItTakesACertificate) {
 }
 
 TEST_F(CorbaTls, WithoutACertificateNobodyIsServed) {
-  const BrokerByTls broker;
+  BrokerByTls broker;
   const Variable without("GSV_CORBA_CERTIFICATE", "");
   const Outcome told = broker.Offers();
   EXPECT_EQ(told.ending, "exit code 5");
@@ -213,7 +214,7 @@ TEST_F(CorbaTls, PlainServicesAreCalledOnThisMachineOnly) {
 }
 
 TEST_F(CorbaTls, OfAnotherAuthorityNobodyIsServedOrTrusted) {
-  const BrokerByTls broker;
+  BrokerByTls broker;
   const Group strangers;
   const Outcome client = broker.Offers();
   EXPECT_EQ(client.ending, "exit code 5");
@@ -228,7 +229,7 @@ TEST_F(CorbaTls, OfAnotherAuthorityNobodyIsServedOrTrusted) {
 }
 
 TEST_F(CorbaTls, AnExpiredCertificateIsRefusedByItsOwnerAndByOthers) {
-  const BrokerByTls broker;
+  BrokerByTls broker;
   using std::chrono::hours;
   ASSERT_TRUE(tls::MakeCertificate(group_.File(""), {"old", {}, {-hours(48), -hours(24)}}));
   const auto openssl = [&](const std::string& name) {
@@ -267,7 +268,7 @@ TEST_F(CorbaTls, FilesThatCannotBeUsedStartNothing) {
 
 // More than the broker has threads, and than handshakes are waited for at once.
 TEST_F(CorbaTls, StalledHandshakesHoldUpNobody) {
-  const BrokerByTls broker;
+  BrokerByTls broker;
   std::vector<std::unique_ptr<Peer>> stalled;
   for (int i = 0; i < 300; ++i) {
     stalled.push_back(std::make_unique<Peer>(broker.port()));
@@ -283,7 +284,7 @@ TEST_F(CorbaTls, StalledHandshakesHoldUpNobody) {
 }
 
 TEST_F(CorbaTls, RubbishEndsItsOwnConnectionOnly) {
-  const BrokerByTls broker;
+  BrokerByTls broker;
   Running server("gsv", {"serve", "--headless", "--broker", broker.reference()});
   server.AwaitLine("broker: ");
   const std::string offers = broker.Offers().out;
@@ -310,6 +311,27 @@ TEST_F(CorbaTls, RubbishEndsItsOwnConnectionOnly) {
   EXPECT_EQ(ps.ending, "exit code 0") << ps.err;
 }
 
+std::size_t DescriptorsOf(pid_t pid) {
+  return static_cast<std::size_t>(std::distance(
+      fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd"), fs::directory_iterator()));
+}
+
+// They had no address any more when the ORB asked for it, and stayed open.
+TEST_F(CorbaTls, ThoseWhoGoRightAfterTheHandshakeLeaveNothing) {
+  BrokerByTls broker;
+  EXPECT_EQ(broker.Offers().ending, "exit code 0");
+  const std::size_t before = DescriptorsOf(broker.pid());
+  std::ostringstream command;
+  command << "cd " << group_.File("") << " && openssl s_time -connect 127.0.0.1:" << broker.port()
+          << " -new -time 1 -CAfile ca.pem -cert lab.pem -key lab-key.pem > /dev/null 2>&1";
+  ASSERT_EQ(std::system(command.str().c_str()), 0);  // NOLINT(concurrency-mt-unsafe)
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (DescriptorsOf(broker.pid()) > before && std::chrono::steady_clock::now() < deadline) {
+  }
+  EXPECT_LE(DescriptorsOf(broker.pid()), before);
+  EXPECT_EQ(broker.Offers().ending, "exit code 0");
+}
+
 // omniORB's own transport ends the program that is greeted so.
 TEST_F(CorbaTls, AServerThatSaysGoodbyeInTheHandshakeEndsACallOnly) {
   const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -334,7 +356,7 @@ TEST_F(CorbaTls, AServerThatSaysGoodbyeInTheHandshakeEndsACallOnly) {
 }
 
 TEST_F(CorbaTls, IsWhatOtherOrbsSpeak) {
-  const BrokerByTls broker;
+  BrokerByTls broker;
   std::ofstream both(group_.File("both.pem"));
   for (const char* part : {"lab-key.pem", "lab.pem"})
     both << std::ifstream(group_.File(part)).rdbuf();
