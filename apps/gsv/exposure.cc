@@ -99,6 +99,8 @@ const char* Name(Speaks speaks) {
       return "viewer, HTTPS";
     case Speaks::kCorba:
       return "CORBA";
+    case Speaks::kCorbaTls:
+      return "CORBA, TLS";
     case Speaks::kUnknown:
       return "does not answer";
   }
@@ -116,6 +118,7 @@ std::string Reach(const Listener& listener) {
 }
 
 std::string Takes(const Exposure& exposure) {
+  if (exposure.takes_certificate) return "a certificate of its authority";
   if (exposure.speaks != Speaks::kHttp && exposure.speaks != Speaks::kHttps) return "no token";
   if (exposure.watching_takes_token) return "watching takes a token";
   return exposure.acting_takes_token ? "watching is free, acting takes a token" : "no token";
@@ -159,7 +162,7 @@ Exposure Probe(const Listener& listener) {
     exposure.speaks = Speaks::kHttps;
     const auto ask = [&](const std::string& request) {
       const Connection connection(listener);
-      return StatusOf(tls::ExchangeAsStranger(connection.descriptor(), request));
+      return StatusOf(tls::ExchangeAsStranger(connection.descriptor(), request).answer);
     };
     exposure.watching_takes_token = TakesToken(ask(look));
     exposure.acting_takes_token = TakesToken(ask(act));
@@ -167,6 +170,13 @@ Exposure Probe(const Listener& listener) {
     exposure.speaks = Speaks::kHttp;
     exposure.watching_takes_token = TakesToken(StatusOf(answer));
     exposure.acting_takes_token = TakesToken(StatusOf(Connection(listener).Exchange(act)));
+  } else {
+    const Connection connection(listener);
+    const tls::Reception reception =
+        tls::ExchangeAsStranger(connection.descriptor(), AskingForAnObject());
+    const bool is_answered = reception.answer.starts_with("GIOP");
+    if (is_answered || reception.asks_for_certificate) exposure.speaks = Speaks::kCorbaTls;
+    exposure.takes_certificate = !is_answered && reception.asks_for_certificate;
   }
   return exposure;
 }
@@ -185,8 +195,11 @@ std::string Complaint(const Listener& listener, const Exposure& exposure) {
                  : "whoever reaches it may act; start it with --control-token, and with "
                    "--tls-certificate";
     case Speaks::kCorba:
-      return "whoever reaches it may call it; let it listen on 127.0.0.1, or keep others away by "
-             "a firewall";
+      return "--insecure-corba lets whoever reaches it call it; give it a certificate instead "
+             "(GSV_CORBA_CERTIFICATE), let it listen on 127.0.0.1, or keep others away by a "
+             "firewall";
+    case Speaks::kCorbaTls:
+      return exposure.takes_certificate ? "" : "whoever reaches it may call it";
     case Speaks::kUnknown:
       return "it does not answer, so that nothing can be said of it; is it stopped?";
   }
@@ -214,13 +227,15 @@ int TellExposure(bool json) {
                     Reach(listener).c_str(), Takes(exposure).c_str(),
                     complaint.empty() ? "" : ("\n    BEWARE: " + complaint).c_str());
       }
-      sockets.push_back({{"address", Place(listener)},
-                         {"speaks", Name(exposure.speaks)},
-                         {"local", listener.IsLocal()},
-                         {"tls", exposure.speaks == Speaks::kHttps},
-                         {"watching_takes_token", exposure.watching_takes_token},
-                         {"acting_takes_token", exposure.acting_takes_token},
-                         {"complaint", complaint}});
+      sockets.push_back(
+          {{"address", Place(listener)},
+           {"speaks", Name(exposure.speaks)},
+           {"local", listener.IsLocal()},
+           {"tls", exposure.speaks == Speaks::kHttps || exposure.speaks == Speaks::kCorbaTls},
+           {"takes_certificate", exposure.takes_certificate},
+           {"watching_takes_token", exposure.watching_takes_token},
+           {"acting_takes_token", exposure.acting_takes_token},
+           {"complaint", complaint}});
     }
     const std::vector<std::string> folders = FoldersServed(process, has_viewer);
     for (const std::string& folder : folders) {

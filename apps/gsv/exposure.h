@@ -10,12 +10,13 @@
 
 namespace gsv::app {
 
-enum class Speaks { kHttp, kHttps, kCorba, kUnknown };
+enum class Speaks { kHttp, kHttps, kCorba, kCorbaTls, kUnknown };
 
 struct Exposure {
   Speaks speaks = Speaks::kUnknown;
   bool watching_takes_token = false;  // of HTTP and HTTPS
   bool acting_takes_token = false;
+  bool takes_certificate = false;  // of CORBA by TLS
 };
 
 Exposure Probe(const Listener& listener);

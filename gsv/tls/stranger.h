@@ -6,8 +6,13 @@
 
 namespace gsv::tls {
 
-// Begins TLS on a connected socket, whoever answers, sends `request` and gives the beginning of the
-// answer; empty: there is none. The socket's own time limits hold.
-std::string ExchangeAsStranger(int descriptor, const std::string& request);
+struct Reception {
+  bool asks_for_certificate = false;  // of who connects
+  std::string answer;                 // its beginning; empty: there is none
+};
+
+// Begins TLS on a connected socket, whoever answers, and sends `request`. The socket's own time
+// limits hold.
+Reception ExchangeAsStranger(int descriptor, const std::string& request);
 
 }  // namespace gsv::tls

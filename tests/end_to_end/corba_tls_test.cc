@@ -370,5 +370,34 @@ TEST_F(CorbaTls, IsWhatOtherOrbsSpeak) {
   EXPECT_EQ(ask(group_.File("ca.pem"), group_.File("both.pem")), "alive\n");
 }
 
+// What `gsv doctor --security` says of a program's sockets.
+std::vector<nlohmann::json> SocketsOf(pid_t pid) {
+  std::istringstream lines(RunProgram("gsv", {"doctor", "--security", "--json"}).out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto process = nlohmann::json::parse(line);
+    if (process["pid"] == pid) return process["sockets"];
+  }
+  return {};
+}
+
+TEST_F(CorbaTls, DoctorTellsItFromPlainCorba) {
+  Running by_tls("gsv", {"broker", "--listen", "0.0.0.0", "--port", "0", "--memory"});
+  by_tls.AwaitLine("corbaloc");
+  const auto good = SocketsOf(by_tls.process().pid());
+  ASSERT_EQ(good.size(), 1u);
+  EXPECT_EQ(good[0]["speaks"], "CORBA, TLS");
+  EXPECT_EQ(good[0]["takes_certificate"], true);
+  EXPECT_EQ(good[0]["complaint"], "");
+  const Variable without("GSV_CORBA_CERTIFICATE", "");
+  Running plain("gsv",
+                {"--insecure-corba", "broker", "--listen", "0.0.0.0", "--port", "0", "--memory"});
+  plain.AwaitLine("corbaloc");
+  const auto bad = SocketsOf(plain.process().pid());
+  ASSERT_EQ(bad.size(), 1u);
+  EXPECT_EQ(bad[0]["speaks"], "CORBA");
+  EXPECT_EQ(bad[0]["takes_certificate"], false);
+  EXPECT_THAT(bad[0]["complaint"].get<std::string>(), HasSubstr("--insecure-corba"));
+}
+
 }  // namespace
 }  // namespace gsv::testing
