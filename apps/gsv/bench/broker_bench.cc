@@ -24,6 +24,7 @@
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/storage/offer_file.h"
 #include "gsv/broker/trader/trader.h"
+#include "gsv/orb/corba_access.h"
 
 namespace gsv::app {
 namespace {
@@ -257,8 +258,13 @@ base::Status MeasureOverTcp(CORBA::ORB_ptr orb, std::uint32_t offers, const std:
 }
 
 base::Status RunBench(std::uint32_t offers, bool json) {
-  const char* settings[][2] = {
-      {"maxGIOPConnectionPerServer", "64"}, {"traceLevel", "0"}, {nullptr, nullptr}};
+  const auto access = orb::PrepareAccess("127.0.0.1", 0);
+  if (!access) return base::Fail(access.error());
+  const char* settings[][2] = {{"clientTransportRule", access->client_rules[0]},
+                               {"clientTransportRule", access->client_rules[1]},
+                               {"maxGIOPConnectionPerServer", "64"},
+                               {"traceLevel", "0"},
+                               {nullptr, nullptr}};
   int no_arguments = 0;
   const CORBA::ORB_var orb = CORBA::ORB_init(no_arguments, nullptr, "omniORB4", settings);
   const auto folder = base::TemporaryFolder::Make("gsv-bench");
