@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/gsv/exit_code.h"
+#include "apps/gsv/population.h"
 #include "apps/gsv/run_population.h"
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/time.h"
@@ -62,8 +63,17 @@ class EditMaker {
                                                simulation_.specification().world->source);
   }
 
+  // The world's own robot that came back was read from the world's file, or from its own.
+  base::Result<std::shared_ptr<const model::Model>> ReadRobot(const Edit& edit) {
+    const auto own = ModelInWorld(simulation_, edit.body);
+    const bool is_own =
+        own != nullptr && edit.model == (own->source.empty() ? own->name : own->source);
+    if (is_own) return own;
+    return ReadModel(edit.model);
+  }
+
   base::Status AddRobot(const Edit& edit) {
-    auto model = ReadModel(edit.model);
+    auto model = ReadRobot(edit);
     if (!model) return base::Fail(model.error());
     scenario::RobotEntry entry;
     entry.name = edit.body;

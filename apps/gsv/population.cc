@@ -36,17 +36,29 @@ void Stand(const scenario::Place& place, RobotSpecification& robot) {
   robot.on_ground = !place.z;
 }
 
+base::Result<std::shared_ptr<const model::Model>> ModelFor(const Simulation& simulation,
+                                                           formats::ModelLibrary& library,
+                                                           const scenario::RobotEntry& entry,
+                                                           base::Problems& problems) {
+  if (!entry.model.empty()) {
+    return library.ReadModel(entry.model, problems, simulation.specification().world->source);
+  }
+  if (auto model = ModelInWorld(simulation, entry.name)) return model;
+  return base::Fail(base::ErrorCode::kNotFound, "the world brings no robot of that name",
+                    entry.name);
+}
+
 FieldResult<RobotSpecification> Specify(const Simulation& simulation,
                                         formats::ModelLibrary& library,
                                         const scenario::RobotEntry& entry, bool is_avatar,
                                         base::Problems& problems) {
-  auto model = library.ReadModel(entry.model, problems, simulation.specification().world->source);
-  if (!model) return Wrong("model", model.error());
+  const auto model = ModelFor(simulation, library, entry, problems);
+  if (!model) return Wrong(entry.model.empty() ? "name" : "model", model.error());
   if (!(*model)->drive) {
     return Wrong("model", {base::ErrorCode::kBadModel,
                            "it has no drive that gsv knows, so it cannot be a robot; choose "
                            "another, or add a plugin such as gz::sim::systems::DiffDrive to it",
-                           entry.model});
+                           (*model)->name});
   }
   RobotSpecification robot;
   robot.name = entry.name;
@@ -156,6 +168,14 @@ class ListPlacing {
 };
 
 }  // namespace
+
+std::shared_ptr<const model::Model> ModelInWorld(const Simulation& simulation,
+                                                 const std::string& name) {
+  for (const model::PlacedModel& placed : simulation.specification().world->models) {
+    if (placed.name == name) return placed.model;
+  }
+  return nullptr;
+}
 
 FieldResult<Population> Populate(Simulation& simulation, formats::ModelLibrary& library,
                                  const scenario::Scenario& scenario, base::Problems& problems) {

@@ -42,7 +42,13 @@ tl::expected<void, FieldError> GiveBehaviours(simulation::Simulation& simulation
                                               const std::vector<PlacedRobot>& robots,
                                               const BehaviourMaker& make);
 
-// One robot or avatar more, with its behaviour. Gives the name under which it stands.
+// Of a robot that comes with the simulation's world, whether it stands there or not; null: the
+// world brings no model of that name.
+std::shared_ptr<const model::Model> ModelInWorld(const simulation::Simulation& simulation,
+                                                 const std::string& name);
+
+// One robot or avatar more, with its behaviour; without a model the one of that name which came
+// with the world. Gives the name under which it stands.
 FieldResult<std::string> AddOne(simulation::Simulation& simulation, formats::ModelLibrary& library,
                                 const scenario::RobotEntry& robot, bool is_avatar,
                                 const BehaviourMaker& make, base::Problems& problems);

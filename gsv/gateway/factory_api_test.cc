@@ -144,6 +144,9 @@ TEST_F(FactoryApiTest, RobotsAreAddedAndBodiesPlaced) {
   EXPECT_EQ(Ask("POST", robots, 201, R"({"model": "m"})")["name"], "m_robot");
   EXPECT_EQ(Ask("POST", robots, 201, R"({"model": "m", "avatar": true})")["name"], "m_avatar");
   EXPECT_EQ(Ask("POST", robots, 400, "{}")["field"], "model");
+  EXPECT_EQ(Ask("POST", robots, 201, R"({"name": "of_the_world", "x": 1, "y": 2})")["name"],
+            "_robot");
+  EXPECT_EQ(Ask("POST", robots, 400, R"({"name": ""})")["field"], "model");
   EXPECT_EQ(Ask("POST", "/api/simulations/run/bodies/m/place", 400, R"({"x": 1})")["field"], "y");
   Ask("GET", robots, 405);
   Ask("GET", robots + "/m", 405);

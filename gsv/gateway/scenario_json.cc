@@ -111,9 +111,17 @@ FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
   if (!json) return tl::make_unexpected(json.error());
   const auto is_avatar = TakeFlag(*json, "avatar");
   if (!is_avatar) return tl::make_unexpected(is_avatar.error());
+  // Without a model it is the robot of that name which came with the world. In a scenario such a
+  // one has no place of its own; here it has.
+  const bool is_of_world = !json->contains("model") && json->contains("name");
+  if (is_of_world) (*json)["model"] = "the world's";
   base::Problems problems;
   RobotToAdd robot{scenario::ParseRobotJson(json->dump(), *is_avatar, problems), *is_avatar};
-  if (problems.empty() && robot.robot.model.empty()) return Refused("model", "choose a model");
+  if (is_of_world) robot.robot.model.clear();
+  const bool is_named = is_of_world && !robot.robot.name.empty();
+  if (problems.empty() && robot.robot.model.empty() && !is_named) {
+    return Refused("model", "choose a model");
+  }
   return Judged(std::move(robot), problems);
 }
 

@@ -136,6 +136,14 @@ bool IsFixed(const world::Layout& layout, const world::Body& body) {
          });
 }
 
+// Came with the world, so that no model of its own has to be found when it is to come back.
+bool IsOfWorld(const world::Layout& layout, const world::Body& body) {
+  const auto& models = layout.description->models;
+  return std::any_of(models.begin(), models.end(), [&](const model::PlacedModel& placed) {
+    return placed.name == body.name && placed.model == body.model;
+  });
+}
+
 Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose,
               const std::set<int>& moving) {
   Json links = Json::array();
@@ -145,6 +153,7 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
             {"is_avatar", body.is_avatar}, {"pose", PoseJson(pose)},
             {"links", std::move(links)},   {"sensors", SensorsJson(source, body)}};
   if (body.is_static && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
+  if (body.is_robot && IsOfWorld(*source.snapshot.layout, body)) json["is_of_world"] = true;
   if (const std::string id = source.identify_collisions(body.model); !id.empty()) {
     json["collisions"] = id;
   }

@@ -215,3 +215,44 @@ test("in lockstep a run with live behaviours repeats its edits to the bit", asyn
   assert.equal(JSON.parse(again.stdout || "{}").equal, true, again.stdout + again.stderr);
   assert.equal(again.status, 0);
 });
+
+// A cart on two wheels, without a file of its own.
+const wheel = (side, y) => `<link name="${side}"><pose>0 ${y} 0 -1.5707963 0 0</pose>
+  <collision name="c"><geometry><cylinder><radius>0.15</radius><length>0.05</length></cylinder></geometry></collision></link>
+  <joint name="${side}_joint" type="revolute"><parent>base</parent><child>${side}</child><axis><xyz>0 0 1</xyz></axis></joint>`;
+const WORLD = `<?xml version="1.0"?><sdf version="1.9"><world name="yard">
+  <light name="sun" type="directional"><direction>-0.5 0.2 -1</direction></light>
+  <model name="ground"><static>true</static><link name="link">
+    <collision name="c"><geometry><plane><normal>0 0 1</normal><size>40 40</size></plane></geometry></collision></link></model>
+  <model name="cart"><pose>1 2 0.15 0 0 0.5</pose>
+    <link name="base"><collision name="c"><geometry><box><size>0.6 0.4 0.2</size></box></geometry></collision>
+      <visual name="v"><geometry><box><size>0.6 0.4 0.2</size></box></geometry></visual></link>
+    ${wheel("left", 0.25)}${wheel("right", -0.25)}
+    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
+      <left_joint>left_joint</left_joint><right_joint>right_joint</right_joint></plugin>
+  </model></world></sdf>`;
+
+test("a robot that came with the world comes back by undo", async () => {
+  const world = path.join(folder, "yard.sdf");
+  fs.writeFileSync(world, WORLD);
+  server = await startServer([world, "--robot", "pebble@-2,0", "--behaviour", "wander"]);
+  browser = await openBrowser({ width: 1100, height: 700 });
+  ({ page, faults } = await openPage(browser, server.url));
+  await waitUntilDrawn(page);
+  await press("Edit");
+  await phaseIs(page, "paused");
+  const stood = await place("cart");
+  await model().locator("option", { hasText: "rover4" }).waitFor({ state: "attached" });
+  await page.locator('[data-robot="cart"]').click();
+  await page.keyboard.press("Delete");
+  await until(async () => (await body("cart")) === undefined, "the cart's end");
+  await page.locator('.edit [aria-label="Undo"]:enabled').waitFor();
+  await settled(page);
+  await press("Undo");
+  await until(async () => (await body("cart")) !== undefined, "the cart again");
+  (await place("cart")).forEach((value, i) => assert.ok(Math.abs(value - stood[i]) < 1e-6));
+  assert.equal((await body("cart")).is_of_world, true);
+  await press("Resume");
+  await phaseIs(page, "running");
+  assert.deepEqual(faults, []);
+});

@@ -42,6 +42,7 @@ export interface SceneBody {
   isStatic: boolean;
   isFixed: boolean; // static, and came with the world: nobody can move it or take it away
   isRobot: boolean;
+  isOfWorld: boolean; // a robot that came with the world, not from a model of its own
   isAvatar: boolean;
   pose: PoseNumbers;
   links: string[];
@@ -122,6 +123,7 @@ function parseBody(value: unknown, where: string): SceneBody {
     isStatic: body.is_static === true,
     isFixed: body.is_static === true && body.is_fixed !== false,
     isRobot: body.is_robot === true,
+    isOfWorld: body.is_of_world === true,
     isAvatar: body.is_avatar === true,
     pose: numbersAt(body.pose, 7, `${where}.pose`),
     links: listAt(body.links ?? [], `${where}.links`).map((link) => textAt(link, `${where}.links`)),

@@ -65,6 +65,14 @@ test("what was removed comes back where it stood, with its behaviour by name", a
   expect(api.addRobot).toHaveBeenCalledWith("house", again, false);
 });
 
+test("a robot that came with the world comes back by its name alone", async () => {
+  const { store, api, control } = await editing();
+  store.set({ scene: scene({ bodies: [body("a", { isOfWorld: true })] }) });
+  await control.remove("a");
+  await control.undo();
+  expect(api.addRobot).toHaveBeenCalledWith("house", expect.objectContaining({ name: "a", model: "" }), false);
+});
+
 test("a robot comes back on its wheels: its request takes no roll and pitch", async () => {
   const { api, control } = await editing({ ...BEFORE, roll: 0, pitch: 0 });
   await control.remove("a");

@@ -140,19 +140,20 @@ export class EditControl {
     });
   }
 
-  // A robot that comes back has a new instance of its behaviour.
+  // A robot that comes back has a new instance of its behaviour. One that came with the world needs no
+  // model but its name.
   remove(robot: string): Promise<boolean> {
     const { simulation, status, scene } = this.store.get();
     const known = status?.robots.find(({ name }) => name === robot);
     const place = upright(this.placeOf(robot));
     if (!simulation || !known || !place) return Promise.resolve(false);
-    const { model, behaviour } = known;
-    const isAvatar = scene?.bodies.some(({ name, isAvatar }) => name === robot && isAvatar) === true;
-    const again: RobotSetUp = { name: robot, model, place, behaviour, constraint: "", movement: "" };
+    const body = scene?.bodies.find(({ name }) => name === robot);
+    const model = body?.isOfWorld ? "" : known.model;
+    const again: RobotSetUp = { name: robot, model, place, behaviour: known.behaviour, constraint: "", movement: "" };
     return this.do({
       name: `remove ${robot}`,
       apply: () => this.api.removeRobot(simulation, robot),
-      revert: async () => void (await this.api.addRobot(simulation, again, isAvatar)),
+      revert: async () => void (await this.api.addRobot(simulation, again, body?.isAvatar === true)),
     });
   }
 

@@ -10,6 +10,7 @@ export function body(name: string, more: Partial<SceneBody> = {}): SceneBody {
     isStatic: false,
     isFixed: more.isStatic === true,
     isRobot: true,
+    isOfWorld: false,
     isAvatar: false,
     pose: HERE,
     links: ["chassis", "wheel"],

@@ -105,7 +105,7 @@ export function scenarioJson(scenario: Scenario): JsonObject {
 export function robotJson({ name, model, place, behaviour, constraint, movement }: RobotSetUp): JsonObject {
   return {
     ...(name && { name }),
-    model,
+    ...(model && { model }),
     ...place,
     ...(behaviour && { behaviour }),
     ...(constraint && { behaviour_constraint: constraint }),
