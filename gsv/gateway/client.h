@@ -29,6 +29,8 @@ class Client {
   virtual void SendBytes(SharedBytes bytes) = 0;
   // Data, of which the oldest makes room for the newest.
   virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) = 0;
+  // How many data messages made room for newer ones, so far.
+  virtual std::uint64_t dropped_updates() const { return 0; }
   // Why this viewer may not act now, but only look.
   virtual base::Status MayAct() { return {}; }
   virtual void Close(CloseCode code, std::string reason) = 0;

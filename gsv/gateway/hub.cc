@@ -10,6 +10,8 @@ using foxglove::StatusLevel;
 
 namespace {
 
+constexpr std::size_t kStatusesKept = 20;
+
 std::string SimulationOf(const foxglove::ServerInfo& info) {
   const auto found = info.metadata.find("simulation");
   return found == info.metadata.end() ? std::string() : found->second;
@@ -42,6 +44,7 @@ void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
     std::vector<foxglove::Channel> channels;
     for (const auto& [id, topic] : topics_) channels.push_back(topic.channel);
     client->SendText(SharedBytes(foxglove::AdvertiseText(channels)));
+    for (const SharedBytes& status : statuses_) client->SendText(status);
     members_[client.get()] = Member{client, "viewer " + std::to_string(next_member_++)};
   }
   desk_.Welcome(client, knows_playback);
@@ -237,6 +240,8 @@ void Hub::PublishTime(std::uint64_t time_ns) {
 void Hub::SendStatus(StatusLevel level, std::string_view message) {
   const SharedBytes text(foxglove::StatusText(level, message));
   const std::lock_guard lock(mutex_);
+  statuses_.push_back(text);
+  if (statuses_.size() > kStatusesKept) statuses_.pop_front();
   for (auto& [key, member] : members_) member.client->SendText(text);
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -63,6 +64,7 @@ class Hub {
   // Gives the newcomers what they missed; from then on they are established.
   void Welcome(foxglove::ChannelId channel, std::span<const Message> messages);
   void PublishTime(std::uint64_t time_ns);
+  // Who comes later hears the newest of them as well.
   void SendStatus(foxglove::StatusLevel level, std::string_view message);
   // Who publishes on a channel, for those who look at the graph; at first it is "gsv".
   void SetPublishers(foxglove::ChannelId channel, std::set<std::string> publishers);
@@ -108,6 +110,7 @@ class Hub {
   std::map<foxglove::ChannelId, Topic> topics_;
   std::map<Client*, Member> members_;
   std::uint64_t next_member_ = 1;
+  std::deque<SharedBytes> statuses_;
   bool has_graph_changed_ = false;
   foxglove::ConnectionGraph graph_;  // as it was told last
   RequestDesk desk_;

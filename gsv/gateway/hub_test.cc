@@ -41,6 +41,16 @@ TEST_F(HubTest, ANewClientIsToldWhatThereIs) {
   EXPECT_EQ(client->ChannelOf("/a"), channel);
 }
 
+TEST_F(HubTest, WhoComesLaterHearsTheNewestComplaints) {
+  for (int i = 0; i < 30; ++i) {
+    hub_.SendStatus(foxglove::StatusLevel::kWarning, "complaint " + std::to_string(i));
+  }
+  const auto texts = Join()->texts();
+  ASSERT_EQ(texts.size(), 22u);
+  EXPECT_EQ(texts[2]["message"], "complaint 10");
+  EXPECT_EQ(texts.back()["message"], "complaint 29");
+}
+
 TEST_F(HubTest, EvenWithoutChannelsThereIsAnAdvertisement) {
   EXPECT_EQ(Join()->texts().at(1)["channels"].size(), 0u);
 }

@@ -11,6 +11,8 @@ using foxglove::StatusLevel;
 
 constexpr int kMostCalls = 8;                // of one client, under way
 constexpr std::size_t kMostComplaints = 10;  // about one request
+// Of each client its own; told to who asks for it by this name.
+constexpr const char* kDroppedUpdates = "/gsv/dropped_updates";
 
 std::vector<Parameter> Named(std::vector<Parameter> all, const std::vector<std::string>& names) {
   if (names.empty()) return all;
@@ -79,7 +81,12 @@ void RequestDesk::Forget(Client* client) {
 void RequestDesk::Take(const std::shared_ptr<Client>& client,
                        const foxglove::GetParameters& request) const {
   if (!operations_) return RefuseAll(*client);
-  SendParameters(*client, Named(operations_->parameters(), request.names), request.request);
+  std::vector<Parameter> parameters = Named(operations_->parameters(), request.names);
+  const auto& names = request.names;
+  if (std::find(names.begin(), names.end(), kDroppedUpdates) != names.end()) {
+    parameters.push_back({kDroppedUpdates, static_cast<double>(client->dropped_updates())});
+  }
+  SendParameters(*client, parameters, request.request);
 }
 
 void RequestDesk::Take(const std::shared_ptr<Client>& client,

@@ -133,6 +133,15 @@ TEST_F(RequestDeskTest, ACallInAnotherEncodingFails) {
   EXPECT_EQ(client->texts().back()["message"], "services are called in the encoding 'cdr' only");
 }
 
+TEST_F(RequestDeskTest, WhoAsksIsToldHowManyUpdatesWereDropped) {
+  const auto client = Join();
+  const json request{
+      {"op", "getParameters"}, {"parameterNames", {"/gsv/dropped_updates"}}, {"id", "a"}};
+  Tell(*client, request);
+  EXPECT_EQ(client->texts().back()["parameters"], json::parse(R"([
+                {"name":"/gsv/dropped_updates","value":7.0,"type":"float64"}])"));
+}
+
 TEST_F(RequestDeskTest, ParametersAreReadSetAndWatched) {
   const auto client = Join(), watcher = Join();
   Tell(*client, {{"op", "getParameters"}, {"parameterNames", json::array()}, {"id", "a"}});

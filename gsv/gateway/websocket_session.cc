@@ -74,6 +74,8 @@ class WebSocketSession final : public Client,
     Wake();
   }
 
+  std::uint64_t dropped_updates() const override { return queue_.dropped(); }
+
   base::Status MayAct() override {
     if (ticket_.is_private) return {};
     if (ticket_.right == access::Right::kControl) {

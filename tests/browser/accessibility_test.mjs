@@ -73,6 +73,8 @@ async function openFilled(url) {
 
 test("the viewer, with all its panels, and the sheet of keys", async () => {
   const page = await openFilled(live.url);
+  await page.getByRole("button", { name: "Diagnostics" }).click();
+  await page.getByText("open files").waitFor();
   await page.getByRole("button", { name: "Overlays", exact: true }).click();
   await judge(page);
   await page.keyboard.press("Escape");

@@ -4,7 +4,9 @@ import fs from "node:fs";
 import process from "node:process";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
+import { keepPicture } from "./documentation.mjs";
 import { startServer } from "./server.mjs";
+import { settled } from "./viewing.mjs";
 
 const SIMULATION = ["playground", "--lockstep", "--robot", "pebble", "--behaviour", "wander", "--deadline", "600"];
 
@@ -47,10 +49,18 @@ test("a behaviour that is stopped is named, and no longer when it goes on", asyn
       sentence,
     );
     assert.equal(await waiting.isVisible(), true);
+    await page.keyboard.press("h");
+    const diagnostics = page.getByRole("region", { name: "Diagnostics" });
+    await diagnostics.getByText(/running, held up by pebble/).waitFor();
+    await diagnostics.getByText("viewers", { exact: true }).waitFor();
+    await page.waitForFunction(() => /updates dropped for this page\d/.test(document.querySelector(".diagnostics").textContent));
+    await settled(page);
+    await keepPicture(page, "diagnostics");
   } finally {
     process.kill(behaviour, "SIGCONT");
   }
   await page.waitForFunction(() => document.querySelector("[data-testid=waiting]").textContent === "");
+  await page.getByRole("region", { name: "Diagnostics" }).getByText("1 robot well.").waitFor();
   const then = await page.evaluate(() => window.gsv.time);
   await page.waitForFunction((time) => window.gsv.time > time, then);
 });

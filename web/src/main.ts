@@ -13,6 +13,7 @@ import { notify } from "./app/notices";
 import { AvatarSteering } from "./input/AvatarSteering";
 import { listenForKeys } from "./input/Keyboard";
 import { createCameraPane } from "./panels/CameraPane";
+import { createDiagnosticsPanel } from "./panels/DiagnosticsPanel";
 import { createHelpSheet } from "./panels/HelpSheet";
 import { createInspector } from "./panels/Inspector";
 import { createLogPanel } from "./panels/LogPanel";
@@ -167,6 +168,7 @@ page.append(
   view,
   createPlotPanel(app),
   createLogPanel(app),
+  createDiagnosticsPanel(app),
   createTimeline(app),
   createStatusBar(app),
   createHelpSheet(app),
@@ -190,6 +192,7 @@ exposeForTests(store, world);
 app.plots.start();
 app.wholeCurves.start();
 app.logFeed.start();
+app.diagnosticsFeed.start();
 app.records.start();
 app.link.start(window);
 // A replay of one's own is nobody else's to watch or to move.

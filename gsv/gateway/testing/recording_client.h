@@ -56,6 +56,8 @@ class RecordingClient final : public Client {
     data_.push_back(ParseData(bytes));
   }
 
+  std::uint64_t dropped_updates() const override { return 7; }
+
   void Close(CloseCode code, std::string reason) override {
     const std::lock_guard lock(mutex_);
     close_code_ = code;

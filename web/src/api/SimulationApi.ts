@@ -2,6 +2,7 @@
 import { JsonServer, simulationPath } from "./JsonServer";
 import { SetUpApi } from "./SetUpApi";
 import { Credentials } from "./credentials";
+import { MetricsApi } from "./MetricsApi";
 import { ViewersApi } from "./ViewersApi";
 import type { CurveOf, WholeCurve } from "./curve";
 import { curveQuery, parseCurve } from "./curve";
@@ -33,6 +34,7 @@ export class SimulationApi {
   private readonly server: JsonServer;
 
   readonly viewers: ViewersApi;
+  readonly metrics: MetricsApi;
 
   constructor(
     base: string,
@@ -41,6 +43,7 @@ export class SimulationApi {
   ) {
     this.server = new JsonServer(base, fetchPage);
     this.setUp = new SetUpApi(this.server);
+    this.metrics = new MetricsApi(base, fetchPage ?? ((input, init) => fetch(input, init)));
     this.viewers = new ViewersApi(new JsonServer(base, fetchPage), credentials);
   }
 

@@ -16,6 +16,7 @@ import { chosenOf } from "../state/editing";
 import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
 import { download, fileName } from "./files";
+import { DiagnosticsFeed } from "./DiagnosticsFeed";
 import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
 import { LinkControl } from "./LinkControl";
@@ -36,6 +37,7 @@ export class App {
   readonly plots: PlotFeed;
   readonly wholeCurves: WholeCurves;
   readonly logFeed: LogFeed;
+  readonly diagnosticsFeed: DiagnosticsFeed;
   readonly setUp: SetUpControl;
   readonly edits: EditControl;
   readonly records: RecordControl;
@@ -54,6 +56,7 @@ export class App {
     this.plots = new PlotFeed(store, session, () => this.onPlotData());
     this.wholeCurves = new WholeCurves(store, api, (id, curve) => this.plots.takeWhole(id, curve));
     this.logFeed = new LogFeed(store, session, api);
+    this.diagnosticsFeed = new DiagnosticsFeed(store, session, api.metrics);
     this.setUp = new SetUpControl(store, session, api.setUp);
     this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world, body) }, () =>
       this.act("pause"),
@@ -185,6 +188,10 @@ export class App {
   // Opens or closes the log, or chooses among its lines.
   changeLog(change: Partial<Omit<Log, "lines">>): void {
     this.store.set(({ log }) => ({ log: { ...log, ...change } }));
+  }
+
+  openDiagnostics(open: boolean): void {
+    this.store.set(({ diagnostics }) => ({ diagnostics: { ...diagnostics, open } }));
   }
 
   // Draws a value against simulated time from now on.

@@ -81,6 +81,7 @@ class Fixture {
       connect: () => events.onConnection({ phase: "open" }),
       close: () => void (client.closed = true),
       retryNow: () => {},
+      parameter: async () => null,
       subscribe: (topic, handler) => {
         this.handlers.set(topic, handler as (message: never) => void);
         return () => this.handlers.delete(topic);

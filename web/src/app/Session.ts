@@ -7,7 +7,7 @@ import { camerasOf } from "../api/scene";
 import type { SimulationStatus } from "../api/status";
 import { statusFromMessage } from "../api/status";
 import { backoffMs } from "../protocol/Backoff";
-import type { ClientEvents } from "../protocol/FoxgloveClient";
+import type { ClientEvents, ParameterValue } from "../protocol/FoxgloveClient";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
 import { SharedTopics } from "../protocol/SharedTopics";
 import type {
@@ -18,6 +18,7 @@ import type {
   SimulationStatusMessage,
 } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
+import { NO_DIAGNOSTICS, withComplaint } from "../state/diagnostics";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
@@ -54,7 +55,7 @@ export interface LiveListener {
 }
 
 // The live stream, as far as the session needs it.
-export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe">;
+export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter">;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
 
 export class Session {
@@ -92,7 +93,8 @@ export class Session {
     this.leave();
     this.wasOpen = false;
     this.sceneText = "";
-    this.store.set({ ...NOTHING_WATCHED, simulation: name });
+    const { open } = this.store.get().diagnostics;
+    this.store.set({ ...NOTHING_WATCHED, simulation: name, diagnostics: { ...NO_DIAGNOSTICS, open } });
     this.connect(name);
   }
 
@@ -120,6 +122,11 @@ export class Session {
   // Who asks for one that others hear already is handed its newest message at once.
   subscribe<Message>(topic: string, handler: (message: Message) => void): () => void {
     return this.topics?.subscribe(topic, handler) ?? (() => {});
+  }
+
+  // What the stream's server says of a parameter; null when it says nothing.
+  parameter(name: string): Promise<ParameterValue | null> {
+    return this.client?.parameter(name) ?? Promise.resolve(null);
   }
 
   takeStatus(status: SimulationStatus): void {
@@ -204,7 +211,10 @@ export class Session {
         if (connection.phase === "open") void this.opened(name);
         else if (connection.phase === "waiting") void this.checkStillThere(name);
       },
-      onProblem: (sentence) => notify(this.store, "error", sentence),
+      onProblem: (sentence) => {
+        notify(this.store, "error", sentence);
+        this.store.set(({ diagnostics }) => ({ diagnostics: withComplaint(diagnostics, sentence) }));
+      },
     });
     this.client = client;
     this.topics = new SharedTopics(client);

@@ -26,6 +26,7 @@ const COMMANDS: Record<string, (app: App) => void> = {
   o: (app) => app.orbit(),
   p: (app) => app.openPlots(!app.store.get().plots.open),
   g: (app) => app.changeLog({ open: !app.store.get().log.open }),
+  h: (app) => app.openDiagnostics(!app.store.get().diagnostics.open),
   l: (app) => app.copyLink(),
   x: (app) => void app.savePicture(),
   m: (app) => app.film(),

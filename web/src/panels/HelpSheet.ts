@@ -34,6 +34,7 @@ const KEYS: [heading: string, lines: Line[]][] = [
       ...OVERLAYS.map(({ key, label, hint }): Line => [[key], `${label}: ${lowered(hint)}`]),
       [["P"], "Plots against simulated time"],
       [["G"], "The log"],
+      [["H"], "Diagnostics: who is unwell, and how the server is doing"],
     ],
   ],
   [

@@ -39,6 +39,7 @@ export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => v
       createOverlayMenu(app),
       plotsButton(app),
       logButton(app),
+      diagnosticsButton(app),
       createShareMenu(app, hasView),
       createPeopleMenu(app),
       element("span", { class: "divider", "aria-hidden": "true" }),
@@ -236,6 +237,16 @@ function plotsButton(app: App): HTMLElement {
   const button = viewButton("plot", "Plots", "P", () => app.openPlots(!app.store.get().plots.open));
   app.store.watch(
     ({ plots }) => plots.open,
+    (open) => button.setAttribute("aria-pressed", String(open)),
+  );
+  return button;
+}
+
+function diagnosticsButton(app: App): HTMLElement {
+  const isOpen = () => app.store.get().diagnostics.open;
+  const button = viewButton("pulse", "Diagnostics", "H", () => app.openDiagnostics(!isOpen()));
+  app.store.watch(
+    ({ diagnostics }) => diagnostics.open,
     (open) => button.setAttribute("aria-pressed", String(open)),
   );
   return button;

@@ -163,6 +163,23 @@ test("a message that took long is followed by a rest, and then by the newest", a
   timeout.mockRestore();
 });
 
+test("parameters are asked for of servers that have some", async () => {
+  const server = await serve();
+  const { client } = connectTo(server);
+  await vi.waitFor(() => expect(client.topics).toHaveLength(1));
+  expect(await client.parameter("/gsv/x")).toBeNull();
+  server.send(JSON.stringify({ op: "serverInfo", name: "test", capabilities: ["parameters"] }));
+  server.send(JSON.stringify({ op: "advertise", channels: [{ ...CHANNEL, id: 8, topic: "/other" }] }));
+  await vi.waitFor(() => expect(client.topics).toHaveLength(2));
+  const value = client.parameter("/gsv/x");
+  await vi.waitFor(() => expect(server.heard.at(-1)).toEqual({ op: "getParameters", parameterNames: ["/gsv/x"], id: "/gsv/x" }));
+  server.send(JSON.stringify({ op: "parameterValues", id: "/gsv/x", parameters: [{ name: "/gsv/x", value: 3, type: "float64" }] }));
+  expect(await value).toBe(3);
+  const unanswered = client.parameter("/gsv/x");
+  await server.close();
+  expect(await unanswered).toBeNull();
+});
+
 test("ending a subscription tells the server, and late messages are dropped", async () => {
   const server = await serve();
   const { client, problems } = connectTo(server);

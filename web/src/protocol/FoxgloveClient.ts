@@ -31,6 +31,8 @@ export interface SubscribeOptions {
   newestOnly?: boolean;
 }
 
+export type ParameterValue = string | number | boolean;
+
 interface Subscription {
   topic: string;
   handler: Handler;
@@ -51,6 +53,8 @@ export class FoxgloveClient {
   private readonly channelOf = new Map<number, { subscription: Subscription; channel: Channel }>();
   private readonly decoders = new MessageDecoders();
   private readonly reported = new Set<string>();
+  private readonly questions = new Map<string, (value: ParameterValue | null) => void>(); // by parameter
+  private hasParameters = false;
 
   constructor(
     private readonly url: string,
@@ -100,6 +104,16 @@ export class FoxgloveClient {
     return () => this.unsubscribe(subscription);
   }
 
+  // What the server says of a parameter; null when it says nothing.
+  parameter(name: string): Promise<ParameterValue | null> {
+    this.questions.get(name)?.(null); // an older question was not answered
+    if (!this.hasParameters) return Promise.resolve(null);
+    return new Promise((resolve) => {
+      this.questions.set(name, resolve);
+      this.send({ op: "getParameters", parameterNames: [name], id: name });
+    });
+  }
+
   private unsubscribe(subscription: Subscription): void {
     this.subscriptions.delete(subscription);
     if (subscription.id === null) return;
@@ -142,6 +156,8 @@ export class FoxgloveClient {
     clearTimeout(this.timer);
     this.channels.clear();
     this.channelOf.clear();
+    this.hasParameters = false;
+    for (const name of [...this.questions.keys()]) this.answer(name, null);
     for (const subscription of this.subscriptions) subscription.id = null;
     if (!socket) return;
     socket.onopen = socket.onmessage = socket.onclose = null;
@@ -160,6 +176,14 @@ export class FoxgloveClient {
   private receiveText(text: string): void {
     const message = JSON.parse(text) as Record<string, unknown>;
     switch (message.op) {
+      case "serverInfo":
+        this.hasParameters = ((message.capabilities ?? []) as unknown[]).includes("parameters");
+        break;
+      case "parameterValues":
+        for (const { name, value } of (message.parameters ?? []) as { name: string; value: ParameterValue }[]) {
+          this.answer(name, value);
+        }
+        break;
       case "advertise":
         this.advertise((message.channels ?? []) as Channel[]);
         break;
@@ -170,6 +194,11 @@ export class FoxgloveClient {
         if (Number(message.level) >= 1) this.problem(String(message.message));
         break;
     }
+  }
+
+  private answer(name: string, value: ParameterValue | null): void {
+    this.questions.get(name)?.(value);
+    this.questions.delete(name);
   }
 
   private advertise(channels: Channel[]): void {

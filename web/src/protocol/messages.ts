@@ -53,6 +53,10 @@ export interface SimulationStatusMessage {
   robots: RobotStatusMessage[];
 }
 
+export interface DiagnosticArrayMessage {
+  status: { level: number; name: string; message: string; values: { key: string; value: string }[] }[];
+}
+
 export const LINE_LIST = 5;
 
 export interface MarkerMessage {

@@ -8,6 +8,8 @@ import type { Abilities } from "../api/SetUpApi";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
 import type { People } from "../api/ViewersApi";
+import type { Diagnostics } from "./diagnostics";
+import { NO_DIAGNOSTICS } from "./diagnostics";
 import type { Editing } from "./editing";
 import type { Log } from "./log";
 import { NO_LOG } from "./log";
@@ -66,6 +68,7 @@ export interface State {
   cameraOpen: boolean; // whether its picture is shown
   plots: Plots;
   log: Log;
+  diagnostics: Diagnostics;
   pending: Action | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
@@ -99,6 +102,7 @@ export const initialState: State = {
   cameraOpen: true,
   plots: NO_PLOTS,
   log: NO_LOG,
+  diagnostics: NO_DIAGNOSTICS,
   pending: null,
   notices: [],
   helpOpen: false,

@@ -1,0 +1,31 @@
+// The server's figures: its /metrics, in Prometheus' text format 0.0.4 (docs/monitoring.md).
+const TIMEOUT_MS = 5000;
+
+// By name; what carries labels comes as "name{label=\"value\"}".
+export type ServerFigures = ReadonlyMap<string, number>;
+
+export class MetricsApi {
+  // `base`: the page's own address.
+  constructor(
+    private readonly base: string,
+    private readonly fetchPage: typeof fetch,
+  ) {}
+
+  async figures(): Promise<ServerFigures> {
+    const signal = AbortSignal.timeout(TIMEOUT_MS);
+    const answer = await this.fetchPage(new URL("metrics", this.base).href, { signal });
+    if (!answer.ok) throw new Error(`The server answered ${answer.status}.`);
+    return parseFigures(await answer.text());
+  }
+}
+
+export function parseFigures(text: string): ServerFigures {
+  const figures = new Map<string, number>();
+  for (const line of text.split("\n")) {
+    const at = line.lastIndexOf(" ");
+    if (line.startsWith("#") || at <= 0) continue;
+    const value = Number(line.slice(at + 1));
+    if (!Number.isNaN(value)) figures.set(line.slice(0, at), value);
+  }
+  return figures;
+}
