@@ -2,8 +2,8 @@
 # (tools/setup) and build what they need: `make run` no tests.
 # `make install` installs into PREFIX (/usr/local), `make deb` makes Debian packages in build/release/packages.
 # `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build);
-# it also runs a campaign of 500 runs by a Slurm of its own, and tries the packages on a bare Debian, which
-# needs root and debootstrap.
+# it also runs a campaign of 500 runs by a Slurm of its own, has a viewer's tab stand still for three minutes,
+# and tries the packages on a bare Debian, which needs root and debootstrap.
 # `make chaos` kills, stops, floods and fills up all that a server lives with for CHAOS_SECONDS (3600).
 # `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60), for which it needs clang, and sends
 # mutated requests to every servant of the real programs for as long (of PRESET; FUZZ_SEED says which).

@@ -23,7 +23,7 @@ const ARGUMENTS = [
 ];
 const ACTION_TIMEOUT_MS = 60_000; // two browsers may share two busy cores
 
-// Opens a browser; close() ends it and removes its profile.
+// Opens a browser on `profile`, a folder; close() ends it and removes that.
 export async function openBrowser({ width = 1280, height = 800, colorScheme = "light" } = {}) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), "gsv-browser-"));
   const context = await chromium.launchPersistentContext(profile, {
@@ -37,6 +37,7 @@ export async function openBrowser({ width = 1280, height = 800, colorScheme = "l
   context.setDefaultTimeout(ACTION_TIMEOUT_MS);
   return {
     context,
+    profile,
     async close() {
       await context.close();
       fs.rmSync(profile, { recursive: true, force: true });
