@@ -1,6 +1,10 @@
 // The page on which one joins a simulation that runs elsewhere: two instances at one broker, and a
 // relay of one of them.
 import assert from "node:assert/strict";
+import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import process from "node:process";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { keepPicture } from "./documentation.mjs";
@@ -61,4 +65,33 @@ test("an instance is relayed by its offer's name; when it has ended it is gone f
   await instance("gsv run").waitFor({ state: "detached" });
   await instance("workbench · this one").waitFor();
   assert.deepEqual(faults.filter((fault) => !fault.startsWith("request to another host")), []);
+});
+
+test("what a killed server ran is told by the one that comes after it, until it is dismissed", async () => {
+  const folder = await mkdtemp(path.join(tmpdir(), "gsv-join-"));
+  process.env.XDG_STATE_HOME = folder;
+  const serve = ["--name", "doomed", "--recordings", folder];
+  const doomed = await startServe(serve);
+  const body = JSON.stringify({ name: "arena", world: "playground" });
+  await fetch(`${doomed.url}api/simulations`, { method: "POST", body, headers: { "content-type": "application/json" } });
+  const notes = path.join(folder, "gsv", "servers");
+  const isNoted = async () => {
+    const files = (await readdir(notes)).filter((name) => name.endsWith(".json"));
+    const texts = await Promise.all(files.map((name) => readFile(path.join(notes, name), "utf8")));
+    return texts.some((text) => text.includes('"arena"'));
+  };
+  while (!(await isNoted())) await new Promise(setImmediate);
+  await doomed.kill();
+  const next = await startServe(serve);
+  try {
+    await page.goto(`${next.url}join.html`);
+    await page.getByText(/^arena on doomed \(process \d+\) was lost at about 0\.0 s/).waitFor();
+    await keepPicture(page, "lost");
+    await page.getByRole("button", { name: "Dismiss arena" }).click();
+    await page.locator(".lost").waitFor({ state: "detached" });
+    await instance("doomed · this one").waitFor();
+  } finally {
+    await next.stop();
+    await rm(folder, { recursive: true, force: true });
+  }
 });

@@ -116,6 +116,13 @@ class Server {
     }
   }
 
+  // Ends it, and its behaviours, as a crash would.
+  async kill() {
+    const exit = once(this.child, "exit");
+    process.kill(-this.child.pid, "SIGKILL");
+    await withTimeout(exit, STOP_TIMEOUT_MS, "the killed server's end");
+  }
+
   commandLine(port) {
     const other = process.env.GSV_RUN_COMMAND;
     if (other && this.command[0] === "run") return [...other.split(" "), "--port", String(port)];

@@ -29,7 +29,7 @@ export function createJoinPage(
 }
 
 function lostItem({ number, name, sentence, replay }: LostSimulation, dismiss: (number: number) => void): HTMLElement {
-  const seen = element("button", { type: "button", "aria-label": `Dismiss ${name}` }, "Dismiss");
+  const seen = element("button", { type: "button", class: "button", "aria-label": `Dismiss ${name}` }, "Dismiss");
   seen.addEventListener("click", () => dismiss(number));
   return element(
     "li",
