@@ -61,9 +61,14 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
       ->default_str("go_on");
   command.add_option("--wall-timeout", a.wall_timeout,
                      "wall seconds after which the run is given up with exit code 124");
-  command.add_option(
-      "--record", a.record,
-      "write a recording: NAME.mcap is a bare file, NAME a folder that rosbag2 opens");
+  command
+      .add_option("--record", a.record,
+                  "write a recording: NAME.mcap is a bare file, NAME a folder that rosbag2 opens")
+      ->check([](const std::string& name) {
+        return name == "true" || name == "false"
+                   ? "it is a file, NAME.mcap, or a folder, found \"" + name + "\""
+                   : std::string();
+      });
   command
       .add_option("--record-topics", a.record_topics,
                   "record these only, separated by commas; with a slash at its end a topic stands "

@@ -53,6 +53,16 @@ TEST_F(Record, TopicsThatMatchGiveNoWarning) {
   EXPECT_EQ(run.LastLine()["warnings"].size(), 0u) << run.out;
 }
 
+TEST_F(Record, AWordThatIsNoNameIsRefused) {
+  for (const std::string word : {"true", "false"}) {
+    const Outcome run = RunProgram("gsv", {"run", "playground", "--headless", "--record", word});
+    EXPECT_EQ(run.ending, "exit code 2");
+    EXPECT_EQ(run.err.find("--record: it is a file, NAME.mcap, or a folder, found \"" + word), 0u)
+        << run.err;
+    EXPECT_FALSE(std::filesystem::exists(word));
+  }
+}
+
 TEST_F(Record, ATopicWithoutASlashIsRefused) {
   const Outcome run = Run({"--record-topics", "nonsense"});
   EXPECT_EQ(run.ending, "exit code 2");
