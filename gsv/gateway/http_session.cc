@@ -53,7 +53,8 @@ std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
 constexpr std::chrono::minutes kUploadTime{5};
 
 // For a client to begin TLS, and for one to take leave.
-constexpr std::chrono::seconds kHandshakeTime{10}, kLeaveTime{1};
+constexpr std::chrono::seconds kLeaveTime{1};
+constexpr std::chrono::milliseconds kHandshakeTime{10'000};  // or a request's, if that is shorter
 
 // "/ws", and for a replay of one's own "/replays/NAME/ws".
 bool IsSocket(const Target& target) {
@@ -85,7 +86,7 @@ class HttpSession final : public Connection,
 
   void Begin() {
     if constexpr (kIsTls) {
-      tcp().expires_after(kHandshakeTime);
+      tcp().expires_after(std::min(kHandshakeTime, limits().request_time));
       is_idle_ = true;
       stream_.async_handshake(
           boost::asio::ssl::stream_base::server, buffer_.data(),
@@ -357,7 +358,7 @@ class TlsDoor final : public Connection, public std::enable_shared_from_this<Tls
         keep_track_(std::move(keep_track)) {}
 
   void Open() {
-    stream_.expires_after(kHandshakeTime);
+    stream_.expires_after(std::min(kHandshakeTime, context_->options.limits.request_time));
     beast::async_detect_ssl(stream_, buffer_,
                             [self = shared_from_this()](error_code error, bool is_tls) {
                               if (error) return self->stream_.close();

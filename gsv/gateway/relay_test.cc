@@ -114,6 +114,31 @@ TEST_F(RelayTest, ServicesArePassedOn) {
             "a relay passes on no parameters; set them at the other instance");
 }
 
+TEST_F(RelayTest, SixtyFourSimulationsArePassedOnAndNoMore) {
+  std::vector<std::unique_ptr<Viewer>> viewers;
+  for (int i = 0; i < 65; ++i) {
+    const std::string name = "arena_" + std::to_string(i);
+    directory_->Add(std::make_shared<ScriptedSimulation>(name, 0));
+    const std::string target = "/ws?simulation=" + name;
+    if (i < 64) {
+      viewers.push_back(std::make_unique<Viewer>(port(), target));
+      viewers.back()->ReceiveText("serverInfo");
+      continue;
+    }
+    const HttpReply refused = Fetch(port(), "GET", target,
+                                    "Connection: Upgrade\r\nUpgrade: websocket\r\n"
+                                    "Sec-WebSocket-Version: 13\r\n"
+                                    "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n"
+                                    "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n");
+    EXPECT_EQ(refused.status, 503);
+    EXPECT_NE(refused.body.find("too many simulations are watched"), std::string::npos)
+        << refused.body;
+  }
+  // One of them is still watched by others.
+  Viewer another(port(), "/ws?simulation=arena_7");
+  another.ReceiveText("serverInfo");
+}
+
 TEST_F(RelayTest, SeveralViewersSeeTheRobotsMove) {
   Viewer first(port()), second(port(), "/ws?simulation=arena", "foxglove.websocket.v1");
   first.Subscribe(1, "/gsv/poses");

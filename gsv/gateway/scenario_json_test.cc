@@ -100,8 +100,11 @@ TEST(ScenarioJson, AnUnknownFieldIsRefusedWithThoseThatAreKnown) {
 
 TEST(ScenarioJson, MoreRobotsThanAnybodyTypesAreRefused) {
   std::string body = R"({"world": "w", "robots": [{"model": "m"})";
-  for (int i = 0; i < 1000; ++i) body += R"(,{"model": "m"})";
-  const auto request = ParseSimulationRequest(body + "]}");
+  for (int i = 1; i < 1000; ++i) body += R"(,{"model": "m"})";
+  const auto most = ParseSimulationRequest(body + "]}");
+  ASSERT_TRUE(most);
+  EXPECT_EQ(most->scenario.robots.size(), 1000u);
+  const auto request = ParseSimulationRequest(body + R"(,{"model": "m"}]})");
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().field, "robots");
 }

@@ -1,5 +1,6 @@
 #include "gsv/gateway/sensor_topics.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -39,6 +40,37 @@ TEST_F(LiveStreamTest, AReadingIsTakenOnlyForThoseWhoWatchAndOnlyWhenTimeHasPass
   RoundUntil(1, 2);
   workers_.Stop();
   EXPECT_EQ(readings, 2);
+}
+
+TEST_F(LiveStreamTest, TwoThousandSensorsHaveATopicAndTheOthersAreTold) {
+  model::SensorDescription sonar = simulation_->sensors("robot_0").front();
+  const std::string complaint =
+      "there are more sensors than can be listed: the first 2000 have a topic of their own";
+  const auto topics = [&] {
+    std::ptrdiff_t count = 0;
+    for (const auto& text : client_->texts()) {
+      if (text.value("op", "") != "advertise") continue;
+      count +=
+          std::count_if(text["channels"].begin(), text["channels"].end(), [](const auto& channel) {
+            return channel["topic"].template get<std::string>().starts_with("/robot_0/many_");
+          });
+    }
+    return count;
+  };
+  const auto mount = [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      sonar.name = "many_" + std::to_string(i);
+      simulation_->Mount("robot_0", sonar);
+    }
+    Round(seconds(2));
+  };
+  mount(0, 1000);
+  EXPECT_EQ(topics(), 1000);
+  EXPECT_EQ(Complaints(complaint), 0u);
+  mount(1000, 2000);  // those that it has besides make it more
+  EXPECT_LT(topics(), 2000);
+  EXPECT_GT(topics(), 1980);
+  EXPECT_EQ(Complaints(complaint), 1u);
 }
 
 TEST_F(LiveStreamTest, PicturesComeAtMostFiveTimesASecond) {

@@ -38,6 +38,11 @@ TEST(Target, RefusesWhatIsNoTarget) {
   }
 }
 
+TEST(Target, IsTakenUpTo4096BytesAndNotBeyond) {
+  EXPECT_EQ(ParseTarget("/" + std::string(4095, 'a'))->segments, Segments{std::string(4095, 'a')});
+  EXPECT_FALSE(ParseTarget("/" + std::string(4096, 'a')));
+}
+
 TEST(Target, EscapeIsUndoneByParse) {
   std::string all;
   for (int c = 0; c < 256; ++c) all += static_cast<char>(c);

@@ -83,6 +83,17 @@ class TlsTest : public testing::ServerTest {
   const base::TemporaryFolder folder_ = *base::TemporaryFolder::Make("gsv-tls");
 };
 
+TEST_F(TlsTest, HangsUpOnWhoeverDoesNotBegin) {
+  ServerOptions options;
+  options.tls = Files("server");
+  options.limits.request_time = std::chrono::milliseconds(50);
+  Start(options);
+  testing::HttpConnection silent(port()), halting(port());
+  halting.Send("\x16\x03\x01");  // of a handshake
+  EXPECT_TRUE(silent.IsClosed());
+  EXPECT_TRUE(halting.IsClosed());
+}
+
 TEST_F(TlsTest, AnswersThoseWhoKnowItsAuthority) {
   StartSecure();
   EXPECT_EQ(server_->url(), "https://127.0.0.1:" + std::to_string(port()) + "/");

@@ -47,6 +47,49 @@ TEST_F(LimitsTest, SensorsAreTakenUpToTheirNumberAndNotBeyond) {
   EXPECT_NE(refused.error().message.find("at most 2 sensors"), std::string::npos);
 }
 
+TEST_F(LimitsTest, ClocksAreOpenedUpToTheirNumberAndNotBeyond) {
+  auto simulation = Make(Lockstep(100ms));
+  std::vector<bool> opened;
+  std::string refusal;
+  ASSERT_TRUE(simulation->AddRobot(
+      Robot("robot", 0, 0, std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
+              std::vector<ClockId> more;  // it has one
+              for (int i = 2; i <= 64; ++i) {
+                const auto clock = agent.OpenClock();
+                opened.push_back(clock.has_value());
+                if (clock) more.push_back(*clock);
+              }
+              if (const auto beyond = agent.OpenClock(); !beyond) refusal = beyond.error().message;
+              opened.push_back(agent.CloseClock(more.back()).has_value());
+              more.pop_back();
+              const auto again = agent.OpenClock();
+              opened.push_back(again.has_value());
+              if (again) more.push_back(*again);
+              for (const ClockId clock : more) (void)agent.CloseClock(clock);
+            }))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  EXPECT_EQ(opened, std::vector<bool>(65, true));
+  EXPECT_EQ(refusal, "an agent has at most 64 clocks open");
+}
+
+TEST_F(LimitsTest, TenThousandEventsAreKeptAndTheOldestGo) {
+  Specification specification = Lockstep(0s);
+  specification.mode = Mode::kRealTime;
+  const auto simulation = Make(specification);
+  ASSERT_TRUE(simulation->events(0).empty());
+  for (int i = 0; i < 10'000; ++i) ASSERT_TRUE(simulation->SetFactor(2 + i % 2));
+  const auto all = simulation->events(0);
+  ASSERT_EQ(all.size(), 10'000u);
+  ASSERT_TRUE(simulation->SetFactor(4));
+  const auto newest = simulation->events(0);
+  ASSERT_EQ(newest.size(), 10'000u);
+  // The first is gone, the second comes first; numbers count on.
+  EXPECT_EQ(newest.front().detail, all[1].detail);
+  EXPECT_EQ(newest.back().kind, "factor_set");
+  EXPECT_NE(newest.back().detail, all.back().detail);
+  EXPECT_EQ(simulation->events(10'000).size(), 1u);
+}
+
 TEST(Totals, CountStepsOfAllSimulations) {
   const std::uint64_t before = ProcessTotals().steps;
   for (int i = 0; i < 2; ++i) {
