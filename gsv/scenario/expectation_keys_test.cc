@@ -138,6 +138,20 @@ TEST(TestKeys, MistakesInExpectationsAreToldWithTheirPlace) {
                           "duration"));
 }
 
+TEST(TestKeys, AThousandFaultsAndExpectationsAreTakenAndNoMore) {
+  std::string faults = "duration: 60\nfaults:\n", expect = "duration: 60\nexpect:\n";
+  for (int i = 0; i < 1000; ++i) {
+    faults += "  - {at: 5, behaviour: r}\n";
+    expect += "  - {ended: r}\n";
+  }
+  EXPECT_EQ(ReadWhole(faults).faults.size(), 1000u);
+  EXPECT_THAT(ComplaintsOf(faults + "  - {at: 5, behaviour: r}\n"),
+              ElementsAre(HasSubstr("faults has at most 1000 entries")));
+  EXPECT_THAT(ComplaintsOf(expect), IsEmpty());
+  EXPECT_THAT(ComplaintsOf(expect + "  - {ended: r}\n"),
+              ElementsAre(HasSubstr("expect has at most 1000 entries")));
+}
+
 TEST(TestKeys, ASmallFileMakesNoLargeFormula) {
   std::string text = "duration: 1\nexpect:\n  - all: [&a0 {ended: r}]\n";
   for (int i = 1; i < 30; ++i) {

@@ -235,6 +235,19 @@ TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
               ElementsAre(HasSubstr("robots has at most 100000 entries")));
 }
 
+TEST(ScenarioFile, IsTakenUpToItsLimitsAndNotBeyond) {
+  const std::string padded = "world: a\n#";
+  EXPECT_THAT(Complaints(padded + std::string(kLargestScenario - padded.size(), 'x')),
+              ElementsAre());
+  EXPECT_THAT(Complaints(padded + std::string(kLargestScenario + 1 - padded.size(), 'x')),
+              ElementsAre(HasSubstr("at most 4194304 bytes")));
+  std::string robots = "robots:\n  - &r {model: m}\n";
+  for (int i = 1; i < 100'000; ++i) robots += "  - *r\n";
+  EXPECT_EQ(Parsed(robots).robots.size(), 100'000u);
+  EXPECT_THAT(Complaints(robots + "  - *r\n"),
+              ElementsAre(HasSubstr("robots has at most 100000 entries")));
+}
+
 TEST(ScenarioFile, FilesBesideItAreFound) {
   const auto folder = base::TemporaryFolder::Make("gsv-scenario");
   ASSERT_TRUE(folder);

@@ -1,0 +1,99 @@
+// Each limit of what files may ask for: met, a file is read; one less, and it is refused.
+#include <functional>
+
+#include <gmock/gmock.h>
+
+#include "gsv/formats/mesh_reader.h"
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/formats/test_folder.h"
+#include "gsv/formats/texture_reader.h"
+
+namespace gsv::formats {
+namespace {
+
+using testing::HasSubstr;
+
+class FileLimitsTest : public testing::Test {
+ protected:
+  using Reads = std::function<base::Status(const ReadLimits&)>;
+
+  // A limit by its name, which a file needs to be `needed`.
+  static void ExpectLimit(const std::string& name, std::size_t needed, const Reads& reads) {
+    ReadLimits limits;
+    ASSERT_TRUE(SetLimit(name + "=" + std::to_string(needed), limits));
+    const base::Status met = reads(limits);
+    EXPECT_TRUE(met) << name << ": " << met.error().Sentence();
+    ASSERT_TRUE(SetLimit(name + "=" + std::to_string(needed - 1), limits));
+    const base::Status beyond = reads(limits);
+    ASSERT_FALSE(beyond) << name;
+    EXPECT_THAT(beyond.error().Sentence(), HasSubstr(std::to_string(needed - 1))) << name;
+  }
+  Reads World(const std::string& content) const {
+    return [this, content](const ReadLimits& limits) -> base::Status {
+      ReadOptions options;
+      options.limits = limits;
+      base::Problems problems;
+      const auto world = ModelLibrary(options).ReadWorld(folder_.Write("w.sdf", content), problems);
+      return world ? base::Status() : base::Fail(world.error());
+    };
+  }
+  Reads Mesh(const std::string& name, const std::string& content) const {
+    return [this, name, content](const ReadLimits& limits) -> base::Status {
+      TextureReader textures(limits);
+      base::Problems problems;
+      const auto mesh =
+          MeshReader(limits, textures).Read(folder_.Write(name, content), "", false, problems);
+      return mesh ? base::Status() : base::Fail(mesh.error());
+    };
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(FileLimitsTest, OfWorldsAreMetAndNotPassed) {
+  // sdf, world, model, link.
+  const std::string world =
+      "<sdf version='1.9'><world name='w'><model name='a'><link name='l'/></model>"
+      "<model name='b'><link name='l'/></model></world></sdf>";
+  ExpectLimit("xml_bytes", world.size(), World(world));
+  ExpectLimit("xml_depth", 4, World(world));
+  ExpectLimit("models_in_world", 2, World(world));
+}
+
+TEST_F(FileLimitsTest, OfFilesThatIncludeEachOtherAreMetAndNotPassed) {
+  const auto model = [](const std::string& content) {
+    return "<sdf version='1.9'><model name='m'><link name='l'/>" + content + "</model></sdf>";
+  };
+  const auto include = [](const std::string& name) {
+    return "<include><uri>model://" + name + "</uri></include>";
+  };
+  folder_.Write("a/model.sdf", model(include("b")));
+  folder_.Write("b/model.sdf", model(include("c")));
+  folder_.Write("c/model.sdf", model(""));
+  // Counted from the model that the world includes.
+  ExpectLimit("include_depth", 2,
+              World("<sdf version='1.9'><world name='w'>" + include("a") + "</world></sdf>"));
+}
+
+TEST_F(FileLimitsTest, OfMeshesAreMetAndNotPassed) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+  ExpectLimit("mesh_bytes", square.size(), Mesh("a.obj", square));
+  ExpectLimit("mesh_triangles", 2, Mesh("a.obj", square));
+  ExpectLimit("mesh_vertices", 3, Mesh("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));
+}
+
+TEST_F(FileLimitsTest, OfPicturesAreMetAndNotPassed) {
+  std::string picture(18, '\0');  // TGA: 3 by 2 pixels of 24 bits
+  picture[2] = 2, picture[12] = 3, picture[14] = 2, picture[16] = 24;
+  picture += std::string(18, 'x');
+  const auto reads = [&](const ReadLimits& limits) -> base::Status {
+    TextureReader reader(limits);
+    const auto image = reader.Read(folder_.Write("a.tga", picture));
+    return image ? base::Status() : base::Fail(image.error());
+  };
+  ExpectLimit("texture_bytes", picture.size(), reads);
+  ExpectLimit("texture_side", 3, reads);
+}
+
+}  // namespace
+}  // namespace gsv::formats
