@@ -302,6 +302,8 @@ base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
 }
 
 void SimulationServiceServant::KeepHouse() {
+  constexpr int kTrimmingRounds = 30;
+  int round = 0;
   std::unique_lock lock(mutex_);
   while (!closing_) {
     closing_changed_.wait_for(lock, std::chrono::seconds(1), [this] { return closing_; });
@@ -309,12 +311,12 @@ void SimulationServiceServant::KeepHouse() {
     for (const auto& [name, servant] : servants_) {
       if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());
     }
-    const bool has_destroyed = std::exchange(has_destroyed_, false);
+    const bool may_trim = std::exchange(has_destroyed_, false) || ++round % kTrimmingRounds == 0;
     // Stopping one may take long, as when it is being reset: nobody else waits for that.
     lock.unlock();
-    // What a simulation took is free then, but spread over the arenas of many threads, of which
+    // What simulations, viewers and messages took lies free in the arenas of many threads, of which
     // glibc by itself gives back no more than the tops.
-    if (has_destroyed) malloc_trim(0);
+    if (may_trim) malloc_trim(0);
     for (const auto& simulation : abandoned) {
       const Phase phase = simulation->status().phase;
       if (phase == Phase::kStopped || phase == Phase::kFinished || phase == Phase::kFailed)

@@ -58,9 +58,8 @@ class Laboratory:
     # Programs
 
     def environment(self):
-        # Memory that many of malloc's arenas hold free looks like a leak, and hides one.
         return {**os.environ, "HOME": str(self.folder), "XDG_RUNTIME_DIR": str(self.folder),
-                "XDG_STATE_HOME": str(self.folder / "state"), "MALLOC_ARENA_MAX": "1"}
+                "XDG_STATE_HOME": str(self.folder / "state")}
 
     def start(self, name, *arguments, line=None):
         log = open(self.folder / f"{name}-{self.count}.log", "wb")
