@@ -149,12 +149,14 @@ def main():
         broken += filter(None, [witness.run(2)])
         broken += laboratory.end_victims()
         broken += settle(laboratory, before)
+        settled = laboratory.footprint()
         broken += check_new_work(laboratory)
         broken += check_recordings(laboratory)
         broken += check_restart(laboratory)
         report = {"seconds": round(time.monotonic() - start, 1), "seed": options.seed, "attacks": done,
                   "witness_rounds": witness.rounds, "slowest_answer_s": round(laboratory.slowest, 3),
-                  "before": before, "after": curve[-1] if curve else before, "broken": broken}
+                  "before": before, "after": curve[-1] if curve else before, "settled": settled,
+                  "broken": broken}
         print(json.dumps(report, indent=1), flush=True)
         if options.report:
             options.report.write_text(json.dumps({**report, "curve": curve}, indent=1) + "\n")
