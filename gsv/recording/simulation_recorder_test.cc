@@ -124,6 +124,22 @@ TEST_F(SimulationRecorderTest, ARobotThatComesLaterBringsItsScene) {
   EXPECT_EQ(scenes.back().log_time, 510ms);  // the first step with it
 }
 
+// What it was told is done again by `gsv replay --resimulate --commands`.
+TEST_F(SimulationRecorderTest, ARobotThatComesAgainWasToldNothingYet) {
+  auto simulation = MakeSimulation(1s, Drives(0.5));
+  auto recorder = Start(simulation);
+  ASSERT_TRUE(simulation->RunUntil(500ms));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  ASSERT_TRUE(simulation->RemoveRobot("robot"));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 2, nullptr)));
+  ASSERT_TRUE(simulation->Resume());
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+  ASSERT_TRUE(recorder->Stop());
+  const auto commands = Read<messages::gsv_msgs::Command>("/gsv/commands");
+  EXPECT_EQ(commands.size(), 10u);  // every 50 ms, until it was removed
+  for (const auto& command : commands) EXPECT_EQ(command.linear_m_s, 0.5);
+}
+
 TEST_F(SimulationRecorderTest, AFullDiskEndsTheRecordingAndNotTheSimulation) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   auto simulation = MakeSimulation(1s, Drives(0.5));

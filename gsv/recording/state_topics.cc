@@ -12,6 +12,10 @@ namespace {
 constexpr base::SimTime kHashPeriod = std::chrono::seconds(1);
 constexpr base::SimTime kDiagnosticsPeriod = std::chrono::seconds(1);
 
+bool IsSameOrder(const world::DriveState& a, const world::DriveState& b) {
+  return a.command == b.command && a.command_time == b.command_time;
+}
+
 }  // namespace
 
 StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection& selection)
@@ -78,9 +82,8 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
     const world::Body& body = layout_->bodies[i];
     if (!body.is_robot) continue;
     const world::DriveState& drive = state.bodies[i].drive;
-    world::DriveState& told = told_[body.name];
-    if (drive.command == told.command && drive.command_time == told.command_time) continue;
-    told = drive;
+    if (IsSameOrder(drive, std::exchange(told_[body.name], drive))) continue;
+    if (IsSameOrder(drive, {})) continue;  // it was removed, and came again
     commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
   }
 }
