@@ -75,9 +75,7 @@ class EditMaker {
   base::Status AddRobot(const Edit& edit) {
     auto model = ReadRobot(edit);
     if (!model) return base::Fail(model.error());
-    scenario::RobotEntry entry;
-    entry.name = edit.body;
-    entry.behaviour = edit.behaviour;
+    const scenario::RobotEntry entry{.name = edit.body, .behaviour = edit.behaviour};
     auto behaviour = LateBehaviour(runtime_, options_, entry, edit.time);
     if (!behaviour) return base::Fail(behaviour.error());
     simulation::RobotSpecification robot;
@@ -95,17 +93,17 @@ class EditMaker {
   }
 
   base::Status AddObject(const Edit& edit) {
-    simulation::ObjectSpecification object;
-    object.name = edit.body;
-    object.copy_of = edit.copy_of;
-    object.world_from_object = edit.world_from_body;
-    object.on_ground = edit.on_ground;
+    std::shared_ptr<const model::Model> own;
     if (edit.copy_of.empty()) {
       auto model = ReadModel(edit.model);
       if (!model) return base::Fail(model.error());
-      object.model = *std::move(model);
+      own = *std::move(model);
     }
-    const auto added = simulation_.AddObject(std::move(object));
+    const auto added = simulation_.AddObject({.name = edit.body,
+                                              .model = std::move(own),
+                                              .copy_of = edit.copy_of,
+                                              .world_from_object = edit.world_from_body,
+                                              .on_ground = edit.on_ground});
     return added ? base::Status() : base::Fail(added.error());
   }
 
@@ -148,6 +146,7 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
   const recording::Summary& summary = reader.summary();
   RecordedDoings doings;
   std::vector<LifecycleEvent> told;  // events that tell of edits
+  bool has_finished = false;
   recording::MessageCursor cursor = reader.Messages();
   for (;;) {
     const auto record = cursor.Next();
@@ -165,9 +164,11 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
       auto message = messages::Decode<LifecycleEvent>((*record)->data);
       if (!message) return base::Fail(message.error());
       doings.was_held_up = doings.was_held_up || IsHoldingUp(message->event);
+      has_finished = has_finished || message->event == "finished";
       if (IsEdit(message->event)) told.push_back(*std::move(message));
     }
   }
+  doings.was_held_up = doings.was_held_up || !has_finished;
   if (doings.edits.empty() && !told.empty()) {
     return NotAgain(file, "somebody changed what stands there by hand (" + told[0].event + " " +
                               told[0].robot + " " + AtInstant(messages::ToSimTime(told[0].stamp)) +

@@ -13,7 +13,7 @@ namespace gsv::app {
 // What a recording tells of people's doings.
 struct RecordedDoings {
   std::vector<simulation::Edit> edits;  // in the order in which they were made
-  bool was_held_up = false;             // paused, resumed, or its pace changed
+  bool was_held_up = false;             // paused, resumed, ended early, or its pace changed
 };
 
 // Fails, naming `file`, where they cannot be repeated: what came before the recording is not known,

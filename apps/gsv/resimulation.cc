@@ -1,6 +1,7 @@
 #include "apps/gsv/resimulation.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -177,7 +178,7 @@ std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
   for (const auto* reader : {&first, &second}) {
     for (const auto& [id, channel] : reader->summary().channels) topics.insert(channel.topic);
   }
-  for (const char* topic : {"/gsv/events", "/rosout", "/gsv/edits"}) topics.erase(topic);
+  for (const std::string_view topic : recording::kTopicsOfPeople) topics.erase(std::string(topic));
   return {topics.begin(), topics.end()};
 }
 
@@ -200,12 +201,41 @@ base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
   return {};
 }
 
+// Snapshots and messages that a recorder of a run in real time left out, since it did not keep up.
+std::uint64_t LeftOut(const recording::RecordingInfo& info) {
+  std::uint64_t sum = 0;
+  for (const recording::MetadataRecord& record : info.metadata) {
+    for (const char* key : {"dropped_snapshots", "dropped_messages"}) {
+      const auto found = record.values.find(key);
+      if (found == record.values.end()) continue;
+      std::uint64_t count = 0;
+      const std::string& text = found->second;
+      (void)std::from_chars(text.data(), text.data() + text.size(), count);
+      sum += count;
+    }
+  }
+  return sum;
+}
+
+// Until when it is to run once more. Where people are left out, so is what they did as it ended.
+base::Result<base::SimTime> EndOf(const recording::RecordingInfo& info,
+                                  const recording::McapReader& reader, bool with_people) {
+  if (with_people) return info.end;
+  const auto end = recording::EndOfSteps(reader);
+  if (!end || *end > base::SimTime(0)) return end;
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "cannot be simulated again: it was stopped before a step was recorded",
+                    info.path);
+}
+
 void Print(const std::optional<recording::Difference>& difference,
            const recording::RecordingInfo& info, bool json) {
+  const std::uint64_t left_out = LeftOut(info);
   if (json) {
     nlohmann::ordered_json report{{"equal", !difference.has_value()},
                                   {"duration_s", base::ToSeconds(info.duration())},
-                                  {"messages", info.messages}};
+                                  {"messages", info.messages},
+                                  {"left_out", left_out}};
     if (difference) report["first_difference"] = ToJson(*difference);
     std::puts(report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else if (difference) {
@@ -214,6 +244,11 @@ void Print(const std::optional<recording::Difference>& difference,
     std::printf("simulated again, it is the same: %llu messages, %.3f s\n",
                 static_cast<unsigned long long>(info.messages), base::ToSeconds(info.duration()));
   }
+  if (json || left_out == 0) return;
+  std::printf(
+      "the recording has gaps: %llu snapshots or messages were left out, since the recorder did "
+      "not keep up; what it lacks was neither compared nor, of commands, done again\n",
+      static_cast<unsigned long long>(left_out));
 }
 
 }  // namespace
@@ -244,8 +279,10 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   run->runtime.broker = options.broker;
   run->scenario.expect.clear();  // it was judged then
   run->record = (folder->path() / "again.mcap").string();
-  run->specification.duration = info->end;
   const bool had_people = doings->was_held_up || !doings->edits.empty();
+  const auto end = EndOf(*info, **recorded, !options.commands && !had_people);
+  if (!end) return base::Fail(end.error());
+  run->specification.duration = *end;
   run->edits = std::move(doings->edits);
   if (options.commands) {
     if (auto ok = UseRecordedCommands(**recorded, *run); !ok) return base::Fail(ok.error());
@@ -261,7 +298,8 @@ base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signal
   } else if (had_people) {
     topics = TopicsWithoutPeople(**recorded, **again);
   }
-  const auto difference = recording::FirstDifference(**recorded, **again, topics);
+  const auto gaps = LeftOut(*info) > 0 ? recording::Gaps::kInFirst : recording::Gaps::kNone;
+  const auto difference = recording::FirstDifference(**recorded, **again, topics, gaps);
   if (!difference) return base::Fail(difference.error());
   Print(*difference, *info, options.json);
   return *difference ? kAssertionFailed : kOk;

@@ -8,11 +8,6 @@
 namespace gsv::recording {
 namespace {
 
-bool IsReproducible(const ChannelRecord& channel) {
-  const auto found = channel.metadata.find("reproducible");
-  return found == channel.metadata.end() || found->second != "false";
-}
-
 std::uint64_t HashOf(const MessageRecord& message, const Summary& summary) {
   const ChannelRecord& channel = summary.channels.at(message.channel_id);
   const auto schema = summary.schemas.find(channel.schema_id);
@@ -28,6 +23,11 @@ std::uint64_t HashOf(const MessageRecord& message, const Summary& summary) {
 }
 
 }  // namespace
+
+bool IsReproducible(const ChannelRecord& channel) {
+  const auto found = channel.metadata.find("reproducible");
+  return found == channel.metadata.end() || found->second != "false";
+}
 
 base::Result<std::string> ContentHash(const McapReader& reader) {
   std::uint64_t sum = 0;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "gsv/recording/content_hash.h"
+
 namespace gsv::recording {
 namespace {
 
@@ -42,11 +44,12 @@ bool FindDifference(const ordered_json& a, const ordered_json& b, const std::str
   return true;
 }
 
-// All messages of one instant that count, by (topic, number).
+// All messages of one instant that count, by (topic, number). Where some are missing they are
+// numbered from 0 at each instant.
 class InstantReader {
  public:
-  InstantReader(const McapReader& reader, const Selection& selection)
-      : reader_(reader), selection_(selection), cursor_(reader.Messages()) {}
+  InstantReader(const McapReader& reader, const Selection& selection, Gaps gaps)
+      : reader_(reader), selection_(selection), gaps_(gaps), cursor_(reader.Messages()) {}
 
   using Messages = std::map<std::pair<std::string, std::uint32_t>, std::vector<std::byte>>;
 
@@ -58,7 +61,9 @@ class InstantReader {
     }
     if (!has_next_) return false;
     time = next_time_;
+    std::map<std::string, std::uint32_t> counts;
     while (has_next_ && next_time_ == time) {
+      if (gaps_ != Gaps::kNone) next_key_.second = counts[next_key_.first]++;
       messages.emplace(next_key_, std::move(next_data_));
       if (auto ok = Advance(); !ok) return base::Fail(ok.error());
     }
@@ -76,6 +81,16 @@ class InstantReader {
     return base::Fail(base::ErrorCode::kNotFound, "there is no such topic", topic);
   }
 
+  // Leaves out topics of which the other has not as many.
+  void KeepCommon(InstantReader& other) {
+    std::map<std::string, std::int64_t> more;
+    for (const auto& [key, data] : messages) ++more[key.first];
+    for (const auto& [key, data] : other.messages) --more[key.first];
+    const auto is_alone = [&](const auto& message) { return more[message.first.first] != 0; };
+    std::erase_if(messages, is_alone);
+    std::erase_if(other.messages, is_alone);
+  }
+
   base::SimTime time{};
   Messages messages;
 
@@ -89,9 +104,7 @@ class InstantReader {
       const auto channel = reader_.summary().channels.find((*message)->channel_id);
       if (channel == reader_.summary().channels.end()) continue;
       if (!selection_.Has(channel->second.topic)) continue;
-      const auto& metadata = channel->second.metadata;
-      const auto flag = metadata.find("reproducible");
-      if (flag != metadata.end() && flag->second == "false") continue;
+      if (!IsReproducible(channel->second)) continue;
       next_time_ = (*message)->log_time;
       next_key_ = {channel->second.topic, (*message)->sequence};
       next_data_.assign((*message)->data.begin(), (*message)->data.end());
@@ -102,6 +115,7 @@ class InstantReader {
 
   const McapReader& reader_;
   const Selection& selection_;
+  const Gaps gaps_;
   MessageCursor cursor_;
   bool has_next_ = false;
   base::SimTime next_time_{};
@@ -128,6 +142,25 @@ base::Result<Difference> Compare(const InstantReader& first, const InstantReader
     difference.in_second = fmt::format("{} others", b.size());
   }
   return difference;
+}
+
+base::Result<std::optional<Difference>> DifferenceAtInstant(const InstantReader& a,
+                                                            const InstantReader& b) {
+  auto in_a = a.messages.begin();
+  auto in_b = b.messages.begin();
+  for (; in_a != a.messages.end() || in_b != b.messages.end(); ++in_a, ++in_b) {
+    const bool only_a =
+        in_b == b.messages.end() || (in_a != a.messages.end() && in_a->first < in_b->first);
+    if (only_a) return Missing(a.time, in_a->first.first, false);
+    if (in_a == a.messages.end() || in_b->first < in_a->first) {
+      return Missing(a.time, in_b->first.first, true);
+    }
+    if (in_a->second == in_b->second) continue;
+    auto difference = Compare(a, b, in_a->first.first, in_a->second, in_b->second);
+    if (!difference) return base::Fail(difference.error());
+    return *std::move(difference);
+  }
+  return std::nullopt;
 }
 
 std::string Quoted(std::string text) {
@@ -210,35 +243,30 @@ std::string Difference::Sentence() const {
 
 base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
                                                         const McapReader& second,
-                                                        const std::vector<std::string>& topics) {
+                                                        const std::vector<std::string>& topics,
+                                                        Gaps gaps) {
   const Selection selection{topics};
-  InstantReader a(first, selection), b(second, selection);
+  InstantReader a(first, selection, gaps), b(second, selection, gaps);
+  auto more_a = a.Next(), more_b = b.Next();
   for (;;) {
-    const auto more_a = a.Next();
     if (!more_a) return base::Fail(more_a.error());
-    const auto more_b = b.Next();
     if (!more_b) return base::Fail(more_b.error());
     if (!*more_a && !*more_b) return std::nullopt;
-    if (!*more_b || (*more_a && a.time < b.time)) {
-      return Missing(a.time, a.messages.begin()->first.first, false);
-    }
-    if (!*more_a || b.time < a.time) {
-      return Missing(b.time, b.messages.begin()->first.first, true);
-    }
-    auto in_a = a.messages.begin();
-    auto in_b = b.messages.begin();
-    for (; in_a != a.messages.end() || in_b != b.messages.end(); ++in_a, ++in_b) {
-      const bool only_a =
-          in_b == b.messages.end() || (in_a != a.messages.end() && in_a->first < in_b->first);
-      if (only_a) return Missing(a.time, in_a->first.first, false);
-      if (in_a == a.messages.end() || in_b->first < in_a->first) {
-        return Missing(a.time, in_b->first.first, true);
+    const bool only_a = !*more_b || (*more_a && a.time < b.time);
+    const bool only_b = !*more_a || (*more_b && b.time < a.time);
+    if (only_a || only_b) {
+      InstantReader& alone = only_a ? a : b;
+      if (gaps == Gaps::kNone) {
+        return Missing(alone.time, alone.messages.begin()->first.first, only_b);
       }
-      if (in_a->second == in_b->second) continue;
-      auto difference = Compare(a, b, in_a->first.first, in_a->second, in_b->second);
-      if (!difference) return base::Fail(difference.error());
-      return *std::move(difference);
+      (only_a ? more_a : more_b) = alone.Next();
+      continue;
     }
+    if (gaps != Gaps::kNone) a.KeepCommon(b);
+    auto difference = DifferenceAtInstant(a, b);
+    if (!difference || *difference) return difference;
+    more_a = a.Next();
+    more_b = b.Next();
   }
 }
 

@@ -53,10 +53,18 @@ struct Difference {
 // time_s, topic, field, first, second.
 nlohmann::ordered_json ToJson(const Difference& difference);
 
+// Whether a recording lacks some of what there was to record.
+enum class Gaps {
+  kNone,
+  kInFirst,  // compared is what both have: of a topic, instants with equally many messages in both
+};
+
 // Compares what counts for the content hash (see content_hash.h), of the selected topics. Empty:
 // they tell the same.
-base::Result<std::optional<Difference>> FirstDifference(
-    const McapReader& first, const McapReader& second, const std::vector<std::string>& topics = {});
+base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
+                                                        const McapReader& second,
+                                                        const std::vector<std::string>& topics = {},
+                                                        Gaps gaps = Gaps::kNone);
 
 // A table of one topic: a row a message, a column a number or text of it ("ranges.0"), the columns
 // in the order in which they first appear; RFC 4180.

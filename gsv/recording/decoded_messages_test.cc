@@ -1,5 +1,7 @@
 #include "gsv/recording/decoded_messages.h"
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "gsv/recording/recover.h"
@@ -68,6 +70,38 @@ TEST(FirstDifference, AMessageThatIsMissingIsOne) {
   EXPECT_EQ(difference->topic, "/a");
   EXPECT_EQ(difference->in_first, "there");
   EXPECT_EQ(difference->in_second, "missing");
+}
+
+// Each tenth of a second but the ones left out; what is recorded at `other` differs.
+Bytes ClocksWithout(const std::set<base::SimTime>& left_out, base::SimTime other = -1ms) {
+  Bytes bytes;
+  MemorySink sink(bytes);
+  McapFileWriter writer(sink, {});
+  (void)writer.AddSchema(SchemaOfClock());
+  (void)writer.AddChannel(ChannelOf(0, "/clock"));
+  std::uint32_t sequence = 0;
+  for (base::SimTime time = 0ms; time < 1000ms; time += 100ms) {
+    if (left_out.contains(time)) continue;
+    const Bytes data = ClockMessage(time == other ? 7ms : time);
+    (void)writer.Write({0, sequence++, time, time, data});
+  }
+  (void)writer.Close();
+  return bytes;
+}
+
+TEST(FirstDifference, OfARecordingWithGapsIsInWhatItHolds) {
+  const auto difference = [](const Bytes& a, const Bytes& b) {
+    const auto first = Open(a), second = Open(b);
+    return FirstDifference(**first, **second, {}, Gaps::kInFirst).value();
+  };
+  const Bytes whole = ClocksWithout({});
+  EXPECT_TRUE(DifferenceOf(ClocksWithout({300ms, 900ms}), whole));
+  EXPECT_FALSE(difference(ClocksWithout({300ms, 900ms}), whole));
+  EXPECT_FALSE(difference(ClocksWithout({0ms}, 200ms), ClocksWithout({200ms})));
+  const auto found = difference(ClocksWithout({300ms}, 500ms), whole);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->time, base::SimTime(500ms));
+  EXPECT_EQ(found->field, "clock.nanosec");
 }
 
 TEST(DecodedMessages, AreThoseOfTheSelection) {

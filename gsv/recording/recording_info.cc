@@ -67,6 +67,23 @@ base::Result<RecordingInfo> ReadInfo(const std::string& path, const Limits& limi
   return info;
 }
 
+base::Result<base::SimTime> EndOfSteps(const McapReader& reader) {
+  const auto& channels = reader.summary().channels;
+  base::SimTime end{};
+  MessageCursor cursor = reader.Messages();
+  for (;;) {
+    const auto message = cursor.Next();
+    if (!message) return base::Fail(message.error());
+    if (!*message) return end;
+    const auto channel = channels.find((*message)->channel_id);
+    if (channel == channels.end() || !IsReproducible(channel->second)) continue;
+    const auto& people = kTopicsOfPeople;
+    if (std::find(std::begin(people), std::end(people), channel->second.topic) != std::end(people))
+      continue;
+    end = std::max(end, (*message)->log_time);
+  }
+}
+
 std::string ToText(const RecordingInfo& info) {
   std::string text = fmt::format(
       "{}\n"

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gsv/recording/mcap_reader.h"
 
 namespace gsv::recording {
+
+// They tell what people do, whenever that is.
+inline constexpr std::string_view kTopicsOfPeople[]{"/gsv/events", "/rosout", "/gsv/edits"};
 
 struct RecordingInfo {
   struct Channel {
@@ -41,6 +45,10 @@ struct RecordingInfo {
 // Reads all of the file, for the content hash.
 [[nodiscard]] base::Result<RecordingInfo> ReadInfo(const std::string& path,
                                                    const Limits& limits = {});
+
+// Of the newest message that a simulation's steps brought: not of those that tell of people's
+// doings (kTopicsOfPeople) or of the wall clock. 0: there is none.
+[[nodiscard]] base::Result<base::SimTime> EndOfSteps(const McapReader& reader);
 
 // For people: lines, the last one ending in a newline.
 std::string ToText(const RecordingInfo& info);

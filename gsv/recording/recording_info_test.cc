@@ -70,6 +70,26 @@ class RecordingInfoTest : public testing::Test {
   const base::TemporaryFolder folder_ = base::TemporaryFolder::Make("gsv-test").value();
 };
 
+// A simulation that somebody stops may take a step meanwhile.
+TEST(EndOfSteps, IsWhereWhatCanBeRepeatedEnds) {
+  Bytes bytes;
+  MemorySink sink(bytes);
+  McapFileWriter writer(sink, {});
+  ASSERT_TRUE(writer.AddSchema(SchemaOfClock()));
+  ChannelRecord status = ChannelOf(1, "/gsv/status");
+  status.metadata["reproducible"] = "false";
+  ASSERT_TRUE(writer.AddChannel(ChannelOf(0, "/gsv/poses")));
+  ASSERT_TRUE(writer.AddChannel(status));
+  ASSERT_TRUE(writer.AddChannel(ChannelOf(2, "/gsv/events")));
+  const Bytes data = ClockMessage(0ms);
+  for (const std::uint16_t channel : {0, 1, 2}) {
+    const base::SimTime time = channel * 10ms + 70ms;
+    ASSERT_TRUE(writer.Write({channel, 0, time, time, data}));
+  }
+  ASSERT_TRUE(writer.Close());
+  EXPECT_EQ(EndOfSteps(**Open(bytes)).value(), base::SimTime(70ms));
+}
+
 TEST_F(RecordingInfoTest, TellsTheSameAsJsonAndAsText) {
   const Bytes bytes = ThreeChunks();
   const std::string path = Save(bytes, bytes.size());

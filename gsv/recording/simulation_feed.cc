@@ -80,13 +80,23 @@ std::optional<Occurrence> SimulationFeed::Next(std::chrono::milliseconds patienc
   return next;
 }
 
-void SimulationFeed::Close(std::optional<Observation> last) {
+void SimulationFeed::CloseAtLatest() {
+  const simulation::SimulationStatus status = simulation_.status();
   {
     const std::lock_guard lock(mutex_);
-    if (!closed_ && last) {
-      queue_.emplace_back(*std::move(last));
+    if (!closed_) {
+      // Taken last of all: the simulation may be running.
+      queue_.emplace_back(Observation{simulation_.snapshot(), nullptr, status});
       ++snapshots_;
     }
+    closed_ = true;
+  }
+  Close();
+}
+
+void SimulationFeed::Close() {
+  {
+    const std::lock_guard lock(mutex_);
     closed_ = true;
   }
   news_.notify_all();

@@ -44,7 +44,7 @@ struct FeedOptions {
 
 class SimulationFeed final : public simulation::Observer {
  public:
-  // The simulation is used by the stepping thread alone, which it outlives.
+  // The simulation is used by the stepping thread, which it outlives, and in CloseAtLatest().
   SimulationFeed(const simulation::Simulation& simulation, FeedOptions options);
 
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
@@ -53,9 +53,12 @@ class SimulationFeed final : public simulation::Observer {
   // The next one; nothing if none comes within `patience` of wall time, or no more will.
   std::optional<Occurrence> Next(std::chrono::milliseconds patience);
 
-  // Takes nothing more, and lets those go on who wait. What is queued stays; `last` comes behind
-  // it. A reset of the simulation closes it, too.
-  void Close(std::optional<Observation> last = std::nullopt);
+  // Takes nothing more, and lets those go on who wait. What is queued stays. A reset of the
+  // simulation closes it, too.
+  void Close();
+  // The same, with the simulation as it stands, which must be there still, behind what is queued:
+  // nothing is of a later instant.
+  void CloseAtLatest();
   bool is_over() const;  // closed, and nothing is queued
   bool was_reset() const;
   std::uint64_t dropped() const;  // snapshots

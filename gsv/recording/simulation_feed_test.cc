@@ -81,6 +81,19 @@ TEST_F(SimulationFeedTest, SensorsAreToldWhenTheyAreNewAndOnceASecond) {
   EXPECT_EQ(std::get<Observation>(*second).sensors, nullptr);
 }
 
+TEST_F(SimulationFeedTest, AtItsEndComesTheSimulationAsItStands) {
+  SimulationFeed feed(*simulation_, {.capacity = 1});
+  feed.OnEvent({0, base::SimTime(0), "started", "", ""});
+  feed.CloseAtLatest();
+  feed.OnEvent({1, base::SimTime(10ms), "stopped", "", ""});
+  ASSERT_TRUE(feed.Next(0ms));
+  const auto last = feed.Next(0ms);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(std::get<Observation>(*last).snapshot, simulation_->snapshot());
+  EXPECT_TRUE(std::get<Observation>(*last).status);
+  EXPECT_TRUE(feed.is_over());
+}
+
 TEST_F(SimulationFeedTest, AResetClosesItBehindWhatIsQueued) {
   SimulationFeed feed(*simulation_, {});
   feed.OnSnapshot(simulation_->snapshot());

@@ -110,7 +110,7 @@ base::Status SimulationRecorder::Stop() {
     if (simulation) {
       if (!feed_->was_reset()) result_ = ResultOf(*simulation);
       // A run is known to be over somewhat earlier than its last snapshot is handed out.
-      feed_->Close(Observation{simulation->snapshot(), nullptr, simulation->status()});
+      feed_->CloseAtLatest();
       simulation->RemoveObserver(feed_);
     }
     feed_->Close();
