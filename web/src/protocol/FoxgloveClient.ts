@@ -9,6 +9,7 @@ export const SUBPROTOCOLS = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 
 const OPENING_TIMEOUT_MS = 5000;
 const REST_SHARE = 4; // of the time that a message took
+const LONGEST_REST_MS = 250;
 const MESSAGE_DATA = 1;
 const MESSAGE_DATA_HEADER_BYTES = 13;
 
@@ -249,7 +250,7 @@ export class FoxgloveClient {
       const began = performance.now();
       if (newest && subscription.id !== null) this.handOver(subscription, channel, newest);
       const ended = performance.now();
-      subscription.restsUntilMs = ended + REST_SHARE * (ended - began);
+      subscription.restsUntilMs = ended + Math.min(LONGEST_REST_MS, REST_SHARE * (ended - began));
     }, Math.max(0, subscription.restsUntilMs - performance.now()));
   }
 
