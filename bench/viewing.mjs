@@ -17,7 +17,7 @@ const [build, world = HOUSE, only = ""] = process.argv.slice(2);
 if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|clicks|frames]]");
 process.env.GSV_BUILD_DIR = path.resolve(build);
 const { openBrowser, openPage, waitUntilDrawn } = await import("../tests/browser/browser.mjs");
-const { clickNoted, crowd, noteClicks } = await import("../tests/browser/crowd.mjs");
+const { crowd, noteClicks, timeClicks } = await import("../tests/browser/crowd.mjs");
 const { startServer } = await import("../tests/browser/server.mjs");
 
 const PICTURES = 5;
@@ -74,19 +74,8 @@ const clicks = (robots) =>
   withServer(crowd(folder, robots), (url) =>
     withPage(url, async (page) => {
       await noteClicks(page);
-      const names = await page.evaluate(() => window.gsv.robots);
-      const [list, picture] = [[], []];
-      for (let i = 0; i < CLICKS; i++) {
-        const robot = names[Math.floor((i * names.length) / CLICKS)];
-        const row = page.locator(`[data-robot="${robot}"]`);
-        await row.scrollIntoViewIfNeeded();
-        list.push((await clickNoted(page, () => row.click())).took);
-        const other = names[Math.floor(((i + 0.5) * names.length) / CLICKS)];
-        const place = await page.evaluate((name) => window.gsv.robotScreenPosition(name), other);
-        const isFree = place && (await page.evaluate(({ x, y }) => document.elementFromPoint(x, y)?.tagName === "CANVAS", place));
-        if (isFree) picture.push((await clickNoted(page, () => page.mouse.click(place.x, place.y))).took);
-      }
-      return { robots: names.length, in_the_list: summary(list), in_the_picture: summary(picture) };
+      const { list, picture } = await timeClicks(page, CLICKS);
+      return { robots, in_the_list: summary(list), in_the_picture: summary(picture) };
     }),
   );
 

@@ -61,3 +61,26 @@ export async function clickNoted(page, click) {
   await page.waitForFunction((before) => window.testClicks.length > before, count);
   return page.evaluate(() => window.testClicks.at(-1));
 }
+
+// Clicks on `count` robots in the list and on as many in the picture, spread over all, by turns; how long
+// each took, in ms. Those that something else hides in the picture are left out.
+export async function timeClicks(page, count) {
+  const names = await page.evaluate(() => window.gsv.robots);
+  // A click on who is selected already changes nothing.
+  const nameAt = async (share) => {
+    const selected = await page.evaluate(() => document.querySelector('[data-robot][aria-pressed="true"]')?.dataset.robot);
+    const at = Math.floor(share * names.length);
+    return names[at] === selected ? names[(at + 1) % names.length] : names[at];
+  };
+  const [list, picture] = [[], []];
+  for (let i = 0; i < count; i++) {
+    const row = page.locator(`[data-robot="${await nameAt(i / count)}"]`);
+    await row.scrollIntoViewIfNeeded();
+    list.push((await clickNoted(page, () => row.click())).took);
+    const other = await nameAt((i + 0.5) / count);
+    const place = await page.evaluate((name) => window.gsv.robotScreenPosition(name), other);
+    const isFree = place && (await page.evaluate(({ x, y }) => document.elementFromPoint(x, y)?.tagName === "CANVAS", place));
+    if (isFree) picture.push((await clickNoted(page, () => page.mouse.click(place.x, place.y))).took);
+  }
+  return { list, picture };
+}

@@ -116,16 +116,21 @@ class PicturePainter {
   private next: CompressedImageMessage | null = null;
   private busy = false;
   private generation = 0;
+  // Kept by the processor, not the graphics card: where none is, the page would wait for the 3D picture
+  // that is being drawn.
+  private readonly context: CanvasRenderingContext2D | null;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly onPainted: (time: number) => void,
-  ) {}
+  ) {
+    this.context = canvas.getContext("2d", { willReadFrequently: true });
+  }
 
   clear(): void {
     this.generation += 1;
     this.next = null;
-    this.canvas.getContext("2d")?.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
   }
 
   take(image: CompressedImageMessage): void {
@@ -151,7 +156,7 @@ class PicturePainter {
     if (!bitmap || generation !== this.generation) return;
     this.canvas.width = bitmap.width;
     this.canvas.height = bitmap.height;
-    this.canvas.getContext("2d")?.drawImage(bitmap, 0, 0);
+    this.context?.drawImage(bitmap, 0, 0);
     bitmap.close();
     this.onPainted(seconds(image.header.stamp));
   }

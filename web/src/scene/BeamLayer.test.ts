@@ -87,3 +87,14 @@ test("a robot without beams any more loses its lines", () => {
   layer.place(() => new Matrix4(), () => 0);
   expect(layer.segments).toBe(0);
 });
+
+test("thin lines have the same ends and colours, and so many of them are drawn", () => {
+  const layer = new BeamLayer(10_000, true);
+  layer.setRobot("a", marker(beam, { colors: [YELLOW, YELLOW] }), new Matrix4().makeTranslation(1, 0, 0));
+  layer.place(() => new Matrix4(), () => 0);
+  const { geometry } = layer.lines;
+  const numbers = (name: string) => Array.from(geometry.getAttribute(name).array.slice(0, 6));
+  [2, 0, 0.2, 4, 0, 0.2].forEach((value, i) => expect(numbers("position")[i]).toBeCloseTo(value, 6));
+  expect(numbers("color")).toEqual([1, 1, 0, 1, 1, 0]);
+  expect(geometry.drawRange).toMatchObject({ start: 0, count: 2 });
+});

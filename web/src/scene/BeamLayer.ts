@@ -2,12 +2,9 @@
 // shown over several frames: it moves along with its robot as that is shown.
 import type { Matrix4 } from "three";
 import { Vector3 } from "three";
-import { LineMaterial } from "three/addons/lines/LineMaterial.js";
-import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
-import type { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { MarkerMessage } from "../protocol/messages";
 import { LINE_LIST } from "../protocol/messages";
-import { segmentsGeometry, uploadSegments } from "./segments";
+import { Segments } from "./Segments";
 
 const WIDTH_PX = 1.5;
 const OPACITY = 0.85;
@@ -27,29 +24,25 @@ interface PlacedBeams extends RobotBeams {
 }
 
 export class BeamLayer {
-  readonly lines: LineSegments2;
   private readonly beams = new Map<string, RobotBeams>();
-  private readonly material = new LineMaterial({
-    linewidth: WIDTH_PX,
-    vertexColors: true,
-    transparent: true,
-    opacity: OPACITY,
-    toneMapped: false,
-  });
+  private readonly drawn: Segments;
   private capacity = 0;
-  private positions = new Float32Array(0);
-  private colours = new Float32Array(0);
 
   // Draws at most so many beams.
-  constructor(private readonly most: number) {
-    this.lines = new LineSegments2(segmentsGeometry(this.positions, this.colours), this.material);
-    this.lines.frustumCulled = false;
-    this.lines.raycast = () => {};
+  constructor(
+    private readonly most: number,
+    thin = false,
+  ) {
+    this.drawn = new Segments({ widthPx: WIDTH_PX, thin, opacity: OPACITY });
     this.grow(SMALLEST_CAPACITY);
   }
 
+  get lines(): Segments["lines"] {
+    return this.drawn.lines;
+  }
+
   get segments(): number {
-    return (this.lines.geometry as LineSegmentsGeometry).instanceCount;
+    return this.drawn.count;
   }
 
   // One robot's beams, as lines in the world at the instant when it stood at `worldFromRobot`.
@@ -86,19 +79,19 @@ export class BeamLayer {
       const frame = worldFromRobot(robot);
       return frame ? [{ ...beams, frame, robot }] : [];
     });
-    const drawn = this.chosen(placed, rank);
-    const ends = drawn.reduce((sum, { pointsInRobot }) => sum + pointsInRobot.length / 3, 0);
+    const chosen = this.chosen(placed, rank);
+    const ends = chosen.reduce((sum, { pointsInRobot }) => sum + pointsInRobot.length / 3, 0);
     if (ends / 2 > this.capacity) this.grow(ends / 2);
     const point = new Vector3();
     let at = 0;
-    for (const { frame, pointsInRobot, colours } of drawn) {
-      this.colours.set(colours, at);
+    for (const { frame, pointsInRobot, colours } of chosen) {
+      this.drawn.colours.set(colours, at);
       for (let i = 0; i < pointsInRobot.length; i += 3) {
-        point.fromArray(pointsInRobot, i).applyMatrix4(frame).toArray(this.positions, at);
+        point.fromArray(pointsInRobot, i).applyMatrix4(frame).toArray(this.drawn.positions, at);
         at += 3;
       }
     }
-    uploadSegments(this.lines.geometry as LineSegmentsGeometry, at / 6);
+    this.drawn.upload(at / 6);
   }
 
   private chosen(placed: PlacedBeams[], rank: (robot: string, frame: Matrix4) => number): PlacedBeams[] {
@@ -110,16 +103,11 @@ export class BeamLayer {
   }
 
   dispose(): void {
-    this.lines.geometry.dispose();
-    this.material.dispose();
-    this.lines.removeFromParent();
+    this.drawn.dispose();
   }
 
   private grow(segments: number): void {
     this.capacity = Math.max(SMALLEST_CAPACITY, 2 ** Math.ceil(Math.log2(segments)));
-    this.positions = new Float32Array(6 * this.capacity);
-    this.colours = new Float32Array(6 * this.capacity);
-    this.lines.geometry.dispose();
-    this.lines.geometry = segmentsGeometry(this.positions, this.colours);
+    this.drawn.allot(this.capacity);
   }
 }

@@ -30,6 +30,7 @@ export class BodyLayer {
   private readonly detail = new CrowdDetail();
 
   constructor(readonly scene: SceneDescription) {
+    this.group.add(this.detail.group);
     this.worldFromBody = scene.bodies.map((body) => matrixOf(body.pose));
     this.worldFromLink = scene.bodies.map(() => new Map());
     this.frames = scene.poses.map(({ body, link }) => {
@@ -71,6 +72,7 @@ export class BodyLayer {
     for (const { mesh } of this.moving) {
       if (mesh instanceof InstancedMesh) mesh.instanceMatrix.needsUpdate = true;
     }
+    this.detail.moved();
   }
 
   // Takes the poses of another layer on the same scene.
@@ -90,6 +92,7 @@ export class BodyLayer {
       place(part);
       if (part.mesh instanceof InstancedMesh) part.mesh.instanceMatrix.needsUpdate = true;
     }
+    this.detail.moved();
   }
 
   // -1 when there is no body of that name.

@@ -1,54 +1,86 @@
-import { InstancedMesh, Matrix4, MeshBasicMaterial, PerspectiveCamera, SphereGeometry } from "three";
+import { InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, SphereGeometry, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { CrowdDetail } from "./CrowdDetail";
 
 const RADIUS = 0.1;
+const BETWEEN = 0.3;
 
 function crowd(count: number) {
   const mesh = new InstancedMesh(new SphereGeometry(RADIUS), new MeshBasicMaterial(), count);
-  const places = Array.from({ length: count }, (_, i) => new Matrix4().makeTranslation(0.3 * i, 0, 0));
-  const detail = new CrowdDetail();
   const wheel = new InstancedMesh(new SphereGeometry(RADIUS / 4), new MeshBasicMaterial(), count);
-  detail.add([{ mesh, size: 2 * RADIUS }, { mesh: wheel, size: RADIUS / 2 }], RADIUS, places);
+  const places = Array.from({ length: count }, (_, i) => new Matrix4().makeTranslation(BETWEEN * i, 0, 0));
+  places.forEach((place, i) => mesh.setMatrixAt(i, place));
+  const detail = new CrowdDetail();
+  const meshes = [
+    { mesh, size: 2 * RADIUS },
+    { mesh: wheel, size: RADIUS / 2 },
+  ];
+  detail.add(meshes, RADIUS, places);
   const camera = new PerspectiveCamera(90);
   // A picture 800 pixels high of 90 degrees: 400 pixels a metre at a metre, so the nearest measures
   // 80 pixels across at a metre.
   const look = (distance: number) => {
     camera.position.set(0, 0, distance);
     detail.choose(camera, 800);
-    return mesh.geometry;
+    return { shapes: [mesh.visible, wheel.visible], boxes: detail.group.children as Mesh[] };
   };
-  return { mesh, wheel, look, fine: mesh.geometry };
+  return { mesh, places, detail, look };
 }
 
 describe("CrowdDetail", () => {
   it("draws boxes for a crowd whose nearest is small, and shapes again when it is near", () => {
-    const { look, fine } = crowd(50);
-    expect(look(6)).toBe(fine); // 13 pixels
-    const coarse = look(7); // 11
-    expect(coarse).not.toBe(fine);
-    expect(look(6)).toBe(coarse); // neither small enough to change nor large enough
-    expect(look(4.5)).toBe(fine); // 18
+    const { look } = crowd(50);
+    const isCoarse = (distance: number) => look(distance).boxes.length > 0;
+    expect(isCoarse(6)).toBe(false); // 13 pixels
+    expect(isCoarse(7)).toBe(true); // 11
+    expect(isCoarse(6)).toBe(true); // neither small enough to change nor large enough
+    expect(isCoarse(4.5)).toBe(false); // 18
   });
 
-  it("gives the box the size and place of the shape", () => {
+  it("draws all boxes of a part at once, each of the shape's size and where it stands", () => {
     const { look } = crowd(50);
-    const box = look(100);
-    box.computeBoundingBox();
-    expect(box.boundingBox!.max.z).toBeCloseTo(RADIUS, 6);
-    expect(box.boundingBox!.min.z).toBeCloseTo(-RADIUS, 6);
+    const [boxes] = look(100).boxes;
+    boxes!.geometry.computeBoundingBox();
+    const { min, max } = boxes!.geometry.boundingBox!;
+    [-RADIUS, -RADIUS, -RADIUS].forEach((value, k) => expect(min.getComponent(k)).toBeCloseTo(value, 6));
+    [49 * BETWEEN + RADIUS, RADIUS, RADIUS].forEach((value, k) => expect(max.getComponent(k)).toBeCloseTo(value, 5));
+    expect(boxes!.geometry.index!.count).toBe(50 * 36);
+  });
+
+  it("has boxes move and turn along with the bodies", () => {
+    const { mesh, detail, look } = crowd(50);
+    look(100);
+    mesh.setMatrixAt(49, new Matrix4().makeRotationZ(Math.PI / 2).setPosition(7, 8, 9));
+    detail.moved();
+    const { geometry } = look(100).boxes[0]!;
+    const [from, to] = [49 * 24, 50 * 24];
+    const middle = new Vector3();
+    for (let i = from; i < to; i++) middle.add(new Vector3().fromBufferAttribute(geometry.getAttribute("position"), i));
+    [7, 8, 9].forEach((value, k) => expect(middle.getComponent(k) / 24).toBeCloseTo(value, 5));
+    // The first face looked along x, and looks along y now.
+    const normal = new Vector3().fromBufferAttribute(geometry.getAttribute("normal"), from);
+    [0, 1, 0].forEach((value, k) => expect(normal.getComponent(k)).toBeCloseTo(value, 6));
+  });
+
+  it("draws faces that look outwards", () => {
+    const { geometry } = crowd(50).look(100).boxes[0]!;
+    const at = (name: string, i: number) => new Vector3().fromBufferAttribute(geometry.getAttribute(name), i);
+    for (let i = 0; i < geometry.index!.count; i += 3) {
+      const [a, b, c] = [0, 1, 2].map((k) => geometry.index!.getX(i + k)) as [number, number, number];
+      const across = at("position", b).sub(at("position", a)).cross(at("position", c).sub(at("position", a)));
+      expect(across.normalize().dot(at("normal", a))).toBeCloseTo(1, 4);
+    }
   });
 
   it("leaves small parts out while it draws boxes", () => {
-    const { mesh, wheel, look } = crowd(50);
-    look(100);
-    expect([mesh.visible, wheel.visible]).toEqual([true, false]);
-    look(1);
-    expect([mesh.visible, wheel.visible]).toEqual([true, true]);
+    const { look } = crowd(50);
+    const { shapes, boxes } = look(100);
+    expect([...shapes, boxes.length]).toEqual([false, false, 1]);
+    expect(look(1)).toEqual({ shapes: [true, true], boxes: [] });
   });
 
   it("leaves a few as they are", () => {
-    const { look, fine } = crowd(49);
-    expect(look(1000)).toBe(fine);
+    const { shapes, boxes } = crowd(49).look(1000);
+    expect([...shapes, boxes.length]).toEqual([true, true, 0]);
   });
 });

@@ -1,7 +1,8 @@
 // Of a crowd that is far away each part is drawn as a box, and small parts are not drawn: a thousand
 // robots of a few pixels need no thousands of triangles each, which without a graphics card take seconds.
-import type { BufferGeometry, Matrix4, Mesh, PerspectiveCamera } from "three";
-import { BoxGeometry, Vector3 } from "three";
+import type { InstancedMesh, Material, Matrix4, Mesh, PerspectiveCamera } from "three";
+import { Group, Vector3 } from "three";
+import { BoxCrowd } from "./BoxCrowd";
 
 const SMALLEST_CROWD = 50;
 // Pixels of the page that the nearest of a crowd measures across; between the two it stays as it is.
@@ -10,35 +11,36 @@ const FINE_ABOVE = 16;
 // Of the largest part; at the pixels above such a part is two or three pixels wide.
 const SMALL_SHARE = 0.4;
 
-interface Part {
+export interface CrowdMesh {
   mesh: Mesh;
-  fine: BufferGeometry;
-  coarse: BufferGeometry;
-  isSmall: boolean;
+  size: number; // from corner to corner, m
 }
 
 interface Crowd {
-  parts: Part[];
+  meshes: Mesh[];
+  boxes: { boxes: BoxCrowd; mesh: InstancedMesh }[]; // of the large parts
   radius: number; // of one of them, m
   places: readonly Matrix4[]; // world_from_body, as shown now
   isCoarse: boolean;
+  isStale: boolean; // the boxes stand where the bodies stood
 }
 
 export class CrowdDetail {
+  readonly group = new Group();
   private readonly crowds: Crowd[] = [];
 
-  // Meshes, each so many metres large, that together show bodies of one model, which stand at `places`;
-  // few are left as they are.
-  add(meshes: readonly { mesh: Mesh; size: number }[], radius: number, places: readonly Matrix4[]): void {
+  // Meshes that together show bodies of one model, which stand at `places`; few are left as they are.
+  add(meshes: readonly CrowdMesh[], radius: number, places: readonly Matrix4[]): void {
     if (places.length < SMALLEST_CROWD || !(radius > 0)) return;
     const largest = Math.max(...meshes.map(({ size }) => size));
-    const parts = meshes.map(({ mesh, size }) => ({
-      mesh,
-      fine: mesh.geometry,
-      coarse: boxAround(mesh.geometry),
-      isSmall: size < SMALL_SHARE * largest,
-    }));
-    this.crowds.push({ parts, radius, places, isCoarse: false });
+    const large = meshes.filter(({ size }) => size >= SMALL_SHARE * largest);
+    const boxes = large.map(({ mesh }) => ({ mesh: mesh as InstancedMesh, boxes: boxesFor(mesh, places.length) }));
+    this.crowds.push({ meshes: meshes.map(({ mesh }) => mesh), boxes, radius, places, isCoarse: false, isStale: true });
+  }
+
+  // The bodies stand elsewhere.
+  moved(): void {
+    for (const crowd of this.crowds) crowd.isStale = true;
   }
 
   // For a picture so many pixels high.
@@ -46,29 +48,34 @@ export class CrowdDetail {
     const focal = height / 2 / Math.tan((camera.fov * Math.PI) / 360);
     for (const crowd of this.crowds) {
       const across = (2 * crowd.radius * focal) / nearest(camera, crowd.places);
-      const isCoarse = crowd.isCoarse ? across < FINE_ABOVE : across < COARSE_BELOW;
-      if (isCoarse === crowd.isCoarse) continue;
-      crowd.isCoarse = isCoarse;
-      for (const { mesh, fine, coarse, isSmall } of crowd.parts) {
-        mesh.geometry = isCoarse ? coarse : fine;
-        mesh.visible = !isCoarse || !isSmall;
-      }
+      this.show(crowd, crowd.isCoarse ? across < FINE_ABOVE : across < COARSE_BELOW);
+      if (!crowd.isCoarse || !crowd.isStale) continue;
+      for (const { boxes, mesh } of crowd.boxes) boxes.place(mesh.instanceMatrix.array);
+      crowd.isStale = false;
     }
   }
 
   dispose(): void {
-    for (const { parts } of this.crowds) {
-      for (const { coarse } of parts) coarse.dispose();
+    for (const { boxes } of this.crowds) for (const each of boxes) each.boxes.dispose();
+  }
+
+  private show(crowd: Crowd, isCoarse: boolean): void {
+    if (isCoarse === crowd.isCoarse) return;
+    crowd.isCoarse = isCoarse;
+    for (const mesh of crowd.meshes) mesh.visible = !isCoarse;
+    for (const { boxes } of crowd.boxes) {
+      if (isCoarse) this.group.add(boxes.mesh);
+      else boxes.mesh.removeFromParent();
     }
   }
 }
 
-function boxAround(geometry: BufferGeometry): BufferGeometry {
-  geometry.computeBoundingBox();
-  const bounds = geometry.boundingBox!;
-  const size = bounds.getSize(new Vector3());
-  const middle = bounds.getCenter(new Vector3());
-  return new BoxGeometry(size.x, size.y, size.z).translate(middle.x, middle.y, middle.z);
+function boxesFor(mesh: Mesh, count: number): BoxCrowd {
+  mesh.geometry.computeBoundingBox();
+  const boxes = new BoxCrowd(mesh.geometry.boundingBox!, mesh.material as Material, count);
+  boxes.mesh.castShadow = mesh.castShadow;
+  boxes.mesh.receiveShadow = mesh.receiveShadow;
+  return boxes;
 }
 
 const place = new Vector3();

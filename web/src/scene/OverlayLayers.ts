@@ -39,8 +39,8 @@ export class OverlayLayers {
   readonly frames = new SensorFrames();
   private readonly beams: BeamLayer;
   private readonly points = new PointLayer();
-  private readonly lines = new LineLayer({ widthPx: 2, onTop: true });
-  private readonly trailLines = new LineLayer({ widthPx: 2.5 });
+  private readonly lines: LineLayer;
+  private readonly trailLines: LineLayer;
   private readonly trails = new Trails();
   private readonly devices = new DeviceLayer();
   private readonly player = new SoundPlayer();
@@ -53,8 +53,11 @@ export class OverlayLayers {
   private shown: Shown = FIRST_SHOWN;
   private selection: string | null = null;
 
-  constructor(mostBeams: number) {
-    this.beams = new BeamLayer(mostBeams);
+  // Thin lines are for where no graphics card draws.
+  constructor(mostBeams: number, thin = false) {
+    this.beams = new BeamLayer(mostBeams, thin);
+    this.lines = new LineLayer({ widthPx: 2, onTop: true, thin });
+    this.trailLines = new LineLayer({ widthPx: 2.5, thin });
     this.group.add(this.beams.lines, this.points.points, this.lines.lines, this.trailLines.lines, this.devices.group);
   }
 

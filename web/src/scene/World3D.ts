@@ -33,7 +33,7 @@ import { ShownPoses } from "./ShownPoses";
 // Where a graphics card draws, and where none does: there the beams of a crowd would take longer than all
 // the rest.
 const MOST_BEAMS = 20_000;
-const MOST_BEAMS_IN_SOFTWARE = 1000;
+const MOST_BEAMS_IN_SOFTWARE = 2000;
 
 export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
   onPick(robot: string | null): void;
@@ -80,7 +80,7 @@ export class World3D {
   ) {
     const isFine = options.fixedQuality || !drawsInSoftware();
     this.renderer = makeRenderer(isFine);
-    this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE);
+    this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE, !isFine);
     const canvas = this.renderer.domElement;
     this.quality = new Quality(devicePixelRatio, options.fixedQuality);
     this.library = new ModelLibrary((id) => options.urlOfModel(id), () => options.headersOfModels());

@@ -1,0 +1,92 @@
+// Coloured line segments, all in one draw call, over arrays that are written anew for each picture.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DynamicDrawUsage,
+  InstancedInterleavedBuffer,
+  InterleavedBufferAttribute,
+  LineBasicMaterial,
+  LineSegments,
+} from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+
+export interface SegmentsLook {
+  widthPx: number;
+  // One device pixel wide instead. Wide lines are instances, each of which costs a draw call of its own
+  // where no graphics card draws: some 40 µs.
+  thin: boolean;
+  opacity?: number;
+  depthTest?: boolean;
+}
+
+const NUMBERS_PER_SEGMENT = 6;
+
+export class Segments {
+  readonly lines: LineSegments | LineSegments2;
+  // x y z, r g b of both ends of each segment.
+  positions = new Float32Array(0);
+  colours = new Float32Array(0);
+  count = 0; // segments that are drawn
+
+  constructor({ widthPx, thin, opacity = 1, depthTest = true }: SegmentsLook) {
+    const look = { vertexColors: true, transparent: opacity < 1, opacity, depthTest, toneMapped: false };
+    this.lines = thin
+      ? new LineSegments(new BufferGeometry(), new LineBasicMaterial(look))
+      : new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ ...look, linewidth: widthPx }));
+    this.lines.frustumCulled = false;
+    this.lines.raycast = () => {};
+  }
+
+  // Makes room for so many segments; what stood in the arrays is gone.
+  allot(segments: number): void {
+    this.positions = new Float32Array(NUMBERS_PER_SEGMENT * segments);
+    this.colours = new Float32Array(NUMBERS_PER_SEGMENT * segments);
+    this.lines.geometry.dispose();
+    this.lines.geometry =
+      this.lines instanceof LineSegments2
+        ? wideGeometry(this.positions, this.colours)
+        : thinGeometry(this.positions, this.colours);
+  }
+
+  // Draws the first so many segments as they stand in the arrays now.
+  upload(segments: number): void {
+    this.count = segments;
+    const { geometry } = this.lines;
+    if (geometry instanceof LineSegmentsGeometry) geometry.instanceCount = segments;
+    else geometry.setDrawRange(0, 2 * segments);
+    for (const attribute of Object.values(geometry.attributes)) {
+      if (attribute instanceof InterleavedBufferAttribute) attribute.data.needsUpdate = true;
+      else if (attribute.usage === DynamicDrawUsage) attribute.needsUpdate = true;
+    }
+  }
+
+  dispose(): void {
+    this.lines.geometry.dispose();
+    (this.lines.material as LineBasicMaterial | LineMaterial).dispose();
+    this.lines.removeFromParent();
+  }
+}
+
+function wideGeometry(positions: Float32Array, colours: Float32Array): LineSegmentsGeometry {
+  const geometry = new LineSegmentsGeometry();
+  const attach = (array: Float32Array, start: string, end: string) => {
+    const buffer = new InstancedInterleavedBuffer(array, NUMBERS_PER_SEGMENT, 1);
+    buffer.setUsage(DynamicDrawUsage);
+    geometry.setAttribute(start, new InterleavedBufferAttribute(buffer, 3, 0));
+    geometry.setAttribute(end, new InterleavedBufferAttribute(buffer, 3, 3));
+  };
+  attach(positions, "instanceStart", "instanceEnd");
+  attach(colours, "instanceColorStart", "instanceColorEnd");
+  geometry.instanceCount = 0;
+  return geometry;
+}
+
+function thinGeometry(positions: Float32Array, colours: Float32Array): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(positions, 3).setUsage(DynamicDrawUsage));
+  geometry.setAttribute("color", new BufferAttribute(colours, 3).setUsage(DynamicDrawUsage));
+  geometry.setDrawRange(0, 0);
+  return geometry;
+}
