@@ -7,6 +7,8 @@
 # `make chaos` kills, stops, floods and fills up all that a server lives with for CHAOS_SECONDS (3600).
 # `make fuzz` feeds each fuzz target with random input for FUZZ_SECONDS (60), for which it needs clang, and sends
 # mutated requests to every servant of the real programs for as long (of PRESET; FUZZ_SEED says which).
+# `make asan`, `make tsan` and `make ubsan` run every test under a sanitizer; `make coverage` tells what share of
+# the lines of gsv/ the tests run, for which it needs gcovr.
 #   ARGS="…"      more arguments for `gsv run`, as in: make run ARGS="--headless --duration 5"
 #   PRESET=dev    another preset of CMakePresets.json
 PRESET ?= release
@@ -17,7 +19,7 @@ CHAOS_SECONDS ?= 3600
 CHAOS_SEED ?= 1
 BUILD := build/$(PRESET)
 
-.PHONY: run test install deb soak chaos build configure setup asan tsan ubsan fuzz format clean
+.PHONY: run test install deb soak chaos build configure setup asan tsan ubsan coverage fuzz format clean
 
 run: configure
 	cmake --build $(BUILD) --target programs --parallel $(JOBS)
@@ -58,6 +60,10 @@ setup:
 
 asan tsan ubsan:
 	$(MAKE) test PRESET=$@
+
+coverage:
+	$(MAKE) test PRESET=coverage
+	tools/report_coverage build/coverage
 
 fuzz: configure
 	@command -v clang++ > /dev/null || { echo "make fuzz needs clang: apt-get install clang"; exit 5; }

@@ -24,6 +24,13 @@ if(GSV_SANITIZE)
   add_link_options(-fsanitize=${GSV_SANITIZE})
 endif()
 
+option(GSV_COVERAGE "Count which lines run: the preset coverage, and `make coverage`")
+if(GSV_COVERAGE)
+  # Several threads count at once, and several processes add to one file.
+  add_compile_options(--coverage -fprofile-update=prefer-atomic)
+  add_link_options(--coverage)
+endif()
+
 option(GSV_CCACHE "Compile by ccache, without precompiled headers: for who builds from nothing again and again")
 if(GSV_CCACHE)
   find_program(CCACHE_PROGRAM ccache REQUIRED)

@@ -69,6 +69,9 @@ function(gsv_test NAME)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
+  if(GSV_SANITIZE)
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # all takes two to ten times as long
+  endif()
   add_executable(${NAME} ${ARG_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${ARG_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${NAME} PRIVATE "${GSV_TEST_OPTIONS}")
@@ -130,6 +133,9 @@ file(WRITE ${CMAKE_BINARY_DIR}/gsv_test_environment.cmake
   "set(ENV{GSV_SOURCE_DIR} [==[${CMAKE_SOURCE_DIR}]==])\n"
   "set(ENV{XDG_STATE_HOME} [==[${CMAKE_BINARY_DIR}/state]==])\n"
   "set(ENV{GSV_BUILD_DIR} [==[${CMAKE_BINARY_DIR}]==])\n"
-  "set(ENV{GSV_REAL_DIR} [==[${GSV_REAL_DIR}]==])\n")
+  "set(ENV{GSV_REAL_DIR} [==[${GSV_REAL_DIR}]==])\n"
+  # What other people's libraries do is left out; sanitizers alone read these.
+  "set(ENV{LSAN_OPTIONS} [==[suppressions=${CMAKE_SOURCE_DIR}/cmake/sanitizers/lsan.supp:print_suppressions=0]==])\n"
+  "set(ENV{TSAN_OPTIONS} [==[suppressions=${CMAKE_SOURCE_DIR}/cmake/sanitizers/tsan.supp:print_suppressions=0]==])\n")
 set_property(DIRECTORY ${CMAKE_SOURCE_DIR}
   APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_BINARY_DIR}/gsv_test_environment.cmake)

@@ -105,6 +105,12 @@ sba::Measurement Measured(const std::string& name, double value, std::int64_t no
   return measurement;
 }
 
+// The object adapter keeps what was handed out, for as long as the program runs.
+template <class Servant>
+auto HandedOut(PortableServer::Servant_var<Servant> servant) {
+  return servant->_this();
+}
+
 class CartSonar final : public POA_sba::Sonar {
  public:
   CartSonar(Cart& cart, std::string name, double bearing)
@@ -149,7 +155,7 @@ class CartSensors final : public POA_sba::SensorFactory {
   }
   sba::Sonar_ptr create_sonar(const char* name, const sba::Placement& mounting, CORBA::Double,
                               CORBA::Double) override {
-    return (new CartSonar(cart_, name, mounting.yaw_rad))->_this();
+    return HandedOut<CartSonar>(new CartSonar(cart_, name, mounting.yaw_rad));
   }
   sba::Camera_ptr create_camera(const char*, const sba::Placement&, CORBA::ULong, CORBA::ULong,
                                 CORBA::Double) override {
@@ -217,7 +223,7 @@ class CartHardware final : public POA_sba::Hardware {
   CORBA::Double footprint_radius_m() override { return kRadius; }
   sba::SensorFactory_ptr sensor_factory() override { return sensors_->_this(); }
   sba::ActuatorProxy_ptr base() override { return base_->_this(); }
-  sba::Clock_ptr open_clock() override { return (new CartClock(cart_))->_this(); }
+  sba::Clock_ptr open_clock() override { return HandedOut<CartClock>(new CartClock(cart_)); }
 
  private:
   Cart& cart_;

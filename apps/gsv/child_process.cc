@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t kMaxLine = 64 * 1024;
 
-// In the child: never returns.
-[[noreturn]] void Execute(const std::vector<std::string>& arguments, int output, bool quiet,
-                          pid_t parent) {
+// In the child: never returns. Another thread may have held malloc's locks as the process forked,
+// so nothing here allocates. `arguments` ends with null.
+[[noreturn]] void Execute(char* const* arguments, int output, bool quiet, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);  // the parent ended before that took hold
   const int nothing = open("/dev/null", O_RDWR);
@@ -30,10 +30,7 @@ constexpr std::size_t kMaxLine = 64 * 1024;
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  execv(argv[0], argv.data());
+  execv(arguments[0], arguments);
   _exit(127);
 }
 
@@ -46,9 +43,13 @@ base::Result<std::unique_ptr<ChildProcess>> ChildProcess::Start(std::vector<std:
     return base::Fail(base::ErrorCode::kUnavailable,
                       std::string("cannot be started: ") + std::strerror(errno), arguments.front());
   }
+  std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
   const pid_t parent = getpid();
   const pid_t pid = fork();
-  if (pid == 0) Execute(arguments, ends[1], quiet, parent);
+  if (pid == 0) Execute(argv.data(), ends[1], quiet, parent);
   const int fork_error = errno;
   close(ends[1]);
   if (pid < 0) {

@@ -44,6 +44,7 @@ class TestSession {
 
   std::vector<TestResult> Run(int jobs, Signals& signals) {
     std::vector<std::jthread> threads;
+    threads.reserve(static_cast<std::size_t>(jobs));
     for (int i = 0; i < jobs; ++i) threads.emplace_back([this] { Work(); });
     while (!IsDone() && signals.WaitFor(0) == 0) {
       std::unique_lock lock(mutex_);

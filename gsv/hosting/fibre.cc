@@ -1,5 +1,6 @@
 #include "gsv/hosting/fibre.h"
 
+#include <boost/context/preallocated.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
 
 #include "gsv/base/check.h"
@@ -7,26 +8,59 @@
 namespace gsv::hosting {
 namespace {
 
+using Stacks = boost::context::protected_fixedsize_stack;
+
 // Of address space; only what is touched costs memory. A page that may not be touched lies below.
 constexpr std::size_t kStackBytes = 256u << 10;
 
+// Leaves the stack when the body has returned, or is unwound.
+struct Departure {
+  FollowedStack& stack;
+  ~Departure() { stack.BeforeLeavingForGood(); }
+};
+
 }  // namespace
 
-Fibre::Fibre(std::function<void()> body)
-    : body_(std::move(body)),
-      inside_(std::allocator_arg, boost::context::protected_fixedsize_stack(kStackBytes),
-              [this](boost::context::fiber&& outside) {
-                outside_ = std::move(outside);
-                body_();
-                has_ended_ = true;
-                return std::move(outside_);
-              }) {}
+Fibre::Fibre(std::function<void()> body) : Fibre(std::move(body), Stacks(kStackBytes).allocate()) {}
+
+Fibre::Fibre(std::function<void()> body, boost::context::stack_context stack)
+    : body_(std::move(body)), stack_(static_cast<const char*>(stack.sp) - stack.size, stack.size) {
+  stack_.BeforePreparing();
+  inside_ = boost::context::fiber(std::allocator_arg,
+                                  boost::context::preallocated(stack.sp, stack.size, stack),
+                                  Stacks(kStackBytes), [this](boost::context::fiber&& outside) {
+                                    const Departure departure{stack_};
+                                    stack_.AfterEntering();
+                                    outside_ = std::move(outside);
+                                    body_();
+                                    has_ended_ = true;
+                                    return std::move(outside_);
+                                  });
+  stack_.AfterPreparing();
+}
+
+Fibre::~Fibre() {
+  if (!inside_) return;
+  stack_.BeforeEntering();
+  inside_ = {};
+  stack_.AfterLeaving();
+}
 
 void Fibre::Resume() {
   GSV_CHECK(!has_ended_);
+  stack_.BeforeEntering();
   inside_ = std::move(inside_).resume();
+  stack_.AfterLeaving();
 }
 
-void Fibre::Suspend() { outside_ = std::move(outside_).resume(); }
+void Fibre::Suspend() {
+  // Also where an exception comes instead: the body is unwound.
+  struct Arrival {
+    FollowedStack& stack;
+    ~Arrival() { stack.AfterEntering(); }
+  } const arrival{stack_};
+  stack_.BeforeLeaving();
+  outside_ = std::move(outside_).resume();
+}
 
 }  // namespace gsv::hosting

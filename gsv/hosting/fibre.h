@@ -8,6 +8,9 @@
 #include <functional>
 
 #include <boost/context/fiber.hpp>
+#include <boost/context/stack_context.hpp>
+
+#include "gsv/hosting/followed_stack.h"
 
 namespace gsv::hosting {
 
@@ -15,6 +18,10 @@ class Fibre {
  public:
   // `body` begins with the first Resume(). It lets no exception out.
   explicit Fibre(std::function<void()> body);
+  // A body that has suspended itself is unwound.
+  ~Fibre();
+  Fibre(const Fibre&) = delete;
+  Fibre& operator=(const Fibre&) = delete;
 
   // From outside: runs until the body suspends itself or has returned.
   void Resume();
@@ -24,8 +31,11 @@ class Fibre {
   bool has_ended() const { return has_ended_; }
 
  private:
+  Fibre(std::function<void()> body, boost::context::stack_context stack);
+
   std::function<void()> body_;
   bool has_ended_ = false;
+  FollowedStack stack_;
   boost::context::fiber inside_, outside_;
 };
 

@@ -62,7 +62,7 @@ class Receivers {
       : now_(std::move(now)), rays_(rays), team_(team) {
     for (auto& [name, radio] : radios) {
       const auto antenna = AntennaOf(*now_, name.first, *radio->setup);
-      if (antenna) all_.push_back({*antenna, &radio, nullptr});
+      if (antenna) all_.push_back({*antenna, &name.first, &radio, nullptr});
     }
   }
 
@@ -76,7 +76,7 @@ class Receivers {
     world::Transmission transmission{world::Sealed(std::move(message)), {}};
     const auto from = AntennaOf(*now_, robot, *sending.setup);
     for (Receiver& to : all_) {
-      const std::string& hearer = (*to.radio)->robot;
+      const std::string& hearer = *to.robot;
       if (!from || hearer == robot) continue;
       if (!sending.receiver.empty() && hearer != sending.receiver) continue;
       const auto strength = sensing::HeardAt(
@@ -93,7 +93,8 @@ class Receivers {
  private:
   struct Receiver {
     Antenna antenna;
-    world::RadioStatePtr* radio;          // in the map
+    const std::string* robot;  // in the map, as is the radio
+    world::RadioStatePtr* radio;
     std::shared_ptr<RadioState> changed;  // the same, once it has heard something
   };
 

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 namespace gsv::testing {
 namespace {
@@ -23,18 +25,23 @@ class Program {
   Program(std::vector<std::string> arguments, bool with_errors) {
     int ends[2];
     if (pipe(ends) != 0) return;
+    std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    std::vector<char*> environment;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+      if (!std::string_view(*entry).starts_with("GSV_BROKER=")) environment.push_back(*entry);
+    }
+    environment.push_back(nullptr);
     process_ = fork();
     if (process_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGTERM);
-      unsetenv("GSV_BROKER");
       dup2(ends[1], STDOUT_FILENO);
       if (with_errors) dup2(ends[1], STDERR_FILENO);
       close(ends[0]);
       close(ends[1]);
-      std::vector<char*> argv;
-      for (std::string& argument : arguments) argv.push_back(argument.data());
-      argv.push_back(nullptr);
-      execvp(argv[0], argv.data());
+      execvpe(argv[0], argv.data(), environment.data());
       _exit(127);
     }
     close(ends[1]);

@@ -67,7 +67,7 @@ class Services : public ::testing::Test {
   }
   static sba::SimulationPhase Await(sba::Simulation_ptr simulation, sba::SimulationPhase wanted) {
     const auto give_up = std::chrono::steady_clock::now() + kPatience;
-    sba::SimulationPhase phase = simulation->state()->phase;
+    sba::SimulationPhase phase = sba::SimulationState_var(simulation->state())->phase;
     while (phase != wanted && std::chrono::steady_clock::now() < give_up)
       phase = simulation->await_change(phase);
     return phase;

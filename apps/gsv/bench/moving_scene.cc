@@ -144,7 +144,8 @@ std::vector<rendering::CameraView> MovingScene::RobotViews(
     const int body = snapshot.layout->Find(robots[static_cast<std::size_t>(i % n)]);
     const geometry::Pose& world_from_robot =
         snapshot.state.bodies[static_cast<std::size_t>(body)].world_from_model;
-    const double yaw = 0.5 * std::sin(0.7 * t + i) + 2.1 * (i / n);
+    const int earlier = i / n;  // cameras on the same robot
+    const double yaw = 0.5 * std::sin(0.7 * t + i) + 2.1 * earlier;
     const geometry::Pose robot_from_camera{{0.13 * std::cos(yaw), 0.13 * std::sin(yaw), kEyeHeight},
                                            geometry::FromRollPitchYaw({0, 0.1, yaw})};
     views.push_back({world_from_robot * robot_from_camera, camera});

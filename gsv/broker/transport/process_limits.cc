@@ -7,6 +7,8 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include "gsv/base/sanitizer.h"
+
 namespace gsv::broker {
 
 namespace {
@@ -25,6 +27,7 @@ void AskForDescriptors(std::size_t wanted) {
 base::Status ApplyProcessLimits(const ProcessLimits& limits) {
   mallopt(M_ARENA_MAX, limits.malloc_arenas);
   AskForDescriptors(limits.descriptors);
+  if (base::kTakesAllAddresses) return {};
   rlimit address_space{};
   getrlimit(RLIMIT_AS, &address_space);
   // A limit that is lower already stays.

@@ -1,5 +1,6 @@
 #include "gsv/gateway/recordings/recordings_api.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -82,11 +83,12 @@ TEST_F(RecordingsApiTest, ListsWhatTheFolderHolds) {
 TEST_F(RecordingsApiTest, AFileThatIsDamagedSaysSo) {
   // It ends as a recording does, and is none.
   std::ofstream(folder_ / "bad.mcap") << "XXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXXX\x89MCAP0\r\n";
-  for (const json& line : json::parse(Get("/api/recordings").body)["recordings"]) {
-    if (line["name"] != "bad.mcap") continue;
-    EXPECT_EQ(line["state"], "unreadable");
-    EXPECT_NE(line["problem"], "");
-  }
+  const json listed = json::parse(Get("/api/recordings").body)["recordings"];
+  const auto bad = std::find_if(listed.begin(), listed.end(),
+                                [](const json& line) { return line["name"] == "bad.mcap"; });
+  ASSERT_NE(bad, listed.end());
+  EXPECT_EQ((*bad)["state"], "unreadable");
+  EXPECT_NE((*bad)["problem"], "");
   EXPECT_EQ(Post("/api/recordings/bad.mcap/replay").status, 400);
 }
 

@@ -1,0 +1,21 @@
+// Which sanitizer the program was compiled with, for the few who must know.
+#pragma once
+
+namespace gsv::base {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool kHasAddressSanitizer = true;
+#else
+inline constexpr bool kHasAddressSanitizer = false;
+#endif
+
+#if defined(__SANITIZE_THREAD__)
+inline constexpr bool kHasThreadSanitizer = true;
+#else
+inline constexpr bool kHasThreadSanitizer = false;
+#endif
+
+// They reserve terabytes of addresses, and use little of them: a bound on addresses cannot hold.
+inline constexpr bool kTakesAllAddresses = kHasAddressSanitizer || kHasThreadSanitizer;
+
+}  // namespace gsv::base
