@@ -35,7 +35,7 @@ before(async () => {
   recorded = await readPoses(file);
   server = await startReplay([file, "--paused"]);
   browser = await openBrowser({ width: 1024, height: 680 });
-  ({ page, faults } = await openPage(browser, server.url));
+  ({ page, faults } = await openPage(browser, `${server.url}?quality=high`));
   await waitUntilDrawn(page);
   await slider().waitFor();
 });
