@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/base/user_folder.h"
+#include "gsv/base/whole_file.h"
 
 namespace gsv::app {
 namespace {
@@ -53,14 +54,11 @@ base::Result<std::unique_ptr<InstanceRecord>> InstanceRecord::Write(const std::s
   const auto folder = base::UserFolder();
   if (!folder) return base::Fail(folder.error());
   const fs::path file = *folder / (std::to_string(getpid()) + ".json");
-  const fs::path draft = *folder / (std::to_string(getpid()) + ".draft");
   const nlohmann::json json = {
       {"pid", getpid()}, {"started", ProcessStart(getpid()).value_or(0)}, {"broker", broker}};
-  // Renamed into place, so that nobody reads half of it.
-  std::ofstream(draft) << json.dump() << '\n';
-  std::error_code error;
-  fs::rename(draft, file, error);
-  if (error) return base::Fail(base::ErrorCode::kUnavailable, error.message(), file);
+  if (auto ok = base::WriteWhole(file, json.dump() + "\n", base::Outlives::kProcess); !ok) {
+    return base::Fail(ok.error());
+  }
   return std::unique_ptr<InstanceRecord>(new InstanceRecord(file));
 }
 

@@ -1,15 +1,12 @@
 #include "gsv/campaign/spool.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
+
+#include "gsv/base/whole_file.h"
 
 namespace gsv::campaign {
 namespace {
@@ -20,25 +17,6 @@ std::string TextOf(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
-}
-
-// All of it or nothing, whoever ends when.
-base::Status PutInPlace(const fs::path& file, const std::string& text) {
-  const fs::path draft = fmt::format("{}.{}.draft", file.string(), getpid());
-  const int descriptor = open(draft.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
-  bool ok = descriptor >= 0 &&
-            write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-            fsync(descriptor) == 0;
-  int error = errno;
-  if (descriptor >= 0) close(descriptor);
-  if (ok && rename(draft.c_str(), file.c_str()) != 0) {
-    ok = false;
-    error = errno;
-  }
-  if (ok) return {};
-  unlink(draft.c_str());
-  return base::Fail(base::ErrorCode::kUnavailable,
-                    std::string("cannot be written: ") + std::strerror(error), file);
 }
 
 base::Result<std::vector<fs::path>> FilesIn(const fs::path& folder, std::string_view ending) {
@@ -109,8 +87,11 @@ base::Result<Spool> Spool::Make(const fs::path& folder, const Campaign& campaign
   // Shards that start together write the same.
   const fs::path whole = fs::absolute(folder, error);
   if (!fs::exists(whole / "plan.json", error)) {
-    if (auto ok = PutInPlace(whole / "plan.json", ToJson(campaign)); !ok)
+    if (auto ok =
+            base::WriteWhole(whole / "plan.json", ToJson(campaign), base::Outlives::kPowerCut);
+        !ok) {
       return base::Fail(ok.error());
+    }
   }
   auto spool = Open(whole);
   if (spool && spool->campaign().Identity() != campaign.Identity()) {
@@ -160,7 +141,7 @@ base::Status Spool::Put(const Batch& batch) const {
                                     {"timeout_s", batch.timeout},
                                     {"failures", batch.failures},
                                     {"runs", batch.runs}};
-  return PutInPlace(FileOf(batch), json.dump() + "\n");
+  return base::WriteWhole(FileOf(batch), json.dump() + "\n", base::Outlives::kPowerCut);
 }
 
 void Spool::Remove(const Batch& batch) const {

@@ -75,6 +75,16 @@ class Lost : public ::testing::Test {
     }
     FAIL() << "that was never noted";
   }
+  // Until some have reached the disk: of a recording that has just begun there may be none.
+  static void AwaitMessagesIn(const std::string& recording) {
+    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    while (std::chrono::steady_clock::now() < give_up) {
+      const Outcome info = RunProgram("gsv", {"rec", "info", "--json", recording});
+      const json told = json::parse(info.out, nullptr, false);
+      if (told.is_object() && told["messages"] > 0) return;
+    }
+    FAIL() << "nothing was recorded";
+  }
   static const json* Find(const json& note, const std::string& name) {
     for (const json& each : note["simulations"]) {
       if (each["name"] == name) return &each;
@@ -102,6 +112,7 @@ TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismiss
     return arena != nullptr && Find(note, "maze") != nullptr && (*arena)["time_s"] > 2 &&
            (*arena)["recording"] == fs::absolute(file).string();
   });
+  AwaitMessagesIn(file);
   Kill();
 
   // Before anybody is there again.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gsv/base/log.h"
+#include "gsv/base/whole_file.h"
 #include "gsv/recording/mcap_reader.h"
 
 namespace gsv::app {
@@ -62,6 +63,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
       lost.insert(lost.end(), list->begin(), list->end());
     }
     done.push_back(each.file);
+    done.push_back(base::DraftOf(each.file, each.note.pid));
   }
   Keep(std::move(lost));
   Write();

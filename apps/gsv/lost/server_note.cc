@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/running_instances.h"
+#include "gsv/base/whole_file.h"
 
 namespace gsv::app {
 namespace {
@@ -191,19 +192,8 @@ base::Status WriteNote(const fs::path& file, const ServerNote& note) {
                      {"recordings", note.recordings},
                      {"simulations", ToJson(note.simulations)},
                      {"lost", ToJson(note.lost)}};
-  fs::path draft = file;
-  draft.replace_extension(".draft");
-  std::error_code error;
-  std::ofstream stream(draft, std::ios::binary);
-  stream << told.dump(-1, ' ', false, json::error_handler_t::replace) << '\n';
-  stream.close();
-  if (!stream) {
-    fs::remove(draft, error);
-    return base::Fail(base::ErrorCode::kUnavailable, "cannot be written", draft);
-  }
-  fs::rename(draft, file, error);
-  if (error) return base::Fail(base::ErrorCode::kUnavailable, error.message(), file);
-  return {};
+  return base::WriteWhole(file, told.dump(-1, ' ', false, json::error_handler_t::replace) + "\n",
+                          base::Outlives::kProcess);
 }
 
 NotesFound ReadNotes(const fs::path& folder) {

@@ -173,6 +173,9 @@ Error OfSystem(const std::string& where) {
     return {ErrorCode::kUnavailable, "what answers at this address is not a broker", where};
   } catch (const CORBA::IMP_LIMIT&) {
     return {kWrong, "the request goes beyond the broker's limits", where};
+  } catch (const CORBA::NO_MEMORY&) {
+    return {ErrorCode::kUnavailable,
+            "the broker has no memory left for more; withdraw offers that nobody needs", where};
   } catch (const CORBA::SystemException& e) {
     const char* minor = e.NP_minorString();
     return {

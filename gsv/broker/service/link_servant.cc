@@ -3,6 +3,7 @@
 #include "gsv/broker/service/interface_check.h"
 #include "gsv/broker/service/raise.h"
 #include "gsv/broker/trader/service_reference.h"
+#include "gsv/broker/transport/memory_reserve.h"
 
 namespace gsv::broker {
 namespace {
@@ -48,6 +49,7 @@ CosTrading::FollowOption LinkServant::max_link_follow_policy() {
 void LinkServant::add_link(const char* name, CosTrading::Lookup_ptr target,
                            CosTrading::FollowOption def_pass_on_follow_rule,
                            CosTrading::FollowOption limiting_follow_rule) {
+  RequireMemoryReserve();
   ValueOrRaise(objects_.trader.AddLink({.name = name,
                                         .target = CheckLookup(objects_.orb, target),
                                         .def_pass_on = FromCorba(def_pass_on_follow_rule),

@@ -7,6 +7,7 @@
 #include "gsv/broker/encoding/record_encoding.h"
 #include "gsv/broker/service/link_servant.h"
 #include "gsv/broker/service/raise.h"
+#include "gsv/broker/transport/memory_reserve.h"
 
 namespace gsv::broker {
 namespace {
@@ -25,6 +26,7 @@ char* ProxyServant::export_proxy(CosTrading::Lookup_ptr target, const char* type
                                  const CosTrading::PropertySeq& properties,
                                  CORBA::Boolean if_match_all, const char* recipe,
                                  const CosTrading::PolicySeq& policies_to_pass_on) {
+  RequireMemoryReserve();
   ValueOrRaise(objects_.trader.TypeForExport(type));
   const std::string ior = CheckLookup(objects_.orb, target);
   CheckNames(policies_to_pass_on);

@@ -6,6 +6,7 @@
 #include "gsv/broker/service/link_servant.h"
 #include "gsv/broker/service/raise.h"
 #include "gsv/broker/trader/service_reference.h"
+#include "gsv/broker/transport/memory_reserve.h"
 
 namespace gsv::broker {
 namespace {
@@ -30,6 +31,7 @@ void CheckService(CORBA::Object_ptr reference, const std::string& ior, const Ser
 
 char* RegisterServant::_cxx_export(CORBA::Object_ptr reference, const char* type,
                                    const CosTrading::PropertySeq& properties) {
+  RequireMemoryReserve();
   if (CORBA::is_nil(reference)) throw CosTrading::Register::InvalidObjectRef(reference);
   const ServiceType service_type = ValueOrRaise(objects_.trader.TypeForExport(type));
   const CORBA::String_var ior = objects_.orb->object_to_string(reference);
@@ -52,6 +54,7 @@ CosTrading::Register::OfferInfo* RegisterServant::describe(const char* id) {
 
 void RegisterServant::modify(const char* id, const CosTrading::PropertyNameSeq& del_list,
                              const CosTrading::PropertySeq& modify_list) {
+  RequireMemoryReserve();
   Modification modification;
   for (CORBA::ULong i = 0; i < del_list.length(); ++i) {
     modification.remove.emplace_back(del_list[i]);

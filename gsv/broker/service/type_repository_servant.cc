@@ -2,6 +2,7 @@
 
 #include "gsv/broker/encoding/corba_values.h"
 #include "gsv/broker/service/raise.h"
+#include "gsv/broker/transport/memory_reserve.h"
 
 namespace gsv::broker {
 namespace {
@@ -24,6 +25,7 @@ Repository::IncarnationNumber TypeRepositoryServant::incarnation() {
 Repository::IncarnationNumber TypeRepositoryServant::add_type(
     const char* name, const char* if_name, const Repository::PropStructSeq& props,
     const Repository::ServiceTypeNameSeq& super_types) {
+  RequireMemoryReserve();
   ServiceType type{.name = name, .interface_name = if_name};
   for (CORBA::ULong i = 0; i < props.length(); ++i) {
     type.properties.push_back(ToDefinition(props[i]));

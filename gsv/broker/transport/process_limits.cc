@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include "gsv/base/sanitizer.h"
+#include "gsv/broker/transport/memory_reserve.h"
 
 namespace gsv::broker {
 
@@ -33,7 +34,10 @@ base::Status ApplyProcessLimits(const ProcessLimits& limits) {
   // A limit that is lower already stays.
   if (address_space.rlim_cur <= limits.address_space_bytes) return {};
   address_space.rlim_cur = limits.address_space_bytes;
-  if (setrlimit(RLIMIT_AS, &address_space) == 0) return {};
+  if (setrlimit(RLIMIT_AS, &address_space) == 0) {
+    HoldMemoryReserve(limits.address_space_bytes / 16);
+    return {};
+  }
   return base::Fail(
       base::ErrorCode::kUnavailable,
       std::string("the broker's address space cannot be limited: ") + std::strerror(errno));

@@ -8,7 +8,8 @@
 namespace gsv::broker {
 
 struct ProcessLimits {
-  // Whoever wants more gets bad_alloc, not the machine.
+  // Whoever wants more gets bad_alloc, not the machine; a sixteenth is held back for whoever must
+  // not (memory_reserve.h).
   std::size_t address_space_bytes = std::size_t{2} << 30;
   int malloc_arenas = 2;
   std::size_t descriptors = 8192;  // as far as the system lets the process have them

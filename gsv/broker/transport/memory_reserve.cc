@@ -1,0 +1,61 @@
+#include "gsv/broker/transport/memory_reserve.h"
+
+#include <mutex>
+#include <new>
+
+#include <malloc.h>
+#include <omniORB4/CORBA.h>
+#include <sys/mman.h>
+
+namespace gsv::broker {
+namespace {
+
+// A range of addresses, which threads' stacks can have as well as objects.
+class Reserve {
+ public:
+  explicit Reserve(std::size_t bytes) : bytes_(bytes) { (void)PutBy(); }
+
+  // Whether it is there, now at the latest, or as much is free among what is in use.
+  bool PutBy() {
+    const std::lock_guard lock(mutex_);
+    if (range_ != MAP_FAILED) return true;
+    range_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    return range_ != MAP_FAILED || mallinfo2().fordblks >= bytes_;
+  }
+
+  // Whether it was there.
+  bool Spend() {
+    const std::lock_guard lock(mutex_);
+    if (range_ == MAP_FAILED) return false;
+    munmap(range_, bytes_);
+    range_ = MAP_FAILED;
+    return true;
+  }
+
+ private:
+  const std::size_t bytes_;
+  std::mutex mutex_;
+  void* range_ = MAP_FAILED;
+};
+
+// Leaked: threads of the ORB may outlive main().
+Reserve* g_reserve = nullptr;
+
+}  // namespace
+
+void HoldMemoryReserve(std::size_t bytes) {
+  if (g_reserve != nullptr) return;
+  g_reserve = new Reserve(bytes);
+  std::set_new_handler([] {
+    if (!g_reserve->Spend()) throw std::bad_alloc();
+  });
+}
+
+void RequireMemoryReserve() {
+  if (g_reserve != nullptr && !g_reserve->PutBy()) {
+    throw CORBA::NO_MEMORY(0, CORBA::COMPLETED_NO);
+  }
+}
+
+}  // namespace gsv::broker
