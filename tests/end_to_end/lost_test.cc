@@ -114,6 +114,10 @@ TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismiss
   });
   AwaitMessagesIn(file);
   Kill();
+  // As if it had been writing its note just then.
+  ASSERT_EQ(std::distance(fs::directory_iterator(notes()), {}), 1);
+  const fs::path note = fs::directory_iterator(notes())->path();
+  std::ofstream(note.string() + "." + pid + ".draft") << "{";
 
   // Before anybody is there again.
   const Outcome ps = RunProgram("gsv", {"ps"});

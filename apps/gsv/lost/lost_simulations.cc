@@ -82,8 +82,10 @@ void LostSimulations::Keep(std::vector<LostSimulation> lost) {
 
 void LostSimulations::Examine(const std::stop_token& stop) {
   for (auto& [number, simulation] : List()) {
-    if (stop.stop_requested()) return;
-    if (!simulation.recording.empty()) simulation.whole_until_s = WholeUntil(simulation.recording);
+    // A server that ends at once tells of all of them still, without having looked.
+    if (!simulation.recording.empty() && !stop.stop_requested()) {
+      simulation.whole_until_s = WholeUntil(simulation.recording);
+    }
     spdlog::warn("{}", Sentence(simulation));
     const std::lock_guard lock(mutex_);
     const auto kept = lost_.find(number);
