@@ -15,7 +15,7 @@ namespace {
 
 // The viewer's address of an instance that is named by it, or by its offer.
 base::Result<std::string> ViewerOf(const std::string& instance, const std::string& broker) {
-  if (instance.starts_with("http://")) return instance;
+  if (instance.starts_with("http://") || instance.starts_with("https://")) return instance;
   const auto found = FindOneInstance({broker, instance, {}});
   if (!found) return base::Fail(found.error());
   if (!found->viewer_url.empty()) return found->viewer_url;
@@ -24,12 +24,11 @@ base::Result<std::string> ViewerOf(const std::string& instance, const std::strin
                     found->Describe());
 }
 
-int View(const std::string& url, const std::string& token, const ViewerOptions& web,
-         Signals& signals) {
+int View(const gateway::Relay::Instance& there, const ViewerOptions& web, Signals& signals) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
   auto relay = StartViewer<gateway::Relay>(
-      web, options, [&](const auto& there) { return gateway::Relay::Start(there, url, token); });
+      web, options, [&](const auto& here) { return gateway::Relay::Start(here, there); });
   if (!relay) return Complain(relay.error());
   std::printf("viewer: %s\n", (*relay)->url().c_str());
   std::fflush(stdout);
@@ -41,16 +40,17 @@ int View(const std::string& url, const std::string& token, const ViewerOptions& 
 
 void AddViewCommand(const CommandLine& line) {
   struct Arguments {
-    std::string instance, broker, token;
+    std::string instance, broker, token, authority;
     ViewerOptions web;
   };
   CLI::App* command = line.app.add_subcommand(
       "view",
       "Watch the simulations of another instance: its only viewer, however many watch here");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("instance", arguments->instance,
-                      "the other instance: its viewer, http://HOST:PORT/, or its offer's name, pid "
-                      "or HOST:PID; without it: the newest of yours");
+  command->add_option(
+      "instance", arguments->instance,
+      "the other instance: its viewer, http(s)://HOST:PORT/, or its offer's name, pid "
+      "or HOST:PID; without it: the newest of yours");
   command
       ->add_option("--broker", arguments->broker,
                    "where it is offered; without it: those of your running instances")
@@ -60,6 +60,9 @@ void AddViewCommand(const CommandLine& line) {
           "--token", arguments->token,
           "the other instance's control or watch token, shown there for all who watch here")
       ->envname("GSV_TOKEN");
+  command->add_option("--authority", arguments->authority,
+                      "a PEM file with the certificate of who signed that of the other instance, "
+                      "where that one speaks HTTPS; without it: whom this system trusts");
   AddViewerOptions(*command, arguments->web);
   command->callback([arguments, line] {
     base::HideInLog(arguments->token);
@@ -68,7 +71,8 @@ void AddViewCommand(const CommandLine& line) {
       line.exit_code = Complain(url.error());
       return;
     }
-    line.exit_code = View(*url, arguments->token, arguments->web, line.signals);
+    line.exit_code =
+        View({*url, arguments->token, arguments->authority}, arguments->web, line.signals);
   });
 }
 

@@ -132,11 +132,10 @@ class LocalRelay final : public Relay, private Handler {
 }  // namespace
 
 base::Result<std::unique_ptr<Relay>> Relay::Start(const GatewayOptions& options,
-                                                  std::string_view upstream_url,
-                                                  std::string token) {
-  base::Result<upstream::Address> address = upstream::ParseAddress(upstream_url);
+                                                  const Instance& there) {
+  base::Result<upstream::Address> address = upstream::ParseAddress(there.url, there.authority);
   if (!address) return base::Fail(address.error());
-  address->token = std::move(token);
+  address->token = there.token;
   auto relay = std::make_unique<LocalRelay>(options, std::move(*address));
   if (base::Status opened = relay->Open(options); !opened) return base::Fail(opened.error());
   return relay;

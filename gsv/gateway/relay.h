@@ -7,7 +7,6 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "gsv/gateway/gateway.h"
 
@@ -15,12 +14,16 @@ namespace gsv::gateway {
 
 class Relay {
  public:
-  // `upstream_url` is what the other instance printed: "http://192.168.1.7:8080/". Asks there once;
-  // fails when that is not answered by a gsv, or when the port cannot be had. An instance that goes
-  // away later is waited for. `token` is shown there on behalf of all who come here.
+  struct Instance {
+    std::string url;      // what it printed: "http://192.168.1.7:8080/"
+    std::string token{};  // shown there on behalf of all who come here; empty: none
+    std::string
+        authority{};  // whom to trust where it speaks HTTPS, a PEM file; empty: the system's
+  };
+  // Asks there once; fails when that is not answered by a gsv, or when the port cannot be had. An
+  // instance that goes away later is waited for.
   static base::Result<std::unique_ptr<Relay>> Start(const GatewayOptions& options,
-                                                    std::string_view upstream_url,
-                                                    std::string token = {});
+                                                    const Instance& there);
   virtual ~Relay() = default;
 
   virtual std::uint16_t port() const = 0;

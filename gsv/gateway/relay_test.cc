@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/temporary_folder.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 #include "gsv/gateway/testing/simulation_list.h"
 #include "gsv/gateway/testing/web_client.h"
 #include "gsv/gateway/upstream/address.h"
 #include "gsv/gateway/upstream/protocol.h"
 #include "gsv/messages/gsv_msgs.h"
+#include "gsv/tls/certificates.h"
 
 namespace gsv::gateway {
 namespace {
@@ -29,7 +31,7 @@ TEST(UpstreamAddress, IsWhatAViewersUrlSays) {
   EXPECT_EQ(upstream::ParseAddress("http://robot.lan")->Authority(), "robot.lan:80");
   EXPECT_EQ(upstream::ParseAddress("http://[::1]:99")->Authority(), "[::1]:99");
   EXPECT_EQ(upstream::ParseAddress("http://[::1]:99")->host, "::1");
-  for (const char* bad : {"", "127.0.0.1:8080", "https://a:1/", "http://", "http://a:0/",
+  for (const char* bad : {"", "127.0.0.1:8080", "ftp://a:1/", "https://", "http://", "http://a:0/",
                           "http://a:x", "http://a:65536", "http://a/b", "http://[::1",
                           "http://::1:80", "http://a b:80", "http://[]:80"}) {
     EXPECT_FALSE(upstream::ParseAddress(bad)) << bad;
@@ -54,7 +56,7 @@ class RelayTest : public ::testing::Test {
   void SetUp() override {
     directory_->Add(simulation_);
     StartGateway(0);
-    auto relay = Relay::Start({}, gateway_->url());
+    auto relay = Relay::Start({}, {gateway_->url(), "", authority_});
     ASSERT_TRUE(relay) << relay.error().Sentence();
     relay_ = std::move(*relay);
   }
@@ -62,6 +64,7 @@ class RelayTest : public ::testing::Test {
   void StartGateway(std::uint16_t port) {
     GatewayOptions options;
     options.port = port;
+    options.tls = tls_;
     auto gateway = Gateway::Start(options, directory_);
     ASSERT_TRUE(gateway) << gateway.error().Sentence();
     gateway_ = std::move(*gateway);
@@ -73,6 +76,24 @@ class RelayTest : public ::testing::Test {
   std::shared_ptr<testing::SimulationList> directory_ = std::make_shared<testing::SimulationList>();
   std::unique_ptr<Gateway> gateway_;
   std::unique_ptr<Relay> relay_;
+  // Empty: HTTP.
+  TlsFiles tls_;
+  std::string authority_;
+};
+
+// Of an instance that speaks HTTPS.
+class SecureRelayTest : public RelayTest {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(tls::MakeAuthority(folder(), {}));
+    ASSERT_TRUE(tls::MakeCertificate(folder(), {"lab", {"127.0.0.1"}, {}}));
+    tls_ = {folder() + "/lab.pem", folder() + "/lab-key.pem"};
+    authority_ = folder() + "/ca.pem";
+    RelayTest::SetUp();
+  }
+  std::string folder() const { return folder_.path().string(); }
+
+  const base::TemporaryFolder folder_ = *base::TemporaryFolder::Make("gsv-relay");
 };
 
 TEST_F(RelayTest, PassesRequestsAndAnswersOn) {
@@ -197,19 +218,73 @@ TEST_F(RelayTest, ViewersOfASimulationThatIsGoneAreTold) {
 }
 
 TEST_F(RelayTest, ARelayCanBeRelayed) {
-  auto second = Relay::Start({}, relay_->url());
+  auto second = Relay::Start({}, {relay_->url()});
   ASSERT_TRUE(second);
   Viewer viewer((*second)->port());
   viewer.Subscribe(1, "/robot_0/front_sonar");
   viewer.ReceiveData(1);
 }
 
+TEST_F(SecureRelayTest, PassesRequestsAndTheStreamOn) {
+  EXPECT_TRUE(gateway_->url().starts_with("https://"));
+  const HttpReply scene = Fetch(port(), "GET", "/api/simulations/arena/scene");
+  EXPECT_EQ(scene.status, 200);
+  const std::string id = json::parse(scene.body)["bodies"][0]["model"];
+  EXPECT_EQ(Fetch(port(), "GET", "/api/models/" + id + ".glb").body.substr(0, 4), "glTF");
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/poses");
+  EXPECT_NEAR(Decoded<Poses>(viewer.ReceiveData(1)).poses[7 * 3], 1, 1e-12);
+  simulation_->Advance(std::chrono::seconds(5));
+  EXPECT_NEAR(Decoded<Poses>(viewer.ReceiveData(1)).poses[7 * 3], std::cos(1), 1e-12);
+  EXPECT_TRUE(Viewer(port()).CallService("start").first);
+  EXPECT_EQ(simulation_->status().phase, simulation::Phase::kRunning);
+}
+
+TEST_F(SecureRelayTest, WaitsForAnInstanceThatIsRestarted) {
+  Viewer viewer(port());
+  viewer.Subscribe(1, "/gsv/status");
+  viewer.ReceiveData(1);
+  const std::uint16_t same_port = gateway_->port();
+  gateway_.reset();
+  EXPECT_NE(viewer.ReceiveText("status")["message"].get<std::string>().find("is tried again"),
+            std::string::npos);
+  StartGateway(same_port);
+  viewer.ReceiveText("advertise");
+}
+
+TEST_F(SecureRelayTest, WhoIsNotTrustedIsASentence) {
+  ASSERT_TRUE(tls::MakeAuthority(folder_.path() / "other", {}));
+  const auto refusal = [&](const std::string& url, const std::string& authority) {
+    const auto relay = Relay::Start({}, {url, "", authority});
+    return relay ? std::string() : relay.error().Sentence();
+  };
+  const std::string port = std::to_string(gateway_->port());
+  const std::string url = "https://127.0.0.1:" + port + "/";
+  EXPECT_EQ(refusal(url, authority_), "");
+  for (const std::string& other : {std::string(), folder() + "/other/ca.pem"}) {
+    EXPECT_NE(refusal(url, other).find("its certificate is of nobody who is trusted here"),
+              std::string::npos)
+        << refusal(url, other);
+  }
+  EXPECT_NE(refusal("https://localhost:" + port, authority_).find("or for another name"),
+            std::string::npos);
+  EXPECT_NE(refusal(url, folder() + "/none.pem").find("none.pem"), std::string::npos);
+  EXPECT_NE(refusal("http://127.0.0.1:" + port, "").find("HTTPS only"), std::string::npos);
+}
+
+TEST_F(RelayTest, OneThatSpeaksNoTlsIsASentence) {
+  const auto relay = Relay::Start({}, {"https" + gateway_->url().substr(4)});
+  ASSERT_FALSE(relay);
+  EXPECT_NE(relay.error().Sentence().find("it does not speak TLS"), std::string::npos)
+      << relay.error().Sentence();
+}
+
 TEST(Relay, NothingThereIsAnError) {
-  const auto silent = Relay::Start({}, "http://127.0.0.1:1/");
+  const auto silent = Relay::Start({}, {"http://127.0.0.1:1/"});
   ASSERT_FALSE(silent);
   EXPECT_EQ(silent.error().code, base::ErrorCode::kUnavailable);
   EXPECT_NE(silent.error().Sentence().find("http://127.0.0.1:1/"), std::string::npos);
-  EXPECT_EQ(Relay::Start({}, "127.0.0.1").error().code, base::ErrorCode::kInvalidArgument);
+  EXPECT_EQ(Relay::Start({}, {"127.0.0.1"}).error().code, base::ErrorCode::kInvalidArgument);
 }
 
 }  // namespace

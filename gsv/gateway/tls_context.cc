@@ -29,4 +29,21 @@ base::Result<std::shared_ptr<ssl::context>> MakeTlsContext(const TlsFiles& files
   return context;
 }
 
+base::Result<std::shared_ptr<ssl::context>> MakeTlsClientContext(const std::string& authority) {
+  auto context = std::make_shared<ssl::context>(ssl::context::tls_client);
+  boost::system::error_code error;
+  if (authority.empty()) {
+    context->set_default_verify_paths(error);
+  } else {
+    if (auto good = tls::CheckAuthority(authority); !good) return base::Fail(good.error());
+    context->load_verify_file(authority, error);
+  }
+  if (error) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "OpenSSL does not take it: " + error.message(), authority);
+  }
+  SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
+  return context;
+}
+
 }  // namespace gsv::gateway

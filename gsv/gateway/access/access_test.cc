@@ -247,8 +247,8 @@ TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
 
 TEST_F(AccessTest, ARelayShowsItsTokenForThoseWhoComeToIt) {
   Start({kControl, kWatch});
-  EXPECT_FALSE(Relay::Start({}, gateway_->url()));
-  const auto relay = Relay::Start({}, gateway_->url(), kControl);
+  EXPECT_FALSE(Relay::Start({}, {gateway_->url()}));
+  const auto relay = Relay::Start({}, {gateway_->url(), kControl});
   ASSERT_TRUE(relay) << relay.error().Sentence();
   const std::uint16_t port = (*relay)->port();
   EXPECT_EQ(testing::Fetch(port, "GET", "/api/simulations").status, 200);

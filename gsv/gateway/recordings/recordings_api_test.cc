@@ -120,7 +120,7 @@ TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingStandAtDifferentInstants) {
 }
 
 TEST_F(RecordingsApiTest, ARelayPassesRecordingsOn) {
-  auto relay = Relay::Start({}, gateway_->url());
+  auto relay = Relay::Start({}, {gateway_->url()});
   ASSERT_TRUE(relay) << relay.error().Sentence();
   const std::uint16_t port = (*relay)->port();
   const HttpReply opened =

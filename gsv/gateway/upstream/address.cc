@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <charconv>
 
+#include "gsv/gateway/tls_context.h"
+
 namespace gsv::gateway::upstream {
 namespace {
 
-constexpr std::string_view kScheme = "http://";
+constexpr std::string_view kPlain = "http://", kSecure = "https://";
 
 bool IsPort(std::string_view text) {
   unsigned port = 0;
@@ -27,20 +29,21 @@ std::string Address::Authority() const {
   return (is_ipv6 ? "[" + host + "]" : host) + ":" + port;
 }
 
-base::Result<Address> ParseAddress(std::string_view url) {
+base::Result<Address> ParseAddress(std::string_view url, const std::string& authority_file) {
   const auto refuse = [&] {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "'" + std::string(url.substr(0, 200)) +
                           "' is not the address of a viewer; it looks like http://127.0.0.1:8080/");
   };
-  if (!url.starts_with(kScheme)) return refuse();
-  std::string_view authority = url.substr(kScheme.size());
+  const bool is_secure = url.starts_with(kSecure);
+  if (!is_secure && !url.starts_with(kPlain)) return refuse();
+  std::string_view authority = url.substr((is_secure ? kSecure : kPlain).size());
   const std::size_t end = authority.find('/');
   if (end != std::string_view::npos) {
     if (end + 1 != authority.size()) return refuse();
     authority = authority.substr(0, end);
   }
-  std::string_view host = authority, port = "80";
+  std::string_view host = authority, port = is_secure ? "443" : "80";
   const std::size_t colon = authority.rfind(':');
   const bool is_bracketed = authority.starts_with('[');
   const std::size_t bracket = authority.find(']');
@@ -56,7 +59,12 @@ base::Result<Address> ParseAddress(std::string_view url) {
     return refuse();
   }
   if (!IsHost(host) || !IsPort(port)) return refuse();
-  return Address{std::string(host), std::string(port)};
+  Address address{std::string(host), std::string(port)};
+  if (!is_secure) return address;
+  auto context = MakeTlsClientContext(authority_file);
+  if (!context) return base::Fail(context.error());
+  address.tls = *std::move(context);
+  return address;
 }
 
 }  // namespace gsv::gateway::upstream

@@ -1,23 +1,28 @@
 // Where another instance's viewer is served.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+
+#include <boost/asio/ssl/context.hpp>
 
 #include "gsv/base/error.h"
 
 namespace gsv::gateway::upstream {
 
 struct Address {
-  std::string host;     // a name or an address; IPv6 without brackets
-  std::string port;     // digits
-  std::string token{};  // that is shown there; empty: none
+  std::string host;                                  // a name or an address; IPv6 without brackets
+  std::string port;                                  // digits
+  std::string token{};                               // that is shown there; empty: none
+  std::shared_ptr<boost::asio::ssl::context> tls{};  // whom to trust, for https; null: http
 
   std::string Authority() const;  // "host:port", "[::1]:port"
-  std::string Url() const { return "http://" + Authority() + "/"; }
+  std::string Url() const { return (tls ? "https://" : "http://") + Authority() + "/"; }
 };
 
-// From "http://host:port/", as gsv prints it. The port is 80 where it is left out.
-base::Result<Address> ParseAddress(std::string_view url);
+// From "http://host:port/" or "https://host:port/", as gsv prints it. The port is 80 or 443 where
+// it is left out. `authority`: a PEM file with the certificates to trust; empty: the system's.
+base::Result<Address> ParseAddress(std::string_view url, const std::string& authority = {});
 
 }  // namespace gsv::gateway::upstream

@@ -2,11 +2,12 @@
 
 #include <optional>
 
-#include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+
+#include "gsv/gateway/upstream/transport.h"
 
 namespace gsv::gateway::upstream {
 namespace {
@@ -22,7 +23,8 @@ constexpr std::uint64_t kLargestBody = std::uint64_t{512} << 20;
 // The steps of one exchange, each of which starts the next.
 class Exchange {
  public:
-  Exchange(const Address& address, const Request& request) : address_(address) {
+  Exchange(const Address& address, const Request& request)
+      : address_(address), transport_(io_, address) {
     message_.method_string(request.method);
     message_.target(request.raw_target);
     message_.version(11);
@@ -52,7 +54,7 @@ class Exchange {
     io_.run_for(limit);
     if (is_done_) return Answer();
     if (error_) {
-      return base::Fail(base::ErrorCode::kUnavailable, "no answer: " + error_.message(),
+      return base::Fail(base::ErrorCode::kUnavailable, "no answer: " + Reason(error_),
                         address_.Url());
     }
     return base::Fail(base::ErrorCode::kTimeout,
@@ -66,19 +68,25 @@ class Exchange {
   }
 
   void Connect(const tcp::resolver::results_type& results) {
-    boost::asio::async_connect(socket_, results, [this](error_code error, const tcp::endpoint&) {
+    transport_.tcp().async_connect(results, [this](error_code error, const tcp::endpoint&) {
+      if (!Failed(error)) Secure();
+    });
+  }
+
+  void Secure() {
+    transport_.AsyncSecure([this](error_code error) {
       if (!Failed(error)) Write();
     });
   }
 
   void Write() {
-    http::async_write(socket_, message_, [this](error_code error, std::size_t) {
+    http::async_write(transport_, message_, [this](error_code error, std::size_t) {
       if (!Failed(error)) Read();
     });
   }
 
   void Read() {
-    http::async_read(socket_, buffer_, parser_,
+    http::async_read(transport_, buffer_, parser_,
                      [this](error_code error, std::size_t) { is_done_ = !Failed(error); });
   }
 
@@ -104,7 +112,7 @@ class Exchange {
   beast::flat_buffer buffer_;
   boost::asio::io_context io_;
   tcp::resolver resolver_{io_};
-  tcp::socket socket_{io_};
+  Transport transport_;
   error_code error_;
   bool is_done_ = false;
 };

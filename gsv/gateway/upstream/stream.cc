@@ -16,6 +16,7 @@
 
 #include "gsv/gateway/target.h"
 #include "gsv/gateway/upstream/channel_map.h"
+#include "gsv/gateway/upstream/transport.h"
 
 namespace gsv::gateway::upstream {
 namespace {
@@ -27,7 +28,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using WebSocket = websocket::stream<beast::tcp_stream>;
+using WebSocket = websocket::stream<Transport>;
 
 // A big picture, or the list of two thousand channels with their definitions.
 constexpr std::size_t kLargestMessage = 64u << 20;
@@ -46,11 +47,11 @@ foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulatio
 // One attempt, from looking up the name to the end of the connection. What is under way keeps it
 // alive; whatever comes of an attempt that is not the present one is not heard.
 struct Attempt {
-  explicit Attempt(asio::io_context& io) : resolver(io), socket(io) {}
+  Attempt(asio::io_context& io, const Address& address) : resolver(io), socket(io, address) {}
 
   void Abandon() {
     resolver.cancel();
-    beast::get_lowest_layer(socket).close();
+    socket.next_layer().tcp().close();
   }
 
   tcp::resolver resolver;
@@ -120,7 +121,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   void Connect() {
     state_ = State::kConnecting;
-    attempt_ = std::make_shared<Attempt>(io_);
+    attempt_ = std::make_shared<Attempt>(io_, address_);
     attempt_->resolver.async_resolve(
         address_.host, address_.port,
         ForThis([](RemoteStream& self, error_code error, const tcp::resolver::results_type& found) {
@@ -130,18 +131,25 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
   }
 
   void ConnectTo(const tcp::resolver::results_type& found) {
-    auto& tcp_stream = beast::get_lowest_layer(attempt_->socket);
+    auto& tcp_stream = attempt_->socket.next_layer().tcp();
     tcp_stream.expires_after(kConnectTime);
     tcp_stream.async_connect(
         found, ForThis([](RemoteStream& self, error_code error, const tcp::endpoint&) {
           if (error) return self.TryAgain(error.message());
-          self.Handshake();
+          self.Secure();
         }));
+  }
+
+  void Secure() {
+    attempt_->socket.next_layer().AsyncSecure(ForThis([](RemoteStream& self, error_code error) {
+      if (error) return self.TryAgain(Reason(error));
+      self.Handshake();
+    }));
   }
 
   void Handshake() {
     WebSocket& socket = attempt_->socket;
-    beast::get_lowest_layer(socket).expires_never();
+    socket.next_layer().tcp().expires_never();
     websocket::stream_base::timeout timeout{};
     timeout.handshake_timeout = kConnectTime;
     timeout.idle_timeout = kIdleTime;
