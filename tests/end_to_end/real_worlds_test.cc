@@ -24,9 +24,10 @@ TEST_P(RealWorld, RunsWithRobotsThatTravel) {
   const Case& c = GetParam();
   if (!std::filesystem::exists(RealFile(c.world)))
     GTEST_SKIP() << "not here: " << RealFile(c.world);
-  Strings arguments{"run",   RealFile(c.world), "--behaviour", "wander", "--lockstep", "--duration",
-                    "20",    "--step",          "0.01",        "--seed", "1",          "--headless",
-                    "--json"};
+  Strings arguments{"run",        RealFile(c.world), "--behaviour", "wander",
+                    "--lockstep", "--duration",      "20",          "--step",
+                    "0.01",       "--seed",          "1",           "--headless",
+                    "--json",     "--deadline",      "60"};
   for (const std::string& robot : c.robots) {
     arguments.push_back("--robot");
     arguments.push_back(RealFile(robot));
