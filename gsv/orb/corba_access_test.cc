@@ -58,7 +58,7 @@ TEST_F(CorbaAccessTest, PreparesNothingWithFilesThatCannotBeUsed) {
   Set("GSV_CORBA_CERTIFICATE", "/nowhere/lab.pem");
   const auto access = PrepareAccess("127.0.0.1", 0);
   ASSERT_FALSE(access);
-  EXPECT_NE(access.error().Sentence().find("/nowhere/ca.pem"), std::string::npos);
+  EXPECT_NE(access.error().Sentence().find("/nowhere/lab.pem"), std::string::npos);
   EXPECT_FALSE(SpeaksTls());
 }
 

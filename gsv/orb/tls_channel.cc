@@ -79,10 +79,11 @@ int Wait(int socket, short events, const omni_time_t& deadline) {
 }  // namespace
 
 base::Result<std::shared_ptr<const TlsContext>> TlsContext::Read(const CorbaCertificate& files) {
-  if (auto good = tls::CheckAuthority(files.authority); !good) return base::Fail(good.error());
+  // First the one that somebody named; the others' names may follow from it.
   if (auto good = tls::CheckKeyPair(files.certificate, files.key); !good) {
     return base::Fail(good.error());
   }
+  if (auto good = tls::CheckAuthority(files.authority); !good) return base::Fail(good.error());
   const auto no_password = [](char*, int, int, void*) { return -1; };
   const std::shared_ptr<TlsContext> made(new TlsContext(SSL_CTX_new(TLS_method())));
   SSL_CTX* const context = made->get();
