@@ -18,4 +18,7 @@ inline constexpr bool kHasThreadSanitizer = false;
 // They reserve terabytes of addresses, and use little of them: a bound on addresses cannot hold.
 inline constexpr bool kTakesAllAddresses = kHasAddressSanitizer || kHasThreadSanitizer;
 
+// How much longer than usual to wait for a program: it takes two to ten times as long.
+inline constexpr int kTimesAsSlow = kTakesAllAddresses ? 5 : 1;
+
 }  // namespace gsv::base

@@ -9,11 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/child_process.h"
+#include "gsv/base/sanitizer.h"
 
 namespace gsv::testing {
 
 // Wall time after which a program that should have answered has hung.
-inline constexpr std::chrono::seconds kPatience{90};
+inline constexpr std::chrono::seconds kPatience{90 * base::kTimesAsSlow};
 
 std::filesystem::path Program(const std::string& name);   // in the build's bin, or a whole path
 std::filesystem::path RealFile(const std::string& path);  // of GSV_REAL_DIR; may not be there
