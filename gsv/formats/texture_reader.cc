@@ -7,6 +7,8 @@
 
 #include <turbojpeg.h>
 
+#include "gsv/formats/stb_copy.h"
+
 // Several parts of the program may decode pictures: this copy is private to this file.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -23,7 +25,9 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wshadow"
+#define memcpy gsv::formats::CopyIfAny
 #include <stb/stb_image.h>
+#undef memcpy
 #pragma GCC diagnostic pop
 
 namespace gsv::formats {

@@ -35,6 +35,23 @@ TEST(TextureReader, ReadsPixelsFromTheTopAndKeepsThePicture) {
   EXPECT_EQ(reader.Read(path).value(), *image);
 }
 
+// The format allows it, wherever data may stand.
+TEST(TextureReader, ReadsAPngWithAnEmptyChunk) {
+  const auto chunk = [](const std::string& type, const std::string& data) {
+    return std::string(3, '\0') + static_cast<char>(data.size()) + type + data + "sum?";
+  };
+  const std::string header("\0\0\0\2\0\0\0\1\x8\2\0\0\0", 13);
+  // zlib with one stored block: the row's filter, none, and its six bytes.
+  const std::string stored("\x78\1\1\7\0\xf8\xff\0\1\2\3\4\5\6", 14);
+  const TestFolder folder;
+  const auto path =
+      folder.Write("a.png", "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", "") +
+                                chunk("IDAT", stored) + chunk("IEND", ""));
+  const auto image = TextureReader(ReadLimits{}).Read(path);
+  ASSERT_TRUE(image.has_value()) << image.error().Sentence();
+  EXPECT_THAT((*image)->pixels, ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
 TEST(TextureReader, DropsAnAlphaChannelThatHidesNothing) {
   const TestFolder folder;
   const std::string opaque = "\x03\x02\x01\xff", half = "\x03\x02\x01\x80";

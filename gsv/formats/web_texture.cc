@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "gsv/formats/stb_copy.h"
+
 // This copy is private to this file.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -15,6 +17,7 @@
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
+#define memcpy gsv::formats::CopyIfAny
 #include <stb/stb_image_write.h>
 #define STB_IMAGE_RESIZE_STATIC
 #define STB_IMAGE_RESIZE_IMPLEMENTATION
@@ -25,6 +28,7 @@
 #define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #include <stb/stb_image.h>
+#undef memcpy
 #pragma GCC diagnostic pop
 
 namespace gsv::formats {

@@ -109,7 +109,14 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
       return refuse("it is empty; a scenario is a mapping with keys such as world and robots",
                     file);
     }
-    return ReadScenarioKeys(document, place);
+    Scenario scenario = ReadScenarioKeys(document, place);
+    // yaml-cpp reads each of these as one byte, 0x85 and 0xa0, which is no UTF-8.
+    const bool has_them = text.find("\\N") != text.npos || text.find("\\_") != text.npos;
+    if (has_them && LineThatIsNotUtf8(ToYaml(scenario))) {
+      return refuse("\\N and \\_ are not read rightly in quoted texts; write \\u0085 and \\u00a0",
+                    file);
+    }
+    return scenario;
   } catch (const YAML::Exception& error) {
     return refuse("it is no YAML: " + error.msg, place.Of(error.mark, ""));
   }
