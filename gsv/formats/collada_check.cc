@@ -1,7 +1,12 @@
 #include "gsv/formats/collada_check.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <tinyxml2.h>
 
@@ -32,17 +37,42 @@ bool IsListOfIndices(const XMLElement& element) {
          std::strcmp(name, "v") == 0 || std::strcmp(name, "h") == 0;
 }
 
+// Which values of which array are read: COLLADA 1.4.1, 5-16 (accessor) and 5-56 (float_array).
+struct Accessor {
+  std::string array;  // its id
+  double values = 0;  // how many the array must hold; more than any holds where no count is given
+  int line = 0;
+};
+
+Accessor AccessorIn(const XMLElement& element) {
+  double params = 0;
+  for (auto* param = element.FirstChildElement("param"); param != nullptr;
+       param = param->NextSiblingElement("param")) {
+    ++params;
+  }
+  const char* source = element.Attribute("source");
+  const double count = element.DoubleAttribute("count", 1e300);
+  const double stride = element.DoubleAttribute("stride", 1);
+  const double last = element.DoubleAttribute("offset", 0) + (count - 1) * stride;
+  return {source != nullptr && *source == '#' ? source + 1 : "",
+          count > 0 ? last + std::max(stride, params) : 0, element.GetLineNum()};
+}
+
 class Checker : public tinyxml2::XMLVisitor {
  public:
   explicit Checker(std::size_t bytes) : bytes_(static_cast<double>(bytes)) {}
 
   bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* first) override {
     line = element.GetLineNum();
+    const std::string_view name = element.Name();
+    if (const char* id = element.Attribute("id"); id != nullptr && name.ends_with("_array")) {
+      arrays_[id] = element.DoubleAttribute("count", 0);
+    }
+    if (name == "accessor") accessors_.push_back(AccessorIn(element));
     for (auto* attribute = first; attribute != nullptr; attribute = attribute->Next()) {
-      const char* name = attribute->Name();
-      const bool counts = std::strcmp(name, "count") == 0 || std::strcmp(name, "stride") == 0 ||
-                          std::strcmp(name, "offset") == 0;
-      if (counts && !(attribute->DoubleValue() <= bytes_)) {
+      const std::string_view key = attribute->Name();
+      const bool counts = key == "count" || key == "stride" || key == "offset";
+      if (counts && !(attribute->DoubleValue() >= 0 && attribute->DoubleValue() <= bytes_)) {
         wrong = "the mesh claims more values than the file holds";
       }
     }
@@ -52,11 +82,23 @@ class Checker : public tinyxml2::XMLVisitor {
     return wrong == nullptr;
   }
 
+  // Once all is visited: arrays may stand behind their accessors.
+  void CheckAccessors() {
+    for (const Accessor& accessor : accessors_) {
+      const auto array = arrays_.find(accessor.array);
+      if (wrong != nullptr || array == arrays_.end() || accessor.values <= array->second) continue;
+      wrong = "an accessor reads more values than its array holds";
+      line = accessor.line;
+    }
+  }
+
   const char* wrong = nullptr;
   int line = 0;
 
  private:
   double bytes_;
+  std::map<std::string, double> arrays_;  // by id: how many values
+  std::vector<Accessor> accessors_;
 };
 
 }  // namespace
@@ -69,6 +111,7 @@ base::Status CheckCollada(const std::string& text, const std::string& file) {
   }
   Checker checker(text.size());
   document.Accept(&checker);
+  checker.CheckAccessors();
   if (checker.wrong == nullptr) return {};
   return Fail(ErrorCode::kBadModel, checker.wrong, file + ":" + std::to_string(checker.line));
 }

@@ -241,6 +241,10 @@ TEST_F(MeshReaderTest, RefusesWhatIsDamagedOrBeyondTheLimits) {
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9,
                     "count=\"4000000000\"")},
+      // Found by the fuzzer: assimp read what lay behind the array.
+      {"beyond.dae", "more values than its array holds",
+       std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
+           .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9, "xount=\"9\"")},
       {"junk.dae", "no whole number",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("<p>0 1 2"), 8, "<p>0 &lt;1 2")},
