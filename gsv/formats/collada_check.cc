@@ -44,16 +44,26 @@ struct Accessor {
   int line = 0;
 };
 
+// Of an attribute that is absent: `absent`; of one that is more than digits, which assimp reads in
+// another way than others do: `odd`.
+double CountIn(const XMLElement& element, const char* attribute, double absent, double odd) {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) return absent;
+  const bool is_count = *text != '\0' && std::all_of(text, text + std::strlen(text), IsDigit);
+  return is_count ? element.DoubleAttribute(attribute) : odd;
+}
+
 Accessor AccessorIn(const XMLElement& element) {
+  constexpr double kTooMany = 1e300;
   double params = 0;
   for (auto* param = element.FirstChildElement("param"); param != nullptr;
        param = param->NextSiblingElement("param")) {
     ++params;
   }
   const char* source = element.Attribute("source");
-  const double count = element.DoubleAttribute("count", 1e300);
-  const double stride = element.DoubleAttribute("stride", 1);
-  const double last = element.DoubleAttribute("offset", 0) + (count - 1) * stride;
+  const double count = CountIn(element, "count", kTooMany, kTooMany);
+  const double stride = CountIn(element, "stride", 1, kTooMany);
+  const double last = CountIn(element, "offset", 0, kTooMany) + (count - 1) * stride;
   return {source != nullptr && *source == '#' ? source + 1 : "",
           count > 0 ? last + std::max(stride, params) : 0, element.GetLineNum()};
 }
@@ -66,7 +76,9 @@ class Checker : public tinyxml2::XMLVisitor {
     line = element.GetLineNum();
     const std::string_view name = element.Name();
     if (const char* id = element.Attribute("id"); id != nullptr && name.ends_with("_array")) {
-      arrays_[id] = element.DoubleAttribute("count", 0);
+      const double values = CountIn(element, "count", 0, 0);
+      const auto [known, is_new] = arrays_.try_emplace(id, values);
+      if (!is_new) known->second = std::min(known->second, values);
     }
     if (name == "accessor") accessors_.push_back(AccessorIn(element));
     for (auto* attribute = first; attribute != nullptr; attribute = attribute->Next()) {
@@ -97,7 +109,7 @@ class Checker : public tinyxml2::XMLVisitor {
 
  private:
   double bytes_;
-  std::map<std::string, double> arrays_;  // by id: how many values
+  std::map<std::string, double> arrays_;  // by id: how many values, of several of a name the fewest
   std::vector<Accessor> accessors_;
 };
 

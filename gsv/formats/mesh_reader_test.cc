@@ -245,6 +245,10 @@ TEST_F(MeshReaderTest, RefusesWhatIsDamagedOrBeyondTheLimits) {
       {"beyond.dae", "more values than its array holds",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9, "xount=\"9\"")},
+      {"odd.dae", "more values than its array holds",
+       std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
+           .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("count=\"9\""), 9,
+                    "count=\"9e0\"")},
       {"junk.dae", "no whole number",
        std::string(Collada("<unit meter='1'/>", "1 0 0 1"))
            .replace(Collada("<unit meter='1'/>", "1 0 0 1").find("<p>0 1 2"), 8, "<p>0 &lt;1 2")},
