@@ -4,7 +4,7 @@ import type { RobotStatus } from "../api/status";
 import type { SceneBody, SceneDescription } from "../api/scene";
 import { robotsOf } from "../api/scene";
 import { shallowEqual } from "../state/Store";
-import { element, setText } from "../ui/element";
+import { element, setAttribute, setText } from "../ui/element";
 import { count, formatDistance } from "../ui/format";
 
 export function createSceneTree(app: App): HTMLElement {
@@ -59,8 +59,12 @@ export function createSceneTree(app: App): HTMLElement {
   return tree;
 }
 
+// One robot. A row that is out of sight (and so not laid out, style/panels.css) is written when it comes
+// into sight: a thousand rows that change five times a second would keep the page from answering.
 class RobotRow {
   readonly item: HTMLLIElement;
+  private latest: { robot: RobotStatus; isAvatar: boolean } | null = null;
+  private isInSight = true; // until the browser says otherwise
   private readonly button: HTMLButtonElement;
   private readonly dot = element("span", { class: "dot" });
   private readonly name = element("span", { class: "robot-name" });
@@ -80,24 +84,33 @@ class RobotRow {
     );
     this.button.addEventListener("dblclick", () => app.toggleViewMode("follow"));
     this.item = element("li", {}, this.button);
+    this.item.addEventListener("contentvisibilityautostatechange", (event) => {
+      this.isInSight = !(event as ContentVisibilityAutoStateChangeEvent).skipped;
+      this.write();
+    });
     this.setSelected(app.store.get().selection === robot);
   }
 
   update(robot: RobotStatus, isAvatar: boolean): void {
-    this.dot.dataset.phase = robot.agentPhase;
-    this.dot.title = agentLabel(robot);
-    setText(this.name, robot.name);
-    setText(
-      this.behaviour,
-      isAvatar ? "avatar · W A S D" : `${robot.behaviour || "no behaviour"} · ${agentLabel(robot)}`,
-    );
-    setText(this.distance, formatDistance(robot.distance));
-    setText(this.collisions, robot.collisions > 0 ? count(robot.collisions, "collision") : "");
-    this.button.title = robot.detail;
+    this.latest = { robot, isAvatar };
+    this.write();
   }
 
   setSelected(selected: boolean): void {
     this.button.setAttribute("aria-pressed", String(selected));
+  }
+
+  private write(): void {
+    if (!this.latest || !this.isInSight) return;
+    const { robot, isAvatar } = this.latest;
+    const label = agentLabel(robot);
+    setAttribute(this.dot, "data-phase", robot.agentPhase);
+    setAttribute(this.dot, "title", label);
+    setText(this.name, robot.name);
+    setText(this.behaviour, isAvatar ? "avatar · W A S D" : `${robot.behaviour || "no behaviour"} · ${label}`);
+    setText(this.distance, formatDistance(robot.distance));
+    setText(this.collisions, robot.collisions > 0 ? count(robot.collisions, "collision") : "");
+    setAttribute(this.button, "title", robot.detail);
   }
 }
 

@@ -6,7 +6,14 @@ export function makeRenderer(isFine: boolean): WebGLRenderer {
   const canvas = document.createElement("canvas");
   canvas.setAttribute("aria-label", "The simulated world");
   canvas.setAttribute("role", "img");
-  const renderer = new WebGLRenderer({ canvas, antialias: isFine, powerPreference: "high-performance" });
+  // Opaque: nothing of the page shows through.
+  const context = canvas.getContext("webgl2", {
+    alpha: false,
+    antialias: isFine,
+    powerPreference: "high-performance",
+  });
+  if (!context) throw new Error("this browser has no WebGL 2");
+  const renderer = new WebGLRenderer({ canvas, context });
   renderer.toneMapping = NeutralToneMapping;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = PCFShadowMap;
