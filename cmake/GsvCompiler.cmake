@@ -20,6 +20,7 @@ if(GSV_SANITIZE)
   # What is found ends the program, so that its test fails. At -O1, as the sanitizers' own documents have it.
   set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1 -DNDEBUG")
   set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O1 -g1 -DNDEBUG")
+  add_compile_definitions(GSV_SANITIZED)  # gsv/base/sanitizer.h
   add_compile_options(-fsanitize=${GSV_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${GSV_SANITIZE})
 endif()

@@ -68,7 +68,7 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
       {"supportPerThreadTimeOut", "1"},
       {"verifyObjectExistsAndType", "0"},
       {"maxGIOPConnectionPerServer", "16"},
-      {"strictIIOP", "1"},
+      {"strictIIOP", "0"},  // see gsv/orb/orb.cc
       {"traceLevel", "0"},
       {nullptr, nullptr},
   };

@@ -1,5 +1,6 @@
 // What the sanitizers must be told when a thread goes on on another stack, for what they know of
-// each (sanitizer/common_interface_defs.h, sanitizer/tsan_interface.h); nothing in other builds.
+// each (sanitizer/common_interface_defs.h, asan_interface.h, tsan_interface.h); nothing in other
+// builds.
 //
 // Threads  one at a time.
 #pragma once
@@ -7,6 +8,7 @@
 #include <cstddef>
 
 #if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #elif defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
@@ -22,7 +24,9 @@ class FollowedStack {
   FollowedStack(const void* bottom, std::size_t size) : bottom_(bottom), size_(size) {}
 
   // From outside: around the making of what will run on it, when Boost.Context goes there and back.
-  void BeforePreparing() {}
+  // Another stack may have lain there, a part of it elsewhere than this one's: its last calls never
+  // returned, so that what they forbade is forbidden still.
+  void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
   void AfterPreparing() {}
 
   // From outside: just before the thread goes on on this stack, and just after it has come back.

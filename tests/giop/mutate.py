@@ -8,7 +8,8 @@ answered as it should be (--prove does no more). Then, round by round, they are 
 TypeCodes, object keys, service contexts, fragments, byte orders and versions that the seed changes. What may not
 suffer: the programs live, each answers a right call after each round, in the end every operation is answered as it
 was, memory, threads and descriptors have come back, and a lockstep simulation in the same server has ended the same
-each time. A program that dies leaves the last messages before it in FOLDER. Exit code 1 and a sentence for each promise
+each time, and all end in order when they are told to (a build with AddressSanitizer tells then what they have lost). A
+program that dies leaves the last messages before it in FOLDER. Exit code 1 and a sentence for each promise
 that was broken.
 """
 
@@ -19,6 +20,7 @@ import json
 import random
 import shutil
 import socket
+import subprocess
 import sys
 import tempfile
 import threading
@@ -36,6 +38,7 @@ from seeds import World, missing, prove  # noqa: E402
 WORKERS = 6
 OF_A_ROUND = 40  # messages of each worker
 ANSWER_S = 0.3   # how long one is waited for; a right call is given ten seconds
+END_S = 60       # how long a program may take to end
 
 
 class Attack:
@@ -177,6 +180,20 @@ def attack(laboratory, options, report):
             laboratory.destroy(name)
     broken += settle(laboratory, before, is_asan(options.build))
     report["after"] = {name: footprint_of(process.pid) for name, process in processes_of(laboratory).items()}
+    return broken + end_in_order(laboratory)
+
+
+def end_in_order(laboratory):
+    """Sentences for programs that do not end well when told to: under AddressSanitizer because of what they lost."""
+    broken = []
+    for name, process in reversed(processes_of(laboratory).items()):
+        process.terminate()
+        try:
+            code = process.wait(END_S)
+        except subprocess.TimeoutExpired:
+            code = "nothing yet"
+        if code != 0:
+            broken.append(f"the {name} was told to end, and ended with {code}")
     return broken
 
 

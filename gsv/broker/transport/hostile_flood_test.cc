@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <arpa/inet.h>
+#include <gmock/gmock.h>
 #include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -129,6 +130,31 @@ TEST_F(HostileFloodTest, RandomMessages) {
   std::mt19937 random(6);
   for (int i = 0; i < 3000; ++i) Send(RandomMessage(random));
   Judge(bystander, "random_messages");
+}
+
+// omniORB 4.2.5 by itself keeps such a text for ever: 240 MB here.
+TEST_F(HostileFloodTest, TextsThatDoNotEnd) {
+  Bystander bystander(lookup_);
+  const std::string text = RawCdr().Octets(std::string(60'000, 'a')).bytes();
+  const RawConnection connection(std::stoi(broker_.port()));
+  for (int i = 0; i < 4000; ++i) {
+    connection.Send(RawRequest("TradingService", "_is_a", text));
+    ASSERT_THAT(connection.Read(), testing::HasSubstr("CORBA/MARSHAL"));
+  }
+  Judge(bystander, "texts");
+}
+
+// omniORB 4.2.5 is told to skip the rest: else it hangs up, and keeps 9 kB each time.
+TEST_F(HostileFloodTest, RequestsWithMoreThanTheirArguments) {
+  Bystander bystander(lookup_);
+  const std::string body =
+      RawCdr().String("IDL:omg.org/CosTrading/Lookup:1.0").Octets(std::string(200, 'x')).bytes();
+  const RawConnection connection(std::stoi(broker_.port()));
+  for (int i = 0; i < 4000; ++i) {
+    connection.Send(RawRequest("TradingService", "_is_a", body));
+    ASSERT_FALSE(connection.Read().empty()) << i;
+  }
+  Judge(bystander, "long_requests");
 }
 
 TEST_F(HostileFloodTest, TenThousandConnections) {
