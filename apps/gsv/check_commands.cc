@@ -101,7 +101,9 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
 void AddCheckCommands(const CommandLine& line) {
   AddCheck(line, "world", "a world",
            [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems) {
-             const auto world = library.ReadWorld(ResolveWorld(file), problems);
+             const auto found = FindWorld(file);
+             if (!found) return base::Status(base::Fail(found.error()));
+             const auto world = library.ReadWorld(*found, problems);
              return world ? base::Status() : base::Fail(world.error());
            });
   AddCheck(line, "model", "a model",

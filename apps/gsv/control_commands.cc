@@ -11,7 +11,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/lost/server_note.h"
 #include "apps/gsv/remote_simulations.h"
-#include "gsv/gateway/status_json.h"
+#include "gsv/gateway/api/status_json.h"
 #include "gsv/orb/errors.h"
 
 namespace gsv::app {

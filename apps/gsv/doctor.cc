@@ -76,7 +76,7 @@ bool LookAtCameras(bool has_worlds) {
 int Doctor(const std::string& broker) {
   std::error_code ignored;
   const bool viewer = std::filesystem::exists(ShareFolder() / "web" / "index.html", ignored);
-  const bool worlds = std::filesystem::exists(ResolveWorld("office"), ignored);
+  const bool worlds = FindWorld("office").has_value();
   const bool cameras = LookAtCameras(worlds);
   std::printf("viewer: %s %s\n", viewer ? "ok," : "missing:", (ShareFolder() / "web").c_str());
   std::printf("worlds: %s %s\n", worlds ? "ok," : "missing:", (ShareFolder() / "worlds").c_str());

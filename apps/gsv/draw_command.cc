@@ -106,6 +106,8 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
 }
 
 int Run(const DrawArguments& arguments) {
+  const auto file = FindWorld(arguments.file);
+  if (!file) return Complain(file.error());
   formats::ReadOptions options;
   options.limits = arguments.limits;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
@@ -113,7 +115,7 @@ int Run(const DrawArguments& arguments) {
   base::Problems problems;
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t processor_start = std::clock();
-  auto world = library.ReadWorld(ResolveWorld(arguments.file), problems);
+  auto world = library.ReadWorld(*file, problems);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   const double processor = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
   if (!world) return Complain(world.error());

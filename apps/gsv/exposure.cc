@@ -14,7 +14,7 @@
 
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/installation.h"
-#include "gsv/gateway/access_rule.h"
+#include "gsv/gateway/access/access_rule.h"
 #include "gsv/tls/stranger.h"
 
 namespace gsv::app {

@@ -1,5 +1,6 @@
 #include "apps/gsv/installation.h"
 
+#include <algorithm>
 #include <iterator>
 #include <sstream>
 
@@ -16,14 +17,28 @@ fs::path ProgramFolder() { return ProgramPath().parent_path(); }
 
 fs::path ShareFolder() { return ProgramFolder().parent_path() / "share" / "gsv"; }
 
-std::string ResolveWorld(const std::string& world) {
+std::vector<std::string> OurWorlds() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(ShareFolder() / "worlds", ignored)) {
+    if (entry.path().extension() == ".sdf") names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+base::Result<std::string> FindWorld(const std::string& world) {
   std::error_code ignored;
   if (fs::exists(world, ignored) || world.find('/') != std::string::npos) return world;
   for (const char* suffix : {".sdf", ""}) {
     const fs::path ours = ShareFolder() / "worlds" / (world + suffix);
     if (fs::is_regular_file(ours, ignored)) return ours;
   }
-  return world;
+  std::string names;
+  for (const std::string& name : OurWorlds()) names += (names.empty() ? "" : ", ") + name;
+  return base::Fail(base::ErrorCode::kNotFound,
+                    "there is no such file, and no world of this name; there are " + names, world);
 }
 
 std::vector<std::string> SplitWords(const std::string& text) {

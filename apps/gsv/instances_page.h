@@ -11,7 +11,7 @@
 
 #include <omniORB4/CORBA.h>
 
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 
 namespace gsv::app {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/gateway/simulation_factory.h"
+#include "gsv/gateway/program/simulation_factory.h"
 #include "gsv/scenario/scenario.h"
 #include "gsv/simulation/simulation.h"
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "gsv/base/error.h"
-#include "gsv/gateway/ports.h"
+#include "gsv/gateway/program/ports.h"
 #include "gsv/scenario/scenario.h"
 
 namespace gsv::recording {

@@ -160,11 +160,12 @@ int JudgeExpectations(verdict::Judge& judge, const RunOptions& options,
 
 base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet) {
   if (TellErrors(options.problems)) return kBadModel;
+  const auto world = FindWorld(options.scenario.world);
+  if (!world) return base::Fail(world.error());
   auto runtime = Runtime::Start(options.runtime);
   if (!runtime) return base::Fail(runtime.error());
   base::Problems problems;
-  auto simulation = (*runtime)->host().Create(options.specification,
-                                              ResolveWorld(options.scenario.world), problems);
+  auto simulation = (*runtime)->host().Create(options.specification, *world, problems);
   if (!simulation) return base::Fail(simulation.error());
   auto told = PopulateRun(**runtime, **simulation, options, problems);
   if (!told) return base::Fail(told.error());

@@ -159,7 +159,7 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
 services::ServiceHooks Runtime::Hooks() {
   services::ServiceHooks hooks;
   hooks.find_world = [](const std::string& world) {
-    return ResolveWorld(world.empty() ? scenario::DefaultScenario().world : world);
+    return FindWorld(world.empty() ? scenario::DefaultScenario().world : world);
   };
   hooks.viewer_url = [this](const std::string& simulation) {
     return viewer_url_.empty() ? "" : viewer_url_ + "?simulation=" + simulation;

@@ -57,16 +57,7 @@ void SimulationBuilder::OfferThrough(services::SimulationServiceServant* service
   service_ = service;
 }
 
-std::vector<std::string> SimulationBuilder::Worlds() {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry :
-       fs::directory_iterator(ShareFolder() / "worlds", ignored)) {
-    if (entry.path().extension() == ".sdf") names.push_back(entry.path().stem());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+std::vector<std::string> SimulationBuilder::Worlds() { return OurWorlds(); }
 
 std::vector<fs::path> SimulationBuilder::ModelFolders() const {
   std::vector<fs::path> folders{ShareFolder() / "models"};
@@ -109,8 +100,10 @@ base::Result<SimulationBuilder::Behaviours> SimulationBuilder::FindBehaviours(
 }
 
 FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const std::string& world) {
+  auto file = FindWorld(world);
+  if (!file) return Wrong("world", file.error());
   KnownWorld read;
-  read.file = ResolveWorld(world);
+  read.file = *file;
   std::error_code ignored;
   read.changed = fs::last_write_time(read.file, ignored);
   {

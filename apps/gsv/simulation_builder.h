@@ -13,7 +13,7 @@
 #include "apps/gsv/population.h"
 #include "apps/gsv/recordings.h"
 #include "apps/gsv/trial_reading.h"
-#include "gsv/gateway/simulation_factory.h"
+#include "gsv/gateway/program/simulation_factory.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
 #include "gsv/services/simulation_servant.h"

@@ -5,12 +5,12 @@
 
 #include "gsv/formats/gltf_writer.h"
 #include "gsv/gateway/access/viewers_api.h"
-#include "gsv/gateway/api.h"
-#include "gsv/gateway/publisher.h"
+#include "gsv/gateway/api/api.h"
+#include "gsv/gateway/http/static_files.h"
+#include "gsv/gateway/live/publisher.h"
 #include "gsv/gateway/recordings/recordings_api.h"
-#include "gsv/gateway/static_files.h"
+#include "gsv/gateway/server/worker_pool.h"
 #include "gsv/gateway/uploads/uploads_api.h"
-#include "gsv/gateway/worker_pool.h"
 
 namespace gsv::gateway {
 namespace {

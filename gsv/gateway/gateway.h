@@ -10,12 +10,12 @@
 #include <memory>
 #include <string>
 
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 #include "gsv/gateway/metrics/metrics_page.h"
-#include "gsv/gateway/ports.h"
+#include "gsv/gateway/program/ports.h"
+#include "gsv/gateway/program/simulation_factory.h"
 #include "gsv/gateway/recordings/replay_sessions.h"
-#include "gsv/gateway/server.h"
-#include "gsv/gateway/simulation_factory.h"
+#include "gsv/gateway/server/server.h"
 #include "gsv/gateway/uploads/upload_folder.h"
 
 namespace gsv::gateway {

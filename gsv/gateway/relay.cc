@@ -7,11 +7,11 @@
 
 #include <boost/asio/executor_work_guard.hpp>
 
-#include "gsv/gateway/static_files.h"
+#include "gsv/gateway/http/static_files.h"
+#include "gsv/gateway/server/worker_pool.h"
 #include "gsv/gateway/upstream/fetch.h"
 #include "gsv/gateway/upstream/relayed_operations.h"
 #include "gsv/gateway/upstream/stream.h"
-#include "gsv/gateway/worker_pool.h"
 
 namespace gsv::gateway {
 namespace {

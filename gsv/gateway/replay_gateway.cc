@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "gsv/gateway/access/viewers_api.h"
+#include "gsv/gateway/api/replay_api.h"
+#include "gsv/gateway/http/static_files.h"
 #include "gsv/gateway/recordings/recordings_api.h"
-#include "gsv/gateway/replay_api.h"
-#include "gsv/gateway/static_files.h"
-#include "gsv/gateway/worker_pool.h"
+#include "gsv/gateway/server/worker_pool.h"
 
 namespace gsv::gateway {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gsv/gateway/gateway.h"
-#include "gsv/gateway/replay_player.h"
+#include "gsv/gateway/replay/replay_player.h"
 
 namespace gsv::gateway {
 

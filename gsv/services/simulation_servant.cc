@@ -226,7 +226,9 @@ SimulationServiceServant::~SimulationServiceServant() {
 sba::Simulation_ptr SimulationServiceServant::create_simulation(
     const sba::SimulationSpecification& specification) {
   std::string world(specification.world);
-  if (hooks_.find_world) world = hooks_.find_world(world);
+  if (hooks_.find_world) {
+    world = orb::ValueOrThrow(hooks_.find_world(world), orb::kRefused | orb::kFailed);
+  }
   base::Problems problems;
   auto created = orb::ValueOrThrow(host_.Create(FromIdl(specification), world, problems),
                                    orb::kRefused | orb::kFailed);

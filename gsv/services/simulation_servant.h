@@ -19,7 +19,7 @@ namespace gsv::services {
 // What the program around the services adds to them.
 struct ServiceHooks {
   // The file of a world as a caller names it; of an empty name, the default world's. May be empty.
-  std::function<std::string(const std::string& world)> find_world;
+  std::function<base::Result<std::string>(const std::string& world)> find_world;
   // Where a browser watches a simulation; may be empty.
   std::function<std::string(const std::string& simulation)> viewer_url;
   std::function<base::Status(std::shared_ptr<simulation::Simulation>, const std::string& path)>

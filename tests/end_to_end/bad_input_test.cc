@@ -38,6 +38,12 @@ TEST(BadInput, NoSuchWorld) {
   ExpectOneSentence(Headless("/nowhere/world.sdf", {}), 3, "/nowhere/world.sdf");
 }
 
+TEST(BadInput, AWorldsNameThatIsMisspelt) {
+  const Outcome outcome = Headless("ofice", {});
+  ExpectOneSentence(outcome, 3, "ofice: ");
+  EXPECT_THAT(outcome.err, HasSubstr("maze, office, playground"));
+}
+
 TEST(BadInput, MalformedXml) {
   TemporaryFolder folder;
   const auto world = folder.Write(

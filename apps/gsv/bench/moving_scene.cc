@@ -113,7 +113,9 @@ base::Result<MovingScene> MovingScene::Create(const MovingSceneOptions& options)
   if (options.world == "square") {
     specification.world = VisibleSquare(options.robots);
   } else {
-    auto read = library.ReadWorld(ResolveWorld(options.world), problems);
+    const auto file = FindWorld(options.world);
+    if (!file) return base::Fail(file.error());
+    auto read = library.ReadWorld(*file, problems);
     if (!read) return base::Fail(read.error());
     if (options.collide_with_visuals) CollideWithVisuals(*read);
     specification.world = std::make_shared<model::WorldDescription>(*std::move(read));

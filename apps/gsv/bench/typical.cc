@@ -107,12 +107,14 @@ struct Row {
 };
 
 // A few in the office, many on the square of `gsv bench crowd`, unless a world is given.
-void PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& options) {
+base::Status PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& options) {
   const bool on_the_square = arguments.world.empty() && robots > kMostInTheOffice;
   if (on_the_square) {
     options.specification.world = CrowdWorld(robots, 1);
   } else {
-    options.scenario.world = ResolveWorld(arguments.world.empty() ? "office" : arguments.world);
+    auto file = FindWorld(arguments.world.empty() ? "office" : arguments.world);
+    if (!file) return base::Fail(file.error());
+    options.scenario.world = *std::move(file);
   }
   const auto places = CrowdRobots(robots, 1);
   for (int i = 0; i < robots; ++i) {
@@ -123,6 +125,7 @@ void PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& opti
     }
     options.scenario.robots.push_back({.model = arguments.model, .start = start});
   }
+  return {};
 }
 
 base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
@@ -139,7 +142,7 @@ base::Result<Row> RunTypical(const TypicalArguments& arguments, int robots) {
       return std::make_unique<TimedSensor>(*std::move(sensor), times);
     };
   };
-  PlaceRobots(arguments, robots, options);
+  if (auto ok = PlaceRobots(arguments, robots, options); !ok) return base::Fail(ok.error());
   options.behaviour = arguments.behaviour;
   options.in_process = arguments.in_process;
   options.specification.mode = arguments.mode;

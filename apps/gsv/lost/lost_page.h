@@ -6,7 +6,7 @@
 #pragma once
 
 #include "apps/gsv/lost/lost_simulations.h"
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 
 namespace gsv::app {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "apps/gsv/lost/server_note.h"
-#include "gsv/gateway/ports.h"
+#include "gsv/gateway/program/ports.h"
 #include "gsv/services/simulation_host.h"
 
 namespace gsv::app {

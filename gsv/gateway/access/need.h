@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "gsv/gateway/access/token_rule.h"
-#include "gsv/gateway/target.h"
+#include "gsv/gateway/http/target.h"
 
 namespace gsv::gateway::access {
 

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "gsv/gateway/access/control_desk.h"
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 
 namespace gsv::gateway::access {
 

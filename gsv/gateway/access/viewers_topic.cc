@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "gsv/gateway/access/viewers_api.h"
-#include "gsv/gateway/channels.h"
+#include "gsv/gateway/foxglove/channels.h"
 #include "gsv/messages/std_msgs.h"
 
 namespace gsv::gateway::access {

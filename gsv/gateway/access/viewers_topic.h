@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "gsv/gateway/access/control_desk.h"
-#include "gsv/gateway/hub.h"
+#include "gsv/gateway/foxglove/hub.h"
 
 namespace gsv::gateway::access {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "gsv/base/error.h"
-#include "gsv/gateway/recorded_scene.h"
+#include "gsv/gateway/recorded/recorded_scene.h"
 #include "gsv/recording/mcap_reader.h"
 
 namespace gsv::gateway::curves {

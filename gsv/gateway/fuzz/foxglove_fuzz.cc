@@ -5,8 +5,8 @@
 #include <set>
 
 #include "gsv/base/check.h"
-#include "gsv/gateway/hub.h"
-#include "gsv/gateway/live_operations.h"
+#include "gsv/gateway/foxglove/hub.h"
+#include "gsv/gateway/live/live_operations.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 #include "gsv/gateway/upstream/protocol.h"
 

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/base/check.h"
-#include "gsv/gateway/access_rule.h"
-#include "gsv/gateway/api.h"
-#include "gsv/gateway/replay_api.h"
+#include "gsv/gateway/access/access_rule.h"
+#include "gsv/gateway/api/api.h"
+#include "gsv/gateway/api/replay_api.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 #include "gsv/gateway/testing/simulation_list.h"
 

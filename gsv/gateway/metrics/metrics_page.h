@@ -12,9 +12,9 @@
 #include <optional>
 #include <string>
 
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 #include "gsv/gateway/metrics/traffic.h"
-#include "gsv/gateway/ports.h"
+#include "gsv/gateway/program/ports.h"
 
 namespace gsv::gateway::metrics {
 

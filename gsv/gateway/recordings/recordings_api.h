@@ -5,7 +5,7 @@
 // Threads  any.
 #pragma once
 
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 #include "gsv/gateway/recordings/recording_folder.h"
 #include "gsv/gateway/recordings/replay_sessions.h"
 

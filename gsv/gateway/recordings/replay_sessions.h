@@ -14,8 +14,8 @@
 #include <mutex>
 #include <string>
 
-#include "gsv/gateway/replay_api.h"
-#include "gsv/gateway/replay_player.h"
+#include "gsv/gateway/api/replay_api.h"
+#include "gsv/gateway/replay/replay_player.h"
 
 namespace gsv::gateway::recordings {
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/gateway/live_stream.h"
+#include "gsv/gateway/live/live_stream.h"
 #include "gsv/gateway/testing/recording_client.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gsv/gateway/hub.h"
+#include "gsv/gateway/foxglove/hub.h"
 #include "gsv/messages/cdr.h"
 
 namespace gsv::gateway::testing {

@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/gateway/replay/replay_player.h"
 #include "gsv/gateway/replay_gateway.h"
-#include "gsv/gateway/replay_player.h"
 #include "gsv/gateway/testing/web_client.h"
 #include "gsv/recording/simulation_recorder.h"
 #include "gsv/recording/test_simulation.h"

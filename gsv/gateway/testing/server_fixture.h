@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/gateway/server.h"
+#include "gsv/gateway/server/server.h"
 
 namespace gsv::gateway::testing {
 

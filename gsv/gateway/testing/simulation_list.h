@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "gsv/gateway/ports.h"
+#include "gsv/gateway/program/ports.h"
 
 namespace gsv::gateway::testing {
 

@@ -5,7 +5,7 @@
 // Threads  any.
 #pragma once
 
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 #include "gsv/gateway/uploads/upload_folder.h"
 
 namespace gsv::gateway::uploads {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "gsv/gateway/tls_context.h"
+#include "gsv/gateway/server/tls_context.h"
 
 namespace gsv::gateway::upstream {
 namespace {

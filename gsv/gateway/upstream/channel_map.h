@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "gsv/gateway/hub.h"
+#include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/upstream/protocol.h"
 
 namespace gsv::gateway::upstream {

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "gsv/gateway/http.h"
+#include "gsv/gateway/http/http.h"
 #include "gsv/gateway/upstream/address.h"
 
 namespace gsv::gateway::upstream {

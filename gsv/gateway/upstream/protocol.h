@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "gsv/gateway/foxglove_requests.h"
+#include "gsv/gateway/foxglove/foxglove_requests.h"
 
 namespace gsv::gateway::upstream {
 

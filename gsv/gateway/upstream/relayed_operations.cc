@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gsv/gateway/simulation_commands.h"
-#include "gsv/gateway/target.h"
+#include "gsv/gateway/http/target.h"
+#include "gsv/gateway/live/simulation_commands.h"
 #include "gsv/gateway/upstream/fetch.h"
 
 namespace gsv::gateway::upstream {

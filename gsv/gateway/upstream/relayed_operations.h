@@ -6,10 +6,10 @@
 
 #include <string>
 
-#include "gsv/gateway/command_services.h"
-#include "gsv/gateway/operations.h"
+#include "gsv/gateway/foxglove/operations.h"
+#include "gsv/gateway/live/command_services.h"
+#include "gsv/gateway/server/worker_pool.h"
 #include "gsv/gateway/upstream/address.h"
-#include "gsv/gateway/worker_pool.h"
 
 namespace gsv::gateway::upstream {
 

@@ -14,7 +14,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include "gsv/gateway/target.h"
+#include "gsv/gateway/http/target.h"
 #include "gsv/gateway/upstream/channel_map.h"
 #include "gsv/gateway/upstream/transport.h"
 

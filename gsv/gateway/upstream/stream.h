@@ -10,7 +10,7 @@
 
 #include <boost/asio/io_context.hpp>
 
-#include "gsv/gateway/hub.h"
+#include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/upstream/address.h"
 
 namespace gsv::gateway::upstream {

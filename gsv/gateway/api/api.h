@@ -1,0 +1,47 @@
+// The HTTP API under /api/: what there is to see, and the buttons. Described in docs/api.yaml.
+//
+// Threads  any; a request may take as long as what it asks for (a reset, a model to be written).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gsv/gateway/api/factory_api.h"
+#include "gsv/gateway/api/model_store.h"
+#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/program/ports.h"
+
+namespace gsv::gateway {
+
+class Api {
+ public:
+  // `recordings` and `factory` may be null; else they outlive this. `has_replays`: recordings can
+  // be listed and replayed here as well.
+  Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
+      RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr,
+      bool has_replays = false);
+
+  // `request.target` begins with "api".
+  Response Handle(const Request& request);
+
+ private:
+  using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+
+  Response Server() const;
+  Response OfFactory(const Request& request) const;
+  Response List() const;
+  Response OfSimulation(const Request& request);
+  Response OfBody(const Request& request, const SimulationPointer& simulation) const;
+  Response Scene(const simulation::Simulation& simulation);
+  Response Recording(const Request& request, const SimulationPointer& simulation) const;
+  Response Model(const Request& request);
+
+  const std::shared_ptr<SimulationDirectory> directory_;
+  ModelStore models_;
+  RecordingSwitch* const recordings_;
+  const bool has_replays_;
+  std::optional<FactoryApi> factory_;
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,213 @@
+#include "gsv/gateway/api/api.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "gsv/gateway/testing/scripted_simulation.h"
+#include "gsv/gateway/testing/simulation_list.h"
+#include "gsv/presentation/scene_json.h"
+
+namespace gsv::gateway {
+namespace {
+
+using nlohmann::json;
+using testing::ScriptedSimulation;
+
+class ApiTest : public ::testing::Test {
+ protected:
+  void SetUp() override { directory_->Add(simulation_); }
+
+  Response Ask(const std::string& method, const std::string& target, const std::string& body = "") {
+    Request request;
+    request.method = method;
+    request.target = ParseTarget(target).value();
+    request.body = body;
+    return api_.Handle(request);
+  }
+
+  json AskJson(const std::string& method, const std::string& target, int status,
+               const std::string& body = "") {
+    const Response response = Ask(method, target, body);
+    EXPECT_EQ(response.status, status) << target << " " << response.body.view();
+    EXPECT_EQ(response.content_type, "application/json");
+    EXPECT_EQ(response.cache_control, "no-store");
+    return json::parse(response.body.view());
+  }
+
+  std::shared_ptr<ScriptedSimulation> simulation_ =
+      std::make_shared<ScriptedSimulation>("first light", 2);
+  std::shared_ptr<testing::SimulationList> directory_ = std::make_shared<testing::SimulationList>();
+  Api api_{directory_, [](const model::Model& model) -> base::Result<std::vector<std::uint8_t>> {
+             return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
+           }};
+  const std::string path_ = "/api/simulations/first%20light";
+};
+
+// Remembers what it was told.
+class FakeRecordings final : public RecordingSwitch {
+ public:
+  Totals totals() override { return {}; }
+  base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) override {
+    if (state.is_recording) return base::Fail(base::ErrorCode::kInvalidArgument, "it is recorded");
+    state = {true, simulation->specification().name + ".mcap", 5, 1, 99};
+    return {};
+  }
+  base::Status StopRecording(const std::string&) override {
+    if (!state.is_recording) return base::Fail(base::ErrorCode::kNotFound, "it is not recorded");
+    state.is_recording = false;
+    return {};
+  }
+  State RecordingOf(const std::string&) override { return state; }
+
+  State state;
+};
+
+TEST_F(ApiTest, SwitchesTheRecordingOnAndOff) {
+  FakeRecordings recordings;
+  Api api(directory_, nullptr, &recordings);
+  const auto ask = [&](const std::string& method, const std::string& body = "") {
+    Request request;
+    request.method = method;
+    request.target = ParseTarget(path_ + "/recording").value();
+    request.body = body;
+    return api.Handle(request);
+  };
+  EXPECT_EQ(json::parse(ask("GET").body.view())["recording"], false);
+  EXPECT_EQ(json::parse(ask("POST", R"({"record":true})").body.view()),
+            json::parse(R"({"recording":true,"path":"first light.mcap","messages":5,
+                            "dropped_messages":1,"size_bytes":99})"));
+  EXPECT_EQ(ask("POST", R"({"record":true})").status, 400);
+  EXPECT_EQ(json::parse(ask("POST", R"({"record":false})").body.view())["recording"], false);
+  EXPECT_EQ(ask("POST", R"({"record":false})").status, 404);
+  for (const char* bad : {"", "[]", R"({"record":1})", R"({"path":"/etc/passwd"})"}) {
+    EXPECT_EQ(ask("POST", bad).status, 400) << bad;
+  }
+  EXPECT_EQ(ask("PUT").status, 405);
+  EXPECT_EQ(AskJson("GET", path_ + "/recording", 404)["error"], "this server does not record");
+}
+
+TEST_F(ApiTest, ListsTheSimulations) {
+  const json list = AskJson("GET", "/api/simulations", 200);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0], json::parse(R"({"name":"first light","phase":"created","mode":"real_time",
+                                     "time_s":0,"real_time_factor":0,"robots":3})"));
+}
+
+TEST_F(ApiTest, TellsTheStatus) {
+  simulation_->Advance(std::chrono::seconds(5));
+  const json status = AskJson("GET", path_, 200);
+  EXPECT_EQ(status["step"], 500);
+  EXPECT_EQ(status["time_s"], 5);
+  EXPECT_EQ(status["step_size_s"], 0.01);
+  ASSERT_EQ(status["robots"].size(), 3u);
+  EXPECT_EQ(status["robots"][0]["is_avatar"], true);
+  const json& robot = status["robots"][1];
+  EXPECT_EQ(robot["name"], "robot_0");
+  EXPECT_EQ(robot["behaviour"], "circle");
+  EXPECT_NEAR(robot["pose"]["x_m"].get<double>(), std::cos(1.0), 1e-12);
+  EXPECT_NEAR(robot["pose"]["yaw_rad"].get<double>(), 1 + std::acos(0.0), 1e-12);
+  EXPECT_NEAR(robot["distance_m"].get<double>(), 1, 1e-12);
+}
+
+TEST_F(ApiTest, TheButtonsWork) {
+  EXPECT_EQ(AskJson("POST", path_ + "/start", 200, "{}")["phase"], "running");
+  EXPECT_EQ(AskJson("POST", path_ + "/pause", 200, "{}")["phase"], "paused");
+  EXPECT_EQ(AskJson("POST", path_ + "/step", 200, R"({"count":3})")["step"], 3);
+  EXPECT_EQ(AskJson("POST", path_ + "/step", 200)["step"], 4);
+  EXPECT_EQ(AskJson("POST", path_ + "/resume", 200)["phase"], "running");
+  EXPECT_EQ(AskJson("POST", path_ + "/stop", 200)["phase"], "stopped");
+  EXPECT_EQ(AskJson("POST", path_ + "/reset", 200)["step"], 0);
+}
+
+TEST_F(ApiTest, WhatThePhaseDoesNotAllowIsAConflict) {
+  EXPECT_EQ(AskJson("POST", path_ + "/resume", 409)["error"],
+            "the simulation is created and cannot be resumed");
+}
+
+TEST_F(ApiTest, RefusesBadCommands) {
+  for (const char* body : {"[]", "{", R"({"count":0})", R"({"count":-1})", R"({"count":1.5})",
+                           R"({"count":"3"})", R"({"count":1000000001})"}) {
+    EXPECT_FALSE(AskJson("POST", path_ + "/step", 400, body)["error"].empty()) << body;
+  }
+  for (const char* body : {"1", R"({"linear_m_s":"fast"})", R"({"angular_rad_s":null})"}) {
+    EXPECT_FALSE(AskJson("POST", path_ + "/robots/avatar/drive", 400, body)["error"].empty());
+  }
+}
+
+TEST_F(ApiTest, AnAvatarIsDriven) {
+  AskJson("POST", path_ + "/robots/avatar/drive", 200,
+          R"({"linear_m_s":0.5,"lateral_m_s":-0.25,"angular_rad_s":1})");
+  EXPECT_EQ(simulation_->avatar_command(), (world::DriveCommand{0.5, -0.25, 1}));
+  AskJson("POST", path_ + "/robots/avatar/drive", 200, R"({"angular_rad_s":2})");
+  EXPECT_EQ(simulation_->avatar_command(), (world::DriveCommand{0, 0, 2}));
+}
+
+TEST_F(ApiTest, ARobotWithABehaviourIsNotDriven) {
+  EXPECT_EQ(AskJson("POST", path_ + "/robots/robot_0/drive", 409, "{}")["error"],
+            "'robot_0' is not an avatar: only its behaviour steers it");
+  AskJson("POST", path_ + "/robots/nobody/drive", 404, "{}");
+}
+
+TEST_F(ApiTest, UnknownAddressesAndMethods) {
+  for (const char* target :
+       {"/api", "/api/robots", "/api/simulations/other", "/api/simulations/first%20light/fly",
+        "/api/simulations/first%20light/robots/avatar/fly",
+        "/api/simulations/first%20light/robots/avatar/drive/x", "/api/models", "/api/models/0123",
+        "/api/models/0123.glb"}) {
+    EXPECT_TRUE(AskJson("GET", target, 404).contains("error")) << target;
+  }
+  EXPECT_EQ(Ask("POST", "/api/simulations").allow, "GET");
+  EXPECT_EQ(Ask("DELETE", path_).status, 405);
+  EXPECT_EQ(Ask("GET", path_ + "/start").allow, "POST");
+  EXPECT_EQ(Ask("POST", path_ + "/scene").allow, "GET");
+  EXPECT_EQ(Ask("GET", path_ + "/robots/avatar").allow, "DELETE");
+}
+
+TEST_F(ApiTest, TheSceneDescribesWhatStandsThere) {
+  const json scene = AskJson("GET", path_ + "/scene", 200);
+  EXPECT_EQ(scene["layout_version"], 1);
+  EXPECT_EQ(scene["name"], "arena");
+  ASSERT_EQ(scene["bodies"].size(), 8u);  // avatar, 4 crates, floor, 2 robots
+  const json& crate = scene["bodies"][1];
+  EXPECT_EQ(crate["name"], "crate_0");
+  EXPECT_EQ(crate["is_static"], true);
+  EXPECT_EQ(crate["pose"], json::parse("[-4,-4,0,0,0,0,1]"));
+  EXPECT_EQ(crate["sensors"].size(), 0u);
+  const json& robot = scene["bodies"][6];
+  EXPECT_EQ(robot["links"], json::parse(R"(["base","left_wheel","right_wheel"])"));
+  EXPECT_EQ(robot["sensors"][0],
+            json::parse(R"({"name":"front_sonar","type":"sonar","overlay":"lines","link":"base",
+                            "topic":"/robot_0/front_sonar"})"));
+  EXPECT_EQ(robot["sensors"][3]["overlay"], "picture");
+  EXPECT_EQ(scene["poses"].size(), 9u);
+  EXPECT_EQ(scene["poses"][3], json::parse(R"({"body":6,"link":null})"));
+  EXPECT_EQ(scene["poses"][4], json::parse(R"({"body":6,"link":"left_wheel"})"));
+  EXPECT_EQ(scene["lights"][0]["kind"], "directional");
+}
+
+TEST_F(ApiTest, TheSceneIsAsLargeAsWhatStandsInItWithoutTheFloor) {
+  const geometry::Bounds bounds = presentation::SceneBounds(*simulation_->snapshot());
+  EXPECT_NEAR(bounds.min.x, -4.5, 1e-12);
+  EXPECT_NEAR(bounds.max.y, 4.5, 1e-12);
+  EXPECT_NEAR(bounds.max.z, 1, 1e-12);
+  EXPECT_NEAR(bounds.min.z, 0, 1e-12);
+}
+
+TEST_F(ApiTest, ModelsAreFetchedByTheNamesInTheScene) {
+  const json scene = AskJson("GET", path_ + "/scene", 200);
+  const std::string id = scene["bodies"][1]["model"];
+  EXPECT_EQ(scene["bodies"][2]["model"], id);
+  const Response glb = Ask("GET", "/api/models/" + id + ".glb");
+  EXPECT_EQ(glb.status, 200);
+  EXPECT_EQ(glb.content_type, "model/gltf-binary");
+  EXPECT_EQ(glb.body.view(), "crate");
+  EXPECT_EQ(glb.cache_control, "public, max-age=31536000, immutable");
+  Request again;
+  again.method = "GET";
+  again.target = ParseTarget("/api/models/" + id + ".glb").value();
+  again.if_none_match = glb.etag;
+  EXPECT_EQ(api_.Handle(again).status, 304);
+}
+
+}  // namespace
+}  // namespace gsv::gateway

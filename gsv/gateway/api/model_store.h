@@ -1,0 +1,66 @@
+// The models of all simulations as GLB files, each made once, when it is first asked for.
+//
+// Threads  any; a call may take as long as a model takes to be written.
+// Bounded  what belongs to models that are gone is forgotten.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/gateway/foxglove/shared_bytes.h"
+#include "gsv/model/model.h"
+
+namespace gsv::gateway {
+
+class ModelStore {
+ public:
+  using WriteGlb =
+      std::function<base::Result<std::vector<std::uint8_t>>(const model::Model& model)>;
+
+  explicit ModelStore(WriteGlb write) : write_(std::move(write)) {}
+
+  // The model's identity, under which Glb() knows it from now on.
+  std::string Identify(const std::shared_ptr<const model::Model>& model);
+  // The same of what it collides with; empty: nothing.
+  std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
+
+  // The same for whoever describes scenes, while this lives.
+  std::function<std::string(const std::shared_ptr<const model::Model>&)> identify() {
+    return [this](const auto& model) { return Identify(model); };
+  }
+  std::function<std::string(const std::shared_ptr<const model::Model>&)> identify_collisions() {
+    return [this](const auto& model) { return IdentifyCollisions(model); };
+  }
+
+  // kNotFound: no model that is still alive was ever identified so.
+  base::Result<SharedBytes> Glb(const std::string& id);
+
+ private:
+  struct File {
+    std::mutex writing;
+    std::optional<base::Result<SharedBytes>> glb;  // guarded by `writing`
+  };
+
+  // With mutex_ held.
+  void ForgetGone();
+  std::shared_ptr<const model::Model> FindModel(const std::string& id) const;
+
+  const WriteGlb write_;
+  std::mutex mutex_;
+  using Identities = std::map<std::weak_ptr<const model::Model>, std::string, std::owner_less<>>;
+
+  std::string Known(Identities& identities, const std::shared_ptr<const model::Model>& model,
+                    const std::function<std::string()>& identify);
+  static std::shared_ptr<const model::Model> FindIn(const Identities& identities,
+                                                    const std::string& id);
+
+  Identities looks_, collisions_;
+  std::map<std::string, std::shared_ptr<File>> files_;  // by identity
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,167 @@
+#include "gsv/gateway/api/scenario_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "gsv/scenario/scenario_json.h"
+
+namespace gsv::gateway {
+namespace {
+
+using ScenarioJson = nlohmann::json;
+
+constexpr std::size_t kMostRobots = 1000;
+constexpr double kMostTurns = 1e3;  // rad
+
+tl::unexpected<FieldError> Refused(std::string field, std::string sentence) {
+  return tl::make_unexpected(
+      FieldError{{base::ErrorCode::kInvalidArgument, std::move(sentence)}, std::move(field)});
+}
+
+FieldResult<ScenarioJson> ParseRequestObject(std::string_view body) {
+  ScenarioJson json = ScenarioJson::parse(body, nullptr, false);
+  if (!json.is_object()) return Refused("", "the request's body must be a JSON object");
+  return json;
+}
+
+// Takes a member out that the scenario's reader does not know.
+FieldResult<bool> TakeFlag(ScenarioJson& json, const char* name) {
+  const ScenarioJson value = json.value(name, ScenarioJson());
+  json.erase(name);
+  if (value.is_null()) return false;
+  if (!value.is_boolean()) return Refused(name, "expected true or false");
+  return value.get<bool>();
+}
+
+FieldResult<double> TakeAngle(ScenarioJson& json, const char* name) {
+  const ScenarioJson value = json.value(name, ScenarioJson());
+  json.erase(name);
+  if (value.is_null()) return 0;
+  if (!value.is_number() || !(std::abs(value.get<double>()) <= kMostTurns)) {
+    return Refused(name, "expected an angle in radians");
+  }
+  return value.get<double>();
+}
+
+FieldResult<std::string> TakeName(ScenarioJson& json, const char* name) {
+  const ScenarioJson value = json.value(name, ScenarioJson());
+  json.erase(name);
+  if (value.is_null()) return std::string();
+  if (!value.is_string()) return Refused(name, "expected a text");
+  return value.get<std::string>();
+}
+
+// The first of what is wrong.
+template <typename T>
+FieldResult<T> Judged(T value, const base::Problems& problems) {
+  if (problems.empty()) return value;
+  return Refused(problems.front().where, problems.front().message);
+}
+
+FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
+  constexpr std::string_view kKnown[]{"name",     "world", "mode",   "factor", "step",
+                                      "duration", "seed",  "robots", "avatars"};
+  for (const auto& [name, value] : json.items()) {
+    if (std::find(std::begin(kKnown), std::end(kKnown), name) == std::end(kKnown)) {
+      std::string sentence = "there is no such field; there are:";
+      for (const std::string_view known : kKnown) {
+        sentence += (known == kKnown[0] ? " " : ", ") + std::string(known);
+      }
+      return Refused(name.substr(0, 128), sentence + ", record");
+    }
+  }
+  for (const char* list : {"robots", "avatars"}) {
+    if (json.contains(list) && json[list].size() > kMostRobots) {
+      return Refused(list, "at most " + std::to_string(kMostRobots) + " are expected here");
+    }
+  }
+  return {};
+}
+
+// Robots of the world's own are chosen by a file; in a request each has a model.
+FieldResult<void> RequireModels(const scenario::Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    if (!scenario.robots[i].model.empty()) continue;
+    return Refused("robots[" + std::to_string(i) + "].model", "choose a model");
+  }
+  return {};
+}
+
+}  // namespace
+
+FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body) {
+  auto json = ParseRequestObject(body);
+  if (!json) return tl::make_unexpected(json.error());
+  const auto record = TakeFlag(*json, "record");
+  if (!record) return tl::make_unexpected(record.error());
+  if (auto ok = RefuseWhatIsNotForViewers(*json); !ok) return tl::make_unexpected(ok.error());
+  base::Problems problems;
+  auto scenario = Judged(scenario::ParseScenarioJson(json->dump(), problems), problems);
+  if (!scenario) return tl::make_unexpected(scenario.error());
+  if (scenario->world.empty()) return Refused("world", "choose an environment");
+  if (auto ok = RequireModels(*scenario); !ok) return tl::make_unexpected(ok.error());
+  return SimulationRequest{*std::move(scenario), *record};
+}
+
+FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body) {
+  auto json = ParseRequestObject(body);
+  if (!json) return tl::make_unexpected(json.error());
+  const auto is_avatar = TakeFlag(*json, "avatar");
+  if (!is_avatar) return tl::make_unexpected(is_avatar.error());
+  // Without a model it is the robot of that name which came with the world. In a scenario such a
+  // one has no place of its own; here it has.
+  const bool is_of_world = !json->contains("model") && json->contains("name");
+  if (is_of_world) (*json)["model"] = "the world's";
+  base::Problems problems;
+  RobotToAdd robot{scenario::ParseRobotJson(json->dump(), *is_avatar, problems), *is_avatar};
+  if (is_of_world) robot.robot.model.clear();
+  const bool is_named = is_of_world && !robot.robot.name.empty();
+  if (problems.empty() && robot.robot.model.empty() && !is_named) {
+    return Refused("model", "choose a model");
+  }
+  return Judged(std::move(robot), problems);
+}
+
+FieldResult<Placement> ParsePlace(std::string_view body) {
+  auto json = ParseRequestObject(body);
+  if (!json) return tl::make_unexpected(json.error());
+  const auto roll = TakeAngle(*json, "roll");
+  if (!roll) return tl::make_unexpected(roll.error());
+  const auto pitch = TakeAngle(*json, "pitch");
+  if (!pitch) return tl::make_unexpected(pitch.error());
+  base::Problems problems;
+  const auto place = Judged(scenario::ParsePlaceJson(json->dump(), problems), problems);
+  if (!place) return tl::make_unexpected(place.error());
+  Placement placement{place->pose(), !place->z.has_value()};
+  if (*roll != 0 || *pitch != 0) {
+    placement.world_from_body.orientation = geometry::FromRollPitchYaw({*roll, *pitch, place->yaw});
+  }
+  return placement;
+}
+
+FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body) {
+  auto json = ParseRequestObject(body);
+  if (!json) return tl::make_unexpected(json.error());
+  ObjectRequest object;
+  const std::pair<const char*, std::string*> texts[]{
+      {"name", &object.name}, {"model", &object.model}, {"copy_of", &object.copy_of}};
+  for (const auto& [name, text] : texts) {
+    auto taken = TakeName(*json, name);
+    if (!taken) return tl::make_unexpected(taken.error());
+    *text = *std::move(taken);
+  }
+  if (object.model.empty() == object.copy_of.empty()) {
+    return Refused("model", object.model.empty() ? "choose a model, or a thing to copy"
+                                                 : "either a model or a thing to copy, not both");
+  }
+  if (json->empty()) return object;
+  const auto place = ParsePlace(json->dump());
+  if (!place) return tl::make_unexpected(place.error());
+  object.place = *place;
+  return object;
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,132 @@
+#include "gsv/gateway/api/scenario_json.h"
+
+#include <gtest/gtest.h>
+
+namespace gsv::gateway {
+namespace {
+
+TEST(ScenarioJson, AWorldAloneIsEnough) {
+  const auto request = ParseSimulationRequest(R"({"world": "office"})");
+  ASSERT_TRUE(request) << request.error().error.message;
+  EXPECT_EQ(request->scenario.world, "office");
+  EXPECT_EQ(request->scenario.lockstep, std::nullopt);
+  EXPECT_EQ(request->scenario.factor, std::nullopt);
+  EXPECT_TRUE(request->scenario.robots.empty());
+  EXPECT_FALSE(request->record);
+}
+
+TEST(ScenarioJson, EveryKeyIsTaken) {
+  const auto request = ParseSimulationRequest(R"({
+    "name": "run", "world": "maze", "mode": "lockstep", "factor": 2.5, "step": 0.01,
+    "duration": 60, "seed": 18446744073709551615, "record": true,
+    "robots": [{"name": "a\u00e4\ud83d\ude00/\"b\u0001", "model": "pebble", "x": 1, "y": -2, "z": 0.5,
+                "yaw": 3, "behaviour": "goto --goal-x 3", "movement": "rigid"},
+               {"model": "rover4", "behaviour_constraint": "pid > 0", "movement": "planar"}],
+    "avatars": [{"model": "avatar", "x": 0, "y": 1}]})");
+  ASSERT_TRUE(request) << request.error().field << request.error().error.message;
+  const scenario::Scenario& scenario = request->scenario;
+  EXPECT_EQ(scenario.name, "run");
+  EXPECT_EQ(scenario.lockstep, true);
+  EXPECT_EQ(scenario.factor, 2.5);
+  EXPECT_EQ(scenario.step, 0.01);
+  EXPECT_EQ(scenario.duration, 60);
+  EXPECT_EQ(scenario.seed, 18446744073709551615u);
+  EXPECT_TRUE(request->record);
+  ASSERT_EQ(scenario.robots.size(), 2u);
+  const scenario::RobotEntry& first = scenario.robots[0];
+  EXPECT_EQ(first.name, "a\u00e4\U0001f600/\"b\x01");
+  EXPECT_EQ(first.start, (scenario::Place{1, -2, 0.5, 3}));
+  EXPECT_EQ(first.behaviour, "goto --goal-x 3");
+  EXPECT_EQ(first.movement, model::Movement::kRigid);
+  EXPECT_FALSE(scenario.robots[1].start);
+  EXPECT_EQ(scenario.robots[1].behaviour_constraint, "pid > 0");
+  EXPECT_EQ(scenario.robots[1].movement, model::Movement::kPlanar);
+  ASSERT_EQ(scenario.avatars.size(), 1u);
+  EXPECT_FALSE(scenario.avatars[0].start->z);
+}
+
+struct Refused {
+  const char* body;
+  const char* field;
+};
+
+TEST(ScenarioJson, WhatIsWrongIsRefusedWithItsField) {
+  const Refused refused[]{
+      {R"({})", "world"},
+      {R"({"world": ["w"]})", "world"},
+      {R"({"world": "w", "model_path": ["/"]})", "model_path"},
+      {R"({"world": "w", "in_process": true})", "in_process"},
+      {R"({"world": "w", "wolrd": 1})", "wolrd"},
+      {R"({"world": "w", "mode": "fast"})", "mode"},
+      {R"({"world": "w", "factor": 0})", "factor"},
+      {R"({"world": "w", "factor": "1"})", "factor"},
+      {R"({"world": "w", "step": 1e-9})", "step"},
+      {R"({"world": "w", "duration": -1})", "duration"},
+      {R"({"world": "w", "seed": -1})", "seed"},
+      {R"({"world": "w", "seed": 1.5})", "seed"},
+      {R"({"world": "w", "record": "run.mcap"})", "record"},
+      {R"({"world": "w", "robots": {}})", "robots"},
+      {R"({"world": "w", "robots": [1]})", "robots[0]"},
+      {R"({"world": "w", "robots": [{"model": "m"}, {}]})", "robots[1].model"},
+      {R"({"world": "w", "robots": [{"model": "m", "x": 1}]})", "robots[0].y"},
+      {R"({"world": "w", "robots": [{"model": "m", "x": 1e9, "y": 0}]})", "robots[0].x"},
+      {R"({"world": "w", "robots": [{"model": "m", "wings": 2}]})", "robots[0].wings"},
+      {R"({"world": "w", "robots": [{"model": "m", "movement": "fly"}]})", "robots[0].movement"},
+      {R"({"world": "w", "robots": [{"model": "m", "behaviour": "a",
+                                     "behaviour_constraint": "b"}]})",
+       "robots[0].behaviour_constraint"},
+      {R"({"world": "w", "avatars": [{"model": "m", "behaviour": "a"}]})", "avatars[0].behaviour"},
+      {R"({"world": "w", "robots": [{"name": "of the world"}]})", "robots[0].model"},
+      {R"([])", ""},
+      {R"({"world": )", ""},
+      {"", ""},
+  };
+  for (const auto& [body, field] : refused) {
+    const auto request = ParseSimulationRequest(body);
+    ASSERT_FALSE(request) << body;
+    EXPECT_EQ(request.error().field, field) << body;
+    EXPECT_EQ(request.error().error.code, base::ErrorCode::kInvalidArgument);
+    EXPECT_FALSE(request.error().error.message.empty());
+  }
+}
+
+TEST(ScenarioJson, AnUnknownFieldIsRefusedWithThoseThatAreKnown) {
+  const auto request = ParseSimulationRequest(R"({"world": "w", "wolrd": 1})");
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().error.message,
+            "there is no such field; there are: name, world, mode, factor, step, duration, seed, "
+            "robots, avatars, record");
+}
+
+TEST(ScenarioJson, MoreRobotsThanAnybodyTypesAreRefused) {
+  std::string body = R"({"world": "w", "robots": [{"model": "m"})";
+  for (int i = 1; i < 1000; ++i) body += R"(,{"model": "m"})";
+  const auto most = ParseSimulationRequest(body + "]}");
+  ASSERT_TRUE(most);
+  EXPECT_EQ(most->scenario.robots.size(), 1000u);
+  const auto request = ParseSimulationRequest(body + R"(,{"model": "m"}]})");
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().field, "robots");
+}
+
+TEST(ScenarioJson, ARobotIsAddedWithOrWithoutAPlace) {
+  const auto robot = ParseRobotRequest(R"({"model": "avatar", "avatar": true})");
+  ASSERT_TRUE(robot);
+  EXPECT_TRUE(robot->is_avatar);
+  EXPECT_FALSE(robot->robot.start);
+  EXPECT_EQ(ParseRobotRequest(R"({"model": ""})").error().field, "model");
+}
+
+TEST(ScenarioJson, APlaceNeedsBothCoordinates) {
+  const auto place = ParsePlace(R"({"x": 1, "y": 2})");
+  ASSERT_TRUE(place);
+  EXPECT_TRUE(place->on_ground);
+  EXPECT_EQ(place->world_from_body.position, (geometry::Vector3{1, 2, 0}));
+  EXPECT_EQ(place->world_from_body.orientation, geometry::Quaternion{});
+  EXPECT_EQ(ParsePlace(R"({})").error().field, "x");
+  EXPECT_EQ(ParsePlace(R"({"x": 1})").error().field, "y");
+  EXPECT_EQ(ParsePlace(R"({"y": 1, "x": "far"})").error().field, "x");
+}
+
+}  // namespace
+}  // namespace gsv::gateway

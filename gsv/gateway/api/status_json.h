@@ -1,0 +1,23 @@
+// A simulation's status as JSON, for the API (docs/api.yaml).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gsv/gateway/program/ports.h"
+#include "gsv/gateway/replay/replay_clock.h"
+#include "gsv/simulation/types.h"
+
+namespace gsv::gateway {
+
+// All of it; of a replay with "replay", which is ReplayJson().
+std::string StatusJson(const simulation::SimulationStatus& status);
+std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
+// {"start_s", "end_s", "time_s", "speed", "loop"}
+std::string ReplayJson(const ReplayClock& clock);
+// {"recording", "path", "messages", "dropped_messages", "size_bytes"}
+std::string RecordingJson(const RecordingSwitch::State& state);
+// An array with a line for each simulation.
+std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,68 @@
+// What clients say in the Foxglove WebSocket protocol (see foxglove.h), taken apart.
+//
+// Input  hostile; it is bounded by the size of a message.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/gateway/foxglove/foxglove.h"
+#include "gsv/gateway/foxglove/foxglove_operations.h"
+
+namespace gsv::gateway::foxglove {
+
+struct Subscription {
+  SubscriptionId id = 0;
+  ChannelId channel = 0;
+};
+struct Subscribe {
+  std::vector<Subscription> subscriptions;
+};
+struct Unsubscribe {
+  std::vector<SubscriptionId> subscriptions;
+};
+struct GetParameters {
+  std::vector<std::string> names;  // empty: all
+  std::string request;             // goes back with the answer
+};
+struct SetParameters {
+  std::vector<Parameter> parameters;
+  std::string request;
+};
+struct WatchParameters {
+  std::vector<std::string> names;  // empty: all
+  bool is_end = false;             // of watching
+};
+struct WatchGraph {
+  bool is_end = false;
+};
+struct ServiceCall {
+  std::uint32_t service = 0;
+  std::uint32_t call = 0;
+  std::string encoding;
+  std::string request;  // bytes
+};
+struct PlaybackControl {
+  bool play = false;  // else pause
+  float speed = 1;
+  std::optional<std::uint64_t> seek_ns;
+  std::string request;
+};
+// A message for a capability that no server here has.
+struct Unsupported {
+  std::string op;
+};
+using ClientMessage =
+    std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, WatchGraph,
+                 ServiceCall, PlaybackControl, Unsupported>;
+
+// Both fail with kCorrupt on what is not a message of the protocol.
+base::Result<ClientMessage> ParseClientMessage(std::string_view text);
+base::Result<ClientMessage> ParseClientBytes(std::string_view bytes);
+
+}  // namespace gsv::gateway::foxglove

@@ -1,0 +1,46 @@
+// Requests and responses, free of any HTTP library.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "gsv/base/error.h"
+#include "gsv/gateway/foxglove/shared_bytes.h"
+#include "gsv/gateway/http/target.h"
+
+namespace gsv::gateway {
+
+struct Request {
+  std::string method;      // "GET", "POST"; a HEAD arrives as GET and loses its body on the way out
+  std::string raw_target;  // as it came: "/api/simulations?x=1"
+  Target target;
+  std::string body;
+  std::string content_type;
+  std::string if_none_match;  // the header's value, or empty
+  std::string viewer;  // the key of who asks (Gsv-Viewer), or empty; see access/control_desk.h
+};
+
+struct Response {
+  int status = 200;
+  std::string content_type;
+  SharedBytes body;
+  std::string etag;  // with its quotes; empty: none
+  std::string cache_control = "no-store";
+  std::string allow;  // 405: the methods that are allowed
+};
+
+// May be called from any thread, exactly once.
+using Respond = std::function<void(Response)>;
+
+Response JsonResponse(int status, std::string json);
+// {"error": sentence}
+Response ErrorResponse(int status, std::string_view sentence);
+// The status that tells the caller whose fault it was.
+Response ErrorResponse(const base::Error& error);
+Response MethodNotAllowed(std::string allow);
+
+// Whether an If-None-Match header names this entity tag.
+bool Matches(std::string_view if_none_match, std::string_view etag);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,33 @@
+// The viewer's files, served from one directory and nothing outside it.
+//
+// Threads  const members may run concurrently.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "gsv/gateway/http/http.h"
+
+namespace gsv::gateway {
+
+class StaticFiles {
+ public:
+  // `root` may be empty or absent: then "/" explains what is missing.
+  explicit StaticFiles(const std::filesystem::path& root);
+
+  // "/" is index.html. 404 for what is not there, is hidden, or leads out of the root (by "..", a
+  // separator inside a segment, or a symbolic link).
+  Response Get(const Request& request) const;
+
+ private:
+  Response Explain() const;
+
+  std::filesystem::path given_;  // as the user wrote it
+  std::filesystem::path root_;   // canonical; empty when there is no such directory
+};
+
+// By the file's extension, in any case; "application/octet-stream" for others.
+std::string_view ContentTypeOf(const std::filesystem::path& file);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,55 @@
+#include "gsv/gateway/live/command_topic.h"
+
+#include <utility>
+
+#include "gsv/gateway/foxglove/channels.h"
+#include "gsv/presentation/state_messages.h"
+
+namespace gsv::gateway {
+namespace {
+
+// So that a crowd's commands leave room for other data in a viewer's queue.
+constexpr int kMostInARound = 64;
+
+}  // namespace
+
+CommandTopic::CommandTopic(std::shared_ptr<Hub> hub)
+    : hub_(std::move(hub)),
+      channel_(
+          hub_->Advertise({ChannelFor<messages::gsv_msgs::Command>("/gsv/commands")}).front()) {}
+
+void CommandTopic::Publish(const world::Snapshot& snapshot) {
+  if (snapshot.layout != layout_) FollowLayout(snapshot);
+  if (!hub_->IsSubscribed(channel_)) return;
+  if (hub_->HasNewcomers(channel_)) {
+    hub_->Welcome(channel_, {});
+    told_.assign(told_.size(), {});
+  }
+  int sent = 0;
+  for (std::size_t i = 0; i < told_.size() && sent < kMostInARound; ++i) {
+    const std::size_t body = std::exchange(next_, (next_ + 1) % told_.size());
+    const world::DriveState& drive = snapshot.state.bodies[body].drive;
+    world::DriveState& told = told_[body];
+    const bool is_news = drive.command != told.command || drive.command_time != told.command_time;
+    if (!layout_->bodies[body].is_robot || !is_news) continue;
+    told = drive;
+    ++sent;
+    hub_->Publish(
+        channel_,
+        {static_cast<std::uint64_t>(snapshot.state.time.count()),
+         Encoded(presentation::CommandMessage(layout_->bodies[body].name, drive, snapshot.state))});
+  }
+}
+
+void CommandTopic::FollowLayout(const world::Snapshot& snapshot) {
+  layout_ = snapshot.layout;
+  told_.assign(layout_->bodies.size(), {});
+  next_ = 0;
+  std::set<std::string> robots;
+  for (const world::Body& body : layout_->bodies) {
+    if (body.is_robot) robots.insert(body.name);
+  }
+  hub_->SetPublishers(channel_, std::move(robots));
+}
+
+}  // namespace gsv::gateway

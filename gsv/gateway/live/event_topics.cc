@@ -1,0 +1,68 @@
+#include "gsv/gateway/live/event_topics.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gsv/gateway/foxglove/channels.h"
+#include "gsv/presentation/run_messages.h"
+
+namespace gsv::gateway {
+namespace {
+
+// Of what happened before a viewer came, so much is told.
+constexpr std::size_t kMostPastEvents = 100;
+
+SharedBytes EncodedEvent(const simulation::Event& event) {
+  return Encoded(presentation::EventMessage(event));
+}
+
+SharedBytes EncodedLog(const simulation::Event& event) {
+  return Encoded(presentation::LogMessage(event));
+}
+
+std::uint64_t Nanoseconds(const simulation::Event& event) {
+  return static_cast<std::uint64_t>(event.time.count());
+}
+
+}  // namespace
+
+EventTopics::EventTopics(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
+  const auto channels =
+      hub_->Advertise({ChannelFor<messages::gsv_msgs::LifecycleEvent>("/gsv/events"),
+                       ChannelFor<messages::rcl_interfaces::Log>("/rosout")});
+  topics_ = {{channels[0], EncodedEvent}, {channels[1], EncodedLog}};
+}
+
+void EventTopics::Publish(const simulation::Simulation& simulation) {
+  for (const simulation::Event& event : TakeNew(simulation)) {
+    for (const Topic& topic : topics_) {
+      if (!hub_->IsSubscribed(topic.channel)) continue;
+      hub_->Publish(topic.channel, {Nanoseconds(event), topic.encode(event)},
+                    Hub::Audience::kEstablished);
+    }
+  }
+  for (const Topic& topic : topics_) {
+    if (hub_->HasNewcomers(topic.channel)) Welcome(topic, simulation);
+  }
+}
+
+std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation& simulation) {
+  if (simulation.events(next_).empty()) return {};
+  // The simulation forgets its oldest events, so that their number says where we are: read before
+  // the events themselves, it is not ahead of them.
+  const std::uint64_t count = simulation.status().events;
+  std::vector<simulation::Event> events = simulation.events(next_);
+  next_ = std::max(next_ + events.size(), count);
+  return events;
+}
+
+void EventTopics::Welcome(const Topic& topic, const simulation::Simulation& simulation) {
+  const std::vector<simulation::Event> past = simulation.events(0);
+  std::vector<Hub::Message> messages;
+  for (std::size_t i = past.size() - std::min(past.size(), kMostPastEvents); i < past.size(); ++i) {
+    messages.push_back({Nanoseconds(past[i]), topic.encode(past[i])});
+  }
+  hub_->Welcome(topic.channel, messages);
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,117 @@
+#include "gsv/gateway/live/live_operations.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gsv/gateway/live/simulation_commands.h"
+
+namespace gsv::gateway {
+namespace {
+
+using simulation::Simulation;
+
+constexpr const char* kFactor = "/gsv/factor";
+
+base::Result<std::string> Gone() {
+  return base::Fail(base::ErrorCode::kEnded, "the simulation is gone");
+}
+
+// Answers with where it is recorded.
+base::Result<std::string> Record(const std::shared_ptr<Simulation>& simulation,
+                                 RecordingSwitch& recordings, bool begins) {
+  const std::string& name = simulation->specification().name;
+  const base::Status done = begins ? recordings.Record(simulation) : recordings.StopRecording(name);
+  if (!done) return base::Fail(done.error());
+  return recordings.RecordingOf(name).path;
+}
+
+std::vector<CommandServices::Command> CommandsOf(const std::weak_ptr<Simulation>& simulation,
+                                                 RecordingSwitch* recordings) {
+  std::vector<CommandServices::Command> commands;
+  for (const SimulationCommand& command : SimulationCommands()) {
+    commands.push_back({std::string(command.name), command.takes_count,
+                        [simulation, run = command.run](std::int64_t count) {
+                          const auto locked = simulation.lock();
+                          return locked ? WithoutWords(run(*locked, count)) : Gone();
+                        }});
+  }
+  if (recordings == nullptr) return commands;
+  for (const bool begins : {true, false}) {
+    commands.push_back({begins ? "start_recording" : "stop_recording", false,
+                        [simulation, recordings, begins](std::int64_t) {
+                          const auto locked = simulation.lock();
+                          return locked ? Record(locked, *recordings, begins) : Gone();
+                        }});
+  }
+  return commands;
+}
+
+std::vector<foxglove::Parameter> ParametersOf(const Simulation& simulation) {
+  const simulation::Specification& specification = simulation.specification();
+  return {{"/gsv/name", specification.name},
+          {"/gsv/world", specification.world->name},
+          {"/gsv/mode", std::string(ToString(specification.mode))},
+          // As a text: a number of JSON need not have so many digits.
+          {"/gsv/seed", std::to_string(specification.seed)},
+          {"/gsv/duration_s", base::ToSeconds(specification.duration)},
+          {"/gsv/step_size_s",
+           base::ToSeconds(specification.step.count() > 0 ? specification.step
+                                                          : specification.world->max_step_size)}};
+}
+
+}  // namespace
+
+LiveOperations::LiveOperations(const std::shared_ptr<Simulation>& simulation, WorkerPool& workers,
+                               RecordingSwitch* recordings)
+    : simulation_(simulation),
+      workers_(workers),
+      recordings_(recordings),
+      services_(CommandsOf(simulation, recordings)),
+      fixed_(ParametersOf(*simulation)) {}
+
+void LiveOperations::Call(const foxglove::ServiceCall& call, Answer answer) {
+  auto command = services_.Prepare(call);
+  if (!command) return answer(base::Fail(command.error()));
+  const bool is_accepted = workers_.Submit([run = *std::move(command), answer] { answer(run()); });
+  if (!is_accepted) {
+    answer(base::Fail(base::ErrorCode::kUnavailable, "the server is busy; try again in a moment"));
+  }
+}
+
+std::vector<foxglove::Parameter> LiveOperations::parameters() const {
+  std::vector<foxglove::Parameter> parameters = fixed_;
+  if (const auto simulation = simulation_.lock()) {
+    const simulation::Phase phase = simulation->WaitForPhase({}, std::chrono::milliseconds(0));
+    parameters.push_back({"/gsv/phase", std::string(ToString(phase))});
+    parameters.push_back({kFactor, simulation->factor()});
+    if (recordings_ != nullptr) {
+      const std::string& name = simulation->specification().name;
+      parameters.push_back({"/gsv/recording", recordings_->RecordingOf(name).is_recording});
+    }
+  }
+  return parameters;
+}
+
+base::Status LiveOperations::Set(const foxglove::Parameter& parameter) {
+  if (parameter.name == kFactor) return SetFactor(parameter.value);
+  const std::vector<foxglove::Parameter> all = parameters();
+  const bool is_known = std::any_of(all.begin(), all.end(),
+                                    [&](const auto& each) { return each.name == parameter.name; });
+  const std::string name = "'" + parameter.name.substr(0, 100) + "'";
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    is_known
+                        ? "the parameter " + name + " cannot be changed while a simulation runs"
+                        : "there is no parameter " + name);
+}
+
+base::Status LiveOperations::SetFactor(const foxglove::ParameterValue& value) {
+  const auto* factor = std::get_if<double>(&value);
+  if (factor == nullptr) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "the parameter '/gsv/factor' must be a number");
+  }
+  const auto simulation = simulation_.lock();
+  return simulation ? simulation->SetFactor(*factor) : base::Fail(Gone().error());
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,39 @@
+// What the viewers of a running simulation can do: its commands, and to record it, as services; how
+// it was set up, to look at, and its real-time factor to change.
+//
+// Threads  any.
+#pragma once
+
+#include <memory>
+
+#include "gsv/gateway/foxglove/operations.h"
+#include "gsv/gateway/live/command_services.h"
+#include "gsv/gateway/program/ports.h"
+#include "gsv/gateway/server/worker_pool.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+class LiveOperations final : public Operations {
+ public:
+  // Commands, which may block, run on `workers`, which outlive the last call. Does not keep the
+  // simulation alive. `recordings` may be null: then nothing is recorded.
+  LiveOperations(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& workers,
+                 RecordingSwitch* recordings);
+
+  std::vector<foxglove::Service> services() const override { return services_.list(); }
+  void Call(const foxglove::ServiceCall& call, Answer answer) override;
+  std::vector<foxglove::Parameter> parameters() const override;
+  base::Status Set(const foxglove::Parameter& parameter) override;
+
+ private:
+  base::Status SetFactor(const foxglove::ParameterValue& value);
+
+  const std::weak_ptr<simulation::Simulation> simulation_;
+  WorkerPool& workers_;
+  RecordingSwitch* const recordings_;
+  const CommandServices services_;
+  const std::vector<foxglove::Parameter> fixed_;  // parameters
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,113 @@
+#include "gsv/gateway/live/live_stream.h"
+
+#include <utility>
+
+#include "gsv/gateway/foxglove/channels.h"
+#include "gsv/gateway/live/live_operations.h"
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/messages/time.h"
+#include "gsv/presentation/state_messages.h"
+
+namespace gsv::gateway {
+namespace {
+
+constexpr double kRefreshRate = 1;  // Hz: how often new sensors are looked for
+
+std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
+
+foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
+  const auto started = std::chrono::system_clock::now().time_since_epoch();
+  return {"gsv: " + simulation.specification().name,
+          {"time"},
+          {{"simulation", simulation.specification().name}},
+          std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(started).count())};
+}
+
+}  // namespace
+
+LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation,
+                       WorkerPool& watchers, WorkerPool& commanders, RecordingSwitch* recordings,
+                       std::function<void()> on_demand, access::ControlDesk* desk)
+    : hub_(std::make_shared<Hub>(
+          InfoOf(*simulation), std::move(on_demand),
+          std::make_shared<LiveOperations>(simulation, commanders, recordings))),
+      snapshot_topics_(3),
+      status_(hub_),
+      events_(hub_),
+      refresh_pacing_(kRefreshRate),
+      commands_(hub_),
+      contacts_(hub_, kContactTopic, CollectContacts),
+      radio_(hub_, kRadioTopic, CollectTransmissions),
+      viewers_(hub_, desk) {
+  const std::vector<foxglove::ChannelId> channels =
+      hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
+                       ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
+                       ChannelFor<messages::tf2_msgs::TFMessage>("/tf")});
+  snapshot_topics_[0].encode = &LiveStream::EncodeClock;
+  snapshot_topics_[1].encode = &LiveStream::EncodePoses;
+  snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;
+  for (std::size_t i = 0; i < channels.size(); ++i) snapshot_topics_[i].channel = channels[i];
+  sensors_ = std::make_shared<SensorTopics>(hub_, watchers);
+}
+
+void LiveStream::Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now) {
+  contacts_.Publish(*simulation);
+  radio_.Publish(*simulation);
+  if (!hub_->has_clients()) return;
+  const SnapshotPointer snapshot = simulation->snapshot();
+  FollowLayout(*simulation, *snapshot, now);
+  PublishTime(snapshot);
+  for (SnapshotTopic& topic : snapshot_topics_) Publish(topic, snapshot, now);
+  status_.Publish(*simulation, now);
+  events_.Publish(*simulation);
+  commands_.Publish(*snapshot);
+  viewers_.Publish(now);
+  sensors_->Publish(simulation, snapshot, now);
+  hub_->PublishChanges();
+}
+
+void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
+                              WallTime now) {
+  const bool is_new = snapshot.layout != layout_;
+  if (is_new) {
+    layout_ = snapshot.layout;
+    pose_list_ = presentation::PoseListOf(*layout_);
+  }
+  // Sensors can be mounted without a change of the layout.
+  if (!is_new && !refresh_pacing_.IsDue(now)) return;
+  sensors_->Refresh(simulation, snapshot);
+  refresh_pacing_.Done(now);
+}
+
+void LiveStream::PublishTime(const SnapshotPointer& snapshot) {
+  if (time_of_.lock() == snapshot) return;
+  time_of_ = snapshot;
+  hub_->PublishTime(Nanoseconds(snapshot->state.time));
+}
+
+void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now) {
+  if (!hub_->IsSubscribed(topic.channel)) return;
+  const bool is_due = topic.published.lock() != snapshot && topic.pacing.IsDue(now);
+  if (!is_due && !hub_->HasNewcomers(topic.channel)) return;
+  if (topic.published.lock() != snapshot) {
+    topic.latest = {Nanoseconds(snapshot->state.time), (this->*topic.encode)(*snapshot)};
+  }
+  if (!is_due) return hub_->Welcome(topic.channel, {&topic.latest, 1});
+  hub_->Publish(topic.channel, topic.latest);
+  topic.published = snapshot;
+  topic.pacing.Done(now);
+}
+
+SharedBytes LiveStream::EncodeClock(const world::Snapshot& snapshot) const {
+  return Encoded(messages::rosgraph_msgs::Clock{messages::ToMessage(snapshot.state.time)});
+}
+
+SharedBytes LiveStream::EncodePoses(const world::Snapshot& snapshot) const {
+  return Encoded(presentation::PosesMessage(snapshot, pose_list_));
+}
+
+SharedBytes LiveStream::EncodeTransforms(const world::Snapshot& snapshot) const {
+  return Encoded(presentation::TransformsMessage(snapshot, pose_list_));
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,78 @@
+// One simulation, live: looks at it again and again and publishes what has changed to its hub.
+//
+// Threads  Round() comes from one thread, the publisher's.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/gateway/access/viewers_topic.h"
+#include "gsv/gateway/foxglove/hub.h"
+#include "gsv/gateway/live/command_topic.h"
+#include "gsv/gateway/live/event_topics.h"
+#include "gsv/gateway/live/moment_topic.h"
+#include "gsv/gateway/live/pacing.h"
+#include "gsv/gateway/live/sensor_topics.h"
+#include "gsv/gateway/live/status_topics.h"
+#include "gsv/gateway/program/ports.h"
+#include "gsv/presentation/pose_list.h"
+
+namespace gsv::gateway {
+
+// Hz, of wall time: how often a stream with clients is looked at, and the most that poses are sent.
+inline constexpr double kRoundRate = 30;
+
+class LiveStream {
+ public:
+  // Keeps the simulation alive only while a round or a reading is under way. `on_demand`: see Hub.
+  // Readings are taken on `watchers`, commands obeyed on `commanders`. `recordings` may be null:
+  // then viewers cannot have it recorded. `desk`: see ViewersTopic.
+  LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& watchers,
+             WorkerPool& commanders, RecordingSwitch* recordings, std::function<void()> on_demand,
+             access::ControlDesk* desk = nullptr);
+
+  const std::shared_ptr<Hub>& hub() const { return hub_; }
+
+  // Publishes what is due. Nothing is encoded that nobody subscribed to.
+  void Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now);
+
+ private:
+  using SnapshotPointer = std::shared_ptr<const world::Snapshot>;
+
+  // A channel whose message is a function of the latest snapshot.
+  struct SnapshotTopic {
+    foxglove::ChannelId channel = 0;
+    SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
+    Pacing pacing{kRoundRate};
+    std::weak_ptr<const world::Snapshot> published;
+    Hub::Message latest;
+  };
+
+  void FollowLayout(simulation::Simulation& simulation, const world::Snapshot& snapshot,
+                    WallTime now);
+  void PublishTime(const SnapshotPointer& snapshot);
+  void Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now);
+
+  SharedBytes EncodeClock(const world::Snapshot& snapshot) const;
+  SharedBytes EncodePoses(const world::Snapshot& snapshot) const;
+  SharedBytes EncodeTransforms(const world::Snapshot& snapshot) const;
+
+  const std::shared_ptr<Hub> hub_;
+  std::vector<SnapshotTopic> snapshot_topics_;
+
+  StatusTopics status_;
+  EventTopics events_;
+
+  std::shared_ptr<const world::Layout> layout_;
+  std::vector<presentation::PoseEntry> pose_list_;  // of layout_
+  Pacing refresh_pacing_;
+  std::weak_ptr<const world::Snapshot> time_of_;  // the last whose time was published
+  CommandTopic commands_;
+  ContactTopic contacts_;
+  RadioTopic radio_;
+  access::ViewersTopic viewers_;
+  std::shared_ptr<SensorTopics> sensors_;
+};
+
+}  // namespace gsv::gateway

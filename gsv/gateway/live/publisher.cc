@@ -1,0 +1,112 @@
+#include "gsv/gateway/live/publisher.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gsv::gateway {
+namespace {
+
+constexpr double kDirectoryRate = 2;  // Hz: how soon it is seen that a simulation was destroyed
+
+}  // namespace
+
+Publisher::Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
+                     WorkerPool& commanders, RecordingSwitch* recordings, access::ControlDesk* desk)
+    : directory_(std::move(directory)),
+      watchers_(watchers),
+      commanders_(commanders),
+      recordings_(recordings),
+      desk_(desk),
+      directory_pacing_(kDirectoryRate) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+Publisher::~Publisher() { Stop(); }
+
+std::shared_ptr<Hub> Publisher::HubOf(const std::shared_ptr<simulation::Simulation>& simulation) {
+  const std::lock_guard lock(mutex_);
+  for (const Entry& entry : entries_) {
+    if (entry.simulation.lock() == simulation) return entry.stream->hub();
+  }
+  auto stream = std::make_shared<LiveStream>(
+      simulation, watchers_, commanders_, recordings_, [this] { Wake(); }, desk_);
+  if (is_stopping_) stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
+  entries_.push_back({simulation->specification().name, simulation, stream});
+  return stream->hub();
+}
+
+void Publisher::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  for (const Entry& entry : Entries()) {
+    entry.stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
+  }
+}
+
+void Publisher::Wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_woken_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Publisher::Run() {
+  const std::chrono::nanoseconds period(static_cast<std::int64_t>(1e9 / kRoundRate));
+  auto next_round = std::chrono::steady_clock::now();
+  bool is_watched = false;
+  std::unique_lock lock(mutex_);
+  while (!is_stopping_) {
+    const auto is_called = [&] { return is_stopping_ || is_woken_; };
+    if (is_watched) {
+      changed_.wait_until(lock, next_round, is_called);
+    } else {
+      changed_.wait(lock, is_called);
+    }
+    is_woken_ = false;
+    if (is_stopping_) return;
+    lock.unlock();
+    is_watched = Round();
+    const auto now = std::chrono::steady_clock::now();
+    while (next_round <= now) next_round = std::max(next_round + period, now - period);
+    lock.lock();
+  }
+}
+
+bool Publisher::Round() {
+  const WallTime now = std::chrono::steady_clock::now();
+  if (directory_pacing_.IsDue(now)) {
+    DropEnded();
+    directory_pacing_.Done(now);
+  }
+  bool is_watched = false;
+  for (const Entry& entry : Entries()) {
+    const std::shared_ptr<simulation::Simulation> simulation = entry.simulation.lock();
+    if (!simulation) continue;
+    is_watched = is_watched || entry.stream->hub()->has_clients();
+    entry.stream->Round(simulation, now);
+  }
+  return is_watched;
+}
+
+void Publisher::DropEnded() {
+  for (const Entry& entry : Entries()) {
+    const std::shared_ptr<simulation::Simulation> simulation = entry.simulation.lock();
+    if (simulation && directory_->Find(entry.name) == simulation) continue;
+    entry.stream->hub()->Close(CloseCode::kGoingAway,
+                               "the simulation '" + entry.name + "' is gone");
+    const std::lock_guard lock(mutex_);
+    std::erase_if(entries_, [&](const Entry& other) { return other.stream == entry.stream; });
+  }
+}
+
+std::vector<Publisher::Entry> Publisher::Entries() const {
+  const std::lock_guard lock(mutex_);
+  return entries_;
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,61 @@
+// The thread that publishes: goes over all streams that have clients, some thirty times a second,
+// and at once when somebody subscribes. Sleeps while nobody watches.
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gsv/gateway/live/live_stream.h"
+#include "gsv/gateway/program/ports.h"
+
+namespace gsv::gateway {
+
+class Publisher {
+ public:
+  // Readings are taken on `watchers`, viewers' commands obeyed on `commanders`; both, and
+  // `recordings` and `desk`, which may be null, outlive the publisher and all its streams.
+  Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
+            WorkerPool& commanders, RecordingSwitch* recordings,
+            access::ControlDesk* desk = nullptr);
+  ~Publisher();
+
+  // The hub of a simulation, made when it is first asked for.
+  std::shared_ptr<Hub> HubOf(const std::shared_ptr<simulation::Simulation>& simulation);
+
+  // Ends the thread and lets no client in any more.
+  void Stop();
+
+ private:
+  struct Entry {
+    std::string name;
+    std::weak_ptr<simulation::Simulation> simulation;
+    std::shared_ptr<LiveStream> stream;
+  };
+
+  void Run();
+  void Wake();
+  // Whether anybody watches.
+  bool Round();
+  // Streams whose simulation is not in the directory any more are closed and dropped.
+  void DropEnded();
+  std::vector<Entry> Entries() const;
+
+  const std::shared_ptr<SimulationDirectory> directory_;
+  WorkerPool& watchers_;
+  WorkerPool& commanders_;
+  RecordingSwitch* const recordings_;
+  access::ControlDesk* const desk_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Entry> entries_;
+  bool is_woken_ = false;
+  bool is_stopping_ = false;
+  Pacing directory_pacing_;
+  std::thread thread_;
+};
+
+}  // namespace gsv::gateway

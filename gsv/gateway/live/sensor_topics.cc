@@ -1,0 +1,286 @@
+#include "gsv/gateway/live/sensor_topics.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "gsv/gateway/foxglove/channels.h"
+#include "gsv/presentation/state_messages.h"
+
+namespace gsv::gateway {
+namespace {
+
+constexpr double kBeamsRate = 15;  // Hz
+constexpr double kReadingsRate = 15;
+constexpr double kPicturesRate = 5;
+
+bool SameDescription(const model::SensorDescription& a, const model::SensorDescription& b) {
+  return a.name == b.name && a.type == b.type && a.link == b.link &&
+         a.link_from_sensor == b.link_from_sensor && a.update_rate == b.update_rate &&
+         a.parameters == b.parameters;
+}
+
+std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
+
+}  // namespace
+
+// One sensor on one robot. What a worker uses of it is never changed, or atomic.
+struct SensorTopics::Sensor {
+  Sensor(std::string its_robot, model::SensorDescription its_description,
+         const sensing::SensorType* its_type)
+      : robot(std::move(its_robot)),
+        description(std::move(its_description)),
+        type(its_type),
+        pacing(type->overlay == sensing::Overlay::kPicture ? kPicturesRate : kReadingsRate) {}
+
+  const std::string robot;
+  const model::SensorDescription description;
+  const sensing::SensorType* const type;
+  std::string frame() const { return presentation::FrameOf(robot, description.name); }
+
+  foxglove::ChannelId channel = 0;            // 0: none
+  foxglove::ChannelId companion_channel = 0;  // the same
+  Pacing pacing;
+  std::optional<std::int64_t> asked_at_step;  // of the latest snapshot when it was last read
+  std::atomic<bool> is_busy{false};
+  std::atomic<std::int64_t> published_step{-1};  // of the last reading that went out
+  std::atomic<bool> has_complained{false};
+};
+
+SensorTopics::SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers)
+    : hub_(std::move(hub)),
+      workers_(workers),
+      beam_sensors_(std::make_shared<SensorList>()),
+      beams_pacing_(kBeamsRate) {
+  const auto channels =
+      hub_->Advertise({ChannelFor<messages::visualization_msgs::MarkerArray>("/gsv/beams"),
+                       ChannelFor<messages::tf2_msgs::TFMessage>("/tf_static")});
+  beams_channel_ = channels[0];
+  transforms_channel_ = channels[1];
+}
+
+void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot) {
+  Sensors found = Found(simulation, *snapshot.layout);
+  if (found == sensors_) return;
+  Withdraw(found);
+  Advertise(found);
+  sensors_ = std::move(found);
+  SensorList with_beams;
+  for (const auto& [topic, sensor] : sensors_) {
+    if (presentation::HasLines(*sensor->type, sensor->description)) with_beams.push_back(sensor);
+  }
+  beam_sensors_ = std::make_shared<SensorList>(std::move(with_beams));
+  by_channel_.clear();
+  for (const auto& [topic, sensor] : sensors_) {
+    if (sensor->channel != 0) by_channel_.emplace(sensor->channel, sensor);
+    if (sensor->companion_channel != 0) by_channel_.emplace(sensor->companion_channel, sensor);
+  }
+  beams_of_.reset();
+  transforms_changed_ = true;
+}
+
+// The sensors that are there now; those that were there already keep their state.
+SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
+                                          const world::Layout& layout) const {
+  Sensors found;
+  for (const world::Body& body : layout.bodies) {
+    if (!body.is_robot && !body.is_avatar) continue;
+    for (model::SensorDescription& description : simulation.sensors(body.name)) {
+      const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
+      if (type == nullptr) continue;
+      const std::string topic = "/" + presentation::FrameOf(body.name, description.name);
+      const auto known = sensors_.find(topic);
+      if (known != sensors_.end() && SameDescription(known->second->description, description)) {
+        found.insert(*known);
+      } else {
+        found.emplace(topic, std::make_shared<Sensor>(body.name, std::move(description), type));
+      }
+    }
+  }
+  return found;
+}
+
+void SensorTopics::Withdraw(const Sensors& found) {
+  std::vector<foxglove::ChannelId> gone;
+  for (const auto& [topic, sensor] : sensors_) {
+    const auto still = found.find(topic);
+    if (still != found.end() && still->second == sensor) continue;
+    for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
+      if (channel != 0) gone.push_back(channel);
+    }
+  }
+  hub_->Unadvertise(gone);
+  topics_ -= gone.size();
+}
+
+void SensorTopics::Advertise(Sensors& found) {
+  std::vector<foxglove::Channel> channels;
+  std::vector<std::pair<std::shared_ptr<Sensor>, foxglove::ChannelId Sensor::*>> fresh;
+  bool is_all = true;
+  for (const auto& [topic, sensor] : found) {
+    if (sensor->channel != 0 || sensor->type->schema == nullptr) continue;
+    if (topics_ + fresh.size() >= kMostSensorTopics) {
+      is_all = false;
+      break;
+    }
+    channels.push_back(ChannelFor(topic, *sensor->type->schema));
+    fresh.emplace_back(sensor, &Sensor::channel);
+    if (const auto& companion = sensor->type->companion) {
+      channels.push_back(ChannelFor(topic + "/" + companion->topic, *companion->schema));
+      fresh.emplace_back(sensor, &Sensor::companion_channel);
+    }
+  }
+  const std::vector<foxglove::ChannelId> ids = hub_->Advertise(std::move(channels));
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto& [sensor, channel] = fresh[i];
+    (*sensor).*channel = ids[i];
+    hub_->SetPublishers(ids[i], {sensor->robot});
+  }
+  topics_ += ids.size();
+  if (!is_all && !std::exchange(told_of_limit_, true)) {
+    hub_->SendStatus(foxglove::StatusLevel::kWarning,
+                     "there are more sensors than can be listed: the first " +
+                         std::to_string(kMostSensorTopics) + " have a topic of their own");
+  }
+}
+
+void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simulation,
+                           const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now) {
+  PublishTransforms(*snapshot);
+  // By what is listened to: a thousand robots have thousands of sensors.
+  for (const foxglove::ChannelId channel : hub_->SubscribedChannels()) {
+    const auto found = by_channel_.find(channel);
+    if (found == by_channel_.end()) continue;
+    const std::shared_ptr<Sensor>& sensor = found->second;
+    if (channel == sensor->companion_channel) {
+      WelcomeToCompanion(*snapshot, *sensor);
+    } else {
+      PublishReading(simulation, *snapshot, now, sensor);
+    }
+  }
+  PublishBeams(simulation, snapshot, now);
+}
+
+void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
+  const bool is_wanted = hub_->HasNewcomers(transforms_channel_) ||
+                         (transforms_changed_ && hub_->IsSubscribed(transforms_channel_));
+  if (!is_wanted) return;
+  messages::tf2_msgs::TFMessage message;
+  for (const auto& [topic, sensor] : sensors_) {
+    const int body = snapshot.layout->Find(sensor->robot);
+    if (body < 0) continue;
+    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description, *sensor->type,
+                                        snapshot.state.time, message);
+  }
+  hub_->Publish(transforms_channel_, {Nanoseconds(snapshot.state.time), Encoded(message)});
+  transforms_changed_ = false;
+}
+
+// What goes with readings is the same each time: who comes gets it, whether or not anybody wants
+// the readings.
+void SensorTopics::WelcomeToCompanion(const world::Snapshot& snapshot, const Sensor& sensor) {
+  if (!hub_->HasNewcomers(sensor.companion_channel)) return;
+  sensing::Reading now;
+  now.step = snapshot.state.step;
+  now.time = snapshot.state.time;
+  const Hub::Message message{Nanoseconds(now.time), SharedBytes(sensor.type->companion->encode(
+                                                        sensor.description, now, sensor.frame()))};
+  hub_->Welcome(sensor.companion_channel, {&message, 1});
+}
+
+void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
+                                  const world::Snapshot& snapshot, WallTime now,
+                                  const std::shared_ptr<Sensor>& sensor) {
+  if (sensor->is_busy) return;
+  const bool is_due = sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now);
+  if (!is_due && !hub_->HasNewcomers(sensor->channel)) return;
+  sensor->is_busy = true;
+  const bool accepted = workers_.Submit([self = shared_from_this(), simulation, sensor] {
+    self->TakeReading(*simulation, *sensor);
+    sensor->is_busy = false;
+  });
+  if (!accepted) {
+    sensor->is_busy = false;  // the workers are behind: it is tried again next round
+    return;
+  }
+  sensor->asked_at_step = snapshot.state.step;
+  sensor->pacing.Done(now);
+}
+
+void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& sensor) {
+  const base::Result<sensing::Reading> reading =
+      simulation.Watch(sensor.robot, sensor.description.name);
+  if (!reading) {
+    hub_->Welcome(sensor.channel, {});  // or they would be asked for every round
+    if (!sensor.has_complained.exchange(true)) {
+      hub_->SendStatus(foxglove::StatusLevel::kWarning, reading.error().Sentence());
+    }
+    return;
+  }
+  const bool is_new = sensor.published_step.exchange(reading->step) != reading->step;
+  if (!is_new && !hub_->HasNewcomers(sensor.channel)) return;
+  const Hub::Message message{
+      Nanoseconds(reading->time),
+      SharedBytes(sensor.type->encode(sensor.description, *reading, sensor.frame()))};
+  if (is_new) {
+    hub_->Publish(sensor.channel, message);
+    if (sensor.companion_channel != 0 && hub_->IsSubscribed(sensor.companion_channel)) {
+      hub_->Publish(sensor.companion_channel, {Nanoseconds(reading->time),
+                                               SharedBytes(sensor.type->companion->encode(
+                                                   sensor.description, *reading, sensor.frame()))});
+    }
+  } else {
+    hub_->Welcome(sensor.channel, {&message, 1});
+  }
+}
+
+void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,
+                                const std::shared_ptr<const world::Snapshot>& snapshot,
+                                WallTime now) {
+  if (beams_busy_ || !hub_->IsSubscribed(beams_channel_)) return;
+  const bool is_due = beams_of_.lock() != snapshot && beams_pacing_.IsDue(now);
+  if (!is_due && !hub_->HasNewcomers(beams_channel_)) return;
+  beams_busy_ = true;
+  const bool accepted =
+      workers_.Submit([self = shared_from_this(), simulation, snapshot, sensors = beam_sensors_] {
+        self->TakeBeams(*simulation, *snapshot, *sensors);
+        self->beams_busy_ = false;
+      });
+  if (!accepted) {
+    beams_busy_ = false;
+    return;
+  }
+  beams_of_ = snapshot;
+  beams_pacing_.Done(now);
+}
+
+void SensorTopics::TakeBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
+                             const SensorList& sensors) {
+  std::map<std::string, std::vector<geometry::Vector3>> points;  // in the world, by robot
+  for (const std::shared_ptr<Sensor>& sensor : sensors) {
+    const int body = snapshot.layout->Find(sensor->robot);
+    if (body < 0) continue;
+    const auto reading = simulation.Watch(sensor->robot, sensor->description.name);
+    if (!reading) continue;
+    const geometry::Pose world_from_sensor =
+        world::LinkPose(snapshot, body, sensor->description.link) *
+        sensor->description.link_from_sensor;
+    presentation::AppendLines(*sensor->type, sensor->description, *reading, world_from_sensor,
+                              points[sensor->robot]);
+  }
+  messages::visualization_msgs::MarkerArray message;
+  for (const std::string& robot : robots_with_beams_) {
+    if (!points.contains(robot)) {
+      message.markers.push_back(presentation::NoBeamsMarker(robot, snapshot.state.time));
+    }
+  }
+  robots_with_beams_.clear();
+  for (auto& [robot, its_points] : points) {
+    robots_with_beams_.insert(robot);
+    message.markers.push_back(
+        presentation::BeamsMarker(robot, snapshot.state.time, std::move(its_points)));
+  }
+  hub_->Publish(beams_channel_, {Nanoseconds(snapshot.state.time), Encoded(message)});
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,28 @@
+#include "gsv/gateway/live/simulation_commands.h"
+
+#include <algorithm>
+
+namespace gsv::gateway {
+
+using simulation::Simulation;
+
+std::span<const SimulationCommand> SimulationCommands() {
+  static constexpr SimulationCommand kCommands[]{
+      {"start", false, [](Simulation& s, std::int64_t) { return s.Start(); }},
+      {"pause", false, [](Simulation& s, std::int64_t) { return s.Pause(); }},
+      {"resume", false, [](Simulation& s, std::int64_t) { return s.Resume(); }},
+      {"stop", false, [](Simulation& s, std::int64_t) { return s.Stop(); }},
+      {"reset", false, [](Simulation& s, std::int64_t) { return s.Reset(); }},
+      {"step", true, [](Simulation& s, std::int64_t count) { return s.Step(count); }},
+  };
+  return kCommands;
+}
+
+const SimulationCommand* FindSimulationCommand(std::string_view name) {
+  const auto commands = SimulationCommands();
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const auto& command) { return command.name == name; });
+  return found == commands.end() ? nullptr : &*found;
+}
+
+}  // namespace gsv::gateway

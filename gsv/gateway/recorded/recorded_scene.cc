@@ -1,0 +1,113 @@
+#include "gsv/gateway/recorded/recorded_scene.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "gsv/recording/scene_attachments.h"
+
+namespace gsv::gateway {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint64_t kMostSceneBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMostModelBytes = std::uint64_t{1} << 30;
+
+std::string_view TextOf(const recording::Bytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+const Json& Member(const Json& object, const char* name) {
+  static const Json kNull;
+  const auto found = object.is_object() ? object.find(name) : object.end();
+  return object.is_object() && found != object.end() ? *found : kNull;
+}
+
+// Of the entries of "poses" that are bodies, not links.
+std::map<std::string, std::size_t> BodyPosesOf(const Json& scene) {
+  std::map<std::string, std::size_t> places;
+  const Json& bodies = Member(scene, "bodies");
+  const Json& poses = Member(scene, "poses");
+  if (!bodies.is_array() || !poses.is_array()) return places;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Json& body = Member(poses[i], "body");
+    if (!body.is_number_unsigned() || body.get<std::uint64_t>() >= bodies.size()) continue;
+    const Json& name = Member(bodies[body.get<std::size_t>()], "name");
+    if (name.is_string() && Member(poses[i], "link").is_null()) places[name.get<std::string>()] = i;
+  }
+  return places;
+}
+
+}  // namespace
+
+RecordedScene::RecordedScene(const recording::McapReader& reader) : reader_(reader) {
+  for (const recording::AttachmentIndexRecord& index : reader.summary().attachments) {
+    if (index.name != recording::kSceneAttachment) {
+      models_[index.name] = index;
+    } else if (const base::Status added = Add(index); !added) {
+      Warn(added.error());
+    }
+  }
+  if (scenes_.empty()) Warn(Scene(0).error());
+}
+
+base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
+  if (index.data_size > kMostSceneBytes) {
+    return base::Fail(base::ErrorCode::kCorrupt, "a scene is larger than is read", index.name);
+  }
+  const auto attachment = reader_.Read(index);
+  if (!attachment) return base::Fail(attachment.error());
+  const std::string_view text = TextOf(attachment->data);
+  const Json scene = Json::parse(text, nullptr, false);
+  const Json& version = Member(scene, "layout_version");
+  if (!version.is_number_unsigned()) {
+    return base::Fail(base::ErrorCode::kCorrupt, "it is no scene: it has no layout_version",
+                      index.name);
+  }
+  scenes_[version.get<std::uint32_t>()] = {SharedBytes(std::string(text)), BodyPosesOf(scene)};
+  return {};
+}
+
+void RecordedScene::Warn(const base::Error& error) {
+  problems_.push_back({base::Problem::Severity::kWarning, error.message, error.where});
+}
+
+base::Result<SharedBytes> RecordedScene::Scene(std::uint32_t layout_version) const {
+  if (scenes_.empty()) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "the recording holds no scene (an attachment scene.json), so there is "
+                      "nothing to draw; its messages can be seen all the same");
+  }
+  const auto found = scenes_.find(layout_version);
+  return found == scenes_.end() ? scenes_.begin()->second.json : found->second.json;
+}
+
+const std::map<std::string, std::size_t>& RecordedScene::BodyPoses(
+    std::uint32_t layout_version) const {
+  static const std::map<std::string, std::size_t> kNone;
+  const auto found = scenes_.find(layout_version);
+  return found == scenes_.end() ? kNone : found->second.body_poses;
+}
+
+bool RecordedScene::HasBody(const std::string& name) const {
+  return std::any_of(scenes_.begin(), scenes_.end(),
+                     [&](const auto& scene) { return scene.second.body_poses.contains(name); });
+}
+
+base::Result<SharedBytes> RecordedScene::Model(const std::string& id) const {
+  const auto found = models_.find(recording::ModelAttachment(id));
+  if (found == models_.end()) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "the recording holds no model '" + id.substr(0, 64) + "'");
+  }
+  if (found->second.data_size > kMostModelBytes) {
+    return base::Fail(base::ErrorCode::kCorrupt, "the model is larger than is read", id);
+  }
+  auto attachment = reader_.Read(found->second);
+  if (!attachment) return base::Fail(attachment.error());
+  return SharedBytes(std::move(attachment->data));
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,123 @@
+#include "gsv/gateway/recorded/recorded_timeline.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/rcl_interfaces.h"
+
+namespace gsv::gateway {
+namespace {
+
+using recording::MessageBlock;
+
+constexpr std::size_t kMostEvents = 1000;
+constexpr std::size_t kMostLines = 5000;
+constexpr std::size_t kMostBytes = 1 << 20;
+
+// A block without an index may hold anything.
+bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels) {
+  return block.channels.empty() ||
+         std::any_of(block.channels.begin(), block.channels.end(),
+                     [&](std::uint16_t channel) { return channels.contains(channel); });
+}
+
+}  // namespace
+
+RecordedTimeline::RecordedTimeline(const recording::McapReader& reader)
+    : reader_(reader),
+      pose_channels_(ChannelsOf("/gsv/poses")),
+      event_channels_(ChannelsOf("/gsv/events")),
+      log_channels_(ChannelsOf("/rosout")) {}
+
+RecordedTimeline::ChannelIds RecordedTimeline::ChannelsOf(const std::string& topic) const {
+  ChannelIds ids;
+  for (const auto& [id, channel] : reader_.summary().channels) {
+    if (channel.topic == topic && channel.message_encoding == "cdr") ids.insert(id);
+  }
+  return ids;
+}
+
+base::SimTime RecordedTimeline::PoseBeside(base::SimTime time, std::int64_t count) const {
+  const bool is_ahead = count > 0;
+  const auto distance = [&](base::SimTime other) { return is_ahead ? other - time : time - other; };
+  const auto nearest = [&](const MessageBlock& block) {
+    return distance(is_ahead ? block.start : block.end);
+  };
+  std::vector<const MessageBlock*> blocks;
+  for (const MessageBlock& block : reader_.summary().blocks) {
+    const bool reaches_there = distance(is_ahead ? block.end : block.start) > base::SimTime(0);
+    if (reaches_there && MayHold(block, pose_channels_)) blocks.push_back(&block);
+  }
+  std::stable_sort(blocks.begin(), blocks.end(), [&](const MessageBlock* a, const MessageBlock* b) {
+    return nearest(*a) < nearest(*b);
+  });
+  const auto wanted = static_cast<std::size_t>(std::abs(count));
+  std::set<base::SimTime> distances;  // of poses, the nearest first; no more than are wanted
+  for (const MessageBlock* block : blocks) {
+    if (distances.size() == wanted && nearest(*block) > *distances.rbegin()) break;
+    const base::Result<recording::BlockMessages> content = reader_.Messages(*block);
+    if (!content) continue;
+    for (const recording::MessageRecord& message : content->messages) {
+      const base::SimTime away = distance(message.log_time);
+      if (away <= base::SimTime(0) || !pose_channels_.contains(message.channel_id)) continue;
+      distances.insert(away);
+      if (distances.size() > wanted) distances.erase(std::prev(distances.end()));
+    }
+  }
+  if (distances.size() < wanted) return is_ahead ? reader_.summary().end : reader_.summary().start;
+  return is_ahead ? time + *distances.rbegin() : time - *distances.rbegin();
+}
+
+const std::vector<RecordedEvent>& RecordedTimeline::Events() const {
+  std::call_once(events_once_, [this] { events_ = ReadEvents(); });
+  return events_;
+}
+
+const std::vector<RecordedLine>& RecordedTimeline::Log() const {
+  std::call_once(log_once_, [this] { log_ = ReadLog(); });
+  return log_;
+}
+
+template <typename Message, typename Entry, typename Use>
+std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::size_t most,
+                                             Use use) const {
+  std::vector<Entry> entries;
+  std::size_t bytes = 0;
+  const auto is_full = [&] { return entries.size() >= most || bytes > kMostBytes; };
+  for (const MessageBlock& block : reader_.summary().blocks) {
+    if (is_full()) break;
+    if (!MayHold(block, channels)) continue;
+    const base::Result<recording::BlockMessages> content = reader_.Messages(block);
+    if (!content) continue;
+    for (const recording::MessageRecord& message : content->messages) {
+      if (is_full()) break;
+      if (!channels.contains(message.channel_id)) continue;
+      auto decoded = messages::Decode<Message>(std::as_bytes(std::span(message.data)));
+      if (!decoded) continue;
+      bytes += message.data.size();
+      entries.push_back(use(message.log_time, std::move(*decoded)));
+    }
+  }
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.time < b.time; });
+  return entries;
+}
+
+std::vector<RecordedEvent> RecordedTimeline::ReadEvents() const {
+  using messages::gsv_msgs::LifecycleEvent;
+  return ReadAll<LifecycleEvent, RecordedEvent>(
+      event_channels_, kMostEvents, [](base::SimTime time, LifecycleEvent event) {
+        return RecordedEvent{time, std::move(event.event), std::move(event.robot),
+                             std::move(event.detail)};
+      });
+}
+
+std::vector<RecordedLine> RecordedTimeline::ReadLog() const {
+  using messages::rcl_interfaces::Log;
+  return ReadAll<Log, RecordedLine>(log_channels_, kMostLines, [](base::SimTime time, Log line) {
+    return RecordedLine{time, line.level, std::move(line.name), std::move(line.msg)};
+  });
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,31 @@
+// What the viewers of a replay can do: the same services as with a running simulation, speed and
+// loop as parameters, and the control of its playback.
+//
+// Threads  any.
+#pragma once
+
+#include "gsv/gateway/foxglove/operations.h"
+#include "gsv/gateway/live/command_services.h"
+
+namespace gsv::gateway {
+
+class ReplayPlayer;
+
+class ReplayOperations final : public Operations {
+ public:
+  // `player` outlives the last call.
+  explicit ReplayOperations(ReplayPlayer& player);
+
+  std::vector<foxglove::Service> services() const override { return services_.list(); }
+  void Call(const foxglove::ServiceCall& call, Answer answer) override;
+  std::vector<foxglove::Parameter> parameters() const override;
+  base::Status Set(const foxglove::Parameter& parameter) override;
+  std::optional<foxglove::PlaybackState> playback() const override;
+  base::Status Control(const foxglove::PlaybackControl& request) override;
+
+ private:
+  ReplayPlayer& player_;
+  const CommandServices services_;
+};
+
+}  // namespace gsv::gateway

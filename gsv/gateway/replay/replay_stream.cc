@@ -1,0 +1,183 @@
+#include "gsv/gateway/replay/replay_stream.h"
+
+#include <utility>
+#include <vector>
+
+#include "gsv/gateway/foxglove/channels.h"
+#include "gsv/gateway/live/sensor_topics.h"
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/messages/time.h"
+#include "gsv/presentation/run_messages.h"
+#include "gsv/recording/newest_messages.h"
+
+namespace gsv::gateway {
+namespace {
+
+constexpr double kStatusRate = 5;  // Hz
+constexpr int kMostWarnings = 10;
+
+std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
+
+foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& summary) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return {"gsv replay: " + name,
+          {"time"},
+          {{"simulation", name}},
+          std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()),
+          foxglove::TimeRange{Nanoseconds(summary.start), Nanoseconds(summary.end)}};
+}
+
+// What belongs to the whole simulation goes first, lest the limit leave it out.
+bool IsCommon(const std::string& topic) {
+  return topic.starts_with("/gsv/") || topic == "/tf" || topic == "/tf_static";
+}
+
+template <typename Message>
+Message DecodedOrEmpty(const SharedBytes& bytes) {
+  const auto message =
+      messages::Decode<Message>(std::as_bytes(std::span(bytes.data(), bytes.size())));
+  return message ? *message : Message{};
+}
+
+}  // namespace
+
+ReplayStream::ReplayStream(const recording::McapReader& reader, const std::string& name,
+                           std::function<void()> on_demand, std::shared_ptr<Operations> operations)
+    : reader_(reader),
+      hub_(std::make_shared<Hub>(InfoOf(name, reader.summary()), std::move(on_demand),
+                                 std::move(operations))),
+      status_pacing_(kStatusRate) {
+  const auto own =
+      hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
+                       ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status")});
+  clock_channel_ = own[0];
+  status_channel_ = own[1];
+  Advertise(reader.summary());
+}
+
+void ReplayStream::Advertise(const recording::Summary& summary) {
+  static const std::map<std::string, Kind> kKinds{
+      {"/gsv/events", Kind::kEvents}, {"/gsv/contacts", Kind::kEvents}, {"/rosout", Kind::kEvents},
+      {"/gsv/radio", Kind::kEvents},  {"/gsv/status", Kind::kStatus},   {"/clock", Kind::kClock},
+      {"/gsv/poses", Kind::kPoses}};
+  std::vector<foxglove::Channel> channels;
+  std::vector<std::uint16_t> ids;
+  for (const bool common : {true, false}) {
+    for (const auto& [id, channel] : summary.channels) {
+      const auto schema = summary.schemas.find(channel.schema_id);
+      const bool is_ours = channel.message_encoding == "cdr" && schema != summary.schemas.end() &&
+                           schema->second.encoding == "ros2msg";
+      if (!is_ours || IsCommon(channel.topic) != common) continue;
+      const auto kind = kKinds.find(channel.topic);
+      Track& track = tracks_[id];
+      if (kind != kKinds.end()) track.kind = kind->second;
+      const bool is_own = track.kind == Kind::kStatus || track.kind == Kind::kClock;
+      if (is_own || ids.size() >= kMostSensorTopics) continue;
+      channels.push_back({0, channel.topic, channel.message_encoding, schema->second.name,
+                          schema->second.encoding, schema->second.data});
+      ids.push_back(id);
+    }
+  }
+  const auto advertised = hub_->Advertise(std::move(channels));
+  for (std::size_t i = 0; i < ids.size(); ++i) tracks_[ids[i]].channel = advertised[i];
+}
+
+void ReplayStream::JumpTo(base::SimTime time) {
+  has_jumped_ = true;
+  for (auto& [id, track] : tracks_) {
+    track.latest.reset();
+    track.is_fresh = false;
+  }
+  recording::NewestMessages newest = recording::FindNewestMessages(reader_, time);
+  for (const base::Problem& problem : newest.problems) Warn(problem.Sentence());
+  for (auto& [id, message] : newest.by_channel) Keep(id, message.log_time, std::move(message.data));
+  cursor_.reset();
+  cursor_.emplace(reader_.Messages(time + base::SimTime(1)));
+  ReadNext();
+}
+
+void ReplayStream::PlayTo(base::SimTime time) {
+  while (next_ && next_->log_time <= time) {
+    const Track* track = Keep(next_->channel_id, next_->log_time,
+                              recording::Bytes(next_->data.begin(), next_->data.end()));
+    if (track != nullptr && track->kind == Kind::kEvents) {
+      hub_->Publish(track->channel, *track->latest, Hub::Audience::kEstablished);
+    }
+    ReadNext();
+  }
+}
+
+void ReplayStream::ReadNext() {
+  for (;;) {
+    const auto next = cursor_->Next();
+    if (next) {
+      next_ = *next;
+      return;
+    }
+    Warn(next.error().Sentence());  // the next call goes on behind the damage
+  }
+}
+
+const ReplayStream::Track* ReplayStream::Keep(std::uint16_t id, base::SimTime time,
+                                              recording::Bytes data) {
+  const auto found = tracks_.find(id);
+  if (found == tracks_.end()) return nullptr;
+  Track& track = found->second;
+  track.latest = Hub::Message{Nanoseconds(time), SharedBytes(std::move(data))};
+  track.is_fresh = track.kind != Kind::kEvents;
+  if (track.kind == Kind::kStatus || track.kind == Kind::kPoses) {
+    const std::lock_guard lock(mutex_);
+    (track.kind == Kind::kStatus ? status_ : poses_) = track.latest->payload;
+  }
+  return &track;
+}
+
+void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime now,
+                           const std::function<simulation::SimulationStatus()>& status) {
+  hub_->PublishChanges(std::exchange(has_jumped_, false));
+  const bool has_moved = published_time_ != time;
+  // Only while it plays does another status follow one that came too soon.
+  const bool is_paced = phase == simulation::Phase::kRunning;
+  const bool is_due =
+      published_phase_ != phase || (has_moved && (!is_paced || status_pacing_.IsDue(now)));
+  if (has_moved) hub_->PublishTime(Nanoseconds(time));
+  PublishOwn(clock_channel_, has_moved, time,
+             [&] { return Encoded(messages::rosgraph_msgs::Clock{messages::ToMessage(time)}); });
+  PublishOwn(status_channel_, is_due, time,
+             [&] { return Encoded(presentation::StatusMessage(status())); });
+  if (is_due) status_pacing_.Done(now);
+  published_time_ = time;
+  published_phase_ = phase;
+  for (auto& [id, track] : tracks_) Publish(track);
+}
+
+void ReplayStream::Publish(Track& track) {
+  if (track.channel == 0 || !track.latest || !hub_->IsSubscribed(track.channel)) return;
+  if (std::exchange(track.is_fresh, false)) return hub_->Publish(track.channel, *track.latest);
+  hub_->Welcome(track.channel, {&*track.latest, 1});
+}
+
+void ReplayStream::PublishOwn(foxglove::ChannelId channel, bool is_due, base::SimTime time,
+                              const std::function<SharedBytes()>& encode) {
+  if (!hub_->IsSubscribed(channel) || (!is_due && !hub_->HasNewcomers(channel))) return;
+  const Hub::Message message{Nanoseconds(time), encode()};
+  if (is_due) return hub_->Publish(channel, message);
+  hub_->Welcome(channel, {&message, 1});
+}
+
+void ReplayStream::Warn(const std::string& sentence) {
+  if (++warnings_ > kMostWarnings) return;
+  hub_->SendStatus(foxglove::StatusLevel::kWarning, sentence);
+}
+
+messages::gsv_msgs::SimulationStatus ReplayStream::recorded_status() const {
+  const std::lock_guard lock(mutex_);
+  return DecodedOrEmpty<messages::gsv_msgs::SimulationStatus>(status_);
+}
+
+messages::gsv_msgs::Poses ReplayStream::recorded_poses() const {
+  const std::lock_guard lock(mutex_);
+  return DecodedOrEmpty<messages::gsv_msgs::Poses>(poses_);
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,79 @@
+// What the server and its sessions share.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include <boost/asio/ssl/context.hpp>
+
+#include "gsv/gateway/access/access_rule.h"
+#include "gsv/gateway/server/server.h"
+
+namespace gsv::gateway {
+
+struct ServerContext {
+  ServerOptions options;
+  AccessRule access;
+  access::TokenRule tokens;
+  Handler& handler;
+  const std::shared_ptr<metrics::Traffic> traffic;
+  const std::shared_ptr<boost::asio::ssl::context> tls;  // null: plain HTTP
+  std::atomic<std::size_t> uploads{0};                   // that are being read, into memory
+  std::atomic<bool> stopping{false};
+};
+
+// Who a connection belongs to.
+struct Ticket {
+  access::Right right = access::Right::kNone;
+  std::string viewer;        // a key, or empty
+  bool is_private = false;   // it acts on nothing that others see
+  bool shows_token = false;  // right or wrong
+};
+
+// Counts one connection as long as it lives.
+class ConnectionSlot {
+ public:
+  explicit ConnectionSlot(std::shared_ptr<ServerContext> context) : context_(std::move(context)) {
+    ++context_->traffic->connections;
+  }
+  ~ConnectionSlot() { --context_->traffic->connections; }
+  ConnectionSlot(const ConnectionSlot&) = delete;
+  ConnectionSlot& operator=(const ConnectionSlot&) = delete;
+
+ private:
+  std::shared_ptr<ServerContext> context_;
+};
+
+// Room in memory for one file that is being uploaded.
+class UploadSlot {
+ public:
+  // Null: there is none.
+  static std::unique_ptr<UploadSlot> Take(std::shared_ptr<ServerContext> context) {
+    const std::size_t most = context->options.limits.uploads_at_once;
+    auto slot = std::unique_ptr<UploadSlot>(new UploadSlot(std::move(context)));
+    return slot->number_ <= most ? std::move(slot) : nullptr;
+  }
+  ~UploadSlot() { --context_->uploads; }
+  UploadSlot(const UploadSlot&) = delete;
+  UploadSlot& operator=(const UploadSlot&) = delete;
+
+ private:
+  explicit UploadSlot(std::shared_ptr<ServerContext> context)
+      : context_(std::move(context)), number_(++context_->uploads) {}
+
+  const std::shared_ptr<ServerContext> context_;
+  const std::size_t number_;
+};
+
+// One session, as the server sees it.
+class Connection {
+ public:
+  virtual ~Connection() = default;
+  // On the server's thread: ends as soon as decency allows.
+  virtual void Shutdown() = 0;
+  // After the server's thread has ended: lets go of all that holds this session.
+  virtual void Cut() = 0;
+};
+
+}  // namespace gsv::gateway

@@ -1,0 +1,430 @@
+#include "gsv/gateway/server/http_session.h"
+
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "gsv/base/log.h"
+#include "gsv/gateway/access/need.h"
+#include "gsv/gateway/server/websocket_session.h"
+#include "gsv/gateway/uploads/uploads_api.h"
+
+namespace gsv::gateway {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using boost::system::error_code;
+using SpanBody = http::span_body<const char>;
+
+std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
+
+std::string Text(const http::request<http::string_body>& request, http::field field) {
+  return std::string(View(request[field]));
+}
+
+// What is wrong with bytes that are not an acceptable request; empty: the connection is just gone.
+std::optional<Response> ResponseTo(error_code error, std::uint64_t header_limit,
+                                   std::uint64_t body_limit) {
+  if (error == http::error::header_limit || error == http::error::buffer_overflow) {
+    return ErrorResponse(
+        431, "the request's header is longer than " + std::to_string(header_limit) + " bytes");
+  }
+  if (error == http::error::body_limit) {
+    return ErrorResponse(
+        413, "the request's body is longer than " + std::to_string(body_limit) + " bytes");
+  }
+  if (error.category() == make_error_code(http::error::bad_target).category() &&
+      error != http::error::end_of_stream && error != http::error::partial_message) {
+    return ErrorResponse(400, "this is not an HTTP request: " + error.message());
+  }
+  return std::nullopt;
+}
+
+// For one file to arrive.
+constexpr std::chrono::minutes kUploadTime{5};
+
+// For a client to begin TLS, and for one to take leave.
+constexpr std::chrono::seconds kLeaveTime{1};
+constexpr std::chrono::milliseconds kHandshakeTime{10'000};  // or a request's, if that is shorter
+
+// "/ws", and for a replay of one's own "/replays/NAME/ws".
+bool IsSocket(const Target& target) {
+  const std::vector<std::string>& path = target.segments;
+  const bool is_place = path.size() == 1 || (path.size() == 3 && path[0] == "replays");
+  return is_place && path.back() == "ws";
+}
+
+std::string PathOf(const Target& target) {
+  std::string path;
+  for (const std::string& segment : target.segments) path += "/" + segment;
+  return path.empty() ? "/" : path;
+}
+
+using KeepTrack = std::function<void(std::weak_ptr<Connection>)>;
+
+template <typename Stream>
+class HttpSession final : public Connection,
+                          public std::enable_shared_from_this<HttpSession<Stream>> {
+ public:
+  // `buffer`: what has been read already.
+  HttpSession(Stream stream, beast::flat_buffer buffer, std::shared_ptr<ServerContext> context,
+              std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
+      : stream_(std::move(stream)),
+        buffer_(std::move(buffer)),
+        context_(std::move(context)),
+        slot_(std::move(slot)),
+        keep_track_(std::move(keep_track)) {}
+
+  void Begin() {
+    if constexpr (kIsTls) {
+      tcp().expires_after(std::min(kHandshakeTime, limits().request_time));
+      is_idle_ = true;
+      stream_.async_handshake(
+          boost::asio::ssl::stream_base::server, buffer_.data(),
+          [self = this->shared_from_this()](error_code error, std::size_t used) {
+            self->is_idle_ = false;
+            if (error) return self->tcp().close();
+            self->buffer_.consume(used);
+            self->Read();
+          });
+    } else {
+      Read();
+    }
+  }
+
+  void Read() {
+    parser_.emplace();
+    parser_->header_limit(limits().header_bytes);
+    // OnHeader() limits it. Boost 1.74 takes boost::none for zero.
+    parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
+    tcp().expires_after(limits().request_time);
+    is_idle_ = true;
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = this->shared_from_this()](error_code error, std::size_t) {
+                              self->is_idle_ = false;
+                              self->OnHeader(error);
+                            });
+  }
+
+  void Shutdown() override {
+    if (is_idle_) tcp().close();
+  }
+
+  void Cut() override { tcp().close(); }
+
+ private:
+  static constexpr bool kIsTls = std::is_same_v<Stream, TlsStream>;
+
+  beast::tcp_stream& tcp() { return beast::get_lowest_layer(stream_); }
+  const ServerLimits& limits() const { return context_->options.limits; }
+
+  // What is too long, or not for who sends it, is refused before it is read.
+  void OnHeader(error_code error) {
+    if (error) return Complain(error);
+    const auto& request = parser_->get();
+    version_ = request.version();
+    const base::Result<Target> target = ParseTarget(View(request.target()));
+    const bool is_upload = target && uploads::IsUpload(*target);
+    body_limit_ = is_upload ? limits().upload_bytes : limits().body_bytes;
+    if (parser_->content_length().value_or(0) > body_limit_) {
+      return Complain(make_error_code(http::error::body_limit));
+    }
+    parser_->body_limit(body_limit_);
+    if (is_upload) {
+      if (std::optional<Response> refusal = Refusal(*target)) {
+        keep_alive_ = false;
+        return Write(std::move(*refusal));
+      }
+      upload_ = UploadSlot::Take(context_);
+      if (!upload_) {
+        keep_alive_ = false;
+        return Write(ErrorResponse(503, "others are uploading files; try again in a moment"));
+      }
+      tcp().expires_after(kUploadTime);
+    }
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = this->shared_from_this()](error_code failed, std::size_t) {
+                       self->OnRead(failed);
+                     });
+  }
+
+  void Complain(error_code error) {
+    std::optional<Response> complaint = ResponseTo(error, limits().header_bytes, body_limit_);
+    if (!complaint) return;
+    keep_alive_ = false;
+    Write(std::move(*complaint));
+  }
+
+  void OnRead(error_code error) {
+    if (error) return Complain(error);
+    const auto& request = parser_->get();
+    keep_alive_ = request.keep_alive();
+    version_ = request.version();
+    is_head_ = request.method() == http::verb::head;
+    const base::Status allowed = context_->access.Check(View(request[http::field::host]),
+                                                        View(request[http::field::origin]));
+    if (!allowed) {
+      spdlog::info("refused a request: {}", allowed.error().Sentence());
+      return Write(ErrorResponse(403, allowed.error().Sentence()));
+    }
+    base::Result<Target> target = ParseTarget(View(request.target()));
+    if (!target) return Write(ErrorResponse(target.error()));
+    if (std::optional<Response> refusal = Refusal(*target)) return Write(std::move(*refusal));
+    if (beast::websocket::is_upgrade(request)) return Upgrade(*target);
+    Dispatch(std::move(*target));
+  }
+
+  // Programs show their token in the header, as pages do; a page's WebSocket has none of its own to
+  // set.
+  Ticket TicketFor(const Target& target) const {
+    const auto& request = parser_->get();
+    const auto query = [&](const char* name) {
+      const auto found = target.query.find(name);
+      return found == target.query.end() ? std::string() : found->second;
+    };
+    const std::string authorization = Text(request, http::field::authorization);
+    const bool is_socket = IsSocket(target);
+    std::string token(access::BearerToken(authorization));
+    if (token.empty() && is_socket) token = query("token");
+    std::string viewer(View(request["Gsv-Viewer"]));
+    if (viewer.empty() && is_socket) viewer = query("viewer");
+    return {context_->tokens.RightOf(token), std::move(viewer), target.segments.size() > 1,
+            !token.empty()};
+  }
+
+  // Why this request is not for who makes it.
+  std::optional<Response> Refusal(const Target& target) const {
+    const access::Need need = access::NeedOf(View(parser_->get().method_string()), target);
+    if (need.right == access::Right::kNone) return std::nullopt;
+    const Ticket ticket = TicketFor(target);
+    if (ticket.right < need.right) {
+      const std::string why =
+          context_->tokens.Refusal(ticket.shows_token, ticket.right, need.right);
+      // The path alone: a query may hold a token.
+      spdlog::info("refused {} {}: {}", View(parser_->get().method_string()), PathOf(target), why);
+      return ErrorResponse(ticket.shows_token ? 403 : 401, why);
+    }
+    if (need.acts_on.empty()) return std::nullopt;
+    const base::Status may = context_->handler.MayAct(ticket.viewer, need.acts_on);
+    return may ? std::nullopt : std::optional<Response>(ErrorResponse(may.error()));
+  }
+
+  void Dispatch(Target target) {
+    const auto& message = parser_->get();
+    Request request;
+    request.method = is_head_ ? "GET" : std::string(View(message.method_string()));
+    request.raw_target = std::string(View(message.target()));
+    request.target = std::move(target);
+    request.body = message.body();
+    request.content_type = Text(message, http::field::content_type);
+    request.if_none_match = Text(message, http::field::if_none_match);
+    request.viewer = std::string(View(message["Gsv-Viewer"]));
+    upload_.reset();
+    tcp().expires_never();  // whoever answers has limits of their own
+    context_->handler.Handle(std::move(request), [self = this->shared_from_this()](
+                                                     Response response) mutable {
+      auto executor = self->stream_.get_executor();
+      boost::asio::post(executor, [self = std::move(self), answer = std::move(response)]() mutable {
+        self->Write(std::move(answer));
+      });
+    });
+  }
+
+  void Upgrade(const Target& target) {
+    if (!IsSocket(target)) {
+      return Write(ErrorResponse(404, "WebSockets are served at /ws"));
+    }
+    const std::string offered = Text(parser_->get(), http::field::sec_websocket_protocol);
+    const std::string_view subprotocol = foxglove::ChooseSubprotocol(offered);
+    if (subprotocol.empty()) {
+      return Write(ErrorResponse(400,
+                                 "a WebSocket must offer the sub-protocol foxglove.sdk.v1 or "
+                                 "foxglove.websocket.v1"));
+    }
+    base::Result<std::shared_ptr<Hub>> hub = context_->handler.FindHub(target);
+    if (!hub) return Write(ErrorResponse(hub.error()));
+    tcp().expires_never();
+    Ticket ticket = TicketFor(target);
+    keep_track_(StartWebSocketSession(std::move(stream_), parser_->release(), subprotocol,
+                                      std::move(*hub), context_, std::move(slot_),
+                                      std::move(ticket)));
+  }
+
+  void Write(Response response) {
+    ++context_->traffic->answers.at(static_cast<std::size_t>(response.status / 100));
+    keep_alive_ = keep_alive_ && !context_->stopping;
+    if (is_head_ || response.status == 304) {
+      http::response<http::empty_body> message = Header<http::empty_body>(response);
+      if (response.status != 304) message.content_length(response.body.size());
+      return Send(std::move(message), {});
+    }
+    http::response<SpanBody> message = Header<SpanBody>(response);
+    message.body() = {response.body.data(), response.body.size()};
+    message.content_length(response.body.size());
+    Send(std::move(message), std::move(response.body));
+  }
+
+  template <typename Body>
+  http::response<Body> Header(const Response& response) const {
+    http::response<Body> message{static_cast<http::status>(response.status), version_};
+    const auto set = [&](http::field field, const std::string& value) {
+      if (!value.empty()) message.set(field, value);
+    };
+    message.set(http::field::server, "gsv");
+    set(http::field::content_type, response.content_type);
+    set(http::field::etag, response.etag);
+    set(http::field::cache_control, response.cache_control);
+    set(http::field::allow, response.allow);
+    message.set("X-Content-Type-Options", "nosniff");
+    message.set("Content-Security-Policy", "frame-ancestors 'none'");
+    message.set("Cross-Origin-Resource-Policy", "same-origin");
+    message.keep_alive(keep_alive_);
+    return message;
+  }
+
+  // `bytes` is what the message's body points to.
+  template <typename Body>
+  void Send(http::response<Body> response, SharedBytes bytes) {
+    auto message = std::make_shared<http::response<Body>>(std::move(response));
+    tcp().expires_after(limits().request_time);
+    http::async_write(
+        stream_, *message,
+        [self = this->shared_from_this(), message, bytes](error_code error, std::size_t length) {
+          self->context_->traffic->sent_bytes += length;
+          self->OnWritten(error);
+        });
+  }
+
+  void OnWritten(error_code error) {
+    if (error) return;
+    if (keep_alive_ && !context_->stopping) return Read();
+    if constexpr (kIsTls) {
+      tcp().expires_after(kLeaveTime);
+      stream_.async_shutdown([self = this->shared_from_this()](error_code) { self->HangUp(); });
+    } else {
+      HangUp();
+    }
+  }
+
+  void HangUp() {
+    error_code ignored;
+    tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    Drain();
+  }
+
+  // Takes what the client still sends, so that closing does not destroy our answer on its way.
+  void Drain() {
+    is_idle_ = true;
+    tcp().expires_after(kLeaveTime);
+    buffer_.clear();
+    tcp().async_read_some(buffer_.prepare(4096),
+                          [self = this->shared_from_this()](error_code error, std::size_t) {
+                            if (!error) self->Drain();
+                          });
+  }
+
+  Stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  std::shared_ptr<ServerContext> context_;
+  std::unique_ptr<ConnectionSlot> slot_;
+  KeepTrack keep_track_;
+  std::unique_ptr<UploadSlot> upload_;  // while one is read
+  std::uint64_t body_limit_ = 0;
+  unsigned version_ = 11;
+  bool keep_alive_ = false;
+  bool is_head_ = false;
+  bool is_idle_ = false;  // waits for bytes that may never come
+};
+
+// Looks at a connection's first bytes: TLS goes on by TLS; who speaks plain HTTP is told where to
+// go, and nothing else.
+class TlsDoor final : public Connection, public std::enable_shared_from_this<TlsDoor> {
+ public:
+  TlsDoor(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+          std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
+      : stream_(std::move(socket)),
+        context_(std::move(context)),
+        slot_(std::move(slot)),
+        keep_track_(std::move(keep_track)) {}
+
+  void Open() {
+    stream_.expires_after(std::min(kHandshakeTime, context_->options.limits.request_time));
+    beast::async_detect_ssl(stream_, buffer_,
+                            [self = shared_from_this()](error_code error, bool is_tls) {
+                              if (error) return self->stream_.close();
+                              is_tls ? self->LetIn() : self->TurnAway();
+                            });
+  }
+
+  void Shutdown() override { stream_.close(); }
+  void Cut() override { stream_.close(); }
+
+ private:
+  void LetIn() {
+    stream_.expires_never();
+    const auto session = std::make_shared<HttpSession<TlsStream>>(
+        TlsStream(beast::tcp_stream(stream_.release_socket()), *context_->tls), std::move(buffer_),
+        context_, std::move(slot_), keep_track_);
+    keep_track_(session);
+    session->Begin();
+  }
+
+  void TurnAway() {
+    static constexpr std::string_view kAnswer =
+        "HTTP/1.1 400 Bad Request\r\nConnection: close\r\nContent-Type: application/json\r\n\r\n"
+        "{\"error\":\"this server speaks HTTPS only; open the address with https://\"}";
+    boost::asio::async_write(stream_, boost::asio::buffer(kAnswer.data(), kAnswer.size()),
+                             [self = shared_from_this()](error_code error, std::size_t) {
+                               if (error) return;
+                               self->stream_.socket().shutdown(
+                                   boost::asio::ip::tcp::socket::shutdown_send, error);
+                               self->Drain();
+                             });
+  }
+
+  // As HttpSession does.
+  void Drain() {
+    stream_.expires_after(kLeaveTime);
+    buffer_.clear();
+    stream_.async_read_some(buffer_.prepare(4096),
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              if (!error) self->Drain();
+                            });
+  }
+
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  const std::shared_ptr<ServerContext> context_;
+  std::unique_ptr<ConnectionSlot> slot_;
+  const KeepTrack keep_track_;
+};
+
+}  // namespace
+
+void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
+                      std::unique_ptr<ConnectionSlot> slot,
+                      std::function<void(std::weak_ptr<Connection>)> keep_track) {
+  if (context->tls != nullptr) {
+    const auto door = std::make_shared<TlsDoor>(std::move(socket), std::move(context),
+                                                std::move(slot), keep_track);
+    keep_track(door);
+    return door->Open();
+  }
+  const auto session = std::make_shared<HttpSession<PlainStream>>(
+      PlainStream(std::move(socket)), beast::flat_buffer(), std::move(context), std::move(slot),
+      keep_track);
+  keep_track(session);
+  session->Begin();
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,254 @@
+#include "gsv/gateway/server/websocket_session.h"
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <utility>
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+
+namespace gsv::gateway {
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using HttpRequest = beast::http::request<beast::http::string_body>;
+
+// Bytes taken from the socket at a time.
+constexpr std::size_t kReadSize = 16u << 10;
+// How long a client may take to receive what waits for it before it is cut off after all.
+constexpr std::chrono::seconds kFarewell{2};
+
+// A close frame's payload is at most 125 bytes, two of them the code.
+websocket::close_reason Reason(CloseCode code, const std::string& text) {
+  const std::size_t length = std::min(text.size(), websocket::reason_string::max_size_n);
+  return {static_cast<websocket::close_code>(code), beast::string_view(text.data(), length)};
+}
+
+template <typename Stream>
+class WebSocketSession final : public Client,
+                               public Connection,
+                               public std::enable_shared_from_this<WebSocketSession<Stream>> {
+ public:
+  WebSocketSession(Stream stream, HttpRequest request, std::shared_ptr<Hub> hub,
+                   std::shared_ptr<ServerContext> context, std::unique_ptr<ConnectionSlot> slot,
+                   Ticket ticket)
+      : stream_(std::move(stream)),
+        farewell_(stream_.get_executor()),
+        request_(std::move(request)),
+        hub_(std::move(hub)),
+        context_(std::move(context)),
+        slot_(std::move(slot)),
+        ticket_(std::move(ticket)),
+        queue_(limits().send) {}
+
+  void Accept(std::string_view subprotocol) {
+    subprotocol_ = subprotocol;
+    websocket::stream_base::timeout timeout{};
+    timeout.handshake_timeout = std::chrono::seconds(10);
+    timeout.idle_timeout = limits().idle_time;
+    timeout.keep_alive_pings = true;
+    stream_.set_option(timeout);
+    stream_.set_option(websocket::stream_base::decorator(
+        [name = std::string(subprotocol)](websocket::response_type& response) {
+          response.set(beast::http::field::server, "gsv");
+          response.set(beast::http::field::sec_websocket_protocol, name);
+        }));
+    stream_.auto_fragment(false);
+    stream_.read_message_max(0);  // OnRead() limits it, with a sentence
+    stream_.async_accept(request_, [self = this->shared_from_this()](error_code error) {
+      if (!error) self->OnAccepted();
+    });
+  }
+
+  void SendText(SharedBytes text) override { SendControl(std::move(text), true); }
+  void SendBytes(SharedBytes bytes) override { SendControl(std::move(bytes), false); }
+
+  void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) override {
+    context_->traffic->dropped_updates += queue_.PushData(header, std::move(payload));
+    Wake();
+  }
+
+  std::uint64_t dropped_updates() const override { return queue_.dropped(); }
+
+  base::Status MayAct() override {
+    if (ticket_.is_private) return {};
+    if (ticket_.right == access::Right::kControl) {
+      return context_->handler.MayAct(ticket_.viewer, hub_->simulation());
+    }
+    return base::Fail(
+        base::ErrorCode::kNotRunning,
+        context_->tokens.Refusal(ticket_.shows_token, ticket_.right, access::Right::kControl));
+  }
+
+  void Close(CloseCode code, std::string reason) override {
+    boost::asio::post(stream_.get_executor(),
+                      [self = this->shared_from_this(), code, reason = std::move(reason)] {
+                        self->BeginClose(code, reason);
+                      });
+  }
+
+  void Shutdown() override { BeginClose(CloseCode::kGoingAway, "the server is shutting down"); }
+  void Cut() override { Leave(); }
+
+ private:
+  const ServerLimits& limits() const { return context_->options.limits; }
+
+  void SendControl(SharedBytes message, bool is_text) {
+    if (queue_.PushControl(std::move(message), is_text)) return Wake();
+    Close(CloseCode::kTryAgainLater, "this viewer does not take what it is told; connect again");
+  }
+
+  void OnAccepted() {
+    request_ = {};
+    is_open_ = true;
+    is_counted_ = true;
+    ++context_->traffic->viewers;
+    hub_->Add(this->shared_from_this(), subprotocol_);
+    if (close_reason_) return WriteNext();
+    Read();
+  }
+
+  void Read() {
+    stream_.async_read_some(
+        buffer_, kReadSize,
+        [self = this->shared_from_this()](error_code error, std::size_t) { self->OnRead(error); });
+  }
+
+  void OnRead(error_code error) {
+    if (error) return Leave();
+    if (close_reason_) {
+      buffer_.clear();
+    } else if (buffer_.size() > limits().message_bytes) {
+      Refuse(CloseCode::kTooBig,
+             "a message is longer than " + std::to_string(limits().message_bytes) + " bytes");
+    } else if (stream_.is_message_done()) {
+      TakeMessage();
+    }
+    Read();  // also while closing: the client's answer must be read
+  }
+
+  void TakeMessage() {
+    const std::string_view message(static_cast<const char*>(buffer_.cdata().data()),
+                                   buffer_.size());
+    const base::Status taken =
+        stream_.got_text() ? hub_->Receive(this, message) : hub_->ReceiveBytes(this, message);
+    if (!taken) Refuse(CloseCode::kPolicyViolation, taken.error().Sentence());
+    buffer_.clear();
+  }
+
+  // The sentence goes out twice: whole as a status message, and as the reason, which is short.
+  void Refuse(CloseCode code, const std::string& sentence) {
+    buffer_.clear();
+    SendStatus(foxglove::StatusLevel::kError, sentence);
+    BeginClose(code, sentence);
+  }
+
+  // Any thread: sees to it that the queue is written out. At most one post is under way.
+  void Wake() {
+    if (is_woken_.exchange(true)) return;
+    boost::asio::post(stream_.get_executor(), [self = this->shared_from_this()] {
+      self->is_woken_ = false;
+      self->WriteNext();
+    });
+  }
+
+  void WriteNext() {
+    if (!is_open_ || is_writing_) return;
+    std::optional<Outgoing> message = queue_.Pop();
+    // What is not control is of no use to somebody who leaves.
+    while (close_reason_ && message && message->is_data) message = queue_.Pop();
+    if (message) return Write(std::move(*message));
+    if (close_reason_) SendCloseFrame();
+  }
+
+  void Write(Outgoing message) {
+    is_writing_ = true;
+    in_flight_ = std::move(message);
+    stream_.text(in_flight_.is_text);
+    const std::array<boost::asio::const_buffer, 2> parts{
+        boost::asio::buffer(in_flight_.header.bytes.data(), in_flight_.header.size),
+        boost::asio::buffer(in_flight_.payload.data(), in_flight_.payload.size())};
+    stream_.async_write(parts,
+                        [self = this->shared_from_this()](error_code error, std::size_t length) {
+                          self->context_->traffic->sent_bytes += length;
+                          self->is_writing_ = false;
+                          self->in_flight_ = {};
+                          if (error) return self->Leave();
+                          self->WriteNext();
+                        });
+  }
+
+  void BeginClose(CloseCode code, const std::string& reason) {
+    if (close_reason_) return;
+    close_reason_ = Reason(code, reason);
+    farewell_.expires_after(kFarewell);
+    farewell_.async_wait([weak = this->weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (!error && self) beast::get_lowest_layer(self->stream_).close();
+    });
+    WriteNext();
+  }
+
+  void SendCloseFrame() {
+    is_open_ = false;
+    stream_.async_close(*close_reason_,
+                        [self = this->shared_from_this()](error_code) { self->Leave(); });
+  }
+
+  void Leave() {
+    is_open_ = false;
+    farewell_.cancel();
+    if (std::exchange(has_left_, true)) return;
+    if (is_counted_) --context_->traffic->viewers;
+    beast::get_lowest_layer(stream_).close();  // a write that hangs ends, too
+    hub_->Remove(this);
+  }
+
+  websocket::stream<Stream> stream_;
+  boost::asio::steady_timer farewell_;
+  HttpRequest request_;
+  beast::flat_buffer buffer_;
+  std::shared_ptr<Hub> hub_;
+  std::shared_ptr<ServerContext> context_;
+  std::unique_ptr<ConnectionSlot> slot_;
+  const Ticket ticket_;
+  std::string subprotocol_;
+  SendQueue queue_;
+  Outgoing in_flight_;
+  std::optional<websocket::close_reason> close_reason_;
+  std::atomic<bool> is_woken_{false};
+  bool is_open_ = false;  // accepted, and no close frame was sent
+  bool is_writing_ = false;
+  bool has_left_ = false;
+  bool is_counted_ = false;  // among the viewers
+};
+
+}  // namespace
+
+template <typename Stream>
+std::weak_ptr<Connection> StartWebSocketSession(
+    Stream stream, HttpRequest request, std::string_view subprotocol, std::shared_ptr<Hub> hub,
+    std::shared_ptr<ServerContext> context, std::unique_ptr<ConnectionSlot> slot, Ticket ticket) {
+  const auto session = std::make_shared<WebSocketSession<Stream>>(
+      std::move(stream), std::move(request), std::move(hub), std::move(context), std::move(slot),
+      std::move(ticket));
+  session->Accept(subprotocol);
+  return session;
+}
+
+template std::weak_ptr<Connection> StartWebSocketSession(PlainStream, HttpRequest, std::string_view,
+                                                         std::shared_ptr<Hub>,
+                                                         std::shared_ptr<ServerContext>,
+                                                         std::unique_ptr<ConnectionSlot>, Ticket);
+template std::weak_ptr<Connection> StartWebSocketSession(TlsStream, HttpRequest, std::string_view,
+                                                         std::shared_ptr<Hub>,
+                                                         std::shared_ptr<ServerContext>,
+                                                         std::unique_ptr<ConnectionSlot>, Ticket);
+
+}  // namespace gsv::gateway
