@@ -113,6 +113,37 @@ test("a recording is shown with a timeline, and without the buttons of what runs
   assert.equal(await page.getByTestId("connection").textContent(), "Replay");
 });
 
+// A canvas that is given another size is empty until somebody draws on it, and the next frame may be
+// half a second away.
+test("the view keeps its picture until it is drawn in another size", async () => {
+  const drawn = page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        const canvas = document.querySelector("main.view > canvas");
+        const width = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, "width");
+        const lookAfterwards = () => {
+          delete canvas.width;
+          const pixels = new Uint8Array(4 * canvas.width * canvas.height);
+          const gl = canvas.getContext("webgl2");
+          gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+          resolve(pixels.some((value) => value !== 0 && value !== 255));
+        };
+        Object.defineProperty(canvas, "width", {
+          configurable: true,
+          get: () => width.get.call(canvas),
+          set: (value) => {
+            width.set.call(canvas, value);
+            queueMicrotask(lookAfterwards);
+          },
+        });
+      }),
+  );
+  const { width, height } = page.viewportSize();
+  await page.setViewportSize({ width: width - 50, height });
+  assert.equal(await drawn, true);
+  await page.setViewportSize({ width, height });
+});
+
 test("what happened is marked where it happened, and can be gone to", async () => {
   const events = await ask(page, "/events");
   assert.deepEqual(

@@ -69,6 +69,7 @@ export class World3D {
   private framedFor = ""; // the name of the scene that the camera was set up for
   private width = 1;
   private height = 1;
+  private isResized = false; // since the last frame
   private readonly frameRate: FrameRate;
   private readonly shadows = new ShadowPace();
 
@@ -298,10 +299,17 @@ export class World3D {
   private resize(): void {
     this.width = Math.max(1, this.host.clientWidth);
     this.height = Math.max(1, this.host.clientHeight);
+    this.rig.resize(this.width, this.height);
+    this.isResized = true;
+    this.loop.request();
+  }
+
+  // Just before a frame is drawn: a canvas of another size is empty until then.
+  private resizeCanvas(): void {
+    if (!this.isResized) return;
+    this.isResized = false;
     this.renderer.setPixelRatio(this.quality.pixelRatio);
     this.renderer.setSize(this.width, this.height);
-    this.rig.resize(this.width, this.height);
-    this.loop.request();
   }
 
   private tookFrame(milliseconds: number): void {
@@ -323,6 +331,7 @@ export class World3D {
     this.arranger.showHandle();
     const isMoving = !this.poses.isSettled(now);
     if (this.shadows.areDue(isMoving)) this.renderer.shadowMap.needsUpdate = true;
+    this.resizeCanvas();
     this.renderer.render(this.scene, this.rig.camera);
     this.placeLabels();
     this.frameRate.count(this.frames, now);
