@@ -68,4 +68,52 @@ TEST(RawStrings, WithoutNullKeepNoMemory) {
             kFewBytes);
 }
 
+// An object reference with one IIOP profile of these octets.
+void PutReference(cdrStream& stream, const std::string& profile) {
+  PutOctets(stream, std::string("IDL:omg.org/A:1.0\0", 18));
+  CORBA::ULong(1) >>= stream;
+  CORBA::ULong(IOP::TAG_INTERNET_IOP) >>= stream;
+  PutOctets(stream, profile);
+}
+
+class ObjectReferences : public testing::Test {
+ protected:
+  ~ObjectReferences() override { orb_->destroy(); }
+
+ private:
+  static CORBA::ORB_ptr StartOrb() {
+    int no_arguments = 0;
+    return CORBA::ORB_init(no_arguments, nullptr);
+  }
+  CORBA::ORB_var orb_ = StartOrb();
+};
+
+TEST_F(ObjectReferences, OfAProfileThatDoesNotDecodeKeepNoMemory) {
+  EXPECT_LT(BytesKeptBy([] {
+              cdrMemoryStream stream;
+              PutReference(stream, std::string(kLong.size(), '\2'));  // IIOP 2.2: there is none
+              EXPECT_THROW(CORBA::Object::_unmarshalObjRef(stream), CORBA::MARSHAL);
+            }),
+            kFewBytes);
+}
+
+TEST_F(ObjectReferences, ThatAreRightAreReadAndReleased) {
+  const std::string profile(
+      "\1\1\2\0"  // little-endian, IIOP 1.2
+      "\4\0\0\0"  // four bytes of host
+      "far\0"
+      "\x34\x12\0\0"   // the port
+      "\3\0\0\0key\0"  // the object's key
+      "\0\0\0\0",      // no components
+      28);
+  EXPECT_LT(BytesKeptBy([&profile] {
+              cdrMemoryStream stream;
+              PutReference(stream, profile);
+              const CORBA::Object_var object = CORBA::Object::_unmarshalObjRef(stream);
+              ASSERT_FALSE(CORBA::is_nil(object));
+              EXPECT_STREQ(object->_PR_getobj()->_getIOR()->repositoryID(), "IDL:omg.org/A:1.0");
+            }),
+            kFewBytes);
+}
+
 }  // namespace
