@@ -30,7 +30,10 @@ class LocalGateway final : public Gateway, private Handler {
       : directory_(directory),
         files_(options.web_root),
         api_(directory, &formats::WriteGlb, options.recordings, options.factory,
-             !options.recordings_folder.empty()),
+             !options.recordings_folder.empty(),
+             [this](const auto& simulation, const std::string& robot) {
+               publisher_.WantSensorsOf(simulation, robot);
+             }),
         pages_(options.pages),
         takes_uploads_(options.factory != nullptr),
         uploads_(options.uploads),

@@ -172,6 +172,21 @@ TEST_F(ReplayGatewayTest, TellsTheEventsOfTheRun) {
   EXPECT_EQ(Post("events").status, 405);
 }
 
+TEST_F(ReplayGatewayTest, TellsARobotsTopics) {
+  const auto topics = [&](const std::string& robot) {
+    return Get("/api/simulations/simulation/robots/" + robot + "/topics");
+  };
+  const auto status = json::parse(Get("/api/simulations/simulation").body);
+  const std::string robot = status["robots"][0]["name"];
+  const json listed = json::parse(topics(robot).body)["topics"];
+  ASSERT_FALSE(listed.empty());
+  for (const json& topic : listed) {
+    EXPECT_TRUE(topic.get<std::string>().starts_with("/" + robot + "/")) << topic;
+  }
+  EXPECT_EQ(topics("nobody").status, 404);
+  EXPECT_EQ(Post("robots/" + robot + "/topics").status, 405);
+}
+
 TEST_F(ReplayGatewayTest, ARecordingWithoutASceneSaysSo) {
   const std::string path = PathFor("bare");
   const recording::Bytes bytes = recording::ThreeChunks();

@@ -57,6 +57,19 @@ test("a click in the list shows the robot in the inspector", async () => {
   assert.equal(inspected, robot);
 });
 
+// A robot has nine sensors, and two thousand are listed: those of the last come when it is chosen.
+test("the last robot's camera and sensors are shown too, once it is chosen", async () => {
+  const last = await page.evaluate(() => window.gsv.robots.at(-1));
+  await page.locator(`[data-robot="${last}"][aria-pressed="true"]`).waitFor();
+  await page.locator("li[data-sensor] dd .number", { hasText: /\d/ }).first().waitFor();
+  const choice = page.getByRole("combobox", { name: "Camera" });
+  if (!(await choice.isVisible())) await page.getByRole("button", { name: "Open camera picture" }).click();
+  assert.match(await choice.evaluate((select) => select.selectedOptions[0].text), new RegExp(`^${last} `));
+  await page.locator(".picture-waiting").waitFor({ state: "hidden" });
+  const seen = await page.getByRole("img", { name: "Camera picture" }).boundingBox();
+  assert.equal(isBlank(await picture(page, seen)), false);
+});
+
 test("a click on a robot in the picture chooses it, or one beside it", async () => {
   const before = await page.locator('[data-robot][aria-pressed="true"]').getAttribute("data-robot");
   const place = await page.evaluate((last) => {

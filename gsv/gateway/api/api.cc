@@ -6,6 +6,7 @@
 
 #include "gsv/gateway/api/command_json.h"
 #include "gsv/gateway/api/status_json.h"
+#include "gsv/gateway/live/sensor_topics.h"
 #include "gsv/gateway/live/simulation_commands.h"
 #include "gsv/presentation/scene_json.h"
 
@@ -50,11 +51,13 @@ Response Drive(const Simulation& simulation, const std::string& robot, const std
 }  // namespace
 
 Api::Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
-         RecordingSwitch* recordings, SimulationFactory* factory, bool has_replays)
+         RecordingSwitch* recordings, SimulationFactory* factory, bool has_replays,
+         ListSensors list_sensors)
     : directory_(std::move(directory)),
       models_(std::move(write_glb)),
       recordings_(recordings),
-      has_replays_(has_replays) {
+      has_replays_(has_replays),
+      list_sensors_(std::move(list_sensors)) {
   if (factory != nullptr) factory_.emplace(*factory, models_);
 }
 
@@ -150,8 +153,8 @@ Response Api::Recording(const Request& request, const SimulationPointer& simulat
   return JsonResponse(200, RecordingJson(recordings_->RecordingOf(name)));
 }
 
-// Below /api/simulations/NAME: robots/ROBOT, objects/OBJECT, robots/ROBOT/drive and
-// bodies/BODY/place.
+// Below /api/simulations/NAME: robots/ROBOT, objects/OBJECT, robots/ROBOT/drive,
+// robots/ROBOT/topics and bodies/BODY/place.
 Response Api::OfBody(const Request& request, const SimulationPointer& simulation) const {
   const std::vector<std::string>& path = request.target.segments;
   const bool is_post = request.method == "POST";
@@ -167,10 +170,22 @@ Response Api::OfBody(const Request& request, const SimulationPointer& simulation
   if (path[3] == "robots" && path[5] == "drive") {
     return is_post ? Drive(*simulation, path[4], request.body) : MethodNotAllowed("POST");
   }
+  if (path[3] == "robots" && path[5] == "topics") {
+    return request.method == "GET" ? Topics(simulation, path[4]) : MethodNotAllowed("GET");
+  }
   if (path[3] == "bodies" && path[5] == "place") {
     return is_post ? PlaceBody(*simulation, path[4], request.body) : MethodNotAllowed("POST");
   }
   return NoSuchAddress();
+}
+
+// Looking changes nothing of the simulation; what is listed concerns those who look.
+Response Api::Topics(const SimulationPointer& simulation, const std::string& robot) const {
+  if (simulation->snapshot()->layout->Find(robot) < 0) {
+    return ErrorResponse(404, "there is no robot '" + robot + "'");
+  }
+  if (list_sensors_) list_sensors_(simulation, robot);
+  return JsonResponse(200, TopicsJson(SensorTopicNames(*simulation, robot)));
 }
 
 Response Api::Scene(const Simulation& simulation) {

@@ -3,6 +3,7 @@
 // Threads  any; a request may take as long as what it asks for (a reset, a model to be written).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,23 +17,26 @@ namespace gsv::gateway {
 
 class Api {
  public:
+  using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+  // Has the live stream list the topics of a robot's sensors, whatever it has besides.
+  using ListSensors = std::function<void(const SimulationPointer&, const std::string& robot)>;
+
   // `recordings` and `factory` may be null; else they outlive this. `has_replays`: recordings can
   // be listed and replayed here as well.
   Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
       RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr,
-      bool has_replays = false);
+      bool has_replays = false, ListSensors list_sensors = nullptr);
 
   // `request.target` begins with "api".
   Response Handle(const Request& request);
 
  private:
-  using SimulationPointer = std::shared_ptr<simulation::Simulation>;
-
   Response Server() const;
   Response OfFactory(const Request& request) const;
   Response List() const;
   Response OfSimulation(const Request& request);
   Response OfBody(const Request& request, const SimulationPointer& simulation) const;
+  Response Topics(const SimulationPointer& simulation, const std::string& robot) const;
   Response Scene(const simulation::Simulation& simulation);
   Response Recording(const Request& request, const SimulationPointer& simulation) const;
   Response Model(const Request& request);
@@ -41,6 +45,7 @@ class Api {
   ModelStore models_;
   RecordingSwitch* const recordings_;
   const bool has_replays_;
+  const ListSensors list_sensors_;
   std::optional<FactoryApi> factory_;
 };
 

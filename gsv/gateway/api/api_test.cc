@@ -1,5 +1,7 @@
 #include "gsv/gateway/api/api.h"
 
+#include <set>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +86,29 @@ TEST_F(ApiTest, SwitchesTheRecordingOnAndOff) {
   }
   EXPECT_EQ(ask("PUT").status, 405);
   EXPECT_EQ(AskJson("GET", path_ + "/recording", 404)["error"], "this server does not record");
+}
+
+TEST_F(ApiTest, TellsARobotsTopicsAndHasThemListed) {
+  std::vector<std::string> listed;
+  Api api(directory_, nullptr, nullptr, nullptr, false,
+          [&](const auto& simulation, const std::string& robot) {
+            EXPECT_EQ(simulation, simulation_);
+            listed.push_back(robot);
+          });
+  const auto ask = [&](const std::string& method, const std::string& robot) {
+    Request request;
+    request.method = method;
+    request.target = ParseTarget(path_ + "/robots/" + robot + "/topics").value();
+    return api.Handle(request);
+  };
+  const json topics = json::parse(ask("GET", "robot_0").body.view())["topics"];
+  const std::set<std::string> names(topics.begin(), topics.end());
+  EXPECT_TRUE(names.contains("/robot_0/front_sonar"));
+  EXPECT_TRUE(names.contains("/robot_0/camera"));
+  EXPECT_TRUE(names.contains("/robot_0/camera/camera_info"));
+  EXPECT_EQ(ask("GET", "nobody").status, 404);
+  EXPECT_EQ(ask("POST", "robot_0").status, 405);
+  EXPECT_EQ(listed, std::vector<std::string>{"robot_0"});
 }
 
 TEST_F(ApiTest, ListsTheSimulations) {

@@ -149,6 +149,9 @@ Response ReplayApi::OfSimulation(const Request& request) {
   if (path.size() == 3) {
     return is_get ? Status() : MethodNotAllowed("GET");
   }
+  if (path.size() == 6 && path[3] == "robots" && path[5] == "topics") {
+    return is_get ? Topics(path[4]) : MethodNotAllowed("GET");
+  }
   if (path.size() > 4) {
     return ErrorResponse(409, "this is a replay: what the robots did cannot be changed");
   }
@@ -185,6 +188,12 @@ Response ReplayApi::Replay(const Request& request) {
     return MethodNotAllowed("GET, POST");
   }
   return JsonResponse(200, ReplayJson(player_.clock()));
+}
+
+Response ReplayApi::Topics(const std::string& robot) {
+  const std::vector<std::string> topics = player_.ListTopicsOf(robot);
+  if (!topics.empty()) return JsonResponse(200, TopicsJson(topics));
+  return ErrorResponse(404, "no sensors of a robot '" + robot + "' are recorded");
 }
 
 Response ReplayApi::Events() const {

@@ -40,6 +40,7 @@ class ReplayApi {
   Response Act(const std::string& action, const std::string& body);
   Response Status() const;
   Response Replay(const Request& request);
+  Response Topics(const std::string& robot);
   Response Events() const;
   Response Log() const;
   Response Curve(const Target& target) const;

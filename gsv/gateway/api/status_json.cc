@@ -74,6 +74,10 @@ std::string RecordingJson(const RecordingSwitch::State& state) {
                {"size_bytes", state.bytes}});
 }
 
+std::string TopicsJson(const std::vector<std::string>& topics) {
+  return Dump({{"topics", topics}});
+}
+
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations) {
   OrderedJson list = OrderedJson::array();
   for (const simulation::SimulationStatus& status : simulations) {

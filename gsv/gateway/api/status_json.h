@@ -17,6 +17,8 @@ std::string StatusJson(const simulation::SimulationStatus& status, const ReplayC
 std::string ReplayJson(const ReplayClock& clock);
 // {"recording", "path", "messages", "dropped_messages", "size_bytes"}
 std::string RecordingJson(const RecordingSwitch::State& state);
+// {"topics"}
+std::string TopicsJson(const std::vector<std::string>& topics);
 // An array with a line for each simulation.
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations);
 

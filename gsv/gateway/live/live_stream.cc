@@ -74,7 +74,7 @@ void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::S
     pose_list_ = presentation::PoseListOf(*layout_);
   }
   // Sensors can be mounted without a change of the layout.
-  if (!is_new && !refresh_pacing_.IsDue(now)) return;
+  if (!is_new && !sensors_->has_wishes() && !refresh_pacing_.IsDue(now)) return;
   sensors_->Refresh(simulation, snapshot);
   refresh_pacing_.Done(now);
 }

@@ -1,6 +1,6 @@
 // One simulation, live: looks at it again and again and publishes what has changed to its hub.
 //
-// Threads  Round() comes from one thread, the publisher's.
+// Threads  Round() comes from one thread, the publisher's; the rest from any.
 #pragma once
 
 #include <memory>
@@ -33,6 +33,9 @@ class LiveStream {
              access::ControlDesk* desk = nullptr);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
+
+  // See SensorTopics. From any thread.
+  void WantSensorsOf(const std::string& robot) { sensors_->Want(robot); }
 
   // Publishes what is due. Nothing is encoded that nobody subscribed to.
   void Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now);

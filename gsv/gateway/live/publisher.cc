@@ -24,15 +24,26 @@ Publisher::Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool&
 Publisher::~Publisher() { Stop(); }
 
 std::shared_ptr<Hub> Publisher::HubOf(const std::shared_ptr<simulation::Simulation>& simulation) {
+  return StreamOf(simulation)->hub();
+}
+
+void Publisher::WantSensorsOf(const std::shared_ptr<simulation::Simulation>& simulation,
+                              const std::string& robot) {
+  StreamOf(simulation)->WantSensorsOf(robot);
+  Wake();
+}
+
+std::shared_ptr<LiveStream> Publisher::StreamOf(
+    const std::shared_ptr<simulation::Simulation>& simulation) {
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_) {
-    if (entry.simulation.lock() == simulation) return entry.stream->hub();
+    if (entry.simulation.lock() == simulation) return entry.stream;
   }
   auto stream = std::make_shared<LiveStream>(
       simulation, watchers_, commanders_, recordings_, [this] { Wake(); }, desk_);
   if (is_stopping_) stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
   entries_.push_back({simulation->specification().name, simulation, stream});
-  return stream->hub();
+  return stream;
 }
 
 void Publisher::Stop() {

@@ -25,6 +25,9 @@ class Publisher {
 
   // The hub of a simulation, made when it is first asked for.
   std::shared_ptr<Hub> HubOf(const std::shared_ptr<simulation::Simulation>& simulation);
+  // See SensorTopics.
+  void WantSensorsOf(const std::shared_ptr<simulation::Simulation>& simulation,
+                     const std::string& robot);
 
   // Ends the thread and lets no client in any more.
   void Stop();
@@ -36,6 +39,7 @@ class Publisher {
     std::shared_ptr<LiveStream> stream;
   };
 
+  std::shared_ptr<LiveStream> StreamOf(const std::shared_ptr<simulation::Simulation>& simulation);
   void Run();
   void Wake();
   // Whether anybody watches.

@@ -1,6 +1,7 @@
 #include "gsv/gateway/live/sensor_topics.h"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,9 @@ namespace {
 constexpr double kBeamsRate = 15;  // Hz
 constexpr double kReadingsRate = 15;
 constexpr double kPicturesRate = 5;
+// A reading that takes long, as a picture of a thousand robots does, is taken so seldom that it
+// keeps a processor busy for a fifth of the time: those who watch must not slow what they watch.
+constexpr int kShareOfProcessor = 5;
 
 bool SameDescription(const model::SensorDescription& a, const model::SensorDescription& b) {
   return a.name == b.name && a.type == b.type && a.link == b.link &&
@@ -22,7 +26,27 @@ bool SameDescription(const model::SensorDescription& a, const model::SensorDescr
 
 std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
 
+std::string TopicOf(const std::string& robot, const std::string& sensor) {
+  return "/" + presentation::FrameOf(robot, sensor);
+}
+
+std::string TopicOf(const std::string& sensor_topic, const sensing::Companion& companion) {
+  return sensor_topic + "/" + companion.topic;
+}
+
 }  // namespace
+
+std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
+                                          const std::string& robot) {
+  std::vector<std::string> names;
+  for (const model::SensorDescription& description : simulation.sensors(robot)) {
+    const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
+    if (type == nullptr || type->schema == nullptr) continue;
+    names.push_back(TopicOf(robot, description.name));
+    if (type->companion) names.push_back(TopicOf(names.back(), *type->companion));
+  }
+  return names;
+}
 
 // One sensor on one robot. What a worker uses of it is never changed, or atomic.
 struct SensorTopics::Sensor {
@@ -40,8 +64,11 @@ struct SensorTopics::Sensor {
 
   foxglove::ChannelId channel = 0;            // 0: none
   foxglove::ChannelId companion_channel = 0;  // the same
+  bool is_wanted = false;                     // it has them because somebody wanted the robot's
   Pacing pacing;
   std::optional<std::int64_t> asked_at_step;  // of the latest snapshot when it was last read
+  WallTime asked_at{};
+  std::atomic<std::chrono::nanoseconds> took{};  // the last reading
   std::atomic<bool> is_busy{false};
   std::atomic<std::int64_t> published_step{-1};  // of the last reading that went out
   std::atomic<bool> has_complained{false};
@@ -61,8 +88,10 @@ SensorTopics::SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers)
 
 void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot) {
   Sensors found = Found(simulation, *snapshot.layout);
-  if (found == sensors_) return;
+  const bool has_wishes = wanted_.TakeWishes();
+  if (found == sensors_ && !has_wishes) return;
   Withdraw(found);
+  MakeRoom(found);
   Advertise(found);
   sensors_ = std::move(found);
   SensorList with_beams;
@@ -88,7 +117,7 @@ SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
     for (model::SensorDescription& description : simulation.sensors(body.name)) {
       const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
       if (type == nullptr) continue;
-      const std::string topic = "/" + presentation::FrameOf(body.name, description.name);
+      const std::string topic = TopicOf(body.name, description.name);
       const auto known = sensors_.find(topic);
       if (known != sensors_.end() && SameDescription(known->second->description, description)) {
         found.insert(*known);
@@ -106,11 +135,37 @@ void SensorTopics::Withdraw(const Sensors& found) {
     const auto still = found.find(topic);
     if (still != found.end() && still->second == sensor) continue;
     for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
-      if (channel != 0) gone.push_back(channel);
+      if (channel == 0) continue;
+      gone.push_back(channel);
+      if (!sensor->is_wanted) --topics_;
     }
   }
   hub_->Unadvertise(gone);
-  topics_ -= gone.size();
+}
+
+// For the robots that are wanted now.
+void SensorTopics::MakeRoom(Sensors& found) {
+  const std::set<std::string> forgotten = wanted_.MakeRoom([this] { return RobotsHeard(); });
+  if (forgotten.empty()) return;
+  std::vector<foxglove::ChannelId> gone;
+  for (auto& [topic, sensor] : found) {
+    if (!sensor->is_wanted || !forgotten.contains(sensor->robot)) continue;
+    for (const foxglove::ChannelId channel : {sensor->channel, sensor->companion_channel}) {
+      if (channel != 0) gone.push_back(channel);
+    }
+    // Another one: a worker may have this one.
+    sensor = std::make_shared<Sensor>(sensor->robot, sensor->description, sensor->type);
+  }
+  hub_->Unadvertise(gone);
+}
+
+std::set<std::string> SensorTopics::RobotsHeard() const {
+  std::set<std::string> heard;
+  for (const foxglove::ChannelId channel : hub_->SubscribedChannels()) {
+    const auto found = by_channel_.find(channel);
+    if (found != by_channel_.end()) heard.insert(found->second->robot);
+  }
+  return heard;
 }
 
 void SensorTopics::Advertise(Sensors& found) {
@@ -119,16 +174,18 @@ void SensorTopics::Advertise(Sensors& found) {
   bool is_all = true;
   for (const auto& [topic, sensor] : found) {
     if (sensor->channel != 0 || sensor->type->schema == nullptr) continue;
-    if (topics_ + fresh.size() >= kMostSensorTopics) {
+    sensor->is_wanted = wanted_.Contains(sensor->robot);
+    if (!sensor->is_wanted && topics_ >= kMostSensorTopics) {
       is_all = false;
-      break;
+      continue;
     }
     channels.push_back(ChannelFor(topic, *sensor->type->schema));
     fresh.emplace_back(sensor, &Sensor::channel);
     if (const auto& companion = sensor->type->companion) {
-      channels.push_back(ChannelFor(topic + "/" + companion->topic, *companion->schema));
+      channels.push_back(ChannelFor(TopicOf(topic, *companion), *companion->schema));
       fresh.emplace_back(sensor, &Sensor::companion_channel);
     }
+    if (!sensor->is_wanted) topics_ += sensor->type->companion ? 2 : 1;
   }
   const std::vector<foxglove::ChannelId> ids = hub_->Advertise(std::move(channels));
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -136,11 +193,12 @@ void SensorTopics::Advertise(Sensors& found) {
     (*sensor).*channel = ids[i];
     hub_->SetPublishers(ids[i], {sensor->robot});
   }
-  topics_ += ids.size();
   if (!is_all && !std::exchange(told_of_limit_, true)) {
-    hub_->SendStatus(foxglove::StatusLevel::kWarning,
+    hub_->SendStatus(foxglove::StatusLevel::kInfo,
                      "there are more sensors than can be listed: the first " +
-                         std::to_string(kMostSensorTopics) + " have a topic of their own");
+                         std::to_string(kMostSensorTopics) +
+                         " have a topic of their own, the others when their robot is asked for "
+                         "(docs/formats/live.md)");
   }
 }
 
@@ -192,11 +250,14 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
                                   const world::Snapshot& snapshot, WallTime now,
                                   const std::shared_ptr<Sensor>& sensor) {
   if (sensor->is_busy) return;
-  const bool is_due = sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now);
+  const bool is_due = sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now) &&
+                      now - sensor->asked_at >= kShareOfProcessor * sensor->took.load();
   if (!is_due && !hub_->HasNewcomers(sensor->channel)) return;
   sensor->is_busy = true;
   const bool accepted = workers_.Submit([self = shared_from_this(), simulation, sensor] {
+    const auto began = std::chrono::steady_clock::now();
     self->TakeReading(*simulation, *sensor);
+    sensor->took = std::chrono::steady_clock::now() - began;
     sensor->is_busy = false;
   });
   if (!accepted) {
@@ -204,6 +265,7 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
     return;
   }
   sensor->asked_at_step = snapshot.state.step;
+  sensor->asked_at = now;
   sensor->pacing.Done(now);
 }
 

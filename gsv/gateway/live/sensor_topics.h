@@ -3,7 +3,8 @@
 // A reading may take long (a picture), so it is taken on a worker thread; of each topic at most one
 // is under way.
 //
-// Threads  Refresh() and Publish() come from one thread; the workers' jobs keep this object alive.
+// Threads  Refresh() and Publish() come from one thread, Want() from any; the workers' jobs keep
+//          this object alive.
 #pragma once
 
 #include <atomic>
@@ -15,19 +16,30 @@
 
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/pacing.h"
+#include "gsv/gateway/live/wanted_robots.h"
 #include "gsv/gateway/server/worker_pool.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::gateway {
 
 // A robot has more topics than a viewer can list when there are a thousand robots: those of the
-// first so many sensors are advertised, and a status message says that it is not all.
+// first so many sensors are advertised, besides those of the robots that somebody wants to listen
+// to (WantedRobots), and a status message says that it is not all.
 inline constexpr std::size_t kMostSensorTopics = 2000;
+
+// Of all the robot's sensors: "/pebble/sonar_0", "/pebble/camera", "/pebble/camera/camera_info"...
+std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
+                                          const std::string& robot);
 
 class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
  public:
   // `workers` outlives this object's last Publish().
   SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers);
+
+  // Somebody wants to listen to this robot's sensors: they will be advertised, however many others
+  // there are, at the next Refresh().
+  void Want(const std::string& robot) { wanted_.Want(robot); }
+  bool has_wishes() const { return wanted_.has_wishes(); }
 
   // Looks which sensors there are now; advertises and withdraws their topics.
   void Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot);
@@ -43,6 +55,8 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
 
   Sensors Found(simulation::Simulation& simulation, const world::Layout& layout) const;
   void Withdraw(const Sensors& found);
+  void MakeRoom(Sensors& found);
+  std::set<std::string> RobotsHeard() const;
   void Advertise(Sensors& found);
 
   void PublishTransforms(const world::Snapshot& snapshot);
@@ -62,8 +76,9 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
-  std::size_t topics_ = 0;  // how many of them have a channel
+  std::size_t topics_ = 0;  // how many of them have a channel without having been wanted
   bool told_of_limit_ = false;
+  WantedRobots wanted_;
   bool transforms_changed_ = true;
   std::shared_ptr<const SensorList> beam_sensors_;
   Pacing beams_pacing_;

@@ -158,6 +158,16 @@ void ReplayPlayer::SetLoop(bool loop) {
   Command([&](ReplayClock& clock) { clock.SetLoop(loop); });
 }
 
+std::vector<std::string> ReplayPlayer::ListTopicsOf(const std::string& robot) {
+  std::vector<std::string> topics;
+  for (const auto& [id, channel] : reader_->summary().channels) {
+    if (channel.topic.starts_with("/" + robot + "/")) topics.push_back(channel.topic);
+  }
+  if (!topics.empty()) stream_.Want(robot);
+  Wake();
+  return topics;
+}
+
 void ReplayPlayer::Wake() {
   const std::lock_guard lock(mutex_);
   is_woken_ = true;

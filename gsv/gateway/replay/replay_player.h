@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "gsv/gateway/curves/recorded_curves.h"
 #include "gsv/gateway/recorded/recorded_scene.h"
@@ -57,6 +58,8 @@ class ReplayPlayer {
   base::Status StepPoses(std::int64_t count);
   base::Status SetSpeed(double speed);
   void SetLoop(bool loop);
+  // The recorded topics of the robot's sensors, which are listed to viewers from now on.
+  std::vector<std::string> ListTopicsOf(const std::string& robot);
 
   // Ends the thread and lets nobody in any more.
   void Stop();

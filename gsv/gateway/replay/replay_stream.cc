@@ -32,6 +32,12 @@ bool IsCommon(const std::string& topic) {
   return topic.starts_with("/gsv/") || topic == "/tf" || topic == "/tf_static";
 }
 
+// "pebble" of "/pebble/camera"; of other topics something that is no robot's name.
+std::string RobotOf(const std::string& topic) {
+  const std::size_t end = topic.find('/', 1);
+  return end == std::string::npos ? std::string() : topic.substr(1, end - 1);
+}
+
 template <typename Message>
 Message DecodedOrEmpty(const SharedBytes& bytes) {
   const auto message =
@@ -52,15 +58,15 @@ ReplayStream::ReplayStream(const recording::McapReader& reader, const std::strin
                        ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status")});
   clock_channel_ = own[0];
   status_channel_ = own[1];
-  Advertise(reader.summary());
+  AdvertiseFirst();
 }
 
-void ReplayStream::Advertise(const recording::Summary& summary) {
+void ReplayStream::AdvertiseFirst() {
   static const std::map<std::string, Kind> kKinds{
       {"/gsv/events", Kind::kEvents}, {"/gsv/contacts", Kind::kEvents}, {"/rosout", Kind::kEvents},
       {"/gsv/radio", Kind::kEvents},  {"/gsv/status", Kind::kStatus},   {"/clock", Kind::kClock},
       {"/gsv/poses", Kind::kPoses}};
-  std::vector<foxglove::Channel> channels;
+  const recording::Summary& summary = reader_.summary();
   std::vector<std::uint16_t> ids;
   for (const bool common : {true, false}) {
     for (const auto& [id, channel] : summary.channels) {
@@ -72,11 +78,56 @@ void ReplayStream::Advertise(const recording::Summary& summary) {
       Track& track = tracks_[id];
       if (kind != kKinds.end()) track.kind = kind->second;
       const bool is_own = track.kind == Kind::kStatus || track.kind == Kind::kClock;
-      if (is_own || ids.size() >= kMostSensorTopics) continue;
-      channels.push_back({0, channel.topic, channel.message_encoding, schema->second.name,
-                          schema->second.encoding, schema->second.data});
-      ids.push_back(id);
+      if (!is_own && ids.size() < kMostSensorTopics) ids.push_back(id);
     }
+  }
+  Advertise(ids);
+}
+
+void ReplayStream::AdvertiseWanted() {
+  if (!wanted_.TakeWishes()) return;
+  MakeRoom();
+  std::vector<std::uint16_t> ids;
+  for (auto& [id, track] : tracks_) {
+    const bool is_left_out = track.kind == Kind::kPlain && track.channel == 0;
+    if (!is_left_out || !wanted_.Contains(RobotOf(TopicOf(id)))) continue;
+    track.is_wanted = true;
+    ids.push_back(id);
+  }
+  Advertise(ids);
+}
+
+void ReplayStream::MakeRoom() {
+  const std::set<std::string> forgotten = wanted_.MakeRoom([this] { return RobotsHeard(); });
+  std::vector<foxglove::ChannelId> gone;
+  for (auto& [id, track] : tracks_) {
+    if (!track.is_wanted || !forgotten.contains(RobotOf(TopicOf(id)))) continue;
+    gone.push_back(std::exchange(track.channel, 0));
+    track.is_wanted = false;
+  }
+  hub_->Unadvertise(gone);
+}
+
+std::set<std::string> ReplayStream::RobotsHeard() const {
+  std::set<std::string> heard;
+  for (const auto& [id, track] : tracks_) {
+    if (track.is_wanted && hub_->IsSubscribed(track.channel)) heard.insert(RobotOf(TopicOf(id)));
+  }
+  return heard;
+}
+
+const std::string& ReplayStream::TopicOf(std::uint16_t id) const {
+  return reader_.summary().channels.at(id).topic;
+}
+
+void ReplayStream::Advertise(const std::vector<std::uint16_t>& ids) {
+  const recording::Summary& summary = reader_.summary();
+  std::vector<foxglove::Channel> channels;
+  for (const std::uint16_t id : ids) {
+    const auto& channel = summary.channels.at(id);
+    const auto& schema = summary.schemas.at(channel.schema_id);
+    channels.push_back(
+        {0, channel.topic, channel.message_encoding, schema.name, schema.encoding, schema.data});
   }
   const auto advertised = hub_->Advertise(std::move(channels));
   for (std::size_t i = 0; i < ids.size(); ++i) tracks_[ids[i]].channel = advertised[i];
@@ -134,6 +185,7 @@ const ReplayStream::Track* ReplayStream::Keep(std::uint16_t id, base::SimTime ti
 
 void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime now,
                            const std::function<simulation::SimulationStatus()>& status) {
+  AdvertiseWanted();
   hub_->PublishChanges(std::exchange(has_jumped_, false));
   const bool has_moved = published_time_ != time;
   // Only while it plays does another status follow one that came too soon.

@@ -12,10 +12,13 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/pacing.h"
+#include "gsv/gateway/live/wanted_robots.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/recording/mcap_reader.h"
 #include "gsv/simulation/types.h"
@@ -24,12 +27,16 @@ namespace gsv::gateway {
 
 class ReplayStream {
  public:
-  // Advertises what the recording holds. `reader` must outlive this; `on_demand` and
-  // `operations`: see Hub.
+  // Advertises what the recording holds, as much as of a simulation (SensorTopics). `reader` must
+  // outlive this; `on_demand` and `operations`: see Hub.
   ReplayStream(const recording::McapReader& reader, const std::string& name,
                std::function<void()> on_demand, std::shared_ptr<Operations> operations);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
+
+  // Somebody wants to listen to this robot's sensors: they will be advertised, however many others
+  // there are, at the next Publish().
+  void Want(const std::string& robot) { wanted_.Want(robot); }
 
   // Takes each topic's newest message that is not after `time`.
   void JumpTo(base::SimTime time);
@@ -49,11 +56,17 @@ class ReplayStream {
   struct Track {
     Kind kind = Kind::kPlain;
     foxglove::ChannelId channel = 0;  // 0: not published
+    bool is_wanted = false;           // it is published because somebody wanted the robot's
     std::optional<Hub::Message> latest;
     bool is_fresh = false;
   };
 
-  void Advertise(const recording::Summary& summary);
+  void AdvertiseFirst();
+  void AdvertiseWanted();
+  void MakeRoom();
+  std::set<std::string> RobotsHeard() const;
+  const std::string& TopicOf(std::uint16_t id) const;
+  void Advertise(const std::vector<std::uint16_t>& ids);
   // The message's track, of which it is the latest now; null: a channel that is not replayed.
   const Track* Keep(std::uint16_t id, base::SimTime time, recording::Bytes data);
   void ReadNext();
@@ -66,6 +79,7 @@ class ReplayStream {
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId clock_channel_ = 0, status_channel_ = 0;
   std::map<std::uint16_t, Track> tracks_;
+  WantedRobots wanted_;
   std::optional<recording::MessageCursor> cursor_;
   std::optional<recording::MessageRecord> next_;  // of cursor_
   std::optional<base::SimTime> published_time_;

@@ -28,6 +28,14 @@ test("a replay is moved and changed at its own addresses", async () => {
   ]);
 });
 
+test("a robot's topics are asked for under its name, which may hold anything", async () => {
+  const { api, fetchPage } = answering({ topics: [] });
+  await api.listTopics("a b", "r/1");
+  const [url, init] = fetchPage.mock.calls[0]!;
+  expect(url).toBe("http://127.0.0.1:8080/api/simulations/a%20b/robots/r%2F1/topics");
+  expect(init?.method ?? "GET").toBe("GET");
+});
+
 test("a refusal carries the server's sentence", async () => {
   const { api } = answering({ error: "to pause it must be running, and it is stopped" }, 409);
   const refusal = await api.act("a", "pause").catch((error: unknown) => error);

@@ -114,6 +114,11 @@ export class SimulationApi {
     return parseRecording(await this.server.post(`${simulationPath(name)}/recording`, { record }));
   }
 
+  // Has the live stream list the topics of the robot's sensors, however many others there are.
+  async listTopics(name: string, robot: string): Promise<void> {
+    await this.server.get(`${simulationPath(name)}/robots/${encodeURIComponent(robot)}/topics`);
+  }
+
   async drive(name: string, robot: string, drive: Drive): Promise<void> {
     const path = `${simulationPath(name)}/robots/${encodeURIComponent(robot)}/drive`;
     await this.server.post(path, drive);

@@ -82,6 +82,7 @@ class Fixture {
       close: () => void (client.closed = true),
       retryNow: () => {},
       parameter: async () => null,
+      missingTopics: [],
       subscribe: (topic, handler) => {
         this.handlers.set(topic, handler as (message: never) => void);
         return () => this.handlers.delete(topic);

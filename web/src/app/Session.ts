@@ -23,6 +23,7 @@ import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
 import { notify } from "./notices";
+import { TopicWishes } from "./TopicWishes";
 
 const EMPTY_POLL_MS = 2000;
 const SCENE_RETRY_MS = 3000;
@@ -55,7 +56,7 @@ export interface LiveListener {
 }
 
 // The live stream, as far as the session needs it.
-export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter">;
+export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics">;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
 
 export class Session {
@@ -70,6 +71,7 @@ export class Session {
   private hasOpened = false; // the recording that is wanted
   private instant: number | null = null; // s, simulated: where a replay is to go on
   private newsSince = Infinity; // s, simulated
+  private readonly wishes: TopicWishes;
 
   constructor(
     private readonly api: SimulationApi,
@@ -77,7 +79,9 @@ export class Session {
     private readonly live: LiveListener,
     private readonly wanted: Wanted,
     private readonly makeClient: ClientFactory = (url, events) => new FoxgloveClient(url, events),
-  ) {}
+  ) {
+    this.wishes = new TopicWishes(api, store, () => this.client?.missingTopics ?? []);
+  }
 
   start(): void {
     void this.findSimulation();
@@ -121,6 +125,7 @@ export class Session {
   // Hears a topic of the present simulation; gives the function that ends it.
   // Who asks for one that others hear already is handed its newest message at once.
   subscribe<Message>(topic: string, handler: (message: Message) => void): () => void {
+    this.wishes.lookSoon();
     return this.topics?.subscribe(topic, handler) ?? (() => {});
   }
 
@@ -241,6 +246,7 @@ export class Session {
     this.instant = null;
     if (instant !== null) await this.api.seek(name, instant).catch(() => {}); // then it stands at its start
     await this.fetchScene(name);
+    this.wishes.lookSoon();
     await this.fetchStatus(name);
   }
 

@@ -106,6 +106,7 @@ test("it offers both sub-protocols and subscribes to what is advertised", async 
   await vi.waitFor(() => expect(server.heard).toHaveLength(1));
   expect(server.protocols).toEqual([SUBPROTOCOLS[0]]);
   expect(server.heard[0]).toEqual({ op: "subscribe", subscriptions: [{ id: 1, channelId: 7 }] });
+  expect(client.missingTopics).toEqual(["/nowhere"]);
 });
 
 test("messages arrive decoded", async () => {

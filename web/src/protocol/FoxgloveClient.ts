@@ -86,6 +86,11 @@ export class FoxgloveClient {
     return [...this.channels.values()].map((channel) => channel.topic);
   }
 
+  // Those that are subscribed here and that the server does not offer.
+  get missingTopics(): string[] {
+    return [...this.subscriptions].filter(({ id }) => id === null).map(({ topic }) => topic);
+  }
+
   // Hears the messages of a topic from now on; gives the function that ends it.
   subscribe<Message>(
     topic: string,

@@ -1,0 +1,48 @@
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import type { SceneBody, SceneDescription, SceneSensor } from "../api/scene";
+import { initialState, type State } from "../state/State";
+import { Store } from "../state/Store";
+import { TopicWishes } from "./TopicWishes";
+
+function body(name: string, ...sensors: string[]): SceneBody {
+  return { name, sensors: sensors.map((sensor) => ({ topic: `/${name}/${sensor}` }) as SceneSensor) } as SceneBody;
+}
+
+function fixture(missing: string[], more: object = {}) {
+  const scene = { bodies: [body("a", "sonar", "camera"), body("b", "camera"), body("wall")] };
+  const store = new Store<State>({ ...initialState, simulation: "s", scene: scene as SceneDescription, ...more });
+  const listTopics = vi.fn(async (_simulation: string, _robot: string) => {});
+  return { wishes: new TopicWishes({ listTopics }, store, () => missing), listTopics };
+}
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+test("each robot whose sensors are listened to in vain is asked for once", () => {
+  const { wishes, listTopics } = fixture(["/a/sonar", "/a/camera", "/gsv/beams"]);
+  wishes.lookSoon();
+  wishes.lookSoon();
+  expect(listTopics).not.toHaveBeenCalled(); // they may be listed any moment
+  vi.runAllTimers();
+  expect(listTopics.mock.calls).toEqual([["s", "a"]]);
+});
+
+test("nobody is asked for while all is listed, nor before there is a scene", () => {
+  const listed = fixture([]);
+  listed.wishes.lookSoon();
+  const early = fixture(["/a/sonar"], { scene: null });
+  early.wishes.lookSoon();
+  vi.runAllTimers();
+  expect(listed.listTopics).not.toHaveBeenCalled();
+  expect(early.listTopics).not.toHaveBeenCalled();
+});
+
+test("a server that does not answer is asked again when something else is listened to", async () => {
+  const { wishes, listTopics } = fixture(["/b/camera"]);
+  listTopics.mockRejectedValueOnce(new Error("away"));
+  wishes.lookSoon();
+  await vi.runAllTimersAsync();
+  wishes.lookSoon();
+  await vi.runAllTimersAsync();
+  expect(listTopics).toHaveBeenCalledTimes(2);
+});
