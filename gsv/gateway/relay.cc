@@ -61,12 +61,7 @@ class LocalRelay final : public Relay, private Handler {
     request.method = "GET";
     request.raw_target = "/api/simulations";
     const base::Result<Response> answer = upstream::Fetch(address_, request, kProbeTime);
-    if (!answer) {
-      return base::Fail(
-          answer.error().code,
-          answer.error().message + "; is gsv running there, and is the address right?",
-          answer.error().where);
-    }
+    if (!answer) return base::Fail(answer.error());
     if (answer->status == 200 && answer->content_type == "application/json") return {};
     return base::Fail(base::ErrorCode::kUnavailable,
                       "this is not a gsv that may be watched: it answers " +

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <omniORB4/CORBA.h>
 #include <omniORB4/minorCode.h>
+#include <omniORB4/omniIOR.h>
 
 namespace {
 
@@ -111,7 +112,8 @@ TEST_F(ObjectReferences, ThatAreRightAreReadAndReleased) {
               PutReference(stream, profile);
               const CORBA::Object_var object = CORBA::Object::_unmarshalObjRef(stream);
               ASSERT_FALSE(CORBA::is_nil(object));
-              EXPECT_STREQ(object->_PR_getobj()->_getIOR()->repositoryID(), "IDL:omg.org/A:1.0");
+              const omniIOR_var ior = object->_PR_getobj()->_getIOR();
+              EXPECT_STREQ(ior->repositoryID(), "IDL:omg.org/A:1.0");
             }),
             kFewBytes);
 }

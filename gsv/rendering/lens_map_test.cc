@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,8 @@ struct LensCase {
   const char* name;
   model::Parameters parameters;
   double widest;  // rad from the view
+
+  friend void PrintTo(const LensCase& lens, std::ostream* out) { *out << lens.name; }
 };
 
 std::vector<LensCase> Cases() {

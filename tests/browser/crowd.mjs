@@ -32,15 +32,16 @@ export function crowd(folder, robots) {
 }
 
 // From now on the page notes for each press how long it took until a robot was shown as selected, in
-// the list and the inspector, and that picture was drawn.
+// the list and the inspector, and that picture was drawn. `robot` is null where a press missed them all,
+// and so none is selected any more.
 export async function noteClicks(page) {
   await page.evaluate(() => {
     const noted = (window.testClicks = []);
     let pressed = null;
     addEventListener("pointerup", ({ timeStamp }) => (pressed = timeStamp), { capture: true });
     new MutationObserver((changes) => {
-      const chosen = changes.find(({ target }) => target.ariaPressed === "true")?.target.dataset.robot;
-      if (chosen === undefined || pressed === null) return;
+      const chosen = changes.find(({ target }) => target.ariaPressed === "true")?.target.dataset.robot ?? null;
+      if (pressed === null) return;
       const from = pressed;
       pressed = null;
       // After the next frame: what was changed now is painted.
@@ -62,25 +63,39 @@ export async function clickNoted(page, click) {
   return page.evaluate(() => window.testClicks.at(-1));
 }
 
-// Clicks on `count` robots in the list and on as many in the picture, spread over all, by turns; how long
-// each took, in ms. Those that something else hides in the picture are left out.
+// How long each of `count` clicks took, in ms: on robots in the list, spread over all.
+export async function timeListClicks(page, count) {
+  const took = [];
+  for (let i = 0; i < count; i++) took.push(await clickInList(page, i / count));
+  return took;
+}
+
+// By turns on robots in the list and in the picture. Left out are those that something else hides in the
+// picture, and those that had moved away when the click came.
 export async function timeClicks(page, count) {
-  const names = await page.evaluate(() => window.gsv.robots);
-  // A click on who is selected already changes nothing.
-  const nameAt = async (share) => {
-    const selected = await page.evaluate(() => document.querySelector('[data-robot][aria-pressed="true"]')?.dataset.robot);
-    const at = Math.floor(share * names.length);
-    return names[at] === selected ? names[(at + 1) % names.length] : names[at];
-  };
   const [list, picture] = [[], []];
   for (let i = 0; i < count; i++) {
-    const row = page.locator(`[data-robot="${await nameAt(i / count)}"]`);
-    await row.scrollIntoViewIfNeeded();
-    list.push((await clickNoted(page, () => row.click())).took);
-    const other = await nameAt((i + 0.5) / count);
+    list.push(await clickInList(page, i / count));
+    const other = await unselectedAt(page, (i + 0.5) / count);
     const place = await page.evaluate((name) => window.gsv.robotScreenPosition(name), other);
     const isFree = place && (await page.evaluate(({ x, y }) => document.elementFromPoint(x, y)?.tagName === "CANVAS", place));
-    if (isFree) picture.push((await clickNoted(page, () => page.mouse.click(place.x, place.y))).took);
+    if (!isFree) continue;
+    const { robot, took } = await clickNoted(page, () => page.mouse.click(place.x, place.y));
+    if (robot !== null) picture.push(took);
   }
   return { list, picture };
+}
+
+async function clickInList(page, share) {
+  const row = page.locator(`[data-robot="${await unselectedAt(page, share)}"]`);
+  await row.scrollIntoViewIfNeeded();
+  return (await clickNoted(page, () => row.click())).took;
+}
+
+// The robot at this share of the list, or the one behind it: a click on who is selected changes nothing.
+async function unselectedAt(page, share) {
+  const names = await page.evaluate(() => window.gsv.robots);
+  const selected = await page.evaluate(() => document.querySelector('[data-robot][aria-pressed="true"]')?.dataset.robot);
+  const at = Math.floor(share * names.length);
+  return names[at] === selected ? names[(at + 1) % names.length] : names[at];
 }

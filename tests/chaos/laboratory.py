@@ -3,6 +3,7 @@
 import http.client
 import json
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -103,6 +104,14 @@ class Laboratory:
     # The server, by its HTTP API
 
     def request(self, method, path, body=None, timeout=TIMEOUT_S):
+        """The answer, read as JSON; Refused, with the server's words."""
+        status, text = self.answer(method, path, body, timeout)
+        answer = json.loads(text) if text else {}
+        if status >= 400:
+            raise Refused(f"{method} {path}: {status} {answer.get('error', answer)}")
+        return answer
+
+    def answer(self, method, path, body=None, timeout=TIMEOUT_S):
         start = time.monotonic()
         connection = http.client.HTTPConnection("127.0.0.1", self.viewer_port, timeout=timeout)
         try:
@@ -113,10 +122,7 @@ class Laboratory:
         finally:
             connection.close()
             self.slowest = max(self.slowest, time.monotonic() - start)
-        answer = json.loads(text) if text else {}
-        if response.status >= 400:
-            raise Refused(f"{method} {path}: {response.status} {answer.get('error', answer)}")
-        return answer
+        return response.status, text
 
     def get(self, path):
         return self.request("GET", path)
@@ -140,7 +146,12 @@ class Laboratory:
         return self.request("DELETE", f"/api/simulations/{simulation}")
 
     def footprint(self):
-        return footprint_of(self.server.pid)
+        allocated = self.metric("gsv_allocated_memory_bytes")
+        return {**footprint_of(self.server.pid), "allocated_mib": round(allocated / 2**20, 1)}
+
+    def metric(self, name):
+        _, text = self.answer("GET", "/metrics")
+        return float(re.search(rf"^{name} (\S+)$", text.decode(), re.MULTILINE)[1])
 
     # The end
 

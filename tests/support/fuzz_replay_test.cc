@@ -110,7 +110,8 @@ void KeepInput(int signal) {
 }
 
 TEST(Fuzz, GSV_FUZZ_TEST_NAME) {
-  g_kept = std::string(std::getenv("GSV_BUILD_DIR")) + "/fuzz_" +
+  const char* const folder = std::getenv("GSV_BUILD_DIR");
+  g_kept = std::string(folder != nullptr ? folder : ".") + "/fuzz_" +
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".input";
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE}) std::signal(signal, KeepInput);
   const auto corpus = Corpus();

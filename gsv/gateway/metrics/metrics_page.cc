@@ -88,6 +88,8 @@ void PutProcess(const MetricsSources& sources, Exposition& out) {
           usage.start_time);
   out.Put("process_cpu_seconds_total", kCounter, "Processor time used.", usage.processor_seconds);
   out.Put("process_resident_memory_bytes", kGauge, "Memory in use.", usage.resident_bytes);
+  out.Put("gsv_allocated_memory_bytes", kGauge, "Memory that malloc gave out.",
+          usage.allocated_bytes);
   out.Put("process_threads", kGauge, "Threads of this process.", usage.threads);
   out.Put("process_open_fds", kGauge, "Descriptors that are open.", usage.descriptors);
   out.Put("process_max_fds", kGauge, "Descriptors that may be open.", usage.most_descriptors);

@@ -1,11 +1,14 @@
 // GET /metrics and /healthz.
 #include <map>
+#include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/sanitizer.h"
 #include "gsv/gateway/gateway.h"
 #include "gsv/gateway/metrics/exposition.h"
 #include "gsv/gateway/metrics/process_usage.h"
@@ -91,6 +94,23 @@ TEST(ProcessUsage, IsThatOfThisProcess) {
   ASSERT_NE(file, nullptr);
   EXPECT_EQ(ReadProcessUsage().descriptors, before.descriptors + 1);
   std::fclose(file);
+}
+
+TEST(ProcessUsage, TellsWhatIsAllocatedWhateverItsSize) {
+  if (base::kTakesAllAddresses) GTEST_SKIP() << "a sanitizer's own malloc does not tell";
+  for (const std::size_t size : {std::size_t{1000}, std::size_t{64} << 20}) {
+    constexpr std::size_t kTotal = std::size_t{64} << 20;
+    const std::uint64_t before = ReadProcessUsage().allocated_bytes;
+    std::vector<std::unique_ptr<char[]>> held;
+    for (std::size_t sum = 0; sum < kTotal; sum += size) {
+      held.push_back(std::make_unique_for_overwrite<char[]>(size));
+    }
+    const double share = static_cast<double>(ReadProcessUsage().allocated_bytes - before) / kTotal;
+    EXPECT_GT(share, 0.99) << size;
+    EXPECT_LT(share, 1.1) << size;
+    held.clear();
+    EXPECT_LT(ReadProcessUsage().allocated_bytes, before + kTotal / 10) << size;
+  }
 }
 
 class MetricsTest : public ::testing::Test {

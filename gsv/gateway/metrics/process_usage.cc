@@ -1,5 +1,6 @@
 #include "gsv/gateway/metrics/process_usage.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -40,6 +41,8 @@ ProcessUsage ReadProcessUsage() {
       usage.resident_bytes = value * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
     }
   }
+  const struct mallinfo2 heap = mallinfo2();
+  usage.allocated_bytes = heap.uordblks + heap.hblkhd;
   double since_boot = 0;
   std::ifstream("/proc/uptime") >> since_boot;
   usage.uptime = since_boot - start_after_boot;

@@ -7,6 +7,7 @@ namespace gsv::gateway::metrics {
 
 struct ProcessUsage {
   std::uint64_t resident_bytes = 0;
+  std::uint64_t allocated_bytes = 0;  // that malloc gave out: what it keeps for later is not in it
   std::uint64_t threads = 0;
   std::uint64_t descriptors = 0;
   std::uint64_t most_descriptors = 0;  // that it may open

@@ -54,11 +54,12 @@ class Exchange {
     io_.run_for(limit);
     if (is_done_) return Answer();
     if (error_) {
-      return base::Fail(base::ErrorCode::kUnavailable, "no answer: " + Reason(error_),
+      return base::Fail(base::ErrorCode::kUnavailable, "no answer: " + WhyNotConnected(error_),
                         address_.Url());
     }
     return base::Fail(base::ErrorCode::kTimeout,
-                      "no answer within " + std::to_string(limit.count()) + " ms", address_.Url());
+                      "no answer within " + std::to_string(limit.count()) + " ms; " + kIsItThere,
+                      address_.Url());
   }
 
  private:

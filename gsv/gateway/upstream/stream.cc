@@ -142,7 +142,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   void Secure() {
     attempt_->socket.next_layer().AsyncSecure(ForThis([](RemoteStream& self, error_code error) {
-      if (error) return self.TryAgain(Reason(error));
+      if (error) return self.TryAgain(WhyNotConnected(error));
       self.Handshake();
     }));
   }

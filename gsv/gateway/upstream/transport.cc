@@ -34,8 +34,10 @@ Transport::Transport(boost::asio::io_context& io, const Address& address)
   }
 }
 
-std::string Reason(const boost::system::error_code& error) {
-  if (error.category() != boost::asio::error::get_ssl_category()) return error.message();
+std::string WhyNotConnected(const boost::system::error_code& error) {
+  if (error.category() != boost::asio::error::get_ssl_category()) {
+    return error.message() + "; " + kIsItThere;
+  }
   if (ERR_GET_REASON(static_cast<unsigned long>(error.value())) ==
       SSL_R_CERTIFICATE_VERIFY_FAILED) {
     return "its certificate is of nobody who is trusted here, or for another name; name the "

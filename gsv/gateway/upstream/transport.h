@@ -4,6 +4,7 @@
 // Threads  that which runs the executor.
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include <boost/asio/io_context.hpp>
@@ -66,7 +67,8 @@ class Transport {
   boost::beast::ssl_stream<boost::beast::tcp_stream> stream_;
 };
 
-// What a failed connection is called, with what to do about a certificate that is not trusted.
-std::string Reason(const boost::system::error_code& error);
+// Why there is no connection, and what to do about it.
+std::string WhyNotConnected(const boost::system::error_code& error);
+inline constexpr char kIsItThere[] = "is gsv running there, and is the address right?";
 
 }  // namespace gsv::gateway::upstream
