@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <set>
+#include <map>
 #include <string>
 #include <thread>
 
@@ -56,23 +56,26 @@ class ManySensorsTest : public LiveStreamTest {
     Round(seconds(2));
   }
 
-  // How many of those there are at present.
-  std::ptrdiff_t Topics(const std::string& robot) const {
-    std::set<std::uint64_t> topics;
+  // How many of those there are at present, by robot.
+  std::map<std::string, std::size_t> TopicsByRobot() const {
+    std::map<std::uint64_t, std::string> robots;  // by channel
     for (const auto& text : client_->texts()) {
       if (text.value("op", "") == "unadvertise") {
-        for (const auto& id : text["channelIds"]) topics.erase(id.get<std::uint64_t>());
+        for (const auto& id : text["channelIds"]) robots.erase(id.get<std::uint64_t>());
       }
       if (text.value("op", "") != "advertise") continue;
       for (const auto& channel : text["channels"]) {
         const auto topic = channel["topic"].get<std::string>();
-        if (topic.starts_with("/" + robot + "/many_")) {
-          topics.insert(channel["id"].get<std::uint64_t>());
-        }
+        const std::size_t end = topic.find("/many_");
+        if (end == std::string::npos) continue;
+        robots[channel["id"].get<std::uint64_t>()] = topic.substr(1, end - 1);
       }
     }
-    return std::ssize(topics);
+    std::map<std::string, std::size_t> counts;
+    for (const auto& [id, robot] : robots) ++counts[robot];
+    return counts;
   }
+  std::size_t Topics(const std::string& robot) const { return TopicsByRobot()[robot]; }
 
   // As the API does for somebody who has chosen the robot.
   void Want(const std::string& robot) {
@@ -87,11 +90,11 @@ class ManySensorsTest : public LiveStreamTest {
 
 TEST_F(ManySensorsTest, TwoThousandHaveATopicAndTheOthersAreTold) {
   Mount("robot_0", 0, 1000);
-  EXPECT_EQ(Topics("robot_0"), 1000);
+  EXPECT_EQ(Topics("robot_0"), 1000u);
   EXPECT_EQ(Complaints(complaint_), 0u);
   Mount("robot_0", 1000, 2000);  // those that it has besides make it more
-  EXPECT_LT(Topics("robot_0"), 2000);
-  EXPECT_GT(Topics("robot_0"), 1980);
+  EXPECT_LT(Topics("robot_0"), 2000u);
+  EXPECT_GT(Topics("robot_0"), 1980u);
   EXPECT_EQ(Complaints(complaint_), 1u);
 }
 
@@ -99,14 +102,14 @@ TEST_F(ManySensorsTest, BeyondThemARobotsHaveTheirsWhenItIsWanted) {
   simulation_->AddOneRobot();
   Mount("robot_0", 0, 2000);
   Mount("robot_1", 0, 3);
-  EXPECT_EQ(Topics("robot_1"), 0);
+  EXPECT_EQ(Topics("robot_1"), 0u);
   Want("robot_1");
-  EXPECT_EQ(Topics("robot_1"), 3);
+  EXPECT_EQ(Topics("robot_1"), 3u);
   Subscribe(1, "/robot_1/many_2");
   EXPECT_EQ(Decoded<messages::sensor_msgs::Range>(RoundUntil(1, 1)).header.frame_id,
             "robot_1/many_2");
   Mount("robot_1", 3, 5);  // what is mounted later as well
-  EXPECT_EQ(Topics("robot_1"), 5);
+  EXPECT_EQ(Topics("robot_1"), 5u);
   Want("nobody");
   workers_.Stop();
 }
@@ -120,13 +123,20 @@ TEST_F(ManySensorsTest, OfTheWantedWhoWasWantedFirstGoesUnlessSomebodyListens) {
   Want(name(1));
   Subscribe(1, "/robot_1/many_0");
   for (int i = 2; i <= count; ++i) Want(name(i));
-  EXPECT_EQ(Topics(name(1)), 1);
-  EXPECT_EQ(Topics(name(2)), 0);
-  EXPECT_EQ(Topics(name(3)), 0);
-  for (int i = 4; i <= count; ++i) EXPECT_EQ(Topics(name(i)), 1) << i;
+  std::map<std::string, std::size_t> expected;
+  for (int i = 1; i <= count; ++i) expected[name(i)] = 1;
+  expected.erase(name(2));
+  expected.erase(name(3));
+  const auto of_the_wanted = [&] {
+    auto counts = TopicsByRobot();
+    counts.erase("robot_0");
+    return counts;
+  };
+  EXPECT_EQ(of_the_wanted(), expected);
   Want(name(2));
-  EXPECT_EQ(Topics(name(2)), 1);
-  EXPECT_EQ(Topics(name(4)), 0);
+  expected[name(2)] = 1;
+  expected.erase(name(4));
+  EXPECT_EQ(of_the_wanted(), expected);
   workers_.Stop();
 }
 
