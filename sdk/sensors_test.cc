@@ -7,7 +7,7 @@
 #include "gsv/hosting/hosted_behaviour.h"
 #include "gsv/orb/orb.h"
 #include "gsv/services/hardware_servants.h"
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 #include "idl/actuators.hh"
 #include "idl/sensors.hh"
 #include "sdk/behaviour/behaviour.h"

@@ -72,6 +72,9 @@ class Table:
             return self.folders.index(included_folder) <= self.folders.index(folder)
         return included_folder in self.allowed[folder]
 
+    def is_core(self, folder):
+        return any(folder == core or folder.startswith(core + "/") for core in self.core)
+
     def is_excepted(self, path, use):
         return any(
             use == allowed_use and (path == place or path.startswith(place + "/"))
@@ -99,7 +102,7 @@ def check_include(table, root, path, folder, quote, included):
             return f'"{included}" is not written from the repository\'s root'
     elif not table.may_include(path, folder, included_folder):
         return f"{folder} may not include {included_folder} ({included}); see docs/layers.txt"
-    if folder not in table.core:
+    if not table.is_core(folder):
         return None
     for use, pattern in FORBIDDEN_INCLUDES.items():
         if pattern.search(included) and not table.is_excepted(path, use):
@@ -109,7 +112,7 @@ def check_include(table, root, path, folder, quote, included):
 
 def check_code(table, path, folder, code):
     """The sentence that says what one line of code uses and must not, or None."""
-    if folder not in table.core or TEST_SOURCE.search(path):
+    if not table.is_core(folder) or TEST_SOURCE.search(path):
         return None
     for use, pattern in FORBIDDEN_CODE.items():
         found = pattern.search(code)

@@ -15,7 +15,8 @@ LAYERS = """
 idl
 gsv/base
 gsv/model     gsv/base   # a remark
-gsv/world     gsv/model
+gsv/world/parts  gsv/model
+gsv/world     gsv/world/parts
 gsv/services  gsv/world idl
 gsv/broker/storage  gsv/base
 gsv/broker    gsv/broker/storage
@@ -82,6 +83,11 @@ class CheckLayers(unittest.TestCase):
                 {"gsv/model/a.cc": f"\n#include <{header}>\n"}, "gsv/model/a.cc:2: the core", header
             )
         self.assert_violation({"gsv/model/a.h": "#include <epoxy/gl.h>\n"}, "gsv/model/a.h:1", "opengl")
+
+    def test_what_lies_within_a_folder_of_the_core_is_core(self):
+        self.assert_violation(
+            {"gsv/world/parts/a.h": "#include <epoxy/gl.h>\n"}, "gsv/world/parts/a.h:1: the core", "opengl"
+        )
 
     def test_above_the_core_they_are_free(self):
         code, _ = self.run_on({"gsv/services/a.cc": "#include <omniORB4/CORBA.h>\n"})

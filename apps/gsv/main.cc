@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/gsv/commands.h"
+#include "apps/gsv/commands/commands.h"
 #include "apps/gsv/exit_code.h"
 #include "gsv/base/log.h"
 #include "gsv/simulation/simulation.h"

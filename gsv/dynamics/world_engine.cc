@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "gsv/dynamics/obstacles.h"
-#include "gsv/dynamics/planar_joints.h"
-#include "gsv/dynamics/planar_mover.h"
-#include "gsv/dynamics/rigid_engine.h"
+#include "gsv/dynamics/planar/planar_joints.h"
+#include "gsv/dynamics/planar/planar_mover.h"
+#include "gsv/dynamics/rigid/rigid_engine.h"
+#include "gsv/dynamics/shapes/obstacles.h"
 
 namespace gsv::dynamics {
 namespace {

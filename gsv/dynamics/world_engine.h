@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "gsv/base/thread_team.h"
-#include "gsv/dynamics/engine.h"
+#include "gsv/dynamics/motion/engine.h"
 
 namespace gsv::dynamics {
 

@@ -1,8 +1,8 @@
 // What is wrong with a file is said in a sentence that names the place.
 #include <gmock/gmock.h>
 
+#include "gsv/base/test_folder.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/formats/test_folder.h"
 
 namespace gsv::formats {
 namespace {
@@ -37,7 +37,7 @@ class BadInputTest : public testing::Test {
     return errors;
   }
 
-  TestFolder folder_;
+  base::testing::TestFolder folder_;
   ReadOptions options_;
   base::Problems problems_;
 };

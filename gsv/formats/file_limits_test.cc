@@ -3,10 +3,10 @@
 
 #include <gmock/gmock.h>
 
-#include "gsv/formats/mesh_reader.h"
+#include "gsv/base/test_folder.h"
+#include "gsv/formats/images/texture_reader.h"
+#include "gsv/formats/meshes/mesh_reader.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/formats/test_folder.h"
-#include "gsv/formats/texture_reader.h"
 
 namespace gsv::formats {
 namespace {
@@ -47,7 +47,7 @@ class FileLimitsTest : public testing::Test {
     };
   }
 
-  TestFolder folder_;
+  base::testing::TestFolder folder_;
 };
 
 TEST_F(FileLimitsTest, OfWorldsAreMetAndNotPassed) {

@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
-#include "gsv/formats/mesh_reader.h"
+#include "gsv/base/test_folder.h"
+#include "gsv/formats/meshes/mesh_reader.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/formats/test_folder.h"
 
 namespace gsv::formats {
 namespace {
@@ -36,7 +36,7 @@ class HostileInputTest : public testing::Test {
     return MeshReader(limits, textures).Read(folder_.Write(name, content), "", false, problems);
   }
 
-  TestFolder folder_;
+  base::testing::TestFolder folder_;
   std::shared_ptr<const model::Model> model_;
 };
 

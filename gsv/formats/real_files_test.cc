@@ -5,9 +5,9 @@
 
 #include <gmock/gmock.h>
 
-#include "gsv/formats/resource_finder.h"
+#include "gsv/formats/files/resource_finder.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/formats/test_folder.h"
+#include "gsv/formats/testing/real_folder.h"
 
 namespace gsv::formats {
 namespace {

@@ -1,8 +1,8 @@
 // Joints, what controllers tell them, and what surfaces and links say of forces.
 #include <gmock/gmock.h>
 
+#include "gsv/base/test_folder.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/formats/test_folder.h"
 
 namespace gsv::formats {
 namespace {
@@ -30,7 +30,7 @@ class SdfJointTest : public testing::Test {
         type + "'><parent>a</parent><child>b</child>" + content + "</joint>" + more);
   }
 
-  TestFolder folder_;
+  base::testing::TestFolder folder_;
   base::Problems problems_;
 };
 

@@ -5,9 +5,9 @@
 #include <system_error>
 #include <variant>
 
-#include "gsv/formats/builtin_models.h"
-#include "gsv/formats/model_store.h"
-#include "gsv/formats/world_reader.h"
+#include "gsv/formats/sdf/builtin_models.h"
+#include "gsv/formats/sdf/model_store.h"
+#include "gsv/formats/sdf/world_reader.h"
 
 namespace gsv::formats {
 namespace {

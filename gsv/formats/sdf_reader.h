@@ -17,26 +17,14 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "gsv/base/error.h"
-#include "gsv/formats/read_limits.h"
+#include "gsv/formats/sdf/read_options.h"
 #include "gsv/model/world_description.h"
 
 namespace gsv::formats {
-
-// What is wrong with a sensor, if anything: kNotFound when nobody knows its type.
-using SensorCheck = std::function<base::Status(const model::SensorDescription&)>;
-
-struct ReadOptions {
-  std::vector<std::filesystem::path> model_path;  // as of --model-path
-  bool allow_absolute_paths = true;               // in the names that files contain
-  ReadLimits limits;
-  SensorCheck check_sensor;  // may be empty: then a sensor's parameters are taken as they are
-};
 
 class ModelLibrary {
  public:

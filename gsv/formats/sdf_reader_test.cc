@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-#include "gsv/formats/test_folder.h"
+#include "gsv/base/test_folder.h"
 
 namespace gsv::formats {
 namespace {
@@ -48,7 +48,7 @@ class SdfReaderTest : public testing::Test {
     return sentences;
   }
 
-  TestFolder folder_;
+  base::testing::TestFolder folder_;
   base::Problems problems_;
 };
 

@@ -1,8 +1,8 @@
 // Drives and sensors as robots' files describe them.
 #include <gmock/gmock.h>
 
+#include "gsv/base/test_folder.h"
 #include "gsv/formats/sdf_reader.h"
-#include "gsv/formats/test_folder.h"
 
 namespace gsv::formats {
 namespace {
@@ -43,7 +43,7 @@ class SdfRobotTest : public testing::Test {
     return Read(Robot(plugin))->drive;
   }
 
-  TestFolder folder_;
+  base::testing::TestFolder folder_;
   base::Problems problems_;
 };
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "gsv/formats/gltf_writer.h"
+#include "gsv/formats/gltf/gltf_writer.h"
 #include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/api/api.h"
 #include "gsv/gateway/http/static_files.h"

@@ -1,13 +1,11 @@
 #include "gsv/gateway/gateway.h"
 
-#include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "gsv/base/test_folder.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 #include "gsv/gateway/testing/simulation_list.h"
 #include "gsv/gateway/testing/web_client.h"
@@ -107,19 +105,16 @@ TEST_F(GatewayTest, ModelsInTheSceneAreGlbFiles) {
 }
 
 TEST_F(GatewayTest, ServesTheViewersFiles) {
-  const auto root =
-      std::filesystem::temp_directory_path() / ("gsv_gateway_test_" + std::to_string(getpid()));
-  std::filesystem::create_directories(root);
-  std::ofstream(root / "index.html") << "<p>viewer";
+  const base::testing::TestFolder root;
+  root.Write("index.html", "<p>viewer");
   GatewayOptions options;
-  options.web_root = root;
+  options.web_root = root.path();
   Start(options);
   const HttpReply page = Fetch(port(), "GET", "/");
   EXPECT_EQ(page.body, "<p>viewer");
   EXPECT_EQ(Fetch(port(), "GET", "/", "If-None-Match: " + page.headers.at("etag") + "\r\n").status,
             304);
   EXPECT_EQ(Fetch(port(), "GET", "/../../../../etc/passwd").status, 404);
-  std::filesystem::remove_all(root);
 }
 
 TEST_F(GatewayTest, AViewerSeesTheRobotsMove) {

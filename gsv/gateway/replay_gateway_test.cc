@@ -9,8 +9,8 @@
 
 #include "gsv/gateway/testing/replay_fixture.h"
 #include "gsv/messages/gsv_msgs.h"
-#include "gsv/recording/mcap_file_writer.h"
-#include "gsv/recording/test_recording.h"
+#include "gsv/recording/mcap/mcap_file_writer.h"
+#include "gsv/recording/testing/test_recording.h"
 
 namespace gsv::gateway {
 namespace {

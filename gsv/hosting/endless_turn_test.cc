@@ -2,7 +2,7 @@
 #include <future>
 
 #include "gsv/hosting/hosted_behaviour.h"
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::hosting {
 namespace {

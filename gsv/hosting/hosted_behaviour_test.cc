@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::hosting {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "gsv/simulation/local_behaviour.h"
+#include "gsv/simulation/robots/local_behaviour.h"
 #include "sdk/behaviour/robot.h"
 
 namespace gsv::hosting {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "gsv/simulation/local_behaviour.h"
+#include "gsv/simulation/robots/local_behaviour.h"
 
 namespace gsv::hosting {
 

@@ -15,10 +15,10 @@
 #include <unistd.h>
 
 #include "gsv/base/temporary_folder.h"
-#include "gsv/recording/hand_over.h"
-#include "gsv/recording/recording_info.h"
-#include "gsv/recording/recover.h"
-#include "gsv/recording/test_recording.h"
+#include "gsv/recording/reading/recording_info.h"
+#include "gsv/recording/reading/recover.h"
+#include "gsv/recording/testing/hand_over.h"
+#include "gsv/recording/testing/test_recording.h"
 
 namespace gsv::recording {
 namespace {

@@ -8,7 +8,8 @@
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/visualization_msgs.h"
 #include "gsv/presentation/model_identity.h"
-#include "gsv/recording/recorder_fixture.h"
+#include "gsv/recording/testing/recorder_fixture.h"
+#include "gsv/sensing/devices/built_in.h"
 #include "gsv/sensing/encoding.h"
 
 namespace gsv::recording {

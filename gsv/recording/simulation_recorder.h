@@ -15,12 +15,12 @@
 #include <string>
 #include <thread>
 
-#include "gsv/recording/scenario_attachment.h"
-#include "gsv/recording/scene_attachments.h"
-#include "gsv/recording/sensor_topics.h"
-#include "gsv/recording/simulation_feed.h"
-#include "gsv/recording/source_attachments.h"
-#include "gsv/recording/state_topics.h"
+#include "gsv/recording/attachments/scenario_attachment.h"
+#include "gsv/recording/attachments/scene_attachments.h"
+#include "gsv/recording/attachments/source_attachments.h"
+#include "gsv/recording/topics/sensor_topics.h"
+#include "gsv/recording/topics/simulation_feed.h"
+#include "gsv/recording/topics/state_topics.h"
 
 namespace gsv::recording {
 

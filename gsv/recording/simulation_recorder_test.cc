@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/messages/gsv_msgs.h"
-#include "gsv/recording/recorder_fixture.h"
+#include "gsv/recording/testing/recorder_fixture.h"
 
 namespace gsv::recording {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
-#include "gsv/rendering/test_scene.h"
+#include "gsv/rendering/testing/test_scene.h"
 
 namespace gsv::rendering {
 namespace {

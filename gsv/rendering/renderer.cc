@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "gsv/base/check.h"
-#include "gsv/rendering/gl_batch_painter.h"
+#include "gsv/rendering/opengl/gl_batch_painter.h"
 #include "gsv/rendering/raster/raster_batch_painter.h"
 
 namespace gsv::rendering {

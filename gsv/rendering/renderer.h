@@ -20,9 +20,10 @@
 
 #include "gsv/base/error.h"
 #include "gsv/model/image.h"
-#include "gsv/rendering/camera_view.h"
-#include "gsv/rendering/egl_context.h"
-#include "gsv/rendering/ground_truth.h"
+#include "gsv/rendering/lenses/camera_view.h"
+#include "gsv/rendering/lenses/ground_truth.h"
+#include "gsv/rendering/opengl/egl_context.h"
+#include "gsv/rendering/scene/draw_copies.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::rendering {
@@ -38,13 +39,6 @@ struct RendererOptions {
   EglOptions egl;
   // Requests that may wait at one moment; more are refused.
   std::size_t queue_capacity = 4096;
-};
-
-// What is kept of models.
-struct DrawCopies {
-  std::size_t meshes = 0;
-  std::size_t textures = 0;
-  std::size_t layouts = 0;
 };
 
 class Renderer {

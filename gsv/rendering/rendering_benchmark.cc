@@ -13,7 +13,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/base/random.h"
-#include "gsv/rendering/test_scene.h"
+#include "gsv/rendering/testing/test_scene.h"
 
 namespace gsv::rendering {
 namespace {

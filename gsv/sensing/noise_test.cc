@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
+#include "gsv/sensing/devices/built_in.h"
 #include "gsv/sensing/drift.h"
 #include "gsv/sensing/registry.h"
-#include "gsv/sensing/test_snapshot.h"
+#include "gsv/sensing/testing/test_snapshot.h"
 
 namespace gsv::sensing {
 namespace {

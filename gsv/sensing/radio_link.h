@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "gsv/sensing/ray_scene.h"
+#include "gsv/sensing/rays/ray_scene.h"
 #include "gsv/world/radio.h"
 
 namespace gsv::sensing {

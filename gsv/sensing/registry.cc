@@ -2,25 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "gsv/base/check.h"
-#include "gsv/sensing/altimeter.h"
-#include "gsv/sensing/battery.h"
-#include "gsv/sensing/bumper.h"
-#include "gsv/sensing/gripper.h"
-#include "gsv/sensing/imu.h"
-#include "gsv/sensing/joint_encoders.h"
-#include "gsv/sensing/lamp.h"
-#include "gsv/sensing/lidar.h"
-#include "gsv/sensing/logical_camera.h"
-#include "gsv/sensing/magnetometer.h"
-#include "gsv/sensing/microphone.h"
-#include "gsv/sensing/navsat.h"
-#include "gsv/sensing/odometer.h"
-#include "gsv/sensing/positioning.h"
-#include "gsv/sensing/radio.h"
-#include "gsv/sensing/sonar.h"
-#include "gsv/sensing/speaker.h"
-
 namespace gsv::sensing {
 
 base::Status SensorRegistry::Add(SensorType type) {
@@ -49,15 +30,6 @@ std::vector<std::string> SensorRegistry::names() const {
     if (name == type->name) names.push_back(name);
   }
   return names;
-}
-
-void AddBuiltInSensors(SensorRegistry& registry) {
-  for (SensorType (*make)() :
-       {SonarType, LidarType, PositioningType, ImuType, OdometerType, NavsatType, MagnetometerType,
-        AltimeterType, BumperType, JointEncodersType, BatteryType, LogicalCameraType, RadioType,
-        GripperType, LampType, SpeakerType, MicrophoneType}) {
-    GSV_CHECK(registry.Add(make()));
-  }
 }
 
 }  // namespace gsv::sensing

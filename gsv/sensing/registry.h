@@ -69,7 +69,4 @@ class SensorRegistry {
   std::map<std::string, std::shared_ptr<const SensorType>, std::less<>> types_;
 };
 
-// All that need no renderer.
-void AddBuiltInSensors(SensorRegistry& registry);
-
 }  // namespace gsv::sensing

@@ -11,9 +11,9 @@
 
 #include "gsv/base/error.h"
 #include "gsv/base/random.h"
-#include "gsv/sensing/ray_scene.h"
+#include "gsv/sensing/rays/ray_scene.h"
+#include "gsv/sensing/rays/surroundings.h"
 #include "gsv/sensing/reading.h"
-#include "gsv/sensing/surroundings.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::sensing {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/sensing/test_snapshot.h"
+#include "gsv/sensing/testing/test_snapshot.h"
 
 namespace gsv::sensing {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gsv/services/hardware_servants.h"
-#include "gsv/simulation/behaviour_port.h"
+#include "gsv/simulation/robots/behaviour_port.h"
 #include "idl/behaviour.hh"
 
 namespace gsv::services {

@@ -12,7 +12,7 @@
 #include "gsv/orb/errors.h"
 #include "gsv/services/conversions.h"
 #include "gsv/services/servant_group.h"
-#include "gsv/simulation/agent.h"
+#include "gsv/simulation/robots/agent.h"
 
 namespace gsv::services {
 

@@ -1,6 +1,6 @@
 // What robots tell their lamps and speakers: when it acts, and that it leaves the same state
 // whoever is quick or slow.
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

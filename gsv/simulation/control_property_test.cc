@@ -5,8 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/simulation/life_cycle_model.h"
+#include "gsv/sensing/devices/built_in.h"
 #include "gsv/simulation/simulation.h"
+#include "gsv/simulation/testing/life_cycle_model.h"
 
 namespace gsv::simulation {
 namespace {

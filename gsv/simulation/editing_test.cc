@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

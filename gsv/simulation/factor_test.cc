@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

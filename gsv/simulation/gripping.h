@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gsv/base/thread_team.h"
-#include "gsv/sensing/ray_scene.h"
+#include "gsv/sensing/rays/ray_scene.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::simulation {

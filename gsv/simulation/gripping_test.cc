@@ -1,6 +1,6 @@
 // Grippers: what they take hold of, where it goes, and when they let go.
 #include "gsv/base/test_within.h"
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

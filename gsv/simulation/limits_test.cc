@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/simulation/test_simulation.h"
-#include "gsv/simulation/totals.h"
+#include "gsv/simulation/pace/totals.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

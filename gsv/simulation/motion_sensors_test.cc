@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "gsv/base/test_within.h"
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

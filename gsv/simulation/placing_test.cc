@@ -1,5 +1,5 @@
 // Who stands in a simulation, and where, is changed while it stands still.
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "gsv/dynamics/world_engine.h"
-#include "gsv/sensing/ground.h"
+#include "gsv/sensing/rays/ground.h"
 #include "gsv/simulation/limits.h"
 #include "gsv/simulation/stepping_simulation.h"
 

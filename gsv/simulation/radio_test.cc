@@ -3,7 +3,7 @@
 #include <set>
 
 #include "gsv/base/base64.h"
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

@@ -1,7 +1,7 @@
 // Bodies that move by forces, as a simulation has them.
 #include <gtest/gtest.h>
 
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

@@ -1,6 +1,6 @@
 #include "gsv/simulation/simulation.h"
 
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {

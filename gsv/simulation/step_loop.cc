@@ -6,8 +6,8 @@
 #include <sys/resource.h>
 
 #include "gsv/base/check.h"
+#include "gsv/simulation/pace/totals.h"
 #include "gsv/simulation/stepping_simulation.h"
-#include "gsv/simulation/totals.h"
 
 namespace gsv::simulation {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/scenario/scenario_file.h"
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::verdict {
 namespace {

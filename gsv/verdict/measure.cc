@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "gsv/simulation/mounted_sensor.h"
+#include "gsv/simulation/robots/mounted_sensor.h"
 
 namespace gsv::verdict {
 namespace {

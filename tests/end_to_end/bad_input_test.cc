@@ -45,7 +45,7 @@ TEST(BadInput, AWorldsNameThatIsMisspelt) {
 }
 
 TEST(BadInput, MalformedXml) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const auto world = folder.Write(
       "bad.sdf", "<?xml version='1.0'?>\n<sdf version='1.9'>\n<world name='w'>\n</sdf>");
   ExpectOneSentence(Headless(world.string(), {}), 3, "bad.sdf:");
@@ -66,7 +66,7 @@ std::string RobotWithMesh(const std::string& mesh) {
 }
 
 TEST(BadInput, MeshThatIsMissingIsNamedAndTheRestRuns) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const auto robot = folder.Write("r.sdf", RobotWithMesh("absent.dae"));
   const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
   EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
@@ -75,7 +75,7 @@ TEST(BadInput, MeshThatIsMissingIsNamedAndTheRestRuns) {
 }
 
 TEST(BadInput, MeshThatIsCorruptIsNamedAndTheRestRuns) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   folder.Write("broken.stl", "solid x facet normal 0 0 nonsense");
   const auto robot = folder.Write("r.sdf", RobotWithMesh("broken.stl"));
   const Outcome outcome = Headless(kPlayground, {"--robot", robot.string() + "@0,0"});
@@ -84,7 +84,7 @@ TEST(BadInput, MeshThatIsCorruptIsNamedAndTheRestRuns) {
 }
 
 TEST(BadInput, MeshThatClaimsABillionTrianglesIsRefusedWithoutReadingThem) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   std::string stl(84, '\0');
   stl[80] = '\0', stl[81] = '\xca', stl[82] = '\x9a', stl[83] = '\x3b';  // 1,000,000,000
   folder.Write("huge.stl", stl);
@@ -117,7 +117,7 @@ TEST(BadInput, SensorWhoseParametersAreRefusedIsAnErrorWithItsLine) {
       {"<sensor name='eye' type='lidar'><lidar><range><min>5</min><max>2</max></range></lidar>"
        "</sensor>",
        "range"}};
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   for (const auto& [sensor, part] : cases) {
     const auto robot = folder.Write("r.sdf", RobotWithSensor(sensor));
     const Outcome checked = RunProgram("gsv", {"model", "check", robot.string(), "--json"});
@@ -131,7 +131,7 @@ TEST(BadInput, SensorWhoseParametersAreRefusedIsAnErrorWithItsLine) {
 }
 
 TEST(BadInput, SensorOfATypeNobodyKnowsIsAWarningAndTheRestRuns) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const auto robot =
       folder.Write("r.sdf", RobotWithSensor("<sensor name='nose' type='gas'></sensor>"));
   const Outcome checked = RunProgram("gsv", {"model", "check", robot.string(), "--json"});
@@ -148,7 +148,7 @@ TEST(BadInput, TwoRobotsAtOnePlace) {
 }
 
 TEST(BadInput, RobotInsideAWall) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const auto world = folder.Write("w.sdf",
                                   "<sdf version='1.9'><world name='w'><model "
                                   "name='wall'><static>true</static><pose>1 0 1 0 0 0</pose><link "

@@ -30,7 +30,7 @@ TEST(Behaviours, WanderTravels) {
 
 TEST(Behaviours, OneWhoseLocalSocketIsGoneIsReachedByTcp) {
   const BrokerProcess broker;
-  const TemporaryFolder runtime;
+  const base::testing::TestFolder runtime;
   Running program("gsv-wander", {"--broker", broker.reference()},
                   {"env", "XDG_RUNTIME_DIR=" + runtime.path().string()});
   program.AwaitLine("offered at");
@@ -66,7 +66,7 @@ TEST(Behaviours, GotoReachesItsGoal) {
 }
 
 TEST(Behaviours, FetchTakesACanToItsGoal) {
-  const TemporaryFolder folder;
+  const base::testing::TestFolder folder;
   const std::string world =
       folder
           .Write("cans.sdf",

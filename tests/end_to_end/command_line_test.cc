@@ -68,7 +68,7 @@ TEST(CommandLine, RunAddsAnAvatar) {
 }
 
 TEST(CommandLine, InterruptEndsCleanly) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const auto file = (folder.path() / "run.mcap").string();
   Running run("gsv", {"run", "playground", "--port", "0", "--robot", "pebble", "--behaviour",
                       "wander", "--record", file});
@@ -158,7 +158,7 @@ TEST(CommandLine, TheBrokerListensWhereItIsTold) {
 }
 
 TEST(CommandLine, RecordsAndReplays) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const auto file = (folder.path() / "run.mcap").string();
   const Outcome recorded =
       RunProgram("gsv", RunArguments({"--robot", "pebble@0,0", "--behaviour", "wander",
@@ -212,7 +212,7 @@ TEST(CommandLine, UsageErrorsExitWithTwo) {
 }
 
 TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const auto world = folder.Write("bad.sdf", "<sdf version='1.9'><world name='w'><model name='m'>");
   const Outcome bad = RunProgram("gsv", {"world", "check", world.string(), "--json"});
   EXPECT_EQ(bad.ending, "exit code 3");
@@ -221,7 +221,7 @@ TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
 }
 
 TEST(CommandLine, DrawWritesAPictureOfAWorldAndSaysWhatItHolds) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const std::string picture = folder.path() / "office.jpg";
   const Outcome outcome = RunProgram(
       "gsv", {"world", "draw", "office", picture, "--width", "160", "--height", "120", "--json"});
@@ -251,7 +251,7 @@ TEST(CommandLine, LimitsAreRaisedByName) {
 
 // It cannot be interrupted, and must not hold up the end of the run.
 TEST(CommandLine, ABehaviourInProcessThatNeverReturnsFailsTheRun) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   const std::string recording = folder.path() / "run.mcap";
   const Outcome outcome =
       Running("gsv",

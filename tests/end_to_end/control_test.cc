@@ -47,7 +47,7 @@ class Control : public ::testing::Test {
   }
   static std::string Pid(Running& run) { return std::to_string(run.process().pid()); }
 
-  TemporaryFolder folder_;
+  base::testing::TestFolder folder_;
 };
 
 TEST_F(Control, PsListsSimulationsWithTheirRobots) {

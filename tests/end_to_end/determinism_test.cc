@@ -51,7 +51,7 @@ void ExpectSameHash(const Handicap& handicap) {
 TEST(Promise, TheSameSeedGivesTheSameHash) {
   const std::string expected = UndisturbedHash();
   ASSERT_EQ(expected.size(), 16u);
-  const TemporaryFolder folder;
+  const base::testing::TestFolder folder;
   for (int round = 0; round < Rounds(); ++round) {
     const std::string fault = "GSV_FAULT_DELAY=seed=" + std::to_string(round + 1) + ",max_ms=4";
     const BrokerProcess broker;
@@ -167,7 +167,7 @@ TEST(Determinism, ADebugBuildGivesTheHashOfTheReleaseBuild) {
 }
 
 TEST(Determinism, DelayedBehavioursLeaveNoTraceInTheRecording) {
-  TemporaryFolder folder;
+  base::testing::TestFolder folder;
   std::vector<std::string> contents;
   for (const char* fault : {"", "seed=3,max_ms=3"}) {
     const std::string file = (folder.path() / ("run" + std::to_string(contents.size()) + ".mcap"));

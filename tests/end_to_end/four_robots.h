@@ -63,7 +63,7 @@ class FourRobots : public ::testing::Test {
 
   static std::string Plugins() { return Program("../tests").string(); }
 
-  TemporaryFolder folder_;
+  base::testing::TestFolder folder_;
 
  private:
   const std::string model_, behaviour_;

@@ -38,7 +38,7 @@ class Joints : public ::testing::Test {
   }
   std::string Lift() const { return folder_.Write("lift.sdf", kLift).string(); }
 
-  TemporaryFolder folder_;
+  base::testing::TestFolder folder_;
 };
 
 TEST_F(Joints, GoWhereABehaviourTellsThemOverCorbaAndInProcess) {

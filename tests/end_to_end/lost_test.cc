@@ -92,7 +92,7 @@ class Lost : public ::testing::Test {
     return nullptr;
   }
 
-  const TemporaryFolder folder_;
+  const base::testing::TestFolder folder_;
   std::optional<Running> server_;
   std::uint16_t port_ = 0;
 };

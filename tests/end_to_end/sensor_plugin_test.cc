@@ -38,7 +38,7 @@ constexpr const char* kRobot = R"(<sdf version='1.9'><model name='r'><link name=
 class SensorPlugin : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
+    folder_ = new base::testing::TestFolder;
     const std::string source = std::getenv("GSV_SOURCE_DIR"), build = std::getenv("GSV_BUILD_DIR");
     const std::string out = folder_->path() / "build";
     const Outcome configured =
@@ -62,7 +62,7 @@ class SensorPlugin : public ::testing::Test {
     return RunProgram("gsv", arguments);
   }
 
-  static inline TemporaryFolder* folder_ = nullptr;
+  static inline base::testing::TestFolder* folder_ = nullptr;
   static inline std::string plugin_;
   const std::string world_, robot_;
 };

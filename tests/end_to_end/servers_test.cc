@@ -73,7 +73,7 @@ TEST(Servers, ACampaignOutlivesAServerThatIsKilledAndOneThatIsCutOff) {
   const auto cut = Serve(broker.reference(), "cut", {"--scenarios", "1"}, second.wrapper());
   const auto stays = Serve(broker.reference(), "stays", {"--scenarios", "2"}, third.wrapper());
 
-  const TemporaryFolder folder;
+  const base::testing::TestFolder folder;
   folder.Write("s.yaml",
                "world: playground\nduration: 5\nrobots:\n"
                "  - {name: r, model: pebble, x: 0, y: 0, behaviour: wander --no-pictures}\n"
@@ -106,7 +106,7 @@ TEST(Servers, AServerThatIsStoppedLeavesItsRunsToOthers) {
   const BrokerProcess broker;
   const auto stopped = Serve(broker.reference(), "stopped", {"--scenarios", "1"});
   const auto stays = Serve(broker.reference(), "stays", {"--scenarios", "1"});
-  const TemporaryFolder folder;
+  const base::testing::TestFolder folder;
   folder.Write("s.yaml",
                "world: playground\nduration: 2000\n"
                "robots: [{name: r, model: pebble, x: 0, y: 0}]\n");
@@ -124,7 +124,7 @@ TEST(Servers, AServerThatIsStoppedLeavesItsRunsToOthers) {
 
 TEST(Servers, ACampaignWithoutAnyIsToldSo) {
   const BrokerProcess broker;
-  const TemporaryFolder folder;
+  const base::testing::TestFolder folder;
   folder.Write("s.yaml", "world: playground\nduration: 1\n");
   const std::string file = folder.Write("c.yaml", "scenario: s.yaml\n");
   const Outcome none = RunProgram("gsv", {"campaign", "run", file, "--broker", broker.reference()});

@@ -117,7 +117,7 @@ class StrangersWorld : public ::testing::Test {
 </link></model></world></sdf>)");
   }
 
-  const TemporaryFolder folder_;
+  const base::testing::TestFolder folder_;
 };
 
 TEST_F(StrangersWorld, ThatIsSoundIsShown) {
@@ -235,7 +235,7 @@ TEST(Exposure, BeyondThisMachineItIsToldWhatLacks) {
 }
 
 TEST(Exposure, WithACertificateAndATokenNothingIsComplainedOf) {
-  const TemporaryFolder folder;
+  const base::testing::TestFolder folder;
   const std::string place = folder.path() / "certificates";
   const Outcome made = RunProgram("gsv", {"certificates", "make", place});
   ASSERT_EQ(made.ending, "exit code 0") << made.err;
@@ -254,7 +254,7 @@ TEST(Exposure, WithACertificateAndATokenNothingIsComplainedOf) {
 }
 
 TEST(Certificates, ThatAreNoneStartNothing) {
-  const TemporaryFolder folder;
+  const base::testing::TestFolder folder;
   const std::string rubbish = folder.Write("rubbish.pem", "rubbish");
   const Outcome refused = RunProgram(
       "gsv", {"serve", "--port", "0", "--tls-certificate", rubbish, "--tls-key", rubbish});

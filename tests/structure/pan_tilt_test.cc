@@ -7,9 +7,10 @@
 
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/hosting/hosted_behaviour.h"
-#include "gsv/rendering/camera_sensor.h"
-#include "gsv/rendering/test_scene.h"
-#include "gsv/simulation/test_simulation.h"
+#include "gsv/rendering/cameras/camera_sensor.h"
+#include "gsv/rendering/testing/test_scene.h"
+#include "gsv/sensing/devices/built_in.h"
+#include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv {
 namespace {

@@ -35,22 +35,6 @@ fs::path RealFile(const std::string& path) {
   return fs::path(real != nullptr ? real : "") / path;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (fs::temp_directory_path() / "gsv-test-XXXXXX").string();
-  path_ = mkdtemp(pattern.data());
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-fs::path TemporaryFolder::Write(const std::string& name, const std::string& text) const {
-  fs::create_directories((path_ / name).parent_path());
-  std::ofstream(path_ / name) << text;
-  return path_ / name;
-}
-
 nlohmann::json Outcome::LastLine() const {
   const std::size_t end = out.find_last_not_of('\n');
   if (end == std::string::npos) return {};

@@ -8,8 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/child_process.h"
+#include "apps/gsv/machine/child_process.h"
 #include "gsv/base/sanitizer.h"
+#include "gsv/base/test_folder.h"
 
 namespace gsv::testing {
 
@@ -18,18 +19,6 @@ inline constexpr std::chrono::seconds kPatience{90 * base::kTimesAsSlow};
 
 std::filesystem::path Program(const std::string& name);   // in the build's bin, or a whole path
 std::filesystem::path RealFile(const std::string& path);  // of GSV_REAL_DIR; may not be there
-
-// A folder for one test, removed at its end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path Write(const std::string& name, const std::string& text) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 struct Outcome {
   std::string ending;  // "exit code 0"
@@ -51,7 +40,7 @@ class Running {
   std::string errors() const;
 
  private:
-  TemporaryFolder folder_;
+  base::testing::TestFolder folder_;
   std::unique_ptr<app::ChildProcess> process_;
   std::string out_;
 };

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/commands.h"
+#include "apps/gsv/commands/commands.h"
 
 namespace gsv::app {
 

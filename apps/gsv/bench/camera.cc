@@ -13,7 +13,7 @@
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/bench/moving_scene.h"
 #include "apps/gsv/exit_code.h"
-#include "gsv/rendering/jpeg.h"
+#include "gsv/rendering/images/jpeg.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::app {

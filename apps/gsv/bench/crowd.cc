@@ -15,6 +15,7 @@
 #include "apps/gsv/exit_code.h"
 #include "gsv/base/thread_team.h"
 #include "gsv/hosting/hosted_behaviour.h"
+#include "gsv/sensing/devices/built_in.h"
 
 namespace gsv::app {
 namespace {

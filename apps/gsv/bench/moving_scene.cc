@@ -5,9 +5,10 @@
 #include <numbers>
 
 #include "apps/gsv/bench/crowd_scenario.h"
-#include "apps/gsv/installation.h"
+#include "apps/gsv/machine/installation.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/hosting/hosted_behaviour.h"
+#include "gsv/sensing/devices/built_in.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::app {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gsv/rendering/camera_view.h"
+#include "gsv/rendering/lenses/camera_view.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::app {

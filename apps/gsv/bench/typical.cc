@@ -10,8 +10,8 @@
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/bench/crowd_scenario.h"
 #include "apps/gsv/exit_code.h"
-#include "apps/gsv/installation.h"
-#include "apps/gsv/run_population.h"
+#include "apps/gsv/machine/installation.h"
+#include "apps/gsv/running/run_population.h"
 
 namespace gsv::app {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "gsv/base/log.h"
 #include "gsv/base/whole_file.h"
-#include "gsv/recording/mcap_reader.h"
+#include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::app {
 namespace {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/running_instances.h"
+#include "apps/gsv/serving/running_instances.h"
 #include "gsv/base/whole_file.h"
 
 namespace gsv::app {

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/gsv/test_cases.h"
+#include "apps/gsv/trials/test_cases.h"
 #include "gsv/broker/client/broker_client.h"
 #include "idl/scenario.hh"
 

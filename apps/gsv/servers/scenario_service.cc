@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/gsv/test_cases.h"
+#include "apps/gsv/trials/test_cases.h"
 #include "gsv/base/log.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/orb/errors.h"

@@ -83,34 +83,11 @@ std::optional<ScalarValue> ToScalar(const Json& json, Scalar scalar) {
   return std::nullopt;
 }
 
-Value ToValue(Scalar scalar, const ScalarValue& content) {
-  switch (scalar) {
-    case Scalar::kBoolean:
-      return Value::Boolean(std::get<bool>(content));
-    case Scalar::kShort:
-      return Value::Short(static_cast<std::int16_t>(std::get<std::int64_t>(content)));
-    case Scalar::kUShort:
-      return Value::UShort(static_cast<std::uint16_t>(std::get<std::int64_t>(content)));
-    case Scalar::kLong:
-      return Value::Long(static_cast<std::int32_t>(std::get<std::int64_t>(content)));
-    case Scalar::kULong:
-      return Value::ULong(static_cast<std::uint32_t>(std::get<std::int64_t>(content)));
-    case Scalar::kFloat:
-      return Value::Float(static_cast<float>(std::get<double>(content)));
-    case Scalar::kDouble:
-      return Value::Double(std::get<double>(content));
-    case Scalar::kChar:
-      return Value::Char(std::get<std::string>(content).at(0));
-    default:
-      return Value::String(std::get<std::string>(content));
-  }
-}
-
 std::optional<Value> ToValue(const Json& json, const PropertyType& type) {
   if (!type.sequence) {
     const auto content = ToScalar(json, type.scalar);
     if (!content) return std::nullopt;
-    return ToValue(type.scalar, *content);
+    return Value::Of(type.scalar, *content);
   }
   if (!json.is_array()) return std::nullopt;
   Value::Sequence elements;

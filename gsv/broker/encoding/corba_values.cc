@@ -93,30 +93,6 @@ void WriteScalar(Scalar scalar, const ScalarValue& value, cdrStream& stream) {
   GSV_CHECK(!"a simple type was expected");
 }
 
-Value ToSimpleValue(Scalar scalar, const ScalarValue& content) {
-  const auto integer = [&] { return std::get<std::int64_t>(content); };
-  switch (scalar) {
-    case Scalar::kBoolean:
-      return Value::Boolean(std::get<bool>(content));
-    case Scalar::kShort:
-      return Value::Short(static_cast<std::int16_t>(integer()));
-    case Scalar::kUShort:
-      return Value::UShort(static_cast<std::uint16_t>(integer()));
-    case Scalar::kLong:
-      return Value::Long(static_cast<std::int32_t>(integer()));
-    case Scalar::kULong:
-      return Value::ULong(static_cast<std::uint32_t>(integer()));
-    case Scalar::kFloat:
-      return Value::Float(static_cast<float>(std::get<double>(content)));
-    case Scalar::kDouble:
-      return Value::Double(std::get<double>(content));
-    case Scalar::kChar:
-      return Value::Char(std::get<std::string>(content).at(0));
-    default:
-      return Value::String(std::get<std::string>(content));
-  }
-}
-
 Value ReadSequence(Scalar element, cdrStream& stream) {
   CORBA::ULong length = 0;
   length <<= stream;
@@ -240,7 +216,7 @@ Value ToValue(const CORBA::Any& any) {
   cdrMemoryStream stream;
   any.NP_marshalDataOnly(stream);
   return kind.sequence ? ReadSequence(kind.scalar, stream)
-                       : ToSimpleValue(kind.scalar, ReadScalar(kind.scalar, stream));
+                       : Value::Of(kind.scalar, ReadScalar(kind.scalar, stream));
 }
 
 CORBA::Any ToAny(const Value& value) {

@@ -32,6 +32,12 @@ std::string PropertyType::Spelling() const {
   return sequence ? "sequence<" + element + ">" : element;
 }
 
+Value Value::Of(Scalar scalar, ScalarValue content) {
+  return std::visit(
+      [scalar](auto&& value) { return Value(scalar, std::forward<decltype(value)>(value)); },
+      std::move(content));
+}
+
 Value Value::SequenceOf(Scalar element, Sequence elements) {
   return Value(element, std::make_shared<const Sequence>(std::move(elements)));
 }

@@ -70,7 +70,8 @@ class Value {
   static Value Double(double value) { return Value(Scalar::kDouble, value); }
   static Value Char(char value) { return Value(Scalar::kChar, std::string(1, value)); }
   static Value String(std::string value) { return Value(Scalar::kString, std::move(value)); }
-  // Every element is of the type that `element` demands: see ScalarValue.
+  // Content and elements are of the type that their scalar demands: see ScalarValue.
+  static Value Of(Scalar scalar, ScalarValue content);
   static Value SequenceOf(Scalar element, Sequence elements);
   static Value Strings(const std::vector<std::string>& elements);
   static Value Other(OtherValue value);

@@ -1,7 +1,9 @@
 // Any bytes as a mesh, the first of them telling its format: refused, or a mesh that keeps its
 // invariants.
+#include "gsv/base/check.h"
 #include "gsv/formats/fuzz/scratch_file.h"
-#include "gsv/formats/mesh_reader.h"
+#include "gsv/formats/meshes/mesh_reader.h"
+#include "gsv/geometry/pose.h"
 
 using namespace gsv;
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "gsv/base/check.h"
-#include "gsv/formats/texture_reader.h"
+#include "gsv/formats/images/texture_reader.h"
 
 using namespace gsv;
 

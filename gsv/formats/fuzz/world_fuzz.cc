@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "gsv/base/check.h"
 #include "gsv/formats/fuzz/scratch_file.h"
 #include "gsv/formats/sdf_reader.h"
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "gsv/gateway/api/answers.h"
 #include "gsv/gateway/api/command_json.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/gateway/live/sensor_topics.h"
@@ -25,10 +26,6 @@ base::Status Obey(Simulation& simulation, const SimulationCommand& command,
 
 Response StatusOf(const Simulation& simulation) {
   return JsonResponse(200, StatusJson(simulation.status()));
-}
-
-Response NoSuchAddress() {
-  return ErrorResponse(404, "there is nothing at this address; docs/api.yaml lists what there is");
 }
 
 // Steers an avatar. Robots with a behaviour are steered by that alone.
@@ -65,7 +62,9 @@ Response Api::Handle(const Request& request) {
   const std::vector<std::string>& path = request.target.segments;
   if (path.size() < 2) return NoSuchAddress();
   const bool is_get = request.method == "GET";
-  if (path[1] == "models" && path.size() > 2) return Model(request);
+  if (path[1] == "models" && path.size() > 2) {
+    return ModelAnswer(request, [this](const std::string& id) { return models_.Glb(id); });
+  }
   if (path[1] == "simulations" && path.size() > 2) return OfSimulation(request);
   if (path.size() > 2) return NoSuchAddress();
   if (path[1] == "simulations" && is_get) return List();
@@ -191,27 +190,6 @@ Response Api::Topics(const SimulationPointer& simulation, const std::string& rob
 Response Api::Scene(const Simulation& simulation) {
   return JsonResponse(
       200, presentation::SceneJson(simulation, models_.identify(), models_.identify_collisions()));
-}
-
-// /api/models/ID.glb
-Response Api::Model(const Request& request) {
-  const std::vector<std::string>& path = request.target.segments;
-  static constexpr std::string_view kEnding = ".glb";
-  if (path.size() != 3 || !path[2].ends_with(kEnding)) return NoSuchAddress();
-  if (request.method != "GET") return MethodNotAllowed("GET");
-  const std::string id = path[2].substr(0, path[2].size() - kEnding.size());
-  const base::Result<SharedBytes> glb = models_.Glb(id);
-  if (!glb) return ErrorResponse(glb.error());
-  Response response;
-  response.content_type = "model/gltf-binary";
-  response.etag = '"' + id + '"';
-  response.cache_control = "public, max-age=31536000, immutable";
-  if (Matches(request.if_none_match, response.etag)) {
-    response.status = 304;
-  } else {
-    response.body = *glb;
-  }
-  return response;
 }
 
 }  // namespace gsv::gateway

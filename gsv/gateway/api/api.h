@@ -39,7 +39,6 @@ class Api {
   Response Topics(const SimulationPointer& simulation, const std::string& robot) const;
   Response Scene(const simulation::Simulation& simulation);
   Response Recording(const Request& request, const SimulationPointer& simulation) const;
-  Response Model(const Request& request);
 
   const std::shared_ptr<SimulationDirectory> directory_;
   ModelStore models_;

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/gateway/api/answers.h"
 #include "gsv/gateway/api/command_json.h"
 #include "gsv/gateway/api/status_json.h"
 
@@ -56,10 +57,6 @@ const std::map<std::string, Action>& Actions() {
       {"seek", &SeekTo},
   };
   return kActions;
-}
-
-Response NoSuchAddress() {
-  return ErrorResponse(404, "there is nothing at this address; docs/api.yaml lists what there is");
 }
 
 Response JsonOr(const base::Result<SharedBytes>& json) {
@@ -121,7 +118,10 @@ Response ReplayApi::Handle(const Request& request) {
   const std::vector<std::string>& path = request.target.segments;
   if (path.size() < 2) return NoSuchAddress();
   const bool is_get = request.method == "GET";
-  if (path[1] == "models") return is_get ? Model(request) : MethodNotAllowed("GET");
+  if (path[1] == "models") {
+    return ModelAnswer(request,
+                       [this](const std::string& id) { return player_.scene().Model(id); });
+  }
   if (path[1] == "server" && path.size() == 2) {
     return is_get ? Server() : MethodNotAllowed("GET");
   }
@@ -232,26 +232,6 @@ Response ReplayApi::Curve(const Target& target) const {
       {"done", curve->is_done},     {"read_to_s", base::ToSeconds(curve->read_to)},
       {"problem", curve->problem}};
   return JsonResponse(200, json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
-}
-
-// /api/models/ID.glb
-Response ReplayApi::Model(const Request& request) const {
-  const std::vector<std::string>& path = request.target.segments;
-  static constexpr std::string_view kEnding = ".glb";
-  if (path.size() != 3 || !path[2].ends_with(kEnding)) return NoSuchAddress();
-  const std::string id = path[2].substr(0, path[2].size() - kEnding.size());
-  const base::Result<SharedBytes> glb = player_.scene().Model(id);
-  if (!glb) return ErrorResponse(glb.error());
-  Response response;
-  response.content_type = "model/gltf-binary";
-  response.etag = '"' + id + '"';
-  response.cache_control = "public, max-age=31536000, immutable";
-  if (Matches(request.if_none_match, response.etag)) {
-    response.status = 304;
-  } else {
-    response.body = *glb;
-  }
-  return response;
 }
 
 }  // namespace gsv::gateway

@@ -44,7 +44,6 @@ class ReplayApi {
   Response Events() const;
   Response Log() const;
   Response Curve(const Target& target) const;
-  Response Model(const Request& request) const;
 
   ReplayPlayer& player_;
   const std::string recording_;

@@ -10,7 +10,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/gateway/recorded/recorded_scene.h"
-#include "gsv/recording/mcap_reader.h"
+#include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::gateway::curves {
 

@@ -7,7 +7,7 @@
 #include "gsv/gateway/curves/field_value.h"
 #include "gsv/gateway/curves/recorded_curves.h"
 #include "gsv/messages/sensor_msgs.h"
-#include "gsv/recording/test_recording.h"
+#include "gsv/recording/testing/test_recording.h"
 
 namespace gsv::gateway::curves {
 namespace {

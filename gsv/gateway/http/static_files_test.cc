@@ -1,10 +1,10 @@
 #include "gsv/gateway/http/static_files.h"
 
 #include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
+
+#include "gsv/base/test_folder.h"
 
 namespace gsv::gateway {
 namespace {
@@ -14,20 +14,13 @@ namespace fs = std::filesystem;
 class StaticFilesTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    place_ = fs::temp_directory_path() /
-             ("gsv_static_files_" + std::to_string(getpid()) + "_" +
-              ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(place_ / "web/assets");
     Write("secret.txt", "secret");
     Write("web/index.html", "<p>viewer");
     Write("web/assets/app-1a2b.js", "let x;");
     Write("web/.hidden", "secret");
   }
-  void TearDown() override { fs::remove_all(place_); }
 
-  void Write(const std::string& name, const std::string& text) {
-    std::ofstream(place_ / name) << text;
-  }
+  void Write(const std::string& name, const std::string& text) { folder_.Write(name, text); }
 
   Response Get(const std::string& target, const std::string& if_none_match = "") const {
     Request request;
@@ -36,7 +29,8 @@ class StaticFilesTest : public ::testing::Test {
     return StaticFiles(place_ / "web").Get(request);
   }
 
-  fs::path place_;
+  const base::testing::TestFolder folder_;
+  const fs::path place_ = folder_.path();
 };
 
 TEST_F(StaticFilesTest, RootIsTheIndexAndIsCheckedAnewEachTime) {

@@ -7,7 +7,7 @@
 #include "gsv/base/log.h"
 #include "gsv/gateway/metrics/exposition.h"
 #include "gsv/gateway/metrics/process_usage.h"
-#include "gsv/simulation/totals.h"
+#include "gsv/simulation/pace/totals.h"
 
 namespace gsv::gateway::metrics {
 namespace {

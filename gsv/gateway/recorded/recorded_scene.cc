@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gsv/recording/scene_attachments.h"
+#include "gsv/recording/attachments/scene_attachments.h"
 
 namespace gsv::gateway {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
-#include "gsv/recording/mcap_reader.h"
+#include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::gateway {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gsv/base/sim_time.h"
-#include "gsv/recording/mcap_reader.h"
+#include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::gateway {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/messages/gsv_msgs.h"
-#include "gsv/recording/test_recording.h"
+#include "gsv/recording/testing/test_recording.h"
 
 namespace gsv::gateway {
 namespace {

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "gsv/recording/bag_folder.h"
-#include "gsv/recording/mcap_reader.h"
+#include "gsv/recording/mcap/bag_folder.h"
+#include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::gateway::recordings {
 namespace {

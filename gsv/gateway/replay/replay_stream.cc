@@ -8,7 +8,7 @@
 #include "gsv/messages/rosgraph_msgs.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/run_messages.h"
-#include "gsv/recording/newest_messages.h"
+#include "gsv/recording/reading/newest_messages.h"
 
 namespace gsv::gateway {
 namespace {

@@ -20,7 +20,7 @@
 #include "gsv/gateway/live/pacing.h"
 #include "gsv/gateway/live/wanted_robots.h"
 #include "gsv/messages/gsv_msgs.h"
-#include "gsv/recording/mcap_reader.h"
+#include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/simulation/types.h"
 
 namespace gsv::gateway {

@@ -14,7 +14,7 @@
 #include "gsv/gateway/live/sensor_topics.h"
 #include "gsv/gateway/testing/recording_client.h"
 #include "gsv/messages/sensor_msgs.h"
-#include "gsv/recording/mcap_writer.h"
+#include "gsv/recording/mcap/mcap_writer.h"
 
 namespace gsv::gateway {
 namespace {

@@ -16,7 +16,7 @@
 #include "gsv/gateway/replay_gateway.h"
 #include "gsv/gateway/testing/web_client.h"
 #include "gsv/recording/simulation_recorder.h"
-#include "gsv/recording/test_simulation.h"
+#include "gsv/recording/testing/test_simulation.h"
 
 namespace gsv::gateway::testing {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "gsv/base/check.h"
-#include "gsv/recording/content_hash.h"
-#include "gsv/recording/newest_messages.h"
-#include "gsv/recording/recover.h"
+#include "gsv/recording/reading/content_hash.h"
+#include "gsv/recording/reading/newest_messages.h"
+#include "gsv/recording/reading/recover.h"
 
 using namespace gsv;
 using namespace gsv::recording;

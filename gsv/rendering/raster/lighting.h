@@ -1,9 +1,9 @@
 // The light that eight pixels send to the camera: the same terms as in shaders.cc.
 #pragma once
 
-#include "gsv/rendering/frame_block.h"
 #include "gsv/rendering/raster/sun_shadow.h"
 #include "gsv/rendering/raster/surface.h"
+#include "gsv/rendering/scene/frame_block.h"
 
 namespace gsv::rendering::raster {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "gsv/rendering/edge_smoothing.h"
 #include "gsv/rendering/raster/raster_texture.h"
+#include "gsv/rendering/scene/edge_smoothing.h"
 
 namespace gsv::rendering::raster {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gsv/model/image.h"
-#include "gsv/rendering/ground_truth.h"
+#include "gsv/rendering/lenses/ground_truth.h"
 #include "gsv/rendering/raster/lighting.h"
 
 namespace gsv::rendering::raster {

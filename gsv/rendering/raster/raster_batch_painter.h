@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "gsv/base/thread_team.h"
-#include "gsv/rendering/batch_painter.h"
 #include "gsv/rendering/raster/sun_shadow.h"
+#include "gsv/rendering/scene/batch_painter.h"
 
 namespace gsv::rendering::raster {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "gsv/rendering/mesh_store.h"
+#include "gsv/rendering/scene/mesh_store.h"
 
 namespace gsv::rendering::raster {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gsv/rendering/raster/simd.h"
-#include "gsv/rendering/texture_store.h"
+#include "gsv/rendering/scene/texture_store.h"
 
 namespace gsv::rendering::raster {
 

@@ -10,10 +10,10 @@
 
 #include <vector>
 
-#include "gsv/rendering/draw_plan.h"
-#include "gsv/rendering/frame_block.h"
 #include "gsv/rendering/raster/raster_mesh.h"
 #include "gsv/rendering/raster/simd.h"
+#include "gsv/rendering/scene/draw_plan.h"
+#include "gsv/rendering/scene/frame_block.h"
 
 namespace gsv::rendering::raster {
 

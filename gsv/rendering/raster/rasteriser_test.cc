@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/rendering/raster/raster_mesh.h"
-#include "gsv/rendering/test_scene.h"
+#include "gsv/rendering/testing/test_scene.h"
 
 namespace gsv::rendering {
 namespace {

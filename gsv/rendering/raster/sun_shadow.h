@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gsv/rendering/raster/rasteriser.h"
-#include "gsv/rendering/shadow_region.h"
+#include "gsv/rendering/scene/shadow_region.h"
 
 namespace gsv::rendering::raster {
 

@@ -158,7 +158,7 @@ function placeLamp({ ball, halo }: Lamp, lit: { glow: Glow; frame: Matrix4 } | u
   halo.material.opacity = glow.brightness;
 }
 
-// As gsv/rendering/lit_lamps.cc has it; the factor undoes the one in three's reflectance.
+// As gsv/rendering/scene/lit_lamps.cc has it; the factor undoes the one in three's reflectance.
 function shine(light: PointLight | SpotLight, { glow, frame }: { glow: Glow; frame: Matrix4 }): void {
   light.position.setFromMatrixPosition(frame);
   light.color.copy(colourOf(glow));

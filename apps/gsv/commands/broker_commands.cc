@@ -1,0 +1,105 @@
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands/broker_listing_commands.h"
+#include "apps/gsv/commands/commands.h"
+#include "gsv/broker/broker_command.h"
+
+namespace gsv::app {
+namespace {
+
+constexpr double kLongestSeconds = 1e6;
+
+std::chrono::milliseconds Milliseconds(double seconds) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+}
+
+// Nobody finds a broker again whose port the system chose, so that only one with a port of its own
+// keeps a file unasked. Empty when there is no folder for it.
+std::string DefaultDataFile(int port) {
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  std::filesystem::path folder;
+  if (data != nullptr && *data == '/') {
+    folder = data;
+  } else if (home != nullptr && *home == '/') {
+    folder = std::filesystem::path(home) / ".local/share";
+  } else {
+    return {};
+  }
+  folder /= "gsv";
+  std::error_code ignored;  // opening the file says what is wrong
+  std::filesystem::create_directories(folder, ignored);
+  return folder / ("broker-" + std::to_string(port) + ".db");
+}
+
+void AddBrokerCommand(const CommandLine& line) {
+  struct Arguments {
+    broker::BrokerCommand command;
+    int port = 0;
+    std::string file;
+    bool memory = false;
+    double liveness_period_s = 60;
+    double liveness_patience_s = 600;
+  };
+  CLI::App* command = line.app.add_subcommand("broker", "Run a broker: the OMG Trading Service");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("--port", arguments->port, "the port to listen on; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--listen", arguments->command.broker.host, "the address to listen on")
+      ->capture_default_str();
+  CLI::Option* file =
+      command
+          ->add_option("--data", arguments->file,
+                       "the file that keeps offers and service types; without it, "
+                       "broker-PORT.db in the folder gsv of $XDG_DATA_HOME (~/.local/share), or "
+                       "none with --port 0")
+          ->type_name("FILE");
+  command->add_flag("--memory", arguments->memory, "keep nothing on disk")->excludes(file);
+  command
+      ->add_option("--liveness-period", arguments->liveness_period_s,
+                   "how often each offered service is asked whether it lives; 0: never. The "
+                   "offer of a dead one is seen for two periods at most")
+      ->check(CLI::Range(0.0, kLongestSeconds))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  command
+      ->add_option("--liveness-patience", arguments->liveness_patience_s,
+                   "how long a service may be silent before its offers go")
+      ->check(CLI::Range(0.0, kLongestSeconds))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  command
+      ->add_option("--exit-with-parent", arguments->command.parent,
+                   "end when the process of this number ends")
+      ->group("");
+  command->callback([arguments, line] {
+    arguments->command.broker.port = static_cast<std::uint16_t>(arguments->port);
+    std::string& kept = arguments->command.broker.data_file;
+    if (!arguments->memory) kept = arguments->file;
+    if (!arguments->memory && kept.empty() && arguments->port != 0) {
+      kept = DefaultDataFile(arguments->port);
+    }
+    arguments->command.broker.liveness.period = Milliseconds(arguments->liveness_period_s);
+    arguments->command.broker.liveness.patience = Milliseconds(arguments->liveness_patience_s);
+    line.exit_code = broker::BrokerMain(arguments->command);
+  });
+}
+
+}  // namespace
+
+void AddBrokerCommands(const CommandLine& line) {
+  AddBrokerCommand(line);
+  AddOffersCommand(line);
+  AddTypesCommand(line);
+  AddLinksCommand(line);
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,94 @@
+// gsv certificates: a small authority, and certificates that it has signed.
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "gsv/tls/certificates.h"
+
+namespace gsv::app {
+namespace {
+
+struct CertificatesArguments {
+  std::string folder;
+  std::vector<std::string> names{"server"}, hosts;
+  int days = 365;
+};
+
+tls::Validity ValidityOf(int days) {
+  tls::Validity validity;
+  validity.ends = std::chrono::hours(24 * days);
+  return validity;
+}
+
+// Names under which a server is called if nothing else is said.
+std::vector<std::string> UsualHosts() {
+  std::array<char, 256> name{};
+  std::vector<std::string> hosts{"localhost", "127.0.0.1", "::1"};
+  if (gethostname(name.data(), name.size() - 1) == 0) hosts.emplace_back(name.data());
+  return hosts;
+}
+
+base::Status MakeCertificates(const CertificatesArguments& arguments) {
+  if (!tls::HasAuthority(arguments.folder)) {
+    // It outlives what it signs.
+    constexpr int kTimesAsLong = 10;
+    if (auto ok = tls::MakeAuthority(arguments.folder, ValidityOf(kTimesAsLong * arguments.days));
+        !ok) {
+      return ok;
+    }
+  }
+  const std::vector<std::string> hosts = arguments.hosts.empty() ? UsualHosts() : arguments.hosts;
+  for (const std::string& name : arguments.names) {
+    if (auto ok = tls::MakeCertificate(arguments.folder, {name, hosts, ValidityOf(arguments.days)});
+        !ok) {
+      return ok;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void AddCertificatesCommand(const CommandLine& line) {
+  CLI::App* group = line.app.add_subcommand(
+      "certificates", "Make certificates for TLS, by an authority of one's own");
+  group->require_subcommand(1);
+  CLI::App* command = group->add_subcommand(
+      "make", "Make them, and the authority that signs them if the folder holds none");
+  auto arguments = std::make_shared<CertificatesArguments>();
+  command->add_option("folder", arguments->folder, "where the authority and what it signs lie")
+      ->required();
+  command
+      ->add_option("--name", arguments->names,
+                   "whose it is; the files are called so. Several make as many")
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command->add_option("--host", arguments->hosts,
+                      "a name or address under which the server is called; without it: this "
+                      "machine's name, localhost, 127.0.0.1 and ::1");
+  command
+      ->add_option("--days", arguments->days,
+                   "for how long it is good; the authority ten times "
+                   "as long")
+      ->check(CLI::Range(1, 3650))
+      ->capture_default_str();
+  command->callback([arguments, line] {
+    if (const auto made = MakeCertificates(*arguments); !made) {
+      line.exit_code = Complain(made.error());
+      return;
+    }
+    const std::filesystem::path folder = arguments->folder;
+    for (const std::string& name : arguments->names) {
+      std::printf("certificate: %s\nkey:         %s (keep it to yourself)\n",
+                  (folder / (name + ".pem")).c_str(), (folder / (name + "-key.pem")).c_str());
+    }
+    std::printf("authority:   %s (give it to those who connect)\n", (folder / "ca.pem").c_str());
+  });
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,131 @@
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/limit_option.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/machine/confinement.h"
+#include "apps/gsv/machine/doctor.h"
+#include "apps/gsv/machine/exposure.h"
+#include "apps/gsv/machine/installation.h"
+#include "apps/gsv/running/sensor_types.h"
+#include "gsv/formats/sdf_reader.h"
+
+namespace gsv::app {
+namespace {
+
+struct CheckArguments {
+  std::string file;
+  std::vector<std::string> model_path, sensor_plugins;
+  formats::ReadLimits limits;
+  Confinement confinement;
+  std::int64_t confined_seconds = 0;  // 0: not at all
+  bool json = false;
+  bool strict = false;
+};
+
+// Prints each problem; gives the exit code: 3 when the simulation would not be faithful.
+int Report(const CheckArguments& arguments, const base::Problems& problems,
+           const base::Status& read) {
+  int errors = read ? 0 : 1;
+  int warnings = 0;
+  const auto print = [&](const char* severity, const std::string& where,
+                         const std::string& message) {
+    if (arguments.json) {
+      const nlohmann::ordered_json line = {
+          {"severity", severity}, {"where", where}, {"message", message}};
+      std::printf("%s\n",
+                  line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    } else {
+      std::printf("%s: %s%s%s\n", severity, where.c_str(), where.empty() ? "" : ": ",
+                  message.c_str());
+    }
+  };
+  for (const base::Problem& problem : problems) {
+    const bool is_error = problem.severity == base::Problem::Severity::kError;
+    ++(is_error ? errors : warnings);
+    print(is_error ? "error" : "warning", problem.where, problem.message);
+  }
+  if (!read) print("error", read.error().where, read.error().message);
+  if (!arguments.json) std::printf("%d errors, %d warnings\n", errors, warnings);
+  return errors > 0 || (arguments.strict && warnings > 0) ? kBadModel : kOk;
+}
+
+template <typename Read>
+void AddCheck(const CommandLine& line, const char* group, const char* what, Read read) {
+  CLI::App* parent = line.app.add_subcommand(group, std::string("Look at ") + what);
+  parent->require_subcommand(1);
+  CLI::App* command =
+      parent->add_subcommand("check", std::string("Print every problem of ") + what);
+  auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("file", arguments->file, "its file, folder or name")->required();
+  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  AddSensorPluginOption(*command, arguments->sensor_plugins);
+  AddLimitOption(*command, arguments->limits);
+  command->add_flag("--json", arguments->json, "one JSON object a line");
+  command->add_flag("--strict", arguments->strict, "warnings count as errors");
+  // For TryToRead(), and in no help.
+  command->add_option("--confined-memory", arguments->confinement.memory_bytes)->group("");
+  command->add_option("--confined-time", arguments->confined_seconds)->group("");
+  command->callback([arguments, line, read] {
+    if (arguments->confined_seconds > 0) {
+      arguments->confinement.processor_time = std::chrono::seconds(arguments->confined_seconds);
+      if (const auto confined = Confine(arguments->confinement); !confined) {
+        line.exit_code = Complain(confined.error());
+        return;
+      }
+    }
+    SensorTypeOptions sensors;
+    sensors.plugins.assign(arguments->sensor_plugins.begin(), arguments->sensor_plugins.end());
+    auto types = MakeSensorTypes(
+        sensors, base::Fail(base::ErrorCode::kUnavailable, "a check needs no pictures"));
+    if (!types) {
+      line.exit_code = Complain(types.error());
+      return;
+    }
+    formats::ReadOptions options;
+    options.check_sensor = CheckBy(*std::move(types));
+    options.limits = arguments->limits;
+    options.model_path.assign(arguments->model_path.begin(), arguments->model_path.end());
+    formats::ModelLibrary library(std::move(options));
+    base::Problems problems;
+    const base::Status status = read(library, arguments->file, problems);
+    line.exit_code = Report(*arguments, problems, status);
+  });
+}
+
+}  // namespace
+
+void AddCheckCommands(const CommandLine& line) {
+  AddCheck(line, "world", "a world",
+           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems) {
+             const auto found = FindWorld(file);
+             if (!found) return base::Status(base::Fail(found.error()));
+             const auto world = library.ReadWorld(*found, problems);
+             return world ? base::Status() : base::Fail(world.error());
+           });
+  AddCheck(line, "model", "a model",
+           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems) {
+             const auto model = library.ReadModel(file, problems);
+             return model ? base::Status() : base::Fail(model.error());
+           });
+  struct DoctorArguments {
+    std::string broker;
+    bool security = false, json = false;
+  };
+  CLI::App* doctor = line.app.add_subcommand(
+      "doctor", "Check this machine: cameras and how fast they are, limits, ports, the broker");
+  auto asked = std::make_shared<DoctorArguments>();
+  CLI::Option* security = doctor->add_flag(
+      "--security", asked->security, "list what of GSV can be reached here instead, and by whom");
+  doctor->add_flag("--json", asked->json, "one object a program")->needs(security);
+  doctor->add_option("--broker", asked->broker, "a broker that should answer")
+      ->envname("GSV_BROKER");
+  doctor->callback([asked, line] {
+    line.exit_code = asked->security ? TellExposure(asked->json) : Doctor(asked->broker);
+  });
+}
+
+}  // namespace gsv::app

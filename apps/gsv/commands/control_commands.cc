@@ -1,0 +1,202 @@
+// Looks at simulations that run in other processes, and steers them.
+#include <cinttypes>
+#include <cstdio>
+#include <functional>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/lost/server_note.h"
+#include "apps/gsv/serving/remote_simulations.h"
+#include "gsv/gateway/api/status_json.h"
+#include "gsv/orb/errors.h"
+
+namespace gsv::app {
+namespace {
+
+using simulation::Phase;
+
+// The object that the viewer gets too, with the server in front and the state's hash at the end.
+std::string Json(const RemoteSimulation& simulation) {
+  const RemoteServer& server = simulation.server;
+  nlohmann::ordered_json json = {{"server",
+                                  {{"name", server.name},
+                                   {"place", server.place},
+                                   {"broker", server.broker},
+                                   {"viewer_url", server.viewer_url}}}};
+  json.update(nlohmann::ordered_json::parse(gateway::StatusJson(simulation.status)));
+  const auto hash = orb::Call(server.Describe(), [&] {
+    return std::string(CORBA::String_var(simulation.reference->state_hash()));
+  });
+  json["state_hash"] = hash.value_or("");  // it may have ended since
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void PrintRobot(const simulation::RobotStatus& robot) {
+  const std::string behaviour = robot.behaviour.empty() ? "-" : robot.behaviour;
+  std::printf("  %-20s %-16s %s%s%s\n", robot.name.c_str(), behaviour.c_str(),
+              ToString(robot.phase), robot.detail.empty() ? "" : ": ", robot.detail.c_str());
+}
+
+void Print(const RemoteSimulation& simulation) {
+  const simulation::SimulationStatus& status = simulation.status;
+  const std::string target = status.mode == simulation::Mode::kLockstep
+                                 ? std::string("as fast as possible")
+                                 : "target " + nlohmann::json(status.target_factor).dump();
+  std::printf("%s on %s: %s at %.3f s, %s, real-time factor %.2f (%s), %" PRIu64 " late steps\n",
+              status.name.c_str(), simulation.server.Describe().c_str(), ToString(status.phase),
+              base::ToSeconds(status.time), ToString(status.mode), status.real_time_factor,
+              target.c_str(), status.late_steps);
+  for (const auto& robot : status.robots) PrintRobot(robot);
+  if (!status.waiting_for.empty()) std::printf("  waiting for %s\n", status.waiting_for.c_str());
+  if (!status.failure.empty()) std::printf("  failed: %s\n", status.failure.c_str());
+}
+
+struct Arguments {
+  Selection selection;
+  bool json = false;
+  std::uint64_t steps = 1;
+};
+
+// What servers of this user were running when they ended without a word.
+int ListLost(const Arguments& arguments) {
+  int count = 0;
+  for (const LostSimulation& lost : LostSimulationsNoted(arguments.selection.broker)) {
+    const std::string& wanted = arguments.selection.simulation;
+    if (!wanted.empty() && lost.name != wanted) continue;
+    ++count;
+    if (arguments.json) {
+      std::puts(Describe(lost)
+                    .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                    .c_str());
+    } else {
+      std::printf("%s\n", Sentence(lost).c_str());
+    }
+  }
+  return count;
+}
+
+int List(const Arguments& arguments) {
+  std::vector<std::string> silent;
+  const auto simulations = FindSimulations(arguments.selection, silent);
+  if (!simulations) return Complain(simulations.error());
+  for (const std::string& sentence : silent)
+    std::fprintf(stderr, "gsv: warning: %s\n", sentence.c_str());
+  for (const RemoteSimulation& simulation : *simulations) {
+    if (arguments.json) {
+      std::puts(Json(simulation).c_str());
+    } else {
+      Print(simulation);
+    }
+  }
+  const int lost = arguments.selection.server.empty() ? ListLost(arguments) : 0;
+  if (simulations->empty() && lost == 0 && !arguments.json)
+    std::fprintf(stderr, "gsv: no simulation runs\n");
+  return kOk;
+}
+
+using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
+
+// Until the steps are taken; a behaviour may make that as long as it likes. False: interrupted.
+base::Result<bool> AwaitRest(const RemoteSimulation& simulation, Signals& signals) {
+  auto phase = sba::PHASE_STARTING;
+  while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
+    if (signals.WaitFor(0) != 0) return false;
+    const auto known = phase;
+    const auto next = orb::Call(simulation.server.Describe(),
+                                [&] { return simulation.reference->await_change(known); });
+    if (!next) return base::Fail(next.error());
+    phase = *next;
+  }
+  return true;
+}
+
+int Steer(const Arguments& arguments, const Call& call, bool takes_steps, Signals& signals) {
+  auto simulation = FindOneSimulation(arguments.selection);
+  if (!simulation) return Complain(simulation.error());
+  const auto done =
+      orb::Call(simulation->server.Describe(), [&] { call(simulation->reference, arguments); });
+  if (!done) return Complain(done.error());
+  if (takes_steps) {
+    const auto rested = AwaitRest(*simulation, signals);
+    if (!rested) return Complain(rested.error());
+    if (!*rested) return kInterrupted;
+  }
+  // A `gsv run` without a viewer ends when its simulation is stopped; what was seen last serves.
+  if (const auto status = StatusOf(*simulation)) {
+    simulation->status = *status;
+  } else {
+    simulation->status.phase = Phase::kStopped;
+  }
+  if (arguments.json) {
+    std::puts(Json(*simulation).c_str());
+  } else {
+    Print(*simulation);
+  }
+  return kOk;
+}
+
+std::shared_ptr<Arguments> AddSelection(CLI::App& command) {
+  auto arguments = std::make_shared<Arguments>();
+  command
+      .add_option(
+          "--broker", arguments->selection.broker,
+          "the broker to look at, corbaloc::1.2@HOST:PORT/TradingService; without it: those "
+          "of your own running gsv")
+      ->envname("GSV_BROKER");
+  command.add_option("--server", arguments->selection.server,
+                     "only on this server: its name, its process number or HOST:PID");
+  command.add_flag("--json", arguments->json, "one JSON object a simulation and line");
+  return arguments;
+}
+
+void AddSteering(const CommandLine& line, const char* name, const char* description, Call call) {
+  CLI::App* command = line.app.add_subcommand(name, description);
+  auto arguments = AddSelection(*command);
+  const bool takes_steps = std::string(name) == "step";
+  if (takes_steps) {
+    command->add_option("count", arguments->steps, "how many steps")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->capture_default_str();
+  }
+  command->add_option("simulation", arguments->selection.simulation,
+                      "its name; without it: the newest run's, or the only one there is");
+  command->callback([arguments, line, call = std::move(call), takes_steps] {
+    line.exit_code = Steer(*arguments, call, takes_steps, line.signals);
+  });
+}
+
+}  // namespace
+
+void AddControlCommands(const CommandLine& line) {
+  CLI::App* list = line.app.add_subcommand(
+      "ps", "List running simulations, their robots, and whom they wait for");
+  auto arguments = AddSelection(*list);
+  list->add_option("simulation", arguments->selection.simulation, "only those of this name");
+  list->callback([arguments, line] { line.exit_code = List(*arguments); });
+
+  AddSteering(line, "pause", "Freeze a running simulation's clock",
+              [](sba::Simulation_ptr simulation, const Arguments&) { simulation->pause(); });
+  AddSteering(line, "resume", "Let a paused simulation go on, or start one that was reset",
+              [](sba::Simulation_ptr simulation, const Arguments&) {
+                const sba::SimulationState_var state = simulation->state();
+                if (state->phase == sba::PHASE_CREATED) {
+                  simulation->start();
+                } else {
+                  simulation->resume();
+                }
+              });
+  AddSteering(line, "step", "Take some steps of a paused simulation, and pause again",
+              [](sba::Simulation_ptr simulation, const Arguments& given) {
+                simulation->step(given.steps);
+              });
+  AddSteering(line, "stop", "End a simulation",
+              [](sba::Simulation_ptr simulation, const Arguments&) { simulation->stop(); });
+  AddSteering(line, "reset", "Put a simulation back to its start, where `resume` starts it",
+              [](sba::Simulation_ptr simulation, const Arguments&) { simulation->reset(); });
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/bench/moving_scene.h"
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/limit_option.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/machine/installation.h"
+#include "apps/gsv/running/picture.h"
+#include "gsv/formats/sdf_reader.h"
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::app {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+
+struct DrawArguments {
+  std::string file, picture;
+  std::vector<std::string> model_path;
+  formats::ReadLimits limits;
+  int width = 640, height = 480;
+  bool json = false;
+};
+
+std::shared_ptr<const world::Snapshot> FirstInstant(model::WorldDescription description) {
+  std::vector<world::Body> bodies;
+  for (const model::PlacedModel& placed : description.models) {
+    world::Body body;
+    body.name = placed.name;
+    body.model = placed.model;
+    body.initial_pose = placed.world_from_model;
+    body.is_static = placed.is_static;
+    bodies.push_back(std::move(body));
+  }
+  auto snapshot = std::make_shared<world::Snapshot>();
+  snapshot->layout =
+      world::MakeLayout(1, std::move(bodies),
+                        std::make_shared<const model::WorldDescription>(std::move(description)));
+  snapshot->state = world::InitialState(*snapshot->layout);
+  return snapshot;
+}
+
+// The corners of the boxes around all that can be seen but planes, which know no end.
+std::vector<Vector3> CornersIn(const world::Snapshot& snapshot) {
+  std::vector<Vector3> corners;
+  for (int b = 0; b < static_cast<int>(snapshot.layout->bodies.size()); ++b) {
+    const std::vector<Pose> world_from_link = world::LinkPoses(snapshot, b);
+    const model::Model& model = *snapshot.layout->bodies[static_cast<std::size_t>(b)].model;
+    for (std::size_t l = 0; l < model.links.size(); ++l) {
+      for (const model::Visual& visual : model.links[l].visuals) {
+        if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
+        const Pose world_from_visual = world_from_link[l] * visual.link_from_visual;
+        const auto [low, high] = geometry::BoundsOf(visual.shape);
+        for (const double x : {low.x, high.x}) {
+          for (const double y : {low.y, high.y}) {
+            for (const double z : {low.z, high.z}) {
+              corners.push_back(world_from_visual * Vector3{x, y, z});
+            }
+          }
+        }
+      }
+    }
+  }
+  if (corners.empty()) corners = {{-1, -1, 0}, {1, 1, 1}};
+  return corners;
+}
+
+// From the front, the right and above, as near as shows all.
+rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
+  constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
+  constexpr double kFieldOfView = 0.8;
+  const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
+  const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  Vector3 low{kEndless, kEndless, kEndless}, high{-kEndless, -kEndless, -kEndless};
+  std::vector<Vector3> turned;
+  for (const Vector3& corner : corners) {
+    const Vector3 p = geometry::Inverse(turn) * corner;
+    turned.push_back(p);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vector3 middle = (low + high) * 0.5;
+  double back = 0;  // from the middle
+  for (const Vector3& p : turned) {
+    const Vector3 q = p - middle;
+    back = std::max({back, std::abs(q.y) / across - q.x, std::abs(q.z) / up - q.x});
+  }
+  rendering::CameraParameters camera;
+  camera.width = width;
+  camera.height = height;
+  camera.horizontal_fov = kFieldOfView;
+  camera.near = std::max(1e-3, 1e-2 * back);
+  camera.far = 10 * back + 10;
+  return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
+}
+
+int Run(const DrawArguments& arguments) {
+  const auto file = FindWorld(arguments.file);
+  if (!file) return Complain(file.error());
+  formats::ReadOptions options;
+  options.limits = arguments.limits;
+  options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
+  formats::ModelLibrary library(std::move(options));
+  base::Problems problems;
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t processor_start = std::clock();
+  auto world = library.ReadWorld(*file, problems);
+  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
+  const double processor = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
+  if (!world) return Complain(world.error());
+  const auto snapshot = FirstInstant(*std::move(world));
+  auto renderer = rendering::Renderer::Start();
+  if (!renderer) return Complain(renderer.error());
+  const auto view = ViewOfAll(CornersIn(*snapshot), arguments.width, arguments.height);
+  const auto picture = (*renderer)->Draw(snapshot, view, std::chrono::minutes(1));
+  if (!picture) return Complain(picture.error());
+  if (auto written = WritePicture(**picture, arguments.picture); !written) {
+    return Complain(written.error());
+  }
+  const nlohmann::ordered_json json{{"models", snapshot->layout->bodies.size()},
+                                    {"lights", snapshot->layout->description->lights.size()},
+                                    {"triangles", TrianglesIn(*snapshot->layout)},
+                                    {"reading_s", reading.count()},
+                                    {"processor_s", processor},
+                                    {"problems", problems.size()},
+                                    {"renderer", (*renderer)->renderer_name()}};
+  if (arguments.json) {
+    std::printf("%s\n", json.dump().c_str());
+  } else {
+    std::printf("%s: %zu models, %zu triangles, read in %.2f s\n", arguments.picture.c_str(),
+                snapshot->layout->bodies.size(),
+                static_cast<std::size_t>(TrianglesIn(*snapshot->layout)), reading.count());
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void AddDrawCommand(const CommandLine& line) {
+  CLI::App* command =
+      line.app.get_subcommand("world")->add_subcommand("draw", "A picture of a world or a model");
+  auto arguments = std::make_shared<DrawArguments>();
+  command->add_option("file", arguments->file, "its file, folder or name")->required();
+  command->add_option("picture", arguments->picture, "the file to write, .jpg or .png")
+      ->required()
+      ->check(CheckPictureName);
+  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  AddLimitOption(*command, arguments->limits);
+  command->add_option("--width", arguments->width, "pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(16, rendering::kMaxPictureSide));
+  command->add_option("--height", arguments->height, "pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(16, rendering::kMaxPictureSide));
+  command->add_flag("--json", arguments->json, "what was read, as one JSON object");
+  command->callback([arguments, line] { line.exit_code = Run(*arguments); });
+}
+
+}  // namespace gsv::app

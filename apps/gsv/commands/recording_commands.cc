@@ -1,0 +1,355 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/viewer_options.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/machine/installation.h"
+#include "apps/gsv/running/resimulation.h"
+#include "apps/gsv/running/video_export.h"
+#include "gsv/gateway/replay_gateway.h"
+#include "gsv/recording/attachments/scene_attachments.h"
+#include "gsv/recording/reading/decoded_messages.h"
+#include "gsv/recording/reading/recording_info.h"
+#include "gsv/recording/reading/recover.h"
+
+namespace gsv::app {
+namespace {
+
+struct RecordingArguments {
+  std::string file, other, output;
+  std::vector<std::string> topics;
+  double from = -1e9, to = 1e9;  // s
+  double frames_a_second = 25;
+  bool json = false, video = false;
+
+  recording::Selection Selection() const {
+    return {topics, base::FromSeconds(from), base::FromSeconds(to)};
+  }
+};
+
+// A recording that is not there is no bad model.
+int Refuse(const base::Error& error) {
+  const int code = Complain(error);
+  return error.code == base::ErrorCode::kNotFound ? kInfrastructure : code;
+}
+
+int Info(const RecordingArguments& arguments) {
+  const auto info = recording::ReadInfo(arguments.file);
+  if (!info) return Refuse(info.error());
+  const std::string text =
+      arguments.json ? recording::ToJson(*info) + "\n" : recording::ToText(*info);
+  std::fputs(text.c_str(), stdout);
+  return kOk;
+}
+
+int Recover(const RecordingArguments& arguments) {
+  const auto recovery = recording::Recover(arguments.file, arguments.output);
+  if (!recovery) return Refuse(recovery.error());
+  const std::string text =
+      arguments.json ? recording::ToJson(*recovery) + "\n" : recording::ToText(*recovery);
+  std::fputs(text.c_str(), stdout);
+  return kOk;
+}
+
+int Filter(const RecordingArguments& arguments) {
+  const auto filtered = recording::Recover(arguments.file, arguments.output, arguments.Selection());
+  if (!filtered) return Refuse(filtered.error());
+  std::fputs((recording::ToJson(*filtered) + "\n").c_str(), stdout);
+  return kOk;
+}
+
+// One JSON object a line.
+int Cat(const RecordingArguments& arguments) {
+  const auto reader = recording::McapReader::Open(arguments.file);
+  if (!reader) return Refuse(reader.error());
+  auto messages = recording::DecodedMessages::Open(**reader, arguments.Selection());
+  if (!messages) return Refuse(messages.error());
+  for (;;) {
+    auto message = messages->Next();
+    if (!message) return Refuse(message.error());
+    if (!*message) return kOk;
+    const nlohmann::ordered_json line{{"time_s", base::ToSeconds((*message)->time)},
+                                      {"topic", (*message)->topic},
+                                      {"type", (*message)->type},
+                                      {"message", std::move((*message)->content)}};
+    std::puts(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    if (std::ferror(stdout) != 0) return kInfrastructure;  // nobody reads on
+  }
+}
+
+int Video(const RecordingArguments& arguments, const recording::McapReader& reader) {
+  if (arguments.output.empty()) {
+    return Complain({base::ErrorCode::kInvalidArgument, "a video needs a file: -o NAME.mp4", {}});
+  }
+  VideoOptions options;
+  options.output = arguments.output;
+  options.frames_a_second = arguments.frames_a_second;
+  const auto frames = ExportVideo(reader, arguments.Selection(), options);
+  if (!frames) return Refuse(frames.error());
+  std::printf("%s: %llu frames\n", options.output.c_str(),
+              static_cast<unsigned long long>(*frames));
+  return kOk;
+}
+
+int Export(const RecordingArguments& arguments) {
+  const auto reader = recording::McapReader::Open(arguments.file);
+  if (!reader) return Refuse(reader.error());
+  if (arguments.video) return Video(arguments, **reader);
+  const auto csv = recording::ToCsv(**reader, arguments.Selection());
+  if (!csv) return Refuse(csv.error());
+  if (arguments.output.empty()) {
+    std::fputs(csv->c_str(), stdout);
+    return kOk;
+  }
+  std::ofstream file(arguments.output, std::ios::binary);
+  file << *csv << std::flush;
+  if (file) return kOk;
+  return Complain({base::ErrorCode::kUnavailable, "cannot write the file", arguments.output});
+}
+
+// Of several that have the name, the last.
+int Extract(const RecordingArguments& arguments) {
+  const auto reader = recording::McapReader::Open(arguments.file);
+  if (!reader) return Refuse(reader.error());
+  const auto& attachments = (*reader)->summary().attachments;
+  const auto found = std::find_if(attachments.rbegin(), attachments.rend(),
+                                  [&](const auto& each) { return each.name == arguments.other; });
+  if (found == attachments.rend()) {
+    return Refuse(
+        {base::ErrorCode::kNotFound,
+         "holds no attachment \"" + arguments.other + "\"; gsv rec info lists what it holds",
+         arguments.file});
+  }
+  const auto attachment = (*reader)->Read(*found);
+  if (!attachment) return Refuse(attachment.error());
+  std::FILE* const file =
+      arguments.output.empty() ? stdout : std::fopen(arguments.output.c_str(), "wbx");
+  const std::string where = arguments.output.empty() ? "stdout" : arguments.output;
+  if (file == nullptr) {
+    return Complain({base::ErrorCode::kUnavailable, std::strerror(errno), where});
+  }
+  const std::size_t written =
+      std::fwrite(attachment->data.data(), 1, attachment->data.size(), file);
+  const bool is_flushed = (arguments.output.empty() ? std::fflush(file) : std::fclose(file)) == 0;
+  if (written == attachment->data.size() && is_flushed) return kOk;
+  return Complain({base::ErrorCode::kUnavailable, "cannot write all of it", where});
+}
+
+int Diff(const RecordingArguments& arguments) {
+  const auto first = recording::McapReader::Open(arguments.file);
+  if (!first) return Refuse(first.error());
+  const auto second = recording::McapReader::Open(arguments.other);
+  if (!second) return Refuse(second.error());
+  const auto difference = recording::FirstDifference(**first, **second);
+  if (!difference) return Refuse(difference.error());
+  if (arguments.json) {
+    nlohmann::ordered_json json{{"equal", !difference->has_value()}};
+    if (*difference) json.update(ToJson(**difference));
+    std::puts(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else {
+    std::puts(*difference ? (*difference)->Sentence().c_str() : "they tell the same");
+  }
+  return *difference ? kAssertionFailed : kOk;
+}
+
+struct ReplayArguments {
+  std::string file;
+  ViewerOptions web;
+  gateway::ReplayOptions options;
+  bool headless = false;
+  bool paused = false;
+  bool json = false;
+  bool resimulate = false;
+  std::string broker;     // of a resimulation
+  bool commands = false;  // of a resimulation
+};
+
+// Reads the whole file, every message in its turn, and tells what a replay would have shown.
+int CheckReplay(const ReplayArguments& arguments) {
+  const auto info = recording::ReadInfo(arguments.file);
+  if (!info) return Refuse(info.error());
+  std::uint64_t scenes = 0, models = 0;
+  for (const auto& file : info->attachments) {
+    if (file.name == recording::kSceneAttachment) ++scenes;
+    if (file.name.starts_with("models/")) ++models;
+  }
+  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+  for (const base::Problem& problem : info->problems) warnings.push_back(problem.Sentence());
+  const bool is_whole = !info->content_hash.empty();
+  if (arguments.json) {
+    const nlohmann::ordered_json json{{"file", info->path},
+                                      {"start_s", base::ToSeconds(info->start)},
+                                      {"duration_s", base::ToSeconds(info->duration())},
+                                      {"messages", info->messages},
+                                      {"content_hash", info->content_hash},
+                                      {"scenes", scenes},
+                                      {"models", models},
+                                      {"warnings", warnings}};
+    std::printf("%s\n",
+                json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else {
+    std::printf("%s: %.3f s, %llu messages, content %s\n", info->path.c_str(),
+                base::ToSeconds(info->duration()), static_cast<unsigned long long>(info->messages),
+                is_whole ? info->content_hash.c_str() : "damaged");
+    for (const base::Problem& problem : info->problems) {
+      std::fprintf(stderr, "gsv: warning: %s\n", problem.Sentence().c_str());
+    }
+  }
+  return is_whole ? kOk : kInfrastructure;
+}
+
+base::Result<std::unique_ptr<gateway::ReplayGateway>> StartGateway(const ReplayArguments& arguments,
+                                                                   gateway::ReplayPlayer& player) {
+  gateway::GatewayOptions options;
+  options.web_root = ShareFolder() / "web";
+  std::error_code error;
+  // What was opened is there, and has a name.
+  const std::filesystem::path file = std::filesystem::canonical(arguments.file, error);
+  options.recordings_folder = file.parent_path();
+  options.only_recording = file.filename();
+  return StartViewer<gateway::ReplayGateway>(arguments.web, options, [&](const auto& there) {
+    return gateway::ReplayGateway::Start(there, player);
+  });
+}
+
+int Replay(const ReplayArguments& arguments, Signals& signals) {
+  if (arguments.json && !arguments.headless && !arguments.resimulate) {
+    return Complain(
+        {base::ErrorCode::kInvalidArgument, "goes with --headless or --resimulate", "--json"});
+  }
+  if (arguments.resimulate) {
+    const auto end =
+        Resimulate({arguments.file, arguments.broker, arguments.commands, arguments.json}, signals);
+    return end ? *end : Refuse(end.error());
+  }
+  if (arguments.headless) return CheckReplay(arguments);
+  auto player = gateway::ReplayPlayer::Open(arguments.file, arguments.options);
+  if (!player) return Refuse(player.error());
+  for (const base::Problem& problem : (*player)->problems()) {
+    std::fprintf(stderr, "gsv: warning: %s\n", problem.Sentence().c_str());
+  }
+  auto gateway = StartGateway(arguments, **player);
+  if (!gateway) return Complain(gateway.error());
+  std::printf("viewer: %s\n", (*gateway)->url().c_str());
+  std::fflush(stdout);
+  if (!arguments.paused) (void)(*player)->Start();  // it stands at the beginning
+  signals.Wait();
+  return kOk;
+}
+
+void AddReplayCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand("replay", "Show a recording in the viewer");
+  auto arguments = std::make_shared<ReplayArguments>();
+  command->add_option("file", arguments->file, "the recording")->required();
+  AddViewerOptions(*command, arguments->web);
+  command->add_option("--speed", arguments->options.speed, "recorded seconds a second")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->capture_default_str();
+  command->add_flag("--loop", arguments->options.loop, "begin anew at the end");
+  command->add_flag("--paused", arguments->paused,
+                    "wait at the beginning for somebody to start it");
+  command->add_flag("--headless", arguments->headless, "no viewer: read all of it, and check");
+  CLI::Option* resimulate = command->add_flag(
+      "--resimulate", arguments->resimulate,
+      "no viewer: run the recorded simulation again, in lockstep, with live behaviours, and say "
+      "where the outcome first differs; exit code 1 if it does");
+  command->add_option("--broker", arguments->broker, "where a resimulation finds the behaviours")
+      ->needs(resimulate);
+  command
+      ->add_flag("--commands", arguments->commands,
+                 "a resimulation gives the robots the recorded commands, without behaviours, and "
+                 "compares how bodies moved")
+      ->needs(resimulate);
+  command->add_flag("--json", arguments->json, "with --headless or --resimulate: one JSON object");
+  command->callback([arguments, line] { line.exit_code = Replay(*arguments, line.signals); });
+}
+
+std::shared_ptr<RecordingArguments> AddArguments(CLI::App& command) {
+  auto arguments = std::make_shared<RecordingArguments>();
+  command.add_option("file", arguments->file, "the recording")->required();
+  command.add_flag("--json", arguments->json, "one JSON object");
+  return arguments;
+}
+
+}  // namespace
+
+void AddRecordingCommands(const CommandLine& line) {
+  CLI::App* rec = line.app.add_subcommand("rec", "Look at recordings, mend them");
+  rec->require_subcommand(1);
+
+  CLI::App* info = rec->add_subcommand("info", "Print what a recording holds");
+  const auto info_arguments = AddArguments(*info);
+  info->callback([info_arguments, line] { line.exit_code = Info(*info_arguments); });
+
+  CLI::App* recover =
+      rec->add_subcommand("recover", "Make a whole recording of one that was cut off or damaged");
+  const auto recover_arguments = AddArguments(*recover);
+  recover->add_option("-o,--output", recover_arguments->output, "the file to write")->required();
+  recover->callback([recover_arguments, line] { line.exit_code = Recover(*recover_arguments); });
+
+  const auto add_selection = [](CLI::App& command, RecordingArguments& arguments) {
+    command.add_option("--topic", arguments.topics,
+                       "a topic, or with a slash at its end all below it; repeats");
+    command.add_option("--from", arguments.from, "seconds of simulated time");
+    command.add_option("--to", arguments.to, "seconds of simulated time");
+  };
+  const auto add = [&](const char* name, const char* what, auto run) {
+    CLI::App* command = rec->add_subcommand(name, what);
+    auto arguments = std::make_shared<RecordingArguments>();
+    command->add_option("file", arguments->file, "the recording")->required();
+    command->callback([arguments, line, run] { line.exit_code = run(*arguments); });
+    return std::pair(command, arguments);
+  };
+  {
+    const auto [command, arguments] = add("cat", "Print messages, one JSON object a line", Cat);
+    add_selection(*command, *arguments);
+  }
+  {
+    const auto [command, arguments] =
+        add("export", "Write a topic as a table (CSV), or pictures as a video", Export);
+    add_selection(*command, *arguments);
+    command->get_option("--topic")->required()->expected(1);
+    command->add_option("-o,--output", arguments->output, "the file; without it: stdout");
+    CLI::Option* video = command->add_flag("--video", arguments->video,
+                                           "the topic's pictures as a video, by ffmpeg");
+    command->add_option("--fps", arguments->frames_a_second, "the video's frames a second")
+        ->check(CLI::Range(0.1, 240.0))
+        ->needs(video)
+        ->capture_default_str();
+  }
+  {
+    const auto [command, arguments] = add("filter", "Make a recording of part of one", Filter);
+    add_selection(*command, *arguments);
+    command->add_option("-o,--output", arguments->output, "the file to write")->required();
+  }
+  {
+    const auto [command, arguments] =
+        add("extract", "Write an attachment, such as scenario.yaml, as it is", Extract);
+    command->add_option("attachment", arguments->other, "its name, as gsv rec info lists it")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "a new file; without it: stdout");
+  }
+  {
+    const auto [command, arguments] =
+        add("diff", "Say where two recordings first differ; exit code 1 if they do", Diff);
+    command->add_option("other", arguments->other, "another recording")->required();
+    command->add_flag("--json", arguments->json, "one JSON object");
+  }
+
+  AddReplayCommand(line);
+}
+
+}  // namespace gsv::app

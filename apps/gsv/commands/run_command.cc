@@ -1,0 +1,236 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/machine/installation.h"
+#include "apps/gsv/running/edit_repetition.h"
+#include "apps/gsv/running/picture.h"
+#include "apps/gsv/running/run.h"
+#include "apps/gsv/running/run_population.h"
+#include "apps/gsv/running/run_report.h"
+#include "apps/gsv/serving/recordings.h"
+#include "gsv/recording/mcap/mcap_reader.h"
+#include "gsv/recording/topics/topics.h"
+#include "gsv/verdict/judge.h"
+
+namespace gsv::app {
+namespace {
+
+using simulation::Phase;
+using simulation::Simulation;
+
+// Each problem once, in order; errors come first.
+std::vector<std::string> Sentences(const base::Problems& problems,
+                                   base::Problem::Severity severity) {
+  std::vector<std::string> sentences;
+  for (const base::Problem& problem : problems) {
+    if (problem.severity != severity) continue;
+    const std::string sentence = problem.Sentence();
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+      sentences.push_back(sentence);
+  }
+  return sentences;
+}
+
+bool TellErrors(const base::Problems& problems) {
+  const auto errors = Sentences(problems, base::Problem::Severity::kError);
+  for (const std::string& error : errors) std::fprintf(stderr, "gsv: error: %s\n", error.c_str());
+  return !errors.empty();
+}
+
+void OpenBrowser(const std::string& url) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  if (fork() == 0) {
+    execlp("xdg-open", "xdg-open", url.c_str(), nullptr);
+    _exit(127);
+  }
+}
+
+// Stopped for good: a reset stops it on its way back to the start.
+bool WasStopped(const Simulation& simulation) {
+  const auto events = simulation.events(0);
+  const auto last = std::find_if(events.rbegin(), events.rend(), [](const auto& event) {
+    return event.kind == "started" || event.kind == "stopped" || event.kind == "reset";
+  });
+  return last != events.rend() && last->kind == "stopped";
+}
+
+// Until the run is over or somebody interrupts it; gives the exit code so far.
+int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
+  using Clock = std::chrono::steady_clock;
+  const auto give_up = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                          std::chrono::duration<double>(options.wall_timeout));
+  // With a viewer, someone may stop the run to reset it and start it again.
+  const bool ends_when_stopped = !options.runtime.viewer;
+  for (;;) {
+    const Phase phase =
+        simulation.WaitForPhase({Phase::kFinished, Phase::kFailed}, std::chrono::milliseconds(50));
+    if (phase == Phase::kFinished) return kOk;
+    if (phase == Phase::kFailed) return kBehaviourFailed;
+    if (phase == Phase::kStopped && ends_when_stopped && WasStopped(simulation)) return kOk;
+    if (signals.WaitFor(0) != 0) {
+      (void)simulation.Stop();
+      return kInterrupted;
+    }
+    if (options.wall_timeout > 0 && Clock::now() > give_up) {
+      std::fprintf(stderr, "gsv: given up after %g s of wall time (--wall-timeout)\n",
+                   options.wall_timeout);
+      (void)simulation.Stop();
+      return kTimedOut;
+    }
+  }
+}
+
+// Whose end the scenario asked for.
+bool WasToDie(const Simulation& simulation, const std::string& robot) {
+  const auto& faults = simulation.specification().faults;
+  return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
+    return fault.kind == scenario::Fault::Kind::kBehaviourDies && fault.body == robot;
+  });
+}
+
+// What the behaviours' ends make of the exit code; each end is told.
+int JudgeBehaviours(const Simulation& simulation, int exit_code) {
+  const auto status = simulation.status();
+  for (const auto& robot : status.robots) {
+    if (WasToDie(simulation, robot.name)) continue;
+    if (robot.phase != simulation::AgentPhase::kDead &&
+        robot.phase != simulation::AgentPhase::kUnresponsive)
+      continue;
+    std::fprintf(stderr, "gsv: %s: the behaviour %s is %s: %s\n", robot.name.c_str(),
+                 robot.behaviour.c_str(), ToString(robot.phase), robot.detail.c_str());
+    if (exit_code == kOk) exit_code = kBehaviourFailed;
+  }
+  if (!status.failure.empty())
+    std::fprintf(stderr, "gsv: the run failed: %s\n", status.failure.c_str());
+  return exit_code;
+}
+
+void Warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) {
+    std::fprintf(stderr, "gsv: warning: %s\n", sentence.c_str());
+  }
+}
+
+// Of topics that were asked for and never came: what is wrong with them. A robot that was added in
+// mid-run may have brought what was not there at the start.
+std::vector<std::string> ComplaintsAtTheEnd(const RunOptions& options,
+                                            std::vector<std::string> topics_at_start) {
+  const auto recorded = recording::McapReader::Open(options.record);
+  if (!recorded) return {};  // the disk failed, and that has been told
+  for (const auto& [id, channel] : (*recorded)->summary().channels) {
+    topics_at_start.push_back(channel.topic);
+  }
+  std::sort(topics_at_start.begin(), topics_at_start.end());
+  topics_at_start.erase(std::unique(topics_at_start.begin(), topics_at_start.end()),
+                        topics_at_start.end());
+  return ComplaintsAbout(options.recording, topics_at_start);
+}
+
+// Tells what was expected and did not come, with a picture of the first time.
+int JudgeExpectations(verdict::Judge& judge, const RunOptions& options,
+                      std::vector<verdict::Finding>& findings, int exit_code) {
+  findings = judge.Finish();
+  const verdict::Finding* first = nullptr;
+  for (const verdict::Finding& finding : findings) {
+    if (finding.holds) continue;
+    std::fprintf(stderr, "gsv: %s: %s: %s\n", finding.where.c_str(), finding.name.c_str(),
+                 finding.Sentence().c_str());
+    if (first == nullptr || finding.step < first->step) first = &finding;
+  }
+  if (first == nullptr) return exit_code;
+  if (!options.failure_picture.empty()) {
+    std::string about;
+    for (const auto& measured : first->atoms) {
+      if (about.empty()) about = measured.atom.quantity.first;
+    }
+    if (auto ok = DrawAround(judge.first_violation(), about, options.failure_picture); !ok)
+      Warn({ok.error().Sentence()});
+  }
+  return exit_code == kOk ? kAssertionFailed : exit_code;
+}
+
+}  // namespace
+
+base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet) {
+  if (TellErrors(options.problems)) return kBadModel;
+  const auto world = FindWorld(options.scenario.world);
+  if (!world) return base::Fail(world.error());
+  auto runtime = Runtime::Start(options.runtime);
+  if (!runtime) return base::Fail(runtime.error());
+  base::Problems problems;
+  auto simulation = (*runtime)->host().Create(options.specification, *world, problems);
+  if (!simulation) return base::Fail(simulation.error());
+  auto told = PopulateRun(**runtime, **simulation, options, problems);
+  if (!told) return base::Fail(told.error());
+
+  if (TellErrors(problems)) return kBadModel;
+  auto warnings = Sentences(problems, base::Problem::Severity::kWarning);
+  Warn(warnings);
+
+  for (const simulation::Event& event : (*simulation)->events(0)) {
+    if (event.kind == "robot_moved" && !is_quiet)
+      std::fprintf(stderr, "gsv: note: %s: %s\n", event.robot.c_str(), event.detail.c_str());
+  }
+
+  auto judge = verdict::Judge::Attach(options.scenario.expect, **simulation);
+  if (!judge) return base::Fail(judge.error());
+  if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());
+  std::FILE* const notes = options.json ? stderr : stdout;
+  if (!is_quiet) std::fprintf(notes, "broker: %s\n", (*runtime)->broker().reference().c_str());
+  if (const std::string& url = (*runtime)->viewer_url(); !url.empty()) {
+    std::fprintf(notes, "viewer: %s\n", url.c_str());
+    if (options.open_browser) OpenBrowser(url);
+  }
+  std::fflush(notes);
+  std::vector<std::string> topics;  // that can be recorded
+  if (!options.record.empty()) {
+    topics = recording::TopicsOf(**simulation);
+    Warn(ComplaintsAbout(options.recording, topics));
+    RecordingChoice choice = options.recording;
+    choice.scenario = *std::move(told);
+    if (auto ok = (*runtime)->recordings().Start(*simulation, options.record, choice); !ok)
+      return base::Fail(ok.error());
+  }
+  const auto started = RunWithEdits(**runtime, **simulation, options, signals);
+  if (!started || *started != kOk) return started;
+  int exit_code = JudgeBehaviours(**simulation, Await(**simulation, options, signals));
+  std::vector<verdict::Finding> findings;
+  exit_code = JudgeExpectations(**judge, options, findings, exit_code);
+  if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());
+  if (is_quiet) return exit_code;
+  if (!options.recording.topics.empty()) {
+    for (std::string& sentence : ComplaintsAtTheEnd(options, std::move(topics))) {
+      warnings.push_back(std::move(sentence));
+    }
+  }
+  const std::string report = options.json ? JsonReport(**simulation, warnings, findings) + "\n"
+                                          : TextReport(**simulation, findings);
+  std::fputs(report.c_str(), stdout);
+  std::fflush(stdout);
+  return exit_code;
+}
+
+void AddRunCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand(
+      "run", "Run a simulation: a world, robots, their behaviours, a viewer");
+  auto arguments = std::make_shared<RunArguments>();
+  AddRunOptions(*command, *arguments);
+  command->callback([arguments, line] {
+    const auto options = Understand(*arguments);
+    if (!options) {
+      line.exit_code = Complain(options.error());
+      return;
+    }
+    const auto result = Run(*options, line.signals);
+    line.exit_code = result ? *result : Complain(result.error());
+  });
+}
+
+}  // namespace gsv::app

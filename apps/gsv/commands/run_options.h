@@ -1,0 +1,67 @@
+// What `gsv run` was asked for.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/serving/recordings.h"
+#include "apps/gsv/serving/runtime.h"
+#include "gsv/scenario/scenario.h"
+#include "gsv/simulation/robots/behaviour_port.h"
+#include "gsv/simulation/types.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gsv::app {
+
+struct RunOptions {
+  RuntimeOptions runtime;
+  scenario::Scenario scenario;                         // as it was told, overrides included
+  base::Problems problems;                             // of the scenario's file
+  std::string behaviour;                               // of all robots that have none of their own
+  std::map<std::string, std::string> behaviour_of;     // by robot
+  std::map<std::string, model::Movement> movement_of;  // by robot
+  bool in_process = false;                             // behaviours are plug-ins, not programs
+  // Makes the behaviour of a robot that comes at that time, in place of the one that is named, when
+  // it is set.
+  std::function<std::shared_ptr<simulation::BehaviourPort>(
+      const std::string& robot, const std::string& behaviour, base::SimTime from)>
+      make_behaviour;
+  std::vector<simulation::Edit> edits;  // to be made in mid-run, in this order
+  simulation::Specification specification;
+  std::string record;  // a file; empty: no recording
+  RecordingChoice recording;
+  double wall_timeout = 0;      // s; 0: none
+  std::string failure_picture;  // a file to draw the first violation to; empty: none
+  bool open_browser = false;
+  bool json = false;
+};
+
+// The options as they stand on the command line, before they are understood.
+struct RunArguments {
+  std::string world;
+  std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
+  formats::ReadLimits limits;
+  ServerLimits server_limits;
+  std::string broker, name, mode_on_failure, record, record_pictures, failure_picture;
+  std::vector<std::string> record_topics, record_rates;
+  // Those that a scenario's file may say as well are empty where they were not given.
+  std::optional<double> duration, step, factor, deadline;
+  std::optional<std::uint64_t> seed;
+  double wall_timeout = 0;
+  int threads = 0;
+  ViewerOptions web;
+  bool lockstep = false, real_time = false, headless = false, json = false, open = false,
+       in_process = false;
+};
+
+void AddRunOptions(CLI::App& command, RunArguments& arguments);
+base::Result<RunOptions> Understand(const RunArguments& arguments);
+
+}  // namespace gsv::app

@@ -1,0 +1,71 @@
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/limit_option.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/running/sensor_types.h"
+#include "apps/gsv/serving/runtime.h"
+
+namespace gsv::app {
+namespace {
+
+struct ServeArguments {
+  std::string broker, name = "gsv";
+  std::vector<std::string> model_path, sensor_plugins;
+  formats::ReadLimits limits;
+  ServerLimits server_limits;
+  ViewerOptions web;
+  int scenarios = 0;
+  bool headless = false;
+};
+
+int Serve(const ServeArguments& arguments, Signals& signals) {
+  RuntimeOptions options;
+  options.broker = arguments.broker;
+  options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
+  options.sensors.plugins.assign(arguments.sensor_plugins.begin(), arguments.sensor_plugins.end());
+  options.limits = arguments.limits;
+  options.server_limits = arguments.server_limits;
+  options.viewer = !arguments.headless;
+  options.web = arguments.web;
+  options.noted_as = arguments.name;
+  auto runtime = Runtime::Start(options);
+  if (!runtime) return Complain(runtime.error());
+  if (auto ok = (*runtime)->OfferService(arguments.name, arguments.scenarios); !ok)
+    return Complain(ok.error());
+  if (!(*runtime)->viewer_url().empty())
+    std::printf("viewer: %s\n", (*runtime)->viewer_url().c_str());
+  std::printf("broker: %s\n", (*runtime)->broker().reference().c_str());
+  std::fflush(stdout);
+  signals.Wait();
+  return kOk;
+}
+
+}  // namespace
+
+void AddServeCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand("serve", "Offer simulations as a service, and wait");
+  auto arguments = std::make_shared<ServeArguments>();
+  command
+      ->add_option("--broker", arguments->broker,
+                   "a broker, corbaloc::1.2@HOST:PORT/TradingService; without it: one of its own")
+      ->envname("GSV_BROKER");
+  command->add_option("--name", arguments->name, "the name in the offer")->capture_default_str();
+  command->add_option("--model-path", arguments->model_path, "a folder to look for models in");
+  AddSensorPluginOption(*command, arguments->sensor_plugins);
+  AddLimitOption(*command, arguments->limits, arguments->server_limits);
+  AddViewerOptions(*command, arguments->web);
+  AddRecordingsOption(*command, arguments->web);
+  command
+      ->add_option("--scenarios", arguments->scenarios,
+                   "take whole scenarios from campaigns (gsv campaign run --broker), so many at "
+                   "once, and run them with the behaviours that are installed here; 0: none")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_flag("--headless", arguments->headless, "without a viewer");
+  command->callback([arguments, line] { line.exit_code = Serve(*arguments, line.signals); });
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,207 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "apps/gsv/commands/commands.h"
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/trials/test_cases.h"
+#include "apps/gsv/trials/test_report.h"
+
+namespace gsv::app {
+namespace {
+
+struct TestArguments {
+  std::vector<std::string> scenarios;
+  std::string junit, shard = "1/1", failures = "gsv-failures";
+  TestOptions options;
+  int jobs = 0;
+  bool json = false, no_record = false;
+};
+
+// Runs all cases, so many at a time, each on a thread of its own that waits for its child.
+class TestSession {
+ public:
+  TestSession(std::vector<TestCase> cases, const TestOptions& options, bool is_talkative)
+      : cases_(std::move(cases)),
+        options_(options),
+        is_talkative_(is_talkative),
+        shows_progress_(is_talkative && isatty(STDERR_FILENO) == 1),
+        results_(cases_.size()) {
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      results_[i].test = cases_[i];
+      results_[i].status = TestResult::Status::kInterrupted;
+    }
+  }
+
+  std::vector<TestResult> Run(int jobs, Signals& signals) {
+    std::vector<std::jthread> threads;
+    threads.reserve(static_cast<std::size_t>(jobs));
+    for (int i = 0; i < jobs; ++i) threads.emplace_back([this] { Work(); });
+    while (!IsDone() && signals.WaitFor(0) == 0) {
+      std::unique_lock lock(mutex_);
+      done_.wait_for(lock, std::chrono::milliseconds(200),
+                     [this] { return finished_ == cases_.size(); });
+      ShowProgress();
+    }
+    is_cancelled_ = !IsDone();
+    threads.clear();
+    ClearProgress();
+    return std::move(results_);
+  }
+  bool is_cancelled() const { return is_cancelled_; }
+
+ private:
+  bool IsDone() {
+    const std::lock_guard lock(mutex_);
+    return finished_ == cases_.size();
+  }
+
+  void Work() {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      if (next_ == cases_.size() || is_cancelled_) return;
+      const std::size_t index = next_++;
+      running_.push_back(index);
+      lock.unlock();
+      TestResult result = RunTestCase(cases_[index], options_, is_cancelled_);
+      lock.lock();
+      std::erase(running_, index);
+      ++finished_;
+      failed_ += result.status != TestResult::Status::kPassed;
+      if (is_talkative_) {
+        ClearProgress();
+        std::fputs(ToText(result).c_str(), stdout);
+        std::fflush(stdout);
+      }
+      results_[index] = std::move(result);
+      done_.notify_all();
+    }
+  }
+
+  // Under the lock, on the terminal.
+  void ShowProgress() {
+    if (!shows_progress_) return;
+    std::string names;
+    for (const std::size_t index : running_)
+      names += (names.empty() ? "" : ", ") + cases_[index].name;
+    std::fprintf(stderr, "\r\033[K[%zu/%zu, %zu failed] %.100s", finished_, cases_.size(), failed_,
+                 names.c_str());
+  }
+  void ClearProgress() {
+    if (shows_progress_) std::fputs("\r\033[K", stderr);
+  }
+
+  const std::vector<TestCase> cases_;
+  const TestOptions& options_;
+  const bool is_talkative_, shows_progress_;
+  std::atomic<bool> is_cancelled_{false};
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable done_;
+  std::size_t next_ = 0, finished_ = 0, failed_ = 0;
+  std::vector<std::size_t> running_;
+  std::vector<TestResult> results_;
+};
+
+int JobsFor(const TestArguments& arguments, std::size_t cases) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int jobs = arguments.jobs > 0 ? arguments.jobs : cores;
+  return std::min(jobs, static_cast<int>(std::max<std::size_t>(cases, 1)));
+}
+
+int RunTests(const TestArguments& arguments, Signals& signals) {
+  const auto start = std::chrono::steady_clock::now();
+  base::Problems problems;
+  auto cases = FindTestCases(arguments.scenarios, problems);
+  if (!cases) return Complain(cases.error());
+  for (const base::Problem& problem : problems) {
+    std::fprintf(stderr, "gsv: error: %s\n", problem.Sentence().c_str());
+  }
+  if (!problems.empty()) return kBadModel;
+  const auto shard = ParseShard(arguments.shard);
+  if (!shard) return Complain(shard.error());
+  TestOptions options = arguments.options;
+  options.failures = arguments.failures;
+  options.record = !arguments.no_record;
+  auto share = ShareOf(*std::move(cases), *shard);
+  const int jobs = JobsFor(arguments, share.size());
+  // Runs beside one another do not help each other with more threads.
+  if (jobs > 1) options.threads = 1;
+  TestSession session(std::move(share), options, !arguments.json);
+  const std::vector<TestResult> results = session.Run(jobs, signals);
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!arguments.junit.empty()) {
+    std::ofstream file(arguments.junit);
+    file << ToJUnit(results, wall);
+    if (!file.flush()) {
+      return Complain(
+          {base::ErrorCode::kUnavailable, "the report cannot be written", arguments.junit});
+    }
+  }
+  const std::size_t passed = Count(results, TestResult::Status::kPassed);
+  if (arguments.json) {
+    std::puts(ToJson(results, wall).c_str());
+  } else {
+    const std::size_t errors = Count(results, TestResult::Status::kError);
+    std::printf("%zu passed, %zu failed, %zu error%s in %.1f s\n", passed,
+                Count(results, TestResult::Status::kFailed), errors, errors == 1 ? "" : "s", wall);
+  }
+  if (session.is_cancelled()) return kInterrupted;
+  if (passed == results.size()) return kOk;
+  // Nothing but what is not there, or cannot be used, kept them from passing.
+  const bool is_bad_input = std::all_of(results.begin(), results.end(), [](const auto& result) {
+    return result.is_bad_input || result.status == TestResult::Status::kPassed;
+  });
+  return is_bad_input ? kBadModel : kAssertionFailed;
+}
+
+}  // namespace
+
+void AddTestCommand(const CommandLine& line) {
+  CLI::App* command = line.app.add_subcommand(
+      "test", "Run scenarios in lockstep and judge what they expect; exit code 1 if one fails");
+  auto arguments = std::make_shared<TestArguments>();
+  command
+      ->add_option("scenarios", arguments->scenarios,
+                   "files, or folders of which all *.yaml are taken")
+      ->required();
+  command->add_option("-j,--jobs", arguments->jobs, "how many at once; 0: one a processor")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command
+      ->add_option("--repeat", arguments->options.repeat,
+                   "run each so often, and compare the states at the end")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  command->add_option("--shard", arguments->shard, "I/N: run the I-th of N shares only")
+      ->capture_default_str();
+  command->add_option("--timeout", arguments->options.timeout, "wall seconds a run may take")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--junit", arguments->junit, "a file to write the results to as JUnit's XML");
+  command
+      ->add_option("--failures", arguments->failures,
+                   "the folder in which each failure leaves a folder")
+      ->capture_default_str();
+  command
+      ->add_option("--keep", arguments->options.kept_seconds,
+                   "simulated seconds of the recording to keep before a failure")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  command->add_flag("--no-record", arguments->no_record,
+                    "no recordings: faster, and a failure leaves none");
+  command->add_flag("--json", arguments->json, "the results as one JSON object, and nothing else");
+  command->callback([arguments, line] { line.exit_code = RunTests(*arguments, line.signals); });
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,122 @@
+#include "apps/gsv/machine/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+namespace gsv::app {
+namespace {
+
+constexpr std::size_t kMaxLine = 64 * 1024;
+
+// In the child: never returns. Another thread may have held malloc's locks as the process forked,
+// so nothing here allocates. `arguments` ends with null.
+[[noreturn]] void Execute(char* const* arguments, int output, bool quiet, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(0);  // the parent ended before that took hold
+  const int nothing = open("/dev/null", O_RDWR);
+  dup2(nothing, STDIN_FILENO);
+  dup2(output, STDOUT_FILENO);
+  if (quiet) dup2(nothing, STDERR_FILENO);
+  // A terminal's Ctrl-C is for the parent, which ends its children in order.
+  setpgid(0, 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  execv(arguments[0], arguments);
+  _exit(127);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<ChildProcess>> ChildProcess::Start(std::vector<std::string> arguments,
+                                                                bool quiet) {
+  int ends[2];
+  if (access(arguments.front().c_str(), X_OK) != 0 || pipe2(ends, O_CLOEXEC) != 0) {
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      std::string("cannot be started: ") + std::strerror(errno), arguments.front());
+  }
+  std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const pid_t parent = getpid();
+  const pid_t pid = fork();
+  if (pid == 0) Execute(argv.data(), ends[1], quiet, parent);
+  const int fork_error = errno;
+  close(ends[1]);
+  if (pid < 0) {
+    close(ends[0]);
+    return base::Fail(base::ErrorCode::kUnavailable,
+                      std::string("cannot be started: ") + std::strerror(fork_error),
+                      arguments.front());
+  }
+  return std::unique_ptr<ChildProcess>(new ChildProcess(pid, ends[0]));
+}
+
+ChildProcess::ChildProcess(pid_t pid, int output)
+    : pid_(pid),
+      output_(output),
+      pid_descriptor_(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))) {}
+
+ChildProcess::~ChildProcess() {
+  if (Ending().empty()) {
+    Signal(SIGTERM);
+    if (AwaitEnd(std::chrono::seconds(2)).empty()) {
+      Signal(SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
+  }
+  close(output_);
+  close(pid_descriptor_);
+}
+
+void ChildProcess::Signal(int signal) {
+  if (Ending().empty()) kill(pid_, signal);
+}
+
+std::string ChildProcess::AwaitEnd(std::chrono::milliseconds timeout) {
+  if (!Ending().empty()) return Ending();
+  pollfd ended{pid_descriptor_, POLLIN, 0};
+  poll(&ended, 1, static_cast<int>(timeout.count()));
+  return Ending();
+}
+
+std::optional<std::string> ChildProcess::ReadLine(std::chrono::milliseconds timeout) {
+  const auto give_up = std::chrono::steady_clock::now() + timeout;
+  for (;;) {
+    if (const std::size_t end = buffer_.find('\n'); end != std::string::npos) {
+      std::string line = buffer_.substr(0, end);
+      buffer_.erase(0, end + 1);
+      return line;
+    }
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        give_up - std::chrono::steady_clock::now());
+    pollfd readable{output_, POLLIN, 0};
+    if (left.count() <= 0 || buffer_.size() > kMaxLine ||
+        poll(&readable, 1, static_cast<int>(left.count())) <= 0) {
+      return std::nullopt;
+    }
+    char bytes[4096];
+    const ssize_t count = read(output_, bytes, sizeof bytes);
+    if (count <= 0) return std::nullopt;
+    buffer_.append(bytes, static_cast<std::size_t>(count));
+  }
+}
+
+std::string ChildProcess::Ending() {
+  int status = 0;
+  if (!status_ && waitpid(pid_, &status, WNOHANG) == pid_) status_ = status;
+  if (!status_) return {};
+  return WIFSIGNALED(*status_) ? "signal " + std::to_string(WTERMSIG(*status_))
+                               : "exit code " + std::to_string(WEXITSTATUS(*status_));
+}
+
+}  // namespace gsv::app

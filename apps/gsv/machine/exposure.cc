@@ -1,0 +1,258 @@
+#include "apps/gsv/machine/exposure.h"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/machine/installation.h"
+#include "gsv/gateway/access/access_rule.h"
+#include "gsv/tls/stranger.h"
+
+namespace gsv::app {
+namespace {
+
+constexpr timeval kPatience{2, 0};
+
+class Connection {
+ public:
+  explicit Connection(const Listener& listener) {
+    // What listens on all addresses is asked on loopback.
+    const bool is_ipv6 = listener.address.find(':') != std::string::npos;
+    descriptor_ = socket(is_ipv6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
+    setsockopt(descriptor_, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+    int failed = -1;
+    if (is_ipv6) {
+      sockaddr_in6 address{};
+      address.sin6_family = AF_INET6;
+      address.sin6_port = htons(listener.port);
+      inet_pton(AF_INET6, listener.address == "::" ? "::1" : listener.address.c_str(),
+                &address.sin6_addr);
+      failed = connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address);
+    } else {
+      sockaddr_in address{};
+      address.sin_family = AF_INET;
+      address.sin_port = htons(listener.port);
+      inet_pton(AF_INET, listener.address == "0.0.0.0" ? "127.0.0.1" : listener.address.c_str(),
+                &address.sin_addr);
+      failed = connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address);
+    }
+    is_open_ = failed == 0;
+  }
+  ~Connection() { close(descriptor_); }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  // What is answered, as far as it comes in one piece; empty: nothing.
+  std::string Exchange(const std::string& request) const {
+    if (!is_open_ || send(descriptor_, request.data(), request.size(), MSG_NOSIGNAL) < 0) return {};
+    std::string answer(4096, '\0');
+    const ssize_t length = recv(descriptor_, answer.data(), answer.size(), 0);
+    answer.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+    return answer;
+  }
+
+ private:
+  int descriptor_ = -1;
+  bool is_open_ = false;
+};
+
+std::string Asking(const Listener& listener, const char* method, const char* target,
+                   const std::string& body) {
+  const bool is_any = listener.address == "0.0.0.0" || listener.address == "::";
+  const std::string host =
+      gateway::Authority(is_any ? "127.0.0.1" : listener.address, listener.port);
+  return fmt::format(
+      "{} {} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Length: {}\r\n\r\n{}", method,
+      target, host, body.size(), body);
+}
+
+// "HTTP/1.1 401 …" → 401
+int StatusOf(const std::string& answer) {
+  return answer.starts_with("HTTP/1.1 ") && answer.size() > 12 ? std::atoi(answer.c_str() + 9) : 0;
+}
+
+// GIOP 1.0, little-endian: where is an object of that key? (CORBA 3.0, 15.4.5)
+std::string AskingForAnObject() {
+  const char request[] = "GIOP\1\0\1\3\x0c\0\0\0\1\0\0\0\4\0\0\0none";
+  return {request, sizeof request - 1};
+}
+
+bool TakesToken(int status) { return status == 401 || status == 403; }
+
+const char* Name(Speaks speaks) {
+  switch (speaks) {
+    case Speaks::kHttp:
+      return "viewer, HTTP";
+    case Speaks::kHttps:
+      return "viewer, HTTPS";
+    case Speaks::kCorba:
+      return "CORBA";
+    case Speaks::kCorbaTls:
+      return "CORBA, TLS";
+    case Speaks::kUnknown:
+      return "does not answer";
+  }
+  return "";
+}
+
+std::string Place(const Listener& listener) {
+  return listener.port == 0 ? listener.address
+                            : gateway::Authority(listener.address, listener.port);
+}
+
+std::string Reach(const Listener& listener) {
+  if (listener.port == 0) return "this user only";
+  return listener.IsLocal() ? "this machine only" : "other machines";
+}
+
+std::string Takes(const Exposure& exposure) {
+  if (exposure.takes_certificate) return "a certificate of its authority";
+  if (exposure.speaks != Speaks::kHttp && exposure.speaks != Speaks::kHttps) return "no token";
+  if (exposure.watching_takes_token) return "watching takes a token";
+  return exposure.acting_takes_token ? "watching is free, acting takes a token" : "no token";
+}
+
+// The value of an option, given as "--name VALUE" or "--name=VALUE".
+std::optional<std::string> Option(const ListeningProcess& process, const std::string& name) {
+  const std::vector<std::string>& arguments = process.arguments;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == name && i + 1 < arguments.size()) return arguments[i + 1];
+    if (arguments[i].starts_with(name + "=")) return arguments[i].substr(name.size() + 1);
+  }
+  return std::nullopt;
+}
+
+// Folders whose files can be fetched from it, as far as its command line tells.
+std::vector<std::string> FoldersServed(const ListeningProcess& process, bool has_viewer) {
+  if (!has_viewer) return {};
+  std::vector<std::string> folders{(ShareFolder() / "web").string()};
+  const std::string recordings = Option(process, "--recordings").value_or(".");
+  folders.push_back((std::filesystem::path(process.folder) / recordings).lexically_normal());
+  return folders;
+}
+
+}  // namespace
+
+Exposure Probe(const Listener& listener) {
+  Exposure exposure;
+  if (listener.port == 0) {
+    exposure.speaks = Speaks::kCorba;
+    return exposure;
+  }
+  const std::string look = Asking(listener, "GET", "/api/server", "");
+  // A control request that changes nothing: it asks what a scenario would look like.
+  const std::string act = Asking(listener, "POST", "/api/preview", "{}");
+  const std::string answer = Connection(listener).Exchange(look);
+  if (StatusOf(answer) == 0 &&
+      Connection(listener).Exchange(AskingForAnObject()).starts_with("GIOP")) {
+    exposure.speaks = Speaks::kCorba;
+  } else if (StatusOf(answer) == 400 && answer.find("https://") != std::string::npos) {
+    exposure.speaks = Speaks::kHttps;
+    const auto ask = [&](const std::string& request) {
+      const Connection connection(listener);
+      return StatusOf(tls::ExchangeAsStranger(connection.descriptor(), request).answer);
+    };
+    exposure.watching_takes_token = TakesToken(ask(look));
+    exposure.acting_takes_token = TakesToken(ask(act));
+  } else if (StatusOf(answer) != 0) {
+    exposure.speaks = Speaks::kHttp;
+    exposure.watching_takes_token = TakesToken(StatusOf(answer));
+    exposure.acting_takes_token = TakesToken(StatusOf(Connection(listener).Exchange(act)));
+  } else {
+    const Connection connection(listener);
+    const tls::Reception reception =
+        tls::ExchangeAsStranger(connection.descriptor(), AskingForAnObject());
+    const bool is_answered = reception.answer.starts_with("GIOP");
+    if (is_answered || reception.asks_for_certificate) exposure.speaks = Speaks::kCorbaTls;
+    exposure.takes_certificate = !is_answered && reception.asks_for_certificate;
+  }
+  return exposure;
+}
+
+std::string Complaint(const Listener& listener, const Exposure& exposure) {
+  if (listener.IsLocal()) return {};
+  switch (exposure.speaks) {
+    case Speaks::kHttps:
+      return exposure.acting_takes_token
+                 ? ""
+                 : "whoever reaches it may act; start it with --control-token";
+    case Speaks::kHttp:
+      return exposure.acting_takes_token
+                 ? "tokens and all else can be read on the way; give --tls-certificate and "
+                   "--tls-key (`gsv certificates make` makes them)"
+                 : "whoever reaches it may act; start it with --control-token, and with "
+                   "--tls-certificate";
+    case Speaks::kCorba:
+      return "--insecure-corba lets whoever reaches it call it; give it a certificate instead "
+             "(GSV_CORBA_CERTIFICATE), let it listen on 127.0.0.1, or keep others away by a "
+             "firewall";
+    case Speaks::kCorbaTls:
+      return exposure.takes_certificate ? "" : "whoever reaches it may call it";
+    case Speaks::kUnknown:
+      return "it does not answer, so that nothing can be said of it; is it stopped?";
+  }
+  return {};
+}
+
+int TellExposure(bool json) {
+  int complaints = 0;
+  const std::vector<ListeningProcess> processes = FindListeningProcesses();
+  for (const ListeningProcess& process : processes) {
+    if (!json) {
+      std::printf("%d: %s\n", static_cast<int>(process.pid),
+                  fmt::format("{}", fmt::join(process.arguments, " ")).c_str());
+    }
+    bool has_viewer = false;
+    nlohmann::ordered_json sockets = nlohmann::json::array();
+    for (const Listener& listener : process.listeners) {
+      const Exposure exposure = Probe(listener);
+      const std::string complaint = Complaint(listener, exposure);
+      const bool is_web = exposure.speaks == Speaks::kHttp || exposure.speaks == Speaks::kHttps;
+      has_viewer = has_viewer || is_web;
+      if (!complaint.empty()) ++complaints;
+      if (!json) {
+        std::printf("  %s: %s; %s; %s%s\n", Place(listener).c_str(), Name(exposure.speaks),
+                    Reach(listener).c_str(), Takes(exposure).c_str(),
+                    complaint.empty() ? "" : ("\n    BEWARE: " + complaint).c_str());
+      }
+      sockets.push_back(
+          {{"address", Place(listener)},
+           {"speaks", Name(exposure.speaks)},
+           {"local", listener.IsLocal()},
+           {"tls", exposure.speaks == Speaks::kHttps || exposure.speaks == Speaks::kCorbaTls},
+           {"takes_certificate", exposure.takes_certificate},
+           {"watching_takes_token", exposure.watching_takes_token},
+           {"acting_takes_token", exposure.acting_takes_token},
+           {"complaint", complaint}});
+    }
+    const std::vector<std::string> folders = FoldersServed(process, has_viewer);
+    for (const std::string& folder : folders) {
+      if (!json) std::printf("  serves files of %s\n", folder.c_str());
+    }
+    if (json) {
+      const nlohmann::ordered_json line{{"pid", process.pid},
+                                        {"command", process.arguments},
+                                        {"sockets", sockets},
+                                        {"folders", folders}};
+      std::printf("%s\n",
+                  line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    }
+  }
+  if (!json && processes.empty()) std::printf("no program of GSV listens here as this user\n");
+  if (!json && complaints == 0 && !processes.empty()) std::printf("nothing to complain of\n");
+  return complaints == 0 ? kOk : kInfrastructure;
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,49 @@
+#include "apps/gsv/machine/installation.h"
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+
+namespace gsv::app {
+
+namespace fs = std::filesystem;
+
+fs::path ProgramPath() {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored);
+}
+
+fs::path ProgramFolder() { return ProgramPath().parent_path(); }
+
+fs::path ShareFolder() { return ProgramFolder().parent_path() / "share" / "gsv"; }
+
+std::vector<std::string> OurWorlds() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(ShareFolder() / "worlds", ignored)) {
+    if (entry.path().extension() == ".sdf") names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+base::Result<std::string> FindWorld(const std::string& world) {
+  std::error_code ignored;
+  if (fs::exists(world, ignored) || world.find('/') != std::string::npos) return world;
+  for (const char* suffix : {".sdf", ""}) {
+    const fs::path ours = ShareFolder() / "worlds" / (world + suffix);
+    if (fs::is_regular_file(ours, ignored)) return ours;
+  }
+  std::string names;
+  for (const std::string& name : OurWorlds()) names += (names.empty() ? "" : ", ") + name;
+  return base::Fail(base::ErrorCode::kNotFound,
+                    "there is no such file, and no world of this name; there are " + names, world);
+}
+
+std::vector<std::string> SplitWords(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+}  // namespace gsv::app

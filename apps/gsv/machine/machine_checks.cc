@@ -1,0 +1,163 @@
+#include "apps/gsv/machine/machine_checks.h"
+
+#include <arpa/inet.h>
+#include <dlfcn.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "apps/gsv/serving/running_instances.h"
+#include "gsv/base/user_folder.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/corbaloc.h"
+#include "gsv/orb/orb.h"
+
+namespace gsv::app {
+namespace {
+
+// A hundred behaviours and as many viewers, and what the program has open by itself.
+constexpr rlim_t kEnoughDescriptors = 512;
+constexpr double kEnoughRoom = 1;  // GB, for recordings
+
+bool CheckDescriptors() {
+  rlimit limit{};
+  getrlimit(RLIMIT_NOFILE, &limit);
+  const auto may = static_cast<unsigned long long>(limit.rlim_cur);
+  if (limit.rlim_cur >= kEnoughDescriptors) {
+    std::printf("descriptors: ok, %llu may be open\n", may);
+    return true;
+  }
+  std::printf(
+      "descriptors: few, %llu may be open, and each behaviour and viewer takes one; "
+      "`ulimit -n 4096` allows more\n",
+      may);
+  return false;
+}
+
+// In real time, steps go before behaviours where that is allowed.
+void CheckPriority() {
+  rlimit limit{};
+  getrlimit(RLIMIT_NICE, &limit);
+  if (geteuid() == 0 || limit.rlim_cur >= 30) {
+    std::printf("priority: ok, steps go before behaviours\n");
+  } else {
+    std::printf(
+        "priority: usual; in real time steps of crowds may be late. `ulimit -e 30` lets "
+        "them go first\n");
+  }
+}
+
+void CheckPort(std::uint16_t port, const char* whose, const char* otherwise) {
+  const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int reuse = 1;
+  setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &reuse, sizeof reuse);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const bool is_free = bind(descriptor, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  const int why = errno;
+  close(descriptor);
+  if (is_free) {
+    std::printf("port %d (%s): free\n", port, whose);
+  } else {
+    std::printf("port %d (%s): not free: %s; %s\n", port, whose, std::strerror(why), otherwise);
+  }
+}
+
+void CheckLibrary(const char* name, const char* what, const char* package) {
+  void* const library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+  if (library != nullptr) {
+    std::printf("%s: ok\n", what);
+    dlclose(library);
+  } else {
+    std::printf("%s: none; it is used with graphics cards: apt-get install %s\n", what, package);
+  }
+}
+
+bool IsOnPath(const char* program) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+  }
+  return false;
+}
+
+bool CheckRoom() {
+  struct statvfs room {};
+  if (statvfs(".", &room) != 0) return true;
+  const double gigabytes =
+      static_cast<double>(room.f_bavail) * static_cast<double>(room.f_frsize) / 1e9;
+  const bool is_enough = gigabytes >= kEnoughRoom;
+  std::printf("room for recordings here: %s, %.1f GB%s\n", is_enough ? "ok" : "little", gigabytes,
+              is_enough ? "" : "; name another folder with --recordings");
+  return is_enough;
+}
+
+bool CheckUserFolder() {
+  const auto folder = base::UserFolder();
+  if (folder) {
+    std::printf("folder for this user's programs: ok, %s\n", folder->c_str());
+    return true;
+  }
+  std::printf("folder for this user's programs: none: %s\n", folder.error().Sentence().c_str());
+  return false;
+}
+
+}  // namespace
+
+bool CheckMachine() {
+  const bool descriptors = CheckDescriptors();
+  CheckPriority();
+  CheckPort(8080, "the viewer's usual one", "gsv takes another, or the one of --port");
+  CheckLibrary("libEGL.so.1", "EGL", "libegl1 libgl1-mesa-dri");
+  std::printf("video: %s\n",
+              IsOnPath("ffmpeg")
+                  ? "ok, ffmpeg is there"
+                  : "no ffmpeg; `gsv rec export --video` takes it: apt-get install ffmpeg");
+  const bool folder = CheckUserFolder();
+  const bool room = CheckRoom();
+  return descriptors && folder && room;
+}
+
+bool CheckBroker(const std::string& broker) {
+  std::string reference = broker;
+  if (reference.empty()) {
+    const std::vector<Instance> instances = RunningInstances();
+    if (instances.empty()) {
+      std::printf("broker: none is named, and none is needed: gsv run starts its own\n");
+      return true;
+    }
+    reference = instances.front().broker;
+  }
+  const auto normalised = broker::NormaliseReference(reference);
+  base::Status reached = normalised ? base::Status() : base::Fail(normalised.error());
+  if (reached) {
+    auto orb = orb::StartOrb({});
+    if (!orb) {
+      reached = base::Fail(orb.error());
+    } else {
+      const auto client = broker::BrokerClient::Connect(*orb, *normalised);
+      if (!client) reached = base::Fail(client.error());
+      (*orb)->destroy();
+    }
+  }
+  if (reached) {
+    std::printf("broker: ok, it answers at %s\n", normalised->c_str());
+    return true;
+  }
+  std::printf("broker: does not answer: %s; `gsv broker --port N` starts one\n",
+              reached.error().Sentence().c_str());
+  return broker.empty();  // who is not named may just have ended
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,56 @@
+#include "apps/gsv/machine/trial_reading.h"
+
+#include <csignal>
+
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/machine/child_process.h"
+#include "apps/gsv/machine/installation.h"
+
+namespace gsv::app {
+namespace {
+
+std::string ExitedWith(int code) { return "exit code " + std::to_string(code); }
+
+}  // namespace
+
+base::Status TryToRead(const std::string& world,
+                       const std::vector<std::filesystem::path>& model_path,
+                       const TrialLimits& limits) {
+  std::vector<std::string> arguments{ProgramPath(),
+                                     "world",
+                                     "check",
+                                     world,
+                                     "--json",
+                                     "--confined-memory",
+                                     std::to_string(limits.confinement.memory_bytes),
+                                     "--confined-time",
+                                     std::to_string(limits.confinement.processor_time.count())};
+  for (const std::filesystem::path& folder : model_path) {
+    arguments.emplace_back("--model-path");
+    arguments.push_back(folder);
+  }
+  auto child = ChildProcess::Start(std::move(arguments), true);
+  if (!child) return base::Fail(child.error());
+  // What it complains of is not needed here; reading it keeps its pipe from filling up.
+  const auto give_up = std::chrono::steady_clock::now() + limits.wall_time;
+  const auto left = [&] {
+    return std::chrono::ceil<std::chrono::milliseconds>(give_up - std::chrono::steady_clock::now());
+  };
+  while (left().count() > 0 && (*child)->ReadLine(left())) {
+  }
+  const std::string ending = left().count() > 0 ? (*child)->AwaitEnd(left()) : (*child)->Ending();
+  if (ending == ExitedWith(kOk) || ending == ExitedWith(kBadModel)) return {};
+  if (ending.empty()) (*child)->Signal(SIGKILL);
+  const std::string why =
+      ending == ExitedWith(kWantsMoreMemory)
+          ? "reading it takes more than " + std::to_string(limits.confinement.memory_bytes) +
+                " bytes of memory"
+      : ending.empty() ? "reading it does not come to an end within " +
+                             std::to_string(limits.wall_time.count()) + " s"
+      : ending.starts_with("signal") ? "reading it crashes, or takes too long (" + ending + ")"
+                                     : "reading it fails (" + ending + ")";
+  return base::Fail(base::ErrorCode::kBadModel,
+                    why + "; it was tried in a process of its own, and is not read here", world);
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,215 @@
+#include "apps/gsv/running/edit_repetition.h"
+
+#include <fmt/format.h>
+
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/running/population.h"
+#include "apps/gsv/running/run_population.h"
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/time.h"
+#include "gsv/presentation/edit_message.h"
+
+namespace gsv::app {
+namespace {
+
+using simulation::Edit;
+using simulation::Phase;
+using simulation::Simulation;
+
+tl::unexpected<base::Error> NotAgain(const std::string& file, const std::string& reason) {
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "cannot be simulated again: " + reason + "; replay it instead", file);
+}
+
+std::string AtInstant(base::SimTime time) {
+  return fmt::format("at {:.3f} s", base::ToSeconds(time));
+}
+
+// Of what was recorded before the edits themselves were.
+bool IsEdit(const std::string& event) {
+  return event == "body_placed" || event == "robot_removed" || event == "robot_added" ||
+         event == "avatar_added";
+}
+
+bool IsHoldingUp(const std::string& event) {
+  return event == "paused" || event == "resumed" || event == "factor_set";
+}
+
+class EditMaker {
+ public:
+  EditMaker(Runtime& runtime, Simulation& simulation, const RunOptions& options)
+      : runtime_(runtime), simulation_(simulation), options_(options) {}
+
+  base::Status Make(const Edit& edit) {
+    switch (edit.kind) {
+      case Edit::Kind::kAddRobot:
+      case Edit::Kind::kAddAvatar:
+        return AddRobot(edit);
+      case Edit::Kind::kAddObject:
+        return AddObject(edit);
+      case Edit::Kind::kRemove:
+        return simulation_.agent(edit.body) != nullptr ? simulation_.RemoveRobot(edit.body)
+                                                       : simulation_.RemoveObject(edit.body);
+      case Edit::Kind::kPlace:
+        return simulation_.PlaceBody(edit.body, edit.world_from_body, edit.on_ground);
+    }
+    return {};
+  }
+
+ private:
+  base::Result<std::shared_ptr<const model::Model>> ReadModel(const std::string& model) {
+    base::Problems problems;  // were told when it was added first
+    return runtime_.host().library().ReadModel(model, problems,
+                                               simulation_.specification().world->source);
+  }
+
+  // The world's own robot that came back was read from the world's file, or from its own.
+  base::Result<std::shared_ptr<const model::Model>> ReadRobot(const Edit& edit) {
+    const auto own = ModelInWorld(simulation_, edit.body);
+    const bool is_own =
+        own != nullptr && edit.model == (own->source.empty() ? own->name : own->source);
+    if (is_own) return own;
+    return ReadModel(edit.model);
+  }
+
+  base::Status AddRobot(const Edit& edit) {
+    auto model = ReadRobot(edit);
+    if (!model) return base::Fail(model.error());
+    const scenario::RobotEntry entry{.name = edit.body, .behaviour = edit.behaviour};
+    auto behaviour = LateBehaviour(runtime_, options_, entry, edit.time);
+    if (!behaviour) return base::Fail(behaviour.error());
+    simulation::RobotSpecification robot;
+    robot.name = edit.body;
+    robot.model = *std::move(model);
+    robot.world_from_robot = edit.world_from_body;
+    robot.on_ground = edit.on_ground;
+    robot.behaviour = *behaviour;
+    robot.is_avatar = edit.kind == Edit::Kind::kAddAvatar;
+    robot.movement = edit.movement;
+    const auto added = simulation_.AddRobot(std::move(robot));
+    if (added) return {};
+    if (*behaviour != nullptr) (*behaviour)->Destroy();
+    return base::Fail(added.error());
+  }
+
+  base::Status AddObject(const Edit& edit) {
+    std::shared_ptr<const model::Model> own;
+    if (edit.copy_of.empty()) {
+      auto model = ReadModel(edit.model);
+      if (!model) return base::Fail(model.error());
+      own = *std::move(model);
+    }
+    const auto added = simulation_.AddObject({.name = edit.body,
+                                              .model = std::move(own),
+                                              .copy_of = edit.copy_of,
+                                              .world_from_object = edit.world_from_body,
+                                              .on_ground = edit.on_ground});
+    return added ? base::Status() : base::Fail(added.error());
+  }
+
+  Runtime& runtime_;
+  Simulation& simulation_;
+  const RunOptions& options_;
+};
+
+// False after a signal.
+bool AwaitHalt(Simulation& simulation, Signals& signals) {
+  for (;;) {
+    const Phase phase = simulation.WaitForPhase({Phase::kPaused, Phase::kFinished, Phase::kFailed},
+                                                std::chrono::milliseconds(50));
+    if (phase != Phase::kStarting && phase != Phase::kRunning) return true;
+    if (signals.WaitFor(0) != 0) return false;
+  }
+}
+
+// Has it stand still where the edit is to be made.
+base::Status GoTo(const Edit& edit, Simulation& simulation) {
+  const simulation::SimulationStatus status = simulation.status();
+  if (edit.moment == Edit::Moment::kAfterTurns) return simulation.RunThrough(edit.time);
+  return edit.time > status.time ? simulation.RunUntil(edit.time) : base::Status();
+}
+
+bool IsOfOneHalt(const Edit& a, const Edit& b) {
+  return a.time == b.time && a.moment == b.moment && a.halt == b.halt;
+}
+
+bool IsOver(const Simulation& simulation) {
+  const Phase phase = simulation.status().phase;
+  return phase != Phase::kCreated && phase != Phase::kPaused;
+}
+
+}  // namespace
+
+base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
+                                        const std::string& file, bool by_commands) {
+  using messages::gsv_msgs::LifecycleEvent;
+  const recording::Summary& summary = reader.summary();
+  RecordedDoings doings;
+  std::vector<LifecycleEvent> told;  // events that tell of edits
+  bool has_finished = false;
+  recording::MessageCursor cursor = reader.Messages();
+  for (;;) {
+    const auto record = cursor.Next();
+    if (!record) return base::Fail(record.error());
+    if (!*record) break;
+    const auto channel = summary.channels.find((*record)->channel_id);
+    if (channel == summary.channels.end()) continue;
+    if (channel->second.topic == "/gsv/edits") {
+      const auto message = messages::Decode<messages::gsv_msgs::Edit>((*record)->data);
+      if (!message) return base::Fail(message.error());
+      auto edit = presentation::EditFrom(*message);
+      if (!edit) return base::Fail(edit.error());
+      doings.edits.push_back(*std::move(edit));
+    } else if (channel->second.topic == "/gsv/events") {
+      auto message = messages::Decode<LifecycleEvent>((*record)->data);
+      if (!message) return base::Fail(message.error());
+      doings.was_held_up = doings.was_held_up || IsHoldingUp(message->event);
+      has_finished = has_finished || message->event == "finished";
+      if (IsEdit(message->event)) told.push_back(*std::move(message));
+    }
+  }
+  doings.was_held_up = doings.was_held_up || !has_finished;
+  if (doings.edits.empty() && !told.empty()) {
+    return NotAgain(file, "somebody changed what stands there by hand (" + told[0].event + " " +
+                              told[0].robot + " " + AtInstant(messages::ToSimTime(told[0].stamp)) +
+                              "), and this recording does not hold how");
+  }
+  for (const Edit& edit : doings.edits) {
+    if (by_commands || edit.moment != Edit::Moment::kAmidTurns) continue;
+    return NotAgain(file, "\"" + edit.body + "\" was changed by hand " + AtInstant(edit.time) +
+                              " while behaviours ran, and nobody knows which of them saw it; try "
+                              "--commands, by which they do what they did,");
+  }
+  return doings;
+}
+
+base::Result<int> RunWithEdits(Runtime& runtime, Simulation& simulation, const RunOptions& options,
+                               Signals& signals) {
+  EditMaker maker(runtime, simulation, options);
+  const Edit* last = nullptr;
+  for (const Edit& edit : options.edits) {
+    if (edit.time >= options.specification.duration) break;
+    const auto cannot = [&](const base::Error& error) {
+      (void)simulation.Stop();
+      return base::Fail(error.code, "the edit " + AtInstant(edit.time) +
+                                        " cannot be repeated: " + error.Sentence());
+    };
+    if (last == nullptr || !IsOfOneHalt(*last, edit)) {
+      if (auto ok = GoTo(edit, simulation); !ok) return cannot(ok.error());
+    }
+    last = &edit;
+    if (!AwaitHalt(simulation, signals)) {
+      (void)simulation.Stop();
+      return kInterrupted;
+    }
+    if (IsOver(simulation)) return kOk;
+    if (auto ok = maker.Make(edit); !ok) return cannot(ok.error());
+  }
+  const bool has_begun = simulation.status().phase != Phase::kCreated;
+  if (auto ok = has_begun ? simulation.Resume() : simulation.Start(); !ok) {
+    return base::Fail(ok.error());
+  }
+  return kOk;
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,66 @@
+#include "apps/gsv/running/model_list.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace gsv::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestFile = 4u << 20;
+
+bool IsModelFile(const fs::path& file) {
+  return file.extension() == ".sdf" || file.extension() == ".urdf";
+}
+
+// A drive is a plugin's (or a URDF's, which has its own element for it): a library of furniture is
+// not read to the last mesh.
+bool MayHaveDrive(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path& file = entry.path();
+    if (!IsModelFile(file) || !entry.is_regular_file(ignored)) continue;
+    if (entry.file_size(ignored) > kLargestFile) continue;
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (text.find("<plugin") != std::string::npos || file.extension() == ".urdf") return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
+                                         const std::vector<fs::path>& folders) {
+  std::set<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+      if (!entry.is_directory(ignored) || !MayHaveDrive(entry.path())) continue;
+      base::Problems problems;  // told when the model is used
+      const auto model = library.ReadModel(entry.path(), problems);
+      if (model && (*model)->drive) names.insert(entry.path().filename());
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> FindModels(const std::vector<fs::path>& folders) {
+  std::set<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+      const fs::directory_iterator files(entry.path(), ignored);
+      if (std::any_of(begin(files), end(files),
+                      [](const fs::directory_entry& file) { return IsModelFile(file.path()); })) {
+        names.insert(entry.path().filename());
+      }
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace gsv::app

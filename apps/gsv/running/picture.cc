@@ -1,0 +1,56 @@
+#include "apps/gsv/running/picture.h"
+
+#include <fstream>
+
+#include "gsv/rendering/images/jpeg.h"
+#include "gsv/rendering/images/png.h"
+#include "gsv/rendering/renderer.h"
+
+namespace gsv::app {
+namespace {
+
+bool EndsAsPng(const std::string& path) { return path.ends_with(".png"); }
+
+}  // namespace
+
+std::string CheckPictureName(const std::string& path) {
+  if (EndsAsPng(path) || path.ends_with(".jpg") || path.ends_with(".jpeg")) return {};
+  return "a picture's name ends with .jpg, .jpeg or .png, and " + path + " does not";
+}
+
+base::Status WritePicture(const model::Image& picture, const std::string& path) {
+  const auto bytes =
+      EndsAsPng(path) ? rendering::EncodePng(picture) : rendering::EncodeJpeg(picture, 88);
+  if (!bytes) return base::Fail(bytes.error());
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes->data()),
+             static_cast<std::streamsize>(bytes->size()));
+  if (file.flush()) return {};
+  return base::Fail(base::ErrorCode::kUnavailable,
+                    "cannot be written; name a file in a folder that is there", path);
+}
+
+base::Status DrawAround(const std::shared_ptr<const world::Snapshot>& snapshot,
+                        const std::string& body, const std::string& path) {
+  constexpr double kBack = 5, kPitch = 0.9;  // m, rad
+  const int index = snapshot->layout->Find(body);
+  const geometry::Pose pose =
+      index < 0 ? geometry::Pose()
+                : snapshot->state.bodies[static_cast<std::size_t>(index)].world_from_model;
+  const geometry::Quaternion turn =
+      geometry::FromRollPitchYaw({0, kPitch, geometry::Yaw(pose.orientation)});
+  rendering::CameraParameters camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.horizontal_fov = 1.2;
+  camera.near = 0.05;
+  camera.far = 200;
+  auto renderer = rendering::Renderer::Start();
+  if (!renderer) return base::Fail(renderer.error());
+  const auto picture = (*renderer)->Draw(
+      snapshot, {{pose.position + turn * geometry::Vector3{-kBack, 0, 0}, turn}, camera},
+      std::chrono::minutes(1));
+  return picture ? WritePicture(**picture, path) : base::Fail(picture.error());
+}
+
+}  // namespace gsv::app

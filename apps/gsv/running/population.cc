@@ -1,0 +1,257 @@
+#include "apps/gsv/running/population.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace gsv::app {
+namespace {
+
+using simulation::RobotSpecification;
+using simulation::Simulation;
+
+constexpr int kPlacesTried = 400;
+
+tl::unexpected<FieldError> Wrong(std::string field, base::Error error) {
+  return tl::make_unexpected(FieldError{std::move(error), std::move(field)});
+}
+
+// Names the list's element before the field that is wrong with it.
+tl::unexpected<FieldError> WrongIn(const char* list, std::size_t i, FieldError wrong) {
+  std::string element = std::string(list) + "[" + std::to_string(i) + "]";
+  wrong.field = wrong.field.empty() ? element : element + "." + wrong.field;
+  return tl::make_unexpected(std::move(wrong));
+}
+
+// The nth place of a spiral about the origin, about a metre from its neighbours.
+scenario::Place SpiralPlace(int n) {
+  const double turns = std::sqrt(static_cast<double>(n));
+  const double angle = turns * std::numbers::pi * 2 / 1.8;
+  return {0.7 * turns * std::cos(angle), 0.7 * turns * std::sin(angle), {}, angle};
+}
+
+void Stand(const scenario::Place& place, RobotSpecification& robot) {
+  robot.world_from_robot = place.pose();
+  robot.on_ground = !place.z;
+}
+
+base::Result<std::shared_ptr<const model::Model>> ModelFor(const Simulation& simulation,
+                                                           formats::ModelLibrary& library,
+                                                           const scenario::RobotEntry& entry,
+                                                           base::Problems& problems) {
+  if (!entry.model.empty()) {
+    return library.ReadModel(entry.model, problems, simulation.specification().world->source);
+  }
+  if (auto model = ModelInWorld(simulation, entry.name)) return model;
+  return base::Fail(base::ErrorCode::kNotFound, "the world brings no robot of that name",
+                    entry.name);
+}
+
+FieldResult<RobotSpecification> Specify(const Simulation& simulation,
+                                        formats::ModelLibrary& library,
+                                        const scenario::RobotEntry& entry, bool is_avatar,
+                                        base::Problems& problems) {
+  const auto model = ModelFor(simulation, library, entry, problems);
+  if (!model) return Wrong(entry.model.empty() ? "name" : "model", model.error());
+  if (!(*model)->drive) {
+    return Wrong("model", {base::ErrorCode::kBadModel,
+                           "it has no drive that gsv knows, so it cannot be a robot; choose "
+                           "another, or add a plugin such as gz::sim::systems::DiffDrive to it",
+                           (*model)->name});
+  }
+  RobotSpecification robot;
+  robot.name = entry.name;
+  robot.model = *model;
+  robot.is_avatar = is_avatar;
+  robot.movement = entry.movement;
+  if (entry.start) Stand(*entry.start, robot);
+  return robot;
+}
+
+// Sets the entry's name and place to those that it gets.
+base::Status AddAtFreePlace(Simulation& simulation, RobotSpecification robot,
+                            scenario::RobotEntry& entry) {
+  base::Error refusal;
+  for (int n = 0; n < kPlacesTried; ++n) {
+    const scenario::Place place = SpiralPlace(n);
+    Stand(place, robot);
+    auto name = simulation.AddRobot(robot);
+    if (name) {
+      entry.name = *std::move(name);
+      entry.start = place;
+      return {};
+    }
+    refusal = name.error();
+  }
+  return base::Fail(refusal);
+}
+
+// Those that have a place all at once (a crowd is not put together robot by robot), then the
+// others.
+class ListPlacing {
+ public:
+  ListPlacing(Simulation& simulation, formats::ModelLibrary& library, const char* list,
+              base::Problems& problems)
+      : simulation_(simulation),
+        library_(library),
+        list_(list),
+        is_avatars_(list == std::string_view("avatars")),
+        problems_(problems) {}
+
+  FieldResult<std::vector<PlacedRobot>> Place(const std::vector<scenario::RobotEntry>& entries) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].model.empty()) {
+        if (auto ok = FindInWorld(entries[i], i); !ok) return tl::make_unexpected(ok.error());
+        continue;
+      }
+      auto robot = Specify(simulation_, library_, entries[i], is_avatars_, problems_);
+      if (!robot) return WrongIn(list_, i, robot.error());
+      (entries[i].start ? with_place_ : without_).push_back({{entries[i], i}, *std::move(robot)});
+    }
+    if (auto ok = PlaceTogether(); !ok) return tl::make_unexpected(ok.error());
+    for (Waiting& each : without_) {
+      if (auto ok = AddAtFreePlace(simulation_, std::move(each.robot), each.placed.entry); !ok)
+        return WrongIn(list_, each.placed.index, {ok.error(), ""});
+      placed_.push_back(std::move(each.placed));
+    }
+    std::move(of_world_.begin(), of_world_.end(), std::back_inserter(placed_));
+    return std::move(placed_);
+  }
+
+ private:
+  struct Waiting {
+    PlacedRobot placed;
+    RobotSpecification robot;
+  };
+
+  tl::expected<void, FieldError> FindInWorld(const scenario::RobotEntry& entry, std::size_t i) {
+    if (simulation_.agent(entry.name) != nullptr) {
+      of_world_.push_back({entry, i});
+      return {};
+    }
+    return WrongIn(
+        list_, i,
+        {{base::ErrorCode::kInvalidArgument,
+          "the world brings no robot of that name; one that is added needs a model", entry.name},
+         "name"});
+  }
+
+  tl::expected<void, FieldError> PlaceTogether() {
+    std::vector<RobotSpecification> robots;
+    for (Waiting& each : with_place_) robots.push_back(std::move(each.robot));
+    auto names = simulation_.AddRobots(std::move(robots));
+    if (!names) return tl::make_unexpected(BlameFor(names.error()));
+    for (std::size_t k = 0; k < with_place_.size(); ++k) {
+      with_place_[k].placed.entry.name = std::move((*names)[k]);
+      placed_.push_back(std::move(with_place_[k].placed));
+    }
+    return {};
+  }
+
+  // Which one it was is known by its name; one that was to be named after its model has none yet.
+  FieldError BlameFor(const base::Error& error) const {
+    for (const Waiting& each : with_place_) {
+      if (each.placed.entry.name != error.where) continue;
+      return WrongIn(list_, each.placed.index, {error, ""}).value();
+    }
+    return {error, list_};
+  }
+
+  Simulation& simulation_;
+  formats::ModelLibrary& library_;
+  const char* const list_;
+  const bool is_avatars_;
+  base::Problems& problems_;
+  std::vector<Waiting> with_place_, without_;
+  std::vector<PlacedRobot> of_world_, placed_;
+};
+
+}  // namespace
+
+std::shared_ptr<const model::Model> ModelInWorld(const Simulation& simulation,
+                                                 const std::string& name) {
+  for (const model::PlacedModel& placed : simulation.specification().world->models) {
+    if (placed.name == name) return placed.model;
+  }
+  return nullptr;
+}
+
+FieldResult<Population> Populate(Simulation& simulation, formats::ModelLibrary& library,
+                                 const scenario::Scenario& scenario, base::Problems& problems) {
+  auto robots = ListPlacing(simulation, library, "robots", problems).Place(scenario.robots);
+  if (!robots) return tl::make_unexpected(robots.error());
+  auto avatars = ListPlacing(simulation, library, "avatars", problems).Place(scenario.avatars);
+  if (!avatars) return tl::make_unexpected(avatars.error());
+  return Population{*std::move(robots), *std::move(avatars)};
+}
+
+tl::expected<void, FieldError> GiveBehaviours(Simulation& simulation,
+                                              const std::vector<PlacedRobot>& robots,
+                                              const BehaviourMaker& make) {
+  for (const PlacedRobot& robot : robots) {
+    auto behaviour = make(robot.entry);
+    if (!behaviour) return WrongIn("robots", robot.index, behaviour.error());
+    if (*behaviour == nullptr) continue;
+    if (auto ok = simulation.SetBehaviour(robot.entry.name, *behaviour); !ok) {
+      (*behaviour)->Destroy();
+      return WrongIn("robots", robot.index, {ok.error(), "behaviour"});
+    }
+  }
+  return {};
+}
+
+FieldResult<std::string> AddOne(Simulation& simulation, formats::ModelLibrary& library,
+                                const scenario::RobotEntry& entry, bool is_avatar,
+                                const BehaviourMaker& make, base::Problems& problems) {
+  auto robot = Specify(simulation, library, entry, is_avatar, problems);
+  if (!robot) return tl::make_unexpected(robot.error());
+  auto behaviour = make(entry);
+  if (!behaviour) return tl::make_unexpected(behaviour.error());
+  robot->behaviour = *behaviour;
+  scenario::RobotEntry placed = entry;
+  base::Status added;
+  if (!entry.start) {
+    added = AddAtFreePlace(simulation, *robot, placed);
+  } else if (auto name = simulation.AddRobot(*robot)) {
+    placed.name = *std::move(name);
+  } else {
+    added = base::Fail(name.error());
+  }
+  if (added) return placed.name;
+  if (*behaviour != nullptr) (*behaviour)->Destroy();
+  const bool is_behaviours = added.error().code == base::ErrorCode::kBehaviour;
+  return Wrong(is_behaviours ? "behaviour" : "", added.error());
+}
+
+FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibrary& library,
+                                      const gateway::ObjectRequest& request,
+                                      base::Problems& problems) {
+  simulation::ObjectSpecification object;
+  object.name = request.name;
+  object.copy_of = request.copy_of;
+  if (!request.model.empty()) {
+    auto model =
+        library.ReadModel(request.model, problems, simulation.specification().world->source);
+    if (!model) return Wrong("model", model.error());
+    object.model = *std::move(model);
+  }
+  if (request.place) {
+    object.world_from_object = request.place->world_from_body;
+    object.on_ground = request.place->on_ground;
+    auto name = simulation.AddObject(std::move(object));
+    return name ? FieldResult<std::string>(*std::move(name)) : Wrong("", name.error());
+  }
+  base::Error refusal;
+  for (int n = 0; n < kPlacesTried; ++n) {
+    object.world_from_object = SpiralPlace(n).pose();
+    auto name = simulation.AddObject(object);
+    if (name) return *std::move(name);
+    refusal = name.error();
+    // Elsewhere it would be the same: its name, its model, or that the simulation runs.
+    if (refusal.code != base::ErrorCode::kBadModel) break;
+  }
+  return Wrong("", refusal);
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,308 @@
+#include "apps/gsv/running/resimulation.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/running/edit_repetition.h"
+#include "apps/gsv/running/run.h"
+#include "apps/gsv/serving/recordings.h"
+#include "gsv/base/temporary_folder.h"
+#include "gsv/hosting/recorded_commands.h"
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/time.h"
+#include "gsv/recording/reading/decoded_messages.h"
+#include "gsv/recording/reading/recording_info.h"
+
+namespace gsv::app {
+namespace {
+
+constexpr const char* kCommandsTopic = "/gsv/commands";
+constexpr const char* kActuatorsTopic = "/gsv/actuators";
+constexpr const char* kRadioTopic = "/gsv/radio";
+
+std::vector<std::string> MotionTopics() { return {"/gsv/poses", "/tf", "/gsv/state_hash"}; }
+
+base::Error NotOfARun(const std::string& file) {
+  return {base::ErrorCode::kInvalidArgument,
+          "does not say how it was made: only recordings of gsv run can be simulated again", file};
+}
+
+// How the recorded run was called.
+struct RecordedCall {
+  std::vector<std::string> arguments;  // without the program and "run"
+  std::string folder;                  // that relative paths start from
+};
+
+base::Result<RecordedCall> CallOf(const recording::RecordingInfo& info) {
+  for (const recording::MetadataRecord& record : info.metadata) {
+    const auto arguments = record.values.find(std::string(kArgumentsKey));
+    const auto folder = record.values.find(std::string(kFolderKey));
+    if (arguments == record.values.end() || folder == record.values.end()) continue;
+    const auto json = nlohmann::json::parse(arguments->second, nullptr, false);
+    if (!json.is_array() || json.size() < 2 || json[1] != "run") break;
+    RecordedCall call;
+    for (std::size_t i = 2; i < json.size(); ++i) {
+      if (!json[i].is_string()) return base::Fail(NotOfARun(info.path));
+      call.arguments.push_back(json[i].get<std::string>());
+    }
+    call.folder = folder->second;
+    return call;
+  }
+  return base::Fail(NotOfARun(info.path));
+}
+
+// The same run, but for what does not bear on its course.
+base::Result<RunOptions> OptionsOf(const RecordedCall& call, const std::string& file) {
+  CLI::App app;
+  RunArguments arguments;
+  AddRunOptions(app, arguments);
+  try {
+    app.parse(std::vector<std::string>(call.arguments.rbegin(), call.arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        std::string("was made by a command that this version does not know: ") + error.what(),
+        file);
+  }
+  arguments.broker.clear();
+  arguments.lockstep = true;
+  arguments.headless = true;
+  arguments.open = false;
+  arguments.json = false;
+  return Understand(arguments);
+}
+
+// What a robot was told, and whether its radios were on.
+struct RecordedActs {
+  hosting::TimedCommands commands;
+  bool uses_radio = false;
+};
+using RecordedRobots = std::map<std::string, RecordedActs>;
+
+base::Error NotFinite(const char* topic, const std::string& robot) {
+  return {base::ErrorCode::kCorrupt, "a recorded command is not finite",
+          std::string(topic) + " of " + robot};
+}
+
+base::Status Take(const messages::gsv_msgs::Command& message, RecordedRobots& robots) {
+  const world::DriveCommand command{message.linear_m_s, message.lateral_m_s, message.angular_rad_s};
+  if (!world::IsFinite(command)) return base::Fail(NotFinite(kCommandsTopic, message.robot));
+  robots[message.robot].commands.push_back({messages::ToSimTime(message.stamp), command});
+  return {};
+}
+
+base::Status Take(const messages::gsv_msgs::ActuatorCommand& message, RecordedRobots& robots) {
+  if (!std::all_of(message.values.begin(), message.values.end(),
+                   [](double value) { return std::isfinite(value); })) {
+    return base::Fail(NotFinite(kActuatorsTopic, message.robot));
+  }
+  robots[message.robot].commands.push_back(
+      {messages::ToSimTime(message.stamp),
+       hosting::RecordedOrder{message.actuator, {message.values, message.word}}});
+  return {};
+}
+
+// It was sent a step before it was heard.
+base::Status Take(const messages::gsv_msgs::Transmission& message, RecordedRobots& robots) {
+  const base::SimTime heard = messages::ToSimTime(message.stamp);
+  const auto step = static_cast<std::int64_t>(message.step);
+  const base::SimTime sent = step > 0 ? heard - heard / step : base::SimTime(0);
+  RecordedActs& sender = robots[message.sender];
+  sender.uses_radio = true;
+  sender.commands.push_back(
+      {sent,
+       hosting::RecordedSending{
+           message.radio, message.receiver, {message.content.begin(), message.content.end()}}});
+  for (const std::string& hearer : message.heard_by) robots[hearer].uses_radio = true;
+  return {};
+}
+
+template <typename Message>
+base::Status TakeFrom(const recording::MessageRecord& record, RecordedRobots& robots) {
+  const auto message = messages::Decode<Message>(record.data);
+  if (!message) return base::Fail(message.error());
+  return Take(*message, robots);
+}
+
+// Has every robot do what it did then.
+base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions& run) {
+  using namespace messages::gsv_msgs;
+  const std::map<std::string_view, decltype(&TakeFrom<Command>)> topics = {
+      {kCommandsTopic, TakeFrom<Command>},
+      {kActuatorsTopic, TakeFrom<ActuatorCommand>},
+      {kRadioTopic, TakeFrom<Transmission>}};
+  const recording::Summary& summary = reader.summary();
+  auto robots = std::make_shared<RecordedRobots>();
+  recording::MessageCursor cursor = reader.Messages();
+  for (;;) {
+    const auto record = cursor.Next();
+    if (!record) return base::Fail(record.error());
+    if (!*record) break;
+    const auto channel = summary.channels.find((*record)->channel_id);
+    if (channel == summary.channels.end()) continue;
+    const auto take = topics.find(channel->second.topic);
+    if (take == topics.end()) continue;
+    if (auto ok = take->second(**record, *robots); !ok) return ok;
+  }
+  for (auto& [name, acts] : *robots) {
+    std::stable_sort(acts.commands.begin(), acts.commands.end(),
+                     [](const auto& a, const auto& b) { return a.time < b.time; });
+  }
+  run.make_behaviour = [robots](const std::string& robot, const std::string& behaviour,
+                                base::SimTime from) {
+    const RecordedActs& acts = (*robots)[robot];
+    hosting::TimedCommands commands = acts.commands;
+    // One of the same name may have been there before, and was removed.
+    std::erase_if(commands, [&](const hosting::TimedCommand& each) { return each.time < from; });
+    return std::make_shared<hosting::RecordedCommands>(behaviour, std::move(commands),
+                                                       acts.uses_radio);
+  };
+  return {};
+}
+
+// All topics of both, but those that tell what people did.
+std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
+                                             const recording::McapReader& second) {
+  std::set<std::string> topics;
+  for (const auto* reader : {&first, &second}) {
+    for (const auto& [id, channel] : reader->summary().channels) topics.insert(channel.topic);
+  }
+  for (const std::string_view topic : recording::kTopicsOfPeople) topics.erase(std::string(topic));
+  return {topics.begin(), topics.end()};
+}
+
+// What was not recorded cannot be done once more.
+base::Status CheckThatItIsWhole(const recording::RecordingInfo& info) {
+  const auto refuse = [&](const std::string& reason) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "cannot be simulated again: " + reason + "; replay it instead", info.path);
+  };
+  if (info.start > base::SimTime(0)) {
+    return refuse(
+        fmt::format("it begins in mid-run, at {:.3f} s, and what came before is not known",
+                    base::ToSeconds(info.start)));
+  }
+  for (const recording::MetadataRecord& record : info.metadata) {
+    const auto edited = record.values.find("edited");
+    if (edited == record.values.end() || edited->second != "true") continue;
+    return refuse("somebody changed what stands there by hand before it was recorded");
+  }
+  return {};
+}
+
+// Snapshots and messages that a recorder of a run in real time left out, since it did not keep up.
+std::uint64_t LeftOut(const recording::RecordingInfo& info) {
+  std::uint64_t sum = 0;
+  for (const recording::MetadataRecord& record : info.metadata) {
+    for (const char* key : {"dropped_snapshots", "dropped_messages"}) {
+      const auto found = record.values.find(key);
+      if (found == record.values.end()) continue;
+      std::uint64_t count = 0;
+      const std::string& text = found->second;
+      (void)std::from_chars(text.data(), text.data() + text.size(), count);
+      sum += count;
+    }
+  }
+  return sum;
+}
+
+// Until when it is to run once more. Where people are left out, so is what they did as it ended.
+base::Result<base::SimTime> EndOf(const recording::RecordingInfo& info,
+                                  const recording::McapReader& reader, bool with_people) {
+  if (with_people) return info.end;
+  const auto end = recording::EndOfSteps(reader);
+  if (!end || *end > base::SimTime(0)) return end;
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "cannot be simulated again: it was stopped before a step was recorded",
+                    info.path);
+}
+
+void Print(const std::optional<recording::Difference>& difference,
+           const recording::RecordingInfo& info, bool json) {
+  const std::uint64_t left_out = LeftOut(info);
+  if (json) {
+    nlohmann::ordered_json report{{"equal", !difference.has_value()},
+                                  {"duration_s", base::ToSeconds(info.duration())},
+                                  {"messages", info.messages},
+                                  {"left_out", left_out}};
+    if (difference) report["first_difference"] = ToJson(*difference);
+    std::puts(report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else if (difference) {
+    std::printf("simulated again, it differs: %s\n", difference->Sentence().c_str());
+  } else {
+    std::printf("simulated again, it is the same: %llu messages, %.3f s\n",
+                static_cast<unsigned long long>(info.messages), base::ToSeconds(info.duration()));
+  }
+  if (json || left_out == 0) return;
+  std::printf(
+      "the recording has gaps: %llu snapshots or messages were left out, since the recorder did "
+      "not keep up; what it lacks was neither compared nor, of commands, done again\n",
+      static_cast<unsigned long long>(left_out));
+}
+
+}  // namespace
+
+base::Result<int> Resimulate(const ResimulationOptions& options, Signals& signals) {
+  const auto info = recording::ReadInfo(options.file);
+  if (!info) return base::Fail(info.error());
+  const auto call = CallOf(*info);
+  if (!call) return base::Fail(call.error());
+  const auto recorded = recording::McapReader::Open(options.file);
+  if (!recorded) return base::Fail(recorded.error());
+  if (auto ok = CheckThatItIsWhole(*info); !ok) return base::Fail(ok.error());
+  auto doings = ReadDoings(**recorded, options.file, options.commands);
+  if (!doings) return base::Fail(doings.error());
+  auto folder = base::TemporaryFolder::Make("gsv-again");
+  if (!folder) return base::Fail(folder.error());
+
+  // Paths of the recorded command start from the folder in which it was given.
+  std::error_code error;
+  std::filesystem::current_path(call->folder, error);
+  if (error) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "the folder in which it was recorded cannot be entered: " + error.message(),
+                      call->folder);
+  }
+  auto run = OptionsOf(*call, options.file);
+  if (!run) return base::Fail(run.error());
+  run->runtime.broker = options.broker;
+  run->scenario.expect.clear();  // it was judged then
+  run->record = (folder->path() / "again.mcap").string();
+  const bool had_people = doings->was_held_up || !doings->edits.empty();
+  const auto end = EndOf(*info, **recorded, !options.commands && !had_people);
+  if (!end) return base::Fail(end.error());
+  run->specification.duration = *end;
+  run->edits = std::move(doings->edits);
+  if (options.commands) {
+    if (auto ok = UseRecordedCommands(**recorded, *run); !ok) return base::Fail(ok.error());
+  }
+  const auto exit_code = Run(*run, signals, true);
+  if (!exit_code || *exit_code != kOk) return exit_code;
+
+  const auto again = recording::McapReader::Open(run->record);
+  if (!again) return base::Fail(again.error());
+  std::vector<std::string> topics;  // empty: all
+  if (options.commands) {
+    topics = MotionTopics();
+  } else if (had_people) {
+    topics = TopicsWithoutPeople(**recorded, **again);
+  }
+  const auto gaps = LeftOut(*info) > 0 ? recording::Gaps::kInFirst : recording::Gaps::kNone;
+  const auto difference = recording::FirstDifference(**recorded, **again, topics, gaps);
+  if (!difference) return base::Fail(difference.error());
+  Print(*difference, *info, options.json);
+  return *difference ? kAssertionFailed : kOk;
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,181 @@
+#include "apps/gsv/running/run_population.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "apps/gsv/running/in_process.h"
+#include "apps/gsv/running/population.h"
+#include "gsv/recording/attachments/scenario_attachment.h"
+
+namespace gsv::app {
+namespace {
+
+using simulation::Simulation;
+
+// What is there under this name stays what it is from another folder.
+std::string Whole(const std::string& name) {
+  std::error_code ignored;
+  if (name.empty() || !std::filesystem::exists(name, ignored)) return name;
+  return std::filesystem::absolute(name, ignored).lexically_normal().string();
+}
+
+// What --movement says goes over what the scenario says.
+base::Status OverrideMovements(const RunOptions& options, const Simulation& simulation,
+                               formats::ModelLibrary& library, base::Problems& problems,
+                               scenario::Scenario& scenario) {
+  std::set<std::string> left;
+  for (const auto& [robot, movement] : options.movement_of) left.insert(robot);
+  if (left.empty()) return {};
+  for (scenario::RobotEntry& robot : scenario.robots) {
+    std::string name = robot.name;
+    if (robot.model.empty()) continue;
+    if (name.empty()) {
+      const auto model =
+          library.ReadModel(robot.model, problems, simulation.specification().world->source);
+      if (!model) return base::Fail(model.error());
+      name = (*model)->name;
+    }
+    const auto movement = options.movement_of.find(name);
+    if (movement == options.movement_of.end()) continue;
+    robot.movement = movement->second;
+    left.erase(name);
+  }
+  if (left.empty()) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument, "no robot of that name or model is added",
+                    "--movement " + *left.begin());
+}
+
+// The behaviour a robot is to have: its own on the command line, that of all there, its scenario's.
+base::Status OverrideBehaviours(const RunOptions& options, std::vector<PlacedRobot>& robots) {
+  std::set<std::string> names;
+  for (PlacedRobot& robot : robots) {
+    names.insert(robot.entry.name);
+    const auto own = options.behaviour_of.find(robot.entry.name);
+    if (own == options.behaviour_of.end() && options.behaviour.empty()) continue;
+    robot.entry.behaviour = own != options.behaviour_of.end() ? own->second : options.behaviour;
+    robot.entry.behaviour_constraint.clear();
+  }
+  for (const auto& [robot, behaviour] : options.behaviour_of) {
+    if (names.contains(robot)) continue;
+    return base::Fail(base::ErrorCode::kInvalidArgument, "there is no robot of that name",
+                      "--behaviour " + robot + "=" + behaviour);
+  }
+  return {};
+}
+
+// Those of the world that no entry is about may still be given a behaviour.
+void AddThoseOfTheWorld(const Simulation& simulation, std::vector<PlacedRobot>& robots,
+                        const std::vector<std::string>& of_world) {
+  for (const std::string& name : of_world) {
+    const bool is_told = std::any_of(robots.begin(), robots.end(), [&](const PlacedRobot& robot) {
+      return robot.entry.name == name;
+    });
+    if (!is_told && simulation.agent(name) != nullptr) robots.push_back({{.name = name}, 0});
+  }
+}
+
+class RunBehaviours {
+ public:
+  // `from`: when their robots come.
+  RunBehaviours(Runtime& runtime, const RunOptions& options, base::SimTime from = {})
+      : runtime_(runtime), options_(options), from_(from) {}
+
+  // Starts programs where nobody offers what is wanted.
+  base::Status Ensure(const std::vector<PlacedRobot>& robots) {
+    if (options_.in_process || options_.make_behaviour) return {};
+    std::map<std::string, int> programs;
+    for (const PlacedRobot& robot : robots) {
+      if (!robot.entry.behaviour.empty()) ++programs[robot.entry.behaviour];
+    }
+    for (const auto& [behaviour, count] : programs) {
+      if (auto ok = runtime_.launcher().Ensure(behaviour, count); !ok) return ok;
+    }
+    return {};
+  }
+
+  FieldResult<std::shared_ptr<simulation::BehaviourPort>> Make(const scenario::RobotEntry& robot) {
+    if (robot.behaviour.empty() && robot.behaviour_constraint.empty()) return nullptr;
+    auto behaviour = Get(robot);
+    if (behaviour) return *std::move(behaviour);
+    return tl::make_unexpected(FieldError{behaviour.error(), "behaviour"});
+  }
+
+ private:
+  base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(const scenario::RobotEntry& robot) {
+    if (options_.make_behaviour) return options_.make_behaviour(robot.name, robot.behaviour, from_);
+    if (!robot.behaviour_constraint.empty())
+      return runtime_.behaviours().Get(robot.behaviour_constraint);
+    if (options_.in_process) return InProcessBehaviour(robot.behaviour);
+    return runtime_.behaviours().Get(services::ConstraintForName(robot.behaviour));
+  }
+
+  Runtime& runtime_;
+  const RunOptions& options_;
+  const base::SimTime from_;
+};
+
+// The scenario as it came to be.
+scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
+                        const Population& population) {
+  scenario::Scenario told = recording::ScenarioOf(simulation);
+  const scenario::Scenario& given = options.scenario;
+  told.world = Whole(given.world);
+  told.in_process = options.in_process;
+  for (const std::string& path : given.model_path) told.model_path.push_back(Whole(path));
+  told.robots.clear();
+  told.avatars.clear();
+  for (const PlacedRobot& robot : population.robots) {
+    const bool does_nothing = robot.entry.model.empty() && robot.entry.behaviour.empty() &&
+                              robot.entry.behaviour_constraint.empty();
+    if (!does_nothing) told.robots.push_back(robot.entry);
+  }
+  for (const PlacedRobot& avatar : population.avatars) told.avatars.push_back(avatar.entry);
+  for (auto* entries : {&told.robots, &told.avatars}) {
+    for (scenario::RobotEntry& entry : *entries) entry.model = Whole(entry.model);
+  }
+  told.record_topics = given.record_topics;
+  const RecordingChoice& choice = options.recording;
+  told.record_rates = {{"poses", choice.poses_rate},
+                       {"readings", choice.readings_rate},
+                       {"pictures", choice.pictures_rate},
+                       {"beams", choice.beams_rate}};
+  told.record_png = given.record_png;
+  told.expect = given.expect;
+  return told;
+}
+
+}  // namespace
+
+base::Result<std::shared_ptr<simulation::BehaviourPort>> LateBehaviour(
+    Runtime& runtime, const RunOptions& options, const scenario::RobotEntry& robot,
+    base::SimTime from) {
+  RunBehaviours behaviours(runtime, options, from);
+  if (auto ok = behaviours.Ensure({{robot, 0}}); !ok) return base::Fail(ok.error());
+  auto behaviour = behaviours.Make(robot);
+  if (!behaviour) return base::Fail(behaviour.error().error);
+  return *std::move(behaviour);
+}
+
+base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simulation,
+                                             const RunOptions& options, base::Problems& problems) {
+  formats::ModelLibrary& library = runtime.host().library();
+  std::vector<std::string> of_world;
+  for (const auto& robot : simulation.status().robots) of_world.push_back(robot.name);
+  scenario::Scenario scenario = options.scenario;
+  if (auto ok = OverrideMovements(options, simulation, library, problems, scenario); !ok)
+    return base::Fail(ok.error());
+  auto population = Populate(simulation, library, scenario, problems);
+  if (!population) return base::Fail(population.error().error);
+  AddThoseOfTheWorld(simulation, population->robots, of_world);
+  if (auto ok = OverrideBehaviours(options, population->robots); !ok) return base::Fail(ok.error());
+  RunBehaviours behaviours(runtime, options);
+  if (auto ok = behaviours.Ensure(population->robots); !ok) return base::Fail(ok.error());
+  const auto given = GiveBehaviours(simulation, population->robots,
+                                    [&](const auto& robot) { return behaviours.Make(robot); });
+  if (!given) return base::Fail(given.error().error);
+  return Told(simulation, options, *population);
+}
+
+}  // namespace gsv::app

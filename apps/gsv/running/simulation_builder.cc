@@ -1,0 +1,207 @@
+#include "apps/gsv/running/simulation_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/gsv/machine/installation.h"
+#include "apps/gsv/running/model_list.h"
+#include "gsv/broker/client/gsv_service_types.h"
+
+namespace gsv::app {
+namespace {
+
+using gateway::SimulationRequest;
+using simulation::Simulation;
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kWorldsKept = 4;
+constexpr std::size_t kMostOffers = 200;
+
+tl::unexpected<FieldError> Wrong(std::string field, base::Error error) {
+  return tl::make_unexpected(FieldError{std::move(error), std::move(field)});
+}
+
+// Each once, in order.
+void AddSentences(const base::Problems& problems, std::vector<std::string>& sentences) {
+  for (const base::Problem& problem : problems) {
+    std::string sentence = problem.Sentence();
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+      sentences.push_back(std::move(sentence));
+  }
+}
+
+simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
+  simulation::Specification specification;
+  specification.name = scenario.name;
+  specification.mode =
+      scenario.lockstep.value_or(false) ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
+  specification.factor = scenario.factor.value_or(1);
+  specification.step = base::FromSeconds(scenario.step.value_or(0));
+  specification.duration = base::FromSeconds(scenario.duration.value_or(0));
+  specification.seed = scenario.seed.value_or(0);
+  specification.keep = true;  // the page that created it may be closed
+  return specification;
+}
+
+// A world that ships with gsv.
+bool IsOurs(const fs::path& file) {
+  std::error_code ignored;
+  return fs::equivalent(file.parent_path(), ShareFolder() / "worlds", ignored);
+}
+
+}  // namespace
+
+void SimulationBuilder::OfferThrough(services::SimulationServiceServant* service) {
+  const std::lock_guard lock(mutex_);
+  service_ = service;
+}
+
+std::vector<std::string> SimulationBuilder::Worlds() { return OurWorlds(); }
+
+std::vector<fs::path> SimulationBuilder::ModelFolders() const {
+  std::vector<fs::path> folders{ShareFolder() / "models"};
+  folders.insert(folders.end(), model_path_.begin(), model_path_.end());
+  return folders;
+}
+
+std::vector<std::string> SimulationBuilder::Objects() {
+  std::vector<std::string> objects = FindModels(ModelFolders());
+  const std::vector<std::string> robots = FindRobotModels(host_.library(), ModelFolders());
+  std::erase_if(objects, [&](const std::string& name) {
+    return std::binary_search(robots.begin(), robots.end(), name);
+  });
+  return objects;
+}
+
+std::vector<SimulationBuilder::ModelLine> SimulationBuilder::Models() {
+  std::vector<ModelLine> models;
+  for (const std::string& name : FindRobotModels(host_.library(), ModelFolders())) {
+    models.push_back({name, name == "avatar"});
+  }
+  return models;
+}
+
+base::Result<SimulationBuilder::Behaviours> SimulationBuilder::FindBehaviours(
+    const std::string& constraint) {
+  const broker::ServiceType& type = broker::AgentBehaviourFactoryType();
+  if (auto ok = broker_.EnsureServiceType(type); !ok) return base::Fail(ok.error());
+  const auto offers = broker_.Query(type.name, constraint, "", kMostOffers);
+  if (!offers) return base::Fail(offers.error());
+  Behaviours found;
+  found.broker = broker_.reference();
+  found.start_command = "gsv-wander --broker " + broker_.reference();
+  for (const broker::FoundOffer& offer : *offers) {
+    const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);
+    found.offers.push_back({described.name, described.description, described.host, described.pid,
+                            described.time_managed});
+  }
+  return found;
+}
+
+FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const std::string& world) {
+  auto file = FindWorld(world);
+  if (!file) return Wrong("world", file.error());
+  KnownWorld read;
+  read.file = *file;
+  std::error_code ignored;
+  read.changed = fs::last_write_time(read.file, ignored);
+  {
+    const std::lock_guard lock(mutex_);
+    for (const KnownWorld& known : known_) {
+      if (known.file == read.file && known.changed == read.changed) return known;
+    }
+  }
+  if (!IsOurs(read.file)) {
+    if (auto ok = TryToRead(read.file, model_path_, reading_); !ok) {
+      return Wrong("world", ok.error());
+    }
+  }
+  base::Problems problems;
+  auto description = host_.library().ReadWorld(read.file, problems);
+  if (!description) return Wrong("world", description.error());
+  read.world = std::make_shared<const model::WorldDescription>(*std::move(description));
+  AddSentences(problems, read.warnings);
+  const std::lock_guard lock(mutex_);
+  known_.push_back(read);
+  if (known_.size() > kWorldsKept) known_.erase(known_.begin());
+  return read;
+}
+
+FieldResult<std::shared_ptr<simulation::BehaviourPort>> SimulationBuilder::BehaviourFor(
+    const scenario::RobotEntry& robot) {
+  const bool is_named = !robot.behaviour.empty();
+  if (!is_named && robot.behaviour_constraint.empty()) return nullptr;
+  auto behaviour = behaviours_.Get(is_named ? services::ConstraintForName(robot.behaviour)
+                                            : robot.behaviour_constraint);
+  if (!behaviour) {
+    return Wrong(is_named ? "behaviour" : "behaviour_constraint", behaviour.error());
+  }
+  return *std::move(behaviour);
+}
+
+FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const SimulationRequest& request) {
+  auto world = ReadWorld(request.scenario.world);
+  if (!world) return tl::make_unexpected(world.error());
+  simulation::Specification specification = SpecificationOf(request.scenario);
+  specification.name = "preview";
+  specification.mode = simulation::Mode::kRealTime;  // on one thread: it takes no step
+  specification.world = world->world;
+  auto simulation = host_.CreateUnlisted(std::move(specification));
+  if (!simulation) return Wrong("", simulation.error());
+  Preview preview{*simulation, world->warnings};
+  base::Problems problems;
+  const auto population = Populate(**simulation, host_.library(), request.scenario, problems);
+  if (!population) return tl::make_unexpected(population.error());
+  AddSentences(problems, preview.warnings);
+  return preview;
+}
+
+FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
+    const SimulationRequest& request) {
+  auto world = ReadWorld(request.scenario.world);
+  if (!world) return tl::make_unexpected(world.error());
+  simulation::Specification specification = SpecificationOf(request.scenario);
+  specification.world = world->world;
+  base::Problems problems;  // those of the world were told with its preview
+  auto created = host_.Create(std::move(specification), {}, problems);
+  if (!created) return Wrong("name", created.error());
+  const std::string name = (*created)->specification().name;
+  const auto give_up = [&](FieldError wrong) {
+    (void)host_.Remove(name);
+    return tl::make_unexpected(std::move(wrong));
+  };
+  const auto population = Populate(**created, host_.library(), request.scenario, problems);
+  if (!population) return give_up(population.error());
+  const auto given = GiveBehaviours(**created, population->robots, BehaviourChoice());
+  if (!given) return give_up(given.error());
+  if (request.record) {
+    if (auto ok = recordings_.Record(*created); !ok) return give_up({ok.error(), "record"});
+  }
+  const std::lock_guard lock(mutex_);
+  if (service_ != nullptr) service_->Publish(*created);
+  return *created;
+}
+
+base::Status SimulationBuilder::Destroy(const std::string& simulation) {
+  (void)recordings_.Stop(simulation);  // most are not recorded
+  const std::lock_guard lock(mutex_);
+  if (service_ != nullptr && service_->Destroy(simulation)) return {};
+  if (const auto found = host_.Find(simulation)) (void)found->Stop();
+  return host_.Remove(simulation);
+}
+
+FieldResult<std::string> SimulationBuilder::AddRobot(const std::shared_ptr<Simulation>& simulation,
+                                                     const scenario::RobotEntry& robot,
+                                                     bool is_avatar) {
+  base::Problems problems;
+  return AddOne(*simulation, host_.library(), robot, is_avatar, BehaviourChoice(), problems);
+}
+
+FieldResult<std::string> SimulationBuilder::AddObject(const std::shared_ptr<Simulation>& simulation,
+                                                      const gateway::ObjectRequest& object) {
+  base::Problems problems;
+  return AddOneObject(*simulation, host_.library(), object, problems);
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,84 @@
+// Puts together the simulations that people ask for over HTTP: worlds and models from files,
+// behaviours from the broker.
+//
+// Threads  any. Several may be under way at once.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/machine/trial_reading.h"
+#include "apps/gsv/running/population.h"
+#include "apps/gsv/serving/recordings.h"
+#include "gsv/gateway/program/simulation_factory.h"
+#include "gsv/services/broker_behaviours.h"
+#include "gsv/services/simulation_host.h"
+#include "gsv/services/simulation_servant.h"
+
+namespace gsv::app {
+
+class SimulationBuilder final : public gateway::SimulationFactory {
+ public:
+  // All outlive it. `model_path`: folders whose models are shown besides ours. `reading`: for
+  // worlds that are not ours.
+  SimulationBuilder(services::SimulationHost& host, services::BrokerBehaviours& behaviours,
+                    broker::BrokerClient& broker, Recordings& recordings,
+                    std::vector<std::filesystem::path> model_path, const TrialLimits& reading = {})
+      : host_(host),
+        behaviours_(behaviours),
+        broker_(broker),
+        recordings_(recordings),
+        model_path_(std::move(model_path)),
+        reading_(reading) {}
+
+  // What is created from now on is in that service's list as well; null: no longer.
+  void OfferThrough(services::SimulationServiceServant* service);
+
+  std::vector<std::string> Worlds() override;
+  std::vector<ModelLine> Models() override;
+  std::vector<std::string> Objects() override;
+  base::Result<Behaviours> FindBehaviours(const std::string& constraint) override;
+  gateway::FieldResult<Preview> Show(const gateway::SimulationRequest& request) override;
+  gateway::FieldResult<std::shared_ptr<simulation::Simulation>> Create(
+      const gateway::SimulationRequest& request) override;
+  base::Status Destroy(const std::string& simulation) override;
+  gateway::FieldResult<std::string> AddRobot(
+      const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
+      bool is_avatar) override;
+  gateway::FieldResult<std::string> AddObject(
+      const std::shared_ptr<simulation::Simulation>& simulation,
+      const gateway::ObjectRequest& object) override;
+
+ private:
+  using SimulationPointer = std::shared_ptr<simulation::Simulation>;
+  // A world that was read lately: whoever fills a world with robots asks for it again and again.
+  struct KnownWorld {
+    std::string file;
+    std::filesystem::file_time_type changed;
+    std::shared_ptr<const model::WorldDescription> world;
+    std::vector<std::string> warnings;
+  };
+
+  std::vector<std::filesystem::path> ModelFolders() const;
+  gateway::FieldResult<KnownWorld> ReadWorld(const std::string& world);
+  gateway::FieldResult<std::shared_ptr<simulation::BehaviourPort>> BehaviourFor(
+      const scenario::RobotEntry& robot);
+  BehaviourMaker BehaviourChoice() {
+    return [this](const scenario::RobotEntry& robot) { return BehaviourFor(robot); };
+  }
+
+  services::SimulationHost& host_;
+  services::BrokerBehaviours& behaviours_;
+  broker::BrokerClient& broker_;
+  Recordings& recordings_;
+  const std::vector<std::filesystem::path> model_path_;
+  const TrialLimits reading_;
+  std::mutex mutex_;
+  std::vector<KnownWorld> known_;  // the newest last
+  services::SimulationServiceServant* service_ = nullptr;
+};
+
+}  // namespace gsv::app

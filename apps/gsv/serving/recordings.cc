@@ -1,0 +1,274 @@
+#include "apps/gsv/serving/recordings.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "gsv/base/log.h"
+#include "gsv/formats/gltf/gltf_writer.h"
+#include "gsv/recording/mcap/bag_folder.h"
+#include "gsv/recording/simulation_recorder.h"
+#include "gsv/recording/topics/topics.h"
+#include "gsv/rendering/images/png.h"
+
+namespace gsv::app {
+namespace {
+
+std::vector<std::string> ArgumentsOfThisProcess() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> arguments;
+  for (std::string argument; std::getline(file, argument, '\0');) {
+    arguments.push_back(std::move(argument));
+  }
+  return arguments;
+}
+
+}  // namespace
+
+std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments) {
+  const auto is_secret = [](const std::string& argument) {
+    return argument == "--control-token" || argument == "--watch-token" || argument == "--token";
+  };
+  std::vector<std::string> rest;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (is_secret(arguments[i])) {
+      ++i;  // with its value
+    } else if (!is_secret(arguments[i].substr(0, arguments[i].find('=')))) {
+      rest.push_back(std::move(arguments[i]));
+    }
+  }
+  return rest;
+}
+
+namespace {
+
+std::string Host() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+recording::RecorderOptions Options(const RecordingChoice& choice) {
+  recording::RecorderOptions options;
+  options.write_glb = &formats::WriteGlb;
+  options.topics = choice.topics;
+  options.poses_rate = choice.poses_rate;
+  options.sensors = {choice.readings_rate, choice.pictures_rate, choice.beams_rate};
+  options.scenario = choice.scenario;
+  if (choice.png) options.write_png = &rendering::EncodePng;
+  const std::vector<std::string> arguments = WithoutSecrets(ArgumentsOfThisProcess());
+  std::error_code ignored;
+  options.metadata = {
+      {"gsv_version", GSV_VERSION},
+      {"command", fmt::format("{}", fmt::join(arguments, " "))},
+      {std::string(kArgumentsKey),
+       nlohmann::json(arguments).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
+      {std::string(kFolderKey), std::filesystem::current_path(ignored).string()},
+      {"host", Host()}};
+  return options;
+}
+
+constexpr double kLeastRate = 0.001, kMostRate = 10'000;
+
+// What is there and no folder is a file, or a device.
+bool NamesAFile(const std::string& path) {
+  std::error_code ignored;
+  return path.ends_with(".mcap") ||
+         (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored));
+}
+
+}  // namespace
+
+std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
+                                         const std::vector<std::string>& topics) {
+  constexpr std::size_t kMostListed = 24;
+  std::vector<std::string> sentences;
+  for (const std::string& pattern : recording::PatternsWithout(topics, choice.topics)) {
+    // Whoever names a robot, or /gsv, means what is below.
+    const bool is_folder = recording::PatternsWithout(topics, {pattern + "/"}).empty();
+    const std::size_t listed = std::min(topics.size(), kMostListed);
+    std::string there = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + listed, ", "));
+    if (listed < topics.size()) there += fmt::format(" and {} more", topics.size() - listed);
+    sentences.push_back(fmt::format(
+        "--record-topics {}: {}", pattern,
+        is_folder
+            ? fmt::format("no topic has this name; all below it are \"{}/\"", pattern)
+            : "no topic of this simulation has this name or lies below it; there are " + there));
+  }
+  return sentences;
+}
+
+base::Status SetRate(const std::string& text, RecordingChoice& choice) {
+  const std::pair<std::string_view, double*> kinds[]{{"poses", &choice.poses_rate},
+                                                     {"readings", &choice.readings_rate},
+                                                     {"pictures", &choice.pictures_rate},
+                                                     {"beams", &choice.beams_rate}};
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string_view name = std::string_view(text).substr(0, equals);
+  const std::string_view number = std::string_view(text).substr(std::min(equals + 1, text.size()));
+  const auto* kind = std::find_if(std::begin(kinds), std::end(kinds),
+                                  [&](const auto& each) { return each.first == name; });
+  double rate = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), rate);
+  const bool is_number = error == std::errc() && end == number.data() + number.size();
+  if (kind == std::end(kinds) || !is_number || !(rate >= kLeastRate && rate <= kMostRate)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "expected poses=HZ, readings=HZ, pictures=HZ or beams=HZ, from 0.001 to "
+                      "10000 of simulated time",
+                      "--record-rate " + text);
+  }
+  *kind->second = rate;
+  return {};
+}
+
+base::Result<std::filesystem::path> RecordingsFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path whole =
+      std::filesystem::canonical(folder.empty() ? "." : folder, error);
+  if (!error && std::filesystem::is_directory(whole, error)) return whole;
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "there is no such folder for recordings; make it, or name another",
+                    folder.string());
+}
+
+Recordings::Recordings(std::filesystem::path folder) : folder_(std::move(folder)) {}
+Recordings::~Recordings() = default;
+
+base::Status Recordings::FinishThatWhichIsOver(
+    const std::shared_ptr<simulation::Simulation>& simulation) {
+  const std::string& name = simulation->specification().name;
+  std::unique_lock lock(mutex_);
+  const auto found = recordings_.find(name);
+  if (found == recordings_.end()) return {};
+  // A recording is over when its simulation is gone, was reset, or the disk failed.
+  if (found->second.simulation.lock() == simulation && found->second.recorder->is_recording()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "it is being recorded to " + found->second.path + "; stop that first", name);
+  }
+  auto node = recordings_.extract(found);
+  lock.unlock();
+  if (const auto ok = Finish(node.mapped()); !ok) spdlog::error("{}", ok.error().Sentence());
+  CountEnded(node.mapped());
+  return {};
+}
+
+base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
+                               const std::string& path, const RecordingChoice& choice) {
+  const std::lock_guard starting(starting_);
+  if (auto ok = FinishThatWhichIsOver(simulation); !ok) return ok;
+  std::string bag;
+  if (!NamesAFile(path)) {
+    auto file = recording::MakeBagFolder(path);
+    if (!file) return base::Fail(file.error());
+    bag = *std::move(file);
+  }
+  auto recorder =
+      recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag, Options(choice));
+  if (!recorder) return base::Fail(recorder.error());
+  const std::lock_guard lock(mutex_);
+  recordings_.emplace(simulation->specification().name,
+                      Recording{simulation, path, std::move(bag), *std::move(recorder)});
+  return {};
+}
+
+base::Status Recordings::Record(const std::shared_ptr<simulation::Simulation>& simulation) {
+  std::string name = simulation->specification().name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; },
+      '-');
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  return Start(simulation, folder_ / fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}.mcap", name,
+                                                 utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                                                 utc.tm_hour, utc.tm_min, utc.tm_sec));
+}
+
+Recordings::State Recordings::RecordingOf(const std::string& simulation) {
+  const std::lock_guard lock(mutex_);
+  const auto found = recordings_.find(simulation);
+  if (found != recordings_.end()) return StateOf(found->second);
+  const auto last = last_.find(simulation);
+  return last == last_.end() ? State() : last->second;
+}
+
+void Recordings::Add(const State& state, Totals& totals) {
+  if (state.is_recording) ++totals.under_way;
+  totals.messages += state.messages;
+  totals.dropped += state.dropped;
+  totals.bytes += state.bytes;
+}
+
+void Recordings::CountEnded(const Recording& recording) {
+  const std::lock_guard lock(mutex_);
+  Add(StateOf(recording), ended_);
+  ended_.under_way = 0;
+}
+
+Recordings::Totals Recordings::totals() {
+  const std::lock_guard lock(mutex_);
+  Totals totals = ended_;
+  for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
+  // One that is being finished counts among neither for a moment; what was told is not taken back.
+  told_ = {totals.under_way, std::max(totals.messages, told_.messages),
+           std::max(totals.dropped, told_.dropped), std::max(totals.bytes, told_.bytes)};
+  return told_;
+}
+
+Recordings::State Recordings::StateOf(const Recording& recording) {
+  const recording::McapWriter::Progress progress = recording.recorder->progress();
+  return {recording.recorder->is_recording(), recording.path, progress.messages, progress.dropped,
+          progress.bytes};
+}
+
+base::Status Recordings::Finish(Recording& recording) {
+  if (auto stopped = recording.recorder->Stop(); !stopped) return stopped;
+  return recording.bag.empty() ? base::Status() : recording::WriteBagMetadata(recording.bag);
+}
+
+base::Status Recordings::Stop(const std::string& simulation) {
+  std::unique_lock lock(mutex_);
+  auto node = recordings_.extract(simulation);
+  lock.unlock();
+  if (node.empty()) {
+    return base::Fail(base::ErrorCode::kNotFound, "it is not being recorded", simulation);
+  }
+  const base::Status finished = Finish(node.mapped());
+  CountEnded(node.mapped());
+  State state = StateOf(node.mapped());
+  state.is_recording = false;
+  lock.lock();
+  last_[simulation] = std::move(state);
+  return finished;
+}
+
+base::Status Recordings::StopAll() {
+  std::unique_lock lock(mutex_);
+  auto recordings = std::exchange(recordings_, {});
+  lock.unlock();
+  base::Status first;
+  for (auto& [name, recording] : recordings) {
+    const base::Status stopped = Finish(recording);
+    CountEnded(recording);
+    if (stopped) continue;
+    if (first) {
+      first = stopped;
+    } else {
+      spdlog::error("{}: {}", name, stopped.error().Sentence());
+    }
+  }
+  return first;
+}
+
+}  // namespace gsv::app

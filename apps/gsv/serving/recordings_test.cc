@@ -1,0 +1,110 @@
+#include "apps/gsv/serving/recordings.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "gsv/recording/reading/recording_info.h"
+#include "gsv/recording/simulation_recorder.h"
+#include "gsv/recording/testing/test_simulation.h"
+
+namespace gsv::app {
+namespace {
+
+using recording::operator""s;
+
+class RecordingsTest : public testing::Test {
+ protected:
+  ~RecordingsTest() override { std::filesystem::remove(path_); }
+
+  const std::string path_ =
+      testing::TempDir() + "gsv_recordings_" + std::to_string(getpid()) + ".mcap";
+  std::shared_ptr<simulation::Simulation> simulation_ = recording::MakeSimulation(1s, nullptr);
+  Recordings recordings_{testing::TempDir()};
+};
+
+TEST(RecordedCommandLine, HoldsNoTokens) {
+  EXPECT_EQ(WithoutSecrets({"gsv", "run", "--control-token", "secret", "--watch-token=secret",
+                            "--seed", "3", "--token", "secret"}),
+            (std::vector<std::string>{"gsv", "run", "--seed", "3"}));
+  EXPECT_EQ(WithoutSecrets({"gsv", "--control-token"}), std::vector<std::string>{"gsv"});
+}
+
+TEST(RecordingRate, IsSetByKind) {
+  RecordingChoice choice;
+  EXPECT_TRUE(SetRate("poses=10", choice));
+  EXPECT_TRUE(SetRate("pictures=0.5", choice));
+  EXPECT_EQ(choice.poses_rate, 10);
+  EXPECT_EQ(choice.pictures_rate, 0.5);
+  EXPECT_EQ(choice.readings_rate, 20);
+  for (const char* bad : {"", "poses", "poses=", "poses=x", "poses=0", "poses=-1", "poses=1e9",
+                          "poses=nan", "poses=1 ", "sounds=1", "=1"}) {
+    const base::Status set = SetRate(bad, choice);
+    ASSERT_FALSE(set) << bad;
+    EXPECT_NE(set.error().Sentence().find("expected poses=HZ"), std::string::npos);
+  }
+}
+
+TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
+  ASSERT_TRUE(recordings_.Start(simulation_, path_));
+  ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);
+  ASSERT_TRUE(recordings_.Stop("simulation"));
+  const auto info = recording::ReadInfo(path_);
+  ASSERT_TRUE(info);
+  EXPECT_EQ(info->duration(), 1s);
+  std::map<std::string, recording::StringMap> metadata;
+  for (const auto& record : info->metadata) metadata[record.name] = record.values;
+  EXPECT_FALSE(metadata["gsv.simulation"]["gsv_version"].empty());
+  EXPECT_NE(metadata["gsv.simulation"]["command"].find("recordings_test"), std::string::npos);
+  // The scenario, the scene, and the models of the disc and the wall: looks and collision shapes.
+  ASSERT_EQ(info->attachments.size(), 6u);
+  EXPECT_EQ(info->attachments[0].name, "scenario.yaml");
+  EXPECT_TRUE(info->attachments[2].name.starts_with("models/"));
+  EXPECT_GT(info->attachments[2].size, 20u);
+}
+
+TEST_F(RecordingsTest, ASimulationIsRecordedOnceAtATime) {
+  ASSERT_TRUE(recordings_.Start(simulation_, path_));
+  const base::Status again = recordings_.Start(simulation_, path_ + ".other");
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, base::ErrorCode::kInvalidArgument);
+  EXPECT_NE(again.error().message.find(path_), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path_ + ".other"));
+}
+
+TEST_F(RecordingsTest, ANewSimulationOfTheNameCanBeRecordedWhenTheOldOneIsGone) {
+  ASSERT_TRUE(recordings_.Start(simulation_, path_));
+  simulation_ = recording::MakeSimulation(1s, nullptr);
+  EXPECT_TRUE(recordings_.Start(simulation_, path_ + ".other"));
+  EXPECT_TRUE(recordings_.StopAll());
+  EXPECT_EQ(recording::ReadInfo(path_).value().indexed, true);
+  std::filesystem::remove_all(path_ + ".other");
+}
+
+TEST_F(RecordingsTest, ANameWithoutMcapBecomesAFolderWithMetadata) {
+  const std::filesystem::path folder = path_ + ".folder";
+  ASSERT_TRUE(recordings_.Start(simulation_, folder));
+  ASSERT_TRUE(recordings_.StopAll());
+  EXPECT_EQ(recording::ReadInfo(folder).value().indexed, true);
+  EXPECT_TRUE(std::filesystem::exists(folder / "metadata.yaml"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(RecordingsTest, WhatIsNotRecordedCannotBeStopped) {
+  EXPECT_EQ(recordings_.Stop("simulation").error().code, base::ErrorCode::kNotFound);
+  EXPECT_TRUE(recordings_.StopAll());
+}
+
+TEST_F(RecordingsTest, StoppingAllTellsThatTheDiskWasFull) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  ASSERT_TRUE(recordings_.Start(simulation_, "/dev/full"));
+  ASSERT_EQ(recording::RunToEnd(*simulation_), simulation::Phase::kFinished);
+  const base::Status stopped = recordings_.StopAll();
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().where, "/dev/full");
+}
+
+}  // namespace
+}  // namespace gsv::app

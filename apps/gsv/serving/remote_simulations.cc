@@ -1,0 +1,237 @@
+#include "apps/gsv/serving/remote_simulations.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "apps/gsv/serving/running_instances.h"
+#include "gsv/broker/client/broker_client.h"
+#include "gsv/broker/client/corbaloc.h"
+#include "gsv/broker/client/gsv_service_types.h"
+#include "gsv/orb/errors.h"
+#include "gsv/orb/orb.h"
+#include "gsv/services/conversions.h"
+
+namespace gsv::app {
+namespace {
+
+constexpr std::chrono::milliseconds kBrokerTimeout{3000};
+// Stopping and resetting wait for behaviours, which have 10 s for each call.
+constexpr std::chrono::milliseconds kCallTimeout{30'000};
+constexpr std::size_t kMaxServers = 1000;
+constexpr std::size_t kMaxInstances = 64;  // that are asked at the same time
+
+std::string TextOf(const broker::PropertyList& properties, const char* name) {
+  const broker::Value* value = properties.Find(name);
+  const std::string* text = value == nullptr ? nullptr : value->As<std::string>();
+  return text == nullptr ? "" : *text;
+}
+
+RemoteServer ServerFrom(const broker::PropertyList& properties, const std::string& broker) {
+  RemoteServer server;
+  server.name = TextOf(properties, "name");
+  server.viewer_url = TextOf(properties, "viewer_url");
+  server.broker = broker;
+  if (const broker::Value* pid = properties.Find("pid");
+      pid != nullptr && pid->As<std::int64_t>() != nullptr) {
+    server.pid = std::to_string(*pid->As<std::int64_t>());
+  }
+  server.place = TextOf(properties, "host") + ":" + server.pid;
+  return server;
+}
+
+bool IsMeant(const Selection& selection, const RemoteServer& server) {
+  return selection.server.empty() || selection.server == server.name ||
+         selection.server == server.pid || selection.server == server.place;
+}
+
+base::Status AddSimulationsOf(const RemoteServer& server, CORBA::Object_ptr object,
+                              const Selection& selection, std::vector<RemoteSimulation>& found,
+                              std::chrono::milliseconds call_timeout = kCallTimeout) {
+  orb::LimitCalls(object, kBrokerTimeout);
+  return orb::Call(server.Describe(), [&] {
+    const sba::SimulationService_var service = sba::SimulationService::_narrow(object);
+    if (CORBA::is_nil(service)) throw sba::Failed("the offer is no SimulationService");
+    const sba::Simulations_var simulations = service->list();
+    for (CORBA::ULong i = 0; i < simulations->length(); ++i) {
+      RemoteSimulation simulation;
+      simulation.server = server;
+      simulation.reference = sba::Simulation::_duplicate(simulations.in()[i]);
+      orb::LimitCalls(simulation.reference, call_timeout);
+      const sba::SimulationState_var state = simulation.reference->state();
+      simulation.status = services::FromIdl(state.in());
+      if (selection.simulation.empty() || selection.simulation == simulation.status.name)
+        found.push_back(std::move(simulation));
+    }
+  });
+}
+
+base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
+                              const Selection& selection, std::vector<RemoteSimulation>& found,
+                              std::vector<std::string>& silent) {
+  auto client = broker::BrokerClient::Connect(orb, reference, kBrokerTimeout);
+  if (!client) return base::Fail(client.error());
+  const auto offers = client->Query(broker::SimulationServiceType().name, "", "first", kMaxServers);
+  if (!offers) {
+    // Nobody has offered simulations there so far.
+    if (offers.error().code == base::ErrorCode::kNotFound) return {};
+    return base::Fail(offers.error());
+  }
+  for (const broker::FoundOffer& offer : *offers) {
+    const RemoteServer server = ServerFrom(offer.properties, client->reference());
+    if (!IsMeant(selection, server)) continue;
+    if (auto ok = AddSimulationsOf(server, offer.object, selection, found); !ok)
+      silent.push_back(ok.error().Sentence());
+  }
+  return {};
+}
+
+// Every broker once, those of the newest instances first.
+std::vector<std::string> BrokersOfInstances() {
+  std::vector<std::string> brokers;
+  for (const Instance& instance : RunningInstances()) {
+    if (std::find(brokers.begin(), brokers.end(), instance.broker) == brokers.end())
+      brokers.push_back(instance.broker);
+  }
+  return brokers;
+}
+
+void KeepThoseOfTheNewestInstance(std::vector<RemoteSimulation>& simulations) {
+  for (const Instance& instance : RunningInstances()) {
+    const std::string pid = std::to_string(instance.pid);
+    const auto is_elsewhere = [&](const RemoteSimulation& one) { return one.server.pid != pid; };
+    if (std::all_of(simulations.begin(), simulations.end(), is_elsewhere)) continue;
+    std::erase_if(simulations, is_elsewhere);
+    return;
+  }
+}
+
+std::string NamesOf(const std::vector<RemoteSimulation>& simulations) {
+  std::string names;
+  for (const RemoteSimulation& simulation : simulations) {
+    names += (names.empty() ? "" : ", ") + simulation.status.name + " on " +
+             simulation.server.Describe();
+  }
+  return names;
+}
+
+base::Error NoSuchSimulation(const Selection& selection) {
+  const std::string where = selection.broker.empty() ? "" : selection.broker;
+  Selection all;
+  all.broker = selection.broker;
+  std::vector<std::string> silent;
+  const auto there = FindSimulations(all, silent);
+  if (there && !there->empty()) {
+    return {base::ErrorCode::kInvalidArgument,
+            "no simulation fits that name; there are: " + NamesOf(*there), where};
+  }
+  if (!silent.empty()) return {base::ErrorCode::kUnavailable, silent.front(), where};
+  return {base::ErrorCode::kUnavailable,
+          selection.broker.empty()
+              ? "no simulation of yours runs on this machine; name the broker of another with "
+                "--broker"
+              : "no simulation is offered there",
+          where};
+}
+
+}  // namespace
+
+base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
+                                                        const std::string& broker) {
+  auto client = broker::BrokerClient::Connect(orb, broker, kBrokerTimeout);
+  if (!client) return base::Fail(client.error());
+  const auto offers =
+      client->Query(broker::SimulationServiceType().name, "", "first", kMaxInstances);
+  if (!offers) {
+    if (offers.error().code == base::ErrorCode::kNotFound) return std::vector<RemoteInstance>();
+    return base::Fail(offers.error());
+  }
+  std::vector<RemoteInstance> instances(offers->size());
+  std::vector<std::jthread> askers;
+  for (std::size_t i = 0; i < offers->size(); ++i) {
+    askers.emplace_back([&instance = instances[i], &offer = (*offers)[i], &broker] {
+      instance.server = ServerFrom(offer.properties, broker);
+      std::vector<RemoteSimulation> found;
+      const auto ok = AddSimulationsOf(instance.server, offer.object, {}, found, kBrokerTimeout);
+      if (!ok) instance.problem = ok.error().Sentence();
+      for (RemoteSimulation& simulation : found)
+        instance.simulations.push_back(std::move(simulation.status));
+    });
+  }
+  askers.clear();  // each ends by its time-outs
+  return instances;
+}
+
+base::Result<std::vector<RemoteSimulation>> FindSimulations(const Selection& selection,
+                                                            std::vector<std::string>& silent) {
+  std::vector<RemoteSimulation> found;
+  const bool is_named = !selection.broker.empty();
+  const auto brokers = is_named ? std::vector<std::string>{selection.broker} : BrokersOfInstances();
+  if (brokers.empty()) return found;
+  if (auto ok = broker::NormaliseReference(brokers.front()); !ok) return base::Fail(ok.error());
+  auto orb = orb::StartOrb({});
+  if (!orb) return base::Fail(orb.error());
+  for (const std::string& broker : brokers) {
+    const auto ok = AddSimulationsAt(*orb, broker, selection, found, silent);
+    if (ok) continue;
+    if (is_named) return base::Fail(ok.error());
+    silent.push_back(ok.error().Sentence());
+  }
+  return found;
+}
+
+base::Result<RemoteSimulation> FindOneSimulation(const Selection& selection) {
+  std::vector<std::string> silent;
+  auto found = FindSimulations(selection, silent);
+  if (!found) return base::Fail(found.error());
+  if (found->empty()) return base::Fail(NoSuchSimulation(selection));
+  const bool is_open =
+      selection.broker.empty() && selection.server.empty() && selection.simulation.empty();
+  if (is_open) KeepThoseOfTheNewestInstance(*found);
+  if (found->size() != 1) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "several simulations fit; name one, with --server where names are equal: " +
+                          NamesOf(*found));
+  }
+  return std::move(found->front());
+}
+
+base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
+  const bool is_named = !selection.broker.empty();
+  const auto brokers = is_named ? std::vector<std::string>{selection.broker} : BrokersOfInstances();
+  std::vector<RemoteServer> found;
+  auto orb = orb::StartOrb({});
+  if (!orb) return base::Fail(orb.error());
+  for (const std::string& broker : brokers) {
+    auto client = broker::BrokerClient::Connect(*orb, broker, kBrokerTimeout);
+    const auto offers =
+        client ? client->Query(broker::SimulationServiceType().name, "", "first", kMaxServers)
+               : base::Fail(client.error());
+    if (!offers && is_named) return base::Fail(offers.error());
+    if (!offers) continue;  // of one's own instances some may just have ended
+    for (const broker::FoundOffer& offer : *offers) {
+      RemoteServer server = ServerFrom(offer.properties, client->reference());
+      if (IsMeant(selection, server)) found.push_back(std::move(server));
+    }
+  }
+  if (found.empty()) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "no such instance is offered; see `gsv ps`, or name its broker with --broker",
+                      selection.server);
+  }
+  if (found.size() > 1 && !selection.server.empty()) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "several instances have that name; name one by its HOST:PID",
+                      selection.server);
+  }
+  return std::move(found.front());
+}
+
+base::Result<simulation::SimulationStatus> StatusOf(const RemoteSimulation& simulation) {
+  return orb::Call(simulation.server.Describe(), [&] {
+    const sba::SimulationState_var state = simulation.reference->state();
+    return services::FromIdl(state.in());
+  });
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,86 @@
+// What a gsv process that runs simulations consists of: an ORB, a broker (its own or one that is
+// there), sensors with a renderer, simulations, behaviours, the services, the gateway.
+//
+// Threads  made and destroyed on the main thread.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/gsv/commands/viewer_options.h"
+#include "apps/gsv/machine/child_process.h"
+#include "apps/gsv/running/sensor_types.h"
+#include "apps/gsv/servers/scenario_service.h"
+#include "apps/gsv/serving/behaviour_launcher.h"
+#include "apps/gsv/serving/running_instances.h"
+#include "apps/gsv/serving/server_limits.h"
+#include "gsv/formats/files/read_limits.h"
+#include "gsv/services/broker_behaviours.h"
+#include "gsv/services/server_load.h"
+#include "gsv/services/simulation_host.h"
+#include "gsv/services/simulation_servant.h"
+
+namespace gsv::app {
+
+class LostSimulations;
+class Recordings;
+class SimulationBuilder;
+
+struct RuntimeOptions {
+  std::string broker;  // empty: a broker of its own, on loopback, for as long as this lives
+  std::vector<std::filesystem::path> model_path;
+  SensorTypeOptions sensors;
+  formats::ReadLimits limits;
+  ServerLimits server_limits;
+  bool viewer = true;
+  ViewerOptions web;
+  // Of a server that is to tell, when it is started again, what it ran when it was killed; empty:
+  // it is not noted.
+  std::string noted_as;
+};
+
+class Runtime {
+ public:
+  static base::Result<std::unique_ptr<Runtime>> Start(const RuntimeOptions& options);
+  ~Runtime();
+
+  services::SimulationHost& host() { return *host_; }
+  services::BrokerBehaviours& behaviours() { return *behaviours_; }
+  BehaviourLauncher& launcher() { return *launcher_; }
+  broker::BrokerClient& broker() { return *broker_; }
+  Recordings& recordings() { return *recordings_; }
+  const std::string& viewer_url() const { return viewer_url_; }  // empty: none
+
+  // Registers sba::SimulationService, with the simulations that are there, with the broker until
+  // this ends, and notes for this user's other commands where it is. Besides, sba::ScenarioService
+  // for so many `scenarios` at once, if there are any.
+  base::Status OfferService(const std::string& name, int scenarios = 0);
+
+ private:
+  Runtime() = default;
+  base::Status StartBroker(const RuntimeOptions& options);
+  base::Status StartGateway(const RuntimeOptions& options);
+  services::ServiceHooks Hooks();
+  base::Status OfferScenarios(const std::string& name, int scenarios);
+
+  std::unique_ptr<ChildProcess> broker_process_;
+  CORBA::ORB_var orb_;
+  std::unique_ptr<broker::BrokerClient> broker_;
+  std::shared_ptr<services::SimulationHost> host_;
+  std::unique_ptr<Recordings> recordings_;
+  std::unique_ptr<LostSimulations> lost_;  // null: nothing is noted
+  std::unique_ptr<services::BrokerBehaviours> behaviours_;
+  std::unique_ptr<BehaviourLauncher> launcher_;
+  std::unique_ptr<SimulationBuilder> builder_;
+  std::unique_ptr<gateway::Gateway> gateway_;
+  std::string viewer_url_;
+  PortableServer::Servant_var<services::SimulationServiceServant> service_;
+  PortableServer::Servant_var<ScenarioServiceServant> scenarios_;
+  PortableServer::Servant_var<services::ServerLoad> load_;
+  std::vector<std::string> offers_;  // their ids
+  std::unique_ptr<InstanceRecord> record_;
+};
+
+}  // namespace gsv::app

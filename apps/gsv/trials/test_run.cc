@@ -1,0 +1,208 @@
+// One scenario, run in a child process: what crashes there ends nothing here.
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "apps/gsv/exit_code.h"
+#include "apps/gsv/machine/child_process.h"
+#include "apps/gsv/machine/installation.h"
+#include "apps/gsv/trials/test_cases.h"
+#include "gsv/base/temporary_folder.h"
+#include "gsv/recording/reading/recover.h"
+
+namespace gsv::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Seconds = std::chrono::duration<double>;
+using TestClock = std::chrono::steady_clock;
+
+constexpr auto kLookPeriod = std::chrono::milliseconds(100);
+constexpr double kSecondsAfter = 1;        // simulated, that a recording goes on behind the failure
+constexpr double kPatience = 30;           // wall seconds behind the child's own time-out
+constexpr std::size_t kMostErrors = 4000;  // characters of what the child complained of
+
+struct ChildOutcome {
+  std::string ending;  // "exit code 0"; empty: it was cancelled
+  std::string errors;
+  nlohmann::ordered_json report;
+};
+
+std::string WholeText(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+nlohmann::ordered_json LastLineOf(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const std::size_t start = text.rfind('\n');
+  auto json = nlohmann::ordered_json::parse(text.substr(start == std::string::npos ? 0 : start + 1),
+                                            nullptr, false);
+  return json.is_object() ? json : nlohmann::ordered_json::object();
+}
+
+std::vector<std::string> CommandFor(const TestCase& test, const TestOptions& options,
+                                    const fs::path& folder) {
+  // A broker of its own, whatever the environment says; what it says goes to files.
+  std::vector<std::string> command{"/bin/sh",
+                                   "-c",
+                                   "unset GSV_BROKER; exec \"$@\" >\"$0/stdout\" 2>\"$0/stderr\"",
+                                   folder.string(),
+                                   ProgramPath().string(),
+                                   "run",
+                                   test.file,
+                                   "--lockstep",
+                                   "--headless",
+                                   "--json",
+                                   "--wall-timeout",
+                                   fmt::format("{}", options.timeout)};
+  if (!options.failures.empty()) {
+    command.insert(command.end(), {"--failure-picture", (folder / "picture.jpg").string()});
+  }
+  if (options.record) {
+    command.insert(command.end(), {"--record", (folder / "run.mcap").string(), "--record-rate",
+                                   "poses=25,pictures=0.2"});
+  }
+  command.insert(command.end(), {"--threads", std::to_string(options.threads)});
+  return command;
+}
+
+base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& options,
+                                    const fs::path& folder, const std::atomic<bool>& is_cancelled) {
+  auto child = ChildProcess::Start(CommandFor(test, options, folder), true);
+  if (!child) return base::Fail(child.error());
+  const auto give_up = TestClock::now() + Seconds(options.timeout + kPatience);
+  ChildOutcome outcome;
+  while (outcome.ending.empty() && !is_cancelled && TestClock::now() < give_up) {
+    outcome.ending = (*child)->AwaitEnd(kLookPeriod);
+  }
+  if (outcome.ending.empty() && !is_cancelled) {
+    (*child)->Signal(SIGKILL);
+    outcome.ending = "no end: it was killed";
+  }
+  outcome.errors = WholeText(folder / "stderr");
+  if (outcome.errors.size() > kMostErrors)
+    outcome.errors = "…" + outcome.errors.substr(outcome.errors.size() - kMostErrors);
+  outcome.report = LastLineOf(WholeText(folder / "stdout"));
+  return outcome;
+}
+
+// When the first expectation was violated, and who it is about.
+double FailureTime(const nlohmann::ordered_json& report) {
+  double first = report.value("sim_time_s", 0.0);
+  for (const auto& expectation : report.value("expectations", nlohmann::ordered_json::array())) {
+    if (!expectation.value("holds", true))
+      first = std::min(first, expectation.value("time_s", first));
+  }
+  return first;
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string Message(const ChildOutcome& outcome) {
+  std::string message;
+  for (const auto& expectation :
+       outcome.report.value("expectations", nlohmann::ordered_json::array())) {
+    if (expectation.value("holds", true)) continue;
+    message += (message.empty() ? "" : "\n") + expectation.value("where", "") + ": " +
+               expectation.value("name", "") + ": " + expectation.value("detail", "");
+  }
+  if (!message.empty() && outcome.ending == "exit code 1") return message;
+  message += (message.empty() ? "" : "\n") + ("it ended with " + outcome.ending);
+  return outcome.errors.empty() ? message : message + "\n" + outcome.errors;
+}
+
+// Leaves in options.failures what shows the failure: the last seconds of the recording, the
+// picture, what was said, and how to see it again.
+void KeepFailure(const fs::path& folder, const TestOptions& options, const ChildOutcome& outcome,
+                 TestResult& result) {
+  std::string name = result.test.name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  const fs::path kept = fs::absolute(options.failures) / name;
+  std::error_code ignored;
+  fs::remove_all(kept, ignored);
+  fs::create_directories(kept, ignored);
+  for (const char* file : {"picture.jpg", "stderr"}) {
+    fs::copy_file(folder / file, kept / file, ignored);
+  }
+  fs::copy_file(result.test.file, kept / "scenario.yaml", ignored);
+  const double failed = FailureTime(outcome.report);
+  std::string text =
+      result.message + "\n\nState hash: " + outcome.report.value("state_hash", "none") +
+      "\nThe seed is in scenario.yaml, a copy.\n\nAgain:\n  " + result.command + "\n";
+  if (fs::exists(folder / "run.mcap", ignored)) {
+    const recording::Selection last{{},
+                                    base::FromSeconds(std::max(0.0, failed - options.kept_seconds)),
+                                    base::FromSeconds(failed + kSecondsAfter)};
+    const fs::path file = kept / "run.mcap";
+    if (const auto cut = recording::Recover(folder / "run.mcap", file, last); !cut) {
+      text += "\nThe recording could not be kept: " + cut.error().Sentence() + "\n";
+    } else {
+      std::string about;
+      for (const auto& robot : outcome.report.value("robots", nlohmann::ordered_json::array())) {
+        const std::string each = robot.value("name", "");
+        if (about.empty() && result.message.find(each) != std::string::npos) about = each;
+      }
+      const std::string select = about.empty() ? "" : "&select=" + about;
+      text += fmt::format(
+          "\nSee it in the viewer:\n  gsv replay --paused --port 8080 {}\n  "
+          "http://127.0.0.1:8080/#t={:g}{}\n",
+          Quoted(file), failed, select);
+    }
+  }
+  std::ofstream(kept / "README.txt") << text;
+  result.folder = kept;
+}
+
+TestResult::Status StatusOf(const ChildOutcome& outcome) {
+  if (outcome.ending.empty()) return TestResult::Status::kInterrupted;
+  if (outcome.ending == "exit code 0") return TestResult::Status::kPassed;
+  return outcome.ending == "exit code 1" ? TestResult::Status::kFailed : TestResult::Status::kError;
+}
+
+}  // namespace
+
+TestResult RunTestCase(const TestCase& test, const TestOptions& options,
+                       const std::atomic<bool>& is_cancelled) {
+  const auto start = TestClock::now();
+  TestResult result{test};
+  result.command = "gsv run " + Quoted(fs::absolute(test.file).lexically_normal()) + " --lockstep";
+  for (int i = 0; i < options.repeat; ++i) {
+    const auto folder = base::TemporaryFolder::Make("gsv-test");
+    const auto outcome =
+        folder ? RunChild(test, options, folder->path(), is_cancelled) : base::Fail(folder.error());
+    if (!outcome) {
+      result.message = outcome.error().Sentence();
+      break;
+    }
+    result.status = StatusOf(*outcome);
+    result.is_bad_input = outcome->ending == "exit code 3";
+    result.report = outcome->report;
+    result.hashes.push_back(outcome->report.value("state_hash", ""));
+    if (result.status == TestResult::Status::kPassed && result.hashes.back() != result.hashes[0]) {
+      result.status = TestResult::Status::kFailed;
+      result.message = fmt::format("run {} came to another state, {}, than the first, {}", i + 1,
+                                   result.hashes.back(), result.hashes[0]);
+    } else if (result.status != TestResult::Status::kPassed) {
+      result.message = Message(*outcome);
+    }
+    if (result.status == TestResult::Status::kPassed) continue;
+    if (result.status != TestResult::Status::kInterrupted && !options.failures.empty())
+      KeepFailure(folder->path(), options, *outcome, result);
+    break;
+  }
+  result.wall_seconds = Seconds(TestClock::now() - start).count();
+  return result;
+}
+
+}  // namespace gsv::app

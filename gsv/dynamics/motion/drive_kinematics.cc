@@ -1,0 +1,212 @@
+#include "gsv/dynamics/motion/drive_kinematics.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace gsv::dynamics {
+namespace {
+
+using base::ErrorCode;
+using geometry::Vector3;
+using model::DriveKind;
+
+base::Status CheckRange(const model::Range& range, const char* what, double must_contain) {
+  if (!(range.min <= range.max)) {
+    return base::Fail(ErrorCode::kBadModel, fmt::format("the drive's {} has min {} above max {}",
+                                                        what, range.min, range.max));
+  }
+  if (!(range.min <= must_contain && must_contain <= range.max)) {
+    return base::Fail(ErrorCode::kBadModel,
+                      fmt::format("the drive's {} from {} to {} must include {}", what, range.min,
+                                  range.max, must_contain));
+  }
+  return {};
+}
+
+base::Status CheckPositive(double value, const char* what) {
+  if (value > 0 && std::isfinite(value)) return {};
+  return base::Fail(ErrorCode::kBadModel,
+                    fmt::format("the drive's {} is {}; it must be above 0", what, value));
+}
+
+base::Status CheckJoints(const model::Model& model, const std::vector<int>& joints) {
+  for (const int joint : joints) {
+    if (joint < 0 || joint >= static_cast<int>(model.joints.size())) {
+      return base::Fail(ErrorCode::kBadModel,
+                        fmt::format("the drive turns joint {}, of {}", joint, model.joints.size()));
+    }
+  }
+  return {};
+}
+
+base::Status Check(const model::Model& model) {
+  const model::Drive& drive = *model.drive;
+  base::Status status = CheckRange(drive.linear_velocity, "linear velocity", 0);
+  if (status) status = CheckRange(drive.angular_velocity, "angular velocity", 0);
+  if (status) status = CheckRange(drive.linear_acceleration, "linear acceleration", 0);
+  if (status) status = CheckRange(drive.angular_acceleration, "angular acceleration", 0);
+  for (const auto* joints : {&drive.left_wheels, &drive.right_wheels, &drive.steered}) {
+    if (status) status = CheckJoints(model, *joints);
+  }
+  if (status && !(drive.left_wheels.empty() && drive.right_wheels.empty())) {
+    status = CheckPositive(drive.wheel_radius, "wheel radius");
+    if (status) status = CheckPositive(drive.wheel_separation, "wheel separation");
+  }
+  if (status) status = CheckPositive(drive.left_wheel_scale, "left wheel's scale");
+  if (status) status = CheckPositive(drive.right_wheel_scale, "right wheel's scale");
+  if (status && drive.kind == DriveKind::kAckermann) {
+    status = CheckPositive(drive.wheel_base, "wheel base");
+    if (status && !(drive.steering_limit > 0 && drive.steering_limit < 1.57)) {
+      return base::Fail(
+          ErrorCode::kBadModel,
+          fmt::format("the drive's steering limit is {} rad; it must lie between 0 and "
+                      "a quarter turn",
+                      drive.steering_limit));
+    }
+  }
+  return status;
+}
+
+// Where the drive's reference point lies on the model's x axis.
+double ReferenceX(const model::Model& model) {
+  const model::Drive& drive = *model.drive;
+  double sum = 0, rearmost = 0;
+  int count = 0;
+  for (const auto* joints : {&drive.left_wheels, &drive.right_wheels}) {
+    for (const int joint : *joints) {
+      const double x = model.joints[joint].model_from_joint.position.x;
+      sum += x;
+      rearmost = count == 0 ? x : std::min(rearmost, x);
+      ++count;
+    }
+  }
+  if (count == 0 || drive.kind == DriveKind::kVelocity) return 0;
+  return drive.kind == DriveKind::kAckermann ? rearmost : sum / count;
+}
+
+double Follow(double target, double now, const model::Range& speed,
+              const model::Range& acceleration, double seconds, double fastest) {
+  if (!std::isfinite(target)) target = 0;
+  target = std::clamp(std::clamp(target, speed.min, speed.max), -fastest, fastest);
+  return now + std::clamp(target - now, acceleration.min * seconds, acceleration.max * seconds);
+}
+
+}  // namespace
+
+base::Result<DriveKinematics> DriveKinematics::Create(const model::Model& model) {
+  if (base::Status status = Check(model); !status) {
+    status.error().where = model.source.empty() ? model.name : model.source;
+    return base::Fail(status.error());
+  }
+  DriveKinematics kinematics;
+  kinematics.drive_ = *model.drive;
+  kinematics.reference_x_ = ReferenceX(model);
+  kinematics.wheels_are_as_believed_ =
+      model.drive->kind != DriveKind::kDifferential ||
+      (model.drive->left_wheel_scale == 1 && model.drive->right_wheel_scale == 1);
+  kinematics.AddWheels(model, model.drive->left_wheels, 1);
+  kinematics.AddWheels(model, model.drive->right_wheels, -1);
+  for (const int joint : model.drive->steered) {
+    const geometry::Pose& pose = model.joints[joint].model_from_joint;
+    const double up = (pose.orientation * model.joints[joint].axis).z;
+    kinematics.steered_.push_back({joint, up < 0 ? -1.0 : 1.0, pose.position.y});
+  }
+  return kinematics;
+}
+
+DriveKinematics DriveKinematics::Free() {
+  DriveKinematics kinematics;
+  kinematics.drive_.kind = DriveKind::kVelocity;
+  return kinematics;
+}
+
+void DriveKinematics::AddWheels(const model::Model& model, const std::vector<int>& joints,
+                                double side) {
+  const double to_side = side * drive_.wheel_separation / 2;
+  for (const int joint : joints) {
+    const geometry::Pose& pose = model.joints[joint].model_from_joint;
+    // A wheel whose axis points to the left turns forwards.
+    const bool backwards = (pose.orientation * model.joints[joint].axis).y < 0;
+    const double scale = side > 0 ? drive_.left_wheel_scale : drive_.right_wheel_scale;
+    const double radius =
+        wheels_are_as_believed_ ? drive_.wheel_radius : drive_.wheel_radius * scale;
+    const double per_metre = (backwards ? -1 : 1) / radius;
+    const double ahead = pose.position.x - reference_x_;
+    Wheel wheel{joint, per_metre, 0, -to_side * per_metre, 0};
+    if (drive_.kind == DriveKind::kSynchro) wheel.angle = 0;
+    if (drive_.kind == DriveKind::kAckermann && ahead > 1e-6) wheel.ahead = ahead;
+    if (drive_.kind == DriveKind::kMecanum) {
+      // Rollers at 45°, seen from above as an X.
+      const double diagonal = ahead < 0 ? 1 : -1;
+      wheel.left = side * diagonal * per_metre;
+      wheel.angle = -side * (drive_.wheel_separation + drive_.wheel_base) / 2 * per_metre;
+    }
+    wheels_.push_back(wheel);
+  }
+}
+
+world::DriveCommand DriveKinematics::Next(const world::DriveState& state, base::SimTime now,
+                                          double step_seconds) const {
+  const bool stale = drive_.command_timeout > base::SimTime(0) &&
+                     now - state.command_time >= drive_.command_timeout;
+  const world::DriveCommand target = stale ? world::DriveCommand{} : state.command;
+  world::DriveCommand next;
+  next.linear = Follow(target.linear, state.actual.linear, drive_.linear_velocity,
+                       drive_.linear_acceleration, step_seconds, kMaxLinearSpeed);
+  if (can_move_sideways()) {
+    next.lateral = Follow(target.lateral, state.actual.lateral, drive_.linear_velocity,
+                          drive_.linear_acceleration, step_seconds, kMaxLinearSpeed);
+  }
+  next.angular = Follow(target.angular, state.actual.angular, drive_.angular_velocity,
+                        drive_.angular_acceleration, step_seconds, kMaxAngularSpeed);
+  if (drive_.kind == DriveKind::kAckermann) {
+    const double fastest_turn =
+        std::abs(next.linear) * std::tan(drive_.steering_limit) / drive_.wheel_base;
+    next.angular = std::clamp(next.angular, -fastest_turn, fastest_turn);
+  }
+  return next;
+}
+
+world::DriveCommand DriveKinematics::TrueMotion(const world::DriveCommand& motion) const {
+  const double aside = motion.angular * drive_.wheel_separation / 2;
+  const double left = (motion.linear - aside) * drive_.left_wheel_scale;
+  const double right = (motion.linear + aside) * drive_.right_wheel_scale;
+  return {(left + right) / 2, motion.lateral, (right - left) / drive_.wheel_separation};
+}
+
+double DriveKinematics::RollOf(const Wheel& wheel, const Travel& travel) const {
+  if (wheel.ahead == 0) {
+    return wheel.forward * travel.forward + wheel.left * travel.left + wheel.angle * travel.angle;
+  }
+  const double along = travel.forward + wheel.angle / wheel.forward * travel.angle;
+  const double path =
+      std::sqrt(along * along + wheel.ahead * wheel.ahead * travel.angle * travel.angle);
+  return wheel.forward * std::copysign(path, along);
+}
+
+double DriveKinematics::SteeringAngle(const Steered& steered, double curvature) const {
+  return steered.sign * std::atan2(drive_.wheel_base * curvature, 1 - steered.lateral * curvature);
+}
+
+void DriveKinematics::TurnJoints(const Travel& travel, const world::DriveCommand& motion,
+                                 double step_seconds, std::span<double> positions,
+                                 std::span<double> velocities) const {
+  const world::DriveCommand moves = wheels_are_as_believed_ ? motion : TrueMotion(motion);
+  const Travel per_second{moves.linear, moves.lateral, moves.angular};
+  for (const Wheel& wheel : wheels_) {
+    positions[wheel.joint] += RollOf(wheel, travel);
+    velocities[wheel.joint] = RollOf(wheel, per_second);
+  }
+  if (drive_.kind != DriveKind::kAckermann) return;
+  for (const Steered& steered : steered_) {
+    // A base at rest keeps its wheels as they are.
+    const double angle = motion.linear == 0
+                             ? positions[steered.joint]
+                             : SteeringAngle(steered, motion.angular / motion.linear);
+    velocities[steered.joint] = (angle - positions[steered.joint]) / step_seconds;
+    positions[steered.joint] = angle;
+  }
+}
+
+}  // namespace gsv::dynamics

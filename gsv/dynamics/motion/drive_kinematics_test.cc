@@ -1,0 +1,176 @@
+#include "gsv/dynamics/motion/drive_kinematics.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace gsv::dynamics {
+namespace {
+
+using base::FromSeconds;
+using model::DriveKind;
+
+// Wheels at (±0.3, ±0.25), the rear ones first; in front of them steering joints.
+model::Model FourWheels(DriveKind kind) {
+  model::Model model;
+  model.name = "cart";
+  model.links.resize(7);
+  model.drive = model::Drive{};
+  model::Drive& drive = *model.drive;
+  drive.kind = kind;
+  drive.wheel_radius = 0.1;
+  drive.wheel_separation = 0.5;
+  drive.wheel_base = 0.6;
+  for (const double x : {-0.3, 0.3}) {
+    for (const double y : {0.25, -0.25}) {
+      model::Joint wheel;
+      wheel.kind = model::JointKind::kContinuous;
+      wheel.model_from_joint.position = {x, y, 0.1};
+      wheel.axis = {0, 1, 0};
+      (y > 0 ? drive.left_wheels : drive.right_wheels)
+          .push_back(static_cast<int>(model.joints.size()));
+      model.joints.push_back(wheel);
+    }
+  }
+  for (const double y : {0.25, -0.25}) {
+    model::Joint steering;
+    steering.kind = model::JointKind::kRevolute;
+    steering.model_from_joint.position = {0.3, y, 0.1};
+    drive.steered.push_back(static_cast<int>(model.joints.size()));
+    model.joints.push_back(steering);
+  }
+  return model;
+}
+
+DriveKinematics Make(const model::Model& model) {
+  auto kinematics = DriveKinematics::Create(model);
+  EXPECT_TRUE(kinematics);
+  return *kinematics;
+}
+
+world::DriveState Commanded(const world::DriveCommand& command) {
+  world::DriveState state;
+  state.command = command;
+  return state;
+}
+
+TEST(DriveKinematics, AcceleratesAndBrakesWithinItsLimits) {
+  model::Model model = FourWheels(DriveKind::kDifferential);
+  model.drive->linear_velocity = {-0.5, 1};
+  model.drive->linear_acceleration = {-4, 2};
+  model.drive->angular_acceleration = {-3, 3};
+  const DriveKinematics drive = Make(model);
+  world::DriveState state = Commanded({5, 7, 1});
+  for (int i = 1; i <= 100; ++i) {
+    state.actual = drive.Next(state, {}, 0.01);
+    EXPECT_NEAR(state.actual.linear, std::min(1.0, 0.02 * i), 1e-12);
+    EXPECT_NEAR(state.actual.angular, std::min(1.0, 0.03 * i), 1e-12);
+    EXPECT_EQ(state.actual.lateral, 0);
+  }
+  state.command = {-5, 0, 0};
+  state.actual = drive.Next(state, {}, 0.01);
+  EXPECT_NEAR(state.actual.linear, 0.96, 1e-12);
+  for (int i = 0; i < 100; ++i) state.actual = drive.Next(state, {}, 0.01);
+  EXPECT_NEAR(state.actual.linear, -0.5, 1e-12);
+}
+
+TEST(DriveKinematics, BrakesWhenTheCommandIsTooOld) {
+  model::Model model = FourWheels(DriveKind::kDifferential);
+  model.drive->command_timeout = FromSeconds(0.5);
+  const DriveKinematics drive = Make(model);
+  world::DriveState state = Commanded({1, 0, 1});
+  state.command_time = FromSeconds(2);
+  EXPECT_EQ(drive.Next(state, FromSeconds(2.49), 0.01).linear, 1);
+  EXPECT_EQ(drive.Next(state, FromSeconds(2.5), 0.01), (world::DriveCommand{}));
+}
+
+TEST(DriveKinematics, TakesWhatIsNotFiniteAsZeroAndWhatIsAbsurdAsTheFastest) {
+  const DriveKinematics drive = Make(FourWheels(DriveKind::kDifferential));
+  const double nan = std::nan("");
+  EXPECT_EQ(drive.Next(Commanded({nan, nan, INFINITY}), {}, 0.01), (world::DriveCommand{}));
+  EXPECT_EQ(drive.Next(Commanded({1e300, 0, -1e300}), {}, 0.01),
+            (world::DriveCommand{kMaxLinearSpeed, 0, -kMaxAngularSpeed}));
+}
+
+TEST(DriveKinematics, AckermannTurnsNoTighterThanItsSteering) {
+  model::Model model = FourWheels(DriveKind::kAckermann);
+  model.drive->steering_limit = 0.5;
+  const DriveKinematics drive = Make(model);
+  EXPECT_EQ(drive.Next(Commanded({0, 0, 1}), {}, 0.01).angular, 0);
+  EXPECT_NEAR(drive.Next(Commanded({2, 0, 9}), {}, 0.01).angular, 2 * std::tan(0.5) / 0.6, 1e-12);
+  EXPECT_NEAR(drive.Next(Commanded({-2, 0, 9}), {}, 0.01).angular, 2 * std::tan(0.5) / 0.6, 1e-12);
+  EXPECT_NEAR(drive.Next(Commanded({2, 0, 1}), {}, 0.01).angular, 1, 1e-12);
+  EXPECT_FALSE(drive.can_turn_on_the_spot());
+  // The rear axle, 0.3 m behind the origin, does not slip sideways.
+  const geometry::Twist twist = drive.OriginTwist({2, 0, 1});
+  EXPECT_NEAR(twist.y - twist.angular * 0.3, 0, 1e-12);
+  EXPECT_EQ(twist.x, 2);
+}
+
+TEST(DriveKinematics, AckermannWheelsPointAtRightAnglesToTheCentreOfTheTurn) {
+  const model::Model model = FourWheels(DriveKind::kAckermann);
+  const DriveKinematics drive = Make(model);
+  std::vector<double> positions(6), velocities(6);
+  const world::DriveCommand motion{2, 0, 1};  // about a centre 2 m to the left of the rear axle
+  drive.TurnJoints({0.02, 0, 0.01}, motion, 0.01, positions, velocities);
+  EXPECT_NEAR(positions[4], std::atan(0.6 / 1.75), 1e-12);
+  EXPECT_NEAR(positions[5], std::atan(0.6 / 2.25), 1e-12);
+  EXPECT_NEAR(velocities[4], positions[4] / 0.01, 1e-9);
+  // Each wheel's speed is its distance from that centre times the turning rate.
+  EXPECT_NEAR(velocities[0], 1.75 / 0.1, 1e-12);
+  EXPECT_NEAR(velocities[1], 2.25 / 0.1, 1e-12);
+  EXPECT_NEAR(velocities[2], std::hypot(1.75, 0.6) / 0.1, 1e-12);
+  EXPECT_NEAR(velocities[3], std::hypot(2.25, 0.6) / 0.1, 1e-12);
+  EXPECT_NEAR(positions[3], std::hypot(2.25, 0.6) / 0.1 * 0.01, 1e-12);
+  // At rest the steering stays.
+  const double steered = positions[4];
+  drive.TurnJoints({}, {}, 0.01, positions, velocities);
+  EXPECT_EQ(positions[4], steered);
+  EXPECT_EQ(velocities[4], 0);
+}
+
+TEST(DriveKinematics, MecanumWheelsMoveTheBaseSideways) {
+  const DriveKinematics drive = Make(FourWheels(DriveKind::kMecanum));
+  std::vector<double> positions(6), velocities(6);
+  drive.TurnJoints({0, 1, 0}, {0, 1, 0}, 1, positions, velocities);
+  // To the left: front left and rear right turn backwards.
+  EXPECT_NEAR(positions[2], -10, 1e-12);
+  EXPECT_NEAR(positions[3], 10, 1e-12);
+  EXPECT_NEAR(positions[0], 10, 1e-12);
+  EXPECT_NEAR(positions[1], -10, 1e-12);
+  drive.TurnJoints({0, 0, 1}, {0, 0, 1}, 1, positions, velocities);
+  EXPECT_NEAR(velocities[2], -(0.5 + 0.6) / 2 / 0.1, 1e-12);
+  EXPECT_NEAR(velocities[1], (0.5 + 0.6) / 2 / 0.1, 1e-12);
+  EXPECT_EQ(drive.Next(Commanded({0, 1, 0}), {}, 0.01).lateral, 1);
+}
+
+TEST(DriveKinematics, SynchroWheelsAllRollAlike) {
+  const DriveKinematics drive = Make(FourWheels(DriveKind::kSynchro));
+  std::vector<double> positions(6), velocities(6);
+  drive.TurnJoints({1, 0, 2}, {1, 0, 2}, 1, positions, velocities);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(positions[i], 10, 1e-12);
+}
+
+TEST(DriveKinematics, RefusesWhatMakesNoSense) {
+  const auto message = [](auto change) {
+    model::Model model = FourWheels(DriveKind::kAckermann);
+    change(*model.drive);
+    const auto kinematics = DriveKinematics::Create(model);
+    return kinematics ? std::string() : kinematics.error().Sentence();
+  };
+  EXPECT_EQ(message([](model::Drive& d) { d.wheel_radius = 0; }),
+            "cart: the drive's wheel radius is 0; it must be above 0");
+  EXPECT_EQ(message([](model::Drive& d) { d.wheel_base = NAN; }),
+            "cart: the drive's wheel base is nan; it must be above 0");
+  EXPECT_EQ(message([](model::Drive& d) { d.left_wheels = {9}; }),
+            "cart: the drive turns joint 9, of 6");
+  EXPECT_EQ(message([](model::Drive& d) {
+              d.linear_acceleration = {1, 2};
+            }),
+            "cart: the drive's linear acceleration from 1 to 2 must include 0");
+  EXPECT_EQ(message([](model::Drive& d) { d.steering_limit = 2; }),
+            "cart: the drive's steering limit is 2 rad; it must lie between 0 and a quarter turn");
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

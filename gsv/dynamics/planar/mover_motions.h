@@ -1,0 +1,103 @@
+// Where all movers are within a step, and how they move in its present leg.
+//
+// Units    metres, radians, seconds; positions in the world frame, motions in each base's own.
+// Threads  calls for different movers may run concurrently.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "gsv/dynamics/planar/planar_scene.h"
+#include "gsv/geometry/planar_motion.h"
+#include "gsv/world/state.h"
+
+namespace gsv::dynamics {
+
+// Where a body stands and how it heads, without a detour through angles.
+inline geometry::PlanarPosition PositionOf(const geometry::Pose& pose) {
+  const geometry::Quaternion& q = pose.orientation;
+  const double cosine = 1 - 2 * (q.y * q.y + q.z * q.z), sine = 2 * (q.w * q.z + q.x * q.y);
+  const double length = std::sqrt(cosine * cosine + sine * sine);
+  if (!(length > 0)) return {pose.position.x, pose.position.y, 1, 0};
+  return {pose.position.x, pose.position.y, cosine / length, sine / length};
+}
+
+inline double SpeedOf(const geometry::Twist& twist) {
+  return twist.y == 0 ? std::abs(twist.x) : std::sqrt(twist.x * twist.x + twist.y * twist.y);
+}
+
+// What a mover has covered in a step.
+struct Journey {
+  Travel travel;
+  double distance = 0;  // of the model's origin
+};
+
+class MoverMotions {
+ public:
+  explicit MoverMotions(const PlanarScene& scene) : scene_(scene) {}
+
+  // Makes room for the scene's movers.
+  void Resize();
+
+  // Puts a mover where `state` has it.
+  void Load(std::uint32_t mover, const world::State& state);
+  // Lets it follow its command in a first leg of so many seconds; in one of 0 s everybody stays.
+  void FollowCommand(std::uint32_t mover, const world::State& state, double seconds);
+  void SetLeg(std::uint32_t mover, const geometry::Twist& twist, double seconds);
+  // Moves it to its leg's end.
+  void RunLeg(std::uint32_t mover, Journey& journey);
+  // Writes where it is, how it moves and how its wheels turned to `state`.
+  void Store(std::uint32_t mover, const Journey& journey, double seconds,
+             world::State& state) const;
+
+  const DriveKinematics& kinematics(std::uint32_t mover) const {
+    return scene_.kind(scene_.movers()[mover]).kinematics;
+  }
+
+  // One entry for each of the scene's movers.
+  std::vector<geometry::PlanarPosition> positions;
+  std::vector<world::DriveCommand> drives;  // while it moves, and then at the end
+  std::vector<geometry::Twist> twists;      // in this leg
+  std::vector<double> times;                // in this leg; 0 for who stands
+  std::vector<double> reaches;              // how far any part may get in this step
+  std::vector<Vector2> normals;             // of those stopped: to what is in the way
+
+ private:
+  const PlanarScene& scene_;
+};
+
+// What follows is done for each mover in each step, hence inline.
+
+inline void MoverMotions::Load(std::uint32_t mover, const world::State& state) {
+  positions[mover] = PositionOf(state.bodies[scene_.movers()[mover].body].world_from_model);
+}
+
+inline void MoverMotions::FollowCommand(std::uint32_t m, const world::State& state,
+                                        double seconds) {
+  const Mover& mover = scene_.movers()[m];
+  const MoverKind& kind = scene_.kind(mover);
+  drives[m] = seconds > 0
+                  ? kind.kinematics.Next(state.bodies[mover.body].drive, state.time, seconds)
+                  : world::DriveCommand{};
+  SetLeg(m, kind.kinematics.OriginTwist(drives[m]), seconds);
+  reaches[m] = (SpeedOf(twists[m]) + std::abs(twists[m].angular) * kind.spin_radius) * seconds;
+}
+
+inline void MoverMotions::SetLeg(std::uint32_t m, const geometry::Twist& twist, double seconds) {
+  twists[m] = twist;
+  times[m] = Moves(twist) ? seconds : 0;
+}
+
+inline void MoverMotions::RunLeg(std::uint32_t m, Journey& journey) {
+  const double time = times[m];
+  if (time <= 0) return;
+  const geometry::Twist& twist = twists[m];
+  positions[m] = Advance(positions[m], twist, time);
+  journey.distance += SpeedOf(twist) * time;
+  journey.travel.forward += twist.x * time;
+  journey.travel.left += (twist.y + twist.angular * kinematics(m).reference_x()) * time;
+  journey.travel.angle += twist.angular * time;
+}
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,79 @@
+// Which movers may run into what stands still, and when they do.
+//
+// Clearance    of each mover it is remembered how much room there was around it when it was last
+//              looked at; while it keeps to that room nothing is searched. It only ever spares
+//              questions whose answer is "nothing", so no outcome depends on it. Loose obstacles
+//              move: they are searched for each time.
+// Threads      Find() and Stop() may run concurrently for different chunks of movers.
+// Units        metres, seconds, world frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gsv/dynamics/planar/planar_scene.h"
+#include "gsv/dynamics/shapes/contact_collector.h"
+#include "gsv/geometry/planar_motion.h"
+
+namespace gsv::dynamics {
+
+class NearObstacles {
+ public:
+  explicit NearObstacles(const PlanarScene& scene) : scene_(scene) {}
+
+  // Forgets all; to be called when the scene has been sliced anew. Chunks are numbered from 0.
+  void Reset(std::size_t chunks);
+
+  // Starts a chunk's list; then its movers are to be added in ascending order.
+  void Clear(std::size_t chunk);
+  // Adds what a mover at `at` may meet if no part of it moves further than `travel`.
+  void Find(std::size_t chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
+            double travel);
+
+  // Stops the chunk's movers, which start at starts[m] and move for times[m], at the first obstacle
+  // in their way: times[m] becomes when, normals[m] the direction of it.
+  void Stop(std::size_t chunk, std::span<const geometry::PlanarPosition> starts,
+            std::span<const geometry::Twist> twists, std::span<double> times,
+            std::span<Vector2> normals) const;
+
+  // Appends to `touching` who touched what when it was found.
+  void AddTouching(std::vector<BodyPair>& touching) const;
+  // Offers the contacts of all movers at `positions` with what was found.
+  void Collect(std::span<const geometry::PlanarPosition> positions,
+               ContactCollector& contacts) const;
+
+ private:
+  struct Near {
+    std::uint32_t mover, piece, obstacle;
+    const ObstacleField* field;
+    geometry::PlanarPosition found_at;
+    Separation separation;  // there
+  };
+  // Every obstacle is further than `radius` from any part of the mover, however it is turned, with
+  // its origin at `centre`.
+  struct Clearance {
+    Vector2 centre;
+    double radius = -1;
+  };
+  struct alignas(64) Chunk {  // of its own cache line, since threads write next to each other
+    std::vector<Near> near;
+    std::vector<BodyPair> touching;
+  };
+
+  const Footprint::Piece& PieceOf(const Near& near) const {
+    return scene_.footprint(near.mover).pieces[near.piece];
+  }
+  const Obstacle& ObstacleOf(const Near& near) const { return (*near.field)[near.obstacle]; }
+  Separation SeparationAt(const Near& near, const geometry::PlanarPosition& at) const;
+  // Lists the obstacles within reach; gives how far the nearest, of those within `look`, is from
+  // the mover's origin. `look` is at least its radius and `within`.
+  double Search(Chunk& chunk, std::uint32_t mover, const geometry::PlanarPosition& at,
+                double within, double look, bool loose) const;
+
+  const PlanarScene& scene_;
+  std::vector<Clearance> clearances_;
+  std::vector<Chunk> chunks_;
+};
+
+}  // namespace gsv::dynamics

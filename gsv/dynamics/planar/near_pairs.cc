@@ -1,0 +1,218 @@
+#include "gsv/dynamics/planar/near_pairs.h"
+
+#include <algorithm>
+
+namespace gsv::dynamics {
+namespace {
+
+// m: how far a slow mover may go until candidates are searched for again. More of it makes more
+// candidates to look at in each step.
+constexpr double kRoom = 0.25;
+
+// So many pairs pay for another thread.
+constexpr std::size_t kPairsAtOnce = 32;
+
+// Pieces that share no more than this do not meet.
+constexpr double kSameHeight = 1e-9;
+
+// Far above what rounding makes of a distance, far below what matters.
+constexpr double kRounding = 1e-6;
+
+// The heights that both reach; upside down if there are none.
+Interval SharedHeights(const Footprint::Piece& a, double height_a, const Footprint::Piece& b,
+                       double height_b) {
+  return {std::max(a.heights.low + height_a, b.heights.low + height_b),
+          std::min(a.heights.high + height_a, b.heights.high + height_b)};
+}
+
+}  // namespace
+
+void NearPairs::Reset() {
+  rooms_.assign(scene_.movers().size(), {});
+  candidates_.clear();
+  Clear();
+}
+
+void NearPairs::Clear() {
+  pairs_.clear();
+  pieces_.clear();
+  touching_.clear();
+}
+
+void NearPairs::FindCandidates(std::span<const geometry::PlanarPosition> starts,
+                               std::span<const double> travels) {
+  centres_.resize(starts.size());
+  radii_.resize(starts.size());
+  for (std::size_t m = 0; m < starts.size(); ++m) {
+    rooms_[m] = {{starts[m].x, starts[m].y}, std::max(kRoom, 2 * travels[m])};
+    centres_[m] = rooms_[m].centre;
+    radii_[m] = scene_.footprint(m).radius + rooms_[m].radius + kRounding;
+  }
+  const auto& found = finder_.Find(centres_, radii_);
+  candidates_.assign(found.begin(), found.end());
+}
+
+void NearPairs::Find(std::span<const geometry::PlanarPosition> starts,
+                     std::span<const double> travels) {
+  Clear();
+  for (const auto& [first, second] : candidates_) {
+    AddIfNear(first, second, starts, travels[first] + travels[second] + kTouchGap);
+  }
+}
+
+void NearPairs::FindOf(std::uint32_t mover, std::span<const std::uint32_t> others,
+                       std::span<const geometry::PlanarPosition> starts) {
+  Clear();
+  for (const std::uint32_t other : others) {
+    AddIfNear(std::min(mover, other), std::max(mover, other), starts, kTouchGap);
+  }
+}
+
+void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
+                          std::span<const geometry::PlanarPosition> starts, double within) {
+  const geometry::PlanarPosition &start_a = starts[first], &start_b = starts[second];
+  const Footprint &a = scene_.footprint(first), &b = scene_.footprint(second);
+  const Vector2 apart{start_b.x - start_a.x, start_b.y - start_a.y};
+  const double furthest = a.radius + b.radius + within + kRounding;
+  if (Dot(apart, apart) > furthest * furthest) return;
+  const auto begin = static_cast<std::uint32_t>(pieces_.size());
+  bool touches = false;
+  ConvexPiece placed_p, placed_q;
+  for (std::uint32_t p = 0; p < a.pieces.size(); ++p) {
+    const Footprint::Piece& piece_p = a.pieces[p];
+    const Vector2 centre_p = PointAt(piece_p.centre, start_a);
+    for (std::uint32_t q = 0; q < b.pieces.size(); ++q) {
+      const Footprint::Piece& piece_q = b.pieces[q];
+      const Interval shared =
+          SharedHeights(piece_p, scene_.height(first), piece_q, scene_.height(second));
+      if (shared.high - shared.low <= kSameHeight) continue;
+      const Vector2 d = PointAt(piece_q.centre, start_b) - centre_p;
+      const double reach = piece_p.radius + piece_q.radius + within;
+      if (Dot(d, d) > reach * reach) continue;
+      Place(piece_q.shape, start_b, placed_q);
+      if (DistanceTo(placed_q, centre_p) > piece_p.radius + within) continue;
+      Place(piece_p.shape, start_a, placed_p);
+      const Separation separation = Separate(placed_p, placed_q);
+      if (separation.distance > within) continue;
+      pieces_.push_back({p, q, start_a, start_b, separation});
+      touches = touches || separation.distance <= kTouchGap;
+    }
+  }
+  const auto end = static_cast<std::uint32_t>(pieces_.size());
+  if (end > begin) pairs_.push_back({first, second, begin, end});
+  if (touches) touching_.push_back({scene_.movers()[first].body, scene_.movers()[second].body});
+}
+
+void NearPairs::Stop(std::span<const geometry::PlanarPosition> starts,
+                     std::span<const geometry::Twist> twists, std::span<double> times,
+                     std::span<Vector2> normals) {
+  outcomes_.resize(times.size());
+  for (const NearPair& pair : pairs_) {
+    for (const std::uint32_t m : {pair.first, pair.second}) outcomes_[m] = {times[m], 0, 0};
+  }
+  const Motions motions{starts, twists, times};
+  bool any = !pairs_.empty();
+  for (int round = 0; any; ++round) {
+    FindImpacts(motions, round);
+    any = false;
+    const auto stop = [&](std::uint32_t m, double time, Vector2 normal) {
+      if (round >= kRounds) time = 0;
+      if (time >= outcomes_[m].time) return;
+      outcomes_[m].time = time;
+      outcomes_[m].new_since = round + 1;
+      normals[m] = normal;
+      any = true;
+    };
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const std::optional<Impact>& impact = impacts_[i];
+      if (!impact) continue;
+      if (impact->first_approaches) stop(pairs_[i].first, impact->time, impact->normal);
+      if (impact->second_approaches) stop(pairs_[i].second, impact->time, -1.0 * impact->normal);
+    }
+    for (const NearPair& pair : pairs_) {
+      for (const std::uint32_t m : {pair.first, pair.second}) {
+        times[m] = outcomes_[m].time;
+        outcomes_[m].since = outcomes_[m].new_since;
+      }
+    }
+  }
+}
+
+// Of the pairs of which one has a new outcome in this round.
+void NearPairs::FindImpacts(const Motions& motions, int round) {
+  impacts_.resize(pairs_.size());
+  team_.Share(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const NearPair& pair = pairs_[i];
+      const bool is_new =
+          outcomes_[pair.first].since == round || outcomes_[pair.second].since == round;
+      impacts_[i] = is_new ? PairImpact(motions, pair) : std::nullopt;
+    }
+  });
+}
+
+std::optional<Impact> NearPairs::PairImpact(const Motions& motions, const NearPair& pair) const {
+  const double first_time = motions.times[pair.first], second_time = motions.times[pair.second];
+  const double both = std::min(first_time, second_time), end = std::max(first_time, second_time);
+  MovingPiece a{nullptr, motions.starts[pair.first], motions.twists[pair.first]};
+  MovingPiece b{nullptr, motions.starts[pair.second], motions.twists[pair.second]};
+  std::optional<Impact> impact;
+  if (both > 0) impact = FirstImpact(pair, a, b, both);
+  if (impact || end <= both) return impact;
+  // One has come to its end and stands; the other goes on.
+  a.start = Advance(a.start, a.twist, both);
+  b.start = Advance(b.start, b.twist, both);
+  (first_time <= both ? a : b).twist = geometry::Twist{};
+  impact = FirstImpact(pair, a, b, end - both);
+  if (impact) impact->time += both;
+  return impact;
+}
+
+Separation NearPairs::SeparationAt(const NearPair& pair, const PiecePair& pieces,
+                                   const geometry::PlanarPosition& first_at,
+                                   const geometry::PlanarPosition& second_at) const {
+  if (first_at == pieces.first_found_at && second_at == pieces.second_found_at) {
+    return pieces.separation;
+  }
+  ConvexPiece first, second;
+  Place(scene_.footprint(pair.first).pieces[pieces.first].shape, first_at, first);
+  Place(scene_.footprint(pair.second).pieces[pieces.second].shape, second_at, second);
+  return Separate(first, second);
+}
+
+std::optional<Impact> NearPairs::FirstImpact(const NearPair& pair, MovingPiece a, MovingPiece b,
+                                             double end) const {
+  std::optional<Impact> first;
+  for (std::uint32_t i = pair.begin_piece; i < pair.end_piece; ++i) {
+    const PiecePair& pieces = pieces_[i];
+    a.piece = &scene_.footprint(pair.first).pieces[pieces.first].shape;
+    b.piece = &scene_.footprint(pair.second).pieces[pieces.second].shape;
+    const Vector2 normal = SeparationAt(pair, pieces, a.start, b.start).normal;
+    if (const auto impact = FindImpact(a, b, end, normal)) {
+      first = impact;
+      end = impact->time;
+    }
+  }
+  return first;
+}
+
+void NearPairs::AddTouching(std::vector<BodyPair>& touching) const {
+  touching.insert(touching.end(), touching_.begin(), touching_.end());
+}
+
+void NearPairs::Collect(std::span<const geometry::PlanarPosition> positions,
+                        ContactCollector& contacts) const {
+  for (const NearPair& pair : pairs_) {
+    const BodyPair bodies{scene_.movers()[pair.first].body, scene_.movers()[pair.second].body};
+    for (std::uint32_t i = pair.begin_piece; i < pair.end_piece; ++i) {
+      const Interval shared = SharedHeights(
+          scene_.footprint(pair.first).pieces[pieces_[i].first], scene_.height(pair.first),
+          scene_.footprint(pair.second).pieces[pieces_[i].second], scene_.height(pair.second));
+      contacts.Offer(bodies,
+                     SeparationAt(pair, pieces_[i], positions[pair.first], positions[pair.second]),
+                     (shared.low + shared.high) / 2);
+    }
+  }
+}
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,110 @@
+// Planar robots against the textbook. docs/fidelity.md lists what is expected.
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "gsv/base/test_table.h"
+#include "gsv/base/test_within.h"
+#include "gsv/dynamics/planar/planar_mover.h"
+#include "gsv/dynamics/testing/test_world.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::PlanarPose;
+using testing::TestWorld;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSide = 10, kSeparation = 0.3, kRadius = 0.1;
+
+// A disc with two wheels, whose true radii have the ratio `left` : `right`.
+std::shared_ptr<model::Model> TwoWheeled(double left_scale, double right_scale) {
+  auto robot = testing::DiscRobot(0.2);
+  for (const double side : {1.0, -1.0}) {
+    robot->links.push_back({});
+    model::Joint joint;
+    joint.kind = model::JointKind::kContinuous;
+    joint.parent = 0;
+    joint.child = static_cast<int>(robot->links.size()) - 1;
+    joint.model_from_joint = PlanarPose(0, side * kSeparation / 2, kRadius, 0);
+    joint.axis = {0, 1, 0};
+    robot->joints.push_back(joint);
+  }
+  robot->drive->left_wheels = {0};
+  robot->drive->right_wheels = {1};
+  robot->drive->wheel_separation = kSeparation;
+  robot->drive->wheel_radius = kRadius;
+  robot->drive->left_wheel_scale = left_scale;
+  robot->drive->right_wheel_scale = right_scale;
+  return robot;
+}
+
+// Borenstein and Feng's UMBmark: once around a square of 10 m, stopping at each corner; counter-
+// clockwise for turn = 1, clockwise for -1.
+TestWorld AroundTheSquare(std::shared_ptr<model::Model> robot, double turn) {
+  TestWorld world(MakePlanarMover());
+  world.AddRobot("robot", std::move(robot), {});
+  EXPECT_TRUE(world.Start());
+  for (int side = 0; side < 4; ++side) {
+    world.Command("robot", {0.5, 0, 0});
+    world.Run(kSide / 0.5, 0.01);
+    world.Command("robot", {0, 0, turn * kPi / 4});
+    world.Run(2, 0.01);
+  }
+  return world;
+}
+
+TEST(PlanarFidelity, PerfectWheelsCloseTheSquare) {
+  for (const double turn : {1.0, -1.0}) {
+    TestWorld world = AroundTheSquare(TwoWheeled(1, 1), turn);
+    EXPECT_WITHIN(world.position("robot").x, 0, 1e-9, "m");
+    EXPECT_WITHIN(world.position("robot").y, 0, 1e-9, "m");
+    EXPECT_NEAR(geometry::WrapAngle(world.yaw("robot")), 0, 1e-9);
+  }
+}
+
+TEST(PlanarFidelity, UnequalWheelsMissItByTheTextbooksError) {
+  // J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in mobile
+  // robots", IEEE Trans. Robotics and Automation 12(6), 1996: with the ratio E of the right wheel's
+  // diameter to the left one's, each side is an arc of radius R = b/2 (E + 1) / (E - 1) that turns
+  // by beta = L / R, and the end is off by 2 L beta along both axes.
+  base::testing::Table table("umbmark");
+  for (const double ratio : {1.00002, 1.00005, 1.0001, 1.00015, 1.0002}) {
+    const double left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
+    const double beta = kSide / (kSeparation / 2 * (ratio + 1) / (ratio - 1));
+    const double expected = 2 * kSide * beta;
+    for (const double turn : {1.0, -1.0}) {
+      TestWorld world = AroundTheSquare(TwoWheeled(left, right), turn);
+      EXPECT_WITHIN_PERCENT(world.position("robot").x, turn * expected, 2);
+      EXPECT_WITHIN_PERCENT(world.position("robot").y, -expected, 2);
+      EXPECT_WITHIN_PERCENT(geometry::WrapAngle(world.yaw("robot")), 4 * beta, 2);
+      // The wheels have turned for a perfect square: odometry does not see the error.
+      table.Row({ratio, turn * world.position("robot").x, -world.position("robot").y, expected});
+      const double left_path = world.joint("robot", 0) * kRadius;
+      const double right_path = world.joint("robot", 1) * kRadius;
+      EXPECT_WITHIN((left_path + right_path) / 2, 4 * kSide, 1e-9, "m");
+      EXPECT_WITHIN((right_path - left_path) / kSeparation, turn * 2 * kPi, 1e-9, "rad");
+    }
+  }
+}
+
+TEST(PlanarFidelity, AnAccelerationLimitIsKept) {
+  auto robot = TwoWheeled(1, 1);
+  robot->drive->linear_acceleration = {-2, 0.5};
+  TestWorld world(MakePlanarMover());
+  world.AddRobot("robot", robot, {});
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {1, 0, 0});
+  world.Run(3, 0.001);
+  // Two seconds to get going, 1 m, and one at 1 m/s; a step's length at most between the sum and
+  // the integral.
+  EXPECT_WITHIN(world.position("robot").x, 2, 0.002, "m");
+  world.Command("robot", {0, 0, 0});
+  world.Run(1, 0.001);
+  // v² / 2 a
+  EXPECT_WITHIN(world.position("robot").x, 2 + 0.25, 0.002, "m");
+  EXPECT_EQ(world.body("robot").drive.actual.linear, 0);
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

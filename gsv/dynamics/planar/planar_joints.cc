@@ -1,0 +1,41 @@
+#include "gsv/dynamics/planar/planar_joints.h"
+
+#include <algorithm>
+
+#include "gsv/dynamics/shapes/obstacles.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using Kind = world::JointCommand::Kind;
+
+// Where a joint is after `seconds`.
+double Next(const model::Joint& joint, const world::JointCommand& command, double position,
+            double seconds) {
+  const double most = joint.velocity_limit * seconds;
+  double wanted = position;
+  if (command.kind == Kind::kPosition) wanted = command.value;
+  if (command.kind == Kind::kVelocity) wanted = position + command.value * seconds;
+  const double next = position + std::clamp(wanted - position, -most, most);
+  return std::clamp(next, joint.position_limits.min, joint.position_limits.max);
+}
+
+}  // namespace
+
+void MovePlanarJoints(const world::Layout& layout, double seconds, world::State& state) {
+  if (state.joint_commands.empty()) return;
+  for (const world::Body& body : layout.bodies) {
+    if (!IsDriven(body)) continue;
+    for (std::size_t j = 0; j < body.model->joints.size(); ++j) {
+      const auto at = static_cast<std::size_t>(body.first_joint) + j;
+      const world::JointCommand& command = state.joint_commands[at];
+      if (command.kind == Kind::kNone && state.joint_velocities[at] == 0) continue;
+      if (world::IsOfDrive(*body.model, static_cast<int>(j))) continue;
+      const double before = state.joint_positions[at];
+      state.joint_positions[at] = Next(body.model->joints[j], command, before, seconds);
+      state.joint_velocities[at] = (state.joint_positions[at] - before) / seconds;
+    }
+  }
+}
+
+}  // namespace gsv::dynamics

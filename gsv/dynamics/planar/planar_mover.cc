@@ -1,0 +1,344 @@
+#include "gsv/dynamics/planar/planar_mover.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/base/check.h"
+#include "gsv/dynamics/planar/mover_motions.h"
+#include "gsv/dynamics/planar/near_obstacles.h"
+#include "gsv/dynamics/planar/near_pairs.h"
+#include "gsv/dynamics/planar/planar_scene.h"
+#include "gsv/dynamics/shapes/obstacles.h"
+
+namespace gsv::dynamics {
+namespace {
+
+// Movers are taken in chunks, each with lists of its own, so that no outcome depends on threads.
+constexpr std::size_t kChunk = 128;
+// So many chunks pay for another thread.
+constexpr std::size_t kChunksAtOnce = 4;
+
+// A step has up to three legs: the commanded arc; for what ran into something, a slide along it;
+// then a turn on the spot.
+class PlanarMover final : public Engine {
+ public:
+  explicit PlanarMover(std::shared_ptr<base::ThreadTeam> team)
+      : team_(std::move(team)), motions_(scene_), obstacles_(scene_), pairs_(scene_, *team_) {}
+
+  base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override;
+  void Step(base::SimTime step, world::State& state,
+            std::vector<world::Contact>& contacts) override;
+  std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override;
+  std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
+                                         double tolerance) override;
+
+ private:
+  struct Stopped {
+    std::uint32_t mover;
+    double remaining;  // s of this step
+    Journey journey;
+  };
+  struct alignas(64) Chunk {  // of its own cache line, since threads write next to each other
+    bool is_as_sliced, has_room;
+    std::vector<std::uint32_t> in_contact;  // before the step
+    std::vector<Stopped> stopped;
+  };
+
+  std::size_t count() const { return scene_.movers().size(); }
+  template <typename Work>
+  void ForEachChunk(const Work& work);
+
+  void Slice(const world::State& state);
+  // Slices the loose bodies that a mover may meet in a step of so many seconds.
+  void LookForLoose(const world::State& state, double seconds);
+  void AddSight(std::uint32_t mover);
+  void Begin(const world::State& state, double seconds);
+  void BeginChunk(std::size_t index, const world::State& state, double seconds);
+  void EndChunk(std::size_t index, double seconds, world::State& state);
+  void ListTouching();
+  void RunStopped();
+  void SlideAlong(double seconds);
+  void TurnOnTheSpot();
+  void CollectContacts(double gap, std::vector<world::Contact>& contacts);
+  void CountContacts(std::vector<world::Contact>& contacts, world::State& state) const;
+  bool FindNeighbours(std::uint32_t mover, const world::State& state);
+
+  const std::shared_ptr<base::ThreadTeam> team_;
+  PlanarScene scene_;
+  std::vector<Sight> sights_;  // of the movers, where there are loose bodies
+  MoverMotions motions_;
+  NearObstacles obstacles_;
+  NearPairs pairs_;
+  std::vector<Chunk> chunks_;
+  std::vector<BodyPair> touching_;         // at the step's start, ascending
+  std::vector<Stopped> stopped_;           // in this step, ascending
+  std::vector<std::uint32_t> neighbours_;  // for OverlapsOf()
+};
+
+base::Status PlanarMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
+  if (auto ok = scene_.SetLayout(std::move(layout)); !ok) return ok;
+  chunks_.resize((count() + kChunk - 1) / kChunk);
+  motions_.Resize();
+  return {};
+}
+
+template <typename Work>
+void PlanarMover::ForEachChunk(const Work& work) {
+  team_->Share(chunks_.size(), kChunksAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i);
+  });
+}
+
+void PlanarMover::Slice(const world::State& state) {
+  scene_.Slice(state);
+  obstacles_.Reset(chunks_.size());
+  pairs_.Reset();
+}
+
+void PlanarMover::AddSight(std::uint32_t mover) {
+  const geometry::PlanarPosition& at = motions_.positions[mover];
+  sights_.push_back(
+      {{at.x, at.y}, scene_.footprint(mover).radius + motions_.reaches[mover] + kLookAround});
+}
+
+void PlanarMover::LookForLoose(const world::State& state, double seconds) {
+  if (!scene_.has_loose()) return;
+  sights_.clear();
+  for (std::uint32_t m = 0; m < count(); ++m) {
+    motions_.Load(m, state);
+    motions_.FollowCommand(m, state, seconds);
+    AddSight(m);
+  }
+  scene_.SliceLoose(state, sights_);
+}
+
+// For a step of 0 s everybody stays.
+void PlanarMover::Begin(const world::State& state, double seconds) {
+  if (!scene_.StandsAsSliced(state)) Slice(state);
+  LookForLoose(state, seconds);
+  const auto all = [&](bool Chunk::*is) {
+    return std::all_of(chunks_.begin(), chunks_.end(), [&](const Chunk& c) { return c.*is; });
+  };
+  const auto begin_chunk = [&](std::size_t i) { BeginChunk(i, state, seconds); };
+  ForEachChunk(begin_chunk);
+  if (!all(&Chunk::is_as_sliced)) {
+    Slice(state);
+    scene_.SliceLoose(state, sights_);
+    ForEachChunk(begin_chunk);
+  }
+  if (!all(&Chunk::has_room)) pairs_.FindCandidates(motions_.positions, motions_.reaches);
+  pairs_.Find(motions_.positions, motions_.reaches);
+  ListTouching();
+}
+
+void PlanarMover::BeginChunk(std::size_t index, const world::State& state, double seconds) {
+  Chunk& chunk = chunks_[index];
+  chunk.is_as_sliced = chunk.has_room = true;
+  chunk.in_contact.clear();
+  chunk.stopped.clear();
+  obstacles_.Clear(index);
+  const std::size_t end = std::min(count(), (index + 1) * kChunk);
+  for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
+    const world::BodyState& body = state.bodies[scene_.movers()[m].body];
+    motions_.Load(m, state);
+    motions_.FollowCommand(m, state, seconds);
+    if (body.in_contact) chunk.in_contact.push_back(m);
+    if (!scene_.IsAsSliced(m, body.world_from_model.position.z)) chunk.is_as_sliced = false;
+    if (!pairs_.HasRoom(m, motions_.positions[m], motions_.reaches[m])) chunk.has_room = false;
+    obstacles_.Find(index, m, motions_.positions[m], motions_.reaches[m]);
+  }
+  obstacles_.Stop(index, motions_.positions, motions_.twists, motions_.times, motions_.normals);
+}
+
+void PlanarMover::ListTouching() {
+  touching_.clear();
+  obstacles_.AddTouching(touching_);
+  pairs_.AddTouching(touching_);
+  std::sort(touching_.begin(), touching_.end());
+}
+
+void PlanarMover::EndChunk(std::size_t index, double seconds, world::State& state) {
+  const std::size_t end = std::min(count(), (index + 1) * kChunk);
+  for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
+    Journey journey;
+    motions_.RunLeg(m, journey);
+    if (motions_.times[m] < seconds && Moves(motions_.twists[m])) {
+      chunks_[index].stopped.push_back({m, seconds - motions_.times[m], journey});
+    } else {
+      motions_.Store(m, journey, seconds, state);
+    }
+    motions_.SetLeg(m, geometry::Twist{}, 0);
+  }
+}
+
+void PlanarMover::RunStopped() {
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    obstacles_.Stop(i, motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  }
+  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  for (Stopped& stopped : stopped_) motions_.RunLeg(stopped.mover, stopped.journey);
+}
+
+void PlanarMover::SlideAlong(double seconds) {
+  bool any = false;
+  for (const Stopped& stopped : stopped_) {
+    const std::uint32_t m = stopped.mover;
+    world::DriveCommand& motion = motions_.drives[m];
+    const geometry::PlanarPosition& at = motions_.positions[m];
+    const Vector2 normal = motions_.normals[m];
+    const Vector2 into{at.cosine * normal.x + at.sine * normal.y,
+                       at.cosine * normal.y - at.sine * normal.x};
+    const double blocked = std::max(0.0, into.x * motion.linear + into.y * motion.lateral);
+    const bool slides = motions_.kinematics(m).can_move_sideways();
+    motion.linear = slides ? motion.linear - blocked * into.x : 0;
+    motion.lateral = slides ? motion.lateral - blocked * into.y : 0;
+    if (!slides || std::hypot(motion.linear, motion.lateral) * seconds < kStopGap) {
+      motion.linear = motion.lateral = 0;
+      continue;
+    }
+    motions_.SetLeg(m, {motion.linear, motion.lateral, 0}, stopped.remaining);
+    any = true;
+  }
+  if (!any) return;
+  RunStopped();
+  for (const Stopped& stopped : stopped_) {
+    if (motions_.times[stopped.mover] >= stopped.remaining) continue;
+    motions_.drives[stopped.mover].linear = motions_.drives[stopped.mover].lateral = 0;
+  }
+}
+
+void PlanarMover::TurnOnTheSpot() {
+  for (const Stopped& stopped : stopped_) {
+    const std::uint32_t m = stopped.mover;
+    if (!motions_.kinematics(m).can_turn_on_the_spot()) motions_.drives[m].angular = 0;
+    motions_.SetLeg(m, motions_.kinematics(m).OriginTwist({0, 0, motions_.drives[m].angular}),
+                    stopped.remaining);
+  }
+  RunStopped();
+  for (const Stopped& stopped : stopped_) {
+    world::DriveCommand& motion = motions_.drives[stopped.mover];
+    const double time = motions_.times[stopped.mover];
+    // A slide goes on in its direction in the world, which the base has turned against.
+    const double angle = motion.angular * time;
+    motion = {motion.linear * std::cos(angle) + motion.lateral * std::sin(angle),
+              motion.lateral * std::cos(angle) - motion.linear * std::sin(angle), motion.angular};
+    if (time < stopped.remaining) motion.angular = 0;
+  }
+}
+
+void PlanarMover::CollectContacts(double gap, std::vector<world::Contact>& contacts) {
+  ContactCollector collector(contacts, gap);
+  obstacles_.Collect(motions_.positions, collector);
+  pairs_.Collect(motions_.positions, collector);
+  collector.Finish(touching_);
+}
+
+void PlanarMover::CountContacts(std::vector<world::Contact>& contacts, world::State& state) const {
+  for (world::Contact& contact : contacts) {
+    world::BodyState& first = state.bodies[contact.first];
+    world::BodyState& second = state.bodies[contact.second];
+    const bool both_driven = IsDriven(scene_.layout().bodies[contact.second]);
+    // Where the caller says that a base touched nothing, the contact begins.
+    contact.began = contact.began || !first.in_contact || (both_driven && !second.in_contact);
+    if (!contact.began) continue;
+    ++first.collisions;
+    if (both_driven) ++second.collisions;
+  }
+  for (const Chunk& chunk : chunks_) {
+    for (const std::uint32_t m : chunk.in_contact) {
+      state.bodies[scene_.movers()[m].body].in_contact = false;
+    }
+  }
+  for (const world::Contact& contact : contacts) {
+    state.bodies[contact.first].in_contact = true;
+    if (IsDriven(scene_.layout().bodies[contact.second])) {
+      state.bodies[contact.second].in_contact = true;
+    }
+  }
+}
+
+void PlanarMover::Step(base::SimTime step, world::State& state,
+                       std::vector<world::Contact>& contacts) {
+  GSV_CHECK(step > base::SimTime(0));
+  const double seconds = base::ToSeconds(step);
+  Begin(state, seconds);
+  pairs_.Stop(motions_.positions, motions_.twists, motions_.times, motions_.normals);
+  ForEachChunk([&](std::size_t i) { EndChunk(i, seconds, state); });
+  stopped_.clear();
+  for (const Chunk& chunk : chunks_) {
+    stopped_.insert(stopped_.end(), chunk.stopped.begin(), chunk.stopped.end());
+  }
+  if (!stopped_.empty()) {
+    SlideAlong(seconds);
+    TurnOnTheSpot();
+    for (const Stopped& stopped : stopped_)
+      motions_.Store(stopped.mover, stopped.journey, seconds, state);
+  }
+  CollectContacts(kTouchGap, contacts);
+  CountContacts(contacts, state);
+}
+
+std::vector<world::Contact> PlanarMover::Overlaps(const world::State& state, double tolerance) {
+  std::vector<world::Contact> contacts;
+  Begin(state, 0);
+  CollectContacts(-tolerance, contacts);
+  return contacts;
+}
+
+// Lists the movers whose discs overlap that of one; false if not all stand as they were sliced.
+bool PlanarMover::FindNeighbours(std::uint32_t mover, const world::State& state) {
+  neighbours_.clear();
+  const auto& movers = scene_.movers();
+  const geometry::Vector3& at = state.bodies[movers[mover].body].world_from_model.position;
+  bool is_as_sliced = true;
+  for (std::uint32_t m = 0; m < movers.size(); ++m) {
+    const geometry::Pose& pose = state.bodies[movers[m].body].world_from_model;
+    is_as_sliced = is_as_sliced && scene_.IsAsSliced(m, pose.position.z);
+    const Vector2 apart{pose.position.x - at.x, pose.position.y - at.y};
+    const double reach =
+        scene_.footprint(m).radius + scene_.footprint(mover).radius + 2 * kTouchGap;
+    if (m == mover || Dot(apart, apart) > reach * reach) continue;
+    motions_.Load(m, state);
+    neighbours_.push_back(m);
+  }
+  return is_as_sliced;
+}
+
+std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, int body,
+                                                    double tolerance) {
+  const auto& movers = scene_.movers();
+  const auto found =
+      std::lower_bound(movers.begin(), movers.end(), body,
+                       [](const Mover& mover, int index) { return mover.body < index; });
+  if (found == movers.end() || found->body != body) {
+    auto contacts = Overlaps(state, tolerance);
+    std::erase_if(contacts, [&](const world::Contact& c) { return c.second != body; });
+    return contacts;
+  }
+  const auto mover = static_cast<std::uint32_t>(found - movers.begin());
+  if (!scene_.StandsAsSliced(state) || !FindNeighbours(mover, state)) {
+    Slice(state);
+    FindNeighbours(mover, state);
+  }
+  for (std::size_t i = 0; i < chunks_.size(); ++i) obstacles_.Clear(i);
+  motions_.Load(mover, state);
+  motions_.FollowCommand(mover, state, 0);
+  sights_.clear();
+  AddSight(mover);
+  scene_.SliceLoose(state, sights_);
+  obstacles_.Find(mover / kChunk, mover, motions_.positions[mover], 0);
+  pairs_.FindOf(mover, neighbours_, motions_.positions);
+  ListTouching();
+  std::vector<world::Contact> contacts;
+  CollectContacts(-tolerance, contacts);
+  return contacts;
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team) {
+  if (team == nullptr) team = std::make_shared<base::ThreadTeam>(1);
+  return std::make_unique<PlanarMover>(std::move(team));
+}
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,112 @@
+// What the planar mover derives from a layout: who moves, with what footprint, past which
+// obstacles.
+//
+// Levels   obstacles are sliced once for each distinct interval of heights that a piece of some
+//          footprint takes up: from what the robot can drive over (ClimbHeight above its lowest
+//          point) or the piece's own lowest point, whichever is higher, to the piece's highest
+//          point. So a floor that a robot stands on, a ground plane and a door sill are no
+//          obstacles, and a table is one only to what reaches its top or its legs. Beyond
+//          kMaxLevels distinct intervals, their ends are rounded up to a grid just coarse enough.
+// Loose    rigid bodies are obstacles of their own: those in some mover's sight are sliced, anew
+//          whenever one has moved. What reaches less than kRides below the top of a piece lies on
+//          the robot and is no obstacle to it.
+// Caching  slices are kept while obstacles and the heights of robots stay where they are; nothing
+//          depends on whether they were kept.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/dynamics/motion/drive_kinematics.h"
+#include "gsv/dynamics/shapes/footprint.h"
+#include "gsv/dynamics/shapes/obstacle_field.h"
+#include "gsv/world/state.h"
+
+namespace gsv::dynamics {
+
+// Fields are laid out for looking so far beyond a footprint, in metres.
+inline constexpr double kLookAround = 0.25;
+inline constexpr double kRides = 0.005;
+
+// What movers of one model have in common.
+struct MoverKind {
+  DriveKinematics kinematics;
+  Footprint footprint;
+  double climb = 0;
+  double spin_radius = 0;  // no part moves faster than speed + spin_radius * turning rate
+};
+
+struct Mover {
+  int body = 0;  // index in the layout; movers are in the order of bodies
+  std::uint32_t kind = 0;
+  std::uint32_t first_level = 0;  // of its pieces, see PlanarScene::level()
+  int first_joint = 0, joint_count = 0;
+};
+
+// A disc of the plane in which a mover looks for obstacles.
+struct Sight {
+  Vector2 centre;
+  double radius = 0;
+};
+
+class PlanarScene {
+ public:
+  static constexpr int kMaxLevels = 64;
+
+  // Refuses drives that make no sense and poses that are not finite.
+  base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
+
+  // Slices the obstacles of `state` for movers at their heights.
+  void Slice(const world::State& state);
+  // Slices the loose ones that reach into one of the sights, unless that is done already. Levels
+  // are those of the last Slice().
+  void SliceLoose(const world::State& state, std::span<const Sight> sights);
+  // Whether anything was sliced, and all that is no mover stands as it was then.
+  bool StandsAsSliced(const world::State& state) const;
+  // Whether a mover at height z is where it was as sliced last.
+  bool IsAsSliced(std::size_t mover, double z) const { return heights_[mover] == z; }
+
+  const world::Layout& layout() const { return *layout_; }
+  const std::vector<Mover>& movers() const { return movers_; }
+  const MoverKind& kind(const Mover& mover) const { return kinds_[mover.kind]; }
+  const Footprint& footprint(std::size_t mover) const {
+    return kinds_[movers_[mover].kind].footprint;
+  }
+  // Of a piece of the mover's footprint; -1: too low to run into obstacles.
+  int level(const Mover& mover, std::size_t piece) const {
+    return levels_[mover.first_level + piece];
+  }
+  const ObstacleField& field(int level) const { return fields_[level]; }
+  bool has_loose() const { return !loose_.empty(); }
+  const ObstacleField& loose_field(int level) const { return loose_fields_[level]; }
+  // The height of a mover's origin, as last sliced.
+  double height(std::size_t mover) const { return heights_[mover]; }
+
+ private:
+  std::vector<Interval> AssignLevels();
+  void SliceLevels(const world::State& state);
+  std::vector<double> MarginsOfLevels() const;
+  // Lists in `seen_` the loose bodies that reach into one of the sights.
+  void LookForLoose(const world::State& state, std::span<const Sight> sights);
+
+  std::shared_ptr<const world::Layout> layout_;
+  std::vector<MoverKind> kinds_;
+  std::vector<Mover> movers_;
+  std::vector<int> levels_;
+  std::vector<Interval> intervals_;             // of the levels
+  std::vector<int> standing_;                   // bodies that neither move nor are loose
+  std::vector<geometry::Pose> standing_poses_;  // as sliced
+  std::vector<double> heights_;                 // of movers, as sliced
+  std::vector<ObstacleField> fields_;
+  std::vector<int> loose_;           // bodies that are rigid
+  std::vector<double> loose_radii_;  // theirs
+  std::vector<int> seen_;            // those of them that are sliced
+  std::vector<double> loose_state_;  // as sliced: who they are, their poses and joints
+  std::vector<ObstacleField> loose_fields_;
+  bool is_sliced_ = false, is_loose_sliced_ = false;
+};
+
+}  // namespace gsv::dynamics

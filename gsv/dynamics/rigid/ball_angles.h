@@ -1,0 +1,36 @@
+// A ball joint's orientation and rate, as the three angles and rates of the joints it is made of.
+//
+// Frames  the child turns by Rot(a1, q1) Rot(a2, q2) Rot(a3, q3) in the joint's frame, the a being
+//         its axes. In the child's part frame that is the one rotation which Bullet knows.
+#pragma once
+
+#include <array>
+
+#include "gsv/dynamics/rigid/articulation.h"
+
+namespace gsv::dynamics {
+
+class BallAngles {
+ public:
+  BallAngles(const model::Model& model, const Part& part);
+
+  // Indices of the model's joints, from parent to child.
+  const std::array<int, 3>& joints() const { return joints_; }
+
+  // The child's turn since zero, in its part frame, and back. Every turn has angles; at a middle
+  // one of a quarter turn they are not the only ones.
+  geometry::Quaternion Turn(const std::array<double, 3>& angles) const;
+  std::array<double, 3> AnglesOf(const geometry::Quaternion& turn) const;
+
+  // Of the child against its parent, in the child's part frame, from its parts about the axes as
+  // the child carries them; and back.
+  geometry::Vector3 AngularVelocity(const std::array<double, 3>& rates) const;
+  std::array<double, 3> RatesOf(const geometry::Vector3& angular_velocity) const;
+
+ private:
+  std::array<int, 3> joints_;
+  std::array<geometry::Vector3, 3> axes_;  // in the joint's frame
+  geometry::Quaternion part_from_joint_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,251 @@
+// Joints and wheels that move by forces, against closed forms.
+#include <numbers>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "gsv/base/test_table.h"
+#include "gsv/base/test_within.h"
+#include "gsv/dynamics/testing/test_rigid_world.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+using testing::TestWorld;
+using testing::WorldOnGround;
+
+constexpr double kG = 9.8, kPi = std::numbers::pi;
+
+Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
+
+// One link that hangs from the world: of 1 kg, `length` below (and across) its joint's y axis.
+std::shared_ptr<model::Model> Hanging(model::JointKind kind, double length,
+                                      const geometry::Vector3& axis = {0, 1, 0}) {
+  auto model = testing::ModelOf(geometry::Sphere{0.01}, At(0, 0, -length));
+  model->links[0].inertial.link_from_com = At(0, 0, -length);
+  model->links[0].inertial.ixx = model->links[0].inertial.iyy = model->links[0].inertial.izz = 1e-4;
+  model::Joint joint;
+  joint.name = "joint";
+  joint.kind = kind;
+  joint.axis = axis;
+  model->joints.push_back(joint);
+  return model;
+}
+
+constexpr double kPendulum = 0.5;  // m
+
+// The mean of ten swings from rest at an angle, and the highest of the angles that it gets back to.
+double PeriodOf(double amplitude, double& highest) {
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("pendulum", Hanging(model::JointKind::kRevolute, kPendulum), At(0, 0, 2));
+  EXPECT_TRUE(world.Start());
+  world.state().joint_positions[0] = amplitude;
+  // Each begins where the rate turns from positive to negative.
+  int swings = 0;
+  double begun = 0, ended = 0, before = 0;
+  for (int i = 1; swings < 11 && i < 50000; ++i) {
+    before = world.joint_velocity("pendulum", 0);
+    world.Step(0.001);
+    const double now = world.joint_velocity("pendulum", 0);
+    highest = std::max(highest, world.joint("pendulum", 0));
+    if (!(before > 0 && now <= 0)) continue;
+    const double time = 0.001 * (i - now / (now - before));
+    if (swings++ == 0) begun = time;
+    ended = time;
+  }
+  return (ended - begun) / 10;
+}
+
+TEST(JointedBody, APendulumHasItsPeriod) {
+  base::testing::Table table("pendulum");
+  const double inertia = 1e-4 + kPendulum * kPendulum;
+  for (const double amplitude : {0.05, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5}) {
+    // T = 2 pi sqrt(I / (m g l)) 2/pi K(sin(a / 2)), K by the arithmetic-geometric mean.
+    double a = 1, g = std::cos(amplitude / 2);
+    for (int i = 0; i < 8; ++i) a = std::exchange(g, std::sqrt(a * g)) / 2 + a / 2;
+    const double expected = 2 * kPi * std::sqrt(inertia / (kG * kPendulum)) / a;
+    double highest = 0;
+    const double period = PeriodOf(amplitude, highest);
+    EXPECT_WITHIN_PERCENT(period, expected, 0.1) << amplitude;
+    EXPECT_WITHIN(highest, amplitude, 0.002, "rad") << amplitude;
+    table.Row({amplitude, period, expected});
+  }
+}
+
+TEST(JointedBody, ALimitStopsAJoint) {
+  auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
+  model->joints[0].position_limits = {-0.4, 0.2};
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("slider", model, At(0, 0, 5));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, 0.01);
+  EXPECT_WITHIN(world.joint("slider", 0), -0.4, 1e-3, "m");
+  EXPECT_NEAR(world.joint_velocity("slider", 0), 0, 1e-6);
+}
+
+TEST(JointedBody, DampingLetsALinkSinkAtItsTerminalSpeed) {
+  auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
+  model->joints[0].damping = 20;
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("slider", model, At(0, 0, 50));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, 0.01);
+  EXPECT_WITHIN_PERCENT(world.joint_velocity("slider", 0), -kG / 20, 3);
+}
+
+TEST(JointedBody, FrictionHoldsAJoint) {
+  auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
+  model->joints[0].friction = 9.9;  // it weighs 9.8 N
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("slider", model, At(0, 0, 5));
+  ASSERT_TRUE(world.Start());
+  world.Run(1, 0.01);
+  EXPECT_WITHIN(world.joint("slider", 0), 0, 1e-6, "m");
+}
+
+TEST(JointedBody, AJointGoesWhereItIsTold) {
+  using Kind = world::JointCommand::Kind;
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("arm", Hanging(model::JointKind::kRevolute, 0.5), At(0, 0, 2));
+  ASSERT_TRUE(world.Start());
+  world.CommandJoint("arm", 0, {Kind::kPosition, 1.2});
+  world.Run(1, 0.01);
+  EXPECT_WITHIN(world.joint("arm", 0), 1.2, 1e-3, "rad");
+  const double before = world.joint("arm", 0);
+  world.CommandJoint("arm", 0, {Kind::kVelocity, -0.5});
+  world.Run(1, 0.01);
+  EXPECT_WITHIN(world.joint("arm", 0), before - 0.5, 1e-3, "rad");
+  EXPECT_WITHIN(world.joint_velocity("arm", 0), -0.5, 1e-6, "rad/s");
+}
+
+TEST(JointedBody, AnEffortAcceleratesAJointUpToItsLimit) {
+  auto model = Hanging(model::JointKind::kPrismatic, 0, {1, 0, 0});
+  model->joints[0].effort_limit = 3;
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("slider", model, At(0, 0, 2));
+  ASSERT_TRUE(world.Start());
+  world.CommandJoint("slider", 0, {world::JointCommand::Kind::kEffort, 2});
+  world.Run(1, 0.01);
+  EXPECT_WITHIN(world.joint_velocity("slider", 0), 2, 1e-6, "m/s");
+  world.CommandJoint("slider", 0, {world::JointCommand::Kind::kEffort, 50});
+  world.Run(1, 0.01);
+  EXPECT_WITHIN(world.joint_velocity("slider", 0), 2 + 3, 1e-6, "m/s");
+}
+
+// A box of 8 kg on two wheels and, behind them, a ball that slides, as small robots are built.
+std::shared_ptr<model::Model> WheeledRobot() {
+  auto model = std::make_shared<model::Model>();
+  model->name = "robot";
+  model::Link base;
+  base.name = "base";
+  base.model_from_link = At(0, 0, 0.1);
+  base.inertial = {8, At(-0.04, 0, 0), 0.06, 0.1, 0.15};
+  base.collisions.push_back({"box", {}, geometry::Box{{0.4, 0.24, 0.1}}, {}});
+  base.collisions.push_back({"caster", At(-0.15, 0, -0.07), geometry::Sphere{0.03}, {0, 0, 0}});
+  model->links.push_back(base);
+  const geometry::Quaternion lying = geometry::FromAxisAngle({1, 0, 0}, -kPi / 2);
+  for (const double side : {1.0, -1.0}) {
+    model::Link wheel;
+    wheel.name = side > 0 ? "left" : "right";
+    wheel.model_from_link = {{0, side * 0.15, 0.1}, lying};
+    wheel.inertial = {0.5, {}, 0.0014, 0.0014, 0.0025};
+    wheel.collisions.push_back({"tyre", {}, geometry::Cylinder{0.1, 0.02}, {1, 1, 0}});
+    model->links.push_back(wheel);
+    model::Joint joint;
+    joint.name = wheel.name + "_joint";
+    joint.kind = model::JointKind::kContinuous;
+    joint.parent = 0;
+    joint.child = static_cast<int>(model->links.size()) - 1;
+    joint.model_from_joint = At(0, side * 0.15, 0.1);
+    joint.axis = {0, 1, 0};
+    model->joints.push_back(joint);
+  }
+  model->drive = model::Drive{};
+  model->drive->left_wheels = {0};
+  model->drive->right_wheels = {1};
+  model->drive->wheel_separation = 0.3;
+  model->drive->wheel_radius = 0.1;
+  model->drive->linear_acceleration = {-1, 1};
+  model->movement = model::Movement::kRigid;
+  return model;
+}
+
+TEST(JointedBody, ARobotRollsAsFarAsItsWheelsTurn) {
+  TestWorld world = WorldOnGround();
+  world.AddRigid("robot", WheeledRobot(), {});
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.5, 0, 0});
+  world.Run(4.5, 0.01);
+  // Half a second to get going: 0.125 m; then 4 s at 0.5 m/s.
+  EXPECT_WITHIN(world.position("robot").x, 2.125, 0.005, "m");
+  EXPECT_NEAR(world.position("robot").y, 0, 0.001);
+  EXPECT_NEAR(world.position("robot").z, 0, 1e-3);
+  EXPECT_WITHIN(world.joint("robot", 0) * 0.1, world.position("robot").x, 0.005, "m");
+  EXPECT_NEAR(world.body("robot").drive.actual.linear, 0.5, 1e-9);
+}
+
+TEST(JointedBody, ARobotTurnsAsItsWheelsDo) {
+  TestWorld world = WorldOnGround();
+  world.AddRigid("robot", WheeledRobot(), {});
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0, 0, 1});
+  world.Run(1.5, 0.01);
+  // Its tyres are 2 cm wide and scrub: where in that width they hold, 15 cm from the middle of the
+  // robot give or take one, nobody can tell.
+  EXPECT_WITHIN_PERCENT(world.yaw("robot"), 1.5, 100 * (1 - 0.15 / 0.16));
+  EXPECT_NEAR(world.position("robot").x, 0, 0.02);
+  EXPECT_NEAR(world.position("robot").y, 0, 0.02);
+}
+
+TEST(JointedBody, ARobotOnASlipperySlopeSlidesWhileItsOdometryStandsStill) {
+  const double angle = 0.2, mu = 0.1;
+  const Pose incline{{0, 0, 0}, geometry::FromAxisAngle({0, 1, 0}, angle)};
+  TestWorld world(MakeWorldEngine());
+  world.AddStatic("incline", testing::GroundOf({mu, mu, 0}), incline);
+  world.AddRigid("robot", WheeledRobot(), incline);
+  ASSERT_TRUE(world.Start());
+  world.Run(2, 0.01);
+  // The wheels are held. What share of the weight they carry depends on how it shifts: the slide
+  // lies between that of a body without friction and one with all of its weight on the wheels.
+  const double slid = (Inverse(incline) * world.position("robot")).x;
+  EXPECT_GT(slid, 0.95 * kG * (std::sin(angle) - mu * std::cos(angle)) * 2);
+  EXPECT_LT(slid, kG * std::sin(angle) * 2);
+  EXPECT_NEAR(world.joint("robot", 0), 0, 1e-6);
+}
+
+TEST(JointedBody, ARobotClimbsARampThatAPlanarOneStopsAt) {
+  TestWorld world = WorldOnGround();
+  // Its upper face begins at the ground at x = 1 and rises by one in five.
+  const double slope = std::atan(0.2);
+  const geometry::Quaternion up = geometry::FromAxisAngle({0, 1, 0}, -slope);
+  world.AddStatic("ramp", testing::ModelOf(geometry::Box{{4, 3, 0.2}}),
+                  {geometry::Vector3{1, 0, 0} + up * geometry::Vector3{2, 0, -0.1}, up});
+  world.AddRigid("robot", WheeledRobot(), {});
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.5, 0, 0});
+  world.Run(6, 0.01);
+  EXPECT_GT(world.position("robot").x, 2);
+  EXPECT_WITHIN(world.position("robot").z, 0.2 * (world.position("robot").x - 1), 0.03, "m");
+}
+
+TEST(JointedBody, ARunRepeatsToTheBitFromAnyState) {
+  const auto make = [] {
+    TestWorld world = WorldOnGround();
+    world.AddRigid("robot", WheeledRobot(), At(0, 0, 0));
+    world.AddRigid("box", testing::SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1), At(0.6, 0, 0.1));
+    EXPECT_TRUE(world.Start());
+    world.Command("robot", {0.5, 0, 0.2});
+    return world;
+  };
+  TestWorld lived = make(), fresh = make();
+  lived.Run(1, 0.01);
+  fresh.state() = lived.state();
+  lived.Run(1, 0.01);
+  fresh.Run(1, 0.01);
+  EXPECT_EQ(lived.Digest(), fresh.Digest());
+  EXPECT_GT(lived.position("box").x, 0.7);
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

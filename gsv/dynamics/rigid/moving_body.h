@@ -1,0 +1,52 @@
+// One body of a rigid scene in Bullet's world: a rigid body, or a tree of links in joint
+// coordinates, which no joint can drift apart in. Private to this folder: it includes Bullet.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include "gsv/dynamics/rigid/rigid_contacts.h"
+
+namespace gsv::dynamics {
+
+class MovingBody {
+ public:
+  virtual ~MovingBody() = default;
+
+  // Follows commands for the next substep.
+  virtual void BeforeSubstep(double seconds) = 0;
+  // What explicit integration leaves out.
+  virtual void AfterSubstep(double seconds) = 0;
+  // m/s: no point of it moves faster.
+  virtual double Speed() const = 0;
+  // m: the least that any of it is thick, from its middle.
+  virtual double Thickness() const = 0;
+  virtual void Bounds(btVector3& low, btVector3& high) const = 0;
+  // Null for a tree of links.
+  virtual btRigidBody* rigid() { return nullptr; }
+
+  // Writes where it is and how it moves, but for what rested and still rests.
+  virtual void Store(double seconds, world::State& state) const = 0;
+};
+
+std::unique_ptr<MovingBody> MakeFreeBody(const RigidBody& plan, const world::State& state,
+                                         Owner& owner, btMultiBodyDynamicsWorld& world);
+// `owners` are those of the plan's solids. Joints keep to their limits, are damped and rub; those
+// of a drive's wheels turn as the drive wants (RollsOnWheels()), its steering goes where it wants.
+std::unique_ptr<MovingBody> MakeJointTree(const RigidBody& plan, const world::State& state,
+                                          std::span<Owner* const> owners,
+                                          btMultiBodyDynamicsWorld& world);
+
+// m/s² and rad/s²: a body that neither moves by more than this times the step before a step nor
+// after it keeps its place, so that what is at rest stays there to the bit. It is as if all had a
+// rolling resistance of one per cent: what would start to move on a slope of half a degree stays.
+inline constexpr double kResting = 0.1;
+
+// Velocity of the model's origin, from that of a point of it.
+void StoreMotion(const geometry::Pose& world_from_model, const geometry::Vector3& point,
+                 const geometry::Vector3& velocity, const geometry::Vector3& angular_velocity,
+                 world::BodyState& body);
+
+}  // namespace gsv::dynamics

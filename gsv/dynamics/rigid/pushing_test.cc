@@ -1,0 +1,98 @@
+// Planar robots and rigid bodies together.
+#include <gtest/gtest.h>
+
+#include "gsv/dynamics/testing/test_rigid_world.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+using testing::SolidOf;
+using testing::TestWorld;
+using testing::WorldOnGround;
+
+Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
+
+// Of 20 kg: it pushes with at most 196 N.
+std::shared_ptr<model::Model> Robot() {
+  auto robot = testing::DiscRobot(0.2);
+  robot->links[0].inertial.mass = 20;
+  return robot;
+}
+
+TEST(Pushing, ARobotPushesABoxAtTheSpeedItDrives) {
+  TestWorld world = WorldOnGround();
+  world.AddRobot("robot", Robot(), At(0, 0, 0));
+  world.AddRigid("box", SolidOf(geometry::Box{{0.3, 0.3, 0.3}}, 2), At(0.6, 0, 0.15));
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.5, 0, 0});
+  world.Run(4, 0.01);
+  EXPECT_NEAR(world.position("robot").x, 2, 0.02);
+  EXPECT_NEAR(world.position("box").x, world.position("robot").x + 0.35, 0.02);
+  EXPECT_GT(world.body("robot").collisions, 0u);
+  EXPECT_GT(world.body("box").collisions, 0u);
+}
+
+TEST(Pushing, ARobotThatAcceleratesSlowlyPushesAllTheSame) {
+  auto robot = Robot();
+  robot->drive->linear_acceleration = {-1, 1};
+  TestWorld world = WorldOnGround();
+  world.AddRobot("robot", robot, At(0, 0, 0));
+  world.AddRigid("box", SolidOf(geometry::Box{{0.3, 0.3, 0.3}}, 2), At(0.36, 0, 0.15));
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.5, 0, 0});
+  world.Run(4, 0.01);
+  // Half a second to get going: 0.125 m; then 3.5 s at 0.5 m/s.
+  EXPECT_NEAR(world.position("robot").x, 0.125 + 1.75, 0.1);
+}
+
+TEST(Pushing, AHeavyBoxStopsARobot) {
+  TestWorld world = WorldOnGround();
+  world.AddRobot("robot", Robot(), At(0, 0, 0));
+  world.AddRigid("box", SolidOf(geometry::Box{{0.3, 0.3, 0.3}}, 200), At(0.6, 0, 0.15));
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.5, 0, 0});
+  world.Run(4, 0.01);
+  EXPECT_NEAR(world.position("robot").x, 0.25, 1e-4);
+  EXPECT_NEAR(world.position("box").x, 0.6, 1e-4);
+}
+
+TEST(Pushing, ABoxAgainstAWallStopsARobot) {
+  TestWorld world = WorldOnGround();
+  world.AddRobot("robot", Robot(), At(0, 0, 0));
+  world.AddRigid("box", SolidOf(geometry::Box{{0.3, 0.3, 0.3}}, 2), At(0.6, 0, 0.15));
+  world.AddBox("wall", {0.2, 4, 1}, 1.1, 0);
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.5, 0, 0});
+  world.Run(4, 0.01);
+  EXPECT_NEAR(world.position("box").x, 0.85, 2e-4);
+  EXPECT_NEAR(world.position("robot").x, 0.5, 2e-4);
+  EXPECT_LT(world.position("robot").x + 0.35, world.position("box").x + 1e-4);
+}
+
+TEST(Pushing, ABallBouncesOffARobotThatStands) {
+  TestWorld world = WorldOnGround({0, 0, 0});
+  world.AddRobot("robot", Robot(), At(0, 0, 0));
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 5), At(-2, 0, 0.1));
+  ASSERT_TRUE(world.Start());
+  world.body("ball").linear_velocity = {2, 0, 0};
+  world.Run(3, 0.01);
+  EXPECT_EQ(world.position("robot").x, 0);
+  EXPECT_LT(world.position("ball").x, -0.3 + 1e-4);
+}
+
+TEST(Pushing, WhatLiesOnARobotRidesAlong) {
+  TestWorld world = WorldOnGround();
+  world.AddRobot("robot", Robot(), At(0, 0, 0));
+  world.AddRigid("parcel", SolidOf(geometry::Box{{0.1, 0.1, 0.1}}, 1), At(0, 0, 0.45));
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.2, 0, 0});
+  world.Run(5, 0.01);
+  EXPECT_NEAR(world.position("robot").x, 1, 1e-9);
+  // It slips while the robot gets going at once: v² / (2 g) = 2 mm.
+  EXPECT_NEAR(world.position("parcel").x, 1, 0.01);
+  EXPECT_NEAR(world.position("parcel").z, 0.45, 1e-4);
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

@@ -1,0 +1,125 @@
+#include "gsv/dynamics/rigid/rigid_contacts.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace gsv::dynamics {
+namespace {
+
+// m: closer than this is touching.
+constexpr double kTouching = 1e-4;
+// What is below and steeper than 45° to nothing carries.
+constexpr double kCarries = 0.70710678118654757;
+
+// Which child of its compound was touched.
+const model::Surface& SurfaceOf(const btCollisionObjectWrapper* wrapper) {
+  const auto& owner = *static_cast<const Owner*>(wrapper->getCollisionObject()->getUserPointer());
+  for (const auto* w = wrapper; w->m_parent != nullptr; w = w->m_parent) {
+    if (w->m_parent->getCollisionShape()->isCompound()) {
+      return owner.solid->surfaces[static_cast<std::size_t>(w->m_index)];
+    }
+  }
+  return owner.solid->surfaces.front();
+}
+
+bool IsSlantwise(const model::Surface& surface) { return surface.friction != surface.friction2; }
+
+// The direction of the first of the two frictions, in the world.
+btVector3 DirectionOf(const model::Surface& surface, const btCollisionObjectWrapper* wrapper) {
+  const geometry::Vector3& direction = surface.friction_direction;
+  if (Dot(direction, direction) == 0) return {1, 0, 0};
+  return wrapper->getWorldTransform().getBasis() * ToBullet(direction);
+}
+
+// The contact has less friction across `direction` than along it, or more. Bullet knows one
+// coefficient: where a direction is shorter than one, so much less force acts along it.
+void TakeDirections(const btVector3& direction, double along, double across,
+                    btManifoldPoint& point) {
+  constexpr double kShortest = 1e-6;
+  const btVector3& normal = point.m_normalWorldOnB;
+  btVector3 first = direction - direction.dot(normal) * normal;
+  if (first.length() < kShortest) btPlaneSpace1(normal, first, point.m_lateralFrictionDir2);
+  first.normalize();
+  const double most = std::max(along, across);
+  if (!(most > 0)) return;
+  point.m_combinedFriction = most;
+  point.m_lateralFrictionDir1 = first * std::max(along / most, kShortest);
+  point.m_lateralFrictionDir2 = normal.cross(first) * std::max(across / most, kShortest);
+  point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+}
+
+bool TakeSurfaces(btManifoldPoint& point, const btCollisionObjectWrapper* first, int, int,
+                  const btCollisionObjectWrapper* second, int, int) {
+  const model::Surface& a = SurfaceOf(first);
+  const model::Surface& b = SurfaceOf(second);
+  point.m_combinedFriction = std::min(a.friction, b.friction);
+  if (IsSlantwise(a) || IsSlantwise(b)) {
+    // Of two that both have a direction, that of the one which slips more.
+    const bool first_tells =
+        IsSlantwise(a) &&
+        (!IsSlantwise(b) || std::min(a.friction, a.friction2) <= std::min(b.friction, b.friction2));
+    const btVector3 direction = first_tells ? DirectionOf(a, first) : DirectionOf(b, second);
+    TakeDirections(direction, std::min(a.friction, b.friction), std::min(a.friction2, b.friction2),
+                   point);
+  }
+  point.m_combinedRestitution = a.restitution * b.restitution;
+  return true;
+}
+
+}  // namespace
+
+void InstallSurfaces() { gContactAddedCallback = TakeSurfaces; }
+
+void RigidContacts::Clear() {
+  found_.clear();
+  at_start_.clear();
+  is_first_ = true;
+}
+
+void RigidContacts::Add(const Owner& first, const Owner& second,
+                        const btPersistentManifold& manifold) {
+  const BodyPair pair{first.solid->body, second.solid->body};
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
+    if (is_first_ && point.getDistance() <= kTouching) at_start_.push_back(pair);
+    if (point.getDistance() > kTouching && !(point.getAppliedImpulse() > 0)) continue;
+    // Bullet's normal points from its second body to its first.
+    const bool swapped = manifold.getBody0()->getUserPointer() != &first;
+    geometry::Vector3 normal = FromBullet(point.m_normalWorldOnB);
+    if (!swapped) normal = -normal;
+    if (!second.moves_by_forces && normal.z < -kCarries) continue;
+    const btVector3 middle = (point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2;
+    found_.push_back({pair.first, pair.second, FromBullet(middle), normal,
+                      std::max(0.0, -point.getDistance()), false});
+  }
+}
+
+void RigidContacts::Read(btDispatcher& dispatcher) {
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() == 0) continue;
+    auto& a = *static_cast<Owner*>(manifold.getBody0()->getUserPointer());
+    auto& b = *static_cast<Owner*>(manifold.getBody1()->getUserPointer());
+    a.touches = b.touches = true;
+    const bool in_order =
+        a.moves_by_forces && (!b.moves_by_forces || a.solid->body < b.solid->body);
+    Add(in_order ? a : b, in_order ? b : a, manifold);
+  }
+  is_first_ = false;
+}
+
+void RigidContacts::AddTo(std::vector<world::Contact>& contacts) {
+  const auto pair_of = [](const world::Contact& c) { return BodyPair{c.first, c.second}; };
+  std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+    return std::make_tuple(a.first, a.second, -a.depth) <
+           std::make_tuple(b.first, b.second, -b.depth);
+  });
+  std::sort(at_start_.begin(), at_start_.end());
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (i > 0 && pair_of(found_[i]) == pair_of(found_[i - 1])) continue;
+    found_[i].began = !std::binary_search(at_start_.begin(), at_start_.end(), pair_of(found_[i]));
+    contacts.push_back(found_[i]);
+  }
+}
+
+}  // namespace gsv::dynamics

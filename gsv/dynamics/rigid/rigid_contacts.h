@@ -1,0 +1,44 @@
+// What touches what in a Bullet world: surfaces in, contacts out. Private to this folder.
+//
+// Surfaces  two that touch have the smaller friction of the two and the product of their
+//           restitutions, as in DART, which Gazebo uses. Where one of them has two frictions, they
+//           act along its direction and across; where both have, that of the more slippery one
+//           counts.
+#pragma once
+
+#include <vector>
+
+#include "gsv/dynamics/rigid/rigid_scene.h"
+#include "gsv/dynamics/shapes/contact_collector.h"
+
+namespace gsv::dynamics {
+
+// What a collision object stands for; its user pointer points to one.
+struct Owner {
+  const Solid* solid = nullptr;
+  bool moves_by_forces = false;
+  bool touches = false;  // something, in the last substep
+};
+
+// To be called before the first collision is looked for: has Bullet ask for surfaces.
+void InstallSurfaces();
+
+class RigidContacts {
+ public:
+  // Starts a step.
+  void Clear();
+  // Reads what touches after a substep: marks owners, and adds the contacts between what moves by
+  // forces and others that do not just carry it.
+  void Read(btDispatcher& dispatcher);
+  // Appends the contacts of the step to `contacts`, one for each pair of bodies.
+  void AddTo(std::vector<world::Contact>& contacts);
+
+ private:
+  void Add(const Owner& first, const Owner& second, const btPersistentManifold& manifold);
+
+  std::vector<world::Contact> found_;
+  std::vector<BodyPair> at_start_;  // who touched when the step began
+  bool is_first_ = true;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,242 @@
+// Rigid bodies against mechanics: every expected value is a closed form. docs/fidelity.md lists
+// them.
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "gsv/base/test_table.h"
+#include "gsv/base/test_within.h"
+#include "gsv/dynamics/testing/test_rigid_world.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+using testing::EnergyOf;
+using testing::SolidOf;
+using testing::TestWorld;
+using testing::WorldOnGround;
+
+constexpr double kG = 9.8;
+constexpr double kStep = 0.001;
+
+model::Surface SurfaceOf(double friction, double restitution = 0) {
+  return {friction, friction, restitution};
+}
+
+Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
+
+// A plane inclined about the y axis: down is +x.
+Pose Inclined(double angle) { return {{0, 0, 0}, geometry::FromAxisAngle({0, 1, 0}, angle)}; }
+
+TEST(RigidFidelity, ABodyFallsAlongTheParabola) {
+  TestWorld world = WorldOnGround();
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 2), At(0, 0, 10));
+  ASSERT_TRUE(world.Start());
+  world.body("ball").linear_velocity = {3, -1, 2};
+  world.Run(1, kStep);
+  EXPECT_WITHIN(world.position("ball").x, 3, 1e-9, "m");
+  EXPECT_WITHIN(world.position("ball").y, -1, 1e-9, "m");
+  EXPECT_WITHIN(world.position("ball").z, 10 + 2 - kG / 2, 1e-9, "m");
+  EXPECT_NEAR(world.body("ball").linear_velocity.z, 2 - kG, 1e-9);
+}
+
+TEST(RigidFidelity, AStepOfAnySizeGivesTheSameFall) {
+  for (const double step : {0.0005, 0.004, 0.25}) {
+    TestWorld world = WorldOnGround();
+    world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 2), At(0, 0, 10));
+    ASSERT_TRUE(world.Start());
+    world.Run(1, step);
+    EXPECT_WITHIN(world.position("ball").z, 10 - kG / 2, 1e-9, "m") << step;
+  }
+}
+
+TEST(RigidFidelity, ABallBouncesToTheSquareOfItsRestitution) {
+  base::testing::Table table("bounce");
+  for (const double restitution : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+    TestWorld world = WorldOnGround(SurfaceOf(1, 1));
+    world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 1, SurfaceOf(1, restitution)),
+                   At(0, 0, 1.1));
+    ASSERT_TRUE(world.Start());
+    world.Run(std::sqrt(2 / kG) + 0.02, kStep);
+    double highest = 0;
+    for (int i = 0; i < 800; ++i) {
+      world.Step(kStep);
+      if (world.body("ball").linear_velocity.z < 0) break;
+      highest = std::max(highest, world.position("ball").z - 0.1);
+    }
+    EXPECT_WITHIN(highest, restitution * restitution, 0.01, "m") << restitution;
+    table.Row({restitution, highest, restitution * restitution});
+  }
+}
+
+TEST(RigidFidelity, ASlidingBoxStopsAfterTheFrictionDistance) {
+  const double mu = 0.5, speed = 2;
+  TestWorld world = WorldOnGround();
+  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(mu)), At(0, 0, 0.05));
+  ASSERT_TRUE(world.Start());
+  world.body("box").linear_velocity = {speed, 0, 0};
+  base::testing::Table table("friction");
+  for (int i = 0; i <= 1000; ++i) {
+    const double sliding = std::min(kStep * i, speed / (mu * kG));
+    table.Row({kStep * i, world.position("box").x, (speed - mu * kG * sliding / 2) * sliding});
+    if (i < 1000) world.Step(kStep);
+  }
+  EXPECT_WITHIN_PERCENT(world.position("box").x, speed * speed / (2 * mu * kG), 0.5);
+  EXPECT_EQ(world.body("box").linear_velocity, Vector3{});
+}
+
+constexpr double kInclineFriction = 0.5;
+
+// A box that is put down on an incline: how far it is down the slope after so many seconds.
+double SlideDown(double angle, double seconds, Vector3& velocity) {
+  const Pose incline = Inclined(angle);
+  TestWorld world(MakeWorldEngine());
+  world.AddStatic("incline", testing::GroundOf(), incline);
+  world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 3, SurfaceOf(kInclineFriction)),
+                 incline * At(0, 0, 0.05));
+  EXPECT_TRUE(world.Start());
+  world.Run(seconds, kStep);
+  velocity = world.body("box").linear_velocity;
+  return (Inverse(incline) * world.position("box")).x;
+}
+
+TEST(RigidFidelity, ABoxOnAnInclineStaysBelowTheFrictionAngle) {
+  Vector3 velocity;
+  EXPECT_WITHIN(SlideDown(std::atan(kInclineFriction) - 0.01, 10, velocity), 0, 1e-5, "m");
+  EXPECT_EQ(velocity, Vector3{});
+}
+
+TEST(RigidFidelity, ABoxOnAnInclineSlidesAboveTheFrictionAngle) {
+  base::testing::Table table("incline");
+  Vector3 velocity;
+  for (const double beyond : {-0.1, -0.05, -0.01, 0.05, 0.1, 0.15, 0.2, 0.3}) {
+    const double angle = std::atan(kInclineFriction) + beyond;
+    const double slope = std::sin(angle) - kInclineFriction * std::cos(angle);
+    const double expected = std::max(0.0, kG * slope * 2 * 2 / 2);
+    const double slid = SlideDown(angle, 2, velocity);
+    if (beyond < 0) {
+      EXPECT_WITHIN(slid, 0, 1e-5, "m") << beyond;
+    } else {
+      EXPECT_WITHIN_PERCENT(slid, expected, 0.5) << beyond;
+    }
+    table.Row({angle, slid, expected});
+  }
+}
+
+TEST(RigidFidelity, ABallRollsDownAnInclineAtFiveSeventhsOfTheSlope) {
+  const double angle = 0.2;
+  const Pose incline = Inclined(angle);
+  TestWorld world(MakeWorldEngine());
+  world.AddStatic("incline", testing::GroundOf(), incline);
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.1}, 1), incline * At(0, 0, 0.1));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, kStep);
+  const double expected = 5.0 / 7 * kG * std::sin(angle) * 2 * 2 / 2;
+  EXPECT_WITHIN_PERCENT((Inverse(incline) * world.position("ball")).x, expected, 0.5);
+}
+
+TEST(RigidFidelity, ACollisionKeepsMomentum) {
+  const double speed = 2, e = 0.7 * 0.7;  // the product of both surfaces'
+  const model::Surface bouncy = SurfaceOf(0, 0.7);
+  base::testing::Table table("momentum");
+  for (const double mass : {0.25, 0.5, 1.0, 2.0, 3.0, 4.0}) {
+    TestWorld world(MakeWorldEngine());
+    world.AddRigid("a", SolidOf(geometry::Sphere{0.1}, mass, bouncy), At(0, 0, 100));
+    world.AddRigid("b", SolidOf(geometry::Sphere{0.1}, 1, bouncy), At(1, 0, 100));
+    ASSERT_TRUE(world.Start());
+    world.body("a").linear_velocity = {speed, 0, 0};
+    world.Run(1, kStep);
+    const double va = world.body("a").linear_velocity.x, vb = world.body("b").linear_velocity.x;
+    EXPECT_WITHIN(mass * va + vb, mass * speed, 1e-9, "kg m/s") << mass;
+    // Give or take the depth at which bodies rest in each other, in one substep.
+    EXPECT_WITHIN(vb - va, e * speed, 0.0101, "m/s") << mass;
+    EXPECT_EQ(world.body("a").collisions, 1u) << mass;
+    table.Row({mass, va, vb, speed * (mass - e) / (mass + 1), speed * mass * (1 + e) / (mass + 1)});
+  }
+}
+
+TEST(RigidFidelity, ABoxAtRestNeitherSinksNorDrifts) {
+  TestWorld world = WorldOnGround();
+  world.AddRigid("box", SolidOf(geometry::Box{{0.5, 0.5, 0.5}}, 10), At(1, 2, 0.25));
+  ASSERT_TRUE(world.Start());
+  world.Run(1, kStep);
+  const Vector3 settled = world.position("box");
+  EXPECT_WITHIN(settled.x, 1, 1e-9, "m");
+  EXPECT_WITHIN(settled.y, 2, 1e-9, "m");
+  EXPECT_WITHIN(settled.z, 0.25, 2e-5, "m");
+  world.Run(60, kStep);
+  EXPECT_EQ(world.position("box"), settled);
+}
+
+TEST(RigidFidelity, AStackStandsForAMinute) {
+  TestWorld world = WorldOnGround();
+  const auto box = SolidOf(geometry::Box{{0.5, 0.5, 0.5}}, 1);
+  for (int i = 0; i < 5; ++i) {
+    world.AddRigid("box" + std::to_string(i), box, At(0, 0, 0.25 + 0.5 * i));
+  }
+  ASSERT_TRUE(world.Start());
+  base::testing::Table table("stack");
+  for (int i = 0; i <= 600; ++i) {
+    const Vector3& top = world.position("box4");
+    table.Row({0.1 * i, 1e6 * (top.z - 2.25), 1e6 * std::hypot(top.x, top.y)});
+    if (i < 600) world.Run(0.1, kStep);
+  }
+  for (int i = 0; i < 5; ++i) {
+    const Vector3& at = world.position("box" + std::to_string(i));
+    EXPECT_WITHIN(at.x, 0, 1e-4, "m") << i;
+    EXPECT_WITHIN(at.y, 0, 1e-4, "m") << i;
+    EXPECT_WITHIN(at.z, 0.25 + 0.5 * i, 1e-4, "m") << i;
+    EXPECT_EQ(world.body("box" + std::to_string(i)).linear_velocity, Vector3{}) << i;
+  }
+}
+
+TEST(RigidFidelity, EnergyNeverGrows) {
+  TestWorld world = WorldOnGround(SurfaceOf(0.6, 1));
+  const model::Surface bouncy = SurfaceOf(0.6, 0.6);
+  world.AddRigid("ball", SolidOf(geometry::Sphere{0.2}, 1, bouncy), At(0, 0, 2));
+  world.AddRigid("box", SolidOf(geometry::Box{{0.3, 0.4, 0.5}}, 2, bouncy), At(0.1, 0.1, 1));
+  world.AddRigid("can", SolidOf(geometry::Cylinder{0.1, 0.3}, 1, bouncy), At(1, 0, 1));
+  ASSERT_TRUE(world.Start());
+  world.body("box").angular_velocity = {3, 5, 1};
+  world.body("can").linear_velocity = {-2, 0, 1};
+  double energy = EnergyOf(world);
+  const double most = energy;
+  base::testing::Table table("energy");
+  for (int i = 0; i < 5000; ++i) {
+    world.Step(kStep);
+    const double now = EnergyOf(world);
+    if (i % 5 == 0) table.Row({kStep * (i + 1), now});
+    // What a substep's rounding of a turn and the slop of a contact make.
+    ASSERT_WITHIN(100 * std::max(now - energy, 0.0) / most, 0, 0.02, "% a step") << i;
+    energy = now;
+  }
+  EXPECT_LT(energy, 0.8 * most);
+}
+
+TEST(RigidFidelity, AFastBodyDoesNotCrossAThinWall) {
+  base::testing::Table table("wall");
+  for (const double speed : {5.0, 10.0, 20.0, 30.0, 50.0, 70.0, 90.0}) {
+    std::vector<double> row = {speed};
+    for (const double step : {0.001, 0.01, 0.1}) {
+      TestWorld world = WorldOnGround();
+      world.AddBox("wall", {0.002, 20, 20}, 3, 0);
+      world.AddRigid("box", SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1), At(0, 0, 5));
+      ASSERT_TRUE(world.Start());
+      world.body("box").linear_velocity = {speed, 0, 0};
+      double furthest = 0;
+      for (double time = 0; time < 0.8; time += step) {
+        world.Step(step);
+        furthest = std::max(furthest, world.position("box").x);
+      }
+      EXPECT_GT(furthest, 2.8) << speed << " m/s, step " << step;
+      EXPECT_LT(furthest, 3) << speed << " m/s, step " << step;
+      row.push_back(furthest);
+    }
+    table.Row(row);
+  }
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

@@ -1,0 +1,170 @@
+#include "gsv/dynamics/rigid/rigid_scene.h"
+
+#include <algorithm>
+
+#include "gsv/dynamics/shapes/obstacles.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+
+// Adds children to a compound and keeps count of what they are like.
+class SolidBuilder {
+ public:
+  SolidBuilder(int body, btCompoundShape* compound) : compound_(compound) { solid_.body = body; }
+
+  void Add(const btTransform& solid_from_shape, btCollisionShape* shape,
+           const model::Surface& surface) {
+    btVector3 low, high;
+    shape->getAabb(btTransform::getIdentity(), low, high);
+    const btVector3 half = (high - low) / 2;
+    const double thickness = half[half.minAxis()];
+    solid_.thickness = std::min(solid_.thickness, thickness);
+    btVector3 centre;
+    btScalar radius = 0;
+    shape->getBoundingSphere(centre, radius);
+    solid_.radius = std::max<double>(solid_.radius, (solid_from_shape * centre).length() + radius);
+    compound_->addChildShape(solid_from_shape, shape);
+    solid_.surfaces.push_back(surface);
+  }
+
+  Solid Finish() {
+    solid_.shape = compound_;
+    return std::move(solid_);
+  }
+
+ private:
+  btCompoundShape* compound_;
+  Solid solid_;
+};
+
+Solid SolidOf(const Part& part, const model::Model& model, int body, RigidShapes& shapes) {
+  SolidBuilder builder(body, shapes.Compound());
+  const Pose part_from_model = Inverse(part.model_from_part);
+  for (const int l : part.links) {
+    for (const model::Collision& collision : model.links[l].collisions) {
+      const Pose pose =
+          part_from_model * model.links[l].model_from_link * collision.link_from_collision;
+      for (btCollisionShape* shape : shapes.Moving(collision.shape)) {
+        builder.Add(ToBullet(pose), shape, collision.surface);
+      }
+    }
+  }
+  return builder.Finish();
+}
+
+}  // namespace
+
+bool Solid::bounces() const {
+  return std::any_of(surfaces.begin(), surfaces.end(),
+                     [](const model::Surface& surface) { return surface.restitution > 0; });
+}
+
+bool IsNear(const PlanarBody& planar, const world::State& before, const world::State& after,
+            const std::vector<Area>& areas) {
+  if (planar.solid.surfaces.empty()) return false;
+  const geometry::Vector3& at = before.bodies[planar.solid.body].world_from_model.position;
+  const geometry::Vector3& to = after.bodies[planar.solid.body].world_from_model.position;
+  const double reach = planar.solid.radius;
+  return std::any_of(areas.begin(), areas.end(), [&](const Area& area) {
+    return std::max(at.x, to.x) + reach > area.low.x() &&
+           std::min(at.x, to.x) - reach < area.high.x() &&
+           std::max(at.y, to.y) + reach > area.low.y() &&
+           std::min(at.y, to.y) - reach < area.high.y();
+  });
+}
+
+const PlanarBody& RigidScene::PlanarOf(int body) const {
+  return *std::lower_bound(planar_.begin(), planar_.end(), body,
+                           [](const PlanarBody& p, int b) { return p.solid.body < b; });
+}
+
+base::Status RigidScene::AddRigid(int index) {
+  const world::Body& body = layout_->bodies[index];
+  RigidBody rigid;
+  rigid.body = index;
+  rigid.model = body.model.get();
+  rigid.articulation = MakeArticulation(*body.model);
+  rigid.first_joint = body.first_joint;
+  for (const Part& part : rigid.articulation.parts) {
+    rigid.solids.push_back(SolidOf(part, *body.model, index, shapes_));
+  }
+  if (body.model->drive) {
+    auto kinematics = DriveKinematics::Create(*body.model);
+    if (!kinematics) return base::Fail(kinematics.error());
+    rigid.kinematics = *std::move(kinematics);
+  }
+  bodies_.push_back(std::move(rigid));
+  return {};
+}
+
+void RigidScene::AddStanding(int index) {
+  const model::Model& model = *layout_->bodies[index].model;
+  SolidBuilder builder(index, shapes_.Compound());
+  for (const model::Link& link : model.links) {
+    for (const model::Collision& collision : link.collisions) {
+      const Pose pose = link.model_from_link * collision.link_from_collision;
+      btCollisionShape* shape = shapes_.Standing(collision.shape);
+      if (shape == nullptr) continue;
+      if (std::holds_alternative<geometry::Plane>(collision.shape)) {
+        // Without end, it would make a compound's tree useless.
+        standing_.push_back({{index, shape, {collision.surface}}, pose});
+      } else {
+        builder.Add(ToBullet(pose), shape, collision.surface);
+      }
+    }
+  }
+  if (Solid solid = builder.Finish(); !solid.surfaces.empty()) {
+    standing_.push_back({std::move(solid), {}});
+  }
+}
+
+base::Status RigidScene::AddPlanar(int index) {
+  const world::Body& body = layout_->bodies[index];
+  PlanarBody planar;
+  const Footprint footprint = MakeFootprint(*body.model, {});
+  const double climb = footprint.heights.low + ClimbHeight(*body.model, footprint);
+  planar.low = climb;
+  SolidBuilder builder(index, shapes_.Compound());
+  for (const Footprint::Piece& piece : footprint.pieces) {
+    const double low = std::max(piece.heights.low, climb);
+    if (!(piece.heights.high > low)) continue;
+    btTransform model_from_shape;
+    btCollisionShape* shape = shapes_.Prism(piece, low, model_from_shape);
+    if (shape != nullptr) builder.Add(model_from_shape, shape, {});
+  }
+  planar.solid = builder.Finish();
+  planar.mass = MakeArticulation(*body.model).mass;
+  auto kinematics = body.model->drive ? DriveKinematics::Create(*body.model)
+                                      : base::Result<DriveKinematics>(DriveKinematics::Free());
+  if (!kinematics) return base::Fail(kinematics.error());
+  planar.kinematics = *std::move(kinematics);
+  planar_.push_back(std::move(planar));
+  return {};
+}
+
+base::Status RigidScene::SetLayout(std::shared_ptr<const world::Layout> layout) {
+  layout_ = std::move(layout);
+  bodies_.clear();
+  standing_.clear();
+  planar_.clear();
+  shapes_.NextLayout();
+  const auto& bodies = layout_->bodies;
+  // Where nothing moves by forces, nothing is to be made.
+  if (std::none_of(bodies.begin(), bodies.end(), IsRigid)) return {};
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    base::Status status;
+    if (IsRigid(bodies[i])) {
+      status = AddRigid(i);
+    } else if (IsDriven(bodies[i])) {
+      status = AddPlanar(i);
+    } else {
+      AddStanding(i);
+    }
+    if (!status) return status;
+  }
+  return {};
+}
+
+}  // namespace gsv::dynamics

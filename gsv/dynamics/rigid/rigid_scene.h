@@ -1,0 +1,85 @@
+// What the rigid engine derives from a layout: who moves by forces, in what shapes, among what.
+// Private to this folder: it includes Bullet.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/dynamics/motion/drive_kinematics.h"
+#include "gsv/dynamics/rigid/articulation.h"
+#include "gsv/dynamics/rigid/rigid_shapes.h"
+#include "gsv/world/state.h"
+
+namespace gsv::dynamics {
+
+// A collision shape with what its surface is like.
+struct Solid {
+  int body = 0;                          // index in the layout
+  btCollisionShape* shape = nullptr;     // never null
+  std::vector<model::Surface> surfaces;  // of the children of a compound, else one
+  double thickness = 1;  // half of the thinnest child's least extent, if that is less than 1 m
+  double radius = 0;     // about the origin of the shape's frame
+
+  bool bounces() const;
+};
+
+// What moves by forces.
+struct RigidBody {
+  int body = 0;
+  const model::Model* model = nullptr;
+  Articulation articulation;
+  std::vector<Solid> solids;  // of its parts
+  std::optional<DriveKinematics> kinematics;
+  int first_joint = 0;
+  bool is_jointed() const { return articulation.parts.size() > 1; }
+};
+
+// What stands where the state has it.
+struct StandingBody {
+  Solid solid;
+  geometry::Pose model_from_shape;
+};
+
+// What the planar mover moves: an obstacle to others, in the shape of its footprint.
+struct PlanarBody {
+  Solid solid;
+  double low = 0;  // height of its lowest point that is not ground to it, above the model's origin
+  double mass = 0;
+  std::optional<DriveKinematics> kinematics;
+};
+
+// Where a rigid body may get to within a step.
+struct Area {
+  btVector3 low, high;
+};
+bool IsNear(const PlanarBody& planar, const world::State& before, const world::State& after,
+            const std::vector<Area>& areas);
+
+class RigidScene {
+ public:
+  // Refuses drives that make no sense.
+  base::Status SetLayout(std::shared_ptr<const world::Layout> layout);
+
+  bool has_bodies() const { return !bodies_.empty(); }
+  const world::Layout& layout() const { return *layout_; }
+  const std::vector<RigidBody>& bodies() const { return bodies_; }
+  const std::vector<StandingBody>& standing() const { return standing_; }
+  const std::vector<PlanarBody>& planar() const { return planar_; }
+  // The one with that index in the layout, which must be planar.
+  const PlanarBody& PlanarOf(int body) const;
+
+ private:
+  base::Status AddRigid(int index);
+  void AddStanding(int index);
+  base::Status AddPlanar(int index);
+
+  std::shared_ptr<const world::Layout> layout_;
+  RigidShapes shapes_;
+  std::vector<RigidBody> bodies_;
+  std::vector<StandingBody> standing_;
+  std::vector<PlanarBody> planar_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,65 @@
+// Collision shapes in Bullet's form. Private to this folder: it includes Bullet.
+//
+// Exact      box, sphere, upright cylinder, capsule, cone, plane; a mesh that stands still is its
+//            triangles.
+// Not exact  a mesh that moves is the convex hulls of its connected pieces (more than kMaxPieces:
+//            the hull of all); an ellipsoid is a hull of points on its surface.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "gsv/dynamics/shapes/bullet_types.h"
+#include "gsv/dynamics/shapes/footprint.h"
+#include "gsv/geometry/shape.h"
+
+namespace gsv::dynamics {
+
+inline constexpr int kMaxPieces = 32;
+
+// A mesh as Bullet reads it, with what Bullet only points to. Takes long to make: kept from layout
+// to layout.
+struct StandingMesh {
+  std::shared_ptr<const geometry::TriangleMesh> source;
+  std::vector<btScalar> positions;
+  std::vector<int> indices;
+  std::unique_ptr<btTriangleIndexVertexArray> triangles;
+  std::unique_ptr<btBvhTriangleMeshShape> shape;
+};
+
+class RigidShapes {
+ public:
+  // What stands still. Null: nothing to collide with. Lives as long as this object and one more
+  // NextLayout().
+  btCollisionShape* Standing(const geometry::Shape& shape);
+
+  // What moves: one shape or several, in the frame of `shape`; planes are left out.
+  std::vector<btCollisionShape*> Moving(const geometry::Shape& shape);
+
+  // A piece of a footprint from height `low` to its top, in the frame of its model.
+  btCollisionShape* Prism(const Footprint::Piece& piece, double low, btTransform& model_from_shape);
+
+  // An empty one, to be filled.
+  btCompoundShape* Compound();
+
+  // Drops all but those meshes that were used since the last call.
+  void NextLayout();
+
+ private:
+  template <typename T, typename... Arguments>
+  T* Own(Arguments&&... arguments);
+  btCollisionShape* HullOf(const std::vector<geometry::Vector3>& points);
+  btCollisionShape* Primitive(const geometry::Shape& shape);
+  btCollisionShape* MeshOf(const geometry::Mesh& mesh);
+
+  struct MeshKey {
+    const geometry::TriangleMesh* triangles;
+    double x, y, z;  // scale
+    friend auto operator<=>(const MeshKey&, const MeshKey&) = default;
+  };
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::map<MeshKey, std::unique_ptr<StandingMesh>> meshes_, used_before_;  // never walked through
+};
+
+}  // namespace gsv::dynamics

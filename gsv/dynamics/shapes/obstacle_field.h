@@ -1,0 +1,82 @@
+// All that stands still in one slice of the world, by place.
+//
+// A uniform grid of which each cell lists the obstacles within `margin` of it, so that who is no
+// larger than the margin looks into a single cell.
+//
+// Units    metres, world frame.
+// Threads  const members may run concurrently.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gsv/dynamics/shapes/convex_piece.h"
+
+namespace gsv::dynamics {
+
+struct Obstacle {
+  ConvexPiece shape;
+  Vector2 centre;  // of a disc that holds the shape, and its radius
+  double radius = 0;
+  int body = 0;  // index in the layout
+};
+
+class ObstacleField {
+ public:
+  ObstacleField() = default;
+  ObstacleField(std::vector<Obstacle> obstacles, double margin);
+
+  const Obstacle& operator[](std::uint32_t index) const { return obstacles_[index]; }
+  std::size_t size() const { return obstacles_.size(); }
+
+  // Calls `visit` with the index of every obstacle whose disc comes within `reach` of the point, in
+  // an order that depends on the place alone; with some perhaps twice when reach exceeds the
+  // margin.
+  template <typename Visit>
+  void ForEachNear(Vector2 point, double reach, Visit visit) const {
+    for (const std::uint32_t index : everywhere_) VisitIfNear(index, point, reach, visit);
+    if (entries_.empty()) return;
+    const double beyond = reach > margin_ ? reach - margin_ : 0;
+    const int first_column = Clamped((point.x - beyond - left_) * per_cell_, columns_);
+    const int last_column = Clamped((point.x + beyond - left_) * per_cell_, columns_);
+    const int first_row = Clamped((point.y - beyond - bottom_) * per_cell_, rows_);
+    const int last_row = Clamped((point.y + beyond - bottom_) * per_cell_, rows_);
+    for (int row = first_row; row <= last_row; ++row) {
+      for (int column = first_column; column <= last_column; ++column) {
+        const std::size_t cell = std::size_t(row) * columns_ + column;
+        for (std::uint32_t k = cell_start_[cell]; k < cell_start_[cell + 1]; ++k) {
+          VisitIfNear(entries_[k], point, reach, visit);
+        }
+      }
+    }
+  }
+
+ private:
+  void LayOutGrid();
+  void FillGrid();
+  template <typename Visit>
+  void ForEachCellNear(const Obstacle& obstacle, Visit visit) const;
+
+  // The cell of a coordinate in cells; those outside belong to the edge.
+  static int Clamped(double coordinate, int count) {
+    return coordinate < 1 ? 0 : coordinate >= count ? count - 1 : static_cast<int>(coordinate);
+  }
+
+  template <typename Visit>
+  void VisitIfNear(std::uint32_t index, Vector2 point, double reach, Visit& visit) const {
+    const Obstacle& obstacle = obstacles_[index];
+    const Vector2 d = obstacle.centre - point;
+    const double within = reach + obstacle.radius;
+    if (Dot(d, d) <= within * within) visit(index);
+  }
+
+  std::vector<Obstacle> obstacles_;
+  std::vector<std::uint32_t> everywhere_;  // too large for the grid
+  double margin_ = 0;
+  double left_ = 0, bottom_ = 0, per_cell_ = 1;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::uint32_t> cell_start_;  // of each cell's run in entries_, and the end
+  std::vector<std::uint32_t> entries_;
+};
+
+}  // namespace gsv::dynamics

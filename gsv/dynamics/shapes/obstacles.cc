@@ -1,0 +1,117 @@
+#include "gsv/dynamics/shapes/obstacles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "gsv/world/snapshot.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::Pose;
+using geometry::Vector3;
+
+// A half-space is a square of this size behind its edge.
+constexpr double kEndless = 20000;
+
+void SlicePlane(const geometry::Plane& plane, const Pose& pose, Interval heights,
+                std::vector<ConvexPiece>& pieces) {
+  const Vector3 normal = pose.orientation * plane.normal;
+  const double level = std::sqrt(normal.x * normal.x + normal.y * normal.y);
+  if (std::abs(normal.z) > level) return;
+  const Vector2 out{normal.x / level, normal.y / level};
+  const Vector2 along{-out.y, out.x};
+  // The edge is at the height where the half-space reaches out the furthest.
+  const double height = normal.z > 0 ? heights.low : heights.high;
+  const double shift = -normal.z * (height - pose.position.z) / level;
+  const Vector2 edge = Vector2{pose.position.x, pose.position.y} + shift * out;
+  const Vector2 side = (kEndless / 2) * along, back = kEndless * out;
+  pieces.push_back(Hull({edge - side, edge + side, edge + side - back, edge - side - back}));
+}
+
+void SliceBody(const world::Body& body, const Pose& world_from_model, Interval heights,
+               std::vector<ConvexPiece>& pieces) {
+  for (const model::Link& link : body.model->links) {
+    for (const model::Collision& collision : link.collisions) {
+      const Pose pose = world_from_model * link.model_from_link * collision.link_from_collision;
+      if (const auto* plane = std::get_if<geometry::Plane>(&collision.shape)) {
+        SlicePlane(*plane, pose, heights, pieces);
+      } else {
+        Slice(collision.shape, pose, heights, pieces);
+      }
+    }
+  }
+}
+
+void AddObstacles(const std::vector<ConvexPiece>& pieces, int body,
+                  std::vector<Obstacle>& obstacles) {
+  for (const ConvexPiece& piece : pieces) {
+    const ConvexPiece disc = BoundingDisc(piece);
+    obstacles.push_back({piece, disc.vertices[0], disc.radius, body});
+  }
+}
+
+}  // namespace
+
+bool IsRigid(const world::Body& body) { return body.is_rigid && !body.is_static; }
+
+bool IsDriven(const world::Body& body) {
+  return !body.is_static && !body.is_rigid && (body.model->drive.has_value() || body.is_avatar);
+}
+
+std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
+                                       Interval heights) {
+  std::vector<Obstacle> obstacles;
+  std::vector<ConvexPiece> pieces;
+  for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
+    if (IsDriven(layout.bodies[i]) || IsRigid(layout.bodies[i])) continue;
+    pieces.clear();
+    SliceBody(layout.bodies[i], state.bodies[i].world_from_model, heights, pieces);
+    AddObstacles(pieces, static_cast<int>(i), obstacles);
+  }
+  return obstacles;
+}
+
+std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
+                                            std::span<const int> bodies, Interval heights) {
+  std::vector<Obstacle> obstacles;
+  std::vector<ConvexPiece> pieces;
+  for (const int i : bodies) {
+    const world::Body& body = layout.bodies[i];
+    pieces.clear();
+    const std::vector<Pose> model_from_link = world::LinkPoses(
+        *body.model,
+        std::span(state.joint_positions).subspan(body.first_joint, body.model->joints.size()));
+    for (std::size_t l = 0; l < model_from_link.size(); ++l) {
+      const Pose world_from_link = state.bodies[i].world_from_model * model_from_link[l];
+      for (const model::Collision& collision : body.model->links[l].collisions) {
+        if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+        Slice(collision.shape, world_from_link * collision.link_from_collision, heights, pieces);
+      }
+    }
+    AddObstacles(pieces, i, obstacles);
+  }
+  return obstacles;
+}
+
+double LooseRadius(const world::Body& body) {
+  if (!body.model->joints.empty()) return std::numeric_limits<double>::infinity();
+  const std::vector<Pose> model_from_link = world::LinkPoses(*body.model, {});
+  double radius = 0;
+  for (std::size_t l = 0; l < model_from_link.size(); ++l) {
+    for (const model::Collision& collision : body.model->links[l].collisions) {
+      if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+      const geometry::Bounds bounds = geometry::BoundsOf(collision.shape);
+      const Vector3 farthest{std::max(std::abs(bounds.min.x), std::abs(bounds.max.x)),
+                             std::max(std::abs(bounds.min.y), std::abs(bounds.max.y)),
+                             std::max(std::abs(bounds.min.z), std::abs(bounds.max.z))};
+      const Pose model_from_shape = model_from_link[l] * collision.link_from_collision;
+      radius = std::max(radius, Norm(model_from_shape.position) + Norm(farthest));
+    }
+  }
+  return radius;
+}
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,170 @@
+#include "gsv/dynamics/shapes/time_of_impact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace gsv::dynamics {
+namespace {
+
+constexpr double kFloorGap = 0.25e-6;  // what rounding may leave of kStopGap
+constexpr int kMaxAdvances = 64;       // then the pieces are stopped where they are
+constexpr double kApproach = 1e-9;     // m/s; less is sliding
+constexpr double kNoise = 1e-12;       // m/s; less is rounding
+
+// A piece's corners along an axis: where they are, how fast they go, and how much faster they may
+// get.
+struct Corners {
+  std::array<double, ConvexPiece::kMaxVertices> along, speed, acceleration;
+  int count = 0;
+};
+
+void Project(const ConvexPiece& placed, const geometry::PlanarPosition& at,
+             const geometry::Twist& twist, Vector2 axis, Corners& corners) {
+  corners.count = placed.vertex_count;
+  const double vx = at.cosine * twist.x - at.sine * twist.y;
+  const double vy = at.sine * twist.x + at.cosine * twist.y;
+  for (int i = 0; i < placed.vertex_count; ++i) {
+    const Vector2 v = placed.vertices[i];
+    const Vector2 speed{vx - twist.angular * (v.y - at.y), vy + twist.angular * (v.x - at.x)};
+    corners.along[i] = Dot(v, axis);
+    corners.speed[i] = Dot(speed, axis);
+    corners.acceleration[i] =
+        twist.angular == 0 ? 0 : std::abs(twist.angular) * std::sqrt(Dot(speed, speed));
+  }
+}
+
+void ProjectStanding(const ConvexPiece& placed, Vector2 axis, Corners& corners) {
+  corners.count = 1;
+  corners.along[0] = std::numeric_limits<double>::infinity();
+  for (const Vector2 v : placed.points())
+    corners.along[0] = std::min(corners.along[0], Dot(v, axis));
+  corners.speed[0] = corners.acceleration[0] = 0;
+}
+
+double Gap(const Corners& a, const Corners& b) {
+  return *std::min_element(b.along.begin(), b.along.begin() + b.count) -
+         *std::max_element(a.along.begin(), a.along.begin() + a.count);
+}
+
+// How long until `gap` can be used up at this speed and acceleration.
+double TimeToClose(double gap, double speed, double acceleration) {
+  const double root = std::sqrt(speed * speed + 2 * acceleration * gap);
+  if (speed > 0) return 2 * gap / (speed + root);
+  return acceleration > 0 ? (root - speed) / acceleration : std::numeric_limits<double>::infinity();
+}
+
+// The first time at which some pair of corners may have come within `keep` of each other.
+struct FirstMeeting {
+  double time;
+  double gap = 0;    // of that pair, now
+  double speed = 0;  // at which it closes, now
+};
+
+FirstMeeting MeetAtTheEarliest(const Corners& a, const Corners& b, double keep, double end) {
+  FirstMeeting first{end};
+  for (int i = 0; i < a.count; ++i) {
+    for (int k = 0; k < b.count; ++k) {
+      const double gap = b.along[k] - a.along[i] - keep;
+      double speed = a.speed[i] - b.speed[k];
+      if (speed > 0 && speed < kNoise) speed = 0;
+      const double acceleration = a.acceleration[i] + b.acceleration[k];
+      if ((speed + 0.5 * acceleration * first.time) * first.time <= gap) continue;
+      const double time = TimeToClose(std::max(gap, 0.0), speed, acceleration);
+      if (time < first.time) first = {time, gap, speed};
+    }
+  }
+  return first;
+}
+
+double FastestNearTop(const Corners& a) {
+  const double top = *std::max_element(a.along.begin(), a.along.begin() + a.count);
+  double fastest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < a.count; ++i) {
+    if (a.along[i] >= top - kTouchGap) fastest = std::max(fastest, a.speed[i]);
+  }
+  return fastest;
+}
+
+double SlowestNearBottom(const Corners& b) {
+  const double bottom = *std::min_element(b.along.begin(), b.along.begin() + b.count);
+  double slowest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < b.count; ++i) {
+    if (b.along[i] <= bottom + kTouchGap) slowest = std::min(slowest, b.speed[i]);
+  }
+  return slowest;
+}
+
+Impact MakeImpact(double time, Vector2 normal, const Corners& a, const Corners& b) {
+  Impact impact{time, normal, FastestNearTop(a) > kApproach, SlowestNearBottom(b) < -kApproach};
+  if (!impact.first_approaches && !impact.second_approaches) {
+    impact.first_approaches = impact.second_approaches = true;
+  }
+  return impact;
+}
+
+// Whether no point of the piece moves.
+bool IsStill(const MovingPiece& moving) {
+  const geometry::Twist& twist = moving.twist;
+  if (twist.x != 0 || twist.y != 0) return false;
+  const ConvexPiece& piece = *moving.piece;
+  return twist.angular == 0 || (piece.vertex_count == 1 && piece.vertices[0] == Vector2{});
+}
+
+// `place_second(t)` places the second piece at time t, `project_second(axis, corners)` projects it
+// as placed last. `normal` is that at the start.
+template <typename PlaceSecond, typename ProjectSecond>
+std::optional<Impact> Find(const MovingPiece& first, double end, Vector2 normal,
+                           PlaceSecond place_second, ProjectSecond project_second) {
+  double time = 0;
+  ConvexPiece placed;
+  Corners a, b;
+  for (int advance = 0; advance < kMaxAdvances; ++advance) {
+    const geometry::PlanarPosition at =
+        advance == 0 ? first.start : Advance(first.start, first.twist, time);
+    Place(*first.piece, at, placed);
+    const ConvexPiece& second = place_second(time);
+    if (advance > 0) normal = Separate(placed, second).normal;
+    Project(placed, at, first.twist, normal, a);
+    project_second(normal, b);
+    const double radii = placed.radius + second.radius;
+    const double gap = Gap(a, b) - radii;
+    const bool touching = gap <= kTouchGap;
+    const double keep = touching ? std::min(gap, kFloorGap) : kStopGap;
+    const FirstMeeting meeting = MeetAtTheEarliest(a, b, radii + keep, end - time);
+    if (meeting.time >= end - time) return std::nullopt;
+    if (touching && meeting.speed > 0 && meeting.gap <= kTouchGap) {
+      return MakeImpact(time, normal, a, b);
+    }
+    time += meeting.time;
+  }
+  return MakeImpact(time, normal, a, b);
+}
+
+}  // namespace
+
+std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end,
+                                 Vector2 normal) {
+  if (IsStill(first) && IsStill(second)) return std::nullopt;
+  ConvexPiece placed;
+  geometry::PlanarPosition at;
+  return Find(
+      first, end, normal,
+      [&](double time) -> const ConvexPiece& {
+        at = time == 0 ? second.start : Advance(second.start, second.twist, time);
+        Place(*second.piece, at, placed);
+        return placed;
+      },
+      [&](Vector2 axis, Corners& corners) { Project(placed, at, second.twist, axis, corners); });
+}
+
+std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end,
+                                 Vector2 normal) {
+  if (IsStill(first)) return std::nullopt;
+  return Find(
+      first, end, normal, [&](double) -> const ConvexPiece& { return standing; },
+      [&](Vector2 axis, Corners& corners) { ProjectStanding(standing, axis, corners); });
+}
+
+}  // namespace gsv::dynamics

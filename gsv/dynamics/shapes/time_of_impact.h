@@ -1,0 +1,52 @@
+// When two pieces that move along arcs first touch.
+//
+// Method   conservative advancement along separating axes: the pieces' closest points give an axis;
+//          along it each corner's approach is bounded by its speed plus half its centripetal
+//          acceleration times time squared; until the first pair of corners can have closed the gap
+//          nothing touches, so time is advanced by that much, and again. It never steps over a
+//          contact, however fast the pieces or thin the walls.
+// Gaps     pieces that meet are stopped kStopGap apart, give or take half of it, so that they never
+//          overlap by rounding; kTouchGap or less counts as contact. Pieces that start closer than
+//          that (or overlap) may part and slide but not close in further.
+// Units    metres, seconds.
+#pragma once
+
+#include <optional>
+
+#include "gsv/dynamics/shapes/convex_piece.h"
+#include "gsv/geometry/planar_motion.h"
+
+namespace gsv::dynamics {
+
+inline constexpr double kTouchGap = 1e-6;
+inline constexpr double kStopGap = 0.5e-6;
+
+// A piece of a base, given in the base's frame, and how the base moves.
+struct MovingPiece {
+  const ConvexPiece* piece = nullptr;
+  geometry::PlanarPosition start;  // at time 0
+  geometry::Twist twist;           // from then on
+};
+
+inline void Place(const ConvexPiece& piece, const geometry::PlanarPosition& at,
+                  ConvexPiece& placed) {
+  Place(piece, at.x, at.y, at.cosine, at.sine, placed);
+}
+
+struct Impact {
+  double time = 0;
+  Vector2 normal;                 // from the first to the second
+  bool first_approaches = false;  // whose own motion closes the gap; at least one
+  bool second_approaches = false;
+};
+
+// The first contact in [0, end) that the motions would turn into an overlap. `normal` is that of
+// Separate() for the pieces where they start.
+std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& second, double end,
+                                 Vector2 normal);
+
+// The same against a piece that stands still, given in the world.
+std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end,
+                                 Vector2 normal);
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,245 @@
+#include "gsv/formats/files/resource_finder.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <system_error>
+
+#include <tinyxml2.h>
+
+namespace gsv::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using base::ErrorCode;
+
+constexpr int kParentsSearched = 5;
+constexpr std::size_t kLongestName = 4096;
+
+bool StartsWith(std::string_view text, std::string_view prefix) {
+  return text.substr(0, prefix.size()) == prefix;
+}
+
+bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
+bool Exists(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+std::vector<fs::path> PathFromEnvironment() {
+  std::vector<fs::path> folders;
+  for (const char* variable :
+       {"GZ_SIM_RESOURCE_PATH", "SDF_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH"}) {
+    const char* value = std::getenv(variable);
+    if (value == nullptr) continue;
+    std::istringstream list(value);
+    for (std::string folder; std::getline(list, folder, ':');) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  return folders;
+}
+
+// The models that ship with this program: assets/models of the source tree or share/gsv/models of
+// an installation, seen from where the program lies.
+std::vector<fs::path> BuiltInModels() {
+  std::error_code ignored;
+  fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (int level = 0; level < 4 && folder.has_relative_path(); ++level) {
+    for (const char* place : {"assets/models", "share/gsv/models"}) {
+      if (Exists(folder / place)) return {folder / place};
+    }
+    folder = folder.parent_path();
+  }
+  return {};
+}
+
+// `folder`/`relative` as it stands or, failing that, with names that differ in case only.
+std::optional<fs::path> FindBelow(const fs::path& folder, const fs::path& relative) {
+  if (Exists(folder / relative)) return (folder / relative).lexically_normal();
+  fs::path found = folder;
+  for (const fs::path& name : relative) {
+    if (Exists(found / name)) {
+      found /= name;
+      continue;
+    }
+    std::error_code error;
+    std::vector<fs::path> alike;
+    for (const auto& entry : fs::directory_iterator(found, error)) {
+      if (EqualsIgnoringCase(entry.path().filename().string(), name.string())) {
+        alike.push_back(entry.path());
+      }
+    }
+    if (alike.empty()) return std::nullopt;
+    found = *std::min_element(alike.begin(), alike.end());
+  }
+  return found.lexically_normal();
+}
+
+bool ClimbsOut(const fs::path& relative) {
+  const fs::path normal = relative.lexically_normal();
+  return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+}
+
+// "%20" and its like, as web tools write them into file names.
+std::string PercentDecoded(const std::string& text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size() &&
+        std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
+        std::isxdigit(static_cast<unsigned char>(text[i + 2]))) {
+      decoded += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      decoded += text[i];
+    }
+  }
+  return decoded;
+}
+
+std::string WithoutLeadingSlashes(std::string path) {
+  path.erase(0, std::min(path.find_first_not_of('/'), path.size()));
+  return path;
+}
+
+// Version "1.5" as 105; 0 if it is none.
+int VersionNumber(const char* text) {
+  int major = 0, minor = 0;
+  if (text == nullptr || std::sscanf(text, "%d.%d", &major, &minor) != 2) return 0;
+  return major * 100 + minor;
+}
+
+}  // namespace
+
+bool IsWebAddress(std::string_view name) {
+  return StartsWith(name, "http://") || StartsWith(name, "https://");
+}
+
+base::Result<fs::path> FindBeside(const std::string& name, const fs::path& naming_file) {
+  std::string path = name;
+  std::replace(path.begin(), path.end(), '\\', '/');
+  std::error_code ignored;
+  const fs::path here = fs::absolute(naming_file, ignored).lexically_normal().parent_path();
+  const fs::path from_above = here.parent_path().filename() / here.filename() / path;
+  if (path.size() <= kLongestName && fs::path(path).is_relative() && !ClimbsOut(from_above)) {
+    if (auto found = FindBelow(here, path)) return *found;
+  }
+  return Fail(ErrorCode::kNotFound, "cannot find " + name, naming_file.string());
+}
+
+ResourceFinder::ResourceFinder(std::vector<fs::path> search_path, bool allow_absolute_paths)
+    : search_path_(std::move(search_path)), allow_absolute_paths_(allow_absolute_paths) {
+  for (const auto& more : {PathFromEnvironment(), BuiltInModels()}) {
+    search_path_.insert(search_path_.end(), more.begin(), more.end());
+  }
+}
+
+base::Result<fs::path> ResourceFinder::Find(std::string_view name,
+                                            const fs::path& naming_file) const {
+  std::string path(name);
+  if (path.empty() || path.size() > kLongestName || path.find('\0') != std::string::npos) {
+    return Fail(ErrorCode::kNotFound, "the name of a file is empty or too long");
+  }
+  if (IsWebAddress(path)) {
+    return Fail(ErrorCode::kNotFound,
+                path + " is on the web, which is not looked at; put a copy on the model path");
+  }
+  std::replace(path.begin(), path.end(), '\\', '/');
+  for (const std::string scheme : {"model://", "package://"}) {
+    if (StartsWith(path, scheme)) {
+      return FindInModels(WithoutLeadingSlashes(path.substr(scheme.size())), naming_file);
+    }
+  }
+  if (StartsWith(path, "file://")) path = PercentDecoded(path.substr(7));
+  return FindByPath(path, naming_file);
+}
+
+base::Result<fs::path> ResourceFinder::FindInModels(const std::string& path,
+                                                    const fs::path& naming_file) const {
+  if (ClimbsOut(path)) {
+    return Fail(ErrorCode::kNotFound, "model://" + path + " climbs out of the model folders");
+  }
+  for (const fs::path& folder : FoldersFor(naming_file)) {
+    if (auto found = FindBelow(folder, path)) return *found;
+  }
+  return Fail(ErrorCode::kNotFound,
+              "cannot find model://" + path + " beside the file or on the model path");
+}
+
+base::Result<fs::path> ResourceFinder::FindByPath(const std::string& path,
+                                                  const fs::path& naming_file) const {
+  const fs::path relative(path);
+  if (relative.is_absolute()) {
+    if (!allow_absolute_paths_) {
+      return Fail(ErrorCode::kNotFound, path + " is an absolute path, which is not allowed here");
+    }
+    if (auto found = FindBelow("/", relative.relative_path())) return *found;
+    return Fail(ErrorCode::kNotFound, "cannot find " + path);
+  }
+  const fs::path here = naming_file.parent_path();
+  const fs::path from_parent = here.lexically_normal().filename() / relative;
+  if (!here.empty() && ClimbsOut(relative) && ClimbsOut(from_parent)) {
+    return Fail(ErrorCode::kNotFound, path + " climbs out of the model folders");
+  }
+  if (auto found = FindBelow(here.empty() ? fs::path(".") : here, relative)) return *found;
+  if (!ClimbsOut(relative)) {
+    for (const fs::path& folder : FoldersFor(naming_file)) {
+      if (auto found = FindBelow(folder, relative)) return *found;
+    }
+  }
+  return Fail(ErrorCode::kNotFound,
+              "cannot find " + path + " beside the file or on the model path");
+}
+
+std::vector<fs::path> ResourceFinder::FoldersFor(const fs::path& naming_file) const {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  fs::path folder = naming_file.empty() ? fs::current_path(ignored)
+                                        : fs::absolute(naming_file, ignored).parent_path();
+  folder = folder.lexically_normal();
+  for (int level = 0; level <= kParentsSearched && folder.has_relative_path(); ++level) {
+    folders.push_back(folder);
+    folders.push_back(folder / "models");
+    folder = folder.parent_path();
+  }
+  folders.insert(folders.end(), search_path_.begin(), search_path_.end());
+  return folders;
+}
+
+base::Result<fs::path> ModelFileIn(const fs::path& folder) {
+  constexpr int kNewest = 109;
+  constexpr int kOldest = 103;
+  fs::path best = folder / "model.sdf";
+  tinyxml2::XMLDocument config;
+  if (config.LoadFile((folder / "model.config").c_str()) == tinyxml2::XML_SUCCESS &&
+      config.RootElement() != nullptr) {
+    int best_version = 0;
+    for (auto* sdf = config.RootElement()->FirstChildElement("sdf"); sdf != nullptr;
+         sdf = sdf->NextSiblingElement("sdf")) {
+      const char* name = sdf->GetText();
+      const int version = VersionNumber(sdf->Attribute("version"));
+      if (name == nullptr || ClimbsOut(name) || version < kOldest) continue;
+      // Newer than any this program knows only where there is nothing else.
+      const int rank = version <= kNewest ? version : 1;
+      if (rank > best_version && Exists(folder / name)) {
+        best_version = rank;
+        best = folder / name;
+      }
+    }
+  }
+  if (!Exists(best)) {
+    return Fail(ErrorCode::kBadModel,
+                "the folder holds neither a model.config that names an SDFormat file nor model.sdf",
+                folder.string());
+  }
+  return best;
+}
+
+}  // namespace gsv::formats

@@ -1,0 +1,44 @@
+// Reads pictures (PNG, JPEG, TGA, BMP) and keeps each for all who use it.
+//
+// Errors   a sentence for a file that is absent, larger than the limits, or not a picture. The size
+//          a picture claims is checked before memory is taken.
+// Threads  one at a time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/files/read_limits.h"
+#include "gsv/model/image.h"
+
+namespace gsv::formats {
+
+// `source` is for messages. A picture none of whose pixels is see-through has 3 channels.
+base::Result<std::shared_ptr<const model::Image>> DecodeImage(const unsigned char* bytes,
+                                                              std::size_t size,
+                                                              const std::string& source,
+                                                              const ReadLimits& limits);
+
+class TextureReader {
+ public:
+  explicit TextureReader(const ReadLimits& limits) : limits_(limits) {}
+  base::Result<std::shared_ptr<const model::Image>> Read(const std::filesystem::path& path);
+
+  // Gloss as glTF wants it: G from `roughness`, B from `metalness`; either may be null.
+  std::shared_ptr<const model::Image> Combine(const std::shared_ptr<const model::Image>& roughness,
+                                              const std::shared_ptr<const model::Image>& metalness);
+
+  // The same picture with 3 channels, for a material that does not let its alpha count.
+  std::shared_ptr<const model::Image> Opaque(const std::shared_ptr<const model::Image>& image);
+
+ private:
+  ReadLimits limits_;
+  std::map<std::filesystem::path, std::shared_ptr<const model::Image>> images_;
+  std::map<std::pair<const void*, const void*>, std::shared_ptr<const model::Image>> combined_;
+  std::map<std::shared_ptr<const model::Image>, std::shared_ptr<const model::Image>> opaque_;
+};
+
+}  // namespace gsv::formats

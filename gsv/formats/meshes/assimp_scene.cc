@@ -1,0 +1,164 @@
+#include "gsv/formats/meshes/assimp_scene.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+
+#include "gsv/formats/meshes/collada_check.h"
+
+namespace gsv::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using base::ErrorCode;
+
+std::string LowerExtension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// Blanks at the start of a COLLADA <color> make assimp refuse the file: they move to the tag's
+// side, where they do no harm and no offset changes.
+void MoveBlanksOutOfColours(std::string& text) {
+  for (std::size_t tag = text.find("<color"); tag != std::string::npos;
+       tag = text.find("<color", tag + 1)) {
+    const std::size_t end = text.find('>', tag);
+    if (end == std::string::npos) return;
+    std::size_t first = end + 1;
+    while (first < text.size() && std::isspace(static_cast<unsigned char>(text[first]))) ++first;
+    if (first == end + 1 || text[end - 1] == '/') continue;
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(end),
+              text.begin() + static_cast<std::ptrdiff_t>(first - 1), ' ');
+    text[first - 1] = '>';
+  }
+}
+
+// Serves the mesh itself from memory, and others only from its folder and that one's parent.
+class MeshFolder : public Assimp::DefaultIOSystem {
+ public:
+  MeshFolder(fs::path file, std::string text)
+      : file_(std::move(file)), text_(std::move(text)), root_(file_.parent_path().parent_path()) {}
+
+  bool Exists(const char* name) const override {
+    return IsMesh(name) || (IsInside(name) && DefaultIOSystem::Exists(name));
+  }
+
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    if (IsMesh(name)) {
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_.data()),
+                                        text_.size(), false);
+    }
+    const bool reads = std::strchr(mode, 'w') == nullptr && std::strchr(mode, 'a') == nullptr;
+    return reads && IsInside(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+  }
+
+ private:
+  bool IsMesh(const char* name) const { return fs::path(name).lexically_normal() == file_; }
+  bool IsInside(const char* name) const {
+    std::error_code ignored;
+    const fs::path path = fs::absolute(name, ignored).lexically_normal();
+    const fs::path below = path.lexically_relative(root_);
+    return !below.empty() && *below.begin() != "..";
+  }
+
+  fs::path file_;
+  std::string text_;
+  fs::path root_;
+};
+
+void KeepOnlyNamedImporters(Assimp::Importer& importer) {
+  static const std::set<std::string> kept = {"Collada Importer", "Wavefront Object Importer",
+                                             "Stereolithography (STL) Importer", "glTF2 Importer"};
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* candidate = importer.GetImporter(i);
+    if (kept.count(candidate->GetInfo()->mName) != 0) continue;
+    importer.UnregisterLoader(candidate);
+    delete candidate;
+  }
+}
+
+base::Result<std::string> ReadBytes(const fs::path& path, std::size_t limit) {
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  if (error) return Fail(ErrorCode::kNotFound, "the mesh cannot be read", path.string());
+  if (size > limit) {
+    return Fail(ErrorCode::kBadModel,
+                "the mesh is larger than the limit of " + std::to_string(limit) + " bytes",
+                path.string());
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return bytes;
+}
+
+// A binary STL says in its header how many triangles follow, 50 bytes each.
+bool LiesAboutItsLength(const std::string& stl) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  if (stl.size() < kHeader || stl.compare(0, 5, "solid") == 0) return false;
+  std::uint32_t claimed = 0;
+  std::memcpy(&claimed, stl.data() + 80, sizeof claimed);
+  return (stl.size() - kHeader) / kTriangle < claimed;
+}
+
+std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+base::Result<AssimpScene> OpenScene(const fs::path& given, const ReadLimits& limits) {
+  std::error_code ignored;
+  const fs::path path = fs::absolute(given, ignored).lexically_normal();
+  const std::string extension = LowerExtension(path);
+  static const std::set<std::string> known = {".dae", ".obj", ".stl", ".gltf", ".glb"};
+  if (known.count(extension) == 0) {
+    return Fail(ErrorCode::kBadModel,
+                "meshes are read from .dae, .obj, .stl, .gltf and .glb files only", path.string());
+  }
+  auto bytes = ReadBytes(path, limits.mesh_bytes);
+  if (!bytes) return Fail(bytes.error());
+  if (extension == ".dae") {
+    if (auto status = CheckCollada(*bytes, path.string()); !status) return Fail(status.error());
+    MoveBlanksOutOfColours(*bytes);
+  }
+  // assimp's OBJ reader runs past a last line that does not end.
+  if (extension == ".obj") *bytes += '\n';
+  if (extension == ".stl" && LiesAboutItsLength(*bytes)) {
+    return Fail(ErrorCode::kBadModel, "the mesh's header claims more triangles than the file holds",
+                path.string());
+  }
+
+  AssimpScene result{std::make_unique<Assimp::Importer>(), nullptr};
+  KeepOnlyNamedImporters(*result.importer);
+  result.importer->SetIOHandler(new MeshFolder(path, std::move(*bytes)));
+  result.importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  result.importer->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  result.importer->SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                      aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  result.scene = result.importer->ReadFile(
+      path.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenNormals |
+                         aiProcess_JoinIdenticalVertices);
+  if (result.scene == nullptr || result.scene->mRootNode == nullptr) {
+    const std::string reason = FirstLine(result.importer->GetErrorString());
+    return Fail(ErrorCode::kBadModel,
+                "the mesh cannot be read" + (reason.empty() ? "" : " (" + reason + ")"),
+                path.string());
+  }
+  return result;
+}
+
+}  // namespace gsv::formats

@@ -1,0 +1,131 @@
+#include "gsv/formats/meshes/collada_check.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tinyxml2.h>
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+using tinyxml2::XMLElement;
+
+bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool IsBlank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+bool HoldsWholeNumbers(const char* text) {
+  while (text != nullptr && *text != '\0') {
+    while (IsBlank(*text)) ++text;
+    if (*text == '\0') break;
+    if (*text == '-' || *text == '+') ++text;
+    if (!IsDigit(*text)) return false;
+    while (IsDigit(*text)) ++text;
+    if (*text != '\0' && !IsBlank(*text)) return false;
+  }
+  return true;
+}
+
+bool IsListOfIndices(const XMLElement& element) {
+  const char* name = element.Name();
+  return std::strcmp(name, "p") == 0 || std::strcmp(name, "vcount") == 0 ||
+         std::strcmp(name, "v") == 0 || std::strcmp(name, "h") == 0;
+}
+
+// Which values of which array are read: COLLADA 1.4.1, 5-16 (accessor) and 5-56 (float_array).
+struct Accessor {
+  std::string array;  // its id
+  double values = 0;  // how many the array must hold; more than any holds where no count is given
+  int line = 0;
+};
+
+// Of an attribute that is absent: `absent`; of one that is more than digits, which assimp reads in
+// another way than others do: `odd`.
+double CountIn(const XMLElement& element, const char* attribute, double absent, double odd) {
+  const char* text = element.Attribute(attribute);
+  if (text == nullptr) return absent;
+  const bool is_count = *text != '\0' && std::all_of(text, text + std::strlen(text), IsDigit);
+  return is_count ? element.DoubleAttribute(attribute) : odd;
+}
+
+Accessor AccessorIn(const XMLElement& element) {
+  constexpr double kTooMany = 1e300;
+  double params = 0;
+  for (auto* param = element.FirstChildElement("param"); param != nullptr;
+       param = param->NextSiblingElement("param")) {
+    ++params;
+  }
+  const char* source = element.Attribute("source");
+  const double count = CountIn(element, "count", kTooMany, kTooMany);
+  const double stride = CountIn(element, "stride", 1, kTooMany);
+  const double last = CountIn(element, "offset", 0, kTooMany) + (count - 1) * stride;
+  return {source != nullptr && *source == '#' ? source + 1 : "",
+          count > 0 ? last + std::max(stride, params) : 0, element.GetLineNum()};
+}
+
+class Checker : public tinyxml2::XMLVisitor {
+ public:
+  explicit Checker(std::size_t bytes) : bytes_(static_cast<double>(bytes)) {}
+
+  bool VisitEnter(const XMLElement& element, const tinyxml2::XMLAttribute* first) override {
+    line = element.GetLineNum();
+    const std::string_view name = element.Name();
+    if (const char* id = element.Attribute("id"); id != nullptr && name.ends_with("_array")) {
+      const double values = CountIn(element, "count", 0, 0);
+      const auto [known, is_new] = arrays_.try_emplace(id, values);
+      if (!is_new) known->second = std::min(known->second, values);
+    }
+    if (name == "accessor") accessors_.push_back(AccessorIn(element));
+    for (auto* attribute = first; attribute != nullptr; attribute = attribute->Next()) {
+      const std::string_view key = attribute->Name();
+      const bool counts = key == "count" || key == "stride" || key == "offset";
+      if (counts && !(attribute->DoubleValue() >= 0 && attribute->DoubleValue() <= bytes_)) {
+        wrong = "the mesh claims more values than the file holds";
+      }
+    }
+    if (IsListOfIndices(element) && !HoldsWholeNumbers(element.GetText())) {
+      wrong = "a list of indices holds something that is no whole number";
+    }
+    return wrong == nullptr;
+  }
+
+  // Once all is visited: arrays may stand behind their accessors.
+  void CheckAccessors() {
+    for (const Accessor& accessor : accessors_) {
+      const auto array = arrays_.find(accessor.array);
+      if (wrong != nullptr || array == arrays_.end() || accessor.values <= array->second) continue;
+      wrong = "an accessor reads more values than its array holds";
+      line = accessor.line;
+    }
+  }
+
+  const char* wrong = nullptr;
+  int line = 0;
+
+ private:
+  double bytes_;
+  std::map<std::string, double> arrays_;  // by id: how many values, of several of a name the fewest
+  std::vector<Accessor> accessors_;
+};
+
+}  // namespace
+
+base::Status CheckCollada(const std::string& text, const std::string& file) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    return Fail(ErrorCode::kBadModel, "the mesh cannot be read: its XML is malformed",
+                file + ":" + std::to_string(document.ErrorLineNum()));
+  }
+  Checker checker(text.size());
+  document.Accept(&checker);
+  checker.CheckAccessors();
+  if (checker.wrong == nullptr) return {};
+  return Fail(ErrorCode::kBadModel, checker.wrong, file + ":" + std::to_string(checker.line));
+}
+
+}  // namespace gsv::formats

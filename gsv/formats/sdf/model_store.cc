@@ -1,0 +1,108 @@
+#include "gsv/formats/sdf/model_store.h"
+
+#include <sdf/Light.hh>
+#include <sdf/Model.hh>
+#include <sdf/Root.hh>
+
+#include "gsv/formats/sdf/include_scan.h"
+#include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/formats/sdf/sdf_drive.h"
+#include "gsv/formats/sdf/sdf_world.h"
+#include "gsv/formats/sdf/urdf_text.h"
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+using tinyxml2::XMLElement;
+
+void Append(const std::string& plugins, XMLElement& model) {
+  if (plugins.empty()) return;
+  tinyxml2::XMLDocument document;
+  document.Parse(("<plugins>" + plugins + "</plugins>").c_str());
+  if (document.RootElement() == nullptr) return;
+  for (auto* plugin = document.RootElement()->FirstChildElement(); plugin != nullptr;
+       plugin = plugin->NextSiblingElement()) {
+    model.InsertEndChild(plugin->DeepClone(model.GetDocument()));
+  }
+}
+
+}  // namespace
+
+base::Result<std::shared_ptr<const StoredFile>> ModelStore::Read(const std::filesystem::path& file,
+                                                                 const std::string& plugins) {
+  const auto name = std::make_pair(file.string(), plugins);
+  if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
+  std::error_code ignored;
+  const auto key = std::make_pair(std::filesystem::weakly_canonical(file, ignored), plugins);
+  auto& known = files_[key];
+  if (known == nullptr) {
+    auto stored = ReadFresh(file, plugins);
+    if (!stored) return Fail(stored.error());
+    known = std::make_shared<const StoredFile>(std::move(*stored));
+  }
+  return by_name_[name] = known;
+}
+
+base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file,
+                                               const std::string& plugins) {
+  StoredFile stored;
+  auto xml = ReadXml(file, limits_, stored.problems);
+  if (!xml) return Fail(xml.error());
+  if (xml->dialect == XmlDialect::kUrdf) {
+    auto text = UrdfText(*xml);
+    if (!text) return Fail(text.error());
+    auto robot = FromText(*text, file, {}, std::move(stored));
+    if (robot) AddGuessedDrive(*robot);
+    return robot;
+  }
+  XMLElement* content = xml->root->FirstChildElement("model");
+  if (content == nullptr) content = xml->root->FirstChildElement("light");
+  if (content == nullptr) {
+    const bool world = xml->root->FirstChildElement("world") != nullptr;
+    return Fail(
+        ErrorCode::kBadModel,
+        world ? "the file holds a world, where a model is wanted" : "there is no model inside",
+        PlaceOf(file, *xml->root));
+  }
+  IncludeScan includes(finder_, limits_, stored.problems);
+  if (auto status = includes.Scan(*content, file); !status) return Fail(status.error());
+  if (std::string(content->Name()) == "model") Append(plugins, *content);
+
+  LineKeepingPrinter printer;
+  printer.Text("<sdf version='" + xml->version + "'>");
+  printer.Element(*content);
+  printer.Text("</sdf>");
+  return FromText(printer.Take(), file, includes.files(), std::move(stored));
+}
+
+void ModelStore::AddGuessedDrive(StoredFile& stored) {
+  const auto& model = stored.framed.model;
+  if (model == nullptr || model->drive) return;
+  auto drive = GuessDifferentialDrive(*model);
+  if (!drive) return;
+  auto driven = std::make_shared<model::Model>(*model);
+  driven->drive = std::move(drive);
+  stored.framed.model = std::move(driven);
+}
+
+base::Result<StoredFile> ModelStore::FromText(
+    const std::string& text, const std::filesystem::path& file,
+    const std::map<std::string, std::filesystem::path>& includes, StoredFile stored) {
+  auto document = ParseSdf(text, file, includes, stored.problems);
+  if (!document) return Fail(document.error());
+  const ReadingContext context = ContextFor(file, stored.problems);
+  if (const sdf::Model* model = document->root->Model()) {
+    auto framed = formats::ReadModel(*model, context);
+    if (!framed) return Fail(framed.error());
+    stored.framed = std::move(*framed);
+  } else if (const sdf::Light* light = document->root->Light()) {
+    stored.light = ReadLight(*light, context);
+    stored.world_from_light = FromIgnition(light->RawPose());
+  } else {
+    return Fail(ErrorCode::kBadModel, "there is no model inside", file.string());
+  }
+  return stored;
+}
+
+}  // namespace gsv::formats

@@ -1,0 +1,66 @@
+// Model files, each read once.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/files/resource_finder.h"
+#include "gsv/formats/meshes/mesh_reader.h"
+#include "gsv/formats/sdf/reading_context.h"
+#include "gsv/formats/sdf/sdf_model.h"
+#include "gsv/formats/sdf/sdf_xml.h"
+#include "gsv/model/world_description.h"
+
+namespace gsv::formats {
+
+// What a file that is included holds: a model, or a light by itself.
+struct StoredFile {
+  FramedModel framed;  // its model is null when the file holds a light
+  std::optional<model::Light> light;
+  geometry::Pose world_from_light;  // as the file says
+  base::Problems problems;
+};
+
+class ModelStore {
+ public:
+  explicit ModelStore(const ReadOptions& options)
+      : finder_(options.model_path, options.allow_absolute_paths),
+        limits_(options.limits),
+        check_sensor_(options.check_sensor),
+        textures_(limits_),
+        meshes_(limits_, textures_) {}
+
+  // `plugins`: text of <plugin> elements that an <include> adds to the model.
+  base::Result<std::shared_ptr<const StoredFile>> Read(const std::filesystem::path& file,
+                                                       const std::string& plugins = {});
+
+  const ResourceFinder& finder() const { return finder_; }
+  const ReadLimits& limits() const { return limits_; }
+  ReadingContext ContextFor(const std::filesystem::path& file, base::Problems& problems) {
+    return {finder_, limits_, textures_, meshes_, problems, check_sensor_, file};
+  }
+
+ private:
+  base::Result<StoredFile> ReadFresh(const std::filesystem::path& file, const std::string& plugins);
+  static void AddGuessedDrive(StoredFile& stored);
+  base::Result<StoredFile> FromText(const std::string& text, const std::filesystem::path& file,
+                                    const std::map<std::string, std::filesystem::path>& includes,
+                                    StoredFile stored);
+
+  ResourceFinder finder_;
+  ReadLimits limits_;
+  SensorCheck check_sensor_;
+  TextureReader textures_;
+  MeshReader meshes_;
+  std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const StoredFile>> files_;
+  // The same as they were named, so that the file system is asked once.
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const StoredFile>> by_name_;
+};
+
+}  // namespace gsv::formats

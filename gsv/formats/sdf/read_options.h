@@ -1,0 +1,24 @@
+// How worlds and models are to be read.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/files/read_limits.h"
+#include "gsv/model/world_description.h"
+
+namespace gsv::formats {
+
+// What is wrong with a sensor, if anything: kNotFound when nobody knows its type.
+using SensorCheck = std::function<base::Status(const model::SensorDescription&)>;
+
+struct ReadOptions {
+  std::vector<std::filesystem::path> model_path;  // as of --model-path
+  bool allow_absolute_paths = true;               // in the names that files contain
+  ReadLimits limits;
+  SensorCheck check_sensor;  // may be empty: then a sensor's parameters are taken as they are
+};
+
+}  // namespace gsv::formats

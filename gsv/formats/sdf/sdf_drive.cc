@@ -1,0 +1,281 @@
+#include "gsv/formats/sdf/sdf_drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gsv/formats/sdf/sdf_document.h"
+
+namespace gsv::formats {
+namespace {
+
+using geometry::Vector3;
+using model::Drive;
+using model::DriveKind;
+using model::Joint;
+using model::Model;
+
+std::optional<DriveKind> KindOf(const std::string& file_name, const std::string& name) {
+  struct Known {
+    const char* part;
+    DriveKind kind;
+  };
+  // Parts of file names and class names, in lower case, without "-" and "_".
+  static constexpr Known known[] = {
+      {"diffdrive", DriveKind::kDifferential},      {"skidsteerdrive", DriveKind::kDifferential},
+      {"ackermannsteering", DriveKind::kAckermann}, {"ackermanndrive", DriveKind::kAckermann},
+      {"mecanumdrive", DriveKind::kMecanum},        {"velocitycontrol", DriveKind::kVelocity},
+      {"planarmove", DriveKind::kVelocity},         {"synchrodrive", DriveKind::kSynchro},
+  };
+  for (const std::string& text : {file_name, name}) {
+    std::string plain;
+    for (const char c : text) {
+      if (c != '-' && c != '_')
+        plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    for (const Known& candidate : known) {
+      if (plain.find(candidate.part) != std::string::npos) return candidate.kind;
+    }
+  }
+  return std::nullopt;
+}
+
+class DriveReader {
+ public:
+  DriveReader(const sdf::ElementPtr& plugin, const Model& model, const std::string& scope,
+              const ReadingContext& context)
+      : plugin_(plugin), model_(model), scope_(scope), context_(context) {}
+
+  std::optional<Drive> Read(DriveKind kind) {
+    drive_.kind = kind;
+    drive_.left_wheels =
+        Joints({"left_joint", "leftJoint", "left_front", "left_rear", "leftFrontJoint",
+                "leftRearJoint", "front_left_joint", "back_left_joint"});
+    drive_.right_wheels =
+        Joints({"right_joint", "rightJoint", "right_front", "right_rear", "rightFrontJoint",
+                "rightRearJoint", "front_right_joint", "back_right_joint"});
+    if (kind == DriveKind::kAckermann) {
+      drive_.steered = Joints({"left_steering_joint", "right_steering_joint"});
+    }
+    if (kind == DriveKind::kSynchro) drive_.left_wheels = Joints({"wheel_joint"});
+    if (!is_complete_) return std::nullopt;
+    const bool paired = kind == DriveKind::kDifferential || kind == DriveKind::kAckermann ||
+                        kind == DriveKind::kMecanum;
+    if (paired && (drive_.left_wheels.empty() || drive_.right_wheels.empty())) {
+      context_.Complain("the drive names no joint of a left and of a right wheel", Place());
+      return std::nullopt;
+    }
+    ReadSizes();
+    ReadLimits();
+    return drive_;
+  }
+
+ private:
+  std::string Place() const { return PlaceOf(*plugin_, context_.source); }
+
+  std::vector<int> Joints(std::initializer_list<const char*> element_names) {
+    std::vector<int> joints;
+    for (const char* element_name : element_names) {
+      if (!plugin_->HasElement(element_name)) continue;
+      for (auto element = plugin_->GetElement(element_name); element != nullptr;
+           element = element->GetNextElement(element_name)) {
+        const std::string name = scope_ + element->Get<std::string>();
+        const auto it = std::find_if(model_.joints.begin(), model_.joints.end(),
+                                     [&](const Joint& joint) { return joint.name == name; });
+        if (it != model_.joints.end()) {
+          joints.push_back(static_cast<int>(it - model_.joints.begin()));
+          continue;
+        }
+        is_complete_ = false;
+        context_.Complain(
+            "the drive names the joint \"" + name + "\", which the model does not have", Place());
+      }
+    }
+    return joints;
+  }
+
+  std::optional<double> Number(std::initializer_list<const char*> names) const {
+    for (const char* name : names) {
+      if (!plugin_->HasElement(name)) continue;
+      const auto text = plugin_->Get<std::string>(name);
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (end != text.c_str() && std::isfinite(value)) return value;
+      context_.Complain(std::string("<") + name + "> must be a number, not \"" + text + "\"",
+                        Place());
+    }
+    return std::nullopt;
+  }
+
+  double Positive(std::initializer_list<const char*> names, double otherwise) const {
+    const auto value = Number(names);
+    if (!value) return otherwise;
+    if (*value > 0) return *value;
+    context_.Complain(std::string("<") + *names.begin() + "> must be above zero", Place());
+    return otherwise;
+  }
+
+  void ReadSizes() {
+    drive_.wheel_separation =
+        Positive({"wheel_separation", "wheelSeparation"}, MeasuredSeparation());
+    const auto diameter = Number({"wheel_diameter", "wheelDiameter"});
+    drive_.wheel_radius = diameter && *diameter > 0
+                              ? *diameter / 2
+                              : Positive({"wheel_radius", "wheelRadius"}, MeasuredRadius());
+    // Ours, for wheels that are not what the drive takes them for.
+    drive_.left_wheel_scale =
+        Positive({"left_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
+    drive_.right_wheel_scale =
+        Positive({"right_wheel_radius"}, drive_.wheel_radius) / drive_.wheel_radius;
+    drive_.wheel_base = Positive({"wheel_base", "wheelbase"}, MeasuredWheelBase());
+    drive_.steering_limit = Positive({"steering_limit"}, drive_.steering_limit);
+  }
+
+  // A limit on both sides; a lone maximum holds backwards as well, as in Gazebo.
+  model::Range Limits(const std::string& what) const {
+    model::Range range;
+    const auto max = Number({("max_" + what).c_str()});
+    const auto min = Number({("min_" + what).c_str()});
+    if (max) range = {-std::abs(*max), std::abs(*max)};
+    if (min) range.min = *min;
+    if (range.min > range.max || range.max < 0 || range.min > 0) {
+      context_.Complain("the limits of " + what + " must have zero between them", Place());
+      return {};
+    }
+    return range;
+  }
+
+  static model::Range OrElse(const model::Range& range, const model::Range& otherwise) {
+    return std::isinf(range.min) && std::isinf(range.max) ? otherwise : range;
+  }
+
+  void ReadLimits() {
+    drive_.linear_velocity = OrElse(Limits("linear_velocity"), Limits("velocity"));
+    drive_.angular_velocity = Limits("angular_velocity");
+    drive_.linear_acceleration =
+        OrElse(OrElse(Limits("linear_acceleration"), Limits("acceleration")),
+               Limits("wheel_acceleration"));
+    drive_.angular_acceleration = Limits("angular_acceleration");
+    if (const auto timeout = Number({"command_timeout"}); timeout && *timeout > 0) {
+      drive_.command_timeout =
+          base::SimTime(static_cast<std::int64_t>(std::llround(std::min(*timeout, 1e6) * 1e9)));
+    }
+  }
+
+  const Joint& JointAt(int index) const { return model_.joints[static_cast<std::size_t>(index)]; }
+
+  // The middle of the wheel's collision shapes, or its joint when it has none.
+  Vector3 WheelCentre(int joint) const {
+    const model::Link& wheel = model_.links[static_cast<std::size_t>(JointAt(joint).child)];
+    if (wheel.collisions.empty()) return JointAt(joint).model_from_joint.position;
+    return (wheel.model_from_link * wheel.collisions.front().link_from_collision).position;
+  }
+
+  Vector3 MeanCentre(const std::vector<int>& joints) const {
+    Vector3 sum;
+    for (const int joint : joints) sum += WheelCentre(joint);
+    return sum * (1.0 / static_cast<double>(std::max<std::size_t>(joints.size(), 1)));
+  }
+
+  double MeasuredSeparation() const {
+    if (drive_.left_wheels.empty() || drive_.right_wheels.empty()) return drive_.wheel_separation;
+    const Vector3 apart = MeanCentre(drive_.left_wheels) - MeanCentre(drive_.right_wheels);
+    const double distance = std::hypot(apart.x, apart.y);
+    return distance > 0 ? distance : drive_.wheel_separation;
+  }
+
+  double MeasuredRadius() const {
+    for (const auto* wheels : {&drive_.left_wheels, &drive_.right_wheels}) {
+      for (const int joint : *wheels) {
+        const model::Link& wheel = model_.links[static_cast<std::size_t>(JointAt(joint).child)];
+        for (const model::Collision& collision : wheel.collisions) {
+          if (const auto radius = RadiusOf(collision.shape)) return *radius;
+        }
+      }
+    }
+    return drive_.wheel_radius;
+  }
+
+  static std::optional<double> RadiusOf(const geometry::Shape& shape) {
+    if (const auto* cylinder = std::get_if<geometry::Cylinder>(&shape)) return cylinder->radius;
+    if (const auto* sphere = std::get_if<geometry::Sphere>(&shape)) return sphere->radius;
+    if (const auto* capsule = std::get_if<geometry::Capsule>(&shape)) return capsule->radius;
+    if (const auto* ellipsoid = std::get_if<geometry::Ellipsoid>(&shape)) {
+      return std::max({ellipsoid->radii.x, ellipsoid->radii.y, ellipsoid->radii.z});
+    }
+    if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) {
+      const geometry::Bounds bounds = geometry::BoundsOf(shape);
+      const Vector3 size = bounds.max - bounds.min;
+      // A wheel's box has two equal large sides.
+      return mesh->triangles->triangles.empty()
+                 ? std::nullopt
+                 : std::optional(std::max({size.x, size.y, size.z}) / 2);
+    }
+    return std::nullopt;
+  }
+
+  // From the foremost to the hindmost wheel.
+  double MeasuredWheelBase() const {
+    double front = -std::numeric_limits<double>::infinity();
+    double rear = std::numeric_limits<double>::infinity();
+    for (const auto* wheels : {&drive_.left_wheels, &drive_.right_wheels}) {
+      for (const int joint : *wheels) {
+        front = std::max(front, WheelCentre(joint).x);
+        rear = std::min(rear, WheelCentre(joint).x);
+      }
+    }
+    return front > rear ? front - rear : 0;
+  }
+
+  sdf::ElementPtr plugin_;
+  const Model& model_;
+  const std::string& scope_;
+  const ReadingContext& context_;
+  Drive drive_;
+  bool is_complete_ = true;
+};
+
+}  // namespace
+
+std::optional<Drive> ReadDrive(const sdf::ElementPtr& plugin, const Model& model,
+                               const std::string& scope, const ReadingContext& context) {
+  const auto kind = KindOf(plugin->Get<std::string>("filename", "").first,
+                           plugin->Get<std::string>("name", "").first);
+  if (!kind) return std::nullopt;
+  return DriveReader(plugin, model, scope, context).Read(*kind);
+}
+
+std::optional<Drive> GuessDifferentialDrive(const Model& model) {
+  constexpr double kAside = 0.99;   // cosine: how well the axis must point to the side
+  constexpr double kInLine = 0.01;  // m
+  const auto turns_freely = [](const Joint& joint) {
+    return joint.kind == model::JointKind::kContinuous ||
+           (joint.kind == model::JointKind::kRevolute && joint.position_limits.min < -1e6 &&
+            joint.position_limits.max > 1e6);
+  };
+  std::vector<int> wheels;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const Vector3 axis = joint.model_from_joint.orientation * joint.axis;
+    if (turns_freely(joint) && std::abs(axis.y) > kAside) wheels.push_back(static_cast<int>(i));
+  }
+  if (wheels.size() != 2) return std::nullopt;
+  const auto place = [&](int joint) { return model.joints[joint].model_from_joint.position; };
+  if (place(wheels[0]).y < place(wheels[1]).y) std::swap(wheels[0], wheels[1]);
+  const Vector3 apart = place(wheels[0]) - place(wheels[1]);
+  if (std::abs(apart.x) > kInLine || std::abs(apart.z) > kInLine || apart.y < kInLine) {
+    return std::nullopt;
+  }
+  Drive drive;
+  drive.left_wheels = {wheels[0]};
+  drive.right_wheels = {wheels[1]};
+  drive.wheel_separation = apart.y;
+  for (const model::Collision& collision : model.links[model.joints[wheels[0]].child].collisions) {
+    if (const auto* wheel = std::get_if<geometry::Cylinder>(&collision.shape)) {
+      drive.wheel_radius = wheel->radius;
+    }
+  }
+  return drive;
+}
+
+}  // namespace gsv::formats

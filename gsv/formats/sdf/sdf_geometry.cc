@@ -1,0 +1,130 @@
+#include "gsv/formats/sdf/sdf_geometry.h"
+
+#include <cmath>
+
+#include <sdf/Box.hh>
+#include <sdf/Capsule.hh>
+#include <sdf/Cylinder.hh>
+#include <sdf/Ellipsoid.hh>
+#include <sdf/Heightmap.hh>
+#include <sdf/Mesh.hh>
+#include <sdf/Plane.hh>
+#include <sdf/Sphere.hh>
+
+#include "gsv/formats/meshes/heightmap.h"
+#include "gsv/formats/meshes/polyline.h"
+#include "gsv/formats/sdf/sdf_document.h"
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+using geometry::Vector3;
+
+base::Result<SdfShape> Checked(geometry::Shape shape, std::initializer_list<double> lengths) {
+  for (const double length : lengths) {
+    if (!(length > 0) || !std::isfinite(length)) {
+      return Fail(ErrorCode::kBadModel, "a shape's sizes must be above zero");
+    }
+  }
+  return SdfShape{std::move(shape), {}, {}};
+}
+
+base::Result<SdfShape> ReadMesh(const sdf::Mesh& mesh, const std::filesystem::path& file,
+                                const ReadingContext& context) {
+  const Vector3 scale = FromIgnition(mesh.Scale());
+  if (!geometry::IsFinite(scale) || scale.x == 0 || scale.y == 0 || scale.z == 0) {
+    return Fail(ErrorCode::kBadModel, "a mesh's scale must not be zero");
+  }
+  auto path = context.finder.Find(mesh.Uri(), file);
+  if (!path) return Fail(path.error());
+  auto read = context.meshes.Read(*path, mesh.Submesh(), mesh.CenterSubmesh(), context.problems);
+  if (!read) return Fail(ErrorCode::kBadModel, read.error().Sentence());
+  return SdfShape{geometry::Mesh{read->triangles, scale}, {}, read->materials};
+}
+
+base::Result<SdfShape> ReadHeightmap(const sdf::Heightmap& heightmap,
+                                     const std::filesystem::path& file,
+                                     const ReadingContext& context) {
+  const Vector3 size = FromIgnition(heightmap.Size());
+  if (!(size.x > 0 && size.y > 0 && size.z > 0)) {
+    return Fail(ErrorCode::kBadModel, "a heightmap's size must be above zero");
+  }
+  auto path = context.finder.Find(heightmap.Uri(), file);
+  if (!path) return Fail(path.error());
+  auto picture = context.textures.Read(*path);
+  if (!picture) return Fail(ErrorCode::kBadModel, picture.error().Sentence());
+  auto mesh = std::make_shared<const geometry::TriangleMesh>(
+      HeightmapMesh(**picture, size, context.limits.heightmap_side));
+  return SdfShape{geometry::Mesh{std::move(mesh)}, {FromIgnition(heightmap.Position()), {}}, {}};
+}
+
+base::Result<SdfShape> ReadPolyline(const sdf::ElementPtr& geometry) {
+  std::vector<std::vector<geometry::Vector2>> outlines;
+  double height = 0;
+  for (auto polyline = geometry->GetElement("polyline"); polyline != nullptr;
+       polyline = polyline->GetNextElement("polyline")) {
+    height = polyline->Get<double>("height");
+    outlines.emplace_back();
+    if (!polyline->HasElement("point")) continue;
+    for (auto point = polyline->GetElement("point"); point != nullptr;
+         point = point->GetNextElement("point")) {
+      const auto p = point->Get<ignition::math::Vector2d>();
+      outlines.back().push_back({p.X(), p.Y()});
+    }
+  }
+  auto mesh = ExtrudeOutlines(outlines, height);
+  if (!mesh) return Fail(mesh.error());
+  return SdfShape{
+      geometry::Mesh{std::make_shared<const geometry::TriangleMesh>(std::move(*mesh))}, {}, {}};
+}
+
+base::Result<SdfShape> ReadPlane(const sdf::Plane& plane) {
+  const geometry::Vector2 size{plane.Size().X(), plane.Size().Y()};
+  return Checked(geometry::Plane{geometry::Normalized(FromIgnition(plane.Normal())), size},
+                 {size.x, size.y});
+}
+
+// SDFormat has cones since 1.11: an older reader keeps the element as it stands.
+base::Result<SdfShape> ReadCone(const sdf::ElementPtr& geometry) {
+  const sdf::ElementPtr cone = geometry->GetElement("cone");
+  const double radius = cone->Get<double>("radius", 0.5).first;
+  const double length = cone->Get<double>("length", 1.0).first;
+  return Checked(geometry::Cone{radius, length}, {radius, length});
+}
+
+}  // namespace
+
+base::Result<SdfShape> ReadGeometry(const sdf::Geometry& geometry, const sdf::ElementPtr& element,
+                                    const ReadingContext& context) {
+  const std::filesystem::path file = FileOf(*element, context.source);
+  if (const sdf::Box* box = geometry.BoxShape()) {
+    const Vector3 size = FromIgnition(box->Size());
+    return Checked(geometry::Box{size}, {size.x, size.y, size.z});
+  }
+  if (const sdf::Sphere* sphere = geometry.SphereShape()) {
+    return Checked(geometry::Sphere{sphere->Radius()}, {sphere->Radius()});
+  }
+  if (const sdf::Cylinder* cylinder = geometry.CylinderShape()) {
+    return Checked(geometry::Cylinder{cylinder->Radius(), cylinder->Length()},
+                   {cylinder->Radius(), cylinder->Length()});
+  }
+  if (const sdf::Capsule* capsule = geometry.CapsuleShape()) {
+    return Checked(geometry::Capsule{capsule->Radius(), capsule->Length()},
+                   {capsule->Radius(), capsule->Length()});
+  }
+  if (const sdf::Ellipsoid* ellipsoid = geometry.EllipsoidShape()) {
+    const Vector3 radii = FromIgnition(ellipsoid->Radii());
+    return Checked(geometry::Ellipsoid{radii}, {radii.x, radii.y, radii.z});
+  }
+  if (const sdf::Plane* plane = geometry.PlaneShape()) return ReadPlane(*plane);
+  if (const sdf::Mesh* mesh = geometry.MeshShape()) return ReadMesh(*mesh, file, context);
+  if (const sdf::Heightmap* map = geometry.HeightmapShape()) {
+    return ReadHeightmap(*map, file, context);
+  }
+  if (element->HasElement("polyline")) return ReadPolyline(element);
+  if (element->HasElement("cone")) return ReadCone(element);
+  return Fail(ErrorCode::kBadModel, "the geometry is of no kind that this program knows");
+}
+
+}  // namespace gsv::formats

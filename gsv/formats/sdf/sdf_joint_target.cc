@@ -1,0 +1,103 @@
+#include "gsv/formats/sdf/sdf_joint_target.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "gsv/formats/sdf/sdf_document.h"
+
+namespace gsv::formats {
+namespace {
+
+using model::Joint;
+using model::JointTarget;
+
+// In lower case, without "-" and "_".
+std::string Plain(const std::string& text) {
+  std::string plain;
+  for (const char c : text) {
+    if (c != '-' && c != '_')
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return plain;
+}
+
+std::optional<JointTarget::Kind> KindOf(const sdf::Element& plugin) {
+  for (const char* attribute : {"filename", "name"}) {
+    const std::string text = Plain(plugin.Get<std::string>(attribute, "").first);
+    if (text.find("jointpositioncontroller") != std::string::npos) {
+      return JointTarget::Kind::kPosition;
+    }
+    if (text.find("jointcontroller") != std::string::npos) return JointTarget::Kind::kVelocity;
+  }
+  return std::nullopt;
+}
+
+class TargetReader {
+ public:
+  TargetReader(sdf::ElementPtr plugin, const ReadingContext& context)
+      : plugin_(std::move(plugin)), context_(context) {}
+
+  std::string Place() const { return PlaceOf(*plugin_, context_.source); }
+
+  double Number(const char* name, double otherwise) const {
+    if (!plugin_->HasElement(name)) return otherwise;
+    const auto text = plugin_->Get<std::string>(name);
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end != text.c_str() && std::isfinite(value)) return value;
+    context_.Complain(std::string("<") + name + "> must be a number, not \"" + text + "\"",
+                      Place());
+    return otherwise;
+  }
+
+  // What a position controller may do at most.
+  void Limit(Joint& joint) const {
+    const double most = Number("cmd_max", -1);  // as Gazebo's: without one, no limit
+    if (!(most > 0)) return;
+    const bool by_velocity = plugin_->HasElement("use_velocity_commands") &&
+                             plugin_->Get<std::string>("use_velocity_commands") != "false" &&
+                             plugin_->Get<std::string>("use_velocity_commands") != "0";
+    double& limit = by_velocity ? joint.velocity_limit : joint.effort_limit;
+    limit = std::min(limit, most);
+  }
+
+ private:
+  sdf::ElementPtr plugin_;
+  const ReadingContext& context_;
+};
+
+}  // namespace
+
+void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
+                      const ReadingContext& context, model::Model& model) {
+  const auto kind = KindOf(*plugin);
+  if (!kind) return;
+  const TargetReader reader(plugin, context);
+  const bool is_position = *kind == JointTarget::Kind::kPosition;
+  const double value = reader.Number(is_position ? "initial_position" : "initial_velocity", 0);
+  if (!plugin->HasElement("joint_name")) {
+    context.Complain("the controller names no joint", reader.Place());
+    return;
+  }
+  for (auto element = plugin->GetElement("joint_name"); element != nullptr;
+       element = element->GetNextElement("joint_name")) {
+    const std::string name = scope + element->Get<std::string>();
+    const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
+                                    [&](const Joint& j) { return j.name == name; });
+    if (joint == model.joints.end() || !model::TakesCommands(joint->kind)) {
+      context.Complain("the controller names \"" + name + "\", which is no joint that moves",
+                       reader.Place());
+      continue;
+    }
+    if (is_position) reader.Limit(*joint);
+    const int index = static_cast<int>(joint - model.joints.begin());
+    std::erase_if(model.joint_targets,
+                  [&](const JointTarget& target) { return target.joint == index; });
+    model.joint_targets.push_back({index, *kind, value});
+  }
+}
+
+}  // namespace gsv::formats

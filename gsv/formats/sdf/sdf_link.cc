@@ -1,0 +1,209 @@
+#include "gsv/formats/sdf/sdf_link.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <sdf/Collision.hh>
+#include <sdf/Element.hh>
+#include <sdf/SemanticPose.hh>
+#include <sdf/Visual.hh>
+
+#include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/formats/sdf/sdf_geometry.h"
+#include "gsv/formats/sdf/sdf_material.h"
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+using model::Collision;
+using model::Material;
+using model::Visual;
+
+constexpr double kMissingMeshGrey = 0.5;
+
+// A child's value along a path of elements, if each is there.
+template <typename T>
+std::optional<T> ValueAt(sdf::ElementPtr element, std::initializer_list<const char*> path) {
+  for (const char* name : path) {
+    if (element == nullptr || !element->HasElement(name)) return std::nullopt;
+    element = element->GetElement(name);
+  }
+  return element->Get<T>();
+}
+
+model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContext& context) {
+  model::Surface surface;
+  const auto take = [&](double& target, std::initializer_list<const char*> path) {
+    const auto value = ValueAt<double>(collision, path);
+    if (!value) return;
+    if (*value >= 0) {
+      target = *value;
+    } else {
+      context.Complain("friction and bounce must not be negative",
+                       PlaceOf(*collision, context.source));
+    }
+  };
+  take(surface.friction, {"surface", "friction", "bullet", "friction"});
+  take(surface.friction2, {"surface", "friction", "bullet", "friction2"});
+  take(surface.friction, {"surface", "friction", "ode", "mu"});
+  take(surface.friction2, {"surface", "friction", "ode", "mu2"});
+  const auto direction =
+      ValueAt<ignition::math::Vector3d>(collision, {"surface", "friction", "ode", "fdir1"});
+  if (direction && geometry::IsFinite(FromIgnition(*direction)) && direction->Length() > 0) {
+    surface.friction_direction = geometry::Normalized(FromIgnition(*direction));
+  }
+  take(surface.restitution, {"surface", "bounce", "restitution_coefficient"});
+  surface.restitution = std::min(surface.restitution, 1.0);
+  return surface;
+}
+
+// By Sylvester's criterion. The triangle inequality of physical bodies is not asked for: real files
+// round it away.
+bool IsPositiveDefinite(const model::Inertial& i) {
+  const double second = i.ixx * i.iyy - i.ixy * i.ixy;
+  const double determinant = i.ixx * (i.iyy * i.izz - i.iyz * i.iyz) -
+                             i.ixy * (i.ixy * i.izz - i.iyz * i.ixz) +
+                             i.ixz * (i.ixy * i.iyz - i.iyy * i.ixz);
+  return i.ixx > 0 && second > 0 && determinant > 0;
+}
+
+model::Inertial ReadInertial(const sdf::Link& link, const ReadingContext& context) {
+  model::Inertial inertial;
+  const sdf::ElementPtr element = link.Element();
+  if (element == nullptr || !element->HasElement("inertial")) return inertial;
+  const auto& source = link.Inertial();
+  const auto moments = source.MassMatrix().DiagonalMoments();
+  const auto products = source.MassMatrix().OffDiagonalMoments();
+  inertial.mass = source.MassMatrix().Mass();
+  inertial.link_from_com = FromIgnition(source.Pose());
+  inertial.ixx = moments.X(), inertial.iyy = moments.Y(), inertial.izz = moments.Z();
+  inertial.ixy = products.X(), inertial.ixz = products.Y(), inertial.iyz = products.Z();
+  const std::string place = PlaceOf(*element->GetElement("inertial"), context.source);
+  if (!(inertial.mass > 0) || !std::isfinite(inertial.mass)) {
+    context.Complain("the mass must be above zero; 1 kg is taken", place);
+    return {};
+  }
+  if (!IsPositiveDefinite(inertial)) {
+    context.Complain("the inertia is not positive definite; that of a ball is taken", place);
+    const double moment = 0.4 * inertial.mass * 0.1 * 0.1;
+    inertial.ixx = inertial.iyy = inertial.izz = moment;
+    inertial.ixy = inertial.ixz = inertial.iyz = 0;
+  }
+  return inertial;
+}
+
+sdf::ElementPtr GeometryElement(const sdf::ElementPtr& element) {
+  return element != nullptr && element->HasElement("geometry") ? element->GetElement("geometry")
+                                                               : nullptr;
+}
+
+void ReadCollisions(const sdf::Link& source, model::Link& link, const ReadingContext& context) {
+  for (std::uint64_t i = 0; i < source.CollisionCount(); ++i) {
+    const sdf::Collision& collision = *source.CollisionByIndex(i);
+    const sdf::ElementPtr element = collision.Element();
+    const sdf::ElementPtr geometry = GeometryElement(element);
+    if (geometry == nullptr || geometry->HasElement("empty")) continue;
+    const std::string place = PlaceOf(*element, context.source);
+    auto shape = ReadGeometry(*collision.Geom(), geometry, context);
+    if (!shape && shape.error().code == ErrorCode::kNotFound) {
+      context.Warn("the collision is left out: " + shape.error().message, place);
+      continue;
+    }
+    if (!shape) {
+      context.Complain("the collision is left out: " + shape.error().message, place);
+      continue;
+    }
+    link.collisions.push_back(
+        {collision.Name(),
+         Resolve(collision.SemanticPose(), "", place, context) * shape->visual_from_shape,
+         shape->shape, ReadSurface(element, context)});
+  }
+}
+
+std::vector<Material> MaterialsOf(const sdf::Visual& source, const SdfShape& shape,
+                                  const ReadingContext& context) {
+  std::vector<Material> materials = shape.materials;
+  if (materials.empty()) materials.emplace_back();
+  if (const auto own = ReadVisualMaterial(source, context)) {
+    std::fill(materials.begin(), materials.end(), *own);
+  }
+  const double opacity = 1.0 - std::clamp(static_cast<double>(source.Transparency()), 0.0, 1.0);
+  for (Material& material : materials) material.base_colour.a *= opacity;
+  return materials;
+}
+
+std::vector<Visual> CollisionsAsVisuals(const model::Link& link) {
+  std::vector<Visual> visuals;
+  Material grey;
+  grey.base_colour = {kMissingMeshGrey, kMissingMeshGrey, kMissingMeshGrey, 1};
+  for (const Collision& collision : link.collisions) {
+    if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
+    Visual visual{collision.name + "_as_visual",
+                  collision.link_from_collision,
+                  collision.shape,
+                  {grey},
+                  true};
+    if (const auto* mesh = std::get_if<geometry::Mesh>(&visual.shape)) {
+      for (const auto& part : mesh->triangles->parts) {
+        if (part.material >= visual.materials.size())
+          visual.materials.resize(part.material + 1, grey);
+      }
+    }
+    visuals.push_back(std::move(visual));
+  }
+  return visuals;
+}
+
+void ReadVisuals(const sdf::Link& source, model::Link& link, const ReadingContext& context) {
+  bool any_missing = false;
+  for (std::uint64_t i = 0; i < source.VisualCount(); ++i) {
+    const sdf::Visual& visual = *source.VisualByIndex(i);
+    const sdf::ElementPtr element = visual.Element();
+    const sdf::ElementPtr geometry = GeometryElement(element);
+    if (geometry == nullptr || geometry->HasElement("empty")) continue;
+    const std::string place = PlaceOf(*element, context.source);
+    auto shape = ReadGeometry(*visual.Geom(), geometry, context);
+    if (!shape) {
+      context.Warn(shape.error().message + "; the link's collision shapes are drawn instead",
+                   place);
+      any_missing = true;
+      continue;
+    }
+    link.visuals.push_back(
+        {visual.Name(),
+         Resolve(visual.SemanticPose(), "", place, context) * shape->visual_from_shape,
+         shape->shape, MaterialsOf(visual, *shape, context), visual.CastShadows()});
+  }
+  if (!any_missing) return;
+  for (Visual& visual : CollisionsAsVisuals(link)) link.visuals.push_back(std::move(visual));
+}
+
+}  // namespace
+
+geometry::Pose Resolve(const sdf::SemanticPose& semantic, const std::string& resolve_to,
+                       const std::string& place, const ReadingContext& context) {
+  ignition::math::Pose3d resolved;
+  const sdf::Errors errors = semantic.Resolve(resolved, resolve_to);
+  if (!errors.empty()) {
+    context.Complain("the pose cannot be resolved: " + errors.front().Message(), place);
+    return {};
+  }
+  const geometry::Pose pose = FromIgnition(resolved);
+  if (!geometry::IsFinite(pose)) {
+    context.Complain("the pose is not finite", place);
+    return {};
+  }
+  return pose;
+}
+
+model::Link ReadLink(const sdf::Link& source, const ReadingContext& context) {
+  model::Link link;
+  link.inertial = ReadInertial(source, context);
+  link.has_gravity = ValueAt<bool>(source.Element(), {"gravity"}).value_or(true);
+  ReadCollisions(source, link, context);
+  ReadVisuals(source, link, context);
+  return link;
+}
+
+}  // namespace gsv::formats

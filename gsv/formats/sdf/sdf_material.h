@@ -1,0 +1,18 @@
+// The look of an SDFormat <visual>.
+#pragma once
+
+#include <optional>
+
+#include <sdf/Visual.hh>
+
+#include "gsv/formats/sdf/reading_context.h"
+
+namespace gsv::formats {
+
+// The visual's own material; none when it has none, or one that says nothing. Colours: <diffuse>,
+// else the script's, else <ambient>. A script's name is looked for among its <uri>s, then among
+// Gazebo's own. Transparency is not applied.
+std::optional<model::Material> ReadVisualMaterial(const sdf::Visual& visual,
+                                                  const ReadingContext& context);
+
+}  // namespace gsv::formats

@@ -1,0 +1,301 @@
+#include "gsv/formats/sdf/sdf_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <sdf/Element.hh>
+#include <sdf/Frame.hh>
+#include <sdf/Joint.hh>
+#include <sdf/Link.hh>
+#include <sdf/SemanticPose.hh>
+
+#include "gsv/formats/sdf/joint_forest.h"
+#include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/formats/sdf/sdf_drive.h"
+#include "gsv/formats/sdf/sdf_joint.h"
+#include "gsv/formats/sdf/sdf_joint_target.h"
+#include "gsv/formats/sdf/sdf_link.h"
+#include "gsv/formats/sdf/sdf_sensor.h"
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+using geometry::Pose;
+using model::Joint;
+using model::Model;
+
+constexpr int kDeepestNesting = 32;
+
+class ModelReader {
+ public:
+  explicit ModelReader(const ReadingContext& context) : context_(context) {}
+
+  base::Result<FramedModel> Read(const sdf::Model& source) {
+    model_.name = source.Name();
+    model_.source = context_.source.string();
+    model_.is_static = source.Static();
+    AddParts(source, "", Pose{}, kDeepestNesting);
+    if (model_.links.empty()) {
+      return Fail(ErrorCode::kBadModel, "the model \"" + source.Name() + "\" has no links",
+                  context_.source.string());
+    }
+    PutFirst(source.CanonicalLinkAndRelativeName().second);
+    for (const auto& [joint, scope, place] : pending_joints_) AddJoint(*joint, scope, place);
+    ReportLoops(MakeForest(model_.links.size(), model_.joints));
+    for (const auto& [sensor, scope] : pending_sensors_) AddSensor(sensor, scope);
+    for (const auto& [plugin, scope] : pending_plugins_) {
+      AddDrive(plugin, scope);
+      ReadJointTargets(plugin, scope, context_, model_);
+    }
+    ReadMovement(source.Element());
+    SetDefaultPose(source);
+    FramedModel result;
+    result.model = std::make_shared<const Model>(std::move(model_));
+    result.model_from_frame = std::move(frames_);
+    return result;
+  }
+
+ private:
+  std::string PlaceOfElement(const sdf::ElementPtr& element) const {
+    return element == nullptr ? context_.source.string() : PlaceOf(*element, context_.source);
+  }
+
+  // Links, frames and nested models; what refers to links waits until all are there.
+  void AddParts(const sdf::Model& source, const std::string& scope, const Pose& root_from_model,
+                int levels_left) {
+    if (levels_left == 0) {
+      context_.Complain("models are nested too deep", PlaceOfElement(source.Element()));
+      return;
+    }
+    for (std::uint64_t i = 0; i < source.LinkCount(); ++i) {
+      AddLink(*source.LinkByIndex(i), scope, root_from_model);
+    }
+    for (std::uint64_t i = 0; i < source.FrameCount(); ++i) {
+      const sdf::Frame& frame = *source.FrameByIndex(i);
+      frames_[scope + frame.Name()] =
+          root_from_model *
+          Resolve(frame.SemanticPose(), "__model__", PlaceOfElement(frame.Element()), context_);
+    }
+    for (std::uint64_t i = 0; i < source.JointCount(); ++i) {
+      const sdf::Joint& joint = *source.JointByIndex(i);
+      const std::string place = PlaceOfElement(joint.Element());
+      const Pose root_from_joint =
+          root_from_model * Resolve(joint.SemanticPose(), "__model__", place, context_);
+      frames_[scope + joint.Name()] = root_from_joint;
+      pending_joints_.push_back({&joint, scope, place});
+      CollectSensors(joint.Element(), scope + joint.Name());
+    }
+    for (std::uint64_t i = 0; i < source.ModelCount(); ++i) {
+      const sdf::Model& inner = *source.ModelByIndex(i);
+      const Pose root_from_inner =
+          root_from_model *
+          Resolve(inner.SemanticPose(), "__model__", PlaceOfElement(inner.Element()), context_);
+      frames_[scope + inner.Name()] = root_from_inner;
+      AddParts(inner, scope + inner.Name() + "::", root_from_inner, levels_left - 1);
+    }
+    if (source.Element() == nullptr || !source.Element()->HasElement("plugin")) return;
+    for (auto plugin = source.Element()->GetElement("plugin"); plugin != nullptr;
+         plugin = plugin->GetNextElement("plugin")) {
+      pending_plugins_.emplace_back(plugin, scope);
+    }
+  }
+
+  void AddLink(const sdf::Link& source, const std::string& scope, const Pose& root_from_model) {
+    model::Link link = ReadLink(source, context_);
+    link.name = scope + source.Name();
+    link.model_from_link = root_from_model * Resolve(source.SemanticPose(), "__model__",
+                                                     PlaceOfElement(source.Element()), context_);
+    frames_[link.name] = link.model_from_link;
+    CollectSensors(source.Element(), link.name);
+    model_.links.push_back(std::move(link));
+  }
+
+  void CollectSensors(const sdf::ElementPtr& owner, const std::string& frame) {
+    if (owner == nullptr || !owner->HasElement("sensor")) return;
+    for (auto sensor = owner->GetElement("sensor"); sensor != nullptr;
+         sensor = sensor->GetNextElement("sensor")) {
+      pending_sensors_.emplace_back(sensor, frame);
+    }
+  }
+
+  void PutFirst(const std::string& name) {
+    const auto it = std::find_if(model_.links.begin(), model_.links.end(),
+                                 [&](const model::Link& link) { return link.name == name; });
+    if (it != model_.links.end()) std::rotate(model_.links.begin(), it, it + 1);
+  }
+
+  int LinkIndex(const std::string& name) const {
+    const auto it = std::find_if(model_.links.begin(), model_.links.end(),
+                                 [&](const model::Link& link) { return link.name == name; });
+    return it == model_.links.end() ? -1 : static_cast<int>(it - model_.links.begin());
+  }
+
+  // The link an end of a joint belongs to; it may be named by a frame that hangs on it.
+  void AddJoint(const sdf::Joint& source, const std::string& scope, const std::string& place) {
+    std::string parent, child;
+    if (!source.ResolveParentLink(parent).empty() || !source.ResolveChildLink(child).empty()) {
+      return;  // libsdformat has said so
+    }
+    Joint joint;
+    joint.name = scope + source.Name();
+    joint.parent = parent == "world" ? -1 : LinkIndex(scope + parent);
+    joint.child = LinkIndex(scope + child);
+    if (joint.child < 0 || (joint.parent < 0 && parent != "world")) {
+      context_.Complain("the joint names a link that is not there", place);
+      return;
+    }
+    joint.model_from_joint = frames_[joint.name];
+    joint_children_[joint.name] = joint.child;
+    formats::AddJoint(source, std::move(joint), place, context_, model_);
+  }
+
+  void ReportLoops(const std::vector<std::string>& loops) {
+    for (const std::string& name : loops) {
+      context_.Complain(
+          "the joint \"" + name + "\" closes a loop, which is not supported; it is left out",
+          context_.source.string());
+    }
+  }
+
+  void Check(const model::SensorDescription& sensor, const std::string& place) const {
+    if (!context_.check_sensor) return;
+    const auto checked = context_.check_sensor(sensor);
+    if (checked) return;
+    const std::string sentence =
+        "the " + sensor.type + " " + sensor.name + " gives no readings: " + checked.error().message;
+    if (checked.error().code == base::ErrorCode::kNotFound) {
+      context_.Warn(sentence, place);
+    } else {
+      context_.Complain(sentence, place);
+    }
+  }
+
+  // `frame` is the link or the joint that holds the sensor; a joint's sensor sits on its child.
+  void AddSensor(const sdf::ElementPtr& element, const std::string& frame) {
+    model::SensorDescription sensor = ReadSensor(element);
+    const std::string place = PlaceOfElement(element);
+    Pose model_from_owner = frames_[frame];
+    sensor.link = LinkIndex(frame);
+    if (sensor.link < 0) {
+      const auto joint = joint_children_.find(frame);
+      if (joint == joint_children_.end()) return;
+      sensor.link = joint->second;
+    }
+    const Pose owner_from_sensor = PoseOfSensor(element, frame, place, model_from_owner);
+    const auto link = static_cast<std::size_t>(sensor.link);
+    sensor.link_from_sensor = geometry::Inverse(model_.links[link].model_from_link) *
+                              model_from_owner * owner_from_sensor;
+    if (!(sensor.update_rate >= 0) || !std::isfinite(sensor.update_rate)) {
+      context_.Complain("a sensor's update rate must not be negative; 0 is taken", place);
+      sensor.update_rate = 0;
+    }
+    if (sensor.type.empty() || sensor.type == "__default__") {
+      context_.Complain("the sensor has no type and is left out", place);
+      return;
+    }
+    sensor.name = UniqueSensorName(sensor.name, frame);
+    Check(sensor, place);
+    model_.sensors.push_back(std::move(sensor));
+  }
+
+  Pose PoseOfSensor(const sdf::ElementPtr& element, const std::string& frame,
+                    const std::string& place, const Pose& model_from_owner) {
+    if (!element->HasElement("pose")) return {};
+    const sdf::ElementPtr pose = element->GetElement("pose");
+    const Pose raw = FromIgnition(pose->Get<ignition::math::Pose3d>());
+    if (!geometry::IsFinite(raw)) {
+      context_.Complain("the sensor's pose is not finite", place);
+      return {};
+    }
+    const auto relative_to = pose->Get<std::string>("relative_to", "").first;
+    if (relative_to.empty()) return raw;
+    const std::size_t scope_end = frame.rfind("::");
+    const std::string scope = scope_end == std::string::npos ? "" : frame.substr(0, scope_end + 2);
+    if (relative_to == "__model__") {
+      const Pose model_from_scope =
+          scope.empty() ? Pose{} : frames_[scope.substr(0, scope.size() - 2)];
+      return geometry::Inverse(model_from_owner) * model_from_scope * raw;
+    }
+    const auto it = frames_.find(scope + relative_to);
+    if (it == frames_.end()) {
+      context_.Complain(
+          "the sensor's pose is relative to \"" + relative_to + "\", which is not there", place);
+      return raw;
+    }
+    return geometry::Inverse(model_from_owner) * it->second * raw;
+  }
+
+  // Two links may each have a "camera": the later one is named with its link.
+  std::string UniqueSensorName(const std::string& name, const std::string& owner) {
+    if (sensor_names_.insert(name).second) return name;
+    std::string unique = owner + "::" + name;
+    for (int i = 2; !sensor_names_.insert(unique).second; ++i) {
+      unique = owner + "::" + name + "_" + std::to_string(i);
+    }
+    return unique;
+  }
+
+  void AddDrive(const sdf::ElementPtr& plugin, const std::string& scope) {
+    auto drive = ReadDrive(plugin, model_, scope, context_);
+    if (!drive) return;
+    if (model_.drive) {
+      context_.Warn("the model has a second drive, which is left out", PlaceOfElement(plugin));
+      return;
+    }
+    model_.drive = std::move(drive);
+  }
+
+  // Ours: <gsv:movement>planar or rigid</gsv:movement>.
+  void ReadMovement(const sdf::ElementPtr& element) {
+    if (element == nullptr || !element->HasElement("gsv:movement")) return;
+    const auto text = element->GetElement("gsv:movement")->Get<std::string>();
+    if (text == "rigid") {
+      model_.movement = model::Movement::kRigid;
+    } else if (text != "planar") {
+      context_.Complain("<gsv:movement> must be planar or rigid, not \"" + text + "\"",
+                        PlaceOfElement(element));
+    }
+  }
+
+  void SetDefaultPose(const sdf::Model& source) {
+    model_.default_pose = FromIgnition(source.RawPose());
+    const std::string& placement = source.PlacementFrameName();
+    if (!placement.empty()) {
+      const auto it = frames_.find(placement);
+      if (it != frames_.end()) {
+        model_.default_pose = model_.default_pose * geometry::Inverse(it->second);
+      }
+    }
+    if (!geometry::IsFinite(model_.default_pose)) {
+      context_.Complain("the model's pose is not finite", PlaceOfElement(source.Element()));
+      model_.default_pose = {};
+    }
+  }
+
+  struct PendingJoint {
+    const sdf::Joint* joint;
+    std::string scope, place;
+  };
+
+  const ReadingContext& context_;
+  Model model_;
+  std::map<std::string, Pose> frames_;
+  std::vector<PendingJoint> pending_joints_;
+  std::map<std::string, int> joint_children_;  // link indices
+  std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
+  std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;
+  std::set<std::string> sensor_names_;
+};
+
+}  // namespace
+
+base::Result<FramedModel> ReadModel(const sdf::Model& source, const ReadingContext& context) {
+  return ModelReader(context).Read(source);
+}
+
+}  // namespace gsv::formats

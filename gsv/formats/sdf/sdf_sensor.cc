@@ -1,0 +1,93 @@
+#include "gsv/formats/sdf/sdf_sensor.h"
+
+#include <cstdlib>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include <sdf/Param.hh>
+
+namespace gsv::formats {
+namespace {
+
+using model::Parameters;
+using model::ParameterValue;
+
+// What SDFormat has no element for stands in a namespace of ours: <gsv:dropout>.
+constexpr std::string_view kOurs = "gsv:";
+
+bool IsWrapper(const std::string& name) {
+  static const std::set<std::string> wrappers = {
+      "air_pressure", "air_speed", "altimeter", "camera",         "contact",      "force_torque",
+      "gps",          "imu",       "lidar",     "logical_camera", "magnetometer", "navsat",
+      "ray",          "rfid",      "rfidtag",   "sonar",          "transceiver"};
+  return wrappers.count(name) != 0;
+}
+
+bool IsNoParameter(const std::string& name) {
+  return name == "pose" || name == "update_rate" || name == "visualize" || name == "plugin" ||
+         name == "frame";
+}
+
+ParameterValue FromText(const std::string& text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (!text.empty() && *end == '\0') return number;
+  return text;
+}
+
+ParameterValue ValueOf(sdf::Param& param, bool defined_by_sdformat) {
+  const std::string& type = param.GetTypeName();
+  bool flag = false;
+  double number = 0;
+  if (type == "bool" && param.Get(flag)) return flag;
+  if (type != "string" && type != "bool" && param.Get(number) &&
+      type.find("::") == std::string::npos && type.find("vector") == std::string::npos &&
+      type != "pose" && type != "color") {
+    return number;
+  }
+  const std::string text = param.GetAsString();
+  return defined_by_sdformat ? ParameterValue(text) : FromText(text);
+}
+
+// An element SDFormat knows is described by its parent.
+bool IsDefined(const sdf::Element& element) {
+  const sdf::ElementPtr parent = element.GetParent();
+  return parent != nullptr && parent->HasElementDescription(element.GetName());
+}
+
+void Flatten(const sdf::ElementPtr& element, const std::string& prefix, Parameters& parameters) {
+  for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
+    std::string name = child->GetName();
+    if (name.starts_with(kOurs)) name.erase(0, kOurs.size());
+    if (IsNoParameter(name)) continue;
+    const std::string path = prefix.empty() ? name : prefix + "." + name;
+    const bool wraps = prefix.empty() && IsWrapper(name);
+    const std::string inner = wraps ? "" : path;
+    if (child->GetFirstElement() == nullptr && child->GetValue() != nullptr) {
+      parameters.emplace(path, ValueOf(*child->GetValue(), IsDefined(*child)));
+    }
+    for (const auto& attribute : child->GetAttributes()) {
+      if (!attribute->GetSet() || (wraps && attribute->GetKey() == "name")) continue;
+      parameters.emplace((inner.empty() ? "" : inner + ".") + attribute->GetKey(),
+                         ValueOf(*attribute, true));
+    }
+    Flatten(child, inner, parameters);
+  }
+}
+
+}  // namespace
+
+model::SensorDescription ReadSensor(const sdf::ElementPtr& sensor) {
+  model::SensorDescription description;
+  description.name = sensor->Get<std::string>("name");
+  description.type = sensor->Get<std::string>("type");
+  description.update_rate = sensor->Get<double>("update_rate", 0.0).first;
+  description.visualize = sensor->Get<bool>("visualize", false).first;
+  Flatten(sensor, "", description.parameters);
+  return description;
+}
+
+}  // namespace gsv::formats

@@ -1,0 +1,116 @@
+#include "gsv/formats/sdf/sdf_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <sdf/Element.hh>
+#include <sdf/Physics.hh>
+#include <sdf/Scene.hh>
+
+#include "gsv/formats/sdf/sdf_document.h"
+
+namespace gsv::formats {
+namespace {
+
+using geometry::Vector3;
+using model::Light;
+
+Light::Kind KindOf(sdf::LightType type) {
+  switch (type) {
+    case sdf::LightType::POINT:
+      return Light::Kind::kPoint;
+    case sdf::LightType::SPOT:
+      return Light::Kind::kSpot;
+    default:
+      return Light::Kind::kDirectional;
+  }
+}
+
+void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
+                 model::WorldDescription& world) {
+  const std::string place = physics.Element() == nullptr
+                                ? context.source.string()
+                                : PlaceOf(*physics.Element(), context.source);
+  const double step = physics.MaxStepSize();
+  if (step >= 1e-6 && step <= 1) {
+    world.max_step_size = base::SimTime(std::llround(step * 1e9));
+  } else {
+    context.Complain("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is taken", place);
+  }
+  // Not above zero: as fast as it goes, which is the caller's to choose.
+  if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
+}
+
+void ReadOrigin(const ignition::math::SphericalCoordinates& coordinates,
+                const ReadingContext& context, model::WorldDescription& world) {
+  const model::GeodeticOrigin origin{
+      coordinates.LatitudeReference().Radian(), coordinates.LongitudeReference().Radian(),
+      coordinates.ElevationReference(), coordinates.HeadingOffset().Radian()};
+  const Vector3 place{origin.latitude, origin.longitude, origin.elevation};
+  if (geometry::IsFinite(place) && std::isfinite(origin.heading) &&
+      std::abs(origin.latitude) <= std::numbers::pi / 2) {
+    world.origin = origin;
+  } else {
+    context.Complain(
+        "<spherical_coordinates> must be finite, with a latitude of at most 90 degrees",
+        context.source.string());
+  }
+}
+
+}  // namespace
+
+model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) {
+  Light light;
+  light.name = source.Name();
+  light.kind = KindOf(source.Type());
+  const Vector3 direction = FromIgnition(source.Direction());
+  if (geometry::IsFinite(direction) && geometry::Norm(direction) > 0) {
+    light.direction = geometry::Normalized(direction);
+  } else if (light.kind != Light::Kind::kPoint) {
+    context.Complain("the light's <direction> has no length; straight down is taken",
+                     source.Element() == nullptr ? context.source.string()
+                                                 : PlaceOf(*source.Element(), context.source));
+  }
+  light.diffuse = FromIgnition(source.Diffuse());
+  light.intensity = std::max(source.Intensity(), 0.0);
+  light.range = source.AttenuationRange();
+  light.constant_attenuation = source.ConstantAttenuationFactor();
+  light.linear_attenuation = source.LinearAttenuationFactor();
+  light.quadratic_attenuation = source.QuadraticAttenuationFactor();
+  light.inner_angle = source.SpotInnerAngle().Radian();
+  light.outer_angle = source.SpotOuterAngle().Radian();
+  light.cast_shadows = source.CastShadows();
+  return light;
+}
+
+void ReadSurroundings(const sdf::World& source, const ReadingContext& context,
+                      model::WorldDescription& world) {
+  const Vector3 gravity = FromIgnition(source.Gravity());
+  if (geometry::IsFinite(gravity)) {
+    world.gravity = gravity;
+  } else {
+    context.Complain("<gravity> must be finite", context.source.string());
+  }
+  const Vector3 magnetic_field = FromIgnition(source.MagneticField());
+  if (geometry::IsFinite(magnetic_field)) {
+    world.magnetic_field = magnetic_field;
+  } else {
+    context.Complain("<magnetic_field> must be finite", context.source.string());
+  }
+  if (const auto* coordinates = source.SphericalCoordinates()) {
+    ReadOrigin(*coordinates, context, world);
+  }
+  if (const sdf::Physics* physics = source.PhysicsDefault()) ReadPhysics(*physics, context, world);
+  const sdf::Scene* scene = source.Scene();
+  if (scene == nullptr) return;
+  world.scene.ambient = FromIgnition(scene->Ambient());
+  world.scene.shadows = scene->Shadows();
+  world.scene.sky = scene->Sky() != nullptr;
+  // A scene that names no background keeps ours.
+  if (scene->Element() != nullptr && scene->Element()->HasElement("background")) {
+    world.scene.background = FromIgnition(scene->Background());
+  }
+}
+
+}  // namespace gsv::formats

@@ -1,0 +1,210 @@
+#include "gsv/formats/sdf/sdf_xml.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+using base::Problem;
+using tinyxml2::XMLElement;
+using tinyxml2::XMLNode;
+
+constexpr int kOldestVersion = 103;
+constexpr int kNewestVersion = 109;
+
+base::Result<std::string> ReadText(const std::filesystem::path& path, std::size_t limit) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return Fail(ErrorCode::kBadModel, "there is no such file", path.string());
+  }
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || size > limit) {
+    return Fail(ErrorCode::kBadModel,
+                "the file is larger than the limit of " + std::to_string(limit) + " bytes",
+                path.string());
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.good() && !file.eof()) {
+    return Fail(ErrorCode::kBadModel, "the file cannot be read", path.string());
+  }
+  return text;
+}
+
+int Depth(const XMLElement& element, int limit) {
+  int deepest = 0;
+  if (limit <= 0) return 1;
+  for (auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    deepest = std::max(deepest, Depth(*child, limit - 1));
+  }
+  return deepest + 1;
+}
+
+// Elements that SDFormat 1.10 to 1.12 brought and that this program cannot honour.
+void CollectNewElements(const XMLElement& element, std::set<std::string>& found) {
+  const std::string name = element.Name();
+  if (name == "auto_inertia_params" || name == "mimic" || name == "shader" || name == "projector") {
+    found.insert("<" + name + ">");
+  }
+  if (name == "inertial" && element.BoolAttribute("auto", false)) {
+    found.insert("<inertial auto=\"true\">");
+  }
+  for (auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    CollectNewElements(*child, found);
+  }
+}
+
+void NameWhatIsNew(const XmlFile& file, base::Problems& problems) {
+  std::set<std::string> found;
+  CollectNewElements(*file.root, found);
+  if (found.empty()) return;
+  std::string list;
+  for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
+  problems.push_back({Problem::Severity::kWarning,
+                      "of SDFormat " + file.version + " " + list + " is not supported and left out",
+                      PlaceOf(file.path, *file.root)});
+}
+
+base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
+  const char* version = file.root->Attribute("version");
+  int major = 0, minor = 0;
+  if (version == nullptr || std::sscanf(version, "%d.%d", &major, &minor) != 2) {
+    return Fail(ErrorCode::kBadModel, "<sdf> needs a version, such as version=\"1.9\"",
+                PlaceOf(file.path, *file.root));
+  }
+  file.version = version;
+  const int number = major * 100 + minor;
+  if (number < kOldestVersion) {
+    return Fail(ErrorCode::kBadModel,
+                "SDFormat " + file.version + " is too old to read; convert it to 1.4 or newer",
+                PlaceOf(file.path, *file.root));
+  }
+  if (number > kNewestVersion) {
+    NameWhatIsNew(file, problems);
+    file.version = "1.9";
+    file.root->SetAttribute("version", "1.9");
+  }
+  return {};
+}
+
+bool ByteOrderMark(const std::string& text) { return text.compare(0, 3, "\xEF\xBB\xBF") == 0; }
+
+}  // namespace
+
+std::string PlaceOf(const std::filesystem::path& file, const XMLNode& node) {
+  return file.string() + ":" + std::to_string(node.GetLineNum());
+}
+
+base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ReadLimits& limits,
+                              base::Problems& problems) {
+  auto text = ReadText(path, limits.xml_bytes);
+  if (!text) return Fail(text.error());
+  if (ByteOrderMark(*text)) text->erase(0, 3);
+  XmlFile file;
+  file.path = path;
+  file.document = std::make_unique<tinyxml2::XMLDocument>();
+  if (file.document->Parse(text->data(), text->size()) != tinyxml2::XML_SUCCESS) {
+    return Fail(ErrorCode::kBadModel,
+                std::string("the XML is malformed (") +
+                    tinyxml2::XMLDocument::ErrorIDToName(file.document->ErrorID()) + ")",
+                path.string() + ":" + std::to_string(file.document->ErrorLineNum()));
+  }
+  file.root = file.document->RootElement();
+  const std::string root = file.root == nullptr ? "" : file.root->Name();
+  if (root == "gazebo") {
+    return Fail(ErrorCode::kBadModel,
+                "SDFormat before 1.3 is too old to read; convert it to 1.4 or newer",
+                path.string() + ":1");
+  }
+  if (root != "sdf" && root != "robot") {
+    return Fail(ErrorCode::kBadModel,
+                "expected <sdf> or <robot>, found " + (root.empty() ? "nothing" : "<" + root + ">"),
+                path.string() + ":1");
+  }
+  if (Depth(*file.root, limits.xml_depth) > limits.xml_depth) {
+    return Fail(ErrorCode::kBadModel,
+                "elements are nested deeper than " + std::to_string(limits.xml_depth),
+                path.string());
+  }
+  file.dialect = root == "sdf" ? XmlDialect::kSdf : XmlDialect::kUrdf;
+  if (file.dialect == XmlDialect::kSdf) {
+    if (auto status = CheckVersion(file, problems); !status) return Fail(status.error());
+  }
+  return file;
+}
+
+void LineKeepingPrinter::AdvanceTo(int line) {
+  for (; line_ < line; ++line_) out_ += '\n';
+}
+
+void LineKeepingPrinter::Text(const std::string& text) {
+  out_ += text;
+  line_ += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+void LineKeepingPrinter::Escaped(const char* text) {
+  for (; *text != '\0'; ++text) {
+    switch (*text) {
+      case '&':
+        out_ += "&amp;";
+        break;
+      case '<':
+        out_ += "&lt;";
+        break;
+      case '>':
+        out_ += "&gt;";
+        break;
+      case '"':
+        out_ += "&quot;";
+        break;
+      // Breaks within a text would shift what follows; to SDFormat all blanks are alike.
+      case '\n':
+      case '\r':
+        out_ += ' ';
+        break;
+      default:
+        out_ += *text;
+    }
+  }
+}
+
+void LineKeepingPrinter::Element(const XMLElement& element) {
+  AdvanceTo(element.GetLineNum());
+  out_ += '<';
+  out_ += element.Name();
+  for (auto* attribute = element.FirstAttribute(); attribute != nullptr;
+       attribute = attribute->Next()) {
+    out_ += ' ';
+    out_ += attribute->Name();
+    out_ += "=\"";
+    Escaped(attribute->Value());
+    out_ += '"';
+  }
+  out_ += '>';
+  for (auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
+    if (auto* inner = child->ToElement()) {
+      Element(*inner);
+    } else if (auto* text = child->ToText()) {
+      Escaped(text->Value());
+    }
+  }
+  out_ += "</";
+  out_ += element.Name();
+  out_ += '>';
+}
+
+std::string PrintCompact(const XMLElement& element) {
+  tinyxml2::XMLPrinter printer(nullptr, true);
+  element.Accept(&printer);
+  return printer.CStr();
+}
+
+}  // namespace gsv::formats

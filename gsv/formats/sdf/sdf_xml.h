@@ -1,0 +1,52 @@
+// The XML of a model or world file, before libsdformat sees it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <tinyxml2.h>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/files/read_limits.h"
+
+namespace gsv::formats {
+
+enum class XmlDialect { kSdf, kUrdf };
+
+struct XmlFile {
+  std::filesystem::path path;
+  std::unique_ptr<tinyxml2::XMLDocument> document;
+  tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
+  XmlDialect dialect = XmlDialect::kSdf;
+  std::string version;  // of <sdf>, no newer than 1.9
+};
+
+// Reads and checks the frame of a file: its size, its XML, its root and version. What a newer
+// version than 1.9 brings is named in a warning.
+base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ReadLimits& limits,
+                              base::Problems& problems);
+
+// "file:line" of an element.
+std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);
+
+// Writes elements so that each stands on the line it has in its file: what libsdformat says about
+// lines then holds. Elements must come in the order of their lines.
+class LineKeepingPrinter {
+ public:
+  void Text(const std::string& text);  // markup, as it is
+  void Escaped(const char* text);      // text or an attribute's value, on one line
+  void Element(const tinyxml2::XMLElement& element);
+  std::string Take() { return std::move(out_); }
+
+ private:
+  void AdvanceTo(int line);
+
+  std::string out_;
+  int line_ = 1;
+};
+
+// An element's content, without lines: equal elements print equally.
+std::string PrintCompact(const tinyxml2::XMLElement& element);
+
+}  // namespace gsv::formats

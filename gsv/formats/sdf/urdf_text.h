@@ -1,0 +1,15 @@
+// URDF text, ready for libsdformat.
+#pragma once
+
+#include <string>
+
+#include "gsv/formats/sdf/sdf_xml.h"
+
+namespace gsv::formats {
+
+// The file's text with what xacro would fill in: `${NAME}` and `$(arg NAME)` of properties and
+// arguments that have a literal value. Files that need more of xacro (macros, includes, conditions,
+// arithmetic) are refused with a sentence that says to run xacro first.
+base::Result<std::string> UrdfText(const XmlFile& file);
+
+}  // namespace gsv::formats

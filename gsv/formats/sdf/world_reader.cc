@@ -1,0 +1,382 @@
+#include "gsv/formats/sdf/world_reader.h"
+
+#include <algorithm>
+#include <deque>
+#include <set>
+#include <vector>
+
+#include <sdf/Element.hh>
+#include <sdf/Light.hh>
+#include <sdf/Model.hh>
+#include <sdf/Root.hh>
+#include <sdf/World.hh>
+
+#include "gsv/formats/sdf/builtin_models.h"
+#include "gsv/formats/sdf/include_scan.h"
+#include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/formats/sdf/sdf_world.h"
+#include "gsv/formats/sdf/world_frames.h"
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+using base::Problem;
+using geometry::Pose;
+using model::WorldDescription;
+using tinyxml2::XMLElement;
+
+constexpr std::size_t kModelsPerDocument = 48;
+
+class WorldReader {
+ public:
+  WorldReader(XmlFile& file, ModelStore& store, base::Problems& problems)
+      : file_(file),
+        store_(store),
+        problems_(problems),
+        context_(store.ContextFor(file.path, problems)),
+        scan_(store.finder(), store.limits(), problems) {}
+
+  base::Result<WorldDescription> Read() {
+    XMLElement* world = file_.root->FirstChildElement("world");
+    if (world == nullptr) {
+      return Fail(ErrorCode::kBadModel, "there is no <world> inside", file_.path.string());
+    }
+    const char* name = world->Attribute("name");
+    world_.name = name == nullptr ? "world" : name;
+    world_.source = file_.path.string();
+    if (const XMLElement* second = world->NextSiblingElement("world")) {
+      context_.Warn("only the first world of a file is read", PlaceOf(file_.path, *second));
+    }
+    if (auto status = TakeIncludes(*world); !status) return Fail(status.error());
+    if (auto status = scan_.Scan(*world, file_.path); !status) return Fail(status.error());
+    if (auto status = TakeParts(*world); !status) return Fail(status.error());
+    if (auto status = ParseDocuments(); !status) return Fail(status.error());
+    PlaceModels();
+    PlaceLights();
+    return std::move(world_);
+  }
+
+ private:
+  // One model of the world, inline or included.
+  struct Placement {
+    std::string name, place;
+    WrittenPose at;
+    std::string placement_frame;
+    std::optional<bool> is_static;
+    bool poses_itself = false;                 // by the pose that its file gives it
+    std::size_t distinct = 0;                  // inline: index into distinct_
+    std::shared_ptr<const StoredFile> stored;  // included
+  };
+
+  // Inline models that are alike but for name and pose.
+  struct Distinct {
+    XMLElement* element;
+    std::optional<FramedModel> framed;
+  };
+
+  struct PlacedLight {
+    std::string place;
+    WrittenPose at;
+    model::Light light;
+  };
+
+  std::string Place(const XMLElement& element) const { return PlaceOf(file_.path, element); }
+
+  std::string UniqueName(const std::string& wanted, const std::string& place) {
+    const std::string name = wanted.empty() ? "unnamed" : wanted;
+    std::string unique = name;
+    for (int i = 1; !names_.insert(unique).second; ++i) unique = name + "_" + std::to_string(i);
+    if (unique != name) {
+      context_.Warn("there is a second \"" + name + "\"; it is named " + unique, place);
+    }
+    return unique;
+  }
+
+  WrittenPose PoseOf(const XMLElement& element) {
+    auto pose = ReadPose(element);
+    if (pose) return *pose;
+    context_.Complain(pose.error().message, Place(element));
+    return {};
+  }
+
+  // Includes are read from the store; those that are built in stay, as their text.
+  base::Status TakeIncludes(XMLElement& world) {
+    XMLElement* next = nullptr;
+    for (auto* child = world.FirstChildElement("include"); child != nullptr; child = next) {
+      next = child->NextSiblingElement("include");
+      const std::string uri = UriOf(*child);
+      auto found = scan_.FileOf(uri, file_.path);
+      if (found) {
+        if (auto status = Include(*child, *found); !status) return status;
+      } else if (const std::string_view text = BuiltInModel(uri); !text.empty()) {
+        Substitute(*child, text);
+      } else {
+        context_.Warn(IncludeLeftOut(uri, found.error()), Place(*child));
+      }
+      world.DeleteChild(child);
+    }
+    return {};
+  }
+
+  // Puts a built-in model where its include stands, with the name and pose the include gives.
+  static void Substitute(XMLElement& include, std::string_view text) {
+    tinyxml2::XMLDocument document;
+    document.Parse(text.data(), text.size());
+    auto* built_in = document.RootElement()->DeepClone(include.GetDocument())->ToElement();
+    if (const auto* name = include.FirstChildElement("name"); name != nullptr && name->GetText()) {
+      built_in->SetAttribute("name", name->GetText());
+    }
+    if (const auto* pose = include.FirstChildElement("pose")) {
+      if (auto* own = built_in->FirstChildElement("pose")) built_in->DeleteChild(own);
+      built_in->InsertFirstChild(pose->DeepClone(include.GetDocument()));
+    }
+    include.Parent()->InsertAfterChild(&include, built_in);
+  }
+
+  base::Status Include(const XMLElement& include, const std::filesystem::path& found) {
+    std::string plugins;
+    for (auto* plugin = include.FirstChildElement("plugin"); plugin != nullptr;
+         plugin = plugin->NextSiblingElement("plugin")) {
+      plugins += PrintCompact(*plugin);
+    }
+    auto stored = store_.Read(found, plugins);
+    if (!stored) return Fail(stored.error());
+    if (reported_.insert(stored->get()).second) {
+      problems_.insert(problems_.end(), (*stored)->problems.begin(), (*stored)->problems.end());
+    }
+    Placement placement;
+    placement.place = Place(include);
+    placement.stored = *stored;
+    placement.at = PoseOf(include);
+    placement.poses_itself = include.FirstChildElement("pose") == nullptr;
+    if (const auto* text = include.FirstChildElement("placement_frame")) {
+      placement.placement_frame = text->GetText() == nullptr ? "" : text->GetText();
+    }
+    if (const auto* text = include.FirstChildElement("static")) {
+      placement.is_static = text->BoolText(false);
+    }
+    const auto* name = include.FirstChildElement("name");
+    placement.name = name != nullptr && name->GetText() != nullptr ? name->GetText() : "";
+    if ((*stored)->light) {
+      AddIncludedLight(placement);
+      return {};
+    }
+    if (placement.name.empty()) placement.name = (*stored)->framed.model->name;
+    placement.name = UniqueName(placement.name, placement.place);
+    return Add(std::move(placement));
+  }
+
+  void AddIncludedLight(const Placement& placement) {
+    PlacedLight placed{placement.place, placement.at, *placement.stored->light};
+    if (placement.poses_itself) placed.at.pose = placement.stored->world_from_light;
+    if (!placement.name.empty()) placed.light.name = placement.name;
+    lights_.push_back(std::move(placed));
+  }
+
+  base::Status Add(Placement placement) {
+    if (placements_.size() >= store_.limits().models_in_world) {
+      return Fail(ErrorCode::kBadModel,
+                  "the world has more than the limit of " +
+                      std::to_string(store_.limits().models_in_world) + " models",
+                  file_.path.string());
+    }
+    placements_.push_back(std::move(placement));
+    return {};
+  }
+
+  base::Status TakeParts(XMLElement& world) {
+    for (auto* child = world.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      const std::string kind = child->Name();
+      if (kind == "model") {
+        if (auto status = TakeModel(*child); !status) return status;
+      } else if (kind == "light") {
+        TakeLight(*child);
+      } else if (kind == "frame") {
+        TakeFrame(*child);
+      } else if (kind == "physics" || kind == "gravity" || kind == "scene" ||
+                 kind == "magnetic_field" || kind == "spherical_coordinates") {
+        surroundings_.push_back(child);
+      } else if (kind == "actor" || kind == "population" || kind == "road" || kind == "joint") {
+        context_.Warn("<" + kind + "> in a world is not supported and left out", Place(*child));
+      }
+    }
+    return {};
+  }
+
+  base::Status TakeModel(XMLElement& element) {
+    Placement placement;
+    placement.place = Place(element);
+    placement.at = PoseOf(element);
+    const char* name = element.Attribute("name");
+    placement.name = UniqueName(name == nullptr ? "" : name, placement.place);
+    const char* frame = element.Attribute("placement_frame");
+    placement.placement_frame = frame == nullptr ? "" : frame;
+    if (auto* pose = element.FirstChildElement("pose")) element.DeleteChild(pose);
+    element.DeleteAttribute("placement_frame");
+
+    element.SetAttribute("name", "");
+    const auto [it, is_new] = distinct_by_text_.emplace(PrintCompact(element), distinct_.size());
+    element.SetAttribute("name", placement.name.c_str());
+    if (is_new) distinct_.push_back({&element, std::nullopt});
+    placement.distinct = it->second;
+    return Add(std::move(placement));
+  }
+
+  void TakeLight(XMLElement& element) {
+    PlacedLight placed{Place(element), PoseOf(element), {}};
+    const char* name = element.Attribute("name");
+    placed.light.name = UniqueName(name == nullptr ? "" : name, placed.place);
+    element.SetAttribute("name", placed.light.name.c_str());
+    if (auto* pose = element.FirstChildElement("pose")) element.DeleteChild(pose);
+    surroundings_.push_back(&element);
+    lights_.push_back(std::move(placed));
+  }
+
+  void TakeFrame(const XMLElement& element) {
+    WrittenPose at = PoseOf(element);
+    const char* attached_to = element.Attribute("attached_to");
+    if (at.relative_to.empty() && attached_to != nullptr) at.relative_to = attached_to;
+    if (const char* name = element.Attribute("name")) frames_.Add(name, at);
+  }
+
+  base::Status ParseDocuments() {
+    for (std::size_t first = 0; first == 0 || first < distinct_.size();
+         first += kModelsPerDocument) {
+      const std::size_t end = std::min(distinct_.size(), first + kModelsPerDocument);
+      auto document = ParseSdf(Document(first, end), file_.path, scan_.files(), problems_);
+      if (!document) return Fail(document.error());
+      const sdf::World* world = document->root->WorldByIndex(0);
+      if (world == nullptr) {
+        return Fail(ErrorCode::kBadModel, "the world cannot be read", file_.path.string());
+      }
+      if (first == 0) TakeSurroundings(*world);
+      for (std::size_t i = first; i < end; ++i) {
+        if (auto status = TakeParsed(*world, distinct_[i]); !status) return status;
+      }
+    }
+    return {};
+  }
+
+  // The elements in the order of their lines, as the printer wants them.
+  std::string Document(std::size_t first, std::size_t end) const {
+    std::vector<const XMLElement*> elements;
+    if (first == 0) elements.assign(surroundings_.begin(), surroundings_.end());
+    for (std::size_t i = first; i < end; ++i) elements.push_back(distinct_[i].element);
+    std::stable_sort(elements.begin(), elements.end(), [](const auto* a, const auto* b) {
+      return a->GetLineNum() < b->GetLineNum();
+    });
+    LineKeepingPrinter printer;
+    printer.Text("<sdf version='" + file_.version + "'><world name=\"");
+    // libsdformat keeps these names to itself.
+    const bool reserved = world_.name == "world" || world_.name.find("::") != std::string::npos ||
+                          world_.name.rfind("__", 0) == 0;
+    printer.Escaped(reserved ? "unnamed" : world_.name.c_str());
+    printer.Text("\">");
+    for (const XMLElement* element : elements) printer.Element(*element);
+    printer.Text("</world></sdf>");
+    return printer.Take();
+  }
+
+  void TakeSurroundings(const sdf::World& world) {
+    ReadSurroundings(world, context_, world_);
+    for (PlacedLight& placed : lights_) {
+      if (const sdf::Light* light = LightNamed(world, placed.light.name)) {
+        placed.light = ReadLight(*light, context_);
+      }
+    }
+  }
+
+  static const sdf::Light* LightNamed(const sdf::World& world, const std::string& name) {
+    for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
+      if (world.LightByIndex(i)->Name() == name) return world.LightByIndex(i);
+    }
+    return nullptr;
+  }
+
+  base::Status TakeParsed(const sdf::World& world, Distinct& distinct) {
+    const sdf::Model* model = world.ModelByName(distinct.element->Attribute("name"));
+    if (model == nullptr) return {};  // libsdformat has said why
+    auto framed = formats::ReadModel(*model, context_);
+    if (framed) {
+      distinct.framed = std::move(*framed);
+    } else {
+      context_.Complain(framed.error().message, Place(*distinct.element));
+    }
+    return {};
+  }
+
+  const FramedModel* FramedOf(const Placement& placement) const {
+    if (placement.stored != nullptr) return &placement.stored->framed;
+    const auto& framed = distinct_[placement.distinct].framed;
+    return framed ? &*framed : nullptr;
+  }
+
+  // The inverse of the placement frame's pose in the model.
+  Pose FrameFromModel(const Placement& placement, const FramedModel& framed) {
+    if (placement.placement_frame.empty()) return {};
+    const auto it = framed.model_from_frame.find(placement.placement_frame);
+    if (it != framed.model_from_frame.end()) return geometry::Inverse(it->second);
+    context_.Complain(
+        "there is no frame \"" + placement.placement_frame + "\" in the model to place it by",
+        placement.place);
+    return {};
+  }
+
+  void PlaceModels() {
+    for (Placement& placement : placements_) {
+      const FramedModel* framed = FramedOf(placement);
+      if (framed == nullptr) continue;
+      if (placement.poses_itself && placement.placement_frame.empty()) {
+        placement.at.pose = framed->model->default_pose;
+      }
+      frames_.Add(placement.name, placement.at, FrameFromModel(placement, *framed),
+                  &framed->model_from_frame);
+    }
+    for (const Placement& placement : placements_) {
+      const FramedModel* framed = FramedOf(placement);
+      if (framed == nullptr) continue;
+      auto world_from_model = frames_.WorldFrom(placement.name);
+      if (!world_from_model) {
+        context_.Complain(world_from_model.error().message + "; the origin is taken",
+                          placement.place);
+      }
+      world_.models.push_back({placement.name, framed->model, world_from_model.value_or(Pose{}),
+                               placement.is_static.value_or(framed->model->is_static)});
+    }
+  }
+
+  void PlaceLights() {
+    for (PlacedLight& placed : lights_) {
+      auto world_from_light = frames_.WorldFrom(placed.at);
+      if (!world_from_light) context_.Complain(world_from_light.error().message, placed.place);
+      placed.light.world_from_light = world_from_light.value_or(placed.at.pose);
+      world_.lights.push_back(std::move(placed.light));
+    }
+  }
+
+  XmlFile& file_;
+  ModelStore& store_;
+  base::Problems& problems_;
+  ReadingContext context_;
+  IncludeScan scan_;
+  WorldDescription world_;
+  WorldFrames frames_;
+  std::vector<Placement> placements_;
+  std::deque<Distinct> distinct_;
+  std::map<std::string, std::size_t> distinct_by_text_;
+  std::vector<PlacedLight> lights_;
+  std::vector<XMLElement*> surroundings_;
+  std::set<std::string> names_;
+  std::set<const StoredFile*> reported_;
+};
+
+}  // namespace
+
+base::Result<WorldDescription> ReadWorld(XmlFile& file, ModelStore& store,
+                                         base::Problems& problems) {
+  return WorldReader(file, store, problems).Read();
+}
+
+}  // namespace gsv::formats

@@ -1,0 +1,64 @@
+#include "gsv/recording/attachments/scenario_attachment.h"
+
+#include <algorithm>
+#include <map>
+
+namespace gsv::recording {
+namespace {
+
+using simulation::Simulation;
+
+scenario::Place PlaceOf(const geometry::Pose& pose) {
+  return {pose.position.x, pose.position.y, pose.position.z, geometry::Yaw(pose.orientation)};
+}
+
+// The shortest number that is the same time.
+double ShortSeconds(std::chrono::nanoseconds time) {
+  return static_cast<double>(time.count()) / 1e9;
+}
+
+bool CameWithTheWorld(const model::WorldDescription& world, const std::string& body) {
+  return std::any_of(world.models.begin(), world.models.end(),
+                     [&](const model::PlacedModel& placed) { return placed.name == body; });
+}
+
+}  // namespace
+
+scenario::Scenario ScenarioOf(const Simulation& simulation) {
+  const simulation::Specification& specification = simulation.specification();
+  scenario::Scenario scenario;
+  scenario.world =
+      specification.world->source.empty() ? specification.world->name : specification.world->source;
+  scenario.name = specification.name;
+  scenario.seed = specification.seed;
+  scenario.lockstep = specification.mode == simulation::Mode::kLockstep;
+  scenario.factor = specification.factor;
+  scenario.step = ShortSeconds(specification.step);
+  scenario.duration = ShortSeconds(specification.duration);
+  scenario.deadline = ShortSeconds(specification.deadline);
+  scenario.faults = specification.faults;
+  scenario.fails_with_behaviour = specification.on_failure == simulation::FailurePolicy::kFail;
+
+  std::map<std::string, std::string> behaviours;  // by robot
+  for (const auto& robot : simulation.status().robots) behaviours[robot.name] = robot.behaviour;
+  for (const world::Body& body : simulation.snapshot()->layout->bodies) {
+    if (!body.is_robot && !body.is_avatar) continue;
+    scenario::RobotEntry entry;
+    entry.name = body.name;
+    entry.behaviour = behaviours[body.name];
+    if (!CameWithTheWorld(*specification.world, body.name)) {
+      entry.model = body.model->source.empty() ? body.model->name : body.model->source;
+      entry.start = PlaceOf(body.initial_pose);
+    } else if (entry.behaviour.empty()) {
+      continue;
+    }
+    const bool is_told = !entry.model.empty() && !body.is_avatar;
+    if (is_told && body.is_rigid != (body.model->movement == model::Movement::kRigid)) {
+      entry.movement = body.is_rigid ? model::Movement::kRigid : model::Movement::kPlanar;
+    }
+    (body.is_avatar ? scenario.avatars : scenario.robots).push_back(std::move(entry));
+  }
+  return scenario;
+}
+
+}  // namespace gsv::recording

@@ -1,0 +1,38 @@
+// The world and the robots as they were given: the text of their files (SDFormat, URDF).
+//
+// Attachments  `world/FILE`, and `robots/FOLDER/FILE` for each robot's and avatar's model, once;
+//              media type application/xml. Where two have one name, the later is `robots/2/…`.
+// Bounded      files above 4 MiB are left out, and all beyond the hundredth, with a warning.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "gsv/recording/mcap/mcap_writer.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::recording {
+
+inline constexpr std::uintmax_t kLargestSource = std::uintmax_t{4} << 20;
+inline constexpr std::size_t kMostSources = 100;
+
+class SourceAttachments {
+ public:
+  // `writer` must outlive this.
+  explicit SourceAttachments(McapWriter& writer) : writer_(writer) {}
+
+  // Attaches the world's file. A world that came from no file has none.
+  void AttachWorld(const model::WorldDescription& world);
+  // Attaches the files of the robots that are new.
+  void AttachRobots(const world::Snapshot& snapshot);
+
+ private:
+  void Attach(const std::string& source, const std::string& folder, const std::string& name,
+              base::SimTime time);
+
+  McapWriter& writer_;
+  std::set<std::string> sources_;  // that were looked at
+  std::set<std::string> names_;    // of attachments
+};
+
+}  // namespace gsv::recording

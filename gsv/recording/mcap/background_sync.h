@@ -1,0 +1,39 @@
+// Has what a sink was given synchronised to its disk, in a thread of its own: a disk may take
+// seconds for that, and the writing goes on meanwhile.
+//
+// Threads  any.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "gsv/recording/mcap/file_io.h"
+
+namespace gsv::recording {
+
+class BackgroundSync {
+ public:
+  // `sink` must outlive this, and take writes while it is synchronised.
+  explicit BackgroundSync(ByteSink& sink);
+  // Waits for what was asked for.
+  ~BackgroundSync();
+
+  // All that was written before this call will be synchronised soon. Returns at once.
+  void Ask();
+  // The first error of the disk.
+  base::Status status() const;
+
+ private:
+  void Run();
+
+  ByteSink& sink_;
+  mutable std::mutex mutex_;
+  std::condition_variable work_;
+  bool is_asked_ = false;
+  bool is_ending_ = false;
+  base::Status status_;
+  std::thread thread_;
+};
+
+}  // namespace gsv::recording

@@ -1,0 +1,37 @@
+// Chunks' compression (zstd) and checksums (CRC-32 as in zip and PNG).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "gsv/base/error.h"
+#include "gsv/recording/mcap/byte_order.h"
+
+struct ZSTD_CCtx_s;
+
+namespace gsv::recording {
+
+// The checksum of `bytes`, or of what `before` is the checksum of, followed by `bytes`.
+std::uint32_t Crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
+
+class ZstdCompressor {
+ public:
+  // `level` is zstd's, 1 to 19.
+  explicit ZstdCompressor(int level);
+
+  Bytes Compress(std::span<const std::byte> bytes);
+
+ private:
+  struct Free {
+    void operator()(ZSTD_CCtx_s* context) const;
+  };
+  std::unique_ptr<ZSTD_CCtx_s, Free> context_;
+};
+
+// Allocates `size` bytes at most, which is how large the result is said to be; kCorrupt if it is
+// not. The caller bounds `size`.
+[[nodiscard]] base::Result<Bytes> ZstdDecompress(std::span<const std::byte> bytes,
+                                                 std::size_t size);
+
+}  // namespace gsv::recording

@@ -1,0 +1,108 @@
+// Where a recording goes to and comes from: a file, or memory in tests.
+//
+// Errors  kUnavailable with the path and what the system said.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/recording/mcap/byte_order.h"
+
+namespace gsv::recording {
+
+// Takes bytes, one after the other. Sync() may be called while another thread writes.
+class ByteSink {
+ public:
+  virtual ~ByteSink() = default;
+  // All of them, or an error; after an error some may have arrived.
+  [[nodiscard]] virtual base::Status Write(std::span<const std::byte> bytes) = 0;
+  // Returns when all that was written would survive a loss of power.
+  [[nodiscard]] virtual base::Status Sync() = 0;
+  // Forgets all after the first `size` bytes, where the sink can.
+  [[nodiscard]] virtual base::Status Truncate(std::uint64_t size) = 0;
+};
+
+// Any part of something whose size is known. Const members may run concurrently.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+  virtual std::uint64_t size() const = 0;
+  // The bytes from `offset` on; kCorrupt if there are not `length` of them.
+  [[nodiscard]] virtual base::Result<Bytes> Read(std::uint64_t offset,
+                                                 std::uint64_t length) const = 0;
+};
+
+// Owns an open file.
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int fd) : fd_(fd) {}
+  ~FileDescriptor();
+  FileDescriptor(FileDescriptor&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
+  FileDescriptor& operator=(FileDescriptor&&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+class FileSink : public ByteSink {
+ public:
+  // Creates the file. One that is there and not empty is an error, kInvalidArgument, unless
+  // `replace` is set.
+  [[nodiscard]] static base::Result<std::unique_ptr<FileSink>> Create(std::string path,
+                                                                      bool replace);
+
+  base::Status Write(std::span<const std::byte> bytes) override;
+  base::Status Sync() override;
+  base::Status Truncate(std::uint64_t size) override;
+
+ private:
+  FileSink(std::string path, FileDescriptor file)
+      : path_(std::move(path)), file_(std::move(file)) {}
+
+  std::string path_;
+  FileDescriptor file_;
+};
+
+class FileSource : public ByteSource {
+ public:
+  [[nodiscard]] static base::Result<std::unique_ptr<FileSource>> Open(std::string path);
+
+  std::uint64_t size() const override { return size_; }
+  base::Result<Bytes> Read(std::uint64_t offset, std::uint64_t length) const override;
+
+ private:
+  FileSource(std::string path, FileDescriptor file, std::uint64_t size)
+      : path_(std::move(path)), file_(std::move(file)), size_(size) {}
+
+  std::string path_;
+  FileDescriptor file_;
+  std::uint64_t size_;
+};
+
+class MemorySink : public ByteSink {
+ public:
+  // `out` must outlive the sink.
+  explicit MemorySink(Bytes& out) : out_(out) {}
+  base::Status Write(std::span<const std::byte> bytes) override;
+  base::Status Sync() override { return {}; }
+  base::Status Truncate(std::uint64_t size) override;
+
+ private:
+  Bytes& out_;
+};
+
+class MemorySource : public ByteSource {
+ public:
+  // `bytes` must outlive the source.
+  explicit MemorySource(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  std::uint64_t size() const override { return bytes_.size(); }
+  base::Result<Bytes> Read(std::uint64_t offset, std::uint64_t length) const override;
+
+ private:
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace gsv::recording

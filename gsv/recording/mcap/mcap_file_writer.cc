@@ -1,0 +1,181 @@
+#include "gsv/recording/mcap/mcap_file_writer.h"
+
+#include <algorithm>
+
+#include "gsv/base/check.h"
+
+namespace gsv::recording {
+namespace {
+
+// The summary section as it will stand at `start`: groups of records of one kind, then where each
+// group is.
+class SummaryBuilder {
+ public:
+  explicit SummaryBuilder(std::uint64_t start) : start_(start) {}
+
+  template <typename Records>
+  void AddGroup(Opcode group, const Records& records) {
+    Bytes bytes;
+    for (const auto& record : records) Append(bytes, record);
+    AddGroup(group, bytes);
+  }
+
+  void AddGroup(Opcode group, const Bytes& records) {
+    if (records.empty()) return;
+    offsets_.push_back({group, start_ + bytes_.size(), records.size()});
+    PutBytes(bytes_, records);
+  }
+
+  // The section, the footer whose checksum covers it, and the final magic.
+  Bytes Finish() {
+    const std::uint64_t offset_start = start_ + bytes_.size();
+    for (const SummaryOffsetRecord& offset : offsets_) Append(bytes_, offset);
+    Append(bytes_, FooterRecord{start_, offset_start, 0});
+    const std::size_t crc_at = bytes_.size() - sizeof(std::uint32_t);
+    const std::uint32_t crc = Crc32(std::span(bytes_).first(crc_at));
+    bytes_.resize(crc_at);
+    Put(bytes_, crc);
+    PutBytes(bytes_, kMagic);
+    return std::move(bytes_);
+  }
+
+ private:
+  std::uint64_t start_;
+  Bytes bytes_;
+  std::vector<SummaryOffsetRecord> offsets_;
+};
+
+template <typename Record>
+std::vector<Record> Values(const std::map<std::uint16_t, Record>& map) {
+  std::vector<Record> values;
+  for (const auto& [id, record] : map) values.push_back(record);
+  return values;
+}
+
+}  // namespace
+
+McapFileWriter::McapFileWriter(ByteSink& sink, FileOptions options)
+    : sink_(sink), options_(std::move(options)), chunk_(options_.compression_level) {
+  Bytes head(kMagic.begin(), kMagic.end());
+  Append(head, HeaderRecord{options_.profile, options_.library});
+  WriteRaw(head);
+}
+
+void McapFileWriter::WriteRaw(std::span<const std::byte> bytes) {
+  if (!status_) return;
+  status_ = sink_.Write(bytes);
+  if (!status_) {
+    ends_in_a_record_ = sink_.Truncate(position_).has_value();
+    return;
+  }
+  position_ += bytes.size();
+  crc_ = Crc32(bytes, crc_);
+}
+
+template <typename Record>
+void McapFileWriter::WriteRecord(const Record& record) {
+  Bytes bytes;
+  Append(bytes, record);
+  WriteRaw(bytes);
+}
+
+base::Status McapFileWriter::AddSchema(SchemaRecord schema) {
+  WriteRecord(schema);
+  if (status_) schemas_[schema.id] = std::move(schema);
+  return status_;
+}
+
+base::Status McapFileWriter::AddChannel(ChannelRecord channel) {
+  WriteRecord(channel);
+  if (status_) channels_[channel.id] = std::move(channel);
+  return status_;
+}
+
+base::Status McapFileWriter::Write(const MessageRecord& message) {
+  GSV_CHECK(!closed_);
+  if (!status_) return status_;
+  chunk_.Add(message);
+  return chunk_.size() >= options_.chunk_size ? CloseChunk() : status_;
+}
+
+base::Status McapFileWriter::CloseChunk() {
+  if (!status_ || chunk_.empty()) return status_;
+  ChunkBuilder::Chunk chunk = chunk_.Take();
+  ChunkIndexRecord& index = chunk.index;
+  index.chunk_offset = position_;
+  for (auto& [channel, offset] : index.message_index_offsets) offset += position_;
+  WriteRaw(chunk.bytes);
+  if (!status_) return status_;
+
+  const bool first = statistics_.chunk_count == 0;
+  statistics_.start = first ? index.start : std::min(statistics_.start, index.start);
+  statistics_.end = first ? index.end : std::max(statistics_.end, index.end);
+  ++statistics_.chunk_count;
+  for (const auto& [channel, count] : chunk.message_counts) {
+    statistics_.channel_message_counts[channel] += count;
+    statistics_.message_count += count;
+  }
+  Append(chunk_indexes_, index);
+  return status_;
+}
+
+base::Status McapFileWriter::Attach(const AttachmentRecord& attachment) {
+  AttachmentIndexRecord index{.offset = position_,
+                              .log_time = attachment.log_time,
+                              .create_time = attachment.create_time,
+                              .data_size = attachment.data.size(),
+                              .name = attachment.name,
+                              .media_type = attachment.media_type};
+  WriteRecord(attachment);
+  index.length = position_ - index.offset;
+  if (status_) attachment_indexes_.push_back(std::move(index));
+  return status_;
+}
+
+base::Status McapFileWriter::AddMetadata(const MetadataRecord& metadata) {
+  MetadataIndexRecord index{.offset = position_, .name = metadata.name};
+  WriteRecord(metadata);
+  index.length = position_ - index.offset;
+  if (status_) metadata_indexes_.push_back(std::move(index));
+  return status_;
+}
+
+base::Status McapFileWriter::Flush() {
+  if (CloseChunk()) status_ = sink_.Sync();
+  return status_;
+}
+
+base::Status McapFileWriter::Close() {
+  if (closed_) return status_;
+  CloseChunk();
+  closed_ = true;
+  if (status_) {
+    WriteEnd();
+    if (status_) status_ = sink_.Sync();
+  } else if (ends_in_a_record_ && position_ > 0) {
+    // What the failed record had taken up may be enough for the summary. The reason stays.
+    base::Status reason = std::exchange(status_, base::Status{});
+    WriteEnd();
+    status_ = std::move(reason);
+  }
+  return status_;
+}
+
+void McapFileWriter::WriteEnd() {
+  WriteRecord(DataEndRecord{crc_});
+  statistics_.schema_count = static_cast<std::uint16_t>(schemas_.size());
+  statistics_.channel_count = static_cast<std::uint32_t>(channels_.size());
+  statistics_.attachment_count = static_cast<std::uint32_t>(attachment_indexes_.size());
+  statistics_.metadata_count = static_cast<std::uint32_t>(metadata_indexes_.size());
+
+  SummaryBuilder summary(position_);
+  summary.AddGroup(Opcode::kSchema, Values(schemas_));
+  summary.AddGroup(Opcode::kChannel, Values(channels_));
+  summary.AddGroup(Opcode::kStatistics, std::span(&statistics_, 1));
+  summary.AddGroup(Opcode::kChunkIndex, chunk_indexes_);
+  summary.AddGroup(Opcode::kAttachmentIndex, attachment_indexes_);
+  summary.AddGroup(Opcode::kMetadataIndex, metadata_indexes_);
+  WriteRaw(summary.Finish());
+}
+
+}  // namespace gsv::recording

@@ -1,0 +1,220 @@
+// The records that an MCAP file consists of, as plain structs, and their bytes.
+//
+// Format  MCAP, version 0 of its specification (mcap.dev/spec): a record is an opcode, the length
+//         of its content (64 bits) and the content. docs/formats/recording.md tells how they
+//         follow each other in a file.
+// Errors  Parse() takes any bytes; nothing is returned if they do not hold such a record.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "gsv/base/sim_time.h"
+#include "gsv/recording/mcap/byte_order.h"
+
+namespace gsv::recording {
+
+inline constexpr std::array<std::byte, 8> kMagic{std::byte{0x89}, std::byte{'M'}, std::byte{'C'},
+                                                 std::byte{'A'},  std::byte{'P'}, std::byte{'0'},
+                                                 std::byte{'\r'}, std::byte{'\n'}};
+
+enum class Opcode : std::uint8_t {
+  kHeader = 0x01,
+  kFooter = 0x02,
+  kSchema = 0x03,
+  kChannel = 0x04,
+  kMessage = 0x05,
+  kChunk = 0x06,
+  kMessageIndex = 0x07,
+  kChunkIndex = 0x08,
+  kAttachment = 0x09,
+  kAttachmentIndex = 0x0a,
+  kStatistics = 0x0b,
+  kMetadata = 0x0c,
+  kMetadataIndex = 0x0d,
+  kSummaryOffset = 0x0e,
+  kDataEnd = 0x0f,
+};
+
+inline constexpr std::size_t kRecordHeaderSize = 9;
+
+struct HeaderRecord {
+  std::string profile;
+  std::string library;
+};
+
+struct FooterRecord {
+  std::uint64_t summary_start = 0;  // 0: there is no summary
+  std::uint64_t summary_offset_start = 0;
+  std::uint32_t summary_crc = 0;  // 0: not given
+};
+inline constexpr std::size_t kFooterSize = kRecordHeaderSize + 20;
+
+struct SchemaRecord {
+  std::uint16_t id = 0;  // not 0
+  std::string name;
+  std::string encoding;
+  std::string data;
+
+  friend bool operator==(const SchemaRecord&, const SchemaRecord&) = default;
+};
+
+struct ChannelRecord {
+  std::uint16_t id = 0;
+  std::uint16_t schema_id = 0;  // 0: none
+  std::string topic;
+  std::string message_encoding;
+  StringMap metadata;
+
+  friend bool operator==(const ChannelRecord&, const ChannelRecord&) = default;
+};
+
+struct MessageRecord {
+  std::uint16_t channel_id = 0;
+  std::uint32_t sequence = 0;
+  base::SimTime log_time{};
+  base::SimTime publish_time{};
+  std::span<const std::byte> data;  // belongs to someone else
+};
+
+struct ChunkRecord {
+  base::SimTime start{};  // of the earliest message
+  base::SimTime end{};    // of the latest
+  std::uint64_t uncompressed_size = 0;
+  std::uint32_t uncompressed_crc = 0;  // 0: not given
+  std::string compression;             // "", "zstd", …
+  std::span<const std::byte> records;  // belongs to someone else
+};
+
+// Where the messages of one channel stand in one chunk: time, and offset in the uncompressed
+// records.
+struct MessageIndexRecord {
+  std::uint16_t channel_id = 0;
+  std::vector<std::pair<base::SimTime, std::uint64_t>> entries;
+};
+
+struct ChunkIndexRecord {
+  base::SimTime start{};
+  base::SimTime end{};
+  std::uint64_t chunk_offset = 0;  // of the chunk's record in the file
+  std::uint64_t chunk_length = 0;  // of the whole record
+  std::map<std::uint16_t, std::uint64_t> message_index_offsets{};
+  std::uint64_t message_index_length = 0;
+  std::string compression{};
+  std::uint64_t compressed_size = 0;
+  std::uint64_t uncompressed_size = 0;
+};
+
+struct AttachmentRecord {
+  std::chrono::nanoseconds log_time{};     // simulated
+  std::chrono::nanoseconds create_time{};  // of the file, since 1970
+  std::string name;
+  std::string media_type;
+  std::span<const std::byte> data;  // belongs to someone else
+};
+
+struct AttachmentIndexRecord {
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
+  std::chrono::nanoseconds log_time{};
+  std::chrono::nanoseconds create_time{};
+  std::uint64_t data_size = 0;
+  std::string name;
+  std::string media_type;
+};
+
+struct StatisticsRecord {
+  std::uint64_t message_count = 0;
+  std::uint16_t schema_count = 0;
+  std::uint32_t channel_count = 0;
+  std::uint32_t attachment_count = 0;
+  std::uint32_t metadata_count = 0;
+  std::uint32_t chunk_count = 0;
+  base::SimTime start{};
+  base::SimTime end{};
+  std::map<std::uint16_t, std::uint64_t> channel_message_counts{};
+};
+
+struct MetadataRecord {
+  std::string name;
+  StringMap values;
+
+  friend bool operator==(const MetadataRecord&, const MetadataRecord&) = default;
+};
+
+struct MetadataIndexRecord {
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
+  std::string name;
+};
+
+// Where the records of one kind stand in the summary.
+struct SummaryOffsetRecord {
+  Opcode group{};
+  std::uint64_t start = 0;
+  std::uint64_t length = 0;
+};
+
+struct DataEndRecord {
+  std::uint32_t data_crc = 0;  // of everything before this record; 0: not given
+};
+
+// Each appends the whole record. An attachment's includes its CRC.
+void Append(Bytes& out, const HeaderRecord& record);
+void Append(Bytes& out, const FooterRecord& record);
+void Append(Bytes& out, const SchemaRecord& record);
+void Append(Bytes& out, const ChannelRecord& record);
+void Append(Bytes& out, const MessageRecord& record);
+void Append(Bytes& out, const ChunkRecord& record);
+void Append(Bytes& out, const MessageIndexRecord& record);
+void Append(Bytes& out, const ChunkIndexRecord& record);
+void Append(Bytes& out, const AttachmentRecord& record);
+void Append(Bytes& out, const AttachmentIndexRecord& record);
+void Append(Bytes& out, const StatisticsRecord& record);
+void Append(Bytes& out, const MetadataRecord& record);
+void Append(Bytes& out, const MetadataIndexRecord& record);
+void Append(Bytes& out, const SummaryOffsetRecord& record);
+void Append(Bytes& out, const DataEndRecord& record);
+
+// Reads one record's content (without opcode and length). Defined for those above that reading a
+// file needs: not for MessageIndex, SummaryOffset and DataEnd. An attachment's CRC is checked.
+template <typename Record>
+std::optional<Record> Parse(std::span<const std::byte> content);
+template <>
+std::optional<HeaderRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<FooterRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<SchemaRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<ChannelRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<MessageRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<ChunkRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<ChunkIndexRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<AttachmentRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<AttachmentIndexRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<StatisticsRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<MetadataRecord> Parse(std::span<const std::byte> content);
+template <>
+std::optional<MetadataIndexRecord> Parse(std::span<const std::byte> content);
+
+// The head of an attachment, whose content need not be there beyond its media type.
+std::optional<AttachmentIndexRecord> ParseAttachmentHead(std::span<const std::byte> content);
+
+struct RawRecord {
+  Opcode opcode{};
+  std::span<const std::byte> content;
+};
+
+// Takes the next record off `records`; nothing if they end before it does.
+std::optional<RawRecord> TakeRecord(std::span<const std::byte>& records);
+
+}  // namespace gsv::recording

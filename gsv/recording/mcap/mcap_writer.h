@@ -1,0 +1,124 @@
+// Records messages to an MCAP file without ever waiting for the disk.
+//
+// Producers put messages into a bounded queue; a thread of the writer's own compresses them and
+// writes the file. A disk that fails ends the recording, not the program: status() tells why, and
+// what comes later is discarded.
+//
+// Threads  every member may be called from any thread, at any moment.
+// Time     log times are simulated. The wall clock is read for FlushIfOlderThan() only.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "gsv/base/error.h"
+#include "gsv/base/sim_time.h"
+#include "gsv/messages/schema.h"
+#include "gsv/recording/mcap/mcap_file_writer.h"
+
+namespace gsv::recording {
+
+// What becomes of a message that finds the queue full.
+enum class WhenFull {
+  kDrop,  // it is left out and counted: for runs in real time
+  kWait,  // the producer waits for the disk: for runs that may take as long as they need
+};
+
+struct WriterOptions {
+  FileOptions file{};
+  bool replace = false;  // an existing file
+  WhenFull when_full = WhenFull::kDrop;
+  std::size_t queue_size = std::size_t{64} << 20;  // bytes
+  // A disk that takes longer than this, where someone waits for it, ends the recording.
+  std::chrono::milliseconds wait_limit{10'000};
+};
+
+// A channel's metadata "reproducible" is "false" if its messages tell of the wall clock; they are
+// then no part of the recording's content hash.
+struct ChannelOptions {
+  bool reproducible = true;
+};
+
+using ChannelId = std::uint16_t;
+
+class McapWriter {
+ public:
+  // Creates the file and starts the thread.
+  [[nodiscard]] static base::Result<std::unique_ptr<McapWriter>> Create(const std::string& path,
+                                                                        WriterOptions options = {});
+  McapWriter(std::unique_ptr<ByteSink> sink, WriterOptions options);
+  // Closes the recording. An error that nobody asked for by Close() is logged.
+  ~McapWriter();
+  McapWriter(const McapWriter&) = delete;
+  McapWriter& operator=(const McapWriter&) = delete;
+
+  // The channel of a topic. Asked again, with the same schema, it is the same channel. With
+  // another schema, or if there are 65,535 channels, kInvalidArgument.
+  [[nodiscard]] base::Result<ChannelId> AddChannel(const std::string& topic,
+                                                   const messages::Schema& schema,
+                                                   const ChannelOptions& options = {});
+  // `data` is a CDR message of the channel's type; it is copied. Messages of a channel keep their
+  // order. `log_time` is not negative.
+  void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data);
+
+  // A file that belongs to the recording, and named values about it. Neither is dropped: they
+  // wait while the queue is full.
+  void Attach(const AttachmentRecord& attachment);
+  void AddMetadata(const MetadataRecord& metadata);
+
+  // If the oldest message that is not on the disk came longer ago than `age`, everything up to now
+  // is written soon, in the writer's thread. The owner calls this a few times each second.
+  void FlushIfOlderThan(std::chrono::steady_clock::duration age);
+
+  // Writes all that is queued and the summary, and waits for it. Idempotent.
+  base::Status Close();
+
+  // Why the recording ended early, if it did.
+  base::Status status() const;
+  bool failed() const { return failed_; }
+
+  struct Progress {
+    std::uint64_t messages = 0;  // accepted
+    std::uint64_t dropped = 0;   // left out because the queue was full
+    std::uint64_t bytes = 0;     // written to the file
+  };
+  Progress progress() const;
+
+ private:
+  void EnqueueWhole(Bytes record);
+  std::size_t queued() const { return queue_.size() + whole_size_; }
+  void Queued(std::size_t before);
+  bool WaitForRoom(std::unique_lock<std::mutex>& lock);
+  void EndWith(base::Error error);
+  void Run();
+
+  const WriterOptions options_;
+  const std::size_t wake_at_;  // queued bytes
+  const std::unique_ptr<ByteSink> sink_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable work_;  // there is something for the writer's thread to do
+  std::condition_variable room_;  // the queue has been emptied
+  Bytes queue_;                   // records, as they would stand in a file
+  std::vector<Bytes> whole_;      // further ones, one in each, which may be large
+  std::size_t whole_size_ = 0;
+  bool flush_ = false;
+  bool closing_ = false;
+  std::chrono::steady_clock::time_point oldest_{};  // of what is not flushed; {}: nothing is
+  base::Status status_;
+  Progress progress_;
+  std::map<std::string, ChannelRecord> channels_;  // by topic
+  std::vector<SchemaRecord> schemas_;
+  std::vector<std::uint32_t> sequences_;  // the next number, by channel
+
+  std::atomic<bool> failed_ = false;
+  std::once_flag joined_;
+  std::thread thread_;
+};
+
+}  // namespace gsv::recording

@@ -1,0 +1,48 @@
+// A recording's messages in the order of their times; at one time, in the order of the file.
+#pragma once
+
+#include <optional>
+#include <queue>
+
+#include "gsv/recording/mcap/mcap_summary.h"
+
+namespace gsv::recording {
+
+class MessageCursor {
+ public:
+  // Starts at the first message that is not before `from`. The arguments must outlive the cursor.
+  MessageCursor(const ByteSource& source, const Summary& summary, const Limits& limits,
+                base::SimTime from);
+
+  // The next message, valid until the next call; nothing at the end. A damaged chunk gives an
+  // error once, and the next call goes on behind it.
+  [[nodiscard]] base::Result<std::optional<MessageRecord>> Next();
+
+ private:
+  struct OpenBlock {
+    std::uint64_t offset = 0;  // in the file
+    BlockMessages content;     // messages by time
+    std::size_t next = 0;
+
+    const MessageRecord& front() const { return content.messages[next]; }
+  };
+  struct Later {
+    bool operator()(const OpenBlock* a, const OpenBlock* b) const;
+  };
+
+  base::Status OpenBlocksThatMayBeNext();
+  base::Status Open(const MessageBlock& block);
+  void DropExhausted();
+
+  const ByteSource& source_;
+  const Summary& summary_;
+  const Limits& limits_;
+  const base::SimTime from_;
+  std::vector<const MessageBlock*> waiting_;  // not opened yet, the earliest last
+  std::vector<std::unique_ptr<OpenBlock>> open_;
+  std::priority_queue<OpenBlock*, std::vector<OpenBlock*>, Later> next_;
+  OpenBlock* exhausted_ = nullptr;  // still holds the message that was returned last
+  std::uint64_t open_size_ = 0;
+};
+
+}  // namespace gsv::recording

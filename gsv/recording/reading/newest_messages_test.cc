@@ -1,0 +1,74 @@
+#include "gsv/recording/reading/newest_messages.h"
+
+#include <gtest/gtest.h>
+
+#include "gsv/recording/testing/test_recording.h"
+
+namespace gsv::recording {
+namespace {
+
+std::map<std::uint16_t, base::SimTime> TimesAt(const McapReader& reader, base::SimTime time) {
+  std::map<std::uint16_t, base::SimTime> times;
+  for (const auto& [channel, message] : FindNewestMessages(reader, time).by_channel) {
+    times[channel] = message.log_time;
+    EXPECT_EQ(message.data, ClockMessage(message.log_time));
+  }
+  return times;
+}
+
+using Times = std::map<std::uint16_t, base::SimTime>;
+
+TEST(NewestMessages, AreTheLastNotAfterTheInstant) {
+  const Bytes bytes = ThreeChunks();  // 0, 20, 40, … ms on channel 0; 10, 30, 50, … on 1
+  const auto reader = Open(bytes).value();
+  EXPECT_EQ(TimesAt(*reader, 0ms), (Times{{0, 0ms}}));
+  EXPECT_EQ(TimesAt(*reader, 10ms), (Times{{0, 0ms}, {1, 10ms}}));
+  EXPECT_EQ(TimesAt(*reader, 155ms), (Times{{0, 140ms}, {1, 150ms}}));
+  EXPECT_EQ(TimesAt(*reader, 10000ms), (Times{{0, 280ms}, {1, 290ms}}));
+}
+
+TEST(NewestMessages, ThereAreNoneBeforeTheStart) {
+  const Bytes bytes = ThreeChunks();
+  EXPECT_TRUE(TimesAt(*Open(bytes).value(), base::SimTime(-1)).empty());
+}
+
+// One early message on a channel of its own, then a hundred chunks of another.
+Bytes OneEarly() {
+  Bytes bytes;
+  MemorySink sink(bytes);
+  McapFileWriter writer(sink, {});
+  (void)writer.AddSchema(SchemaOfClock());
+  (void)writer.AddChannel(ChannelOf(0, "/often"));
+  (void)writer.AddChannel(ChannelOf(1, "/once"));
+  (void)writer.Write({1, 0, 5ms, 5ms, ClockMessage(5ms)});
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const base::SimTime time = 10ms * (i + 1);
+    (void)writer.Write({0, i, time, time, ClockMessage(time)});
+    (void)writer.Flush();
+  }
+  (void)writer.Close();
+  return bytes;
+}
+
+TEST(NewestMessages, OfAQuietChannelLiesFarBack) {
+  const Bytes bytes = OneEarly();
+  EXPECT_EQ(TimesAt(*Open(bytes).value(), 1000ms), (Times{{0, 1000ms}, {1, 5ms}}));
+}
+
+TEST(NewestMessages, BlocksThatCannotHoldThemAreNotRead) {
+  Bytes bytes = OneEarly();
+  // Damage the fiftieth chunk: whoever reads it complains.
+  int chunks = 0;
+  for (const Place& place : PlacesIn(bytes)) {
+    if (place.opcode == Opcode::kChunk && ++chunks == 50) bytes[place.end - 1] ^= std::byte{1};
+  }
+  const auto reader = Open(bytes).value();
+  const NewestMessages newest = FindNewestMessages(*reader, 1000ms);
+  EXPECT_EQ(newest.by_channel.size(), 2u);
+  EXPECT_TRUE(newest.problems.empty());
+  EXPECT_EQ(FindNewestMessages(*reader, 500ms).problems.size(), 1u);
+  EXPECT_EQ(TimesAt(*reader, 500ms), (Times{{0, 490ms}, {1, 5ms}}));  // what is left of it
+}
+
+}  // namespace
+}  // namespace gsv::recording

@@ -1,0 +1,46 @@
+// recording_victim FILE MICROSECONDS: records a simulation, whose behaviour takes so long for each
+// of its turns, until it is killed. Writes a HandOver to stdout after each snapshot that the
+// recorder has taken.
+#include <csignal>
+#include <cstdlib>
+
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include "gsv/recording/simulation_recorder.h"
+#include "gsv/recording/testing/hand_over.h"
+#include "gsv/recording/testing/test_simulation.h"
+
+namespace gsv::recording {
+namespace {
+
+class Teller final : public simulation::Observer {
+ public:
+  void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override {
+    const HandOver hand_over{snapshot->state.time.count(), WallNow()};
+    if (write(STDOUT_FILENO, &hand_over, sizeof hand_over) != sizeof hand_over) _exit(1);
+  }
+  void OnEvent(const simulation::Event&) override {}
+};
+
+int Run(const char* path, std::chrono::microseconds dawdling) {
+  const auto simulation = MakeSimulation(0s, Drives(0.1, dawdling));
+  RecorderOptions options;
+  options.write_glb = [](const model::Model&) {
+    return base::Result<std::vector<std::uint8_t>>(std::vector<std::uint8_t>(100));
+  };
+  const auto recorder = SimulationRecorder::Start(simulation, path, std::move(options));
+  if (!recorder) return 1;
+  simulation->AddObserver(std::make_shared<Teller>());  // is told after the recorder
+  if (!simulation->Start()) return 1;
+  for (;;) pause();
+}
+
+}  // namespace
+}  // namespace gsv::recording
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  return gsv::recording::Run(argv[1], std::chrono::microseconds(std::atoi(argv[2])));
+}

@@ -1,0 +1,239 @@
+#include "gsv/recording/topics/sensor_topics.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "gsv/base/log.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/presentation/state_messages.h"
+#include "gsv/sensing/encoding.h"
+
+namespace gsv::recording {
+namespace {
+
+// Of sensors that take long, such as cameras: so many are waited for at once (the renderer draws
+// them together), and so many readings are held.
+constexpr int kSlowAtOnce = 16;
+constexpr std::size_t kMostSlow = 64;
+
+// Every n-th instant of the sensor, n as small as `rate` allows.
+base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
+  if (description.update_rate <= 0) return base::FromSeconds(1 / rate);
+  const base::SimTime own = base::FromSeconds(1 / description.update_rate);
+  return own * static_cast<std::int64_t>(std::ceil(description.update_rate / rate - 1e-9));
+}
+
+bool SameDescription(const model::SensorDescription& a, const model::SensorDescription& b) {
+  return a.name == b.name && a.type == b.type && a.link == b.link &&
+         a.link_from_sensor == b.link_from_sensor && a.update_rate == b.update_rate &&
+         a.parameters == b.parameters;
+}
+
+}  // namespace
+
+struct SensorTopics::Sensor {
+  std::string robot;
+  model::SensorDescription description;
+  const sensing::SensorType* type = nullptr;
+  std::unique_ptr<sensing::Sensor> sensor;
+  Instants instants;
+  bool is_wanted = true;                       // its readings are
+  bool has_companion = false;                  // and it is wanted
+  bool has_beams = false;                      // and they are wanted
+  std::optional<ChannelId> channel;            // once there was a reading
+  std::optional<ChannelId> companion_channel;  // the same
+  std::optional<sensing::Reading> newest;      // of what has beams
+  bool has_failed = false;
+};
+
+SensorTopics::SensorTopics(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
+                           std::uint64_t seed, SensorTopicOptions options)
+    : writer_(writer),
+      types_(std::move(types)),
+      seed_(seed),
+      options_(std::move(options)),
+      beams_instants_(base::FromSeconds(1 / options_.rates.beams)),
+      beams_(writer, options_.selection, "/gsv/beams"),
+      transforms_(writer, options_.selection, "/tf_static") {}
+
+SensorTopics::~SensorTopics() = default;
+
+void SensorTopics::Mount(const SensorLists& lists, const world::Snapshot& snapshot) {
+  Sensors found;
+  for (const auto& [robot, list] : lists) {
+    for (const model::SensorDescription& description : list) {
+      const std::string topic = "/" + presentation::FrameOf(robot, description.name);
+      const auto known = sensors_.find(topic);
+      if (known != sensors_.end() && SameDescription(known->second->description, description)) {
+        found.insert(*known);
+      } else if (std::shared_ptr<Sensor> sensor = Make(robot, description)) {
+        found.emplace(topic, std::move(sensor));
+      }
+    }
+  }
+  if (found == sensors_) return;
+  sensors_ = std::move(found);
+  WriteTransforms(snapshot);
+}
+
+std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
+    const std::string& robot, const model::SensorDescription& description) {
+  const sensing::SensorType* type = types_->Find(description.type);
+  if (type == nullptr || type->schema == nullptr) return nullptr;
+  const std::string topic = "/" + presentation::FrameOf(robot, description.name);
+  const bool is_wanted = options_.selection.Has(topic);
+  const bool has_companion =
+      is_wanted && type->companion && options_.selection.Has(topic + "/" + type->companion->topic);
+  const bool has_beams = beams_.is_wanted() && presentation::HasLines(*type, description);
+  if (!is_wanted && !has_beams) return nullptr;
+  auto sensor = type->create(description);
+  if (!sensor) {
+    Complain(sensor.error());
+    return nullptr;
+  }
+  const double rate = (*sensor)->TakesLong() ? options_.rates.pictures : options_.rates.readings;
+  return std::make_shared<Sensor>(Sensor{.robot = robot,
+                                         .description = description,
+                                         .type = type,
+                                         .sensor = *std::move(sensor),
+                                         .instants = Instants(PeriodOf(description, rate)),
+                                         .is_wanted = is_wanted,
+                                         .has_companion = has_companion,
+                                         .has_beams = has_beams});
+}
+
+void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  std::vector<Sample> slow;
+  const auto take_slow = [&] {
+    if (team_ == nullptr) team_ = std::make_unique<base::ThreadTeam>(kSlowAtOnce);
+    team_->Share(slow.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) Take(snapshot, slow[i]);
+    });
+    for (Sample& sample : slow) Write(sample);
+    slow.clear();
+  };
+  for (const auto& [topic, sensor] : sensors_) {
+    if (!sensor->instants.Pass(snapshot->state.time) || sensor->has_failed) continue;
+    Sample sample{&topic, sensor.get(), snapshot->layout->Find(sensor->robot), {}, {}, {}};
+    if (sample.body < 0) continue;
+    if (sensor->sensor->TakesLong()) {
+      slow.push_back(std::move(sample));
+      if (slow.size() == kMostSlow) take_slow();
+    } else {
+      Take(snapshot, sample);
+      Write(sample);
+    }
+  }
+  if (!slow.empty()) take_slow();
+  if (beams_instants_.Pass(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
+}
+
+void SensorTopics::Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample) {
+  const Sensor& sensor = *sample.sensor;
+  sample.reading = sensor.sensor->Sample({snapshot, sample.body, seed_, rays_});
+  if (!sample.reading) return;
+  if (sensor.is_wanted) sample.message = Encode(sensor, *sample.reading);
+  if (sensor.has_companion) {
+    sample.companion = sensor.type->companion->encode(
+        sensor.description, *sample.reading,
+        presentation::FrameOf(sensor.robot, sensor.description.name));
+  }
+}
+
+void SensorTopics::Write(Sample& sample) {
+  Sensor& sensor = *sample.sensor;
+  if (!sample.reading) {
+    sensor.has_failed = true;
+    return Complain(sample.reading.error());
+  }
+  const base::SimTime time = sample.reading->time;
+  if (sensor.is_wanted) {
+    if (!sensor.channel) sensor.channel = AddChannel(*sample.topic, *sensor.type->schema);
+    if (!sensor.channel) {
+      sensor.has_failed = true;
+      return;
+    }
+    writer_.Write(*sensor.channel, time, std::as_bytes(std::span(sample.message)));
+  }
+  if (sensor.has_companion) {
+    const sensing::Companion& type = *sensor.type->companion;
+    if (!sensor.companion_channel) {
+      sensor.companion_channel = AddChannel(*sample.topic + "/" + type.topic, *type.schema);
+    }
+    sensor.has_companion = sensor.companion_channel.has_value();
+    if (!sensor.has_companion) return;
+    writer_.Write(*sensor.companion_channel, time, std::as_bytes(std::span(sample.companion)));
+  }
+  if (sensor.has_beams) sensor.newest = *std::move(sample.reading);
+}
+
+std::optional<ChannelId> SensorTopics::AddChannel(const std::string& topic,
+                                                  const messages::Schema& schema) {
+  const auto channel = writer_.AddChannel(topic, schema);
+  if (channel) return *channel;
+  Complain(channel.error());
+  return std::nullopt;
+}
+
+std::vector<std::uint8_t> SensorTopics::Encode(const Sensor& sensor,
+                                               const sensing::Reading& reading) const {
+  using messages::sensor_msgs::CompressedImage;
+  const std::string frame = presentation::FrameOf(sensor.robot, sensor.description.name);
+  const bool is_picture = sensor.type->schema == &messages::SchemaOf<CompressedImage>() &&
+                          reading.picture != nullptr && options_.write_png;
+  if (is_picture) {
+    if (auto png = options_.write_png(*reading.picture)) {
+      CompressedImage message;
+      message.header = sensing::HeaderOf(reading, frame);
+      message.format = "png";
+      message.data = *std::move(png);
+      return sensing::Encoded(message);
+    }
+  }
+  return sensor.type->encode(sensor.description, reading, frame);
+}
+
+void SensorTopics::WriteTransforms(const world::Snapshot& snapshot) {
+  messages::tf2_msgs::TFMessage message;
+  for (const auto& [topic, sensor] : sensors_) {
+    const int body = snapshot.layout->Find(sensor->robot);
+    if (body < 0) continue;
+    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description, *sensor->type,
+                                        snapshot.state.time, message);
+  }
+  transforms_.Write(snapshot.state.time, message);
+}
+
+void SensorTopics::WriteBeams(const world::Snapshot& snapshot) {
+  std::map<std::string, std::vector<geometry::Vector3>> points;  // in the world, by robot
+  for (const auto& [topic, sensor] : sensors_) {
+    if (!sensor->newest) continue;
+    const int body = snapshot.layout->Find(sensor->robot);
+    if (body < 0) continue;
+    const geometry::Pose world_from_sensor =
+        world::LinkPose(snapshot, body, sensor->description.link) *
+        sensor->description.link_from_sensor;
+    presentation::AppendLines(*sensor->type, sensor->description, *sensor->newest,
+                              world_from_sensor, points[sensor->robot]);
+  }
+  const base::SimTime time = snapshot.state.time;
+  messages::visualization_msgs::MarkerArray message;
+  for (const std::string& robot : robots_with_beams_) {
+    if (!points.contains(robot))
+      message.markers.push_back(presentation::NoBeamsMarker(robot, time));
+  }
+  robots_with_beams_.clear();
+  for (auto& [robot, its_points] : points) {
+    robots_with_beams_.insert(robot);
+    message.markers.push_back(presentation::BeamsMarker(robot, time, std::move(its_points)));
+  }
+  if (!message.markers.empty()) beams_.Write(time, message);
+}
+
+void SensorTopics::Complain(const base::Error& error) {
+  if (std::exchange(has_complained_, true)) return;
+  spdlog::warn("a sensor is not recorded: {}", error.Sentence());
+}
+
+}  // namespace gsv::recording

@@ -1,0 +1,121 @@
+#include "gsv/recording/topics/simulation_feed.h"
+
+namespace gsv::recording {
+namespace {
+
+// Mounting a sensor changes no layout, so they are looked at now and again.
+constexpr base::SimTime kSensorPeriod = std::chrono::seconds(1);
+constexpr std::size_t kMostEvents = 10'000;
+
+}  // namespace
+
+SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout) {
+  SensorLists lists;
+  for (const world::Body& body : layout.bodies) {
+    if (body.is_robot || body.is_avatar) lists.emplace(body.name, simulation.sensors(body.name));
+  }
+  return lists;
+}
+
+SimulationFeed::SimulationFeed(const simulation::Simulation& simulation, FeedOptions options)
+    : simulation_(simulation),
+      options_(options),
+      status_instants_(options.status_period),
+      sensor_instants_(kSensorPeriod) {}
+
+Observation SimulationFeed::Observe(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  Observation observation{snapshot, nullptr, std::nullopt};
+  const base::SimTime time = snapshot->state.time;
+  if (status_instants_.Pass(time)) observation.status = simulation_.status();
+  if (sensor_instants_.Pass(time) || layout_ != snapshot->layout) {
+    observation.sensors = std::make_shared<SensorLists>(SensorsOf(simulation_, *snapshot->layout));
+    layout_ = snapshot->layout;
+  }
+  return observation;
+}
+
+void SimulationFeed::OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  {
+    std::unique_lock lock(mutex_);
+    const auto has_room = [this] { return closed_ || snapshots_ < options_.capacity; };
+    if (options_.when_full == WhenFull::kWait) room_.wait(lock, has_room);
+    if (closed_) return;
+    if (!has_room()) {
+      ++dropped_;
+      return;
+    }
+  }
+  Observation observation = Observe(snapshot);
+  {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return;
+    queue_.emplace_back(std::move(observation));
+    ++snapshots_;
+  }
+  news_.notify_one();
+}
+
+void SimulationFeed::OnEvent(const simulation::Event& event) {
+  const bool is_reset = event.kind == "reset";  // it has the time of the next run
+  {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return;
+    was_reset_ = is_reset;
+    closed_ = is_reset;
+    if (!is_reset && queue_.size() - snapshots_ < kMostEvents) queue_.emplace_back(event);
+  }
+  news_.notify_one();
+  if (is_reset) room_.notify_all();
+}
+
+std::optional<Occurrence> SimulationFeed::Next(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  news_.wait_for(lock, patience, [this] { return closed_ || !queue_.empty(); });
+  if (queue_.empty()) return std::nullopt;
+  Occurrence next = std::move(queue_.front());
+  queue_.pop_front();
+  if (std::holds_alternative<Observation>(next)) --snapshots_;
+  lock.unlock();
+  room_.notify_one();
+  return next;
+}
+
+void SimulationFeed::CloseAtLatest() {
+  const simulation::SimulationStatus status = simulation_.status();
+  {
+    const std::lock_guard lock(mutex_);
+    if (!closed_) {
+      // Taken last of all: the simulation may be running.
+      queue_.emplace_back(Observation{simulation_.snapshot(), nullptr, status});
+      ++snapshots_;
+    }
+    closed_ = true;
+  }
+  Close();
+}
+
+void SimulationFeed::Close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  news_.notify_all();
+  room_.notify_all();
+}
+
+bool SimulationFeed::is_over() const {
+  const std::lock_guard lock(mutex_);
+  return closed_ && queue_.empty();
+}
+
+bool SimulationFeed::was_reset() const {
+  const std::lock_guard lock(mutex_);
+  return was_reset_;
+}
+
+std::uint64_t SimulationFeed::dropped() const {
+  const std::lock_guard lock(mutex_);
+  return dropped_;
+}
+
+}  // namespace gsv::recording

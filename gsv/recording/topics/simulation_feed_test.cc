@@ -1,0 +1,111 @@
+#include "gsv/recording/topics/simulation_feed.h"
+
+#include <future>
+
+#include <gtest/gtest.h>
+
+#include "gsv/recording/testing/test_simulation.h"
+
+namespace gsv::recording {
+namespace {
+
+TEST(Instants, AreTakenAtTheFirstSnapshotAtOrAfterThem) {
+  Instants instants(30ms);
+  std::vector<int> taken;
+  for (int time = 0; time <= 120; time += 20) {
+    if (instants.Pass(std::chrono::milliseconds(time))) taken.push_back(time);
+  }
+  EXPECT_EQ(taken, (std::vector<int>{0, 40, 60, 100, 120}));  // for 0, 30, 60, 90, 120 ms
+}
+
+TEST(Instants, TheFirstSnapshotTellsOfNoInstantBeforeIt) {
+  Instants instants(50ms);
+  EXPECT_FALSE(instants.Pass(70ms));
+  EXPECT_FALSE(instants.Pass(90ms));
+  EXPECT_TRUE(instants.Pass(100ms));
+}
+
+TEST(Instants, SeveralInARowCountAsOne) {
+  Instants instants(10ms);
+  EXPECT_TRUE(instants.Pass(0ms));
+  EXPECT_TRUE(instants.Pass(55ms));
+  EXPECT_FALSE(instants.Pass(59ms));
+}
+
+class SimulationFeedTest : public testing::Test {
+ protected:
+  const std::shared_ptr<simulation::Simulation> simulation_ = MakeSimulation(1s, nullptr);
+};
+
+TEST_F(SimulationFeedTest, WhatFindsNoRoomInRealTimeIsDroppedAndCounted) {
+  SimulationFeed feed(*simulation_, {.when_full = WhenFull::kDrop, .capacity = 2});
+  for (int i = 0; i < 5; ++i) feed.OnSnapshot(simulation_->snapshot());
+  EXPECT_EQ(feed.dropped(), 3u);
+  EXPECT_TRUE(feed.Next(0ms));
+  EXPECT_TRUE(feed.Next(0ms));
+  EXPECT_FALSE(feed.Next(0ms));
+}
+
+TEST_F(SimulationFeedTest, InLockstepTheStepWaitsForRoom) {
+  SimulationFeed feed(*simulation_, {.when_full = WhenFull::kWait, .capacity = 1});
+  feed.OnSnapshot(simulation_->snapshot());
+  auto second = std::async(std::launch::async, [&] { feed.OnSnapshot(simulation_->snapshot()); });
+  EXPECT_TRUE(feed.Next(kPatience));
+  EXPECT_TRUE(feed.Next(kPatience));
+  second.get();
+  EXPECT_EQ(feed.dropped(), 0u);
+}
+
+TEST_F(SimulationFeedTest, ClosingLetsTheStepGoOn) {
+  SimulationFeed feed(*simulation_, {.when_full = WhenFull::kWait, .capacity = 1});
+  feed.OnSnapshot(simulation_->snapshot());
+  auto second = std::async(std::launch::async, [&] { feed.OnSnapshot(simulation_->snapshot()); });
+  feed.Close();
+  second.get();
+  EXPECT_FALSE(feed.is_over());
+  EXPECT_TRUE(feed.Next(0ms));
+  EXPECT_TRUE(feed.is_over());
+}
+
+TEST_F(SimulationFeedTest, SensorsAreToldWhenTheyAreNewAndOnceASecond) {
+  SimulationFeed feed(*simulation_, {});
+  feed.OnSnapshot(simulation_->snapshot());
+  feed.OnSnapshot(simulation_->snapshot());
+  const auto first = feed.Next(0ms);
+  const auto second = feed.Next(0ms);
+  ASSERT_TRUE(first && second);
+  const auto& sensors = std::get<Observation>(*first).sensors;
+  ASSERT_NE(sensors, nullptr);
+  ASSERT_EQ(sensors->at("robot").size(), 1u);
+  EXPECT_EQ(sensors->at("robot")[0].name, "front");
+  EXPECT_EQ(std::get<Observation>(*second).sensors, nullptr);
+}
+
+TEST_F(SimulationFeedTest, AtItsEndComesTheSimulationAsItStands) {
+  SimulationFeed feed(*simulation_, {.capacity = 1});
+  feed.OnEvent({0, base::SimTime(0), "started", "", ""});
+  feed.CloseAtLatest();
+  feed.OnEvent({1, base::SimTime(10ms), "stopped", "", ""});
+  ASSERT_TRUE(feed.Next(0ms));
+  const auto last = feed.Next(0ms);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(std::get<Observation>(*last).snapshot, simulation_->snapshot());
+  EXPECT_TRUE(std::get<Observation>(*last).status);
+  EXPECT_TRUE(feed.is_over());
+}
+
+TEST_F(SimulationFeedTest, AResetClosesItBehindWhatIsQueued) {
+  SimulationFeed feed(*simulation_, {});
+  feed.OnSnapshot(simulation_->snapshot());
+  feed.OnEvent({0, base::SimTime(0), "reset", "", ""});
+  feed.OnSnapshot(simulation_->snapshot());
+  feed.OnEvent({0, base::SimTime(0), "started", "", ""});
+  EXPECT_TRUE(feed.was_reset());
+  const auto first = feed.Next(0ms);
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(std::holds_alternative<Observation>(*first));
+  EXPECT_TRUE(feed.is_over());
+}
+
+}  // namespace
+}  // namespace gsv::recording

@@ -1,0 +1,132 @@
+#include "gsv/recording/topics/state_topics.h"
+
+#include <utility>
+
+#include "gsv/base/hash.h"
+#include "gsv/messages/time.h"
+#include "gsv/presentation/edit_message.h"
+
+namespace gsv::recording {
+namespace {
+
+constexpr base::SimTime kHashPeriod = std::chrono::seconds(1);
+constexpr base::SimTime kDiagnosticsPeriod = std::chrono::seconds(1);
+
+bool IsSameOrder(const world::DriveState& a, const world::DriveState& b) {
+  return a.command == b.command && a.command_time == b.command_time;
+}
+
+}  // namespace
+
+StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection& selection)
+    : poses_instants_(base::FromSeconds(1 / poses_rate)),
+      hash_instants_(kHashPeriod),
+      diagnostics_instants_(kDiagnosticsPeriod),
+      clock_(writer, selection, "/clock"),
+      poses_(writer, selection, "/gsv/poses"),
+      transforms_(writer, selection, "/tf"),
+      commands_(writer, selection, "/gsv/commands"),
+      actuators_(writer, selection, "/gsv/actuators"),
+      contacts_(writer, selection, "/gsv/contacts"),
+      radio_(writer, selection, "/gsv/radio"),
+      status_(writer, selection, "/gsv/status", {.reproducible = false}),
+      diagnostics_(writer, selection, "/diagnostics", {.reproducible = false}),
+      events_(writer, selection, "/gsv/events"),
+      log_(writer, selection, "/rosout"),
+      hash_(writer, selection, "/gsv/state_hash"),
+      writer_(writer) {}
+
+void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
+  const base::SimTime time = snapshot->state.time;
+  const bool is_new = snapshot->layout != layout_;
+  if (is_new) {
+    layout_ = snapshot->layout;
+    pose_list_ = presentation::PoseListOf(*layout_);
+  }
+  if (commands_.is_wanted()) WriteNewCommands(*snapshot);
+  if (actuators_.is_wanted()) WriteNewOrders(*snapshot);
+  if (contacts_.is_wanted()) WriteNewContacts(*snapshot);
+  if (radio_.is_wanted()) WriteTransmissions(*snapshot);
+  if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
+  if (hash_instants_.Pass(time) && hash_.is_wanted()) WriteHash(*snapshot);
+}
+
+void StateTopics::RecordAnyway(const world::Snapshot& snapshot) {
+  if (poses_step_ != snapshot.state.step) WritePoses(snapshot);
+}
+
+void StateTopics::WritePoses(const world::Snapshot& snapshot) {
+  const base::SimTime time = snapshot.state.time;
+  clock_.Write(time, {messages::ToMessage(time)});
+  if (poses_.is_wanted()) poses_.Write(time, presentation::PosesMessage(snapshot, pose_list_));
+  if (transforms_.is_wanted()) {
+    transforms_.Write(time, presentation::TransformsMessage(snapshot, pose_list_));
+  }
+  poses_step_ = snapshot.state.step;
+}
+
+void StateTopics::WriteHash(const world::Snapshot& snapshot) {
+  base::Hash hash;
+  world::AddToHash(*snapshot.layout, snapshot.state, hash);
+  messages::gsv_msgs::StateHash message;
+  message.stamp = messages::ToMessage(snapshot.state.time);
+  message.step = static_cast<std::uint64_t>(snapshot.state.step);
+  message.hash = hash.Hex();
+  hash_.Write(snapshot.state.time, message);
+}
+
+// A snapshot shows a command one step after it was given.
+void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
+  const world::State& state = snapshot.state;
+  for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
+    const world::Body& body = layout_->bodies[i];
+    if (!body.is_robot) continue;
+    const world::DriveState& drive = state.bodies[i].drive;
+    if (IsSameOrder(drive, std::exchange(told_[body.name], drive))) continue;
+    if (IsSameOrder(drive, {})) continue;  // it was removed, and came again
+    commands_.Write(state.time, presentation::CommandMessage(body.name, drive, state));
+  }
+}
+
+// As with commands.
+void StateTopics::WriteNewOrders(const world::Snapshot& snapshot) {
+  const world::State& state = snapshot.state;
+  const auto before = std::exchange(told_actuators_, state.actuators);
+  if (state.actuators == nullptr || state.actuators == before) return;
+  for (const world::ActuatorStatePtr& now : *state.actuators) {
+    const auto* last = world::FindActuator(before.get(), now->robot, now->actuator);
+    if (last != nullptr && last->since == now->since && last->order == now->order) continue;
+    actuators_.Write(state.time, presentation::ActuatorMessage(*now, state));
+  }
+}
+
+void StateTopics::WriteNewContacts(const world::Snapshot& snapshot) {
+  for (const world::Contact& contact : snapshot.contacts) {
+    if (contact.began) {
+      contacts_.Write(snapshot.state.time, presentation::ContactMessage(snapshot, contact));
+    }
+  }
+}
+
+void StateTopics::WriteTransmissions(const world::Snapshot& snapshot) {
+  for (const world::Transmission& transmission : snapshot.transmissions) {
+    radio_.Write(snapshot.state.time, presentation::TransmissionMessage(snapshot, transmission));
+  }
+}
+
+void StateTopics::RecordStatus(const simulation::SimulationStatus& status) {
+  if (status_.is_wanted()) status_.Write(status.time, presentation::StatusMessage(status));
+  if (diagnostics_instants_.Pass(status.time) && diagnostics_.is_wanted()) {
+    diagnostics_.Write(status.time, presentation::DiagnosticsMessage(status));
+  }
+}
+
+void StateTopics::RecordEvent(const simulation::Event& event) {
+  events_.Write(event.time, presentation::EventMessage(event));
+  log_.Write(event.time, presentation::LogMessage(event));
+  if (event.edit == nullptr) return;
+  if (!edits_) edits_.emplace(writer_, Selection{}, "/gsv/edits");
+  edits_->Write(event.time, presentation::EditMessage(*event.edit));
+}
+
+}  // namespace gsv::recording

@@ -1,0 +1,68 @@
+// The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
+// /gsv/actuators, /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout,
+// /gsv/state_hash (docs/formats/messages.md). /gsv/edits appears with the first edit, whatever was
+// selected: without it nobody can make the run once more.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/presentation/run_messages.h"
+#include "gsv/presentation/state_messages.h"
+#include "gsv/recording/topics/instants.h"
+#include "gsv/recording/topics/topic_writer.h"
+
+namespace gsv::recording {
+
+class StateTopics {
+ public:
+  // `poses_rate`: Hz of simulated time, > 0. `writer` must outlive this.
+  StateTopics(McapWriter& writer, double poses_rate, const Selection& selection);
+
+  // Writes of a snapshot what is due at its time.
+  void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
+  // The same, whether it is due or not, unless it is written.
+  void RecordAnyway(const world::Snapshot& snapshot);
+
+  void RecordStatus(const simulation::SimulationStatus& status);
+  void RecordEvent(const simulation::Event& event);
+
+ private:
+  void WritePoses(const world::Snapshot& snapshot);
+  void WriteHash(const world::Snapshot& snapshot);
+  void WriteNewCommands(const world::Snapshot& snapshot);
+  void WriteNewOrders(const world::Snapshot& snapshot);
+  void WriteNewContacts(const world::Snapshot& snapshot);
+  void WriteTransmissions(const world::Snapshot& snapshot);
+
+  Instants poses_instants_;
+  Instants hash_instants_;
+  Instants diagnostics_instants_;
+  std::optional<std::int64_t> poses_step_;  // whose poses were written last
+  std::shared_ptr<const world::Layout> layout_;
+  std::vector<presentation::PoseEntry> pose_list_;  // of layout_
+  std::map<std::string, world::DriveState> told_;   // by robot: what it was told last
+
+  std::shared_ptr<const world::Actuators> told_actuators_;  // those of the last snapshot
+
+  TopicWriter<messages::rosgraph_msgs::Clock> clock_;
+  TopicWriter<messages::gsv_msgs::Poses> poses_;
+  TopicWriter<messages::tf2_msgs::TFMessage> transforms_;
+  TopicWriter<messages::gsv_msgs::Command> commands_;
+  TopicWriter<messages::gsv_msgs::ActuatorCommand> actuators_;
+  TopicWriter<messages::gsv_msgs::Contact> contacts_;
+  TopicWriter<messages::gsv_msgs::Transmission> radio_;
+  TopicWriter<messages::gsv_msgs::SimulationStatus> status_;
+  TopicWriter<messages::diagnostic_msgs::DiagnosticArray> diagnostics_;
+  TopicWriter<messages::gsv_msgs::LifecycleEvent> events_;
+  TopicWriter<messages::rcl_interfaces::Log> log_;
+  TopicWriter<messages::gsv_msgs::StateHash> hash_;
+  std::optional<TopicWriter<messages::gsv_msgs::Edit>> edits_;
+  McapWriter& writer_;
+};
+
+}  // namespace gsv::recording

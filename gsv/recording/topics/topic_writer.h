@@ -1,0 +1,43 @@
+// One message type on one topic of a recording.
+#pragma once
+
+#include <optional>
+
+#include "gsv/base/check.h"
+#include "gsv/messages/cdr.h"
+#include "gsv/recording/mcap/mcap_writer.h"
+#include "gsv/recording/reading/selection.h"
+
+namespace gsv::recording {
+
+template <typename Message>
+class TopicWriter {
+ public:
+  // `writer` must outlive this; no other type may be on the topic. One that is not selected is not
+  // in the recording.
+  TopicWriter(McapWriter& writer, const Selection& selection, const std::string& topic,
+              const ChannelOptions& options = {})
+      : writer_(writer) {
+    if (!selection.Has(topic)) return;
+    const auto channel = writer.AddChannel(topic, messages::SchemaOf<Message>(), options);
+    GSV_CHECK(channel.has_value());
+    channel_ = *channel;
+  }
+
+  // Else there is no point in making messages.
+  bool is_wanted() const { return channel_.has_value(); }
+
+  void Write(base::SimTime time, const Message& message) {
+    if (!channel_) return;
+    bytes_.clear();
+    messages::Encode(message, bytes_);
+    writer_.Write(*channel_, time, bytes_);
+  }
+
+ private:
+  McapWriter& writer_;
+  std::optional<ChannelId> channel_;
+  Bytes bytes_;
+};
+
+}  // namespace gsv::recording

@@ -1,0 +1,63 @@
+// What all cameras have in common: a picture's size, a lens, and how pictures come through it.
+//
+// Parameters (of SDFormat's <camera>; lengths in m, angles in rad, sizes in pixels)
+//   image.width, image.height   320 by 240, at most 4096; through a lens at most 4,194,304 pixels
+//   horizontal_fov              1.047; at most 3.0, of a wide lens 2 pi
+//   clip.near, clip.far         0.1 and 100
+//   lens.type                   gnomonical (a pinhole), stereographic, equidistant, solid_angle,
+//                               orthographic, custom
+//   lens.scale_to_hfov          true; lens.cutoff_angle: pi / 2; both of a wide lens
+//   lens.custom_function.{c1,c2,c3,f,fun}   fun: sin, tan or id
+//   lens.intrinsics.{fx,fy,cx,cy,s}         of a pinhole, instead of horizontal_fov
+//   distortion.{k1,k2,k3,p1,p2}, distortion.center   of a pinhole; "0.5 0.5" is the middle
+// The equations are in lens.h.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "gsv/base/error.h"
+#include "gsv/rendering/lenses/lens.h"
+#include "gsv/rendering/lenses/lens_map.h"
+#include "gsv/rendering/renderer.h"
+#include "gsv/sensing/parameters.h"
+
+namespace gsv::rendering {
+
+// Threads  any.
+class Optics {
+ public:
+  // Refuses by the reader. `lens_type` is that of a camera whose parameters name none.
+  static Optics Read(sensing::ParameterReader& reader, const std::string& lens_type = "gnomonical");
+
+  const CameraParameters& camera() const { return camera_; }
+  const Lens& lens() const { return lens_; }
+  // Where the middle of a pixel looks, of unit length; nothing where the lens shows nothing. Pixels
+  // count in rows from the top.
+  std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
+
+  base::Result<std::shared_ptr<const model::Image>> Draw(
+      Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
+      const geometry::Pose& world_from_camera) const;
+  base::Result<std::shared_ptr<const GroundTruth>> Survey(
+      Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
+      const geometry::Pose& world_from_camera) const;
+
+ private:
+  struct Joining {
+    std::once_flag made;
+    std::unique_ptr<const LensMap> map;  // made for the first picture
+  };
+
+  Optics(const CameraParameters& camera, Lens lens);
+  // Equal cameras have one map: those of all robots of a model, and of who records them.
+  static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
+  const LensMap& Map() const;
+
+  CameraParameters camera_;
+  Lens lens_;
+  std::shared_ptr<Joining> joining_;
+};
+
+}  // namespace gsv::rendering

@@ -1,0 +1,165 @@
+// Motion blur and rolling shutter of things that move at known speeds.
+#include "gsv/rendering/cameras/shutter.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "gsv/base/test_within.h"
+#include "gsv/rendering/cameras/camera_sensor.h"
+#include "gsv/rendering/lenses/light_encoding.h"
+#include "gsv/rendering/testing/test_scene.h"
+
+namespace gsv::rendering {
+namespace {
+
+using geometry::Vector3;
+
+constexpr int kWidth = 320, kHeight = 240;
+constexpr double kFov = 1.047;
+constexpr double kDistance = 4;  // m before the camera
+// The focal length, in pixels.
+double Focal() { return 0.5 * kWidth / std::tan(0.5 * kFov); }
+
+class ShutterTest : public testing::Test {
+ protected:
+  ShutterTest() {
+    EXPECT_TRUE(AddCameraSensor(registry_, renderer_));
+    scene_.description().scene.background = {0, 0, 0, 1};
+    scene_.Add("robot", geometry::Box{{0.1, 0.1, 0.1}}, {{0, 0, -3}, {}}, Matt(0, 0, 0));
+  }
+  void SetUp() override {
+    if (!renderer_) GTEST_SKIP() << renderer_.error().Sentence();
+  }
+
+  void AddThing(geometry::Shape shape, const Vector3& velocity) {
+    scene_.Add("thing", std::move(shape), {{kDistance, 0, 0}, {}}, Glowing(1, 0, 0));
+    velocity_ = velocity;
+  }
+  model::Image Taken(model::Parameters parameters) {
+    model::SensorDescription camera;
+    camera.name = "eye";
+    camera.type = "camera";
+    camera.link_from_sensor.position.z = 3;  // at the world's origin
+    camera.parameters = std::move(parameters);
+    camera.parameters["horizontal_fov"] = kFov;
+    const auto sensor = registry_.Find("camera")->create(camera);
+    EXPECT_TRUE(sensor) << sensor.error().Sentence();
+    auto snapshot = std::make_shared<world::Snapshot>(*scene_.Snapshot());
+    const auto body = [&](const char* name) -> world::BodyState& {
+      return snapshot->state.bodies[static_cast<std::size_t>(snapshot->layout->Find(name))];
+    };
+    body("thing").linear_velocity = velocity_;
+    body("robot").angular_velocity = {0, 0, turning_};
+    const auto reading =
+        (*sensor)->Sample(sensing::Sampling(snapshot, snapshot->layout->Find("robot"), 1, rays_));
+    EXPECT_TRUE(reading) << reading.error().Sentence();
+    return reading ? *reading->picture : model::Image();
+  }
+
+  base::Result<std::shared_ptr<Renderer>> renderer_ = Renderer::Start();
+  sensing::SensorRegistry registry_;
+  sensing::RaySceneCache rays_;
+  TestScene scene_;
+  Vector3 velocity_;
+  double turning_ = 0;  // of the robot, rad/s
+};
+
+// Columns from the first to the last that is red in a row.
+struct RedColumns {
+  int first = -1, last = -1;
+  double middle() const { return 0.5 * (first + last + 1); }
+  int width() const { return first < 0 ? 0 : last - first + 1; }
+};
+RedColumns RedIn(const model::Image& picture, int row) {
+  RedColumns red;
+  for (int x = 0; x < picture.width; ++x) {
+    const std::uint8_t* p =
+        &picture.pixels[3 * (static_cast<std::size_t>(row) * picture.width + x)];
+    if (p[0] < p[1] + 20) continue;
+    if (red.first < 0) red.first = x;
+    red.last = x;
+  }
+  return red;
+}
+
+TEST_F(ShutterTest, AskedForNothingChangesNothing) {
+  AddThing(geometry::Sphere{0.2}, {0, 3, 0});
+  EXPECT_EQ(Taken({}).pixels, Taken({{"exposure_time", 0.0}, {"shutter_samples", 4.0}}).pixels);
+}
+
+TEST_F(ShutterTest, WhatMovesIsBlurredAlongItsWay) {
+  AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});  // to the left
+  const RedColumns still = RedIn(Taken({}), kHeight / 2);
+  const RedColumns moved =
+      RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
+  // In 0.1 s it goes 0.2 m; it came from the right, and is now where it is. The samples are in the
+  // middle of 32 parts.
+  const double way = Focal() * 2 * 0.1 / kDistance;
+  EXPECT_WITHIN(moved.width() - still.width(), way * 31 / 32, 1.5, "pixel");
+  EXPECT_WITHIN(moved.last - still.last, way * 63 / 64, 1.5, "pixel");
+  EXPECT_WITHIN(moved.first, still.first, 1.5, "pixel");
+}
+
+// While it is open the light of the thing passes a column for a part of the time.
+TEST_F(ShutterTest, LightIsSharedOutOverTheWay) {
+  AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {0, 2, 0});
+  const model::Image blurred = Taken({{"exposure_time", 0.4}, {"shutter_samples", 64.0}});
+  const model::Image still = Taken({});
+  const auto light_at = [](const model::Image& picture, int column) {
+    return LightOf(picture.pixels[3 * (static_cast<std::size_t>(kHeight / 2) * kWidth + column)]);
+  };
+  // 0.2 m of 0.8 m: a quarter of the thing's light, else the background's.
+  const int column = kWidth / 2 + static_cast<int>(Focal() * 0.4 / kDistance);
+  const float expected = 0.25f * light_at(still, kWidth / 2) + 0.75f * light_at(still, column);
+  EXPECT_WITHIN(100 * light_at(blurred, column), 100 * expected, 2, "% of white");
+  EXPECT_GT(light_at(still, kWidth / 2), 0.5);
+}
+
+TEST_F(ShutterTest, ATurningCameraBlursWhatStands) {
+  AddThing(geometry::Box{{0.01, 0.2, 0.2}}, {});
+  turning_ = 1;
+  const RedColumns turned =
+      RedIn(Taken({{"exposure_time", 0.1}, {"shutter_samples", 32.0}}), kHeight / 2);
+  turning_ = 0;
+  const RedColumns still = RedIn(Taken({}), kHeight / 2);
+  // It looked 0.1 rad to the right of where it looks now: the thing was to the left.
+  EXPECT_WITHIN(still.first - turned.first, Focal() * std::tan(0.1 * 63 / 64), 2, "pixel");
+  EXPECT_WITHIN(turned.last, still.last, 1.5, "pixel");
+}
+
+TEST_F(ShutterTest, ARollingShutterLeansWhatMoves) {
+  AddThing(geometry::Box{{0.01, 0.05, 6}}, {0, 4, 0});
+  const model::Image picture = Taken({{"readout_time", 0.05}, {"shutter_samples", 32.0}});
+  for (int row = 5; row < kHeight; row += 23) {
+    const double age = 0.05 * (1 - (row + 0.5) / kHeight);
+    const double expected = kWidth / 2.0 + Focal() * 4 * age / kDistance;
+    EXPECT_WITHIN(RedIn(picture, row).middle(), expected, 1, "pixel") << row;
+  }
+}
+
+TEST(Shutter, EarlierIsWhereVelocitiesLeadBackTo) {
+  TestScene scene;
+  scene.Add("it", geometry::Sphere{1}, {{1, 2, 3}, {}}, Matt(1, 1, 1));
+  world::Snapshot snapshot = *scene.Snapshot();
+  snapshot.state.bodies[0].linear_velocity = {2, 0, -4};
+  snapshot.state.bodies[0].angular_velocity = {0, 0, 0.5};
+  const auto earlier = Earlier(snapshot, 0.25);
+  const geometry::Pose& pose = earlier->state.bodies[0].world_from_model;
+  EXPECT_LT(Norm(pose.position - Vector3{0.5, 2, 4}), 1e-12);
+  EXPECT_NEAR(geometry::Yaw(pose.orientation), -0.125, 1e-12);
+}
+
+TEST_F(ShutterTest, RefusesTimesThatCannotBe) {
+  for (const auto& [name, value] :
+       {std::pair{"exposure_time", -1.0}, {"readout_time", 11.0}, {"shutter_samples", 1.0}}) {
+    model::SensorDescription camera;
+    camera.parameters = {{name, value}};
+    const auto sensor = registry_.Find("camera")->create(camera);
+    ASSERT_FALSE(sensor) << name;
+    EXPECT_NE(sensor.error().Sentence().find(name), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace gsv::rendering

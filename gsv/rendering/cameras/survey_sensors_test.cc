@@ -1,0 +1,244 @@
+#include "gsv/rendering/cameras/survey_sensors.h"
+
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "gsv/base/test_within.h"
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/vision_msgs.h"
+#include "gsv/rendering/testing/test_scene.h"
+#include "gsv/sensing/rays/ray_scene.h"
+
+namespace gsv::rendering {
+namespace {
+
+using geometry::PlanarPose;
+using geometry::Vector3;
+using sensing::Reading;
+
+constexpr int kWidth = 64, kHeight = 48;
+constexpr double kFov = 1.2;
+const double kFocal = kWidth / (2 * std::tan(kFov / 2));
+
+// The ray through the middle of a pixel, at a distance of 1 along the view.
+Vector3 RayOf(int x, int y) {
+  return {1, (kWidth / 2 - x - 0.5) / kFocal, (kHeight / 2 - y - 0.5) / kFocal};
+}
+
+class SurveyTest : public ::testing::Test {
+ protected:
+  SurveyTest() {
+    if (renderer_) {
+      EXPECT_TRUE(AddSurveySensors(registry_, renderer_));
+    }
+    // To see and to touch, so that rays can be cast.
+    Add("robot", geometry::Box{{0.4, 0.4, 0.4}}, PlanarPose(0, 0, 1, 0));
+  }
+
+  void SetUp() override {
+    if (!renderer_) GTEST_SKIP() << renderer_.error().Sentence();
+  }
+
+  void Add(const std::string& name, geometry::Shape shape, const geometry::Pose& pose) {
+    scene_.Add(name, shape, pose, Matt(1, 1, 1), true);
+    model::Collision collision;
+    collision.shape = std::move(shape);
+    scene_.LinkOf(name).collisions.push_back(collision);
+  }
+
+  static model::SensorDescription Description(const std::string& type) {
+    model::SensorDescription description;
+    description.name = "eye";
+    description.type = type;
+    description.link_from_sensor.position = {0.3, 0, 0};  // at (0.3, 0, 1) of the world
+    description.parameters = {{"image.width", double(kWidth)},
+                              {"image.height", double(kHeight)},
+                              {"horizontal_fov", kFov},
+                              {"clip.far", 50.0}};
+    return description;
+  }
+
+  Reading Sample(const model::SensorDescription& description) {
+    snapshot_ = scene_.Snapshot();
+    const auto sensor = registry_.Find(description.type)->create(description);
+    EXPECT_TRUE(sensor) << sensor.error().Sentence();
+    const auto reading =
+        (*sensor)->Sample(sensing::Sampling(snapshot_, snapshot_->layout->Find("robot"), 1, rays_));
+    EXPECT_TRUE(reading) << reading.error().Sentence();
+    return *reading;
+  }
+  template <typename Message>
+  Message Sent(const model::SensorDescription& description, const Reading& reading) {
+    const auto bytes = registry_.Find(description.type)->encode(description, reading, "robot/eye");
+    const auto message = messages::Decode<Message>(std::as_bytes(std::span(bytes)));
+    EXPECT_TRUE(message);
+    return *message;
+  }
+
+  base::Result<std::shared_ptr<Renderer>> renderer_ =
+      Renderer::Start({.back_end = BackEnd::kRasteriser});
+  TestScene scene_;
+  std::shared_ptr<const world::Snapshot> snapshot_;
+  sensing::SensorRegistry registry_;
+  sensing::RaySceneCache rays_;
+};
+
+TEST_F(SurveyTest, DepthOfAPlaneIsThatOfItsEquation) {
+  // A wall whose face passes through (4, 0, 1) and is turned by 0.5 rad.
+  const double turn = 0.5;
+  const Vector3 normal{-std::cos(turn), -std::sin(turn), 0};
+  const Vector3 on_face{4, 0, 1};
+  Add("wall", geometry::Box{{0.2, 60, 60}},
+      {on_face - 0.1 * normal, geometry::FromRollPitchYaw({0, 0, turn})});
+  const Reading reading = Sample(Description("depth_camera"));
+  ASSERT_EQ(reading.values.size(), 2u + kWidth * kHeight);
+  EXPECT_EQ(reading.values[0], kWidth);
+  EXPECT_EQ(reading.values[1], kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double expected = Dot(on_face - Vector3{0.3, 0, 1}, normal) / Dot(RayOf(x, y), normal);
+      EXPECT_WITHIN_PERCENT(reading.values[2 + y * kWidth + x], expected, 0.001) << x << " " << y;
+    }
+  }
+}
+
+TEST_F(SurveyTest, DepthOfTheGroundIsThatOfItsEquation) {
+  Add("floor", geometry::Plane{{0, 0, 1}, {200, 200}}, {});
+  const Reading reading = Sample(Description("depth_camera"));
+  for (int y = 0; y < kHeight; ++y) {
+    const double down = -RayOf(0, y).z;
+    const double depth = reading.values[2 + y * kWidth + 7];
+    if (down <= 0.021) continue;  // beyond 50 m
+    EXPECT_WITHIN_PERCENT(depth, 1 / down, 0.01) << y;
+  }
+  EXPECT_EQ(reading.values[2 + 7], std::numeric_limits<double>::infinity());  // the sky
+}
+
+TEST_F(SurveyTest, ADepthPictureIsACloudOfPoints) {
+  Add("wall", geometry::Box{{0.2, 60, 60}}, PlanarPose(4.4, 0, 1, 0));
+  const auto description = Description("rgbd_camera");
+  const Reading reading = Sample(description);
+  const auto cloud = Sent<messages::sensor_msgs::PointCloud2>(description, reading);
+  EXPECT_EQ(cloud.header.frame_id, "robot/eye");
+  ASSERT_EQ(cloud.width, std::uint32_t{kWidth});
+  ASSERT_EQ(cloud.data.size(), 12u * kWidth * kHeight);
+  for (const auto& [x, y] : {std::pair{0, 0}, {63, 10}, {31, 47}}) {
+    float xyz[3];
+    std::memcpy(xyz, &cloud.data[12 * (y * kWidth + x)], sizeof xyz);
+    const Vector3 expected = 4 * RayOf(x, y);
+    EXPECT_NEAR(xyz[0], expected.x, 1e-4);
+    EXPECT_NEAR(xyz[1], expected.y, 1e-4);
+    EXPECT_NEAR(xyz[2], expected.z, 1e-4);
+  }
+}
+
+TEST_F(SurveyTest, DepthNoiseHasItsDeviation) {
+  Add("wall", geometry::Box{{0.2, 60, 60}}, PlanarPose(4.4, 0, 1, 0));
+  auto description = Description("depth");
+  description.parameters["noise.stddev"] = 0.05;
+  const Reading reading = Sample(description);
+  EXPECT_EQ(Sample(description).values.size(), reading.values.size());
+  double sum = 0, squares = 0;
+  const int n = kWidth * kHeight;
+  for (int i = 0; i < n; ++i) {
+    const double error = reading.values[2 + i] - 4;
+    sum += error, squares += error * error;
+  }
+  EXPECT_WITHIN_3_SIGMA(sum / n, 0, 0.05 / std::sqrt(n));
+  EXPECT_WITHIN_3_SIGMA(squares / n, 0.0025, 0.0025 * std::sqrt(2.0 / n));
+}
+
+void AddThings(const std::function<void(const char*, geometry::Shape, geometry::Pose)>& add) {
+  add("ball", geometry::Sphere{0.5}, PlanarPose(3, 0.8, 1, 0));
+  add("box", geometry::Box{{1, 1, 1}}, PlanarPose(4, -1, 1, 0.4));
+  add("behind", geometry::Box{{0.2, 8, 8}}, PlanarPose(8, 0, 1, 0));
+}
+
+TEST_F(SurveyTest, SegmentationNamesWhatRaysHit) {
+  AddThings([&](const char* name, geometry::Shape shape, geometry::Pose pose) {
+    Add(name, std::move(shape), pose);
+  });
+  const Reading reading = Sample(Description("segmentation"));
+  ASSERT_EQ(reading.labels->size(), 4u);
+  const auto scene = rays_.At(snapshot_);
+  const int robot = snapshot_->layout->Find("robot");
+  int differing = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const Vector3 ray = RayOf(x, y);
+      const auto hit = scene->Cast({{0.3, 0, 1}, geometry::Normalized(ray), 50}, robot);
+      const double expected = hit ? hit->body + 1 : 0;
+      differing += reading.values[2 + y * kWidth + x] != expected;
+    }
+  }
+  // The ball is drawn of triangles: at its rim a pixel may miss them.
+  EXPECT_WITHIN(differing, 0, 6, "of 3,072 pixels");
+}
+
+TEST_F(SurveyTest, TheColoursOfASegmentationTellItsLabels) {
+  AddThings([&](const char* name, geometry::Shape shape, geometry::Pose pose) {
+    Add(name, std::move(shape), pose);
+  });
+  const auto description = Description("segmentation_camera");
+  const Reading reading = Sample(description);
+  const auto message = Sent<messages::sensor_msgs::CompressedImage>(description, reading);
+  EXPECT_EQ(message.format, "png");
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_memory(&png, message.data.data(), message.data.size()), 0);
+  png.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
+  ASSERT_NE(png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr), 0);
+  std::map<std::uint32_t, double> label_of;
+  for (std::size_t i = 0; i < std::size_t{kWidth} * kHeight; ++i) {
+    const std::uint32_t colour = pixels[3 * i] << 16 | pixels[3 * i + 1] << 8 | pixels[3 * i + 2];
+    EXPECT_EQ(label_of.emplace(colour, reading.values[2 + i]).first->second, reading.values[2 + i]);
+  }
+  EXPECT_EQ(label_of.size(), 4u);  // nothing, and three things
+}
+
+TEST_F(SurveyTest, ABoundingBoxHoldsWhatIsSeen) {
+  // A box of 1 m whose near face is 3 m from the camera: its edges lie at ± 0.5 / 3 of the focal
+  // length about the middle, shifted by 1/3 to the right.
+  Add("box", geometry::Box{{1, 1, 1}}, PlanarPose(3.8, -1, 1, 0));
+  const auto description = Description("boundingbox_camera");
+  const Reading reading = Sample(description);
+  EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
+  ASSERT_EQ(reading.values.size(), 4u);
+  // Its left side is seen as well, which reaches back to 4 m.
+  EXPECT_WITHIN(reading.values[0], kWidth / 2 + kFocal * 0.5 / 4, 1, "pixel");
+  EXPECT_WITHIN(reading.values[1], kHeight / 2 - kFocal * 0.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[2], kWidth / 2 + kFocal * 1.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[3], kHeight / 2 + kFocal * 0.5 / 3, 1, "pixel");
+  const auto message = Sent<messages::vision_msgs::Detection2DArray>(description, reading);
+  ASSERT_EQ(message.detections.size(), 1u);
+  EXPECT_EQ(message.detections[0].id, "box");
+  EXPECT_NEAR(message.detections[0].bbox.size_y, kFocal / 3, 2);
+}
+
+TEST(SurveySensors, SayWhyThereIsNoRenderer) {
+  sensing::SensorRegistry registry;
+  ASSERT_TRUE(AddSurveySensors(registry, base::Fail(base::ErrorCode::kUnavailable, "no EGL here")));
+  TestScene scene;
+  scene.Add("robot", geometry::Sphere{0.2}, {}, Matt(1, 1, 1));
+  sensing::RaySceneCache rays;
+  for (const std::string type : {"depth_camera", "segmentation_camera", "boundingbox_camera"}) {
+    model::SensorDescription description;
+    description.type = type;
+    const auto sensor = registry.Find(type)->create(description);
+    ASSERT_TRUE(sensor);
+    const auto reading = (*sensor)->Sample(sensing::Sampling(scene.Snapshot(), 0, 1, rays));
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.error().message, "no EGL here");
+    description.parameters["image.width"] = 0.0;
+    EXPECT_FALSE(registry.Find(type)->create(description));
+  }
+}
+
+}  // namespace
+}  // namespace gsv::rendering

@@ -1,0 +1,96 @@
+// What a lens does to a camera's rays: distortion of a pinhole, or the wide views of fisheyes.
+//
+// Frames  camera frame as in camera_view.h: x along the view, y left, z up. Picture points (u, v)
+//         in pixels from the upper left corner, to the right and down.
+// Units   pixels, radians.
+//
+// Pinhole    with x = -Y/X to the right and y = -Z/X down for a point (X, Y, Z):
+//              u = fx x' + skew y' + cx,  v = fy y' + cy
+//            where (x', y') is (x, y) distorted after Brown and Conrady, about the centre c, with
+//            p = (x, y) - c and r² = |p|²:
+//              x' = c.x + p.x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 p.x p.y + p2 (r² + 2 p.x²)
+//              y' = c.y + p.y (1 + k1 r² + k2 r⁴ + k3 r⁶) + p1 (r² + 2 p.y²) + 2 p2 p.x p.y
+//            which is "plumb_bob" of ROS and OpenCV where c is the principal point. A barrel so
+//            strong that rays beyond an angle come back into the picture shows nothing of them.
+// Wide view  what lies at the angle a from the view falls at the distance
+//              r = c1 f fun(a / c2 + c3)
+//            from the picture's middle, in halves of its width (SDFormat's <lens>); nothing is seen
+//            beyond the cutoff angle.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/rendering/lenses/camera_view.h"
+
+namespace gsv::rendering {
+
+struct Distortion {
+  double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
+  geometry::Vector2 centre{0.5, 0.5};  // in parts of the picture's width and height
+
+  bool is_none() const { return k1 == 0 && k2 == 0 && k3 == 0 && p1 == 0 && p2 == 0; }
+  friend bool operator==(const Distortion&, const Distortion&) = default;
+};
+
+// Pixels.
+struct Intrinsics {
+  double fx = 0, fy = 0;
+  double cx = 0, cy = 0;
+  double skew = 0;
+  friend bool operator==(const Intrinsics&, const Intrinsics&) = default;
+};
+
+struct WideView {
+  enum class Function { kIdentity, kSine, kTangent };
+  Function function = Function::kTangent;
+  double c1 = 1, c2 = 1, c3 = 0, f = 1;
+  double cutoff_angle = 1.5707963267948966;
+  friend bool operator==(const WideView&, const WideView&) = default;
+};
+
+// "gnomonical", "stereographic", "equidistant", "solid_angle" or "orthographic".
+base::Result<WideView> WideViewNamed(const std::string& type);
+
+class Lens {
+ public:
+  // The pinhole of `camera` alone.
+  explicit Lens(const CameraParameters& camera);
+  Lens(const CameraParameters& camera, const Intrinsics& intrinsics, const Distortion& distortion);
+  // Of `camera` only the picture's size. With a `horizontal_fov` (up to 2 pi; 0: none) f is chosen
+  // such that the picture's width spans it. kInvalidArgument if it cannot.
+  static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
+                                 double horizontal_fov);
+
+  // A pinhole without distortion whose axis meets the picture's middle: pictures need no change.
+  bool is_plain() const { return is_plain_; }
+
+  // Of unit length, in the camera's frame; nothing where the lens shows nothing.
+  std::optional<geometry::Vector3> RayAt(double u, double v) const;
+  // Where a point in the camera's frame falls, also beyond the picture's edges; nothing where it
+  // falls nowhere.
+  std::optional<geometry::Vector2> Project(const geometry::Vector3& point) const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const Intrinsics& intrinsics() const { return intrinsics_; }  // of a pinhole
+  const Distortion& distortion() const { return distortion_; }
+  const std::optional<WideView>& wide_view() const { return wide_; }
+  // RayAt() is a formula, and not a search.
+  bool has_quick_rays() const { return wide_ || distortion_.is_none(); }
+  friend bool operator==(const Lens&, const Lens&) = default;
+
+ private:
+  geometry::Vector2 Distorted(const geometry::Vector2& p) const;
+  std::optional<geometry::Vector2> Undistorted(const geometry::Vector2& p) const;
+
+  int width_ = 0, height_ = 0;
+  bool is_plain_ = true;
+  Intrinsics intrinsics_;
+  Distortion distortion_;
+  geometry::Vector2 centre_;  // of the distortion, at a distance of 1
+  std::optional<WideView> wide_;
+};
+
+}  // namespace gsv::rendering

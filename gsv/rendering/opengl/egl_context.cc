@@ -1,0 +1,149 @@
+#include "gsv/rendering/opengl/egl_context.h"
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include <string_view>
+#include <vector>
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include "gsv/base/sanitizer.h"
+
+namespace gsv::rendering {
+namespace {
+
+using base::ErrorCode;
+using base::Fail;
+using base::Result;
+using base::Status;
+
+constexpr const char* kRemedy =
+    "pictures need OpenGL 4.5 through EGL: install libegl1, libopengl0 and libgl1-mesa-dri, or "
+    "your graphics card's driver";
+
+// libepoxy ends the program when it cannot open a library, so whether it can is asked first.
+Status CheckLibrary(const std::string& name) {
+  void* handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (handle == nullptr) {
+    return Fail(ErrorCode::kUnavailable, name + " cannot be opened; " + kRemedy);
+  }
+  dlclose(handle);
+  return {};
+}
+
+// Mesa unloads its drivers as a program exits, and LeakSanitizer looks for leaks after that: who
+// allocated what a driver keeps could then not be named, and not left out
+// (cmake/sanitizers/lsan.supp).
+int KeepDriver(dl_phdr_info* object, std::size_t, void*) {
+  const std::string name = object->dlpi_name;
+  if (name.ends_with("_dri.so")) dlopen(name.c_str(), RTLD_NOW | RTLD_NODELETE);
+  return 0;
+}
+
+bool Has(const char* extensions, std::string_view name) {
+  if (extensions == nullptr) return false;
+  std::string_view rest(extensions);
+  while (!rest.empty()) {
+    const std::size_t space = rest.find(' ');
+    if (rest.substr(0, space) == name) return true;
+    rest = space == std::string_view::npos ? std::string_view() : rest.substr(space + 1);
+  }
+  return false;
+}
+
+bool IsSoftware(EGLDeviceEXT device) {
+  return Has(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+}
+
+std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
+  std::vector<EGLDisplay> displays;
+  if (!Has(client_extensions, "EGL_EXT_platform_device") ||
+      !Has(client_extensions, "EGL_EXT_device_enumeration")) {
+    return displays;
+  }
+  EGLDeviceEXT devices[16];
+  EGLint count = 0;
+  if (!eglQueryDevicesEXT(16, devices, &count)) return displays;
+  for (EGLint i = 0; i < count; ++i) {
+    if (IsSoftware(devices[i])) continue;
+    displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+  }
+  return displays;
+}
+
+// In the order in which they are tried: graphics cards, then Mesa without a device.
+std::vector<EGLDisplay> Displays(const EglOptions& options) {
+  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  std::vector<EGLDisplay> displays;
+  if (options.hardware) displays = DeviceDisplays(extensions);
+  if (options.software && Has(extensions, "EGL_MESA_platform_surfaceless")) {
+    displays.push_back(
+        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  }
+  return displays;
+}
+
+// A current context on `display`, or null.
+EGLContext MakeCurrentOn(EGLDisplay display) {
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return nullptr;
+  const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               5,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_NONE};
+  if (Has(extensions, "EGL_KHR_no_config_context") &&
+      Has(extensions, "EGL_KHR_surfaceless_context") && eglBindAPI(EGL_OPENGL_API)) {
+    EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    if (context != EGL_NO_CONTEXT &&
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+      return context;
+    }
+    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+  }
+  return nullptr;
+}
+
+// What a card's display gives where the card is present but unusable.
+bool IsMesaInSoftware(const std::string& renderer_name) {
+  return renderer_name.starts_with("llvmpipe") || renderer_name.starts_with("softpipe");
+}
+
+std::string GlText(unsigned name) {
+  const auto* text = reinterpret_cast<const char*>(glGetString(name));
+  return text != nullptr ? text : "";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<EglContext>> EglContext::Create(const EglOptions& options) {
+  for (const std::string& library : {options.egl_library, options.gl_library}) {
+    if (Status status = CheckLibrary(library); !status) return Fail(status.error());
+  }
+  const std::vector<EGLDisplay> displays = Displays(options);
+  for (EGLDisplay display : displays) {
+    EGLContext context = MakeCurrentOn(display);
+    if (context == nullptr) continue;
+    std::string name = GlText(GL_RENDERER) + ", OpenGL " + GlText(GL_VERSION);
+    if constexpr (base::kHasAddressSanitizer) dl_iterate_phdr(KeepDriver, nullptr);
+    std::unique_ptr<EglContext> created(new EglContext(display, context, std::move(name)));
+    if (options.software || !IsMesaInSoftware(created->renderer_name())) return created;
+  }
+  return Fail(ErrorCode::kUnavailable,
+              std::string(displays.empty() ? "EGL found neither a graphics device nor Mesa"
+                                           : "EGL gave no OpenGL 4.5 core context") +
+                  "; " + kRemedy);
+}
+
+// The display stays initialised: it is the process's, and other contexts may live there.
+EglContext::~EglContext() {
+  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  eglDestroyContext(display_, context_);
+  eglReleaseThread();
+}
+
+}  // namespace gsv::rendering

@@ -1,0 +1,19 @@
+// Triangle meshes on the graphics card.
+//
+// Threads  the render thread only.
+#pragma once
+
+#include "gsv/rendering/opengl/gl_objects.h"
+#include "gsv/rendering/scene/mesh_store.h"
+
+namespace gsv::rendering {
+
+// The arrays of MeshArrays; indices have 32 bits.
+struct GpuMesh final : DrawMesh {
+  GlBuffer vertices;
+  GlBuffer indices;
+};
+
+std::shared_ptr<const DrawMesh> UploadMesh(MeshArrays arrays);
+
+}  // namespace gsv::rendering

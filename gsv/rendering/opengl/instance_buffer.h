@@ -1,0 +1,38 @@
+// The vertex arrays of a draw call: a mesh's vertices, and what differs between its instances.
+//
+// Threads  the render thread only.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gsv/rendering/opengl/gl_objects.h"
+#include "gsv/rendering/scene/draw_plan.h"
+
+namespace gsv::rendering {
+
+// As the vertex shaders read it: the rows of relative_from_mesh, then the surface.
+struct InstanceData {
+  float rows[3][4];
+  SurfaceFactors factors;
+};
+
+// `origin` is the point of the world that the shader has as its origin.
+InstanceData InstanceOf(const DrawItem& item, const PlacedItem& placed,
+                        const geometry::Vector3& origin);
+
+class InstanceBuffer {
+ public:
+  InstanceBuffer();
+
+  // Replaces the instances and makes the arrays current.
+  void Upload(const std::vector<InstanceData>& instances);
+  // Draws one group with the instances [first, first + count).
+  void Draw(const DrawGroup& group, std::size_t first, std::size_t count) const;
+
+ private:
+  GlVertexArray arrays_;
+  GlBuffer instances_;
+};
+
+}  // namespace gsv::rendering

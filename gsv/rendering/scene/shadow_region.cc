@@ -1,0 +1,149 @@
+#include "gsv/rendering/scene/shadow_region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gsv::rendering {
+namespace {
+
+using geometry::Dot;
+using geometry::Vector3;
+
+// Casters larger than this do not widen the map: one floor slab would blur every shadow on it.
+constexpr double kMostRadius = 60;
+
+// A lone robot does not get the whole map: its shadow would be finer than any picture, and slower.
+constexpr double kLeastSide = 10;
+
+// Outward to a multiple of a power of two that is about a sixteenth of the length.
+void RoundOutward(double& min, double& max) {
+  const double unit = std::exp2(std::ceil(std::log2((max - min) / 16)));
+  min = unit * std::floor(min / unit);
+  max = unit * std::ceil(max / unit);
+}
+
+}  // namespace
+
+ShadowRegion::ShadowRegion(const DrawPlan& plan, const Vector3& to_sun) {
+  const Vector3 helper = std::abs(to_sun.z) < 0.99 ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
+  const Vector3 right = geometry::Normalized(geometry::Cross(helper, to_sun));
+  axes_ = {right, geometry::Cross(to_sun, right), to_sun};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double min[3] = {kInfinity, kInfinity, kInfinity}, max[3] = {-kInfinity, -kInfinity, -kInfinity};
+  for (std::size_t i = 0; i < plan.items().size(); ++i) {
+    const DrawItem& item = plan.items()[i];
+    if (!item.casts_shadow) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = Dot(axes_[axis], plan.placed()[i].centre);
+      // Along the light everything must be inside, or it would cast no shadow.
+      const double radius = axis < 2 ? std::min(item.radius, kMostRadius) : item.radius;
+      min[axis] = std::min(min[axis], at - radius);
+      max[axis] = std::max(max[axis], at + radius);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (min[axis] > max[axis]) return;
+    const double missing = std::max(0.0, kLeastSide - (max[axis] - min[axis]));
+    min[axis] -= 0.5 * missing;
+    max[axis] += 0.5 * missing;
+    RoundOutward(min[axis], max[axis]);
+  }
+  min_ = {min[0], min[1], min[2]};
+  max_ = {max[0], max[1], max[2]};
+}
+
+double ShadowRegion::TexelSize() const {
+  return std::max(max_.x - min_.x, max_.y - min_.y) / kShadowSide;
+}
+
+bool ShadowRegion::MayFallOn(const Vector3& centre, double radius) const {
+  if (IsEmpty()) return false;
+  const Vector3 at{Dot(axes_[0], centre), Dot(axes_[1], centre), Dot(axes_[2], centre)};
+  return at.x + radius > min_.x && at.x - radius < max_.x && at.y + radius > min_.y &&
+         at.y - radius < max_.y && at.z - radius < max_.z;
+}
+
+std::vector<std::size_t> ShadowRegion::StillCasters(const DrawPlan& plan) {
+  std::vector<std::size_t> casters;
+  for (std::size_t i = 0; i < plan.items().size(); ++i) {
+    const DrawItem& item = plan.items()[i];
+    if (item.casts_shadow && plan.IsStill(item.body)) casters.push_back(i);
+  }
+  return casters;
+}
+
+std::vector<std::size_t> ShadowRegion::MovingCasters(const DrawPlan& plan,
+                                                     const std::vector<CameraView>& views) const {
+  // How far beside itself a surface is looked up: along its normal and by the filter.
+  const double beside = 4 * TexelSize();
+  // A shadow has no end; this is beyond all that any camera sees.
+  const Vector3 shade = -1e7 * axes_[2];
+  std::vector<std::pair<Vector3, Frustum>> seen;
+  for (const CameraView& view : views) {
+    seen.emplace_back(view.world_from_camera.position, FrustumOf(view));
+  }
+  std::vector<std::size_t> casters;
+  for (std::size_t i = 0; i < plan.items().size(); ++i) {
+    const DrawItem& item = plan.items()[i];
+    if (!item.casts_shadow || plan.IsStill(item.body)) continue;
+    const double radius = item.radius + beside;
+    const Vector3 centre = plan.placed()[i].centre;
+    const bool is_seen = std::any_of(seen.begin(), seen.end(), [&](const auto& camera) {
+      return camera.second.MeetsMovingSphere(centre - camera.first, shade, radius);
+    });
+    if (is_seen) casters.push_back(i);
+  }
+  return casters;
+}
+
+std::vector<ShadowRegion::Rectangle> ShadowRegion::PartsOf(
+    const DrawPlan& plan, const std::vector<std::size_t>& items) const {
+  // Past this many a copy of everything is cheaper.
+  constexpr std::size_t kMostParts = 256;
+  std::vector<Rectangle> parts;
+  int last_body = -1;
+  for (const std::size_t i : items) {
+    const DrawItem& item = plan.items()[i];
+    const auto texels = [&](int axis, double min, double max, double offset) {
+      const double at = Dot(axes_[axis], plan.placed()[i].centre) + offset;
+      return std::clamp((at - min) / (max - min), 0.0, 1.0) * kShadowSide;
+    };
+    const double r = item.radius;
+    const Rectangle around{
+        std::max(0, static_cast<int>(texels(0, min_.x, max_.x, -r)) - 1),
+        std::max(0, static_cast<int>(texels(1, min_.y, max_.y, -r)) - 1),
+        std::min(kShadowSide, static_cast<int>(texels(0, min_.x, max_.x, r)) + 2),
+        std::min(kShadowSide, static_cast<int>(texels(1, min_.y, max_.y, r)) + 2)};
+    if (item.body != last_body) {
+      parts.push_back(around);
+      last_body = item.body;
+    } else {
+      Rectangle& part = parts.back();
+      part = {std::min(part.min_x, around.min_x), std::min(part.min_y, around.min_y),
+              std::max(part.max_x, around.max_x), std::max(part.max_y, around.max_y)};
+    }
+  }
+  if (parts.size() > kMostParts) parts = {{0, 0, kShadowSide, kShadowSide}};
+  return parts;
+}
+
+void ShadowRegion::Describe(const Vector3& origin, FrameBlock& block) const {
+  if (IsEmpty()) return;
+  const double min[3] = {min_.x, min_.y, min_.z};
+  const double max[3] = {max_.x, max_.y, max_.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double k = 1 / (max[axis] - min[axis]);
+    const Vector3 row = k * axes_[axis];
+    block.shadow_from_relative[axis] = static_cast<float>(row.x);
+    block.shadow_from_relative[4 + axis] = static_cast<float>(row.y);
+    block.shadow_from_relative[8 + axis] = static_cast<float>(row.z);
+    block.shadow_from_relative[12 + axis] = static_cast<float>(Dot(row, origin) - k * min[axis]);
+  }
+  for (int column = 0; column < 4; ++column) {
+    block.shadow_from_relative[4 * column + 3] = column == 3 ? 1.0f : 0.0f;
+  }
+  block.to_sun[3] = static_cast<float>(TexelSize());
+}
+
+}  // namespace gsv::rendering

@@ -1,0 +1,82 @@
+#include "gsv/sensing/devices/battery.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/sensing/noise.h"
+#include "gsv/sensing/sensor_type.h"
+
+namespace gsv::sensing {
+namespace {
+
+constexpr double kSecondsAnHour = 3600;
+
+class Battery final : public Sensor {
+ public:
+  Battery(const model::SensorDescription& description, ParameterReader& reader)
+      : Sensor(description),
+        capacity_(reader.Number("capacity", 5, 1e-3, 1e6)),
+        initial_(reader.Number("initial_charge", 1, 0, 1)),
+        full_(reader.Number("voltage_full", 12.6, 0, 1e5)),
+        empty_(reader.Number("voltage_empty", 10.5, 0, 1e5)),
+        resistance_(reader.Number("resistance", 0.1, 0, 1e4)),
+        idle_current_(reader.Number("idle_current", 0.5, 0, 1e5)),
+        drive_charge_(reader.Number("drive_charge", 4, 0, 1e6)),
+        voltage_noise_(ReadNoise(reader, "voltage.noise", 1e5)),
+        current_noise_(ReadNoise(reader, "current.noise", 1e5)) {
+    if (empty_ > full_) {
+      reader.Refuse(fmt::format("voltage_empty is {} and above voltage_full, {}", empty_, full_));
+    }
+  }
+
+  base::Result<Reading> Sample(const Sampling& sampling) const override {
+    const world::State& state = sampling.snapshot()->state;
+    const world::BodyState& body = state.bodies[sampling.body()];
+    const double drawn =
+        idle_current_ * base::ToSeconds(state.time) + drive_charge_ * body.distance;
+    const double charge = std::max(0.0, initial_ * capacity_ - drawn / kSecondsAnHour);
+    const double fraction = charge / capacity_;
+    const double current =
+        charge > 0 ? idle_current_ + drive_charge_ * geometry::Norm(body.linear_velocity) : 0;
+    const double voltage =
+        charge > 0 ? std::max(0.0, empty_ + (full_ - empty_) * fraction - resistance_ * current)
+                   : 0;
+    const NoisyReading noisy(sampling, description());
+    Reading reading = sampling.Stamped();
+    reading.values = {noisy.Read(voltage_noise_, 0, voltage),
+                      noisy.Read(current_noise_, 1, current), charge, capacity_, fraction};
+    return reading;
+  }
+
+  static messages::sensor_msgs::BatteryState ToMessage(const model::SensorDescription&,
+                                                       const Reading& reading, const std::string&) {
+    using messages::sensor_msgs::BatteryState;
+    BatteryState message;
+    if (reading.values.size() != 5) return message;
+    const auto& v = reading.values;
+    message.voltage = static_cast<float>(v[0]);
+    message.current = static_cast<float>(-v[1]);
+    message.charge = static_cast<float>(v[2]);
+    message.capacity = message.design_capacity = static_cast<float>(v[3]);
+    message.percentage = static_cast<float>(v[4]);
+    message.temperature = std::numeric_limits<float>::quiet_NaN();  // not measured
+    message.power_supply_status = BatteryState::kPowerSupplyStatusDischarging;
+    message.present = true;
+    return message;
+  }
+
+ private:
+  const double capacity_, initial_, full_, empty_, resistance_, idle_current_, drive_charge_;
+  const NoiseModel voltage_noise_, current_noise_;
+};
+
+}  // namespace
+
+SensorType BatteryType() {
+  return MakeSensorType<Battery, messages::sensor_msgs::BatteryState>("battery");
+}
+
+}  // namespace gsv::sensing

@@ -1,0 +1,83 @@
+#include "gsv/sensing/devices/microphone.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/sensing/noise.h"
+#include "gsv/sensing/sensor_type.h"
+
+namespace gsv::sensing {
+namespace {
+
+constexpr double kNearest = 0.1;  // m
+
+double Power(double level) { return std::pow(10, level / 10); }
+
+// dB at `point`; nothing of what is silent, or whose robot is not there.
+std::optional<double> LevelAt(const geometry::Vector3& point, const world::ActuatorState& source,
+                              const world::Sound& sound, const world::Snapshot& snapshot) {
+  const int body = snapshot.layout->Find(source.robot);
+  if (body < 0) return std::nullopt;
+  const auto& speaker = std::get<world::SpeakerSetup>(source.setup->kind);
+  const geometry::Pose world_from_speaker =
+      world::LinkPose(snapshot, body, source.setup->link) * source.setup->link_from_actuator;
+  const double distance = std::max(kNearest, Norm(world_from_speaker.position - point));
+  return speaker.loudness + 20 * std::log10(sound.volume / distance);
+}
+
+class Microphone final : public Sensor {
+ public:
+  Microphone(const model::SensorDescription& description, ParameterReader& reader)
+      : Sensor(description),
+        ambient_(reader.Number("ambient", 30, -100, 200)),
+        noise_(ReadNoise(reader, "noise", 200)) {}
+
+  base::Result<Reading> Sample(const Sampling& sampling) const override {
+    const world::Snapshot& snapshot = *sampling.snapshot();
+    const geometry::Vector3 here = sampling.WorldFromSensor(description()).position;
+    double power = Power(ambient_), loudest = ambient_, frequency = 0;
+    std::string source;
+    static const world::Actuators kNone;
+    const auto& actuators = snapshot.state.actuators;
+    for (const world::ActuatorStatePtr& each : actuators != nullptr ? *actuators : kNone) {
+      if (!std::holds_alternative<world::SpeakerSetup>(each->setup->kind)) continue;
+      const auto sound = world::SoundOf(*each, snapshot.state.time);
+      if (!sound) continue;
+      const auto level = LevelAt(here, *each, *sound, snapshot);
+      if (!level) continue;
+      power += Power(*level);
+      if (*level <= loudest) continue;
+      loudest = *level;
+      frequency = sound->frequency;
+      source = each->robot + "/" + each->actuator;
+    }
+    const NoisyReading noisy(sampling, description());
+    Reading reading = sampling.Stamped();
+    reading.values = {noisy.Read(noise_, 0, 10 * std::log10(power)), frequency};
+    reading.labels = std::make_shared<const std::vector<std::string>>(1, source);
+    return reading;
+  }
+
+  static messages::gsv_msgs::Microphone ToMessage(const model::SensorDescription&,
+                                                  const Reading& reading, const std::string&) {
+    messages::gsv_msgs::Microphone message;
+    if (reading.values.size() != 2) return message;
+    message.level_db = reading.values[0];
+    message.frequency_hz = reading.values[1];
+    message.source = reading.labels->front();
+    return message;
+  }
+
+ private:
+  const double ambient_;
+  const NoiseModel noise_;
+};
+
+}  // namespace
+
+SensorType MicrophoneType() {
+  return MakeSensorType<Microphone, messages::gsv_msgs::Microphone>("microphone");
+}
+
+}  // namespace gsv::sensing

@@ -1,0 +1,89 @@
+#include "gsv/sensing/devices/radio.h"
+
+#include "gsv/base/base64.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/sensing/sensor_type.h"
+
+namespace gsv::sensing {
+namespace {
+
+constexpr std::size_t kValues = 3;  // of one message
+constexpr double kHertzAMegahertz = 1e6;
+
+world::RadioSetupPtr ReadSetup(const model::SensorDescription& description,
+                               ParameterReader& reader) {
+  const world::RadioSetup usual;
+  auto setup = std::make_shared<world::RadioSetup>();
+  setup->link = description.link;
+  setup->link_from_antenna = description.link_from_sensor;
+  setup->network = reader.Text("essid", "");
+  setup->frequency =
+      kHertzAMegahertz * reader.Number("frequency", usual.frequency / kHertzAMegahertz, 1e-3, 1e6);
+  setup->power = reader.Number("power", usual.power, -200, 200);
+  setup->gain = reader.Number("gain", usual.gain, -100, 100);
+  setup->sensitivity = reader.Number("sensitivity", usual.sensitivity, -300, 200);
+  setup->range = reader.Number("range", usual.range, 0, 1e7);
+  setup->path_loss_exponent = reader.Number("path_loss_exponent", usual.path_loss_exponent, 0, 20);
+  setup->wall_loss = reader.Number("wall_loss", usual.wall_loss, 0, 1e3);
+  setup->inbox =
+      static_cast<std::size_t>(reader.Count("inbox", static_cast<int>(usual.inbox), 1, 256));
+  setup->max_size =
+      static_cast<std::size_t>(reader.Count("max_size", static_cast<int>(usual.max_size), 1, 4096));
+  return setup;
+}
+
+class Radio final : public Sensor {
+ public:
+  Radio(const model::SensorDescription& description, ParameterReader& reader)
+      : Sensor(description), setup_(ReadSetup(description, reader)) {}
+
+  base::Result<Reading> Sample(const Sampling& sampling) const override {
+    Reading reading = sampling.Stamped();
+    auto labels = std::make_shared<std::vector<std::string>>();
+    const world::RadioState* radio = world::FindRadio(sampling.snapshot()->state.radios.get(),
+                                                      sampling.robot().name, description().name);
+    for (std::size_t i = 0; radio != nullptr && i < radio->inbox.size(); ++i) {
+      const auto& [message, number, strength] = radio->inbox[i];
+      reading.values.push_back(static_cast<double>(number));
+      reading.values.push_back(base::ToSeconds(message->sent));
+      reading.values.push_back(strength);
+      labels->push_back(message->sender);
+      labels->push_back(base::ToBase64(message->content));
+    }
+    reading.labels = std::move(labels);
+    return reading;
+  }
+
+  world::RadioSetupPtr radio() const override { return setup_; }
+
+  static messages::gsv_msgs::Radio ToMessage(const model::SensorDescription&,
+                                             const Reading& reading, const std::string&) {
+    messages::gsv_msgs::Radio message;
+    const std::size_t count = reading.values.size() / kValues;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double* const v = &reading.values[kValues * i];
+      messages::gsv_msgs::RadioMessage heard;
+      heard.number = static_cast<std::uint64_t>(v[0]);
+      heard.sender = (*reading.labels)[2 * i];
+      heard.sent = messages::ToMessage(base::FromSeconds(v[1]));
+      heard.strength_dbm = v[2];
+      const auto content = base::FromBase64((*reading.labels)[2 * i + 1]);
+      if (content) heard.content.assign(content->begin(), content->end());
+      message.messages.push_back(std::move(heard));
+    }
+    return message;
+  }
+
+ private:
+  const world::RadioSetupPtr setup_;
+};
+
+}  // namespace
+
+SensorType RadioType() {
+  return MakeSensorType<Radio, messages::gsv_msgs::Radio>(
+      "radio",
+      {"transceiver", "wireless_transceiver", "wireless_transmitter", "wireless_receiver"});
+}
+
+}  // namespace gsv::sensing

@@ -1,0 +1,301 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/geometry_msgs.h"
+#include "gsv/messages/sensor_msgs.h"
+#include "gsv/sensing/devices/built_in.h"
+#include "gsv/sensing/registry.h"
+#include "gsv/sensing/testing/test_snapshot.h"
+
+namespace gsv::sensing {
+namespace {
+
+using testing::MakeSnapshot;
+using testing::ModelOf;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+const SensorRegistry& Registry() {
+  static const SensorRegistry registry = [] {
+    SensorRegistry made;
+    AddBuiltInSensors(made);
+    return made;
+  }();
+  return registry;
+}
+
+model::SensorDescription Description(const std::string& type, model::Parameters parameters = {}) {
+  model::SensorDescription description;
+  description.name = "front";
+  description.type = type;
+  description.link_from_sensor = geometry::PlanarPose(0.2, 0, 0.3, 0);
+  description.parameters = std::move(parameters);
+  return description;
+}
+
+base::Result<std::unique_ptr<Sensor>> Make(const model::SensorDescription& description) {
+  return Registry().Find(description.type)->create(description);
+}
+
+// A robot of radius 0.25 at (1, 0), facing y, and a wall whose near face is at y = 4.
+class SensorTest : public ::testing::Test {
+ protected:
+  SensorTest() {
+    snapshot_ = MakeSnapshot({
+        {"robot", ModelOf(geometry::Cylinder{0.25, 1}), geometry::PlanarPose(1, 0, 0, kPi / 2),
+         false},
+        {"wall", ModelOf(geometry::Box{{20, 1, 4}}), {{0, 4.5, 0}, {}}, true},
+    });
+    snapshot_->state.step = 17;
+    snapshot_->state.time = base::FromSeconds(1.7);
+  }
+
+  Reading Sample(const model::SensorDescription& description, std::uint64_t seed = 1) {
+    const auto sensor = Make(description);
+    EXPECT_TRUE(sensor);
+    return *(*sensor)->Sample(Sampling(snapshot_, 0, seed, rays_));
+  }
+
+  std::shared_ptr<world::Snapshot> snapshot_;
+  RaySceneCache rays_;
+};
+
+template <typename Message>
+Message Decoded(const model::SensorDescription& description, const Reading& reading) {
+  const auto bytes = Registry().Find(description.type)->encode(description, reading, "robot/front");
+  const auto message = messages::Decode<Message>(std::as_bytes(std::span(bytes)));
+  EXPECT_TRUE(message);
+  return *message;
+}
+
+TEST_F(SensorTest, SonarMeasuresToTheWallPastItsOwnRobot) {
+  const Reading reading = Sample(Description("sonar", {{"max", 10.0}}));
+  ASSERT_EQ(reading.values.size(), 1u);
+  EXPECT_NEAR(reading.values[0], 3.8, 1e-12);
+  EXPECT_EQ(reading.step, 17);
+  EXPECT_EQ(reading.time, base::FromSeconds(1.7));
+}
+
+TEST_F(SensorTest, SonarReportsMaximumRangeWhenNothingIsHit) {
+  EXPECT_EQ(Sample(Description("sonar", {{"max", 3.0}})).values[0], 3.0);
+}
+
+TEST_F(SensorTest, SonarReportsMaximumRangeWhenTheEchoIsTooNear) {
+  EXPECT_EQ(Sample(Description("sonar", {{"min", 3.9}, {"max", 10.0}})).values[0], 10.0);
+}
+
+TEST_F(SensorTest, SonarIsDrawnAsALineAsLongAsItsReading) {
+  const auto description = Description("sonar", {{"max", 10.0}});
+  const SensorType& type = *Registry().Find("sonar");
+  EXPECT_EQ(type.overlay, Overlay::kLines);
+  const auto beams = type.beams(description, Sample(description));
+  ASSERT_EQ(beams.size(), 1u);
+  EXPECT_NEAR(beams[0].to.x, 3.8, 1e-12);
+  EXPECT_EQ(beams[0].from, geometry::Vector3{});
+}
+
+TEST_F(SensorTest, SonarBecomesARange) {
+  const auto description = Description("sonar", {{"min", 0.1}, {"max", 10.0}, {"radius", 10.0}});
+  const auto message = Decoded<messages::sensor_msgs::Range>(description, Sample(description));
+  EXPECT_EQ(message.header.frame_id, "robot/front");
+  EXPECT_EQ(message.header.stamp.sec, 1);
+  EXPECT_EQ(message.header.stamp.nanosec, 700000000u);
+  EXPECT_EQ(message.radiation_type, messages::sensor_msgs::Range::kUltrasound);
+  EXPECT_FLOAT_EQ(message.range, 3.8f);
+  EXPECT_FLOAT_EQ(message.min_range, 0.1f);
+  EXPECT_FLOAT_EQ(message.max_range, 10.0f);
+  EXPECT_FLOAT_EQ(message.field_of_view, static_cast<float>(kPi / 2));
+}
+
+model::Parameters Scan(double samples, double min_angle, double max_angle) {
+  return {{"scan.horizontal.samples", samples},
+          {"scan.horizontal.min_angle", min_angle},
+          {"scan.horizontal.max_angle", max_angle},
+          {"range.max", 5.0},
+          {"range.min", 0.1}};
+}
+
+TEST_F(SensorTest, LidarMeasuresAlongItsAngles) {
+  const Reading reading = Sample(Description("lidar", Scan(5, -kPi / 2, kPi / 2)));
+  ASSERT_EQ(reading.values.size(), 5u);
+  // The wall runs across, 3.8 m ahead: 3.8 / cos(45°) is beyond 5 m.
+  EXPECT_EQ(reading.values[0], kInfinity);
+  EXPECT_EQ(reading.values[1], kInfinity);
+  EXPECT_NEAR(reading.values[2], 3.8, 1e-12);
+  auto further = Scan(3, -kPi / 4, kPi / 4);
+  further["range.max"] = 8.0;
+  EXPECT_NEAR(Sample(Description("gpu_lidar", further)).values[0], 3.8 * std::sqrt(2.0), 1e-9);
+}
+
+TEST_F(SensorTest, LidarTellsTooNearFromTooFar) {
+  auto parameters = Scan(1, 0, 0);
+  parameters["range.min"] = 4.0;
+  EXPECT_EQ(Sample(Description("ray", parameters)).values[0], -kInfinity);
+  parameters["range.min"] = 0.1;
+  parameters["range.max"] = 3.0;
+  EXPECT_EQ(Sample(Description("ray", parameters)).values[0], kInfinity);
+}
+
+TEST_F(SensorTest, LidarScansRowsFromTheLowest) {
+  auto parameters = Scan(1, 0, 0);
+  parameters["scan.vertical.samples"] = 3.0;
+  parameters["scan.vertical.min_angle"] = -0.2;
+  parameters["scan.vertical.max_angle"] = 0.1;
+  const Reading reading = Sample(Description("lidar", parameters));
+  ASSERT_EQ(reading.values.size(), 3u);
+  EXPECT_NEAR(reading.values[0], 3.8 / std::cos(0.2), 1e-9);
+  EXPECT_NEAR(reading.values[1], 3.8 / std::cos(0.05), 1e-9);
+  // The message has the row nearest to the horizontal.
+  const auto scan =
+      Decoded<messages::sensor_msgs::LaserScan>(Description("lidar", parameters), reading);
+  ASSERT_EQ(scan.ranges.size(), 1u);
+  EXPECT_FLOAT_EQ(scan.ranges[0], static_cast<float>(3.8 / std::cos(0.05)));
+}
+
+TEST_F(SensorTest, LidarNoiseHangsOnSeedAndStepAndHasItsDeviation) {
+  auto parameters = Scan(2001, -0.5, 0.5);
+  const Reading exact = Sample(Description("lidar", parameters));
+  parameters["noise.stddev"] = 0.02;
+  const Reading noisy = Sample(Description("lidar", parameters));
+  EXPECT_EQ(Sample(Description("lidar", parameters)).values, noisy.values);
+  EXPECT_NE(Sample(Description("lidar", parameters), 2).values, noisy.values);
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < exact.values.size(); ++i) {
+    const double error = noisy.values[i] - exact.values[i];
+    sum += error, squares += error * error;
+  }
+  EXPECT_NEAR(sum / 2001, 0, 4 * 0.02 / std::sqrt(2001.0));
+  EXPECT_NEAR(std::sqrt(squares / 2001), 0.02, 0.002);
+}
+
+TEST_F(SensorTest, LidarMissesEchoesAndRoundsThoseItHears) {
+  auto parameters = Scan(2000, -0.2, 0.2);
+  parameters["noise.stddev"] = 0.02;
+  parameters["noise.precision"] = 0.25;
+  parameters["noise.dropout_probability"] = 0.1;
+  int missed = 0;
+  for (const double range : Sample(Description("lidar", parameters)).values) {
+    missed += range == kInfinity;
+    if (range != kInfinity) {
+      EXPECT_EQ(4 * range, std::round(4 * range));
+    }
+  }
+  EXPECT_NEAR(missed / 2000.0, 0.1, 3 * std::sqrt(0.1 * 0.9 / 2000));
+}
+
+TEST_F(SensorTest, SonarIsDeafWhereAnEchoDropsOut) {
+  EXPECT_EQ(
+      Sample(Description("sonar", {{"max", 10.0}, {"noise.dropout_probability", 1.0}})).values[0],
+      10);
+  const double biased =
+      Sample(Description("sonar", {{"max", 10.0}, {"noise.bias_mean", 0.5}})).values[0];
+  EXPECT_NEAR(biased, 4.3, 1e-12);
+}
+
+TEST_F(SensorTest, LidarIsDrawnWhereItsBeamsEnd) {
+  const auto description = Description("lidar", Scan(3, -0.2, 0.2));
+  const auto beams = Registry().Find("lidar")->beams(description, Sample(description));
+  ASSERT_EQ(beams.size(), 3u);
+  for (const Segment& beam : beams) EXPECT_NEAR(beam.to.x, 3.8, 1e-9);
+  EXPECT_NEAR(beams[0].to.y, -3.8 * std::tan(0.2), 1e-9);
+}
+
+TEST_F(SensorTest, PositioningTellsWhereTheSensorIs) {
+  const auto description = Description("positioning");
+  const Reading reading = Sample(description);
+  ASSERT_EQ(reading.values.size(), 6u);
+  EXPECT_NEAR(reading.values[0], 1, 1e-12);
+  EXPECT_NEAR(reading.values[1], 0.2, 1e-12);
+  EXPECT_NEAR(reading.values[2], 0.3, 1e-12);
+  EXPECT_NEAR(reading.values[3], 0, 1e-12);
+  EXPECT_NEAR(reading.values[4], 0, 1e-12);
+  EXPECT_NEAR(reading.values[5], kPi / 2, 1e-12);
+  const auto pose = Decoded<messages::geometry_msgs::PoseStamped>(description, reading);
+  EXPECT_EQ(pose.header.frame_id, "map");
+  EXPECT_NEAR(pose.pose.position.y, 0.2, 1e-12);
+  EXPECT_NEAR(pose.pose.orientation.z, std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(pose.pose.orientation.w, std::sqrt(0.5), 1e-12);
+}
+
+TEST_F(SensorTest, PositioningNoiseIsThatOfItsParameters) {
+  double squares = 0;
+  for (int step = 0; step < 1000; ++step) {
+    snapshot_->state.step = step;
+    const double error =
+        Sample(Description("positioning", {{"noise.position.stddev", 0.5}})).values[0] - 1;
+    squares += error * error;
+  }
+  EXPECT_NEAR(std::sqrt(squares / 1000), 0.5, 0.05);
+}
+
+struct BadParameters {
+  const char* type;
+  model::Parameters parameters;
+  const char* sentence;
+};
+
+TEST(SensorParameters, AreRefusedWithASentence) {
+  const std::vector<BadParameters> cases = {
+      {"sonar", {{"min", 2.0}, {"max", 1.0}}, "sonar front: min is 2 and above max, 1"},
+      {"sonar",
+       {{"max", std::nan("")}},
+       "sonar front: max is nan; it must lie between 0.001 and 10000"},
+      {"sonar", {{"max", std::string("far")}}, "sonar front: max must be a number"},
+      {"lidar",
+       {{"scan.horizontal.samples", 0.0}},
+       "lidar front: scan.horizontal.samples is 0; it must lie between 1 and 1000000"},
+      {"lidar",
+       {{"scan.horizontal.samples", 2.5}},
+       "lidar front: scan.horizontal.samples is 2.5; it must be a whole number"},
+      {"lidar",
+       {{"scan.horizontal.samples", 2000.0}, {"scan.vertical.samples", 2000.0}},
+       "lidar front: the scan has 2000 by 2000 beams; the most are 1000000"},
+      {"lidar",
+       {{"scan.horizontal.samples", 2000.0}, {"scan.horizontal.resolution", 1000.0}},
+       "lidar front: scan.horizontal asks for 2000000 beams; the most are 1000000"},
+      {"lidar",
+       {{"scan.horizontal.min_angle", 1.0}, {"scan.horizontal.max_angle", -1.0}},
+       "lidar front: scan.horizontal.min_angle is 1 and above scan.horizontal.max_angle, -1"},
+      {"lidar", {{"range.min", 20.0}}, "lidar front: range.min is 20 and above range.max, 10"},
+      {"positioning",
+       {{"noise.position.stddev", -1.0}},
+       "positioning front: noise.position.stddev is -1; it must lie between 0 and 1000"},
+  };
+  for (const BadParameters& bad : cases) {
+    const auto sensor = Make(Description(bad.type, bad.parameters));
+    ASSERT_FALSE(sensor) << bad.sentence;
+    EXPECT_EQ(sensor.error().Sentence(), bad.sentence);
+    EXPECT_EQ(sensor.error().code, base::ErrorCode::kInvalidArgument);
+  }
+}
+
+TEST(SensorRegistry, FindsTypesByNameAndAlias) {
+  EXPECT_EQ(Registry().names(),
+            (std::vector<std::string>{"altimeter", "battery", "contact", "gripper", "imu",
+                                      "joint_encoders", "lamp", "lidar", "logical_camera",
+                                      "magnetometer", "microphone", "navsat", "odometry",
+                                      "positioning", "radio", "sonar", "speaker"}));
+  EXPECT_EQ(Registry().Find("gpu_ray"), Registry().Find("lidar"));
+  EXPECT_EQ(Registry().Find("telepathy"), nullptr);
+  EXPECT_EQ(Registry().Find("sonar")->schema->name, "sensor_msgs/msg/Range");
+}
+
+TEST(SensorRegistry, RefusesANameThatIsTaken) {
+  SensorRegistry registry;
+  AddBuiltInSensors(registry);
+  SensorType type;
+  type.name = "scanner";
+  type.aliases = {"ray"};
+  const auto status = registry.Add(type);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().message,
+            "the sensor type scanner cannot take the name \"ray\": it is taken");
+  EXPECT_EQ(registry.Find("scanner"), nullptr);
+}
+
+}  // namespace
+}  // namespace gsv::sensing

@@ -1,0 +1,39 @@
+#include "gsv/sensing/rays/box_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gsv::sensing {
+namespace {
+
+using geometry::Bounds;
+
+// So few are looked at one by one.
+constexpr std::size_t kHandful = 8;
+
+// Where more boxes share a column, as when they are stacked or one stands far from a crowd, the
+// tree is quicker.
+constexpr double kMostCrowding = 12;
+
+bool FitsGrid(const Bounds& b) {
+  const auto fits = [](double x) { return std::abs(x) <= ColumnGrid::kFurthest; };  // NaN does not
+  return fits(b.min.x) && fits(b.min.y) && fits(b.max.x) && fits(b.max.y);
+}
+
+}  // namespace
+
+void BoxIndex::Build(std::span<const Bounds> boxes, bool often) {
+  count_ = static_cast<std::uint32_t>(boxes.size());
+  kind_ = Kind::kList;
+  if (boxes.size() <= kHandful) return;
+  if (std::all_of(boxes.begin(), boxes.end(), FitsGrid)) {
+    kind_ = Kind::kGrid;
+    grid_.Build(boxes);
+    if (grid_.crowding() <= kMostCrowding) return;
+  }
+  kind_ = Kind::kTree;
+  if (tree_ == nullptr) tree_ = std::make_unique<BoxTree>();
+  tree_->Build(boxes, often);
+}
+
+}  // namespace gsv::sensing

@@ -1,0 +1,58 @@
+// Boxes, arranged so that those near a ray are found quickly: a handful one by one, those that
+// stand side by side in a grid of columns, others in a tree.
+//
+// Exactness  no box that a ray passes through within its length is left out, by the limits that
+//            ColumnGrid and BoxTree state.
+// Threads    const members may run concurrently.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "gsv/sensing/rays/box_tree.h"
+#include "gsv/sensing/rays/column_grid.h"
+
+namespace gsv::sensing {
+
+class BoxIndex {
+ public:
+  // Replaces all boxes. `often` favours a quick build over quick rays.
+  void Build(std::span<const geometry::Bounds> boxes, bool often);
+
+  // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
+  // shorten; for some of them more than once.
+  template <class Visit>
+  void Walk(const Ray& ray, const double& length, const Visit& visit) const {
+    switch (kind_) {
+      case Kind::kList:
+        for (std::uint32_t i = 0; i < count_; ++i) visit(i);
+        return;
+      case Kind::kGrid:
+        grid_.Walk(ray, length, visit);
+        return;
+      case Kind::kTree:
+        tree_->Find(ray, length, visit);
+        return;
+    }
+  }
+
+  // Adds to `found`, once, every box that comes within `reach` of the place, and some others.
+  // False, and not all are added, if there is no room or no quick way to find them.
+  bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
+    if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
+    if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMost) return false;
+    for (std::uint32_t i = 0; i < count_; ++i) found.boxes[found.count++] = i;
+    return true;
+  }
+
+ private:
+  enum class Kind { kList, kGrid, kTree };
+
+  Kind kind_ = Kind::kList;
+  std::uint32_t count_ = 0;
+  ColumnGrid grid_;
+  std::unique_ptr<BoxTree> tree_;  // null until one was needed
+};
+
+}  // namespace gsv::sensing

@@ -1,0 +1,99 @@
+// Boxes sorted into the columns of a uniform grid over the ground, to find those near a ray.
+//
+// The grid is quick where boxes stand side by side, as a crowd and its obstacles do; see
+// crowding().
+//
+// Exactness    a box is listed in every column that it comes within kMargin of, so that a ray that
+//              rounding takes to the wrong side of a border still meets it, as long as coordinates
+//              stay below kFurthest.
+// Threads      const members may run concurrently.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gsv/geometry/triangle_mesh.h"
+#include "gsv/sensing/rays/ray_axis.h"
+#include "gsv/sensing/rays/ray_scene.h"
+
+namespace gsv::sensing {
+
+// Numbers of boxes, found near a place.
+struct FoundBoxes {
+  static constexpr std::size_t kMost = 256;
+  std::array<std::uint32_t, kMost> boxes;
+  std::size_t count = 0;
+};
+
+class ColumnGrid {
+ public:
+  static constexpr double kMargin = 1e-6;   // m
+  static constexpr double kFurthest = 1e5;  // m
+
+  // Sorts the boxes in, in place of those before. All lie within ±kFurthest in x and y.
+  void Build(std::span<const geometry::Bounds> boxes);
+
+  // How many boxes share a column, as a box sees it on average.
+  double crowding() const { return crowding_; }
+
+  // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
+  // shorten; for some of them more than once.
+  template <class Visit>
+  void Walk(const Ray& ray, const double& length, const Visit& visit) const {
+    const RayAxis x(ray.origin.x, ray.direction.x), y(ray.origin.y, ray.direction.y);
+    double begin = 0, end = 1000 * kFurthest;
+    x.Clip(low_x_, low_x_ + columns_ * cell_, begin, end);
+    y.Clip(low_y_, low_y_ + rows_ * cell_, begin, end);
+    if (!(begin <= std::min(end, length))) return;
+    // A ring of empty columns around the grid catches what rounding takes over its edge.
+    const int column = IndexOf(x.At(begin) - low_x_), row = IndexOf(y.At(begin) - low_y_);
+    double next_x = x.Reaches(low_x_ + (column - x.is_falling) * cell_);
+    double next_y = y.Reaches(low_y_ + (row - y.is_falling) * cell_);
+    const double step_x = cell_ * std::abs(x.inverse), step_y = cell_ * std::abs(y.inverse);
+    const std::ptrdiff_t stride = columns_ + 2;
+    const std::ptrdiff_t across = x.is_falling ? -1 : 1, along = y.is_falling ? -stride : stride;
+    for (const std::uint32_t* at = &starts_[row * stride + column];;) {
+      for (std::uint32_t i = at[0]; i < at[1]; ++i) visit(entries_[i] & kBox);
+      const double next = std::min(next_x, next_y);
+      if (next > std::min(end, length)) return;
+      const bool is_across = next_x < next_y;
+      at += is_across ? across : along;
+      next_x += is_across ? step_x : 0;
+      next_y += is_across ? 0 : step_y;
+    }
+  }
+
+  // Adds to `found`, once, every box that comes within `reach` of the place, and some others.
+  // False, and not all are added, if there is no room for that.
+  bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const;
+
+ private:
+  // An entry is a box's number and whether it is the one in the box's first column and first row.
+  static constexpr std::uint32_t kFirstColumn = 1u << 31, kFirstRow = 1u << 30;
+  static constexpr std::uint32_t kBox = kFirstRow - 1;
+
+  struct Range {
+    std::uint16_t first_column, last_column, first_row, last_row;
+  };
+
+  // The column (row) of a coordinate, counted from the ring.
+  int IndexOf(double from_low) const { return static_cast<int>(from_low * per_metre_ + 1); }
+  void Divide(double cell, double width, double depth);
+  // Counts the boxes of each column; false if there are more than `most` altogether.
+  bool Count(std::span<const geometry::Bounds> boxes, std::size_t most);
+
+  double low_x_ = 0, low_y_ = 0;
+  double cell_ = 1, per_metre_ = 1;  // a column is cell_ wide and deep
+  int columns_ = 0, rows_ = 0;       // without the ring
+  double crowding_ = 0;
+  std::vector<Range> ranges_;
+  std::vector<std::uint32_t> starts_{0, 0};  // of each column in `entries_`, and the end
+  std::vector<std::uint32_t> entries_;
+};
+
+}  // namespace gsv::sensing

@@ -1,0 +1,21 @@
+// The floor under a place: where to stand a robot that is given as (x, y) alone.
+#pragma once
+
+#include <functional>
+
+#include "gsv/sensing/rays/ray_scene.h"
+
+namespace gsv::sensing {
+
+// No floor that a robot is put on lies higher than this.
+inline constexpr double kHighestFloor = 0.3;  // m
+
+// The height of the highest surface at (x, y) that lies at kHighestFloor or below and is less steep
+// than 45°; 0 if there is none within ten metres down. A ground plane, a floor slab and a low
+// platform are floors; a table top is not.
+// Only bodies that `may_carry` accepts count: a robot's roof is no floor.
+double FloorHeight(
+    const RayScene& scene, double x, double y,
+    const std::function<bool(int body)>& may_carry = [](int) { return true; });
+
+}  // namespace gsv::sensing

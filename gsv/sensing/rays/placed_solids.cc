@@ -1,0 +1,299 @@
+#include "gsv/sensing/rays/placed_solids.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "gsv/base/check.h"
+#include "gsv/sensing/rays/surroundings.h"
+
+namespace gsv::sensing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using geometry::Bounds;
+using geometry::Pose;
+using geometry::Vector3;
+
+// So many parts are placed in one go by a thread.
+constexpr std::size_t kPartsAtOnce = 512;
+
+// Of a part with so few shapes all are cast at; of one with more, those that its index finds.
+constexpr std::uint32_t kFewShapes = 4;
+
+// Among surroundings the standing shapes are told from moving parts by this bit of their number.
+constexpr std::uint32_t kStanding = 1u << 31;
+
+bool IsSound(const Ray& ray) {
+  return ray.max_distance >= 0 && IsFinite(ray.origin) && IsFinite(ray.direction);
+}
+
+double DistanceOf(const Nearest& nearest) {
+  return nearest.body < 0 ? kInfinity : nearest.distance;
+}
+
+Ray Moved(const Pose& to_from, const Ray& ray, double length) {
+  return {to_from * ray.origin, to_from.orientation * ray.direction, length};
+}
+
+Bounds Around(const Ray& ray) {
+  const Vector3& a = ray.origin;
+  const Vector3 b = ray.origin + ray.max_distance * ray.direction;
+  return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+          {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
+}
+
+// Whether the ray comes within the ball.
+bool Passes(const Ray& ray, double length, const Ball& ball) {
+  const Vector3 to_centre = ball.centre - ray.origin;
+  const double along = std::clamp(Dot(to_centre, ray.direction), 0.0, length);
+  const Vector3 gap = to_centre - along * ray.direction;
+  return Dot(gap, gap) <= ball.radius * ball.radius;
+}
+
+// Calls cast(batch) for all the rays that for_rays(visit) visits.
+template <class ForRays, class Cast>
+void InBatches(RayBatch& batch, const ForRays& for_rays, const Cast& cast) {
+  batch.count = 0;
+  for_rays([&](const Vector3& direction, Nearest& found) {
+    batch.directions[batch.count] = direction;
+    batch.nearest[batch.count] = &found;
+    if (++batch.count < RayBatch::kMost) return;
+    cast(batch);
+    batch.count = 0;
+  });
+  if (batch.count > 0) cast(batch);
+}
+
+}  // namespace
+
+void PlacedSolids::Place(std::size_t index, const world::Snapshot& snapshot) {
+  const auto& [part, body] = solids_->moving[index];
+  Pose world_from_part = snapshot.state.bodies[body].world_from_model;
+  if (part->link >= 0) {
+    world_from_part = world_from_part * world::ModelFromLink(snapshot, body, part->link);
+  }
+  parts_[index] = {Inverse(world_from_part), part};
+  if (index >= solids_->bounded) return;
+  const Vector3 centre = world_from_part * part->ball.centre;
+  const double radius = part->ball.radius;
+  const Vector3 reach{radius, radius, radius};
+  balls_[index] = {{centre, radius}, body};
+  boxes_[index] = {centre - reach, centre + reach};
+}
+
+void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
+                          const world::Snapshot& snapshot, base::ThreadTeam* team) {
+  solids_ = std::move(solids);
+  parts_.resize(solids_->moving.size());
+  balls_.resize(solids_->bounded);
+  boxes_.resize(solids_->bounded);
+  const auto place = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) Place(i, snapshot);
+  };
+  if (team != nullptr) {
+    team->Share(parts_.size(), kPartsAtOnce, place);
+  } else {
+    place(0, parts_.size());
+  }
+  index_.Build(boxes_, /*often=*/true);
+}
+
+Bearer PlacedSolids::BearerOf(std::size_t part) const {
+  // Parts of one body are numbered above their primitives.
+  return {solids_->moving[part].body, static_cast<int>(part),
+          static_cast<std::uint32_t>(parts_[part].part->number) << 24};
+}
+
+void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const {
+  const auto& [part_from_world, part] = parts_[index];
+  part->solids.Cast(Moved(part_from_world, ray, nearest.distance), -1, nearest, BearerOf(index));
+}
+
+// Last, since triangles are many and what was hit before shortens the ray.
+void PlacedSolids::CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const {
+  for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
+    if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
+  }
+  solids_->standing.CastAtOthers(ray, ignored_body, nearest);
+}
+
+Nearest PlacedSolids::Find(const Ray& ray, int ignored_body) const {
+  Nearest nearest;
+  nearest.distance = ray.max_distance;
+  if (!IsSound(ray)) return nearest;
+  solids_->standing.CastAtShapes(ray, ignored_body, nearest);
+  index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
+    const auto& [ball, body] = balls_[i];
+    if (body != ignored_body && Passes(ray, nearest.distance, ball)) CastAtPart(i, ray, nearest);
+  });
+  CastAtRest(ray, ignored_body, nearest);
+  return nearest;
+}
+
+Vector3 PlacedSolids::NormalAt(const Nearest& nearest, const Ray& ray) const {
+  if (nearest.part < 0) return solids_->standing.NormalAt(nearest.solid, ray);
+  const auto& [part_from_world, part] = parts_[nearest.part];
+  return Inverse(part_from_world.orientation) *
+         part->solids.NormalAt(nearest.solid, Moved(part_from_world, ray, ray.max_distance));
+}
+
+std::optional<Hit> PlacedSolids::Cast(const Ray& ray, int ignored_body) const {
+  const Nearest nearest = Find(ray, ignored_body);
+  if (nearest.body < 0) return {};
+  return Hit{nearest.distance, NormalAt(nearest, ray), nearest.body};
+}
+
+void PlacedSolids::Cast(std::span<const Ray> rays, int ignored_body,
+                        std::span<std::optional<Hit>> hits) const {
+  GSV_CHECK(rays.size() == hits.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = Cast(rays[i], ignored_body);
+}
+
+double PlacedSolids::Range(const Ray& ray, int ignored_body) const {
+  return DistanceOf(Find(ray, ignored_body));
+}
+
+struct PlacedSolids::Shading {
+  Sector sector;
+  bool is_standing = false;
+  std::uint32_t number = 0;  // of the standing shape, or of the part
+};
+
+bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
+                                std::vector<Shading>& shadings) const {
+  const Vector3& place = fan.world_from_fan.position;
+  const double reach = fan.max_distance;
+  const auto is_near = [&](const Ball& ball) {
+    const Vector3 gap = ball.centre - place;
+    const double furthest = reach + ball.radius;
+    return Dot(gap, gap) <= furthest * furthest;
+  };
+  FoundBoxes found;
+  if (!solids_->standing.Near(place, reach, found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const std::uint32_t shape = found.boxes[i];
+    const SolidSet& standing = solids_->standing;
+    if (standing.BodyOfShape(shape) == ignored_body) continue;
+    if (!is_near(standing.BallOfShape(shape))) continue;
+    const auto sector = SectorOf(fan, standing.ShapeFromSet(shape) * fan.world_from_fan,
+                                 standing.OwnBoundsOfShape(shape));
+    if (sector) shadings.push_back({*sector, true, shape});
+  }
+  found.count = 0;
+  if (!index_.Near(place, reach, found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const std::uint32_t part = found.boxes[i];
+    const auto& [ball, body] = balls_[part];
+    if (body == ignored_body || !is_near(ball)) continue;
+    const auto sector = SectorOf(fan, parts_[part].part_from_world * fan.world_from_fan,
+                                 parts_[part].part->solids.bounds());
+    if (sector) shadings.push_back({*sector, false, part});
+  }
+  std::sort(shadings.begin(), shadings.end(),
+            [](const Shading& a, const Shading& b) { return a.sector.nearest < b.sector.nearest; });
+  return true;
+}
+
+bool PlacedSolids::RestReaches(const Fan& fan, int ignored_body) const {
+  for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
+    if (solids_->moving[i].body != ignored_body) return true;
+  }
+  return solids_->standing.OthersReach(fan);
+}
+
+void PlacedSolids::CastInto(const Shading& shading, const Fan& fan,
+                            std::span<const Vector3> directions, std::span<Nearest> nearest,
+                            RayBatch& batch) const {
+  const Vector3& place = fan.world_from_fan.position;
+  const auto for_rays = [&](const auto& visit) {
+    ForRaysIn(shading.sector, fan, [&](std::size_t i) {
+      if (nearest[i].distance >= shading.sector.nearest) visit(directions[i], nearest[i]);
+    });
+  };
+  if (shading.is_standing) {
+    const SolidSet& set = solids_->standing;
+    const Vector3 origin = set.ShapeFromSet(shading.number) * place;
+    return InBatches(batch, for_rays,
+                     [&](RayBatch& rays) { set.CastAtShapeFrom(origin, rays, shading.number); });
+  }
+  const Pose& part_from_world = parts_[shading.number].part_from_world;
+  const SolidSet& set = parts_[shading.number].part->solids;
+  const std::uint32_t shapes = set.ShapesAlone();
+  if (shapes == 0 || shapes > kFewShapes) {
+    return for_rays([&](const Vector3& direction, Nearest& found) {
+      CastAtPart(shading.number, {place, direction, found.distance}, found);
+    });
+  }
+  const Vector3 place_in_part = part_from_world * place;
+  const Bearer bearer = BearerOf(shading.number);
+  InBatches(batch, for_rays, [&](RayBatch& rays) {
+    for (std::size_t i = 0; i < rays.count; ++i) {
+      rays.directions[i] = part_from_world.orientation * rays.directions[i];
+    }
+    for (std::uint32_t i = 0; i < shapes; ++i) {
+      set.CastAtShapeFrom(set.ShapeFromSet(i) * place_in_part, rays, i, bearer);
+    }
+  });
+}
+
+void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const {
+  GSV_CHECK(ranges.size() == fan.directions.size());
+  const Pose& world_from_fan = fan.world_from_fan;
+  std::vector<Vector3> directions(ranges.size());
+  std::transform(fan.directions.begin(), fan.directions.end(), directions.begin(),
+                 [&](const Vector3& ray) { return world_from_fan.orientation * ray; });
+  const auto ray = [&](std::size_t i) -> Ray {
+    return {world_from_fan.position, directions[i], fan.max_distance};
+  };
+  std::vector<Shading> shadings;
+  shadings.reserve(FoundBoxes::kMost / 2);
+  const bool is_sound = geometry::IsFinite(world_from_fan) && fan.max_distance >= 0;
+  if (!is_sound || !FindShadings(fan, ignored_body, shadings)) {
+    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(ray(i), ignored_body);
+    return;
+  }
+  std::vector<Nearest> nearest(ranges.size(), Nearest{.distance = fan.max_distance});
+  RayBatch batch;
+  for (const Shading& shading : shadings) CastInto(shading, fan, directions, nearest, batch);
+  const bool has_rest = RestReaches(fan, ignored_body);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (has_rest) CastAtRest(ray(i), ignored_body, nearest[i]);
+    ranges[i] = DistanceOf(nearest[i]);
+  }
+}
+
+bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
+                          Surroundings& surroundings) const {
+  if (!IsFinite(place) || !(reach >= 0)) return false;
+  surroundings.Begin(place, reach);
+  FoundBoxes found;
+  if (!index_.Near(place, reach, found)) return false;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const auto& [ball, body] = balls_[found.boxes[i]];
+    const Vector3 gap = ball.centre - place;
+    const double furthest = reach + ball.radius;
+    surroundings.Add(ball, found.boxes[i],
+                     (body != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
+  }
+  return solids_->standing.Gather(surroundings, kStanding) && surroundings.Finish();
+}
+
+double PlacedSolids::Range(const Ray& ray, int ignored_body,
+                           const Surroundings& surroundings) const {
+  Nearest nearest;
+  nearest.distance = ray.max_distance;
+  if (!IsSound(ray)) return kInfinity;
+  const Bounds around = Around(ray);
+  surroundings.Find(ray, nearest.distance, [&](std::uint32_t i) {
+    const std::uint32_t shape = i & ~kStanding;
+    if (shape == i) return CastAtPart(i, ray, nearest);
+    if (!solids_->standing.ShapeReaches(shape, around)) return;
+    solids_->standing.CastAtShape(shape, ray, ignored_body, nearest);
+  });
+  CastAtRest(ray, ignored_body, nearest);
+  return DistanceOf(nearest);
+}
+
+}  // namespace gsv::sensing

@@ -1,0 +1,68 @@
+// The ray scene of one snapshot: the standing solids and the moving ones at their places.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/sensing/rays/box_index.h"
+#include "gsv/sensing/rays/layout_solids.h"
+
+namespace gsv::sensing {
+
+class PlacedSolids final : public RayScene {
+ public:
+  // Takes the places of `snapshot`, which has the layout of `solids`. Memory is kept for the next
+  // time. Not while rays are cast.
+  void MoveTo(std::shared_ptr<const LayoutSolids> solids, const world::Snapshot& snapshot,
+              base::ThreadTeam* team);
+
+  std::optional<Hit> Cast(const Ray& ray, int ignored_body) const override;
+  void Cast(std::span<const Ray> rays, int ignored_body,
+            std::span<std::optional<Hit>> hits) const override;
+  double Range(const Ray& ray, int ignored_body) const override;
+  void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const override;
+  bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
+              Surroundings& surroundings) const override;
+  double Range(const Ray& ray, int ignored_body, const Surroundings& surroundings) const override;
+
+ private:
+  struct PlacedPart {
+    geometry::Pose part_from_world;
+    const Part* part;
+  };
+  struct PlacedBall {
+    Ball ball;
+    int body;
+  };
+
+  struct Shading;  // a solid and the rays of a fan that it may stop
+
+  void Place(std::size_t index, const world::Snapshot& snapshot);
+  Nearest Find(const Ray& ray, int ignored_body) const;
+  geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
+  Bearer BearerOf(std::size_t part) const;
+  void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
+  // Of all bounded solids within the fan's reach, the nearest first; false if they are too many.
+  bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
+  void CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const;
+  // False if that finds nothing for any of a fan's rays.
+  bool RestReaches(const Fan& fan, int ignored_body) const;
+  // Casts those rays at the solid that it may stop, all of which leave the fan's place;
+  // directions[i] is ray i's, in the world; `batch` is room to work in.
+  void CastInto(const Shading& shading, const Fan& fan,
+                std::span<const geometry::Vector3> directions, std::span<Nearest> nearest,
+                RayBatch& batch) const;
+
+  std::shared_ptr<const LayoutSolids> solids_;
+  // As LayoutSolids::moving; the latter two of bounded parts only.
+  std::vector<PlacedPart> parts_;
+  std::vector<PlacedBall> balls_;
+  std::vector<geometry::Bounds> boxes_;
+  BoxIndex index_;  // of boxes_
+};
+
+}  // namespace gsv::sensing

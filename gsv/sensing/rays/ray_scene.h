@@ -1,0 +1,82 @@
+// The solids of a world at one instant, to cast rays against.
+//
+// Exactness    a grid or Embree only finds which primitives a ray may meet; the distance is then
+//              computed in double precision from the triangle or the analytic shape, the same on
+//              every machine and for every thread count.
+// Threads      const members may run concurrently.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/sensing/rays/fan.h"
+#include "gsv/world/snapshot.h"
+
+namespace gsv::sensing {
+
+struct Ray {
+  geometry::Vector3 origin;     // world
+  geometry::Vector3 direction;  // world, unit length
+  double max_distance = 0;      // m
+};
+
+struct Hit {
+  double distance = 0;       // m along the ray, in [0, max_distance]
+  geometry::Vector3 normal;  // world, unit length, against the ray
+  int body = -1;             // index in the layout
+};
+
+class Surroundings;
+
+class RayScene {
+ public:
+  virtual ~RayScene() = default;
+
+  // The nearest collision surface, entered or left, that is not of the body `ignored_body` (-1: of
+  // any). A ray that starts inside a solid hits the far side.
+  virtual std::optional<Hit> Cast(const Ray& ray, int ignored_body) const = 0;
+
+  // The same for many rays; hits[i] is rays[i]'s.
+  virtual void Cast(std::span<const Ray> rays, int ignored_body,
+                    std::span<std::optional<Hit>> hits) const = 0;
+
+  // The distance alone, which is found quicker: infinite where Cast() finds nothing.
+  virtual double Range(const Ray& ray, int ignored_body) const = 0;
+
+  // The same for all rays of a fan, which is quicker still: for each solid its rays are found, the
+  // nearest solids first. ranges[i] is ray i's.
+  virtual void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const = 0;
+
+  // Gathers the solids within `reach` of `place`, but not those of `ignored_body`: for several rays
+  // from there it is quicker to look for them once. False if they are too many for that.
+  virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
+                      Surroundings& surroundings) const = 0;
+
+  // The same as the other one, for rays that Surroundings::Hold() and their ignored body.
+  virtual double Range(const Ray& ray, int ignored_body,
+                       const Surroundings& surroundings) const = 0;
+};
+
+// Ray scenes for snapshots, built when asked for. The static part is built once a layout, and a
+// scene that nobody holds any more is moved on to the next snapshot.
+class RaySceneCache {
+ public:
+  RaySceneCache();
+  ~RaySceneCache();
+  RaySceneCache(const RaySceneCache&) = delete;
+  RaySceneCache& operator=(const RaySceneCache&) = delete;
+
+  // Any thread; callers with the same snapshot get the same scene. A scene that has to be built is
+  // shared out over `team`, if there is one.
+  std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
+                                     base::ThreadTeam* team = nullptr);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gsv::sensing

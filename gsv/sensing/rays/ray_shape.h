@@ -1,0 +1,33 @@
+// Rays against single shapes, in closed form and double precision.
+//
+// Frames   ray and result are in the shape's frame; distances are along the unit direction.
+// Result   the distance to the first crossing of the surface, from outside or inside, within
+//          [0, ray.max_distance]; a touch counts as a crossing. Without a crossing nothing. The
+//          normal is that of the surface there, of unit length and against the ray, for a ray that
+//          was found to cross it.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "gsv/geometry/shape.h"
+#include "gsv/sensing/rays/ray_scene.h"
+
+namespace gsv::sensing {
+
+// A corner and the two edges that leave it.
+struct Triangle {
+  geometry::Vector3 corner, edge1, edge2;
+};
+
+std::optional<double> DistanceToTriangle(const Ray& ray, const Triangle& triangle);
+geometry::Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle);
+
+// A Plane is a half-space's surface, without end; a Mesh is not for these functions.
+std::optional<double> DistanceToShape(const Ray& ray, const geometry::Shape& shape);
+// The same for many rays; infinite without a crossing.
+void DistancesToShape(std::span<const Ray> rays, const geometry::Shape& shape,
+                      std::span<double> distances);
+geometry::Vector3 NormalOfShape(const Ray& ray, const geometry::Shape& shape);
+
+}  // namespace gsv::sensing

@@ -1,0 +1,39 @@
+// How fast a simulation runs against the wall clock.
+#pragma once
+
+#include <deque>
+
+#include "gsv/base/sim_time.h"
+#include "gsv/simulation/pace/wall_clock.h"
+
+namespace gsv::simulation {
+
+class RunStatistics {
+ public:
+  void Started(WallTime wall, base::SimTime time);
+  void Stopped(WallTime wall, base::SimTime time);
+  // Called after each step, which took `duration`; keeps about ten samples a second.
+  void Stepped(WallTime wall, base::SimTime time, WallDuration duration);
+
+  // Simulated seconds a wall second: over the last second while running, else over all runs.
+  double real_time_factor() const;
+  // Spent running, up to the last call.
+  WallDuration wall_time() const;
+  WallDuration mean_step_time() const;
+
+ private:
+  struct Sample {
+    WallTime wall;
+    base::SimTime time;
+  };
+  bool running_ = false;
+  Sample start_{};
+  Sample latest_{};
+  std::deque<Sample> recent_;
+  WallDuration wall_before_{};
+  WallDuration in_steps_{};
+  std::int64_t steps_ = 0;
+  base::SimTime time_before_{0};
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,56 @@
+// Whom the simulation waits for: the clocks of one agent. Pure bookkeeping, no threads, no time of
+// its own.
+//
+// An agent runs from its start until all of its clocks wait for later instants; it has finished
+// when all of them are closed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "gsv/base/hash.h"
+#include "gsv/base/sim_time.h"
+#include "gsv/simulation/robots/agent.h"
+
+namespace gsv::simulation {
+
+class AgentClocks {
+ public:
+  // A new clock; it runs.
+  ClockId Open();
+  bool IsOpen(ClockId clock) const { return clocks_.contains(clock); }
+  void Close(ClockId clock) { clocks_.erase(clock); }
+
+  // The clock waits for the first step time at or after `until`. True when that is already here,
+  // the clock then runs on. Repeating a wait that is over, or still on, changes nothing.
+  bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
+
+  bool IsWaiting(ClockId clock) const;
+  bool IsWaitingUntil(ClockId clock, base::SimTime until) const;
+
+  // Ends the waits for instants up to `now`. True when a clock that waited runs again.
+  bool Wake(base::SimTime now);
+
+  int count() const { return static_cast<int>(clocks_.size()); }  // open ones
+  bool HasOpened() const { return next_id_ > 1; }
+  bool IsFinished() const { return HasOpened() && clocks_.empty(); }
+  // Some clock runs, or none has been opened yet.
+  bool IsRunning() const;
+
+  // The cycle number of the last exchange of a clock that commanded; 0: none.
+  std::uint64_t last_cycle(ClockId clock) const;
+  void set_last_cycle(ClockId clock, std::uint64_t cycle);
+
+  void AddToHash(base::Hash& hash) const;
+
+ private:
+  struct Clock {
+    bool waiting = false;
+    base::SimTime until{0};
+    std::uint64_t last_cycle = 0;
+  };
+  std::map<ClockId, Clock> clocks_;  // open ones
+  ClockId next_id_ = 1;
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,117 @@
+#include "gsv/simulation/robots/mounted_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gsv::simulation {
+namespace {
+
+// Samples under way at one moment: each holds a snapshot of the whole world.
+constexpr double kMostUnderWay = 100;
+
+// The parameter `latency` (s, 0) is common to all types.
+base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
+                                const std::string& where) {
+  const auto refuse = [&](const char* sentence) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, sentence, where);
+  };
+  const double rate = description.update_rate;
+  if (!std::isfinite(rate) || rate < 0 || rate > 1e6) {
+    return refuse("the update rate must lie between 0 and 1e6 Hz");
+  }
+  const double latency = model::NumberOr(description.parameters, "latency", 0);
+  if (!(latency >= 0 && latency <= 10)) return refuse("the latency must lie between 0 and 10 s");
+  if (latency > 0 && rate == 0) return refuse("a sensor with a latency needs an update rate");
+  if (latency * rate > kMostUnderWay) {
+    return refuse("the latency must not be longer than 100 readings take");
+  }
+  if (rate == 0) return Cadence{};
+  return Cadence{base::FromSeconds(1 / rate), base::FromSeconds(latency)};
+}
+
+}  // namespace
+
+base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription description,
+                                               const sensing::SensorRegistry& types,
+                                               const std::string& where) {
+  const sensing::SensorType* type = types.Find(description.type);
+  if (type == nullptr) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "there is no sensor type \"" + description.type + "\"", where);
+  }
+  const auto cadence = CadenceOf(description, where);
+  if (!cadence) return base::Fail(cadence.error());
+  description.type = type->name;
+  auto design = std::make_shared<SensorDesign>();
+  auto sensor = type->create(description);
+  if (!sensor) return base::Fail(sensor.error());
+  design->sensor = *std::move(sensor);
+  design->cadence = *cadence;
+  design->description = std::move(description);
+  return design;
+}
+
+std::shared_ptr<const SensorDesigns::List> SensorDesigns::Of(
+    const std::shared_ptr<const model::Model>& model) {
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const List>& known = known_[model];
+  if (known != nullptr) return known;
+  List designs;
+  for (const model::SensorDescription& description : model->sensors) {
+    auto design = MakeSensorDesign(description, *types_, model->name + "/" + description.name);
+    if (!design) {
+      auto refused = std::make_shared<SensorDesign>();
+      refused->description = description;
+      refused->refusal = design.error();
+      design = std::move(refused);
+    }
+    designs.push_back(*std::move(design));
+  }
+  std::stable_sort(designs.begin(), designs.end(), [](const auto& a, const auto& b) {
+    return a->description.name < b->description.name;
+  });
+  known = std::make_shared<const List>(std::move(designs));
+  return known;
+}
+
+base::Result<sensing::Reading> MountedSensor::Read(const sensing::Sampling& sampling) {
+  if (design_->sensor == nullptr) return base::Fail(design_->refusal);
+  const std::lock_guard lock(mutex_);
+  if (!has_failed_) return SampleOnce(sampling);
+  if (silent_since_ == nullptr) {
+    return base::Fail(base::ErrorCode::kUnavailable, "the sensor has failed", name());
+  }
+  const int body = silent_since_->layout->Find(sampling.robot().name);
+  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", name());
+  return SampleOnce(sampling.At(silent_since_, body));
+}
+
+base::Result<sensing::Reading> MountedSensor::SampleOnce(const sensing::Sampling& sampling) {
+  const world::Snapshot& snapshot = *sampling.snapshot();
+  if (sampled_step_ == snapshot.state.step && sampled_layout_ == snapshot.layout->version) {
+    return newest_;
+  }
+  auto reading = design_->sensor->Sample(sampling);
+  if (!reading) return reading;
+  sampled_step_ = snapshot.state.step;
+  sampled_layout_ = snapshot.layout->version;
+  newest_ = *reading;
+  return reading;
+}
+
+void MountedSensor::Fail(std::shared_ptr<const world::Snapshot> snapshot) {
+  const std::lock_guard lock(mutex_);
+  has_failed_ = true;
+  silent_since_ = std::move(snapshot);
+}
+
+void MountedSensor::Forget() {
+  const std::lock_guard lock(mutex_);
+  has_failed_ = false;
+  silent_since_ = nullptr;
+  sampled_step_ = -1;
+  newest_ = {};
+  readings_ = 0;
+}
+
+}  // namespace gsv::simulation

@@ -1,0 +1,512 @@
+#include "gsv/simulation/robots/robot_agent.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "gsv/sensing/actuator.h"
+
+namespace gsv::simulation {
+namespace {
+
+constexpr int kMaxClocks = 64;
+
+base::Error NotRunning(const std::string& robot) {
+  return {base::ErrorCode::kNotRunning,
+          "in lockstep a behaviour may command and read only while it runs, and this one waits",
+          robot};
+}
+
+}  // namespace
+
+RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
+                       std::shared_ptr<SharedState> shared)
+    : robot_(std::move(robot)),
+      model_(std::move(model)),
+      is_avatar_(is_avatar),
+      shared_(std::move(shared)),
+      rack_(robot_, model_, shared_->designs) {
+  for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
+    shared_->history.Use(design->cadence);
+  }
+}
+
+void RobotAgent::SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) {
+  behaviour_ = std::move(behaviour);
+  Recount();
+}
+
+void RobotAgent::Recount() {
+  const bool holds_up = HoldsUp();
+  if (holds_up == is_counted_) return;
+  is_counted_ = holds_up;
+  shared_->running += holds_up ? 1 : -1;
+  const bool is_waited_for = shared_->mode == Mode::kLockstep;
+  if (shared_->running == 0 && is_waited_for) shared_->changed.notify_all();
+}
+
+void RobotAgent::Pend(const PendingCommand& command) {
+  pending_ = command;
+  Announce();
+}
+
+void RobotAgent::Announce() {
+  if (std::exchange(is_commanded_, true)) return;
+  shared_->commanded.push_back(this);
+}
+
+base::Status RobotAgent::CheckAlive(const std::unique_lock<std::mutex>&) const {
+  if (is_gone_) return base::Fail(base::ErrorCode::kEnded, "the robot has been removed", robot_);
+  if (!shared_->end_reason.empty()) {
+    return base::Fail(base::ErrorCode::kEnded, shared_->end_reason, robot_);
+  }
+  if (fate_ != Fate::kAlive) return base::Fail(base::ErrorCode::kEnded, detail_, robot_);
+  return {};
+}
+
+base::Status RobotAgent::CheckMayAct(const std::unique_lock<std::mutex>& lock) const {
+  if (auto alive = CheckAlive(lock); !alive) return alive;
+  const bool waits = shared_->mode == Mode::kLockstep && started_ && behaviour_ != nullptr &&
+                     clocks_.HasOpened() && !clocks_.IsFinished() && !clocks_.IsRunning();
+  return waits ? base::Fail(NotRunning(robot_)) : base::Status();
+}
+
+base::Status RobotAgent::CheckClock(ClockId clock) const {
+  if (clocks_.IsOpen(clock)) return {};
+  return base::Fail(base::ErrorCode::kEnded, "the clock is closed", robot_);
+}
+
+base::Result<ClockId> RobotAgent::OpenClock() {
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+  const ClockId clock = clocks_.Open();
+  if (clocks_.count() > kMaxClocks) {
+    clocks_.Close(clock);
+    return base::Fail(base::ErrorCode::kInvalidArgument, "an agent has at most 64 clocks open",
+                      robot_);
+  }
+  Recount();
+  return clock;
+}
+
+base::Status RobotAgent::CloseClock(ClockId clock) {
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckClock(clock); !ok) return ok;
+  clocks_.Close(clock);
+  gate_.Open();
+  Recount();
+  return {};
+}
+
+SimTime RobotAgent::Now() const {
+  const std::unique_lock lock = shared_->LockForAgent();
+  return shared_->now;
+}
+
+base::Result<Wait> RobotAgent::SleepUntil(ClockId clock, SimTime until,
+                                          std::chrono::milliseconds lease) {
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+  if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
+  return WaitOn(lock, clock, until, lease);
+}
+
+bool RobotAgent::BeginWait(ClockId clock, SimTime until) {
+  const bool waits_already = clocks_.IsWaitingUntil(clock, until);
+  if (clocks_.WaitUntil(clock, until, shared_->now)) return false;
+  if (!waits_already) shared_->sleepers.Add(until, this);
+  Recount();
+  return true;
+}
+
+base::Result<Wait> RobotAgent::WaitOn(std::unique_lock<std::mutex>& lock, ClockId clock,
+                                      SimTime until, std::chrono::milliseconds lease) {
+  if (!BeginWait(clock, until)) return Wait::kReached;
+  const WallTime lease_ends = WallNow() + lease;
+  for (;;) {
+    const std::uint64_t openings = gate_.openings();
+    lock.unlock();
+    const bool was_opened = gate_.WaitBeyond(openings, lease_ends);
+    lock = shared_->LockForAgent();
+    if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+    if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
+    if (!clocks_.IsWaiting(clock)) return Wait::kReached;
+    if (!was_opened) return Wait::kNotYet;
+  }
+}
+
+base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
+                                             std::optional<world::DriveCommand> command,
+                                             SimTime until, std::chrono::milliseconds lease) {
+  Exchanged exchanged;
+  {
+    std::unique_lock lock = shared_->LockForAgent();
+    if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+    if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
+    const std::uint64_t last = clocks_.last_cycle(clock);
+    if (cycle == last + 1) {
+      if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+      if (command && !world::IsFinite(*command)) {
+        return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
+      }
+      clocks_.set_last_cycle(clock, cycle);
+      if (command && (!pending_ || clock >= pending_->clock)) Pend({clock, *command});
+    } else if (cycle != last || cycle == 0) {
+      return base::Fail(
+          base::ErrorCode::kInvalidArgument,
+          "exchange cycle " + std::to_string(cycle) + " does not follow " + std::to_string(last),
+          robot_);
+    }
+    auto wait = WaitOn(lock, clock, until, lease);
+    if (!wait) return base::Fail(wait.error());
+    exchanged.wait = *wait;
+    exchanged.now = shared_->now;
+  }
+  if (exchanged.wait == Wait::kReached) {
+    auto readings = ReadOpenSensors();
+    if (!readings) return base::Fail(readings.error());
+    exchanged.readings = *std::move(readings);
+  }
+  return exchanged;
+}
+
+base::Result<std::vector<NamedReading>> RobotAgent::ReadOpenSensors() {
+  std::vector<NamedReading> readings;
+  for (const MountedSensorPtr& sensor : rack_.OpenSensors()) {
+    auto reading = Sample(*sensor);
+    if (!reading) return base::Fail(reading.error());
+    sensor->CountReading();
+    readings.push_back({sensor->name(), *std::move(reading)});
+  }
+  return readings;
+}
+
+base::Status RobotAgent::Command(const world::DriveCommand& command) {
+  if (!world::IsFinite(command)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
+  }
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  if (!pending_ || pending_->clock == 0) Pend({0, command});
+  return {};
+}
+
+base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& command) {
+  const auto snapshot = shared_->history.latest();
+  const int body = snapshot->layout->Find(robot_);
+  if (body < 0) {
+    return base::Fail(base::ErrorCode::kNotRunning, "the robot does not stand in the world yet",
+                      robot_);
+  }
+  const world::Body& robot = snapshot->layout->bodies[static_cast<std::size_t>(body)];
+  if (auto ok = world::CheckJointCommand(robot, joint, command); !ok) return ok;
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  pending_joints_.emplace_back(joint, command);
+  Announce();
+  return {};
+}
+
+base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
+  {
+    std::unique_lock lock = shared_->LockForAgent();
+    if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+  }
+  const auto snapshot = shared_->history.latest();
+  const int body = snapshot->layout->Find(robot_);
+  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
+  if (joint < 0 || joint >= static_cast<int>(model_->joints.size())) {
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "there is no joint number " + std::to_string(joint), robot_);
+  }
+  return JointReadingIn(*snapshot, body, joint);
+}
+
+base::Status RobotAgent::OpenSensor(const std::string& name) {
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  if (auto ok = rack_.Open(name); !ok) return ok;
+  SwitchOn(**rack_.Find(name));
+  return {};
+}
+
+void RobotAgent::SwitchOn(const MountedSensor& sensor) {
+  const world::RadioSetupPtr setup = sensor.radio();
+  if (setup == nullptr) return;
+  // What a radio that is on already would not notice is left out, so that the list stays short.
+  const auto last = std::find_if(radio_acts_.switches.rbegin(), radio_acts_.switches.rend(),
+                                 [&](const RadioSwitch& s) { return s.sensor == sensor.name(); });
+  if (last != radio_acts_.switches.rend() && last->setup != nullptr) return;
+  radio_acts_.switches.push_back({sensor.name(), setup});
+  Announce();
+}
+
+base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  const std::string name = description.name;
+  auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
+  if (!created) return created;
+  const MountedSensorPtr sensor = *rack_.Find(name);
+  shared_->history.Use(sensor->design().cadence);
+  SwitchOn(*sensor);
+  StartActuator(*sensor);
+  return {};
+}
+
+base::Status RobotAgent::CloseSensor(const std::string& name) {
+  std::unique_lock lock = shared_->LockForAgent();
+  const auto sensor = rack_.Find(name);
+  if (auto ok = rack_.Close(name); !ok) return ok;
+  if ((*sensor)->radio() != nullptr && CheckAlive(lock)) {
+    std::erase_if(radio_acts_.switches, [&](const RadioSwitch& s) { return s.sensor == name; });
+    radio_acts_.switches.push_back({name, nullptr});
+    Announce();
+  }
+  const sensing::Actuator* const actuator = (*sensor)->actuator();
+  // One of the model goes on with what it does.
+  if (actuator != nullptr && !rack_.Find(name) && CheckAlive(lock)) {
+    Add({name, actuator->setup(), std::nullopt}, actuator_acts_);
+    Announce();
+  }
+  return {};
+}
+
+base::Status RobotAgent::Act(const std::string& actuator, world::ActuatorOrder order) {
+  const auto mounted = rack_.Find(actuator);
+  if (!mounted) return base::Fail(mounted.error());
+  auto act = MakeAct(**mounted, std::move(order), robot_);
+  if (!act) return base::Fail(act.error());
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  Add(*std::move(act), actuator_acts_);
+  Announce();
+  return {};
+}
+
+void RobotAgent::StartActuator(const MountedSensor& sensor) {
+  const sensing::Actuator* const actuator = sensor.actuator();
+  const auto order = actuator != nullptr ? actuator->first() : std::nullopt;
+  if (!order) return;
+  Add({sensor.name(), actuator->setup(), *order}, actuator_acts_);
+  Announce();
+}
+
+void RobotAgent::StartActuators() {
+  for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
+    StartActuator(MountedSensor(design));
+  }
+}
+
+base::Status RobotAgent::Send(const std::string& radio, const std::string& receiver,
+                              std::string content) {
+  const auto mounted = rack_.Find(radio);
+  if (!mounted) return base::Fail(mounted.error());
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  auto sending = MakeSending(**mounted, receiver, std::move(content), radio_acts_, robot_);
+  if (!sending) return base::Fail(sending.error());
+  radio_acts_.sendings.push_back(*std::move(sending));
+  Announce();
+  return {};
+}
+
+base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
+  const auto snapshot = shared_->history.At(sensor.design().cadence);
+  const int body = snapshot->layout->Find(robot_);
+  if (body < 0) return base::Fail(base::ErrorCode::kEnded, "the robot is gone", robot_);
+  return sensor.Read({snapshot, body, shared_->seed, shared_->rays});
+}
+
+base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {
+  {
+    std::unique_lock lock = shared_->LockForAgent();
+    if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+  }
+  const auto mounted = rack_.Find(sensor);
+  if (!mounted) return base::Fail(mounted.error());
+  auto reading = Sample(**mounted);
+  if (reading) (*mounted)->CountReading();
+  return reading;
+}
+
+base::Result<sensing::Reading> RobotAgent::Watch(const std::string& sensor) {
+  const auto mounted = rack_.Find(sensor);
+  if (!mounted) return base::Fail(mounted.error());
+  return Sample(**mounted);
+}
+
+void RobotAgent::MarkStarted() {
+  started_ = true;
+  running_since_ = WallNow();
+  Recount();
+}
+
+bool RobotAgent::HoldsUp() const {
+  return started_ && behaviour_ != nullptr && behaviour_->time_managed() && is_alive() &&
+         !is_gone_ && clocks_.IsRunning();
+}
+
+bool RobotAgent::IsAtWork() const {
+  return HoldsUp() && (!is_hosted() || in_turn_since() || is_blocked_);
+}
+
+RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
+  const bool woke = clocks_.Wake(now);
+  const bool dies = death_reported_ && fate_ == Fate::kAlive && (woke || clocks_.IsRunning());
+  if (dies) {
+    fate_ = Fate::kDead;
+    StopDriving();
+  }
+  if (woke) {
+    running_since_ = wall_now;
+    if (!dies && is_hosted()) MakeReady();
+  }
+  if (woke || dies) Recount();
+  return {woke || dies, dies};
+}
+
+void RobotAgent::MarkUnresponsive(std::string detail) {
+  fate_ = Fate::kUnresponsive;
+  detail_ = std::move(detail);
+  StopDriving();
+  gate_.Open();
+  Recount();
+}
+
+void RobotAgent::ReportDeath(std::string detail) {
+  death_reported_ = true;
+  detail_ = std::move(detail);
+  shared_->has_reported_deaths = true;
+  Recount();
+}
+
+void RobotAgent::MakeReady() {
+  is_blocked_ = false;
+  shared_->ready.push_back(this);
+}
+
+void RobotAgent::TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling) {
+  sampling.MoveTo(body_);
+  turn_ = Turn(instant, sampling);
+  turn_began_ = WallNow();
+  behaviour_->local()->TakeTurn(turn_);
+  turn_began_ = WallTime();
+}
+
+std::optional<WallTime> RobotAgent::in_turn_since() const {
+  const WallTime began = turn_began_;
+  return began == WallTime() ? std::nullopt : std::optional(began);
+}
+
+std::function<void()> RobotAgent::Settle() {
+  const ClockId clock = behaviour_->local()->clock();
+  if (is_gone_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
+  clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
+  if (turn_.command_) Pend({turn_.exchanges_ > 0 ? clock : 0, *turn_.command_});
+  if (!turn_.joint_commands_.empty()) {
+    pending_joints_.insert(pending_joints_.end(), turn_.joint_commands_.begin(),
+                           turn_.joint_commands_.end());
+    Announce();
+  }
+  if (!turn_.radio_.sendings.empty()) {
+    auto& sendings = turn_.radio_.sendings;
+    std::move(sendings.begin(), sendings.end(), std::back_inserter(radio_acts_.sendings));
+    Announce();
+  }
+  for (ActuatorAct& act : turn_.actuator_acts_) {
+    Add(std::move(act), actuator_acts_);
+    Announce();
+  }
+  if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
+    is_blocked_ = true;
+    return std::move(blocked->work);
+  }
+  if (const auto* waiting = std::get_if<Turn::Waiting>(&turn_.end_)) {
+    if (!BeginWait(clock, waiting->until)) MakeReady();
+  } else {
+    clocks_.Close(clock);
+    Recount();
+  }
+  return {};
+}
+
+std::optional<world::DriveCommand> RobotAgent::TakeCommand() {
+  is_commanded_ = false;
+  if (!pending_) return std::nullopt;
+  const world::DriveCommand command = pending_->command;
+  pending_.reset();
+  return command;
+}
+
+std::vector<std::pair<int, world::JointCommand>> RobotAgent::TakeJointCommands() {
+  return std::exchange(pending_joints_, {});
+}
+
+void RobotAgent::LoseMotor() {
+  has_motor_ = false;
+  StopDriving();
+}
+
+void RobotAgent::LoseJoint(int joint) {
+  lost_joints_.insert(joint);
+  std::erase_if(pending_joints_, [&](const auto& command) { return command.first == joint; });
+}
+
+void RobotAgent::MarkGone() {
+  is_gone_ = true;
+  gate_.Open();
+  Recount();
+}
+
+void RobotAgent::ResetClocks() {
+  clocks_ = AgentClocks();
+  pending_.reset();
+  pending_joints_.clear();
+  radio_acts_ = {};
+  actuator_acts_.clear();
+  is_commanded_ = false;
+  started_ = false;
+  has_motor_ = true;
+  lost_joints_.clear();
+  death_reported_ = false;
+  fate_ = Fate::kAlive;
+  detail_.clear();
+  Recount();
+}
+
+void RobotAgent::FillStatus(RobotStatus& status) const {
+  status.name = robot_;
+  status.model = model_->name;
+  status.behaviour = behaviour_ != nullptr ? behaviour_->name() : "";
+  status.is_avatar = is_avatar_;
+  status.detail = detail_;
+  status.readings = rack_.readings_by_type();
+  if (behaviour_ == nullptr) {
+    status.phase = AgentPhase::kNone;
+  } else if (fate_ == Fate::kDead || death_reported_) {
+    status.phase = AgentPhase::kDead;
+  } else if (fate_ == Fate::kUnresponsive) {
+    status.phase = AgentPhase::kUnresponsive;
+  } else if (!started_) {
+    status.phase = AgentPhase::kInitialised;
+  } else if (clocks_.IsFinished()) {
+    status.phase = AgentPhase::kFinished;
+  } else {
+    status.phase = clocks_.IsRunning() ? AgentPhase::kRunning : AgentPhase::kWaiting;
+  }
+}
+
+std::string RobotAgent::Describe() const {
+  if (behaviour_ == nullptr) return robot_;
+  return robot_ + " (" + behaviour_->name() + " on " + behaviour_->place() + ")";
+}
+
+void RobotAgent::AddToHash(base::Hash& hash) const {
+  hash.Add(std::string_view(robot_));
+  hash.Add(std::uint64_t{behaviour_ != nullptr});
+  hash.Add(static_cast<std::uint64_t>(fate_));
+  clocks_.AddToHash(hash);
+}
+
+}  // namespace gsv::simulation

@@ -1,0 +1,179 @@
+// The Agent of one robot. What the stepping thread sees of it is guarded by SharedState::mutex; the
+// members under "stepping" need it held.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <set>
+
+#include "gsv/simulation/pace/wall_clock.h"
+#include "gsv/simulation/robots/actuator_acts.h"
+#include "gsv/simulation/robots/agent.h"
+#include "gsv/simulation/robots/agent_clocks.h"
+#include "gsv/simulation/robots/local_behaviour.h"
+#include "gsv/simulation/robots/radio_channel.h"
+#include "gsv/simulation/robots/shared_state.h"
+#include "gsv/simulation/robots/wait_gate.h"
+
+namespace gsv::simulation {
+
+class RobotAgent final : public Agent, public std::enable_shared_from_this<RobotAgent> {
+ public:
+  RobotAgent(std::string robot, std::shared_ptr<const model::Model> model, bool is_avatar,
+             std::shared_ptr<SharedState> shared);
+
+  // Agent.
+  const std::string& robot() const override { return robot_; }
+  std::string model() const override { return model_->name; }
+  double footprint_radius() const override { return model::FootprintRadius(*model_); }
+  geometry::Pose RobotFromLink(int link) const override {
+    return model_->links.at(link).model_from_link;
+  }
+  base::Result<ClockId> OpenClock() override;
+  base::Status CloseClock(ClockId clock) override;
+  SimTime Now() const override;
+  base::Result<Wait> SleepUntil(ClockId clock, SimTime until,
+                                std::chrono::milliseconds lease) override;
+  base::Result<Exchanged> Exchange(ClockId clock, std::uint64_t cycle,
+                                   std::optional<world::DriveCommand> command, SimTime until,
+                                   std::chrono::milliseconds lease) override;
+  base::Status Command(const world::DriveCommand& command) override;
+  const std::vector<model::Joint>& Joints() const override { return model_->joints; }
+  base::Status CommandJoint(int joint, const world::JointCommand& command) override;
+  base::Result<JointReading> ReadJoint(int joint) override;
+  std::vector<model::SensorDescription> Sensors() const override { return rack_.Descriptions(); }
+  std::vector<std::string> SensorTypes() const override { return rack_.TypeNames(); }
+  base::Status OpenSensor(const std::string& name) override;
+  base::Status CreateSensor(model::SensorDescription description) override;
+  base::Status CloseSensor(const std::string& name) override;
+  base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const override {
+    return rack_.Find(sensor);
+  }
+  base::Result<sensing::Reading> Read(const std::string& sensor) override;
+  base::Status Send(const std::string& radio, const std::string& receiver,
+                    std::string content) override;
+  base::Status Act(const std::string& actuator, world::ActuatorOrder order) override;
+
+  // A reading for somebody who watches.
+  base::Result<sensing::Reading> Watch(const std::string& sensor);
+
+  // Stepping.
+  void SetBody(int body) { body_ = body; }  // its index in the present layout
+  int body() const { return body_; }
+  void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour);
+  const std::shared_ptr<BehaviourPort>& behaviour() const { return behaviour_; }
+  // Its behaviour is in this process: it takes turns, and no thread waits for it.
+  bool is_hosted() const { return behaviour_ != nullptr && behaviour_->local() != nullptr; }
+  void MarkStarted();
+  bool is_started() const { return started_; }
+  // The simulation must not step: the agent is waited for and runs.
+  bool HoldsUp() const;
+  // It holds up the simulation, and not only because others have their turn before it.
+  bool IsAtWork() const;
+  WallTime running_since() const { return running_since_; }
+  struct Woken {
+    bool has_passed = false;  // its gate is to be opened, best outside of all locks
+    bool has_died = false;    // a reported death has taken effect
+  };
+  // Ends waits up to `now`.
+  Woken Wake(SimTime now, WallTime wall_now);
+  // Where its waiting calls stand; once it is open they look whether their wait is over.
+  std::shared_ptr<WaitGate> gate() { return {shared_from_this(), &gate_}; }
+  // It runs and will never wait: takes effect at once.
+  void MarkUnresponsive(std::string detail);
+  // Its end is known; takes effect at its next wake, at once if it runs.
+  void ReportDeath(std::string detail);
+  bool is_alive() const { return fate_ == Fate::kAlive && !death_reported_; }
+  bool is_watched() const { return behaviour_ != nullptr && is_alive() && !is_gone_; }
+  // What is to act from this step on, once.
+  std::optional<world::DriveCommand> TakeCommand();
+  // The same for its joints, each with its index in the robot's model; the last of a joint holds.
+  std::vector<std::pair<int, world::JointCommand>> TakeJointCommands();
+  // What it has done with its radios.
+  RadioActs TakeRadioActs() { return std::exchange(radio_acts_, {}); }
+  // What its actuators were told.
+  ActuatorActs TakeActuatorActs() { return std::exchange(actuator_acts_, {}); }
+  // Has its actuators do what they do from the start.
+  void StartActuators();
+  // Faults: from the next step on its drive stands still, or nothing moves that joint.
+  void LoseMotor();
+  void LoseJoint(int joint);
+  bool has_motor() const { return has_motor_; }
+  bool MayMoveJoint(int joint) const { return !lost_joints_.contains(joint); }
+  void MarkGone();
+  bool is_gone() const { return is_gone_; }
+  void ResetClocks();
+  void FillStatus(RobotStatus& status) const;
+  std::string Describe() const;  // "robot_3 (wander on host:pid)"
+  void AddToHash(base::Hash& hash) const;
+  SensorRack& rack() { return rack_; }
+
+  // A local behaviour's turn. TakeTurn() needs no lock; Settle() enters what came of it, and gives
+  // the work that the behaviour is blocked on, if it is.
+  void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
+  // When the turn began that is under way; empty between turns. Any thread.
+  std::optional<WallTime> in_turn_since() const;
+  std::function<void()> Settle();
+  // The turn of its local behaviour has come.
+  void MakeReady();
+
+ private:
+  enum class Fate { kAlive, kUnresponsive, kDead };
+
+  base::Status CheckMayAct(const std::unique_lock<std::mutex>& lock) const;
+  base::Status CheckAlive(const std::unique_lock<std::mutex>& lock) const;
+  base::Status CheckClock(ClockId clock) const;
+  base::Result<Wait> WaitOn(std::unique_lock<std::mutex>& lock, ClockId clock, SimTime until,
+                            std::chrono::milliseconds lease);
+  base::Result<std::vector<NamedReading>> ReadOpenSensors();
+  base::Result<sensing::Reading> Sample(MountedSensor& sensor);
+  // The clock waits; false when `until` is here already.
+  bool BeginWait(ClockId clock, SimTime until);
+  // Tells the simulation whether it has to wait for this agent; after whatever may change that.
+  void Recount();
+
+  struct PendingCommand {
+    ClockId clock = 0;  // 0: given directly
+    world::DriveCommand command;
+  };
+  void Pend(const PendingCommand& command);
+  void Announce();  // that there are commands to take
+  void StopDriving() { Pend({}); }
+  // From the next step on it hears, if it is a radio.
+  void SwitchOn(const MountedSensor& sensor);
+  // It does what it does from the start, if it is an actuator.
+  void StartActuator(const MountedSensor& sensor);
+
+  const std::string robot_;
+  const std::shared_ptr<const model::Model> model_;
+  const bool is_avatar_;
+  const std::shared_ptr<SharedState> shared_;
+  SensorRack rack_;
+
+  WaitGate gate_;
+
+  // Guarded by shared_->mutex.
+  std::shared_ptr<BehaviourPort> behaviour_;
+  AgentClocks clocks_;
+  std::optional<PendingCommand> pending_;
+  std::vector<std::pair<int, world::JointCommand>> pending_joints_;
+  RadioActs radio_acts_;
+  ActuatorActs actuator_acts_;
+  int body_ = -1;
+  bool has_motor_ = true;
+  std::set<int> lost_joints_;
+  bool is_counted_ = false;    // in shared_->running
+  bool is_commanded_ = false;  // in shared_->commanded
+  bool is_blocked_ = false;    // a local behaviour on work that takes its time
+  bool started_ = false;
+  bool is_gone_ = false;
+  bool death_reported_ = false;
+  Fate fate_ = Fate::kAlive;
+  std::string detail_;
+  WallTime running_since_{};
+
+  Turn turn_;  // the stepping thread's, and during a turn the thread's that takes it
+  std::atomic<WallTime> turn_began_{WallTime()};  // WallTime(): no turn is under way
+};
+
+}  // namespace gsv::simulation

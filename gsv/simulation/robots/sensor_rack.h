@@ -1,0 +1,59 @@
+// The sensors of one robot.
+//
+// Threads  any.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gsv/simulation/robots/mounted_sensor.h"
+
+namespace gsv::simulation {
+
+using MountedSensorPtr = std::shared_ptr<MountedSensor>;
+
+class SensorRack {
+ public:
+  // The sensors of the robot's model are there from the start. `designs` outlives the rack.
+  SensorRack(std::string robot, const std::shared_ptr<const model::Model>& model,
+             SensorDesigns& designs);
+
+  std::vector<model::SensorDescription> Descriptions() const;
+  std::vector<std::string> TypeNames() const { return designs_.types().names(); }  // to be created
+
+  // Adds a sensor; it is open. `link_count` is that of the model.
+  base::Status Create(model::SensorDescription description, int link_count);
+  base::Status Open(const std::string& name);
+  // A sensor that was created is gone with that; one of the model can be opened again.
+  base::Status Close(const std::string& name);
+  // Closes all, drops the created ones, forgets readings and counts.
+  void Reset();
+
+  // Open or not; an error if there is none of that name.
+  base::Result<MountedSensorPtr> Find(const std::string& name) const;
+  std::vector<MountedSensorPtr> OpenSensors() const;  // by name
+
+  std::map<std::string, std::uint64_t> readings_by_type() const;
+
+ private:
+  struct Slot {
+    MountedSensorPtr sensor;
+    bool is_created = false;  // by a caller, not by the model
+    bool is_open = false;
+  };
+  // Null if there is none of that name. Under the lock.
+  const Slot* Seek(const std::string& name) const;
+  std::size_t PlaceOf(const std::string& name) const;  // of the first whose name is not below
+  base::Error NoSuchSensor(const std::string& name) const;
+
+  const std::string robot_;
+  SensorDesigns& designs_;
+  mutable std::mutex mutex_;
+  std::vector<Slot> slots_;                           // by name
+  std::map<std::string, std::uint64_t> of_the_gone_;  // readings of closed sensors, by type
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,48 @@
+#include "gsv/simulation/robots/snapshot_history.h"
+
+namespace gsv::simulation {
+
+SnapshotHistory::SnapshotPtr SnapshotHistory::latest() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+SnapshotHistory::SnapshotPtr SnapshotHistory::At(const Cadence& cadence) {
+  const std::lock_guard lock(mutex_);
+  if (cadence.period.count() <= 0) return latest_;
+  return kept_.try_emplace(cadence, Kept{latest_, {}}).first->second.arrived;
+}
+
+void SnapshotHistory::MakeFrame(Frame& frame) const {
+  const std::lock_guard lock(mutex_);
+  frame.latest_ = latest_;
+  frame.at_instant_.clear();
+  for (const auto& [cadence, kept] : kept_) frame.at_instant_.emplace_back(cadence, kept.arrived);
+}
+
+void SnapshotHistory::Publish(SnapshotPtr snapshot) {
+  const std::lock_guard lock(mutex_);
+  const base::SimTime before = latest_->state.time, now = snapshot->state.time;
+  for (auto& [cadence, kept] : kept_) {
+    if (now / cadence.period != before / cadence.period) {
+      if (cadence.latency.count() <= 0) {
+        kept.arrived = snapshot;
+        continue;
+      }
+      kept.coming.push_back(snapshot);
+    }
+    while (!kept.coming.empty() && kept.coming.front()->state.time + cadence.latency <= now) {
+      kept.arrived = std::move(kept.coming.front());
+      kept.coming.pop_front();
+    }
+  }
+  latest_ = std::move(snapshot);
+}
+
+void SnapshotHistory::Restart(SnapshotPtr snapshot) {
+  const std::lock_guard lock(mutex_);
+  for (auto& [cadence, kept] : kept_) kept = {snapshot, {}};
+  latest_ = std::move(snapshot);
+}
+
+}  // namespace gsv::simulation
