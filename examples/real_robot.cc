@@ -209,6 +209,10 @@ class CartClock final : public POA_sba::Clock {
     return outcome;
   }
   void close() override {}
+  void give_up(const char* reason) override {
+    cart_.Drive(0, 0);
+    std::fprintf(stderr, "the behaviour has given up: %.200s\n", reason);
+  }
 
  private:
   Cart& cart_;

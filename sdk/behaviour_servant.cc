@@ -4,19 +4,17 @@
 
 #include "gsv/base/log.h"
 #include "gsv/orb/errors.h"
+#include "sdk/behaviour/run.h"
 
 namespace gsv::sdk {
 namespace {
 
-// Runs on the behaviour's own thread. Whatever the behaviour throws ends its run, not the program.
-void RunToItsEnd(Behaviour& behaviour, RemoteRobot& robot) {
-  try {
-    behaviour.Run(robot);
-  } catch (const std::exception& exception) {
-    spdlog::error("{}: the behaviour threw: {}", robot.name(), exception.what());
-  }
-  if (const std::string error = robot.error(); !error.empty()) spdlog::error("{}", error);
-  robot.CloseClock();
+// On the behaviour's own thread. Whatever the behaviour throws ends its run, not the program.
+void RunOnClock(Behaviour& behaviour, RemoteRobot& robot) {
+  const std::string failure = RunToItsEnd(behaviour, robot);
+  if (failure.empty()) return robot.CloseClock();
+  spdlog::error("{}: {}", robot.name(), failure);
+  robot.GiveUp(failure);
 }
 
 }  // namespace
@@ -47,7 +45,7 @@ void BehaviourServant::start() {
   if (behaviour_ == nullptr) throw sba::Refused("start comes after init");
   if (running_.joinable()) throw sba::Refused("the behaviour has been started already");
   orb::ValueOrThrow(robot_->OpenClock());
-  running_ = std::jthread([this] { RunToItsEnd(*behaviour_, *robot_); });
+  running_ = std::jthread([this] { RunOnClock(*behaviour_, *robot_); });
 }
 
 void BehaviourServant::stop() {

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 
+#include "gsv/orb/orb.h"
 #include "idl/actuators.hh"
 #include "idl/sensors.hh"
 #include "sdk/remote_joint.h"
 
 namespace gsv::sdk {
 namespace {
+
+// A picture takes long on a busy machine, and is given up by the simulation after a minute.
+constexpr std::chrono::milliseconds kReadingPatience{70'000};
 
 Placement FromIdl(const sba::Placement& p) {
   return {p.x_m, p.y_m, p.z_m, p.roll_rad, p.pitch_rad, p.yaw_rad};
@@ -71,7 +76,9 @@ void Copy(const sba::Measurement& from, Reading& to) {
 class RemotePort final : public SensorPort {
  public:
   RemotePort(RemoteRobot& robot, sba::Sensor_ptr sensor, SensorTraits traits)
-      : robot_(robot), sensor_(sba::Sensor::_duplicate(sensor)), traits_(std::move(traits)) {}
+      : robot_(robot), sensor_(sba::Sensor::_duplicate(sensor)), traits_(std::move(traits)) {
+    orb::LimitCalls(sensor_, kReadingPatience);
+  }
 
   const SensorTraits& traits() const override { return traits_; }
 
@@ -173,6 +180,12 @@ void RemoteRobot::End() { running_ = false; }
 void RemoteRobot::CloseClock() {
   // The simulation may be gone already; then there is nobody to tell.
   if (!CORBA::is_nil(clock_)) (void)orb::Call(name_, [this] { clock_->close(); });
+}
+
+void RemoteRobot::GiveUp(const std::string& reason) {
+  if (CORBA::is_nil(clock_)) return;
+  const auto told = orb::Call(name_, [&] { clock_->give_up(reason.c_str()); });
+  if (!told) CloseClock();  // a simulation of an older version takes it for a plain end
 }
 
 std::vector<SensorTraits> RemoteRobot::Sensors() {

@@ -28,6 +28,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   void End();
   // Says that the behaviour has finished. Called once, after its last use of the robot.
   void CloseClock();
+  // Instead: the run has ended with an error.
+  void GiveUp(const std::string& reason);
 
   const std::string& name() const override { return name_; }
   double footprint_radius() const override { return footprint_radius_; }

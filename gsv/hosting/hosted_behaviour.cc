@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "gsv/base/log.h"
+#include "sdk/behaviour/run.h"
 
 namespace gsv::hosting {
 
@@ -49,6 +50,7 @@ base::Status HostedBehaviour::Start() {
   controller_ = dynamic_cast<Controller*>(behaviour_.get());
   if (!robot_->HasOnlyQuickSensors()) controller_ = nullptr;
   next_.reset();
+  failure_.clear();
   if (controller_ != nullptr) return {};
   fibre_ = std::make_unique<Fibre>([this] { Run(); });
   robot_->SetSuspend([this] { fibre_->Suspend(); });
@@ -56,18 +58,18 @@ base::Status HostedBehaviour::Start() {
 }
 
 // Whatever the behaviour throws ends its run, not the simulation.
-void HostedBehaviour::Run() {
-  try {
-    behaviour_->Run(*robot_);
-  } catch (const std::exception& exception) {
-    spdlog::error("{}: the behaviour threw: {}", robot_->name(), exception.what());
-  }
-  if (const std::string error = robot_->error(); !error.empty()) spdlog::error("{}", error);
+void HostedBehaviour::Run() { failure_ = RunToItsEnd(*behaviour_, *robot_); }
+
+void HostedBehaviour::EndTurn(simulation::Turn& turn) {
+  if (failure_.empty() && robot_ != nullptr) failure_ = robot_->error();
+  if (failure_.empty()) return turn.Finish();
+  spdlog::error("{}: {}", name_, failure_);
+  turn.Fail(failure_);
 }
 
 void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
   const std::lock_guard lock(mutex_);
-  if (robot_ == nullptr || !robot_->IsRunning()) return turn.Finish();
+  if (robot_ == nullptr || !robot_->IsRunning()) return EndTurn(turn);
   robot_->SetTurn(&turn);
   if (controller_ != nullptr) {
     Control(turn);
@@ -76,7 +78,7 @@ void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
     if (fibre_->has_ended()) {
       fibre_.reset();
       robot_->End();
-      turn.Finish();
+      EndTurn(turn);
     }
   }
   robot_->SetTurn(nullptr);
@@ -97,10 +99,7 @@ void HostedBehaviour::Control(simulation::Turn& turn) {
     *next_ += controller_->period();
   }
   robot_->Drive(command.linear, command.angular);
-  if (!robot_->IsRunning()) {
-    if (const std::string error = robot_->error(); !error.empty()) spdlog::error("{}", error);
-    return turn.Finish();
-  }
+  if (!robot_->IsRunning()) return EndTurn(turn);
   turn.CountExchange();
   turn.WaitUntil(*next_);
 }

@@ -36,6 +36,7 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
  private:
   void Run();
   void Control(simulation::Turn& turn);
+  void EndTurn(simulation::Turn& turn);  // as the last
   // The behaviour finds that its run is over and returns.
   void EndRun();
   base::Status Guarded(const char* what, const std::function<base::Status()>& call);
@@ -52,6 +53,7 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   Controller* controller_ = nullptr;  // of a started behaviour that needs none
   std::optional<SimTime> next_;       // a controller's next instant
   std::vector<Reading> readings_;
+  std::string failure_;  // what ended the run, if it was an error
 };
 
 }  // namespace gsv::hosting

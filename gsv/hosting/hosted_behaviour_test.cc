@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include <gmock/gmock.h>
+
+#include "gsv/sensing/devices/built_in.h"
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::hosting {
@@ -154,6 +157,35 @@ TEST(HostedBehaviour, OneThatThrowsEndsAndTheOthersGoOn) {
                                              }))));
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_NEAR(StatusOf(*simulation, "good").distance, 0.5, 1e-9);
+  const auto bad = StatusOf(*simulation, "bad");
+  EXPECT_EQ(bad.phase, simulation::AgentPhase::kDead);
+  EXPECT_THAT(bad.detail, ::testing::HasSubstr("the behaviour threw: out of ideas"));
+}
+
+TEST(HostedBehaviour, OneThatGivesUpEndsTheRunAsOneOutsideDoesWhereThePolicySaysSo) {
+  auto specification = Lockstep(500ms);
+  specification.on_failure = simulation::FailurePolicy::kFail;
+  const auto hash_of = [&](std::shared_ptr<simulation::BehaviourPort> behaviour) {
+    auto simulation = simulation::Make(specification);
+    EXPECT_TRUE(simulation->AddRobot(simulation::Robot("bad", 0, 0, std::move(behaviour))));
+    EXPECT_EQ(RunToEnd(*simulation), Phase::kFailed);
+    EXPECT_EQ(simulation->status().time, 100ms);
+    EXPECT_THAT(simulation->status().failure, ::testing::HasSubstr("died"));
+    return simulation->state_hash();
+  };
+  const std::string inside = hash_of(Hosted([](gsv::Robot& robot, Sonar&) {
+    robot.Drive(1.0, 0);
+    robot.SleepFor(100ms);
+    throw std::runtime_error("out of ideas");
+  }));
+  const std::string outside = hash_of(std::make_shared<simulation::ThreadBehaviour>(
+      [](simulation::Agent& agent, simulation::ClockId clock) {
+        EXPECT_TRUE(agent.OpenSensor("front"));
+        EXPECT_TRUE(agent.Command({1.0, 0, 0}));
+        EXPECT_TRUE(simulation::SleepFor(agent, clock, 100ms));
+        EXPECT_TRUE(agent.GiveUp(clock, "out of ideas"));
+      }));
+  EXPECT_EQ(inside, outside);
 }
 
 TEST(HostedBehaviour, OneWhoseWorkIsDoneHasFinished) {

@@ -43,6 +43,10 @@ struct RendererOptions {
 
 class Renderer {
  public:
+  // No machine takes as long for a picture, however slow and busy; what gives up sooner on a
+  // behaviour is the simulation's deadline.
+  static constexpr std::chrono::seconds kPatience{60};
+
   [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
   // Ends what waits with kEnded.
   ~Renderer();
@@ -52,18 +56,18 @@ class Renderer {
   // An RGB picture of `snapshot`.
   [[nodiscard]] base::Result<std::shared_ptr<const model::Image>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
-      std::chrono::milliseconds timeout = std::chrono::seconds(10));
+      std::chrono::milliseconds timeout = kPatience);
 
   // The same for several cameras; pictures[i] is views[i]'s. They are drawn in one batch.
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
-      std::chrono::milliseconds timeout = std::chrono::seconds(10));
+      std::chrono::milliseconds timeout = kPatience);
 
   // Distances and whose they are, truths[i] being views[i]'s; always by the rasteriser:
   // kUnavailable on processors without AVX2 and FMA.
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> Survey(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
-      std::chrono::milliseconds timeout = std::chrono::seconds(10));
+      std::chrono::milliseconds timeout = kPatience);
 
   // "GSV rasteriser (AVX2)" or "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa
   // 22.3.6".

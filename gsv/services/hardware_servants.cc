@@ -149,6 +149,11 @@ class ClockServant final : public POA_sba::Clock {
     group_->Deactivate(this);
   }
 
+  void give_up(const char* reason) override {
+    (void)agent_->GiveUp(clock_, reason);  // who is dead already is not told twice
+    group_->Deactivate(this);
+  }
+
  private:
   static sba::WaitOutcome ToIdl(simulation::Wait wait) {
     return wait == simulation::Wait::kReached ? sba::REACHED : sba::NOT_YET;

@@ -321,6 +321,7 @@ base::Status SteppingSimulation::Reset() {
     if (!engine_holds_.empty()) GSV_CHECK(SetEngineLayout(layout_, state_));
     shared_->sleepers.Clear();
     shared_->commanded.clear();
+    shared_->given_up.clear();
     shared_->ready.clear();
     shared_->history.Restart(
         std::make_shared<world::Snapshot>(world::Snapshot{layout_, state_, {}, {}, {}}));

@@ -1,5 +1,7 @@
 #include "gsv/simulation/simulation.h"
 
+#include <gmock/gmock.h>
+
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
@@ -187,6 +189,30 @@ TEST(Simulation, ABehaviourThatNeverWaitsIsDeclaredUnresponsiveAndTheRunGoesOn) 
   EXPECT_NEAR(StatusOf(*simulation, "good").distance, 0.2, 1e-9);
   release = true;
   release.notify_all();
+}
+
+TEST(Simulation, WhoGivesUpIsDeadAtThatInstantAndTheReasonIsToldOnOneLine) {
+  auto simulation = Make(Lockstep(500ms));
+  const auto quitter = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
+    EXPECT_TRUE(agent.Command({1.0, 0, 0}));
+    EXPECT_TRUE(SleepFor(agent, clock, 100ms));
+    EXPECT_TRUE(agent.GiveUp(clock, "no\nidea" + std::string(1'000'000, '!')));
+    (void)agent.GiveUp(clock, "once more");
+  });
+  ASSERT_TRUE(simulation->AddRobot(Robot("quitter", 0, 0, quitter)));
+  ASSERT_TRUE(simulation->AddRobot(Robot("other", 0, 1, Drives(1.0))));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  const RobotStatus status = StatusOf(*simulation, "quitter");
+  EXPECT_EQ(status.phase, AgentPhase::kDead);
+  EXPECT_NEAR(status.distance, 0.1, 1e-9);  // it stood still from then on
+  EXPECT_NEAR(StatusOf(*simulation, "other").distance, 0.5, 1e-9);
+  EXPECT_THAT(status.detail, ::testing::HasSubstr("its run ended with an error: no\\nidea!!!"));
+  EXPECT_LT(status.detail.size(), 1200u);
+  std::vector<std::string> told;
+  for (const Event& event : simulation->events(0)) {
+    if (event.kind == "agent_dead") told.push_back(event.detail);
+  }
+  EXPECT_EQ(told, std::vector<std::string>{"quitter (test on here:1): " + status.detail});
 }
 
 TEST(Simulation, ADeadBehaviourEndsTheRunWhereThePolicySaysSo) {

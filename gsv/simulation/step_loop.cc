@@ -72,6 +72,9 @@ void SteppingSimulation::RunLoop() {
 void SteppingSimulation::WakeAgents() {
   turns_have_begun_ = true;
   const bool has_reported_deaths = std::exchange(shared_->has_reported_deaths, false);
+  for (const auto& [robot, sentence] : std::exchange(shared_->given_up, {})) {
+    AddEvent("agent_dead", robot, sentence);
+  }
   if (!has_reported_deaths && !shared_->sleepers.HasDue(shared_->now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
@@ -164,8 +167,12 @@ void SteppingSimulation::TakeStep() {
     {
       const std::lock_guard lock(shared_->mutex);
       if (shared_->phase != Phase::kRunning) return;
-      // Somebody may have come between the check and the locks: a robot added, a clock opened.
-      if (shared_->mode == Mode::kLockstep && shared_->running > 0) return;
+      // Somebody may have come between the check and the locks: a robot added, a clock opened, the
+      // last who ran has given up.
+      if (shared_->mode == Mode::kLockstep &&
+          (shared_->running > 0 || shared_->has_reported_deaths)) {
+        return;
+      }
       for (RobotAgent* agent : shared_->commanded) {
         if (const auto command = agent->TakeCommand()) {
           world::DriveState& drive = state_.bodies[agent->body()].drive;

@@ -1,7 +1,7 @@
 // The broker page in a real browser, on the broker of a real simulation.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage } from "./browser.mjs";
+import { openBrowser, openPage, waitUntilDrawn } from "./browser.mjs";
 import { keepPicture } from "./documentation.mjs";
 import { gsv, startServer } from "./server.mjs";
 
@@ -70,6 +70,7 @@ test("links are there with whether they answer", async () => {
 
 test("the viewer leads to it and back, and nothing went wrong in its scripts", async () => {
   await page.getByTitle("The simulation").click();
+  await waitUntilDrawn(page); // a page that is left while it loads complains of what did not come
   await page.getByRole("link", { name: "Broker", exact: true }).click();
   await page.getByRole("heading", { name: "Broker", exact: true }).waitFor();
   assert.deepEqual(faults, []);

@@ -33,7 +33,9 @@ class BadBehaviour final : public Behaviour {
       while (robot.IsRunning()) usleep(1000);  // busy with itself: it never tells the simulation
     }
     if (fault_ == "flood") return Flood(robot);
-    if (robot.SleepFor(200ms) && fault_ == "die") raise(SIGKILL);
+    const bool goes_on = robot.SleepFor(200ms);
+    if (goes_on && fault_ == "die") raise(SIGKILL);
+    if (goes_on && fault_ == "throw") throw std::runtime_error("out of ideas");
     while (robot.SleepFor(50ms)) {
     }
   }

@@ -200,6 +200,19 @@ TEST(BadInput, KilledBehaviourIsReported) {
   EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);
 }
 
+TEST(BadInput, BehaviourThatThrowsIsReportedWithWhatItThrew) {
+  const BrokerProcess broker;
+  Running bad("../tests/bad_behaviour", {"--broker", broker.reference(), "--fault", "throw"});
+  bad.AwaitLine("offered at");
+  const Outcome outcome = Headless(
+      kPlayground, {"--broker", broker.reference(), "--robot", "pebble@0,0", "--behaviour", "bad"});
+  ExpectOneSentence(outcome, 4, "the behaviour threw: out of ideas");
+  EXPECT_DOUBLE_EQ(outcome.LastLine()["sim_time_s"], 1.0);
+  const auto robot = outcome.LastLine()["robots"][0];
+  EXPECT_EQ(robot["agent"], "dead");
+  EXPECT_NEAR(robot["distance_m"], 0.02, 1e-3);  // 0.2 s at 0.1 m/s, then it stands
+}
+
 TEST(BadInput, FailurePolicyEndsTheRun) {
   const BrokerProcess broker;
   Running bad("../tests/bad_behaviour", {"--broker", broker.reference(), "--fault", "die"});

@@ -28,7 +28,7 @@ TEST(CommandLine, RunShowsTheDefaultWorldWithFiveRobots) {
   std::set<std::string> behaviours;
   for (const auto& robot : report["robots"]) {
     EXPECT_GT(robot["distance_m"], 0.1) << robot;
-    EXPECT_GT(robot["readings"]["sonar"], 8) << robot;
+    EXPECT_GE(robot["readings"]["sonar"], 8) << robot;  // one round at least, however slow
     behaviours.insert(robot["behaviour"]);
   }
   EXPECT_GE(behaviours.size(), 2u);

@@ -259,7 +259,7 @@ def missing(world):
 def prove(world):
     """Calls each operation of each servant rightly: sentences for those that are not answered as they should be."""
     broken = []
-    last = ("close", "destroy", "withdraw", "withdraw_proxy", "withdraw_using_constraint", "remove_link", "remove_type",
+    last = ("give_up", "close", "destroy", "withdraw", "withdraw_proxy", "withdraw_using_constraint", "remove_link", "remove_type",
             "mask_type", "unmask_type", "stop", "reset")
     for interface in sorted(world.targets):
         if interface in ("sba::Simulation", "sba::AgentBehaviour"):
@@ -267,6 +267,8 @@ def prove(world):
         operations = world.contracts.operations(interface)
         for operation in sorted(operations, key=lambda each: last.index(each.name) if each.name in last else -1):
             broken += prove_one(world, operation)
+            if operation.name == "give_up":
+                world.renew()  # the agent is dead, and its clock closed
     world.renew()
     for operation in sorted(world.contracts.operations("sba::AgentBehaviour"), key=lambda each: each.name == "destroy"):
         broken += prove_one(world, operation)

@@ -87,11 +87,12 @@ int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
   }
 }
 
-// Whose end the scenario asked for.
+// Whose end the scenario asked for: it has the behaviour die, or a sensor fail that it reads.
 bool WasToDie(const Simulation& simulation, const std::string& robot) {
   const auto& faults = simulation.specification().faults;
   return std::any_of(faults.begin(), faults.end(), [&](const scenario::Fault& fault) {
-    return fault.kind == scenario::Fault::Kind::kBehaviourDies && fault.body == robot;
+    return fault.body == robot && (fault.kind == scenario::Fault::Kind::kBehaviourDies ||
+                                   fault.kind == scenario::Fault::Kind::kSensorError);
   });
 }
 

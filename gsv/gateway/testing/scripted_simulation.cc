@@ -7,6 +7,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/gateway/testing/arena.h"
+#include "gsv/sensing/devices/built_in.h"
 
 namespace gsv::gateway::testing {
 
@@ -43,6 +44,7 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
   geometry::Pose RobotFromLink(int) const override { return {}; }
   base::Result<simulation::ClockId> OpenClock() override { return base::Fail(Refused().error()); }
   base::Status CloseClock(simulation::ClockId) override { return Refused(); }
+  base::Status GiveUp(simulation::ClockId, const std::string&) override { return Refused(); }
   base::SimTime Now() const override { return base::SimTime(0); }
   base::Result<simulation::Wait> SleepUntil(simulation::ClockId, base::SimTime,
                                             std::chrono::milliseconds) override {

@@ -69,6 +69,9 @@ class Agent {
   // Clocks. The behaviour runs while any of its clocks does; when all are closed it has finished.
   virtual base::Result<ClockId> OpenClock() = 0;
   virtual base::Status CloseClock(ClockId clock) = 0;
+  // Instead: the behaviour's run has ended with an error. The agent is dead from this instant on,
+  // and `reason` is told, on one line and cut off where it is long.
+  virtual base::Status GiveUp(ClockId clock, const std::string& reason) = 0;
   virtual base::SimTime Now() const = 0;
   virtual base::Result<Wait> SleepUntil(ClockId clock, base::SimTime until,
                                         std::chrono::milliseconds lease) = 0;

@@ -23,8 +23,8 @@
 
 namespace gsv::simulation {
 
-// What a behaviour may do in its turn. Ends as the last of WaitUntil(), Block() and Finish() says;
-// without any of them the behaviour has finished.
+// What a behaviour may do in its turn. Ends as the last of WaitUntil(), Block(), Finish() and
+// Fail() says; without any of them the behaviour has finished.
 class Turn {
  public:
   // What all turns of one instant share.
@@ -72,6 +72,8 @@ class Turn {
   // comes when it is done. Time does not go on in lockstep.
   void Block(std::function<void()> work) { end_ = Blocked{std::move(work)}; }
   void Finish() { end_ = Finished{}; }
+  // Instead of Finish(): the run has ended with an error, see Agent::GiveUp().
+  void Fail(std::string reason) { end_ = Failed{std::move(reason)}; }
 
  private:
   friend class RobotAgent;
@@ -83,6 +85,9 @@ class Turn {
     std::function<void()> work;
   };
   struct Finished {};
+  struct Failed {
+    std::string reason;
+  };
 
   const Instant* instant_ = nullptr;
   const sensing::Sampling* sampling_ = nullptr;
@@ -91,7 +96,7 @@ class Turn {
   RadioActs radio_;
   ActuatorActs actuator_acts_;
   std::uint64_t exchanges_ = 0;
-  std::variant<Finished, Waiting, Blocked> end_;
+  std::variant<Finished, Failed, Waiting, Blocked> end_;
 };
 
 class LocalBehaviour : public BehaviourPort {

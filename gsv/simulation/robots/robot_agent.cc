@@ -4,12 +4,15 @@
 #include <iterator>
 #include <utility>
 
+#include "gsv/base/log_text.h"
 #include "gsv/sensing/actuator.h"
 
 namespace gsv::simulation {
 namespace {
 
 constexpr int kMaxClocks = 64;
+// Bytes that a behaviour may say of why it gave up.
+constexpr std::size_t kLongestReason = 1000;
 
 base::Error NotRunning(const std::string& robot) {
   return {base::ErrorCode::kNotRunning,
@@ -60,7 +63,9 @@ base::Status RobotAgent::CheckAlive(const std::unique_lock<std::mutex>&) const {
   if (!shared_->end_reason.empty()) {
     return base::Fail(base::ErrorCode::kEnded, shared_->end_reason, robot_);
   }
-  if (fate_ != Fate::kAlive) return base::Fail(base::ErrorCode::kEnded, detail_, robot_);
+  if (fate_ != Fate::kAlive || has_given_up_) {
+    return base::Fail(base::ErrorCode::kEnded, detail_, robot_);
+  }
   return {};
 }
 
@@ -92,9 +97,18 @@ base::Result<ClockId> RobotAgent::OpenClock() {
 base::Status RobotAgent::CloseClock(ClockId clock) {
   std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckClock(clock); !ok) return ok;
+  if (has_given_up_) return CheckAlive(lock);  // its clocks stay as they were then
   clocks_.Close(clock);
   gate_.Open();
   Recount();
+  return {};
+}
+
+base::Status RobotAgent::GiveUp(ClockId clock, const std::string& reason) {
+  std::unique_lock lock = shared_->LockForAgent();
+  if (auto ok = CheckAlive(lock); !ok) return ok;
+  if (auto ok = CheckClock(clock); !ok) return ok;
+  ReportFailure(reason);
   return {};
 }
 
@@ -353,7 +367,8 @@ bool RobotAgent::IsAtWork() const {
 
 RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
   const bool woke = clocks_.Wake(now);
-  const bool dies = death_reported_ && fate_ == Fate::kAlive && (woke || clocks_.IsRunning());
+  const bool dies =
+      death_reported_ && fate_ == Fate::kAlive && (woke || clocks_.IsRunning() || has_given_up_);
   if (dies) {
     fate_ = Fate::kDead;
     StopDriving();
@@ -379,6 +394,13 @@ void RobotAgent::ReportDeath(std::string detail) {
   detail_ = std::move(detail);
   shared_->has_reported_deaths = true;
   Recount();
+}
+
+void RobotAgent::ReportFailure(std::string_view reason) {
+  if (death_reported_) return;
+  has_given_up_ = true;
+  ReportDeath("its run ended with an error: " + base::LogLine(reason, kLongestReason, {}));
+  shared_->given_up.emplace_back(robot_, Describe() + ": " + detail_);
 }
 
 void RobotAgent::MakeReady() {
@@ -424,6 +446,8 @@ std::function<void()> RobotAgent::Settle() {
   }
   if (const auto* waiting = std::get_if<Turn::Waiting>(&turn_.end_)) {
     if (!BeginWait(clock, waiting->until)) MakeReady();
+  } else if (const auto* failed = std::get_if<Turn::Failed>(&turn_.end_)) {
+    ReportFailure(failed->reason);
   } else {
     clocks_.Close(clock);
     Recount();
@@ -470,6 +494,7 @@ void RobotAgent::ResetClocks() {
   has_motor_ = true;
   lost_joints_.clear();
   death_reported_ = false;
+  has_given_up_ = false;
   fate_ = Fate::kAlive;
   detail_.clear();
   Recount();

@@ -31,6 +31,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   }
   base::Result<ClockId> OpenClock() override;
   base::Status CloseClock(ClockId clock) override;
+  base::Status GiveUp(ClockId clock, const std::string& reason) override;
   SimTime Now() const override;
   base::Result<Wait> SleepUntil(ClockId clock, SimTime until,
                                 std::chrono::milliseconds lease) override;
@@ -129,6 +130,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
   // The clock waits; false when `until` is here already.
   bool BeginWait(ClockId clock, SimTime until);
+  void ReportFailure(std::string_view reason);
   // Tells the simulation whether it has to wait for this agent; after whatever may change that.
   void Recount();
 
@@ -168,6 +170,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool started_ = false;
   bool is_gone_ = false;
   bool death_reported_ = false;
+  bool has_given_up_ = false;  // its death was reported by itself: nothing of it counts any more
   Fate fate_ = Fate::kAlive;
   std::string detail_;
   WallTime running_since_{};

@@ -50,6 +50,8 @@ struct SharedState {
   std::vector<RobotAgent*> commanded;  // have a command for the next step
   std::vector<RobotAgent*> ready;      // local behaviours whose turn it is
   bool has_reported_deaths = false;    // of agents that may be running
+  // Robots whose behaviour has given up, and the sentence that the stepping thread is to tell.
+  std::vector<std::pair<std::string, std::string>> given_up;
 };
 
 }  // namespace gsv::simulation

@@ -115,7 +115,7 @@ def test_what_is_raised_in_run_ends_the_run_and_no_more(simulate):
     simulation.add("pebble", y=1, behaviour=First, name="first")
     simulation.run_until(2)
     robots = simulation.state().robots
-    assert robots["faulty"].agent == "finished"
+    assert robots["faulty"].agent == "dead"
     assert robots["first"].distance > 0.3
 
 
