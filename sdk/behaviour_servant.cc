@@ -13,7 +13,7 @@ namespace {
 void RunOnClock(Behaviour& behaviour, RemoteRobot& robot) {
   const std::string failure = RunToItsEnd(behaviour, robot);
   if (failure.empty()) return robot.CloseClock();
-  spdlog::error("{}: {}", robot.name(), failure);
+  spdlog::error("{}", failure);
   robot.GiveUp(failure);
 }
 

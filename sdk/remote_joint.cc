@@ -1,5 +1,7 @@
 #include "sdk/remote_joint.h"
 
+#include "gsv/orb/orb.h"
+
 namespace gsv::sdk {
 namespace {
 
@@ -17,7 +19,9 @@ sba::JointedHardware_var Jointed(sba::Hardware_ptr hardware) {
 class RemoteJoint final : public Joint {
  public:
   RemoteJoint(RemoteRobot& robot, sba::JointActuator_ptr joint, JointTraits traits)
-      : robot_(robot), joint_(sba::JointActuator::_duplicate(joint)), traits_(std::move(traits)) {}
+      : robot_(robot), joint_(sba::JointActuator::_duplicate(joint)), traits_(std::move(traits)) {
+    orb::LimitCalls(joint_, RemoteRobot::kPatience);
+  }
 
   const JointTraits& traits() const override { return traits_; }
   void MoveTo(double position) override {

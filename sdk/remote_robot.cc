@@ -12,9 +12,6 @@
 namespace gsv::sdk {
 namespace {
 
-// A picture takes long on a busy machine, and is given up by the simulation after a minute.
-constexpr std::chrono::milliseconds kReadingPatience{70'000};
-
 Placement FromIdl(const sba::Placement& p) {
   return {p.x_m, p.y_m, p.z_m, p.roll_rad, p.pitch_rad, p.yaw_rad};
 }
@@ -77,7 +74,7 @@ class RemotePort final : public SensorPort {
  public:
   RemotePort(RemoteRobot& robot, sba::Sensor_ptr sensor, SensorTraits traits)
       : robot_(robot), sensor_(sba::Sensor::_duplicate(sensor)), traits_(std::move(traits)) {
-    orb::LimitCalls(sensor_, kReadingPatience);
+    orb::LimitCalls(sensor_, RemoteRobot::kPatience);
   }
 
   const SensorTraits& traits() const override { return traits_; }
@@ -151,10 +148,13 @@ base::Result<std::shared_ptr<RemoteRobot>> RemoteRobot::Connect(const std::strin
     return base::Fail(base::ErrorCode::kInvalidArgument, "was given no hardware", name);
   }
   std::shared_ptr<RemoteRobot> robot(new RemoteRobot(name, hardware));
+  orb::LimitCalls(robot->hardware_, kPatience);
   auto connected = orb::Call(name, [&] {
     robot->factory_ = robot->hardware_->sensor_factory();
     robot->base_ = robot->hardware_->base();
     robot->footprint_radius_ = robot->hardware_->footprint_radius_m();
+    orb::LimitCalls(robot->factory_, kPatience);
+    orb::LimitCalls(robot->base_, kPatience);
   });
   if (!connected) return base::Fail(connected.error());
   return robot;
@@ -172,7 +172,10 @@ std::string RemoteRobot::error() const {
 }
 
 base::Status RemoteRobot::OpenClock() {
-  return orb::Call(name_, [this] { clock_ = hardware_->open_clock(); });
+  return orb::Call(name_, [this] {
+    clock_ = hardware_->open_clock();
+    orb::LimitCalls(clock_, kPatience);
+  });
 }
 
 void RemoteRobot::End() { running_ = false; }

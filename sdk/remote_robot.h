@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 
@@ -17,6 +18,10 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
  public:
   // Asks for the robot's parts; fails when the hardware does not answer. Shared with what a
   // language that has no owners, as Python, may keep of it past the run.
+  // For any answer. The simulation gives up a picture after a minute, and may be held up itself: by
+  // a busy machine, or because its process was stopped for a while.
+  static constexpr std::chrono::milliseconds kPatience{70'000};
+
   static base::Result<std::shared_ptr<RemoteRobot>> Connect(const std::string& name,
                                                             sba::Hardware_ptr hardware);
   ~RemoteRobot() override;

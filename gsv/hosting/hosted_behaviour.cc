@@ -63,7 +63,7 @@ void HostedBehaviour::Run() { failure_ = RunToItsEnd(*behaviour_, *robot_); }
 void HostedBehaviour::EndTurn(simulation::Turn& turn) {
   if (failure_.empty() && robot_ != nullptr) failure_ = robot_->error();
   if (failure_.empty()) return turn.Finish();
-  spdlog::error("{}: {}", name_, failure_);
+  spdlog::error("{}", failure_);
   turn.Fail(failure_);
 }
 

@@ -9,7 +9,7 @@ std::string RunToItsEnd(Behaviour& behaviour, Robot& robot) {
   try {
     behaviour.Run(robot);
   } catch (const std::exception& exception) {
-    thrown = std::string("the behaviour threw: ") + exception.what();
+    thrown = robot.name() + ": the behaviour threw: " + exception.what();
   }
   const std::string error = robot.error();
   return error.empty() ? thrown : error;

@@ -7,8 +7,8 @@
 
 namespace gsv {
 
-// Runs it until it returns or throws. Empty, or the error that ended the run: the robot's, else
-// what the behaviour threw.
+// Runs it until it returns or throws. Empty, or what ended the run, after the robot's name: the
+// robot's error, else what the behaviour threw.
 std::string RunToItsEnd(Behaviour& behaviour, Robot& robot);
 
 }  // namespace gsv

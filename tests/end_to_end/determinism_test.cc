@@ -1,7 +1,9 @@
 // Same world, same seed, same behaviours: the same state_hash, whatever happens to the behaviours'
 // processes. See docs/determinism.md. GSV_SOAK says how often each case is run (once in make test,
 // 20 times in make soak); GSV_DEBUG_BUILD_DIR names a debug build to compare with.
+#include <csignal>
 #include <cstdlib>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -117,6 +119,35 @@ TEST(Determinism, BehavioursBehindASlowNetworkLeaveNoTrace) {
     // Twelve cycles of eight readings, each at least 20 ms away.
     EXPECT_GT(report["wall_time_s"], 12 * 8 * 0.020);
   }
+}
+
+// The behaviour waits for an answer all that time, as it would for a picture on a busy machine.
+TEST(Determinism, ASimulationThatIsStoppedForTwelveSecondsLeavesNoTrace) {
+  const auto hash_of = [](bool is_stopped) {
+    Running run("gsv", {"run", "playground", "--robot", "b21r@0,1", "--behaviour", "follow-wall",
+                        "--lockstep", "--deadline", "60", "--seed", "1", "--duration", "300",
+                        "--port", "0", "--json"});
+    if (is_stopped) {
+      std::string said;
+      while (said.find("viewer: ") == std::string::npos || said.back() != '\n') said = run.errors();
+      const std::size_t begin = said.find("http", said.find("viewer: "));
+      const std::string url = said.substr(begin, said.find('\n', begin) - begin);
+      const auto time = [&] {
+        const auto status =
+            nlohmann::json::parse(HttpGet(url + "api/simulations/simulation"), nullptr, false);
+        return status.is_object() ? status.value("time_s", 0.0) : 0.0;
+      };
+      while (time() < 1) {
+      }
+      run.process().Signal(SIGSTOP);
+      std::this_thread::sleep_for(std::chrono::seconds(12));
+      run.process().Signal(SIGCONT);
+    }
+    const Outcome outcome = run.AwaitEnd();
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    return HashOf(outcome.LastLine());
+  };
+  EXPECT_EQ(hash_of(true), hash_of(false));
 }
 
 TEST(Determinism, BehavioursInProcessOnAnyNumberOfThreadsLeaveNoTrace) {
