@@ -29,6 +29,7 @@ option(GSV_COVERAGE "Count which lines run: the preset coverage, and `make cover
 if(GSV_COVERAGE)
   # Several threads count at once, and several processes add to one file.
   add_compile_options(--coverage -fprofile-update=prefer-atomic)
+  add_compile_definitions(GSV_COVERAGE)  # programs end as they should, and write what they counted
   add_link_options(--coverage)
 endif()
 

@@ -158,8 +158,7 @@ class Broker::Impl {
 
   const std::string& reference() const { return reference_; }
   std::uint16_t port() const { return port_; }
-  void Run() { objects_.orb->run(); }
-  void Shutdown() { objects_.orb->shutdown(false); }
+  void Close() { objects_.trader.Close(); }
 
   // Knows again what is in the file, and keeps in it what changes.
   base::Status Remember(const std::string& path) {
@@ -246,7 +245,6 @@ Broker::~Broker() = default;
 
 const std::string& Broker::reference() const { return impl_->reference(); }
 std::uint16_t Broker::port() const { return impl_->port(); }
-void Broker::Run() { impl_->Run(); }
-void Broker::Shutdown() { impl_->Shutdown(); }
+void Broker::Close() { impl_->Close(); }
 
 }  // namespace gsv::broker

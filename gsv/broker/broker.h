@@ -41,9 +41,8 @@ class Broker {
   const std::string& reference() const;
   std::uint16_t port() const;
 
-  // Returns when Shutdown() is called.
-  void Run();
-  void Shutdown();
+  // Closes the data file, which holds all that was answered; changes are refused from then on.
+  void Close();
 
  private:
   class Impl;

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -25,6 +26,19 @@ bool EndWith(pid_t parent) {
   return getppid() == parent;
 }
 
+// Of a process that ends the ORB is not taken down: a thread of its own that is late finds it gone,
+// and the process dies (omniORB 4.2.5, seen after a minute of mutated requests). Sanitizers tell
+// what was lost, and coverage what ran, when all is taken down.
+int End(Broker& broker, int exit_code) {
+  broker.Close();
+#if !defined(GSV_SANITIZED) && !defined(GSV_COVERAGE)
+  std::fflush(nullptr);
+  std::_Exit(exit_code);
+#else
+  return exit_code;
+#endif
+}
+
 }  // namespace
 
 int BrokerMain(const BrokerCommand& command) {
@@ -46,7 +60,7 @@ int BrokerMain(const BrokerCommand& command) {
 
   int signal = 0;
   sigwait(&ends, &signal);
-  return signal == SIGINT ? kInterrupted : kOk;
+  return End(**broker, signal == SIGINT ? kInterrupted : kOk);
 }
 
 }  // namespace gsv::broker

@@ -3,7 +3,17 @@
 #include <algorithm>
 #include <cstring>
 
+#include "gsv/orb/giop_header.h"
+
 namespace gsv::orb {
+
+bool IncomingMessage::IsThere() {
+  if (assembly_.state() == MessageAssembly::State::kIncomplete) return false;
+  if (assembly_.state() == MessageAssembly::State::kRefused) return true;
+  if (ReadGiopHeader(assembly_.message())->type != GiopHeader::kCancelRequest) return true;
+  assembly_.Reset();
+  return false;
+}
 
 int IncomingMessage::HandOut(void* buffer, std::size_t size) {
   if (assembly_.state() == MessageAssembly::State::kRefused) return -1;

@@ -11,7 +11,13 @@ class IncomingMessage {
   explicit IncomingMessage(std::size_t limit) : assembly_(limit) {}
 
   MessageAssembly& assembly() { return assembly_; }
-  bool whole() const { return assembly_.state() != MessageAssembly::State::kIncomplete; }
+  // Whether there is a message for the ORB, be it one that is refused. Requests to cancel, which
+  // nobody heeds, are let go.
+  bool IsThere();
+  // Bytes of a message have come, and more are needed.
+  bool has_begun() const {
+    return assembly_.state() == MessageAssembly::State::kIncomplete && !assembly_.empty();
+  }
   // Copies up to `size` bytes of the message; -1 for one that is refused.
   int HandOut(void* buffer, std::size_t size);
 

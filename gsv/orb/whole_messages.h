@@ -15,7 +15,6 @@
 
 #include <omniORB4/CORBA.h>
 
-#include "gsv/orb/giop_header.h"
 #include "gsv/orb/incoming_message.h"
 
 namespace gsv::orb {
@@ -38,7 +37,7 @@ class WholeMessages : public Base {
         check_(limits.check) {}
 
   int Recv(void* buffer, std::size_t size, const omni_time_t& deadline) override {
-    while (!IsThere()) {
+    while (!incoming_.IsThere()) {
       MessageAssembly& assembly = incoming_.assembly();
       // Clients may be silent between messages, not within one.
       if (assembly.empty()) until_ = deadline;
@@ -57,16 +56,6 @@ class WholeMessages : public Base {
   }
 
  private:
-  bool IsThere() {
-    if (!incoming_.whole()) return false;
-    MessageAssembly& assembly = incoming_.assembly();
-    if (assembly.state() != MessageAssembly::State::kComplete) return true;
-    const auto header = ReadGiopHeader(assembly.message());
-    if (header->type != GiopHeader::kCancelRequest) return true;
-    assembly.Reset();
-    return false;
-  }
-
   IncomingMessage incoming_;
   const std::chrono::seconds time_;
   void (*const check_)(std::string&);

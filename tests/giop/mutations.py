@@ -73,8 +73,10 @@ def any_value(chance, code, depth=0):
     if kind == "enum":
         return chance.choice(LENGTHS[:5])
     if kind == "union":
-        member = chance.choice(code[4]) if code[4] else (0, "", "long")
-        return (member[0], any_value(chance, member[2], depth + 1))
+        label = chance.choice(code[4])[0] if code[4] else 0
+        # Of members with one label the first counts, as where the value is written.
+        member = next((each for each in code[4] if each[0] == label), (label, "", "void"))
+        return (label, any_value(chance, member[2], depth + 1))
     if kind == "any":
         return an_any(chance, depth + 1)
     return "long" if kind == "TypeCode" else Reference() if kind == "objref" else None

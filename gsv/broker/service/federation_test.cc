@@ -1,7 +1,10 @@
 // Several brokers that are linked, each in a process of its own.
 #include <csignal>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <set>
+#include <thread>
 
 #include "gsv/base/temporary_folder.h"
 #include "gsv/broker/testing/broker_node.h"
@@ -275,6 +278,33 @@ TEST_F(FederationTest, AHangingTraderCostsAQueryItsTimeOutAtMost) {
     answer = Node(0).Query("Robot", "", "min n", policies);
   }
   EXPECT_EQ(Limits(answer), Names{});
+}
+
+std::size_t DescriptorsOf(pid_t process) {
+  namespace fs = std::filesystem;
+  const fs::directory_iterator all("/proc/" + std::to_string(process) + "/fd");
+  return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+// The call would go on for seven seconds, two more than the ORB waits for it before it takes itself
+// down.
+TEST_F(FederationTest, ABrokerThatIsToldToEndWhileACallWaitsForAnotherEndsInOrder) {
+  Start(2, {"0", "per_hop_ms=1400"});
+  Connect(0, 1);
+  Node(1).broker_.Stop();
+  const std::size_t before = DescriptorsOf(Node(0).broker_.pid());
+  std::jthread asker([&] {
+    try {
+      Node(0).Query("Robot", "", "",
+                    {Follow(CosTrading::always), BrokerNode::Policy("hop_count", ULong(5))});
+    } catch (const CORBA::Exception&) {
+      // Nobody answers it any more.
+    }
+  });
+  while (DescriptorsOf(Node(0).broker_.pid()) == before) {
+  }
+  Node(0).broker_.Send(SIGTERM);
+  EXPECT_EQ(Node(0).broker_.Wait(), 0);
 }
 
 TEST_F(FederationTest, LinksAndAttributesSurviveAKill) {

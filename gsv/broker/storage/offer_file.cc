@@ -56,13 +56,19 @@ OfferFile::OfferFile(std::string path, Database database, Statements statements)
       statements_(std::move(statements)),
       writer_([this] { Write(); }) {}
 
-OfferFile::~OfferFile() {
+void OfferFile::Close() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
   }
   appended_.notify_one();
+  if (!writer_.joinable()) return;
   writer_.join();
+  const std::lock_guard lock(mutex_);
+  works_ = false;
+  waiting_.clear();
+  written_.notify_all();
+  (void)database_.Run("PRAGMA wal_checkpoint(TRUNCATE)");  // else the next to open it does so
 }
 
 base::Result<TraderState> OfferFile::Load() {

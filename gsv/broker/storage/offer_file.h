@@ -27,8 +27,7 @@ class OfferFile : public Journal {
   //         kCorrupt: it is damaged, or not a broker's, or of a newer version.
   [[nodiscard]] static base::Result<std::unique_ptr<OfferFile>> Open(const std::string& path,
                                                                      std::uint32_t stem);
-  // Writes what was appended.
-  ~OfferFile() override;
+  ~OfferFile() override { Close(); }
 
   // All that was in the file when it was opened. Before the first Append.
   // Errors  kCorrupt.
@@ -41,6 +40,8 @@ class OfferFile : public Journal {
   bool works() const override;
   Ticket Append(StateChange change) override;
   [[nodiscard]] bool Wait(Ticket ticket) override;
+  // The log beside the file is then empty.
+  void Close() override;
 
  private:
   struct Statements {

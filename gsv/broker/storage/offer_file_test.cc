@@ -182,6 +182,21 @@ TEST_F(OfferFileTest, TakesOverAFileOfAnEarlierFormat) {
   EXPECT_EQ(Reopen()->links().size(), 1u);
 }
 
+TEST_F(OfferFileTest, OnceClosedHoldsWhatWasAnsweredAndRefusesChanges) {
+  auto trader = Reopen();
+  ASSERT_TRUE(trader->AddType({.name = "Robot"}));
+  const auto id = trader->Export("Robot", "IOR:00", {});
+  ASSERT_TRUE(id);
+  trader->Close();
+  trader->Close();
+  const auto refused = trader->Export("Robot", "IOR:01", {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().refusal, Refusal::kNotStored);
+  EXPECT_TRUE(trader->Describe(*id));  // queries are still answered
+  trader = nullptr;
+  EXPECT_TRUE(Reopen()->Describe(*id));
+}
+
 TEST_F(OfferFileTest, IsForOneBrokerAtATime) {
   const auto first = OfferFile::Open(Path(), kOwnStem);
   ASSERT_TRUE(first);

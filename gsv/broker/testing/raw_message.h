@@ -41,7 +41,12 @@ class RawCdr {
   std::string bytes_;
 };
 
-enum class MessageType : std::uint8_t { kRequest = 0, kReply = 1, kFragment = 7 };
+enum class MessageType : std::uint8_t {
+  kRequest = 0,
+  kReply = 1,
+  kCancelRequest = 2,
+  kFragment = 7
+};
 
 inline std::string RawMessage(MessageType type, const std::string& after_the_header,
                               bool more_fragments = false) {

@@ -64,6 +64,8 @@ class Journal {
   virtual Ticket Append(StateChange change) = 0;
   // Returns when this change and all before it are kept; false when they never will be.
   [[nodiscard]] virtual bool Wait(Ticket ticket) = 0;
+  // Keeps what was appended, and nothing from then on: it no longer works.
+  virtual void Close() = 0;
 };
 
 }  // namespace gsv::broker

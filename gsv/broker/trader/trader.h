@@ -127,6 +127,11 @@ class Trader {
   // In the order of their names.
   std::vector<TraderLink> links() const;
 
+  // What is answered is kept; changes are refused from then on.
+  void Close() {
+    if (journal_ != nullptr) journal_->Close();
+  }
+
   // ---- Queries
   // Those of this trader alone. Find() is both steps; other traders' offers may be added between.
   Traded<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;

@@ -38,7 +38,11 @@ bool ConnectionTable::Readable(CheckedConnection* connection) {
     return true;
   }
   const Clock::time_point now = Clock::now();
-  if (found->second == Clock::time_point()) found->second = now;
+  if (!connection->has_begun()) {
+    found->second = {};
+  } else if (found->second == Clock::time_point()) {
+    found->second = now;
+  }
   DropLate(now);
   connection->setSelectable(1, false);
   return false;
@@ -91,10 +95,14 @@ int CheckedConnection::Recv(void* buffer, std::size_t size, const omni_time_t& d
   const std::lock_guard lock(mutex_);
   if (incoming_.assembly().empty()) GiveTurn();  // what came before wanted no reply
   omni_time_t until = deadline;
-  while (!incoming_.whole()) {
+  while (!incoming_.IsThere()) {
     MessageAssembly& assembly = incoming_.assembly();
     // Clients may be silent between messages, not within one.
-    if (!assembly.empty() && !until) until = Soon();
+    if (assembly.empty()) {
+      until = deadline;
+    } else if (!until) {
+      until = Soon();
+    }
     const auto room = assembly.Next();
     // The rest of a message is mostly there with its header.
     ssize_t received = assembly.empty() ? -1 : TryReceive(room.bytes, room.size);
@@ -108,14 +116,14 @@ int CheckedConnection::Recv(void* buffer, std::size_t size, const omni_time_t& d
     CheckRequest(incoming_.assembly().message());
   }
   const int handed_out = incoming_.HandOut(buffer, size);
-  checked_ = incoming_.whole();
+  checked_ = incoming_.IsThere();
   return handed_out;
 }
 
 bool CheckedConnection::Gather() {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock) return true;  // a thread of the ORB reads
-  while (!incoming_.whole()) {
+  while (!incoming_.IsThere()) {
     const auto room = incoming_.assembly().Next();
     const ssize_t received = TryReceive(room.bytes, room.size);
     if (received < 0 && errno == EINTR) continue;
@@ -143,12 +151,12 @@ int CheckedActiveConnection::Send(void* buffer, std::size_t size, const omni_tim
 }
 
 int CheckedActiveConnection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline) {
-  while (!incoming_.whole()) {
+  while (!incoming_.IsThere()) {
     const auto room = incoming_.assembly().Next();
     const int received = orb::ActiveConnection::Recv(room.bytes, room.size, deadline);
     if (received <= 0) return received;
     incoming_.assembly().Take(static_cast<std::size_t>(received));
-    if (!incoming_.whole()) continue;
+    if (!incoming_.IsThere()) continue;
     const std::lock_guard lock(mutex_);
     replies_.Check(incoming_.assembly().message());
   }

@@ -73,6 +73,8 @@ class CheckedConnection : public orb::Connection {
   int Send(void* buffer, std::size_t size, const omni_time_t& deadline) override;
   // Takes what has come, without waiting. True when the ORB would not have to wait.
   bool Gather();
+  // After Gather() was false: what came is a part of a message.
+  bool has_begun() const { return incoming_.has_begun(); }
   // Ends it; the ORB then lets go of it.
   void Drop();
   // When bytes came last, or the connection.

@@ -1,6 +1,9 @@
 // What a broker does with requests that are meant to hurt it: it refuses them and answers on.
 #include <array>
+#include <csignal>
+#include <memory>
 #include <thread>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -8,6 +11,8 @@
 
 #include "gsv/base/sanitizer.h"
 #include "gsv/broker/testing/broker_fixture.h"
+#include "gsv/broker/testing/raw_connection.h"
+#include "gsv/broker/testing/raw_message.h"
 
 namespace gsv::broker {
 namespace {
@@ -142,6 +147,28 @@ TEST_F(HostileInputTest, AnswersOthersWhileConnectionsSendRubbishOrNothing) {
   close(rude);
   close(huge);
   ExpectAlive();
+}
+
+// omniORB takes one for the end of another call on its connection.
+TEST_F(HostileInputTest, LeavesOutRequestsToCancelAndEndsInOrder) {
+  BrokerProcess broker;
+  const std::string cancel = RawMessage(MessageType::kCancelRequest, RawCdr().ULong(1).bytes());
+  const std::string call = RawRequest("TradingService", "_non_existent", "");
+  std::string calls;
+  for (int i = 0; i < 100; ++i) calls += cancel + call + cancel;
+  std::vector<std::unique_ptr<RawConnection>> connections;
+  for (int i = 0; i < 20; ++i) {
+    const auto& connection =
+        connections.emplace_back(std::make_unique<RawConnection>(std::stoi(broker.port())));
+    connection->Send(calls);
+    for (int reply = 0; reply < 100; ++reply) ASSERT_FALSE(connection->Read().empty()) << reply;
+    connection->Send(call.substr(0, 20));
+    connection->Send(call.substr(20) + cancel.substr(0, 5));
+    ASSERT_FALSE(connection->Read().empty());
+    connection->Send(cancel.substr(5));
+  }
+  broker.Send(SIGTERM);
+  EXPECT_EQ(broker.Wait(), 0);
 }
 
 TEST_F(HostileInputTest, ServesManyClientsAtOnce) {
