@@ -21,20 +21,42 @@ function(gsv_precompile TARGET KIND)
   target_precompile_headers(${TARGET} REUSE_FROM ${OWNER})
 endfunction()
 
-# gsv_compile_together(TARGET GROUP FILE …) has all builds but dev compile these files of a target as one:
-# for neighbours whose time to compile is that of the same large headers and templates (libsdformat, Boost.Beast,
-# nlohmann::json, CLI11). Their unnamed namespaces are then one, so their names must differ. dev
-# compiles them one by one, which shows a missing include and rebuilds sooner.
-function(gsv_compile_together TARGET GROUP)
-  if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
-    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${GROUP})
+# All builds but dev compile the sources of a target a few at a time, as one file each: most of the time that a
+# file takes is that of the headers and templates it shares with its neighbours. The unnamed namespaces of
+# neighbours are then one, so their names must differ. dev compiles file by file, which shows a missing
+# include and rebuilds sooner.
+#
+# gsv_compile_in_groups(TARGET) has all sources of a target go together in the order in which they are listed;
+# gsv_library and gsv_test call it. gsv_compile_together(TARGET GROUP FILE …) then makes a group of its own of
+# those that share what takes longest (libsdformat, Boost.Beast, nlohmann::json, CLI11).
+function(gsv_compile_in_groups TARGET)
+  if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+    return()
   endif()
+  set(FILES_A_GROUP 6)
+  set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(SOURCES ${TARGET} SOURCES)
+  list(FILTER SOURCES INCLUDE REGEX "\\.cc$")
+  set(COUNT 0)
+  foreach(SOURCE IN LISTS SOURCES)
+    math(EXPR GROUP "${COUNT} / ${FILES_A_GROUP}")
+    math(EXPR COUNT "${COUNT} + 1")
+    set_source_files_properties(${SOURCE} PROPERTIES UNITY_GROUP ${GROUP})
+  endforeach()
+endfunction()
+function(gsv_compile_together TARGET GROUP)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${GROUP})
 endfunction()
 
 # Tests need not be fast, only what they test, and compile in two thirds of the time so. (At -O1
 # GCC 12 suspects its own std::string of reaching too far.)
 set(GSV_TEST_OPTIONS $<$<CONFIG:Release>:-O1;-Wno-array-bounds;-Wno-stringop-overflow>)
+
+# gsv_compile_sooner(TARGET): for code of large templates whose own speed nobody notices. At -O1 Boost.Beast takes half
+# of the time to compile, the command line three quarters.
+function(gsv_compile_sooner TARGET)
+  target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
 
 # gsv_library(NAME SOURCES … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …])
 #
@@ -48,6 +70,7 @@ function(gsv_library NAME)
     set(SCOPE PUBLIC)
     target_link_libraries(gsv_${NAME} PRIVATE ${ARG_PRIVATE_DEPENDS})
     gsv_precompile(gsv_${NAME} library)
+    gsv_compile_in_groups(gsv_${NAME})
   else()
     add_library(gsv_${NAME} INTERFACE)
     set(SCOPE INTERFACE)
@@ -76,6 +99,7 @@ function(gsv_test NAME)
   target_link_libraries(${NAME} PRIVATE ${ARG_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${NAME} PRIVATE "${GSV_TEST_OPTIONS}")
   gsv_precompile(${NAME} test)
+  gsv_compile_in_groups(${NAME})
   set_target_properties(${NAME} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(ARG_LABEL)

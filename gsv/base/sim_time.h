@@ -17,4 +17,9 @@ inline SimTime FromSeconds(double seconds) {
   return SimTime(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
 }
 
+// As messages carry it. `time` is not before the start.
+inline std::uint64_t NanosecondsOf(SimTime time) {
+  return static_cast<std::uint64_t>(time.count());
+}
+
 }  // namespace gsv::base

@@ -15,7 +15,6 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr std::size_t kWaitingRequests = 256;
 constexpr std::size_t kWaitingReadings = 64;
 
 // Who is there and who holds control is told at once, whatever else is under way.

@@ -16,7 +16,6 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr std::size_t kWaitingRequests = 256;
 constexpr std::size_t kMostStreams = 64;
 constexpr std::chrono::seconds kProbeTime{5};
 // A reset waits for behaviours, a large model is written once.

@@ -12,8 +12,6 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr std::size_t kWaitingRequests = 256;
-
 class LocalReplayGateway final : public ReplayGateway, private Handler {
  public:
   LocalReplayGateway(const GatewayOptions& options, ReplayPlayer& player)

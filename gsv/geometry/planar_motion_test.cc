@@ -1,14 +1,13 @@
 #include "gsv/geometry/planar_motion.h"
 
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "gsv/geometry/constants.h"
+
 namespace gsv::geometry {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(SineCosine, IsThatOfTheLibraryToTheLastBits) {
   std::mt19937_64 random(1);

@@ -1,13 +1,11 @@
 #include "gsv/geometry/pose.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
+
+#include "gsv/geometry/constants.h"
 
 namespace gsv::geometry {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void ExpectNear(const Vector3& a, const Vector3& b) {
   EXPECT_NEAR(a.x, b.x, 1e-12);

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "gsv/base/check.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::geometry {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A point of the profile that is turned about z: its distance from the axis, its height, its
 // normal in that half-plane, and the texture's height there.

@@ -2,16 +2,15 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "gsv/geometry/constants.h"
+
 namespace gsv::geometry {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 using Triangle = std::array<std::uint32_t, 3>;
 

@@ -14,19 +14,20 @@ using simulation::RunToEnd;
 using simulation::Simulation;
 using simulation::StatusOf;
 
-class Scripted final : public Behaviour {
+class EndlessBehaviour final : public Behaviour {
  public:
   using Body = std::function<void(gsv::Robot&)>;
-  explicit Scripted(Body body) : body_(std::move(body)) {}
+  explicit EndlessBehaviour(Body body) : body_(std::move(body)) {}
   void Run(gsv::Robot& robot) override { body_(robot); }
 
  private:
   const Body body_;
 };
 
-std::shared_ptr<HostedBehaviour> Hosted(const std::string& name, Scripted::Body body) {
-  return std::make_shared<HostedBehaviour>(name,
-                                           [body] { return std::make_unique<Scripted>(body); });
+std::shared_ptr<HostedBehaviour> HostedEndless(const std::string& name,
+                                               EndlessBehaviour::Body body) {
+  return std::make_shared<HostedBehaviour>(
+      name, [body] { return std::make_unique<EndlessBehaviour>(body); });
 }
 
 void Wait(gsv::Robot& robot) {
@@ -52,12 +53,13 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
     EXPECT_EQ(ended.wait_for(kPatience), std::future_status::ready) << "it was never destroyed";
   }
 
-  void AddRobots(const Scripted::Body& body) {
+  void AddRobots(const EndlessBehaviour::Body& body) {
     for (int i = 0; i < 40; ++i) {  // enough for the turns to be shared out
       const std::string name = "robot_" + std::to_string(i);
-      auto behaviour = Hosted("patient", Wait);
+      auto behaviour = HostedEndless("patient", Wait);
       // Held by the simulation as long as it lives.
-      if (i == 20) behaviour = Hosted("endless", [body, held = token_](auto& r) { body(r); });
+      if (i == 20)
+        behaviour = HostedEndless("endless", [body, held = token_](auto& r) { body(r); });
       ASSERT_TRUE(simulation_->AddRobot(
           simulation::Robot(name, -(i % 10), 0.5 * (i / 10), std::move(behaviour))));
     }

@@ -1,10 +1,10 @@
 // What pictures show, against what geometry says they must.
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/rendering/testing/test_scene.h"
 
 namespace gsv::rendering {
@@ -15,7 +15,7 @@ using geometry::PlanarPose;
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 
 // Built for each back end: as Picture and as OpenGlPicture.
 #ifndef PICTURE_SUITE

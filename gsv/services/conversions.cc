@@ -27,7 +27,7 @@ std::string TextOf(const model::ParameterValue& value) {
   return std::get<std::string>(value);
 }
 
-sba::AgentPhase ToIdl(simulation::AgentPhase phase) {
+sba::AgentPhase AgentPhaseOf(simulation::AgentPhase phase) {
   switch (phase) {
     case simulation::AgentPhase::kNone:
       return sba::AGENT_NONE;
@@ -47,7 +47,7 @@ sba::AgentPhase ToIdl(simulation::AgentPhase phase) {
   return sba::AGENT_NONE;
 }
 
-simulation::AgentPhase FromIdl(sba::AgentPhase phase) {
+simulation::AgentPhase AgentPhaseOf(sba::AgentPhase phase) {
   switch (phase) {
     case sba::AGENT_NONE:
       return simulation::AgentPhase::kNone;
@@ -202,7 +202,7 @@ sba::SimulationState ToIdl(const simulation::SimulationStatus& status) {
     out.name = robot.name.c_str();
     out.model = robot.model.c_str();
     out.behaviour = robot.behaviour.c_str();
-    out.phase = ToIdl(robot.phase);
+    out.phase = AgentPhaseOf(robot.phase);
     out.detail = robot.detail.c_str();
     out.place = ToIdl(robot.world_from_robot);
     out.distance_m = robot.distance;
@@ -231,7 +231,7 @@ simulation::SimulationStatus FromIdl(const sba::SimulationState& state) {
     robot.name = in.name;
     robot.model = in.model;
     robot.behaviour = in.behaviour;
-    robot.phase = FromIdl(in.phase);
+    robot.phase = AgentPhaseOf(in.phase);
     robot.detail = in.detail;
     robot.world_from_robot = FromIdl(in.place);
     robot.distance = in.distance_m;

@@ -8,7 +8,7 @@ namespace {
 using AgentPtr = std::shared_ptr<simulation::Agent>;
 using Kind = world::JointCommand::Kind;
 
-sba::JointTraits ToIdl(const model::Joint& joint) {
+sba::JointTraits JointTraitsOf(const model::Joint& joint) {
   sba::JointTraits traits;
   traits.name = joint.name.c_str();
   traits.kind = model::NameOf(joint.kind);
@@ -24,7 +24,7 @@ class JointServant final : public POA_sba::JointActuator {
   JointServant(AgentPtr agent, int joint) : agent_(std::move(agent)), joint_(joint) {}
 
   sba::JointTraits* traits() override {
-    return new sba::JointTraits(ToIdl(agent_->Joints()[static_cast<std::size_t>(joint_)]));
+    return new sba::JointTraits(JointTraitsOf(agent_->Joints()[static_cast<std::size_t>(joint_)]));
   }
   void move_to(CORBA::Double position) override { Command({Kind::kPosition, position}); }
   void move_at(CORBA::Double velocity) override { Command({Kind::kVelocity, velocity}); }
@@ -52,7 +52,7 @@ sba::JointTraitsList* ListJoints(const simulation::Agent& agent) {
   for (const model::Joint& joint : agent.Joints()) {
     if (!model::TakesCommands(joint.kind)) continue;
     list->length(list->length() + 1);
-    (*list)[list->length() - 1] = ToIdl(joint);
+    (*list)[list->length() - 1] = JointTraitsOf(joint);
   }
   return list;
 }

@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds kAwaitLease{2000};
 
 using simulation::Phase;
 
-simulation::Specification FromIdl(const sba::SimulationSpecification& in) {
+simulation::Specification SpecificationOf(const sba::SimulationSpecification& in) {
   simulation::Specification out;
   out.name = in.name;
   out.mode = in.pacing == sba::LOCKSTEP ? simulation::Mode::kLockstep : simulation::Mode::kRealTime;
@@ -29,7 +29,7 @@ simulation::Specification FromIdl(const sba::SimulationSpecification& in) {
   out.seed = in.seed;
   out.duration = base::SimTime(in.duration_ns);
   out.keep = in.keep;
-  const model::Parameters options = services::FromIdl(in.options);
+  const model::Parameters options = FromIdl(in.options);
   RefuseUnknown(options, {"abandoned_after_s", "deadline_s", "on_failure"});
   const std::string on_failure = model::TextOr(options, "on_failure", "go_on");
   if (on_failure != "go_on" && on_failure != "fail")
@@ -44,7 +44,7 @@ simulation::Specification FromIdl(const sba::SimulationSpecification& in) {
   return out;
 }
 
-sba::SimulationSpecification ToIdl(const simulation::Specification& in) {
+sba::SimulationSpecification SpecificationOf(const simulation::Specification& in) {
   sba::SimulationSpecification out;
   out.name = in.name.c_str();
   out.world = in.world->source.c_str();
@@ -230,7 +230,7 @@ sba::Simulation_ptr SimulationServiceServant::create_simulation(
     world = orb::ValueOrThrow(hooks_.find_world(world), orb::kRefused | orb::kFailed);
   }
   base::Problems problems;
-  auto created = orb::ValueOrThrow(host_.Create(FromIdl(specification), world, problems),
+  auto created = orb::ValueOrThrow(host_.Create(SpecificationOf(specification), world, problems),
                                    orb::kRefused | orb::kFailed);
   const std::string name = created->specification().name;
   Log(name, problems);
@@ -258,7 +258,7 @@ void SimulationServiceServant::Publish(std::shared_ptr<simulation::Simulation> s
     const std::lock_guard lock(mutex_);
     if (servants_.contains(simulation->specification().name)) return;
   }
-  auto specification = ToIdl(simulation->specification());
+  auto specification = SpecificationOf(simulation->specification());
   const sba::Simulation_var reference = Activate(std::move(simulation), std::move(specification));
 }
 

@@ -18,7 +18,7 @@ using namespace life_cycle;
 constexpr SimTime kStepSize = 10ms;
 constexpr auto kPatience = 20s;  // wall time in which every expected change must have come
 
-std::shared_ptr<const model::Model> Disc() {
+std::shared_ptr<const model::Model> VelocityDisc() {
   auto model = std::make_shared<model::Model>();
   model->name = "disc";
   model->links.resize(1);
@@ -88,7 +88,7 @@ std::shared_ptr<Simulation> Make(const Scene& scene) {
   auto simulation = *Simulation::Create(std::move(specification), sensors);
   for (int i = 0; i < 2; ++i) {
     RobotSpecification robot;
-    robot.model = Disc();
+    robot.model = VelocityDisc();
     robot.world_from_robot = geometry::PlanarPose(0, 2.0 * i, 0, 0);
     if (i < scene.behaviours) robot.behaviour = std::make_shared<Curves>();
     EXPECT_TRUE(simulation->AddRobot(std::move(robot)));

@@ -47,12 +47,6 @@ int Find(const Simulation& simulation, const std::string& name) {
   return simulation.snapshot()->layout->Find(name);
 }
 
-geometry::Pose PoseOf(const Simulation& simulation, const std::string& name) {
-  const auto snapshot = simulation.snapshot();
-  return snapshot->state.bodies.at(static_cast<std::size_t>(snapshot->layout->Find(name)))
-      .world_from_model;
-}
-
 void PauseAt(Simulation& simulation, SimTime instant) {
   ASSERT_TRUE(simulation.RunUntil(instant));
   ASSERT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);

@@ -45,11 +45,6 @@ RobotSpecification Gripping(std::string name, double x, double y,
   return robot;
 }
 
-geometry::Pose PoseOf(const Simulation& simulation, const std::string& name) {
-  const auto snapshot = simulation.snapshot();
-  return snapshot->state.bodies[snapshot->layout->Find(name)].world_from_model;
-}
-
 std::string HeldBy(Simulation& simulation, const std::string& robot) {
   const auto reading = simulation.Watch(robot, "gripper");
   EXPECT_TRUE(reading) << reading.error().Sentence();

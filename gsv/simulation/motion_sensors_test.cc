@@ -1,14 +1,14 @@
 // Sensors of motion in a world that moves: what they read against what the motion must make them
 // read. docs/fidelity.md lists what is expected.
-#include <numbers>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/simulation/testing/test_simulation.h"
 
 namespace gsv::simulation {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.3;
 
 // A disc on two wheels whose true radii are `left` and `right` times what the drive takes them for,

@@ -67,12 +67,12 @@ bool Means(const Formula& f, const Trace& trace, std::size_t at) {
   return false;
 }
 
-struct Judged {
+struct MonitorVerdict {
   bool holds = false;
   std::size_t at = 0;  // the step at which it was certain
 };
 
-Judged RunMonitor(const Formula& formula, const Trace& trace) {
+MonitorVerdict RunMonitor(const Formula& formula, const Trace& trace) {
   Monitor monitor(formula, [](const Formula& atom) { return atom.quantity.value; });
   for (std::size_t i = 0; i < trace.size(); ++i) {
     monitor.Step(static_cast<std::int64_t>(i) * kStep, kStep,
@@ -93,7 +93,7 @@ Trace TraceOf(const std::string& a, const std::string& b = "") {
 }
 
 void Expect(const Formula& formula, const Trace& trace, bool holds, std::size_t at) {
-  const Judged judged = RunMonitor(formula, trace);
+  const MonitorVerdict judged = RunMonitor(formula, trace);
   EXPECT_EQ(judged.holds, holds);
   EXPECT_EQ(judged.at, at);
 }
@@ -167,7 +167,7 @@ TEST(Monitor, AgreesWithWhatTheOperatorsMean) {
     for (auto& state : trace) {
       for (int atom = 0; atom < 3; ++atom) state.push_back(random() % 2 == 0);
     }
-    const Judged judged = RunMonitor(formula, trace);
+    const MonitorVerdict judged = RunMonitor(formula, trace);
     ASSERT_EQ(judged.holds, Means(formula, trace, 0)) << "formula " << i;
     // What was certain early is so however the run goes on.
     for (std::size_t length = judged.at + 1; length < trace.size(); ++length) {

@@ -1,8 +1,8 @@
 #include "gsv/world/snapshot.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
+
+#include "gsv/geometry/constants.h"
 
 namespace gsv::world {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 
 // A mast that turns about z at (1, 0, 0) and carries, through a slider along its x axis, a hand at
 // (2, 0, 0).

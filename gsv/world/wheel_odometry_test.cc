@@ -1,16 +1,16 @@
 #include "gsv/world/wheel_odometry.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::world {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 constexpr double kRadius = 0.1, kSeparation = 0.4, kStep = 0.01;
 
 // Two wheels; the right one's axis points to the right, so that it turns forwards by going down.

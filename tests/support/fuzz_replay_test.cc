@@ -112,7 +112,7 @@ void KeepInput(int signal) {
 TEST(Fuzz, GSV_FUZZ_TEST_NAME) {
   const char* const folder = std::getenv("GSV_BUILD_DIR");
   g_kept = std::string(folder != nullptr ? folder : ".") + "/fuzz_" +
-           testing::UnitTest::GetInstance()->current_test_info()->name() + ".input";
+           ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".input";
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE}) std::signal(signal, KeepInput);
   const auto corpus = Corpus();
   ASSERT_FALSE(corpus.empty());

@@ -7,23 +7,23 @@
 namespace gsv::broker {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-std::string Line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string Line(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-Json ToJson(const ScalarValue& value) {
-  return std::visit([](const auto& content) { return Json(content); }, value);
+OrderedJson ToJson(const ScalarValue& value) {
+  return std::visit([](const auto& content) { return OrderedJson(content); }, value);
 }
 
-Json ToJson(const Value& value) {
+OrderedJson ToJson(const Value& value) {
   if (const OtherValue* other = value.AsOther()) {
     if (other->promised_type != nullptr) return {{"dynamic", other->promised_type->Spelling()}};
     return {{"type", other->type_name}};
   }
   if (const Value::Sequence* sequence = value.AsSequence()) {
-    Json array = Json::array();
+    OrderedJson array = OrderedJson::array();
     for (const ScalarValue& element : *sequence) array.push_back(ToJson(element));
     return array;
   }
@@ -33,7 +33,7 @@ Json ToJson(const Value& value) {
   return *value.As<std::string>();
 }
 
-Json ToJson(const PropertyDefinition& definition) {
+OrderedJson ToJson(const PropertyDefinition& definition) {
   return {{"name", definition.name},
           {"type", definition.type.Spelling()},
           {"readonly", IsReadonly(definition.mode)},
@@ -66,7 +66,7 @@ void PrintServiceTypes(const std::vector<ServiceType>& types, std::ostream& out)
 
 void PrintOffersJson(const std::vector<OfferDescription>& offers, std::ostream& out) {
   for (const OfferDescription& offer : offers) {
-    Json properties = Json::object();
+    OrderedJson properties = OrderedJson::object();
     for (const auto& [name, value] : offer.properties) properties[name] = ToJson(value);
     out << Line({{"id", offer.id},
                  {"type", offer.type},
@@ -78,7 +78,7 @@ void PrintOffersJson(const std::vector<OfferDescription>& offers, std::ostream& 
 
 void PrintServiceTypesJson(const std::vector<ServiceType>& types, std::ostream& out) {
   for (const ServiceType& type : types) {
-    Json properties = Json::array();
+    OrderedJson properties = OrderedJson::array();
     for (const PropertyDefinition& definition : type.properties) {
       properties.push_back(ToJson(definition));
     }

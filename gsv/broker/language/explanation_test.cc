@@ -7,10 +7,10 @@ namespace {
 
 using Result = TermOutcome::Result;
 
-const PropertyList kOffer({{"name", Value::String("r2")}, {"speed", Value::Double(2)}});
+const PropertyList kRobotOffer({{"name", Value::String("r2")}, {"speed", Value::Double(2)}});
 
 std::vector<TermOutcome> Outcomes(const std::string& constraint) {
-  return Explain(*ParseConstraint(constraint, {}), kOffer);
+  return Explain(*ParseConstraint(constraint, {}), kRobotOffer);
 }
 
 TEST(Explanation, LooksAtEachTermByItself) {

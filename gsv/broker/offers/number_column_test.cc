@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kBeyondDoubles = (std::int64_t{1} << 53) + 1;
 
-class Random {
+class RandomOffers {
  public:
   std::size_t Below(std::size_t limit) { return random_() % limit; }
 
@@ -69,7 +69,7 @@ class Random {
   std::mt19937_64 random_{6};
 };
 
-std::vector<std::uint64_t> Numbers(const Offers& offers) {
+std::vector<std::uint64_t> OfferNumbers(const Offers& offers) {
   std::vector<std::uint64_t> numbers;
   for (const OfferPtr& offer : offers) numbers.push_back(offer->number);
   return numbers;
@@ -81,11 +81,11 @@ std::vector<std::uint64_t> OneByOne(const Trader& trader, const std::string& tex
   for (const OfferPtr& offer : trader.AllOffers()) {
     if (Matches(*constraint, offer->properties)) matching.push_back(offer);
   }
-  return Numbers(matching);
+  return OfferNumbers(matching);
 }
 
 TEST(NumberColumns, FindWhatLookingAtEachFinds) {
-  Random random;
+  RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
   std::vector<std::string> ids;
@@ -99,7 +99,7 @@ TEST(NumberColumns, FindWhatLookingAtEachFinds) {
     for (int i = 0; i < 3; ++i) {
       const auto found = trader.Find({.type = "Robot", .constraint = text});
       ASSERT_TRUE(found) << text;
-      ASSERT_EQ(Numbers(found->offers), expected) << text;
+      ASSERT_EQ(OfferNumbers(found->offers), expected) << text;
     }
     if (round % 4 != 0) continue;
     const std::string& changed = ids[random.Below(ids.size())];
@@ -128,7 +128,7 @@ std::vector<std::uint64_t> OneByOneInOrder(const Trader& trader, const std::stri
 }
 
 TEST(NumberColumns, OrderAsAskingEachOrders) {
-  Random random;
+  RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
   for (int i = 0; i < 2000; ++i) {
@@ -139,7 +139,7 @@ TEST(NumberColumns, OrderAsAskingEachOrders) {
       const std::string preference = greatest_first ? "max b" : "min b";
       const auto found = trader.Find({.type = "Robot", .preference = preference});
       ASSERT_TRUE(found);
-      EXPECT_EQ(Numbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
+      EXPECT_EQ(OfferNumbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
     }
     // Other offers: the column is made by the second query that sees them.
     if (round % 2 == 1) ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));

@@ -12,7 +12,7 @@
 namespace gsv::broker {
 namespace {
 
-using Numbers = std::vector<long double>;
+using LongNumbers = std::vector<long double>;
 using Order = std::vector<std::uint32_t>;
 
 constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
@@ -34,7 +34,7 @@ TEST(NumberOrder, TellsIntegersApartThatADoubleCannot) {
 TEST(NumberOrder, IsThatOfAComparisonForManyNumbers) {
   std::mt19937_64 random(7);
   for (const bool large : {false, true}) {
-    Numbers numbers;
+    LongNumbers numbers;
     for (int i = 0; i < 5000; ++i) {
       const auto integer = static_cast<std::int64_t>(random());
       if (i % 50 == 0) {

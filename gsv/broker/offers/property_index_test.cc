@@ -13,9 +13,9 @@
 namespace gsv::broker {
 namespace {
 
-class Random {
+class RandomValues {
  public:
-  explicit Random(std::uint64_t seed) : random_(seed) {}
+  explicit RandomValues(std::uint64_t seed) : random_(seed) {}
 
   std::size_t Below(std::size_t bound) { return random_() % bound; }
 
@@ -88,7 +88,7 @@ class Random {
 };
 
 TEST(PropertyIndex, FindsWhatLookingThroughAllFinds) {
-  Random random(20261121);
+  RandomValues random(20261121);
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
   ASSERT_TRUE(trader.AddType({.name = "Rover", .super_types = {"Robot"}}));

@@ -8,11 +8,11 @@ namespace {
 constexpr unsigned long kAnswerWithinMs = 1000;
 constexpr std::string_view kObject = "IDL:omg.org/CORBA/Object:1.0";
 
-bool IsRepositoryId(std::string_view name) { return name.starts_with("IDL:"); }
+bool HasRepositoryPrefix(std::string_view name) { return name.starts_with("IDL:"); }
 
 // "IDL:omg.org/CosTrading/Lookup:1.0" → "omg.org/CosTrading/Lookup".
 std::string_view Path(std::string_view id) {
-  if (IsRepositoryId(id)) id.remove_prefix(4);
+  if (HasRepositoryPrefix(id)) id.remove_prefix(4);
   return id.substr(0, id.rfind(':'));
 }
 
@@ -37,7 +37,7 @@ bool EndsWithPath(std::string_view path, std::string_view end) {
 Conformance CompareInterface(std::string_view type_id, std::string_view interface_name) {
   if (interface_name.empty() || interface_name == kObject) return Conformance::kConforms;
   if (type_id.empty()) return Conformance::kUnknown;
-  const bool same = IsRepositoryId(interface_name)
+  const bool same = HasRepositoryPrefix(interface_name)
                         ? type_id == interface_name
                         : EndsWithPath(Path(type_id), PathOfScopedName(interface_name));
   return same ? Conformance::kConforms : Conformance::kUnknown;
@@ -47,7 +47,7 @@ Conformance CheckInterface(CORBA::Object_ptr service, std::string_view type_id,
                            const std::string& interface_name) {
   const Conformance compared = CompareInterface(type_id, interface_name);
   if (compared != Conformance::kUnknown) return compared;
-  const std::string id = IsRepositoryId(interface_name)
+  const std::string id = HasRepositoryPrefix(interface_name)
                              ? interface_name
                              : "IDL:" + PathOfScopedName(interface_name) + ":1.0";
   try {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned long kCallTimeoutMs = 1000;
 
-FollowOption FromCorba(CosTrading::FollowOption option) {
+FollowOption FollowOptionOf(CosTrading::FollowOption option) {
   return static_cast<FollowOption>(option);
 }
 
@@ -52,8 +52,8 @@ void LinkServant::add_link(const char* name, CosTrading::Lookup_ptr target,
   RequireMemoryReserve();
   ValueOrRaise(objects_.trader.AddLink({.name = name,
                                         .target = CheckLookup(objects_.orb, target),
-                                        .def_pass_on = FromCorba(def_pass_on_follow_rule),
-                                        .limiting = FromCorba(limiting_follow_rule)}));
+                                        .def_pass_on = FollowOptionOf(def_pass_on_follow_rule),
+                                        .limiting = FollowOptionOf(limiting_follow_rule)}));
 }
 
 void LinkServant::remove_link(const char* name) { ValueOrRaise(objects_.trader.RemoveLink(name)); }
@@ -79,8 +79,8 @@ CosTrading::LinkNameSeq* LinkServant::list_links() {
 
 void LinkServant::modify_link(const char* name, CosTrading::FollowOption def_pass_on_follow_rule,
                               CosTrading::FollowOption limiting_follow_rule) {
-  ValueOrRaise(objects_.trader.ModifyLink(name, FromCorba(def_pass_on_follow_rule),
-                                          FromCorba(limiting_follow_rule)));
+  ValueOrRaise(objects_.trader.ModifyLink(name, FollowOptionOf(def_pass_on_follow_rule),
+                                          FollowOptionOf(limiting_follow_rule)));
 }
 
 }  // namespace gsv::broker

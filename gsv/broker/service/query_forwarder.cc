@@ -17,7 +17,7 @@ using CosTrading::Lookup;
 using std::chrono::milliseconds;
 using Deadline = std::chrono::steady_clock::time_point;
 
-constexpr CORBA::ULong kBatch = 500;
+constexpr CORBA::ULong kForwardedBatch = 500;
 
 // Tells offers of other traders from those of this one, whose numbers count from 1.
 constexpr std::uint64_t kFirstForeignNumber = std::uint64_t{1} << 63;
@@ -45,7 +45,7 @@ Lookup::SpecifiedProps ToCorba(const DesiredProperties& desired) {
 }
 
 // Another trader might send a name twice: the last one counts. It has evaluated what is dynamic.
-PropertyList ToList(const CosTrading::PropertySeq& properties) {
+PropertyList PropertiesOf(const CosTrading::PropertySeq& properties) {
   std::vector<Property> taken = ToProperties(properties);
   std::erase_if(taken, [](const Property& property) { return IsDynamic(property.value); });
   return PropertyList::LastOfEachName(std::move(taken));
@@ -68,7 +68,7 @@ class Collector {
       Offer offer{.number = kFirstForeignNumber,
                   .type = {},
                   .reference = ior.in(),
-                  .properties = ToList(offers[i].properties)};
+                  .properties = PropertiesOf(offers[i].properties)};
       bytes_left_ -= std::min(bytes_left_, offer.reference.size() + offer.properties.EncodedSize());
       --offers_left_;
       taken.push_back(std::make_shared<const Offer>(std::move(offer)));
@@ -88,7 +88,7 @@ void TakeRest(CosTrading::OfferIterator_ptr rest, Deadline deadline, Collector& 
   CosTrading::OfferSeq_var offers;
   for (bool more = true; more && !collector.full();) {
     LimitCall(rest, deadline);
-    more = rest->next_n(kBatch, offers) && offers->length() > 0;
+    more = rest->next_n(kForwardedBatch, offers) && offers->length() > 0;
     collector.Take(offers, more, taken);
   }
   LimitCall(rest, deadline);
@@ -131,8 +131,8 @@ ForwardedAnswer QueryForwarder::AskOne(CORBA::ORB_ptr orb, const ForwardedQuery&
     LimitCall(lookup, query.deadline);
     lookup->query(query.type.c_str(), destination.constraint.c_str(), query.preference.c_str(),
                   destination.policies, ToCorba(query.desired),
-                  static_cast<CORBA::ULong>(std::min<std::size_t>(most, kBatch)), offers, rest,
-                  limits_applied);
+                  static_cast<CORBA::ULong>(std::min<std::size_t>(most, kForwardedBatch)), offers,
+                  rest, limits_applied);
     for (CORBA::ULong i = 0; i < limits_applied->length(); ++i) {
       answer.limits_applied.emplace_back(limits_applied[i]);
     }

@@ -6,7 +6,7 @@ namespace gsv::broker {
 namespace {
 
 // CORBA::TCKind.
-enum Kind : std::uint32_t {
+enum TypeCodeKind : std::uint32_t {
   kNull = 0,
   kVoid = 1,
   kShort = 2,

@@ -16,7 +16,7 @@ constexpr std::size_t kPairsAtOnce = 32;
 constexpr double kSameHeight = 1e-9;
 
 // Far above what rounding makes of a distance, far below what matters.
-constexpr double kRounding = 1e-6;
+constexpr double kPairRounding = 1e-6;
 
 // The heights that both reach; upside down if there are none.
 Interval SharedHeights(const Footprint::Piece& a, double height_a, const Footprint::Piece& b,
@@ -46,7 +46,7 @@ void NearPairs::FindCandidates(std::span<const geometry::PlanarPosition> starts,
   for (std::size_t m = 0; m < starts.size(); ++m) {
     rooms_[m] = {{starts[m].x, starts[m].y}, std::max(kRoom, 2 * travels[m])};
     centres_[m] = rooms_[m].centre;
-    radii_[m] = scene_.footprint(m).radius + rooms_[m].radius + kRounding;
+    radii_[m] = scene_.footprint(m).radius + rooms_[m].radius + kPairRounding;
   }
   const auto& found = finder_.Find(centres_, radii_);
   candidates_.assign(found.begin(), found.end());
@@ -73,7 +73,7 @@ void NearPairs::AddIfNear(std::uint32_t first, std::uint32_t second,
   const geometry::PlanarPosition &start_a = starts[first], &start_b = starts[second];
   const Footprint &a = scene_.footprint(first), &b = scene_.footprint(second);
   const Vector2 apart{start_b.x - start_a.x, start_b.y - start_a.y};
-  const double furthest = a.radius + b.radius + within + kRounding;
+  const double furthest = a.radius + b.radius + within + kPairRounding;
   if (Dot(apart, apart) > furthest * furthest) return;
   const auto begin = static_cast<std::uint32_t>(pieces_.size());
   bool touches = false;

@@ -1,5 +1,4 @@
 // Planar robots against the textbook. docs/fidelity.md lists what is expected.
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -7,6 +6,7 @@
 #include "gsv/base/test_within.h"
 #include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/testing/test_world.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using geometry::PlanarPose;
 using testing::TestWorld;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 constexpr double kSide = 10, kSeparation = 0.3, kRadius = 0.1;
 
 // A disc with two wheels, whose true radii have the ratio `left` : `right`.

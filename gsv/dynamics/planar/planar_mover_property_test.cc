@@ -2,13 +2,13 @@
 // nothing with the mover: points on the solids' surfaces in space against the solids' equations.
 
 #include <algorithm>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "gsv/base/random.h"
 #include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/testing/test_world.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -18,7 +18,7 @@ using geometry::Shape;
 using geometry::Vector3;
 using testing::TestWorld;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 constexpr double kClimb = 0.05;  // of robots with the default wheel radius of 0.1
 
 class Random {

@@ -1,11 +1,10 @@
 #include "gsv/dynamics/planar/planar_mover.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
 #include "gsv/dynamics/testing/test_world.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -15,7 +14,7 @@ using testing::BoxRobot;
 using testing::DiscRobot;
 using testing::TestWorld;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 constexpr double kGap = 1e-6;  // between what touches
 
 TestWorld Empty() { return TestWorld(MakePlanarMover()); }

@@ -1,5 +1,4 @@
 // Joints and wheels that move by forces, against closed forms.
-#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -7,17 +6,17 @@
 #include "gsv/base/test_table.h"
 #include "gsv/base/test_within.h"
 #include "gsv/dynamics/testing/test_rigid_world.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
 
+using geometry::kPi;
 using geometry::Pose;
+using testing::At;
+using testing::kG;
 using testing::TestWorld;
 using testing::WorldOnGround;
-
-constexpr double kG = 9.8, kPi = std::numbers::pi;
-
-Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
 
 // One link that hangs from the world: of 1 kg, `length` below (and across) its joint's y axis.
 std::shared_ptr<model::Model> Hanging(model::JointKind kind, double length,

@@ -1,25 +1,26 @@
 // Joints of several axes, screws, links without gravity and surfaces with two frictions, against
 // closed forms.
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
 #include "gsv/dynamics/testing/test_rigid_world.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
 
+using geometry::kPi;
 using geometry::Pose;
 using geometry::Vector3;
 using model::JointKind;
+using testing::At;
+using testing::kG;
 using testing::SolidOf;
 using testing::TestWorld;
 using testing::WorldOnGround;
 
-constexpr double kG = 9.8, kPi = std::numbers::pi, kLength = 0.5, kInertia = 1e-3;
-
-Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
+constexpr double kLength = 0.5, kInertia = 1e-3;
 
 // A ball of 1 kg that hangs from the world, kLength below the joint, which turns about `axes` in a
 // row: as the reader makes it of ball and universal joints.

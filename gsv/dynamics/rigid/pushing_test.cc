@@ -7,11 +7,10 @@ namespace gsv::dynamics {
 namespace {
 
 using geometry::Pose;
+using testing::At;
 using testing::SolidOf;
 using testing::TestWorld;
 using testing::WorldOnGround;
-
-Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
 
 // Of 20 kg: it pushes with at most 196 N.
 std::shared_ptr<model::Model> Robot() {

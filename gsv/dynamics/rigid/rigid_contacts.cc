@@ -7,7 +7,7 @@ namespace gsv::dynamics {
 namespace {
 
 // m: closer than this is touching.
-constexpr double kTouching = 1e-4;
+constexpr double kTouchingDistance = 1e-4;
 // What is below and steeper than 45° to nothing carries.
 constexpr double kCarries = 0.70710678118654757;
 
@@ -81,8 +81,8 @@ void RigidContacts::Add(const Owner& first, const Owner& second,
   const BodyPair pair{first.solid->body, second.solid->body};
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     const btManifoldPoint& point = manifold.getContactPoint(i);
-    if (is_first_ && point.getDistance() <= kTouching) at_start_.push_back(pair);
-    if (point.getDistance() > kTouching && !(point.getAppliedImpulse() > 0)) continue;
+    if (is_first_ && point.getDistance() <= kTouchingDistance) at_start_.push_back(pair);
+    if (point.getDistance() > kTouchingDistance && !(point.getAppliedImpulse() > 0)) continue;
     // Bullet's normal points from its second body to its first.
     const bool swapped = manifold.getBody0()->getUserPointer() != &first;
     geometry::Vector3 normal = FromBullet(point.m_normalWorldOnB);

@@ -13,19 +13,18 @@ namespace {
 
 using geometry::Pose;
 using geometry::Vector3;
+using testing::At;
 using testing::EnergyOf;
+using testing::kG;
 using testing::SolidOf;
 using testing::TestWorld;
 using testing::WorldOnGround;
 
-constexpr double kG = 9.8;
 constexpr double kStep = 0.001;
 
 model::Surface SurfaceOf(double friction, double restitution = 0) {
   return {friction, friction, restitution};
 }
-
-Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
 
 // A plane inclined about the y axis: down is +x.
 Pose Inclined(double angle) { return {{0, 0, 0}, geometry::FromAxisAngle({0, 1, 0}, angle)}; }

@@ -1,15 +1,15 @@
 #include "gsv/dynamics/shapes/convex_piece.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 #include "gsv/base/check.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kInfinity;
 
 // Hulls drop corners that stand out from their neighbours by less than this.
 constexpr double kFlat = 1e-9;

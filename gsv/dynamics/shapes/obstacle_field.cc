@@ -1,8 +1,9 @@
 #include "gsv/dynamics/shapes/obstacle_field.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
+
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -12,7 +13,7 @@ constexpr double kTooLarge = 500;  // m in radius; such obstacles are looked at 
 constexpr double kMostCells = 1 << 20;
 constexpr double kMostEntries = 1 << 23;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kInfinity;
 
 struct Range {
   double low = kInfinity, high = -kInfinity;

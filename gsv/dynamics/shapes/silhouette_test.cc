@@ -1,9 +1,10 @@
 #include "gsv/dynamics/shapes/silhouette.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using geometry::FromAxisAngle;
 using geometry::Pose;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 
 // How far a piece reaches along x and y.
 double ReachX(const ConvexPiece& piece) {

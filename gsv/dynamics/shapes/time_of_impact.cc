@@ -15,13 +15,13 @@ constexpr double kNoise = 1e-12;       // m/s; less is rounding
 
 // A piece's corners along an axis: where they are, how fast they go, and how much faster they may
 // get.
-struct Corners {
+struct MovingCorners {
   std::array<double, ConvexPiece::kMaxVertices> along, speed, acceleration;
   int count = 0;
 };
 
 void Project(const ConvexPiece& placed, const geometry::PlanarPosition& at,
-             const geometry::Twist& twist, Vector2 axis, Corners& corners) {
+             const geometry::Twist& twist, Vector2 axis, MovingCorners& corners) {
   corners.count = placed.vertex_count;
   const double vx = at.cosine * twist.x - at.sine * twist.y;
   const double vy = at.sine * twist.x + at.cosine * twist.y;
@@ -35,7 +35,7 @@ void Project(const ConvexPiece& placed, const geometry::PlanarPosition& at,
   }
 }
 
-void ProjectStanding(const ConvexPiece& placed, Vector2 axis, Corners& corners) {
+void ProjectStanding(const ConvexPiece& placed, Vector2 axis, MovingCorners& corners) {
   corners.count = 1;
   corners.along[0] = std::numeric_limits<double>::infinity();
   for (const Vector2 v : placed.points())
@@ -43,7 +43,7 @@ void ProjectStanding(const ConvexPiece& placed, Vector2 axis, Corners& corners) 
   corners.speed[0] = corners.acceleration[0] = 0;
 }
 
-double Gap(const Corners& a, const Corners& b) {
+double Gap(const MovingCorners& a, const MovingCorners& b) {
   return *std::min_element(b.along.begin(), b.along.begin() + b.count) -
          *std::max_element(a.along.begin(), a.along.begin() + a.count);
 }
@@ -62,7 +62,8 @@ struct FirstMeeting {
   double speed = 0;  // at which it closes, now
 };
 
-FirstMeeting MeetAtTheEarliest(const Corners& a, const Corners& b, double keep, double end) {
+FirstMeeting MeetAtTheEarliest(const MovingCorners& a, const MovingCorners& b, double keep,
+                               double end) {
   FirstMeeting first{end};
   for (int i = 0; i < a.count; ++i) {
     for (int k = 0; k < b.count; ++k) {
@@ -78,7 +79,7 @@ FirstMeeting MeetAtTheEarliest(const Corners& a, const Corners& b, double keep, 
   return first;
 }
 
-double FastestNearTop(const Corners& a) {
+double FastestNearTop(const MovingCorners& a) {
   const double top = *std::max_element(a.along.begin(), a.along.begin() + a.count);
   double fastest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < a.count; ++i) {
@@ -87,7 +88,7 @@ double FastestNearTop(const Corners& a) {
   return fastest;
 }
 
-double SlowestNearBottom(const Corners& b) {
+double SlowestNearBottom(const MovingCorners& b) {
   const double bottom = *std::min_element(b.along.begin(), b.along.begin() + b.count);
   double slowest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < b.count; ++i) {
@@ -96,7 +97,7 @@ double SlowestNearBottom(const Corners& b) {
   return slowest;
 }
 
-Impact MakeImpact(double time, Vector2 normal, const Corners& a, const Corners& b) {
+Impact MakeImpact(double time, Vector2 normal, const MovingCorners& a, const MovingCorners& b) {
   Impact impact{time, normal, FastestNearTop(a) > kApproach, SlowestNearBottom(b) < -kApproach};
   if (!impact.first_approaches && !impact.second_approaches) {
     impact.first_approaches = impact.second_approaches = true;
@@ -119,7 +120,7 @@ std::optional<Impact> Find(const MovingPiece& first, double end, Vector2 normal,
                            PlaceSecond place_second, ProjectSecond project_second) {
   double time = 0;
   ConvexPiece placed;
-  Corners a, b;
+  MovingCorners a, b;
   for (int advance = 0; advance < kMaxAdvances; ++advance) {
     const geometry::PlanarPosition at =
         advance == 0 ? first.start : Advance(first.start, first.twist, time);
@@ -156,7 +157,9 @@ std::optional<Impact> FindImpact(const MovingPiece& first, const MovingPiece& se
         Place(*second.piece, at, placed);
         return placed;
       },
-      [&](Vector2 axis, Corners& corners) { Project(placed, at, second.twist, axis, corners); });
+      [&](Vector2 axis, MovingCorners& corners) {
+        Project(placed, at, second.twist, axis, corners);
+      });
 }
 
 std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& standing, double end,
@@ -164,7 +167,7 @@ std::optional<Impact> FindImpact(const MovingPiece& first, const ConvexPiece& st
   if (IsStill(first)) return std::nullopt;
   return Find(
       first, end, normal, [&](double) -> const ConvexPiece& { return standing; },
-      [&](Vector2 axis, Corners& corners) { ProjectStanding(standing, axis, corners); });
+      [&](Vector2 axis, MovingCorners& corners) { ProjectStanding(standing, axis, corners); });
 }
 
 }  // namespace gsv::dynamics

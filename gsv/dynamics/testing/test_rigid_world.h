@@ -6,6 +6,11 @@
 
 namespace gsv::dynamics::testing {
 
+inline constexpr double kG = 9.8;  // m/s²
+
+// Upright.
+inline geometry::Pose At(double x, double y, double z) { return {{x, y, z}, {}}; }
+
 // A solid of one shape with the inertia that it has by the textbook.
 inline std::shared_ptr<model::Model> SolidOf(const geometry::Shape& shape, double mass,
                                              const model::Surface& surface = {}) {

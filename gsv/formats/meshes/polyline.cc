@@ -72,7 +72,7 @@ std::vector<Region> ToRegions(const std::vector<Outline>& outlines) {
 void AddWalls(const Outline& outline, double height, TriangleMesh& mesh) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vector2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-    const Vector3 outward = geometry::Normalized({b.y - a.y, a.x - b.x, 0});
+    const Vector3 outward = geometry::Normalized(Vector3{b.y - a.y, a.x - b.x, 0});
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vector3& p : {Vector3{a.x, a.y, 0}, Vector3{b.x, b.y, 0}, Vector3{b.x, b.y, height},
                              Vector3{a.x, a.y, height}}) {

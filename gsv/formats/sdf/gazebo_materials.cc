@@ -8,13 +8,13 @@ namespace {
 using model::Colour;
 using model::Material;
 
-struct Named {
+struct NamedMaterial {
   std::string_view name;
   Colour colour;
   double roughness;
 };
 
-constexpr Named kPlain[] = {
+constexpr NamedMaterial kPlain[] = {
     {"Grey", {0.7, 0.7, 0.7, 1}, 0.9},
     {"Gray", {0.7, 0.7, 0.7, 1}, 0.9},
     {"DarkGrey", {0.175, 0.175, 0.175, 1}, 0.9},
@@ -67,7 +67,7 @@ constexpr Named kPlain[] = {
 };
 
 std::optional<Material> Plain(std::string_view name) {
-  for (const Named& named : kPlain) {
+  for (const NamedMaterial& named : kPlain) {
     if (named.name != name) continue;
     Material material;
     material.base_colour = named.colour;

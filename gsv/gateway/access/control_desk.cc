@@ -8,7 +8,7 @@
 namespace gsv::gateway::access {
 namespace {
 
-constexpr std::size_t kLongestName = 60;  // bytes
+constexpr std::size_t kLongestViewerName = 60;  // bytes
 
 std::string NewKey() {
   std::random_device random;
@@ -22,8 +22,8 @@ std::string CleanName(const std::string& name) {
     const auto byte = static_cast<unsigned char>(c);
     clean.push_back(byte < 0x20 || byte == 0x7f ? ' ' : c);
   }
-  if (clean.size() > kLongestName) {
-    std::size_t end = kLongestName;
+  if (clean.size() > kLongestViewerName) {
+    std::size_t end = kLongestViewerName;
     while (end > 0 && (static_cast<unsigned char>(clean[end]) & 0xc0) == 0x80) --end;
     clean.resize(end);
   }

@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/gateway/live/simulation_commands.h"
+
 namespace gsv::gateway {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::int64_t kMostSteps = 1'000'000'000;
 
 tl::unexpected<base::Error> Invalid(std::string sentence) {
   return base::Fail(base::ErrorCode::kInvalidArgument, std::move(sentence));

@@ -11,20 +11,20 @@
 namespace gsv::gateway::curves {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kLongestListed = 8;
 constexpr int kDeepest = 6;
 
-std::optional<double> Find(const Json& value, std::string_view key, int depth);
+std::optional<double> Find(const OrderedJson& value, std::string_view key, int depth);
 
-std::optional<double> NumberOf(const Json& value) {
+std::optional<double> NumberOf(const OrderedJson& value) {
   if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
   if (!value.is_number()) return std::nullopt;
   return value.get<double>();
 }
 
-std::optional<double> AngleIn(const Json& value, std::string_view which) {
+std::optional<double> AngleIn(const OrderedJson& value, std::string_view which) {
   if (!value.is_object() || value.size() != 4) return std::nullopt;
   double numbers[4];
   static constexpr const char* kNames[] = {"x", "y", "z", "w"};
@@ -37,7 +37,8 @@ std::optional<double> AngleIn(const Json& value, std::string_view which) {
 }
 
 // `rest`: "[NAME]".
-std::optional<double> BesideName(const Json& names, const Json& list, std::string_view rest) {
+std::optional<double> BesideName(const OrderedJson& names, const OrderedJson& list,
+                                 std::string_view rest) {
   if (!names.is_array() || names.size() != list.size()) return std::nullopt;
   if (rest.size() < 2 || rest.front() != '[' || rest.back() != ']') return std::nullopt;
   const std::string_view wanted = rest.substr(1, rest.size() - 2);
@@ -48,10 +49,10 @@ std::optional<double> BesideName(const Json& names, const Json& list, std::strin
   return std::nullopt;
 }
 
-std::optional<double> ExtremeOf(const Json& list, std::string_view which) {
+std::optional<double> ExtremeOf(const OrderedJson& list, std::string_view which) {
   double min = std::numeric_limits<double>::infinity(), max = -min, sum = 0;
   std::size_t finite = 0;
-  for (const Json& each : list) {
+  for (const OrderedJson& each : list) {
     const double value = each.is_number() ? each.get<double>() : NAN;
     if (!std::isfinite(value)) continue;
     min = std::min(min, value);
@@ -66,7 +67,7 @@ std::optional<double> ExtremeOf(const Json& list, std::string_view which) {
   return std::nullopt;
 }
 
-std::optional<double> FindInList(const Json& list, std::string_view key, int depth) {
+std::optional<double> FindInList(const OrderedJson& list, std::string_view key, int depth) {
   const bool is_of_numbers = !list.empty() && list.front().is_number();
   if (!is_of_numbers) {
     if (key == ".count") return static_cast<double>(list.size());
@@ -86,7 +87,7 @@ std::optional<double> FindInList(const Json& list, std::string_view key, int dep
   return NumberOf(list[index]);
 }
 
-std::optional<double> FindInObject(const Json& object, std::string_view key, int depth) {
+std::optional<double> FindInObject(const OrderedJson& object, std::string_view key, int depth) {
   const std::size_t end = std::min(key.find_first_of(".["), key.size());
   const auto member = object.find(std::string(key.substr(0, end)));
   if (member == object.end()) return std::nullopt;
@@ -104,7 +105,7 @@ std::optional<double> FindInObject(const Json& object, std::string_view key, int
   return Find(*member, rest, depth + 1);
 }
 
-std::optional<double> Find(const Json& value, std::string_view key, int depth) {
+std::optional<double> Find(const OrderedJson& value, std::string_view key, int depth) {
   if (depth > kDeepest) return std::nullopt;
   if (key.empty()) return NumberOf(value);
   if (value.is_object()) return FindInObject(value, key, depth);

@@ -53,7 +53,7 @@ class Hub {
   std::vector<foxglove::ChannelId> SubscribedChannels() const;
 
   struct Message {
-    std::uint64_t time_ns = 0;
+    std::uint64_t time_ns = 0;  // NanosecondsOf(simulated time)
     SharedBytes payload;
   };
   enum class Audience {

@@ -1,5 +1,6 @@
 #include "gsv/gateway/live/command_services.h"
 
+#include "gsv/gateway/live/simulation_commands.h"
 #include "gsv/messages/cdr.h"
 
 namespace gsv::gateway {
@@ -7,7 +8,6 @@ namespace {
 
 using foxglove::Service;
 
-constexpr std::int64_t kMostSteps = 1'000'000'000;
 // The encapsulation header, and the octet that ROS 2 puts into an empty message.
 constexpr std::size_t kLongestEmpty = 8;
 

@@ -36,7 +36,7 @@ void CommandTopic::Publish(const world::Snapshot& snapshot) {
     ++sent;
     hub_->Publish(
         channel_,
-        {static_cast<std::uint64_t>(snapshot.state.time.count()),
+        {base::NanosecondsOf(snapshot.state.time),
          Encoded(presentation::CommandMessage(layout_->bodies[body].name, drive, snapshot.state))});
   }
 }

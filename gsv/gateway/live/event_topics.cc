@@ -20,10 +20,6 @@ SharedBytes EncodedLog(const simulation::Event& event) {
   return Encoded(presentation::LogMessage(event));
 }
 
-std::uint64_t Nanoseconds(const simulation::Event& event) {
-  return static_cast<std::uint64_t>(event.time.count());
-}
-
 }  // namespace
 
 EventTopics::EventTopics(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
@@ -37,7 +33,7 @@ void EventTopics::Publish(const simulation::Simulation& simulation) {
   for (const simulation::Event& event : TakeNew(simulation)) {
     for (const Topic& topic : topics_) {
       if (!hub_->IsSubscribed(topic.channel)) continue;
-      hub_->Publish(topic.channel, {Nanoseconds(event), topic.encode(event)},
+      hub_->Publish(topic.channel, {base::NanosecondsOf(event.time), topic.encode(event)},
                     Hub::Audience::kEstablished);
     }
   }
@@ -60,7 +56,7 @@ void EventTopics::Welcome(const Topic& topic, const simulation::Simulation& simu
   const std::vector<simulation::Event> past = simulation.events(0);
   std::vector<Hub::Message> messages;
   for (std::size_t i = past.size() - std::min(past.size(), kMostPastEvents); i < past.size(); ++i) {
-    messages.push_back({Nanoseconds(past[i]), topic.encode(past[i])});
+    messages.push_back({base::NanosecondsOf(past[i].time), topic.encode(past[i])});
   }
   hub_->Welcome(topic.channel, messages);
 }

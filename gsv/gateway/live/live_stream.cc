@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kRefreshRate = 1;  // Hz: how often new sensors are looked for
 
-std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
-
 foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
   const auto started = std::chrono::system_clock::now().time_since_epoch();
   return {"gsv: " + simulation.specification().name,
@@ -82,7 +80,7 @@ void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::S
 void LiveStream::PublishTime(const SnapshotPointer& snapshot) {
   if (time_of_.lock() == snapshot) return;
   time_of_ = snapshot;
-  hub_->PublishTime(Nanoseconds(snapshot->state.time));
+  hub_->PublishTime(base::NanosecondsOf(snapshot->state.time));
 }
 
 void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now) {
@@ -90,7 +88,7 @@ void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, 
   const bool is_due = topic.published.lock() != snapshot && topic.pacing.IsDue(now);
   if (!is_due && !hub_->HasNewcomers(topic.channel)) return;
   if (topic.published.lock() != snapshot) {
-    topic.latest = {Nanoseconds(snapshot->state.time), (this->*topic.encode)(*snapshot)};
+    topic.latest = {base::NanosecondsOf(snapshot->state.time), (this->*topic.encode)(*snapshot)};
   }
   if (!is_due) return hub_->Welcome(topic.channel, {&topic.latest, 1});
   hub_->Publish(topic.channel, topic.latest);

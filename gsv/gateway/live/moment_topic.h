@@ -47,7 +47,7 @@ class MomentTopic {
     }
     if (hub_->HasNewcomers(channel_)) hub_->Welcome(channel_, {});
     for (const auto& [time, message] : watch_->Take()) {
-      hub_->Publish(channel_, {static_cast<std::uint64_t>(time.count()), Encoded(message)});
+      hub_->Publish(channel_, {base::NanosecondsOf(time), Encoded(message)});
     }
   }
 

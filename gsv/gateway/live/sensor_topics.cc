@@ -24,8 +24,6 @@ bool SameDescription(const model::SensorDescription& a, const model::SensorDescr
          a.parameters == b.parameters;
 }
 
-std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
-
 std::string TopicOf(const std::string& robot, const std::string& sensor) {
   return "/" + presentation::FrameOf(robot, sensor);
 }
@@ -230,7 +228,7 @@ void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
     presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description, *sensor->type,
                                         snapshot.state.time, message);
   }
-  hub_->Publish(transforms_channel_, {Nanoseconds(snapshot.state.time), Encoded(message)});
+  hub_->Publish(transforms_channel_, {base::NanosecondsOf(snapshot.state.time), Encoded(message)});
   transforms_changed_ = false;
 }
 
@@ -241,8 +239,9 @@ void SensorTopics::WelcomeToCompanion(const world::Snapshot& snapshot, const Sen
   sensing::Reading now;
   now.step = snapshot.state.step;
   now.time = snapshot.state.time;
-  const Hub::Message message{Nanoseconds(now.time), SharedBytes(sensor.type->companion->encode(
-                                                        sensor.description, now, sensor.frame()))};
+  const Hub::Message message{
+      base::NanosecondsOf(now.time),
+      SharedBytes(sensor.type->companion->encode(sensor.description, now, sensor.frame()))};
   hub_->Welcome(sensor.companion_channel, {&message, 1});
 }
 
@@ -282,12 +281,12 @@ void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& senso
   const bool is_new = sensor.published_step.exchange(reading->step) != reading->step;
   if (!is_new && !hub_->HasNewcomers(sensor.channel)) return;
   const Hub::Message message{
-      Nanoseconds(reading->time),
+      base::NanosecondsOf(reading->time),
       SharedBytes(sensor.type->encode(sensor.description, *reading, sensor.frame()))};
   if (is_new) {
     hub_->Publish(sensor.channel, message);
     if (sensor.companion_channel != 0 && hub_->IsSubscribed(sensor.companion_channel)) {
-      hub_->Publish(sensor.companion_channel, {Nanoseconds(reading->time),
+      hub_->Publish(sensor.companion_channel, {base::NanosecondsOf(reading->time),
                                                SharedBytes(sensor.type->companion->encode(
                                                    sensor.description, *reading, sensor.frame()))});
     }
@@ -342,7 +341,7 @@ void SensorTopics::TakeBeams(simulation::Simulation& simulation, const world::Sn
     message.markers.push_back(
         presentation::BeamsMarker(robot, snapshot.state.time, std::move(its_points)));
   }
-  hub_->Publish(beams_channel_, {Nanoseconds(snapshot.state.time), Encoded(message)});
+  hub_->Publish(beams_channel_, {base::NanosecondsOf(snapshot.state.time), Encoded(message)});
 }
 
 }  // namespace gsv::gateway

@@ -10,6 +10,8 @@
 
 namespace gsv::gateway {
 
+inline constexpr std::int64_t kMostSteps = 1'000'000'000;  // that one command may ask for
+
 struct SimulationCommand {
   std::string_view name;
   bool takes_count = false;  // of steps; else `count` is of no account

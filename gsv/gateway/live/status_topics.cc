@@ -41,7 +41,7 @@ void StatusTopics::Publish(Topic& topic, const simulation::Simulation& simulatio
   const bool has_newcomers = hub_->HasNewcomers(topic.channel);
   if (!is_due && !has_newcomers) return;
   const simulation::SimulationStatus status = simulation.status();
-  const Hub::Message message{static_cast<std::uint64_t>(status.time.count()), topic.encode(status)};
+  const Hub::Message message{base::NanosecondsOf(status.time), topic.encode(status)};
   if (is_due) {
     topic.pacing.Done(now);
     topic.phase = status.phase;

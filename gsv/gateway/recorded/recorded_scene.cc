@@ -19,7 +19,7 @@ std::string_view TextOf(const recording::Bytes& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-const Json& Member(const Json& object, const char* name) {
+const Json& MemberOf(const Json& object, const char* name) {
   static const Json kNull;
   const auto found = object.is_object() ? object.find(name) : object.end();
   return object.is_object() && found != object.end() ? *found : kNull;
@@ -28,14 +28,15 @@ const Json& Member(const Json& object, const char* name) {
 // Of the entries of "poses" that are bodies, not links.
 std::map<std::string, std::size_t> BodyPosesOf(const Json& scene) {
   std::map<std::string, std::size_t> places;
-  const Json& bodies = Member(scene, "bodies");
-  const Json& poses = Member(scene, "poses");
+  const Json& bodies = MemberOf(scene, "bodies");
+  const Json& poses = MemberOf(scene, "poses");
   if (!bodies.is_array() || !poses.is_array()) return places;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Json& body = Member(poses[i], "body");
+    const Json& body = MemberOf(poses[i], "body");
     if (!body.is_number_unsigned() || body.get<std::uint64_t>() >= bodies.size()) continue;
-    const Json& name = Member(bodies[body.get<std::size_t>()], "name");
-    if (name.is_string() && Member(poses[i], "link").is_null()) places[name.get<std::string>()] = i;
+    const Json& name = MemberOf(bodies[body.get<std::size_t>()], "name");
+    if (name.is_string() && MemberOf(poses[i], "link").is_null())
+      places[name.get<std::string>()] = i;
   }
   return places;
 }
@@ -61,7 +62,7 @@ base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
   if (!attachment) return base::Fail(attachment.error());
   const std::string_view text = TextOf(attachment->data);
   const Json scene = Json::parse(text, nullptr, false);
-  const Json& version = Member(scene, "layout_version");
+  const Json& version = MemberOf(scene, "layout_version");
   if (!version.is_number_unsigned()) {
     return base::Fail(base::ErrorCode::kCorrupt, "it is no scene: it has no layout_version",
                       index.name);

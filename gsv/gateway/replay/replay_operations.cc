@@ -86,8 +86,7 @@ base::Status ReplayOperations::Set(const foxglove::Parameter& parameter) {
 
 std::optional<PlaybackState> ReplayOperations::playback() const {
   const ReplayClock clock = player_.clock();
-  return PlaybackState{StatusOf(clock.phase()),
-                       static_cast<std::uint64_t>(clock.position().count()),
+  return PlaybackState{StatusOf(clock.phase()), base::NanosecondsOf(clock.position()),
                        static_cast<float>(clock.speed()), false, std::string()};
 }
 

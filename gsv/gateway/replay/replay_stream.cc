@@ -13,18 +13,17 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr double kStatusRate = 5;  // Hz
+constexpr double kReplayStatusRate = 5;  // Hz
 constexpr int kMostWarnings = 10;
-
-std::uint64_t Nanoseconds(base::SimTime time) { return static_cast<std::uint64_t>(time.count()); }
 
 foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& summary) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return {"gsv replay: " + name,
-          {"time"},
-          {{"simulation", name}},
-          std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()),
-          foxglove::TimeRange{Nanoseconds(summary.start), Nanoseconds(summary.end)}};
+  return {
+      "gsv replay: " + name,
+      {"time"},
+      {{"simulation", name}},
+      std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()),
+      foxglove::TimeRange{base::NanosecondsOf(summary.start), base::NanosecondsOf(summary.end)}};
 }
 
 // What belongs to the whole simulation goes first, lest the limit leave it out.
@@ -52,7 +51,7 @@ ReplayStream::ReplayStream(const recording::McapReader& reader, const std::strin
     : reader_(reader),
       hub_(std::make_shared<Hub>(InfoOf(name, reader.summary()), std::move(on_demand),
                                  std::move(operations))),
-      status_pacing_(kStatusRate) {
+      status_pacing_(kReplayStatusRate) {
   const auto own =
       hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
                        ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status")});
@@ -174,7 +173,7 @@ const ReplayStream::Track* ReplayStream::Keep(std::uint16_t id, base::SimTime ti
   const auto found = tracks_.find(id);
   if (found == tracks_.end()) return nullptr;
   Track& track = found->second;
-  track.latest = Hub::Message{Nanoseconds(time), SharedBytes(std::move(data))};
+  track.latest = Hub::Message{base::NanosecondsOf(time), SharedBytes(std::move(data))};
   track.is_fresh = track.kind != Kind::kEvents;
   if (track.kind == Kind::kStatus || track.kind == Kind::kPoses) {
     const std::lock_guard lock(mutex_);
@@ -192,7 +191,7 @@ void ReplayStream::Publish(base::SimTime time, simulation::Phase phase, WallTime
   const bool is_paced = phase == simulation::Phase::kRunning;
   const bool is_due =
       published_phase_ != phase || (has_moved && (!is_paced || status_pacing_.IsDue(now)));
-  if (has_moved) hub_->PublishTime(Nanoseconds(time));
+  if (has_moved) hub_->PublishTime(base::NanosecondsOf(time));
   PublishOwn(clock_channel_, has_moved, time,
              [&] { return Encoded(messages::rosgraph_msgs::Clock{messages::ToMessage(time)}); });
   PublishOwn(status_channel_, is_due, time,
@@ -212,7 +211,7 @@ void ReplayStream::Publish(Track& track) {
 void ReplayStream::PublishOwn(foxglove::ChannelId channel, bool is_due, base::SimTime time,
                               const std::function<SharedBytes()>& encode) {
   if (!hub_->IsSubscribed(channel) || (!is_due && !hub_->HasNewcomers(channel))) return;
-  const Hub::Message message{Nanoseconds(time), encode()};
+  const Hub::Message message{base::NanosecondsOf(time), encode()};
   if (is_due) return hub_->Publish(channel, message);
   hub_->Welcome(channel, {&message, 1});
 }

@@ -13,6 +13,9 @@
 
 namespace gsv::gateway {
 
+// How many requests of viewers may wait for a thread.
+inline constexpr std::size_t kWaitingRequests = 256;
+
 class WorkerPool {
  public:
   WorkerPool(std::size_t threads, std::size_t queue_limit);

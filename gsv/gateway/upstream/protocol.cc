@@ -20,7 +20,7 @@ std::string TextOf(const Json& object, const char* name) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::optional<std::uint32_t> AsId(const Json& json) {
+std::optional<std::uint32_t> ChannelIdOf(const Json& json) {
   if (!json.is_number_unsigned() || json.get<std::uint64_t>() > 0xffffffffu) return std::nullopt;
   return json.get<std::uint32_t>();
 }
@@ -31,7 +31,7 @@ base::Result<ServerText> ParseAdvertise(const Json& json) {
   Advertise message;
   for (const Json& entry : *list) {
     if (!entry.is_object() || !entry.contains("id")) return Malformed("a channel without 'id'");
-    const std::optional<std::uint32_t> id = AsId(entry["id"]);
+    const std::optional<std::uint32_t> id = ChannelIdOf(entry["id"]);
     if (!id) return Malformed("a channel's 'id' that is not a number");
     message.channels.push_back({*id, TextOf(entry, "topic"), TextOf(entry, "encoding"),
                                 TextOf(entry, "schemaName"), TextOf(entry, "schemaEncoding"),
@@ -47,7 +47,7 @@ base::Result<ServerText> ParseUnadvertise(const Json& json) {
   }
   Unadvertise message;
   for (const Json& entry : *list) {
-    const std::optional<std::uint32_t> id = AsId(entry);
+    const std::optional<std::uint32_t> id = ChannelIdOf(entry);
     if (!id) return Malformed("a channel's number that is none");
     message.channels.push_back(*id);
   }

@@ -12,7 +12,7 @@ namespace gsv::gateway::upstream {
 namespace {
 
 // A reset waits for behaviours.
-constexpr std::chrono::seconds kRequestTime{60};
+constexpr std::chrono::seconds kRelayedRequestTime{60};
 
 base::Result<Response> Ask(const Address& address, const char* method, std::string target,
                            std::string body) {
@@ -21,7 +21,7 @@ base::Result<Response> Ask(const Address& address, const char* method, std::stri
   request.raw_target = std::move(target);
   request.content_type = "application/json";
   request.body = std::move(body);
-  return Fetch(address, request, kRequestTime);
+  return Fetch(address, request, kRelayedRequestTime);
 }
 
 base::Result<std::string> FirstSimulation(const Address& address) {

@@ -27,7 +27,7 @@ using sensing::Segment;
 using RendererResult = Result<std::shared_ptr<Renderer>>;
 
 constexpr std::size_t kHead = 2;  // values before the pixels': width and height
-constexpr std::size_t kSharedBytes = 64 << 20;
+constexpr std::size_t kSharedSurveyBytes = 64 << 20;
 constexpr std::size_t kMostDrawn = 2000;  // points of a cloud in the viewer
 
 // For one metre along the view; nothing where the lens shows nothing, or what lies straight beside
@@ -281,7 +281,7 @@ base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererR
       renderer, "boundingbox_camera", {"boundingbox"});
   boxes.overlay = sensing::Overlay::kLines;
   boxes.beams = BoxFrames;
-  const auto readings = std::make_shared<sensing::SharedReadings>(kSharedBytes);
+  const auto readings = std::make_shared<sensing::SharedReadings>(kSharedSurveyBytes);
   for (sensing::SensorType* type : {&depth, &segmentation, &boxes}) {
     sensing::Share(*type, readings);
     type->companion = CameraInfoCompanion();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 #include <vector>
 
@@ -11,6 +10,7 @@
 
 #include "gsv/base/test_table.h"
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/rendering/cameras/optics.h"
 #include "gsv/rendering/lenses/light_encoding.h"
 #include "gsv/rendering/testing/test_scene.h"
@@ -21,7 +21,7 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 
 struct LensCase {
   const char* name;

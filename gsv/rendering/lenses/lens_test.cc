@@ -1,12 +1,12 @@
 #include "gsv/rendering/lenses/lens.h"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::rendering {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using geometry::Vector2;
 using geometry::Vector3;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 
 // From the optical frame of ROS and OpenCV (x right, y down, z along the view) to ours.
 Vector3 FromOptical(double x, double y, double z) { return {z, -x, -y}; }

@@ -11,9 +11,9 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr std::size_t kValues = 8;      // of one contact
-constexpr double kGroundSlope = -0.70;  // of a normal that points down within 45 degrees
-constexpr double kDrawnLength = 0.3;    // m
+constexpr std::size_t kValuesOfContact = 8;  // of one contact
+constexpr double kGroundSlope = -0.70;       // of a normal that points down within 45 degrees
+constexpr double kNormalLength = 0.3;        // m
 
 class Bumper final : public Sensor {
  public:
@@ -50,7 +50,7 @@ class Bumper final : public Sensor {
                                               const Reading& reading, const std::string&) {
     messages::gsv_msgs::Bumper message;
     for (std::size_t i = 0; reading.labels != nullptr && i < reading.labels->size(); ++i) {
-      const double* const v = &reading.values[kValues * i];
+      const double* const v = &reading.values[kValuesOfContact * i];
       message.contacts.push_back(
           {(*reading.labels)[i], {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6], v[7]});
     }
@@ -62,12 +62,12 @@ class Bumper final : public Sensor {
   const bool feels_ground_;
 };
 
-std::vector<Segment> Lines(const model::SensorDescription&, const Reading& reading) {
+std::vector<Segment> ContactLines(const model::SensorDescription&, const Reading& reading) {
   std::vector<Segment> lines;
-  for (std::size_t i = 0; i + kValues <= reading.values.size(); i += kValues) {
+  for (std::size_t i = 0; i + kValuesOfContact <= reading.values.size(); i += kValuesOfContact) {
     const double* const v = &reading.values[i];
     const Vector3 point{v[0], v[1], v[2]};
-    lines.push_back({point, point - kDrawnLength * Vector3{v[3], v[4], v[5]}});
+    lines.push_back({point, point - kNormalLength * Vector3{v[3], v[4], v[5]}});
   }
   return lines;
 }
@@ -77,7 +77,7 @@ std::vector<Segment> Lines(const model::SensorDescription&, const Reading& readi
 SensorType BumperType() {
   SensorType type = MakeSensorType<Bumper, messages::gsv_msgs::Bumper>("contact", {"bumper"});
   type.overlay = Overlay::kLines;
-  type.beams = Lines;
+  type.beams = ContactLines;
   return type;
 }
 

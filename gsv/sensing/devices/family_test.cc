@@ -1,6 +1,5 @@
 // The sensors that feel motion, place and touch, against closed forms.
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -8,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/nav_msgs.h"
 #include "gsv/messages/ros_gz_interfaces.h"
@@ -24,7 +24,7 @@ using geometry::PlanarPose;
 using geometry::Vector3;
 using ::testing::TestWithParam;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 
 const SensorRegistry& Registry() {
   static const SensorRegistry registry = [] {

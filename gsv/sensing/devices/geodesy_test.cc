@@ -1,11 +1,10 @@
 #include "gsv/sensing/devices/geodesy.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 #include <ignition/math/SphericalCoordinates.hh>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/sensing/testing/test_rays.h"
 
 namespace gsv::sensing {
@@ -13,7 +12,7 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 
 TEST(Geodesy, FindsThePlacesWhoseCoordinatesEverybodyKnows) {
   EXPECT_WITHIN(EcefOf({0, 0, 0}).x, 6378137.0, 1e-9, "m");

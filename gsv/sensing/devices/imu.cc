@@ -70,7 +70,8 @@ class Imu final : public Sensor {
   std::array<NoiseModel, 6> noise_;
 };
 
-std::vector<Segment> Lines(const model::SensorDescription& description, const Reading& reading) {
+std::vector<Segment> AccelerationLines(const model::SensorDescription& description,
+                                       const Reading& reading) {
   if (!description.visualize || reading.values.size() < 6) return {};
   const auto& v = reading.values;
   return {{{}, kDrawnPerForce * Vector3{v[3], v[4], v[5]}}};
@@ -81,7 +82,7 @@ std::vector<Segment> Lines(const model::SensorDescription& description, const Re
 SensorType ImuType() {
   SensorType type = MakeSensorType<Imu, messages::sensor_msgs::Imu>("imu");
   type.overlay = Overlay::kLines;
-  type.beams = Lines;
+  type.beams = AccelerationLines;
   return type;
 }
 

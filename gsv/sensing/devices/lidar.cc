@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "gsv/geometry/constants.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/encoding.h"
 #include "gsv/sensing/noise.h"
@@ -18,8 +17,8 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPi = std::numbers::pi;
+using geometry::kInfinity;
+using geometry::kPi;
 constexpr int kMostBeams = 1'000'000;
 
 // Beams at evenly spaced angles, both ends included.
@@ -57,7 +56,7 @@ Angles ReadAngles(ParameterReader& reader, const std::string& name, int samples,
   return fan;
 }
 
-base::Result<LidarSettings> ReadSettings(const model::SensorDescription& description) {
+base::Result<LidarSettings> ReadLidarSettings(const model::SensorDescription& description) {
   ParameterReader reader(description);
   LidarSettings settings;
   settings.horizontal =
@@ -167,11 +166,11 @@ int LevelRow(const Angles& vertical) {
   return best;
 }
 
-std::vector<std::uint8_t> Encode(const model::SensorDescription& description,
-                                 const Reading& reading, const std::string& frame_id) {
+std::vector<std::uint8_t> EncodeScan(const model::SensorDescription& description,
+                                     const Reading& reading, const std::string& frame_id) {
   messages::sensor_msgs::LaserScan message;
   message.header = HeaderOf(reading, frame_id);
-  if (const auto settings = ReadSettings(description)) {
+  if (const auto settings = ReadLidarSettings(description)) {
     const Angles& fan = settings->horizontal;
     message.angle_min = static_cast<float>(fan.first);
     message.angle_max = static_cast<float>(fan.angle(fan.count - 1));
@@ -190,7 +189,7 @@ std::vector<std::uint8_t> Encode(const model::SensorDescription& description,
 
 std::vector<Segment> Beams(const model::SensorDescription& description, const Reading& reading) {
   std::vector<Segment> beams;
-  const auto settings = ReadSettings(description);
+  const auto settings = ReadLidarSettings(description);
   if (!settings) return beams;
   const std::vector<Vector3> directions = Directions(*settings);
   for (std::size_t i = 0; i < std::min(directions.size(), reading.values.size()); ++i) {
@@ -207,12 +206,12 @@ SensorType LidarType() {
   type.aliases = {"ray", "gpu_ray", "gpu_lidar"};
   type.create =
       [](const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
-    const auto settings = ReadSettings(description);
+    const auto settings = ReadLidarSettings(description);
     if (!settings) return base::Fail(settings.error());
     return std::make_unique<Lidar>(description, *settings);
   };
   type.schema = &messages::SchemaOf<messages::sensor_msgs::LaserScan>();
-  type.encode = Encode;
+  type.encode = EncodeScan;
   type.overlay = Overlay::kPoints;
   type.beams = Beams;
   return type;

@@ -17,7 +17,7 @@ using geometry::Bounds;
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr std::size_t kValues = 6;  // of one model
+constexpr std::size_t kValuesOfModel = 6;  // of one model
 
 // The middle of the box around a model's collisions, joints at zero; empty without any.
 std::optional<Vector3> CentreOf(const model::Model& model) {
@@ -88,7 +88,7 @@ class LogicalCamera final : public Sensor {
                                                            const std::string& frame_id) {
     messages::vision_msgs::Detection3DArray message;
     for (std::size_t i = 0; reading.labels != nullptr && i < reading.labels->size(); ++i) {
-      const double* const v = &reading.values[kValues * i];
+      const double* const v = &reading.values[kValuesOfModel * i];
       const geometry::Quaternion q = geometry::FromRollPitchYaw({v[3], v[4], v[5]});
       messages::vision_msgs::Detection3D detection;
       detection.header = HeaderOf(reading, frame_id);
@@ -120,9 +120,9 @@ class LogicalCamera final : public Sensor {
   const bool hides_, robots_only_;
 };
 
-std::vector<Segment> Lines(const model::SensorDescription&, const Reading& reading) {
+std::vector<Segment> FrustumLines(const model::SensorDescription&, const Reading& reading) {
   std::vector<Segment> lines;
-  for (std::size_t i = 0; i + kValues <= reading.values.size(); i += kValues) {
+  for (std::size_t i = 0; i + kValuesOfModel <= reading.values.size(); i += kValuesOfModel) {
     const double* const v = &reading.values[i];
     lines.push_back({{}, {v[0], v[1], v[2]}});
   }
@@ -135,7 +135,7 @@ SensorType LogicalCameraType() {
   SensorType type =
       MakeSensorType<LogicalCamera, messages::vision_msgs::Detection3DArray>("logical_camera");
   type.overlay = Overlay::kLines;
-  type.beams = Lines;
+  type.beams = FrustumLines;
   return type;
 }
 

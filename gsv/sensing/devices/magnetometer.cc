@@ -43,7 +43,8 @@ class Magnetometer final : public Sensor {
   const std::array<NoiseModel, 3> noise_;
 };
 
-std::vector<Segment> Lines(const model::SensorDescription& description, const Reading& reading) {
+std::vector<Segment> FieldLines(const model::SensorDescription& description,
+                                const Reading& reading) {
   if (!description.visualize || reading.values.size() != 3) return {};
   const auto& v = reading.values;
   return {{{}, kDrawnLength * geometry::Normalized(Vector3{v[0], v[1], v[2]})}};
@@ -55,7 +56,7 @@ SensorType MagnetometerType() {
   SensorType type =
       MakeSensorType<Magnetometer, messages::sensor_msgs::MagneticField>("magnetometer");
   type.overlay = Overlay::kLines;
-  type.beams = Lines;
+  type.beams = FieldLines;
   return type;
 }
 

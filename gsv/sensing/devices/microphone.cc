@@ -10,7 +10,7 @@
 namespace gsv::sensing {
 namespace {
 
-constexpr double kNearest = 0.1;  // m
+constexpr double kNearestSpeaker = 0.1;  // m
 
 double Power(double level) { return std::pow(10, level / 10); }
 
@@ -22,7 +22,7 @@ std::optional<double> LevelAt(const geometry::Vector3& point, const world::Actua
   const auto& speaker = std::get<world::SpeakerSetup>(source.setup->kind);
   const geometry::Pose world_from_speaker =
       world::LinkPose(snapshot, body, source.setup->link) * source.setup->link_from_actuator;
-  const double distance = std::max(kNearest, Norm(world_from_speaker.position - point));
+  const double distance = std::max(kNearestSpeaker, Norm(world_from_speaker.position - point));
   return speaker.loudness + 20 * std::log10(sound.volume / distance);
 }
 

@@ -15,7 +15,8 @@ struct PositioningSettings {
   double orientation_stddev = 0;
 };
 
-base::Result<PositioningSettings> ReadSettings(const model::SensorDescription& description) {
+base::Result<PositioningSettings> ReadPositioningSettings(
+    const model::SensorDescription& description) {
   ParameterReader reader(description);
   PositioningSettings settings;
   settings.position_stddev = reader.Number("noise.position.stddev", 0, 0, 1e3);
@@ -51,8 +52,8 @@ class Positioning final : public Sensor {
   PositioningSettings settings_;
 };
 
-std::vector<std::uint8_t> Encode(const model::SensorDescription&, const Reading& reading,
-                                 const std::string&) {
+std::vector<std::uint8_t> EncodePose(const model::SensorDescription&, const Reading& reading,
+                                     const std::string&) {
   messages::geometry_msgs::PoseStamped message;
   message.header = HeaderOf(reading, std::string(kWorldFrame));
   if (reading.values.size() == 6) {
@@ -71,12 +72,12 @@ SensorType PositioningType() {
   type.name = "positioning";
   type.create =
       [](const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
-    const auto settings = ReadSettings(description);
+    const auto settings = ReadPositioningSettings(description);
     if (!settings) return base::Fail(settings.error());
     return std::make_unique<Positioning>(description, *settings);
   };
   type.schema = &messages::SchemaOf<messages::geometry_msgs::PoseStamped>();
-  type.encode = Encode;
+  type.encode = EncodePose;
   return type;
 }
 

@@ -7,7 +7,7 @@
 namespace gsv::sensing {
 namespace {
 
-constexpr std::size_t kValues = 3;  // of one message
+constexpr std::size_t kValuesOfMessage = 3;  // of one message
 constexpr double kHertzAMegahertz = 1e6;
 
 world::RadioSetupPtr ReadSetup(const model::SensorDescription& description,
@@ -59,9 +59,9 @@ class Radio final : public Sensor {
   static messages::gsv_msgs::Radio ToMessage(const model::SensorDescription&,
                                              const Reading& reading, const std::string&) {
     messages::gsv_msgs::Radio message;
-    const std::size_t count = reading.values.size() / kValues;
+    const std::size_t count = reading.values.size() / kValuesOfMessage;
     for (std::size_t i = 0; i < count; ++i) {
-      const double* const v = &reading.values[kValues * i];
+      const double* const v = &reading.values[kValuesOfMessage * i];
       messages::gsv_msgs::RadioMessage heard;
       heard.number = static_cast<std::uint64_t>(v[0]);
       heard.sender = (*reading.labels)[2 * i];

@@ -2,14 +2,13 @@
 // at random poses, against closed forms in the world's frame. docs/fidelity.md lists what is
 // expected.
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/sensing/devices/built_in.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/sensing/testing/test_rays.h"
@@ -21,7 +20,9 @@ namespace {
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr double kPi = std::numbers::pi, kNothing = std::numeric_limits<double>::infinity();
+using geometry::kPi;
+
+constexpr double kNothing = geometry::kInfinity;
 constexpr int kAzimuths = 24, kElevations = 9;
 
 // A half-line; `direction` is of unit length.

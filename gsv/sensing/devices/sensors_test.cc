@@ -1,8 +1,8 @@
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "gsv/geometry/constants.h"
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/geometry_msgs.h"
 #include "gsv/messages/sensor_msgs.h"
@@ -16,8 +16,8 @@ namespace {
 using testing::MakeSnapshot;
 using testing::ModelOf;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kInfinity;
+using geometry::kPi;
 
 const SensorRegistry& Registry() {
   static const SensorRegistry registry = [] {

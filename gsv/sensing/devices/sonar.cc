@@ -25,7 +25,7 @@ struct SonarSettings {
   NoiseModel noise;
 };
 
-base::Result<SonarSettings> ReadSettings(const model::SensorDescription& description) {
+base::Result<SonarSettings> ReadSonarSettings(const model::SensorDescription& description) {
   ParameterReader reader(description);
   SonarSettings settings;
   settings.min = reader.Number("min", settings.min, 0, 1e4);
@@ -80,9 +80,9 @@ class Sonar final : public Sensor {
   std::optional<SoundCone> cone_;
 };
 
-std::vector<std::uint8_t> Encode(const model::SensorDescription& description,
-                                 const Reading& reading, const std::string& frame_id) {
-  const SonarSettings settings = ReadSettings(description).value_or(SonarSettings{});
+std::vector<std::uint8_t> EncodeRange(const model::SensorDescription& description,
+                                      const Reading& reading, const std::string& frame_id) {
+  const SonarSettings settings = ReadSonarSettings(description).value_or(SonarSettings{});
   messages::sensor_msgs::Range message;
   message.header = HeaderOf(reading, frame_id);
   message.radiation_type = messages::sensor_msgs::Range::kUltrasound;
@@ -100,12 +100,12 @@ SensorType SonarType() {
   type.name = "sonar";
   type.create =
       [](const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
-    const auto settings = ReadSettings(description);
+    const auto settings = ReadSonarSettings(description);
     if (!settings) return base::Fail(settings.error());
     return std::make_unique<Sonar>(description, *settings);
   };
   type.schema = &messages::SchemaOf<messages::sensor_msgs::Range>();
-  type.encode = Encode;
+  type.encode = EncodeRange;
   type.overlay = Overlay::kLines;
   type.beams = [](const model::SensorDescription&, const Reading& reading) {
     std::vector<Segment> beams;

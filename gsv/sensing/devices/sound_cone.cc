@@ -4,15 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
+
+#include "gsv/geometry/constants.h"
 
 namespace gsv::sensing {
 namespace {
 
 using geometry::Vector3;
 
-constexpr double kPi = std::numbers::pi;
+using geometry::kPi;
 constexpr double kSpeedOfSound = 343;  // m/s, in air of 20 degrees
 constexpr double kWidestCone = 0.6;    // rad: what sends wider than this is cut off here
 constexpr int kMostRings = 24;

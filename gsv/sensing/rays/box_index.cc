@@ -9,7 +9,7 @@ namespace {
 using geometry::Bounds;
 
 // So few are looked at one by one.
-constexpr std::size_t kHandful = 8;
+constexpr std::size_t kFewBoxes = 8;
 
 // Where more boxes share a column, as when they are stacked or one stands far from a crowd, the
 // tree is quicker.
@@ -25,7 +25,7 @@ bool FitsGrid(const Bounds& b) {
 void BoxIndex::Build(std::span<const Bounds> boxes, bool often) {
   count_ = static_cast<std::uint32_t>(boxes.size());
   kind_ = Kind::kList;
-  if (boxes.size() <= kHandful) return;
+  if (boxes.size() <= kFewBoxes) return;
   if (std::all_of(boxes.begin(), boxes.end(), FitsGrid)) {
     kind_ = Kind::kGrid;
     grid_.Build(boxes);

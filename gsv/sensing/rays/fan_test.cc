@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/ray_scene.h"
 #include "gsv/sensing/testing/test_rays.h"
 #include "gsv/sensing/testing/test_snapshot.h"
@@ -16,8 +17,8 @@ using geometry::Pose;
 using geometry::Vector3;
 using testing::Random;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kInfinity;
+using geometry::kPi;
 
 std::vector<Vector3> DirectionsOf(double first, double step, int count, double elevation) {
   std::vector<Vector3> directions;

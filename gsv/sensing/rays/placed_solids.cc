@@ -1,16 +1,16 @@
 #include "gsv/sensing/rays/placed_solids.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "gsv/base/check.h"
+#include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/surroundings.h"
 
 namespace gsv::sensing {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kInfinity;
 
 using geometry::Bounds;
 using geometry::Pose;
@@ -31,10 +31,6 @@ bool IsSound(const Ray& ray) {
 
 double DistanceOf(const Nearest& nearest) {
   return nearest.body < 0 ? kInfinity : nearest.distance;
-}
-
-Ray Moved(const Pose& to_from, const Ray& ray, double length) {
-  return {to_from * ray.origin, to_from.orientation * ray.direction, length};
 }
 
 Bounds Around(const Ray& ray) {

@@ -23,6 +23,11 @@ struct Ray {
   double max_distance = 0;      // m
 };
 
+// A pose turns directions and moves origins: the same ray in another frame, for so many metres.
+inline Ray Moved(const geometry::Pose& to_from, const Ray& ray, double length) {
+  return {to_from * ray.origin, to_from.orientation * ray.direction, length};
+}
+
 struct Hit {
   double distance = 0;       // m along the ray, in [0, max_distance]
   geometry::Vector3 normal;  // world, unit length, against the ray

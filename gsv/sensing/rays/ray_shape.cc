@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "gsv/base/check.h"
+#include "gsv/geometry/constants.h"
 
 namespace gsv::sensing {
 namespace {
 
 using geometry::Vector3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kInfinity;
 
 // Neighbouring triangles overlap by this part of their edges, so that no ray slips between them.
 constexpr double kSeam = 1e-12;

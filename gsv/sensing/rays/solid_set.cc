@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/ray_axis.h"
 #include "gsv/sensing/rays/ray_shape.h"
 
 namespace gsv::sensing {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kInfinity;
 
 using geometry::Bounds;
 using geometry::Pose;
@@ -104,10 +104,6 @@ class BoxTest {
  private:
   RayAxis x_, y_, z_;
 };
-
-Ray Moved(const Pose& to_from, const Ray& ray, double length) {
-  return {to_from * ray.origin, to_from.orientation * ray.direction, length};
-}
 
 }  // namespace
 

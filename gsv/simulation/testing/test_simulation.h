@@ -21,6 +21,13 @@ using geometry::PlanarPose;
 inline constexpr auto kLease = 200ms;
 inline constexpr auto kPatience = 20s;  // wall time in which every expected change must have come
 
+// Where the body of that name stands now.
+inline geometry::Pose PoseOf(const Simulation& simulation, const std::string& name) {
+  const auto snapshot = simulation.snapshot();
+  const int body = snapshot->layout->Find(name);
+  return snapshot->state.bodies.at(static_cast<std::size_t>(body)).world_from_model;
+}
+
 // A behaviour on a thread of this process.
 class ThreadBehaviour final : public BehaviourPort {
  public:

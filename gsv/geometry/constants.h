@@ -1,0 +1,12 @@
+// Numbers that geometry is full of. Elsewhere: `using geometry::kPi;`.
+#pragma once
+
+#include <limits>
+#include <numbers>
+
+namespace gsv::geometry {
+
+inline constexpr double kPi = std::numbers::pi;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace gsv::geometry
