@@ -63,8 +63,12 @@ test("the menu of overlays shows what is on, and keys do the same", async () => 
 test("a chase follows the robot that was chosen, and a pause holds all still", async () => {
   await page.locator('[data-robot="surveyor"]').click();
   await page.keyboard.press("c");
-  const then = await page.evaluate(() => window.gsv.time);
-  await page.waitForFunction((time) => window.gsv.time > time + 3, then); // trails grow
+  // Trails grow: on a busy machine a robot may stand for seconds before it is told to drive.
+  const from = await page.evaluate(() => window.gsv.robotPosition("surveyor"));
+  await page.waitForFunction(({ x, y }) => {
+    const now = window.gsv.robotPosition("surveyor");
+    return Math.hypot(now.x - x, now.y - y) > 0.5;
+  }, from);
   await press("Pause");
   await phaseIs(page, "paused");
   await settled(page);

@@ -14,11 +14,13 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using Strings = std::vector<std::string>;
 
-// Runs that note themselves where no other test's runs do.
+// Runs that note themselves where no other test's runs do, nor what other tests' servers ran that
+// were killed.
 class Control : public ::testing::Test {
  protected:
   Control() {
     setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+    setenv("XDG_STATE_HOME", (folder_.path() / "state").c_str(), 1);
     unsetenv("GSV_BROKER");
   }
 

@@ -15,8 +15,9 @@ constexpr double kBeamsRate = 15;  // Hz
 constexpr double kReadingsRate = 15;
 constexpr double kPicturesRate = 5;
 // A reading that takes long, as a picture of a thousand robots does, is taken so seldom that it
-// keeps a processor busy for a fifth of the time: those who watch must not slow what they watch.
-constexpr int kShareOfProcessor = 5;
+// keeps the processors busy for a tenth of the time: those who watch must not slow what they watch,
+// nor the page that shows it on the same machine.
+constexpr int kShareOfProcessors = 10;
 
 bool SameDescription(const model::SensorDescription& a, const model::SensorDescription& b) {
   return a.name == b.name && a.type == b.type && a.link == b.link &&
@@ -250,7 +251,7 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
                                   const std::shared_ptr<Sensor>& sensor) {
   if (sensor->is_busy) return;
   const bool is_due = sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now) &&
-                      now - sensor->asked_at >= kShareOfProcessor * sensor->took.load();
+                      now - sensor->asked_at >= kShareOfProcessors * sensor->took.load();
   if (!is_due && !hub_->HasNewcomers(sensor->channel)) return;
   sensor->is_busy = true;
   const bool accepted = workers_.Submit([self = shared_from_this(), simulation, sensor] {

@@ -169,9 +169,9 @@ TEST_F(LiveStreamTest, AReadingThatTakesLongIsTakenMoreSeldom) {
   const WallTime asked = now_;
   RoundUntil(1, 1);
   simulation_->Advance(milliseconds(10));
-  // By its rate alone another would be due, but a fifth of a processor is the most.
+  // By its rate alone another would be due, but a tenth of the time is the most.
   now_ = asked;
-  Round(4 * kLong);
+  Round(9 * kLong);
   simulation_->Advance(milliseconds(10));
   Round(seconds(10));
   RoundUntil(1, 2);
