@@ -62,7 +62,7 @@ test("from following to a chase it flies behind", () => {
 
 test("out of a robot's eye one sees what lies ahead of it, and afterwards all is as before", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
-  rig.lookFrom(new Matrix4().makeRotationZ(Math.PI / 2).setPosition(5, 6, 0.7));
+  rig.lookFrom({ worldFromEye: new Matrix4().makeRotationZ(Math.PI / 2).setPosition(5, 6, 0.7), view: null });
   rig.update(0);
   expectNear(rig.camera.position, 5, 6, 0.7);
   expectNear(new Vector3(0, 0, -1).applyQuaternion(rig.camera.quaternion), 0, 1, 0);
@@ -72,4 +72,19 @@ test("out of a robot's eye one sees what lies ahead of it, and afterwards all is
   rig.update(0);
   expectNear(rig.camera.position, 0, -4, 12);
   expect(rig.controls.enabled).toBe(true);
+});
+
+// Of a picture of 4 by 3 and 60° across: 2 atan(tan(30°) 3 / 4) = 46.826° from top to bottom.
+test("a robot's eye sees as wide as its camera, whatever the shape of the window", () => {
+  const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
+  const before = rig.camera.fov;
+  rig.resize(1600, 900);
+  rig.lookFrom({ worldFromEye: new Matrix4(), view: { horizontalFov: Math.PI / 3, aspect: 4 / 3 } });
+  expect(rig.camera.fov).toBeCloseTo(46.826, 3);
+  rig.resize(600, 600); // narrower than the picture: what it sees across fills the window
+  expect(rig.camera.fov).toBeCloseTo(60, 9);
+  rig.lookFrom({ worldFromEye: new Matrix4(), view: { horizontalFov: Math.PI, aspect: 1 } });
+  expect(rig.camera.fov).toBeCloseTo(120, 9); // the most that a flat picture shows
+  rig.lookFrom(null);
+  expect(rig.camera.fov).toBe(before);
 });

@@ -2,7 +2,9 @@
 import type { Box3 } from "three";
 import { Matrix4, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { cameraRotation } from "./eye";
+import type { CameraView } from "../api/scene";
+import type { Eye } from "./eye";
+import { cameraRotation, fieldOfViewDeg } from "./eye";
 import { fittingDistance } from "./framing";
 
 const FIELD_OF_VIEW_DEG = 50;
@@ -47,6 +49,7 @@ export class CameraRig {
   private subject: Subject | null = null;
   private turning = false; // with the subject
   private beforeEye: Viewpoint | null = null; // not null: it looks out of a robot
+  private eyeView: CameraView | null = null; // of that robot's camera
   private readonly still: boolean;
 
   constructor(canvas: HTMLElement, onChange: () => void) {
@@ -65,7 +68,7 @@ export class CameraRig {
 
   resize(width: number, height: number): void {
     this.camera.aspect = width / Math.max(1, height);
-    this.camera.updateProjectionMatrix();
+    this.widen();
   }
 
   // Where it stands and looks, or will when it has arrived.
@@ -135,10 +138,13 @@ export class CameraRig {
     for (const point of this.points()) point.applyMatrix4(motion);
   }
 
-  // Sees what an eye at that pose sees, until it is told null.
-  lookFrom(worldFromEye: Matrix4 | null): void {
-    if (!worldFromEye) return this.leaveEye();
+  // Sees what that eye sees, until it is told null.
+  lookFrom(eye: Eye | null): void {
+    if (!eye) return this.leaveEye();
+    const { worldFromEye, view } = eye;
     this.beforeEye ??= this.viewpoint;
+    this.eyeView = view;
+    this.widen();
     this.flight = null;
     this.controls.enabled = false;
     this.camera.position.setFromMatrixPosition(worldFromEye);
@@ -157,11 +163,19 @@ export class CameraRig {
   private leaveEye(): void {
     const { beforeEye } = this;
     if (!beforeEye) return;
-    this.beforeEye = null;
+    this.beforeEye = this.eyeView = null;
+    this.widen();
     this.controls.enabled = true;
     const ahead = new Vector3(0, 0, -AHEAD).applyQuaternion(this.camera.quaternion);
     this.controls.target.copy(this.camera.position).add(ahead);
     this.fly(beforeEye);
+  }
+
+  // As wide as the eye sees that it looks out of.
+  private widen(): void {
+    const { camera, eyeView } = this;
+    camera.fov = eyeView ? fieldOfViewDeg(eyeView, camera.aspect) : FIELD_OF_VIEW_DEG;
+    camera.updateProjectionMatrix();
   }
 
   private overhead(): Vector3 {

@@ -1,9 +1,9 @@
 // Where the robots of a scene are, as they are shown now: for labels, views and clicks.
-import type { Matrix4 } from "three";
 import { Vector3 } from "three";
-import type { SceneBody } from "../api/scene";
+import type { SceneBody, SceneSensor } from "../api/scene";
 import type { BodyLayer } from "./BodyLayer";
 import type { Subject } from "./CameraRig";
+import type { Eye } from "./eye";
 import { eyeAt } from "./eye";
 import type { Labelled } from "./LabelLayer";
 import type { SensorFrames } from "./SensorFrames";
@@ -45,14 +45,15 @@ export class RobotPlaces {
     return { position: new Vector3().setFromMatrixPosition(pose), middle, yaw: Math.atan2(y!, x!) };
   }
 
-  // world_from_eye: that of its first camera, else at the front of its top.
-  eyeOf(robot: string): Matrix4 | null {
+  // That of its first camera, else at the front of its top.
+  eyeOf(robot: string): Eye | null {
     const body = this.bodies.indexOf(robot);
     const pose = this.bodies.poseOf(body);
     if (!pose) return null;
     const camera = cameraOf(this.bodies.scene.bodies[body]!);
-    const mounted = camera === null ? null : this.frames.worldFrom(robot, camera, this.bodies);
-    return mounted ?? eyeAt(pose, this.bodies.templateOf(body)?.bounds ?? null);
+    const mounted = camera && this.frames.worldFrom(robot, camera.name, this.bodies);
+    if (mounted) return { worldFromEye: mounted, view: camera.view };
+    return { worldFromEye: eyeAt(pose, this.bodies.templateOf(body)?.bounds ?? null), view: null };
   }
 
   labels(): Labelled[] {
@@ -77,6 +78,6 @@ export class RobotPlaces {
   }
 }
 
-function cameraOf({ sensors }: SceneBody): string | null {
-  return sensors.find(({ overlay }) => overlay === "picture")?.name ?? null;
+function cameraOf({ sensors }: SceneBody): SceneSensor | null {
+  return sensors.find(({ overlay }) => overlay === "picture") ?? null;
 }
