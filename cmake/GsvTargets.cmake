@@ -27,8 +27,8 @@ endfunction()
 # include and rebuilds sooner.
 #
 # gsv_compile_in_groups(TARGET) has all sources of a target go together in the order in which they are listed;
-# gsv_library and gsv_test call it. gsv_compile_together(TARGET GROUP FILE …) then makes a group of its own of
-# those that share what takes longest (libsdformat, Boost.Beast, nlohmann::json, CLI11).
+# gsv_library and gsv_test call it. After it, gsv_compile_together(TARGET GROUP FILE …) makes a group of its own
+# of those that share what takes longest (libsdformat, Boost.Beast, nlohmann::json, CLI11).
 function(gsv_compile_in_groups TARGET)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug")
     return()
