@@ -115,6 +115,15 @@ TEST_F(ReplayGatewayTest, TellsTheWholeLog) {
   EXPECT_EQ(log[1]["time_s"], 2.0);
 }
 
+// A page may ask before anything has been played.
+TEST_F(ReplayGatewayTest, TellsOfTheRobotsFromTheFirstMoment) {
+  for (int i = 0; i < 50; ++i) {
+    const auto player = ReplayPlayer::Open(PathFor("run"), {});
+    ASSERT_TRUE(player) << player.error().Sentence();
+    ASSERT_EQ((*player)->status().robots.size(), 1u);
+  }
+}
+
 TEST_F(ReplayGatewayTest, PlaysToTheEnd) {
   Open(PathFor("run"), {.speed = 20});
   Viewer viewer(port());
@@ -177,6 +186,7 @@ TEST_F(ReplayGatewayTest, TellsARobotsTopics) {
     return Get("/api/simulations/simulation/robots/" + robot + "/topics");
   };
   const auto status = json::parse(Get("/api/simulations/simulation").body);
+  ASSERT_EQ(status["robots"].size(), 1u);
   const std::string robot = status["robots"][0]["name"];
   const json listed = json::parse(topics(robot).body)["topics"];
   ASSERT_FALSE(listed.empty());

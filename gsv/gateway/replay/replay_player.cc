@@ -77,6 +77,8 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
           *reader_, name_, [this] { Wake(); }, std::make_shared<ReplayOperations>(*this)) {
   problems_.insert(problems_.end(), scene_.problems().begin(), scene_.problems().end());
   ReadMetadata();
+  // Whoever asks first is told of the robots too.
+  stream_.PlayTo(clock_.position());
   thread_ = std::thread([this] { Run(); });
 }
 
