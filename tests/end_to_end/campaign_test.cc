@@ -64,7 +64,7 @@ TEST_F(CampaignCommand, ADriverThatIsKilledIsFollowedByAnotherAndEachRunCountsOn
   std::ostringstream text;
   text << std::ifstream(csv).rdbuf();
   const std::string lines = text.str();
-  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 9);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 9) << lines;
   EXPECT_GT(std::filesystem::file_size(html), 1000u);
   // Nothing is left to do.
   EXPECT_EQ(Campaign("run", {"--json"}).LastLine()["done"], 8);
