@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kStartTimeout{20};
+constexpr std::chrono::seconds kStartTimeout{60};
 constexpr int kMaxPrograms = 64;
 
 // Empty when there is none.

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "apps/gsv/lost/lost_page.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/running/simulation_builder.h"
@@ -25,7 +27,8 @@
 namespace gsv::app {
 namespace {
 
-constexpr std::chrono::seconds kBrokerStartTimeout{15};
+// It takes some 20 ms. What counts is that a machine which is very busy gets the same verdict.
+constexpr std::chrono::seconds kBrokerStartTimeout{60};
 
 std::string HostName() {
   std::array<char, 256> name{};
@@ -98,8 +101,12 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
     broker_process_ = *std::move(child);
     const auto line = broker_process_->ReadLine(kBrokerStartTimeout);
     if (!line) {
+      const std::string ending = broker_process_->Ending();
       return base::Fail(base::ErrorCode::kUnavailable,
-                        "the embedded broker did not start (" + broker_process_->Ending() + ")");
+                        fmt::format("the embedded broker did not start: {}",
+                                    ending.empty() ? fmt::format("it has said nothing for {} s",
+                                                                 kBrokerStartTimeout.count())
+                                                   : ending));
     }
     reference = *line;
   }
