@@ -1,8 +1,8 @@
 #!/usr/bin/env node
 // How the viewer feels in a browser without a graphics card: the time to the first picture, from a
-// click to the selection that is shown, and frames a second.
+// click to the selection that is shown, frames a second; and what a graphics card would have to draw.
 //
-//   bench/viewing.mjs BUILD [WORLD [picture|clicks|frames]]
+//   bench/viewing.mjs BUILD [WORLD [picture|clicks|frames|drawing]]
 //
 // BUILD is a release build (build/release); WORLD a world for the first picture, without it the
 // TurtleBot3 house in GSV_REAL_DIR. With a third word only that is measured. The machine should do
@@ -14,7 +14,7 @@ import process from "node:process";
 
 const HOUSE = path.join(process.env.GSV_REAL_DIR ?? "", "turtlebot3/worlds/turtlebot3_house.world");
 const [build, world = HOUSE, only = ""] = process.argv.slice(2);
-if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|clicks|frames]]");
+if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|clicks|frames|drawing]]");
 process.env.GSV_BUILD_DIR = path.resolve(build);
 const { openBrowser, openPage, waitUntilDrawn } = await import("../tests/browser/browser.mjs");
 const { crowd, noteClicks, timeClicks } = await import("../tests/browser/crowd.mjs");
@@ -90,12 +90,60 @@ const frames = (robots) =>
     }),
   );
 
+// Each frame's calls and triangles as a graphics card is given them (nothing is left out for want of
+// one), and the time of the page's script for it.
+function countDrawing() {
+  const drawn = (window.testDrawn = { calls: 0, triangles: 0, script_ms: 0 });
+  const count = (mode, vertices) => {
+    drawn.calls += 1;
+    if (mode === WebGL2RenderingContext.TRIANGLES) drawn.triangles += vertices / 3;
+  };
+  const gl = WebGL2RenderingContext.prototype;
+  const follow = (name, verticesOf) => {
+    const draw = gl[name];
+    gl[name] = function (mode, ...rest) {
+      count(mode, verticesOf(...rest));
+      return draw.call(this, mode, ...rest);
+    };
+  };
+  follow("drawArrays", (first, vertices) => vertices);
+  follow("drawArraysInstanced", (first, vertices, instances) => vertices * instances);
+  follow("drawElements", (vertices) => vertices);
+  follow("drawElementsInstanced", (vertices, type, offset, instances) => vertices * instances);
+  const request = requestAnimationFrame;
+  window.requestAnimationFrame = (draw) =>
+    request((now) => {
+      const from = performance.now();
+      draw(now);
+      drawn.script_ms += performance.now() - from;
+    });
+}
+
+const drawing = (robots) =>
+  withServer(crowd(folder, robots), async (url) => {
+    const browser = await openBrowser(SIZE);
+    await browser.context.addInitScript(countDrawing);
+    try {
+      const { page } = await openPage(browser, `${url}/?quality=high`);
+      await waitUntilDrawn(page, 120_000);
+      const count = () => page.evaluate(() => ({ ...window.testDrawn, frames: window.gsv.frames }));
+      const before = await count();
+      await new Promise((resolve) => setTimeout(resolve, FRAMES_S * 1000));
+      const after = await count();
+      const each = (name) => Math.round((10 * (after[name] - before[name])) / (after.frames - before.frames)) / 10;
+      return { robots, calls_a_frame: each("calls"), triangles_a_frame: each("triangles"), script_ms_a_frame: each("script_ms") };
+    } finally {
+      await browser.close();
+    }
+  });
+
 try {
   const result = { world: path.basename(world), load_average: os.loadavg()[0] };
   const isWanted = (part) => only === "" || only === part;
   if (isWanted("picture") && fs.existsSync(world)) result.first_picture = await firstPicture();
   if (isWanted("clicks")) result.clicks = await clicks(1000);
   if (isWanted("frames")) result.frames = [await frames(100), await frames(1000)];
+  if (isWanted("drawing")) result.drawing = [await drawing(100), await drawing(1000)];
   console.log(JSON.stringify(result, null, 2));
 } finally {
   fs.rmSync(folder, { recursive: true, force: true });

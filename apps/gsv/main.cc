@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -84,6 +85,34 @@ void StartLog(const LogArguments& log, bool verbose) {
   gsv::base::InitLogging(options);
 }
 
+// The command that was typed, as far as it is one: `gsv broker`.
+const CLI::App& LastCommand(const CLI::App& app, std::string& words) {
+  const CLI::App* last = &app;
+  words = app.get_name();
+  while (!last->get_subcommands().empty()) {
+    last = last->get_subcommands().front();
+    words += " " + last->get_name();
+  }
+  return *last;
+}
+
+// One sentence, as for everything that is wrong. What CLI11 says of an unknown command is that one
+// is missing.
+std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
+  std::string words;
+  const CLI::App& last = LastCommand(*app, words);
+  const std::vector<std::string> unknown = last.remaining();
+  const bool is_command_missing =
+      last.get_require_subcommand_min() > 0 && last.get_subcommands().empty();
+  std::string what = error.what();
+  if (is_command_missing && unknown.empty()) what = "a command is missing";
+  if (is_command_missing && !unknown.empty()) {
+    const std::string& word = unknown.front();
+    what = "there is no " + std::string(word.starts_with('-') ? "option " : "command ") + word;
+  }
+  return "gsv: " + what + "; " + words + " --help says what there is\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -95,7 +124,7 @@ int main(int argc, char** argv) {
       "gsv");
   app.set_version_flag("--version", "gsv " GSV_VERSION);
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::simple);
+  app.failure_message(UsageSentence);
   bool verbose = false;
   app.add_flag("-v,--verbose", verbose, "say more about what happens, on stderr");
   LogArguments log;

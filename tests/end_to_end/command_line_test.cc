@@ -211,6 +211,15 @@ TEST(CommandLine, UsageErrorsExitWithTwo) {
   }
 }
 
+TEST(CommandLine, ACommandThatDoesNotExistIsNamed) {
+  const auto said = [](const Strings& arguments) { return RunProgram("gsv", arguments).err; };
+  EXPECT_EQ(said({"fly"}), "gsv: there is no command fly; gsv --help says what there is\n");
+  EXPECT_EQ(said({"world", "burn"}),
+            "gsv: there is no command burn; gsv world --help says what there is\n");
+  EXPECT_EQ(said({"--swim"}), "gsv: there is no option --swim; gsv --help says what there is\n");
+  EXPECT_EQ(said({"rec"}), "gsv: a command is missing; gsv rec --help says what there is\n");
+}
+
 TEST(CommandLine, CheckPrintsProblemsAndExitsWithThreeForAnUnfaithfulWorld) {
   base::testing::TestFolder folder;
   const auto world = folder.Write("bad.sdf", "<sdf version='1.9'><world name='w'><model name='m'>");
