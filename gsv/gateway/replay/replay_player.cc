@@ -78,7 +78,7 @@ ReplayPlayer::ReplayPlayer(std::unique_ptr<recording::McapReader> reader, const 
   problems_.insert(problems_.end(), scene_.problems().begin(), scene_.problems().end());
   ReadMetadata();
   // Whoever asks first is told of the robots too.
-  stream_.PlayTo(clock_.position());
+  stream_.JumpTo(clock_.position());
   thread_ = std::thread([this] { Run(); });
 }
 

@@ -86,7 +86,7 @@ class ReplayPlayer {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   ReplayClock clock_;
-  bool has_jumped_ = true;
+  bool has_jumped_ = false;
   bool is_woken_ = false;
   bool is_stopping_ = false;
 
