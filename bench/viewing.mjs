@@ -124,7 +124,7 @@ const drawing = (robots) =>
     const browser = await openBrowser(SIZE);
     await browser.context.addInitScript(countDrawing);
     try {
-      const { page } = await openPage(browser, `${url}/?quality=high`);
+      const { page } = await openPage(browser, `${url}?quality=high`);
       await waitUntilDrawn(page, 120_000);
       const count = () => page.evaluate(() => ({ ...window.testDrawn, frames: window.gsv.frames }));
       const before = await count();

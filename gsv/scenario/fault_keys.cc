@@ -28,13 +28,13 @@ void ReadPlace(YamlMapping& mapping, Fault& fault) {
 }
 
 void ReadTarget(YamlMapping& mapping, Fault& fault) {
-  constexpr double kMost = 1e6;
+  constexpr double kMostOfTarget = 1e6;
   const std::pair<const char*, Fault::Unit> units[]{{"position", Fault::Unit::kPosition},
                                                     {"velocity", Fault::Unit::kVelocity},
                                                     {"effort", Fault::Unit::kEffort}};
   int given = 0;
   for (const auto& [key, unit] : units) {
-    const auto target = mapping.Number(key, -kMost, kMost);
+    const auto target = mapping.Number(key, -kMostOfTarget, kMostOfTarget);
     if (mapping.Had(key)) ++given;
     if (!target) continue;
     fault.unit = unit;

@@ -145,7 +145,7 @@ TEST_F(Lost, WhatAKilledServerRanIsToldByTheNextWithItsRecordingUntilItIsDismiss
   EXPECT_EQ(Ask("DELETE", "/api/lost/" + lost[0]["number"].dump()).status, 404);
   ASSERT_EQ(LostOnes().size(), 1u);
   // What nobody has dismissed outlives the next death as well.
-  AwaitNoted([&](const json& note) { return note["lost"].size() == 1; });
+  AwaitNoted([&](const json& noted) { return noted["lost"].size() == 1; });
   Kill();
   Serve();
   ASSERT_EQ(LostOnes().size(), 1u);

@@ -80,8 +80,8 @@ TEST(Confinement, BoundsMemoryAndTime) {
               kWantsMoreMemory);
   }
   const int status = RunConfined([] {
-    for (volatile unsigned i = 0;; i = i + 1) {
-    }
+    volatile unsigned i = 0;
+    for (;;) i = i + 1;
     return 0;
   });
   ASSERT_TRUE(WIFSIGNALED(status)) << status;

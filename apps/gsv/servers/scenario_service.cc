@@ -44,8 +44,8 @@ void RefuseUnlessRunnable(const std::string& text) {
 double SecondsOption(const model::Parameters& options, const char* name, double otherwise) {
   const auto found = options.find(name);
   if (found == options.end()) return otherwise;
-  const double* seconds = std::get_if<double>(&found->second);
-  if (seconds != nullptr && *seconds >= 1 && *seconds <= 1e6) return *seconds;
+  const double* value = std::get_if<double>(&found->second);
+  if (value != nullptr && *value >= 1 && *value <= 1e6) return *value;
   throw sba::Refused(fmt::format("{} must be a number from 1 to 1e6", name).c_str());
 }
 

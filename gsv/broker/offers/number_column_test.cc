@@ -142,7 +142,9 @@ TEST(NumberColumns, OrderAsAskingEachOrders) {
       EXPECT_EQ(OfferNumbers(found->offers), OneByOneInOrder(trader, "b", greatest_first));
     }
     // Other offers: the column is made by the second query that sees them.
-    if (round % 2 == 1) ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
+    if (round % 2 == 1) {
+      ASSERT_TRUE(trader.Export("Robot", "IOR:00", random.Properties()));
+    }
   }
 }
 
