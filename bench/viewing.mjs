@@ -32,9 +32,11 @@ function summary(times) {
   return { median: sorted[sorted.length >> 1], worst: sorted.at(-1), all: times.map((time) => Math.round(time)) };
 }
 
-async function withPage(url, use) {
+// `script` runs in the page before its own.
+async function withPage(url, use, script = () => {}) {
   const browser = await openBrowser(SIZE);
   try {
+    await browser.context.addInitScript(script);
     const { page } = await openPage(browser, url);
     await waitUntilDrawn(page, 120_000);
     return await use(page);
@@ -120,22 +122,16 @@ function countDrawing() {
 }
 
 const drawing = (robots) =>
-  withServer(crowd(folder, robots), async (url) => {
-    const browser = await openBrowser(SIZE);
-    await browser.context.addInitScript(countDrawing);
-    try {
-      const { page } = await openPage(browser, `${url}?quality=high`);
-      await waitUntilDrawn(page, 120_000);
-      const count = () => page.evaluate(() => ({ ...window.testDrawn, frames: window.gsv.frames }));
-      const before = await count();
-      await new Promise((resolve) => setTimeout(resolve, FRAMES_S * 1000));
-      const after = await count();
-      const each = (name) => Math.round((10 * (after[name] - before[name])) / (after.frames - before.frames)) / 10;
-      return { robots, calls_a_frame: each("calls"), triangles_a_frame: each("triangles"), script_ms_a_frame: each("script_ms") };
-    } finally {
-      await browser.close();
-    }
-  });
+  withServer(crowd(folder, robots), (url) => withPage(`${url}?quality=high`, (page) => drawnBy(page, robots), countDrawing));
+
+async function drawnBy(page, robots) {
+  const count = () => page.evaluate(() => ({ ...window.testDrawn, frames: window.gsv.frames }));
+  const before = await count();
+  await new Promise((resolve) => setTimeout(resolve, FRAMES_S * 1000));
+  const after = await count();
+  const each = (name) => Math.round((10 * (after[name] - before[name])) / (after.frames - before.frames)) / 10;
+  return { robots, calls_a_frame: each("calls"), triangles_a_frame: each("triangles"), script_ms_a_frame: each("script_ms") };
+}
 
 try {
   const result = { world: path.basename(world), load_average: os.loadavg()[0] };

@@ -85,30 +85,23 @@ void StartLog(const LogArguments& log, bool verbose) {
   gsv::base::InitLogging(options);
 }
 
-// The command that was typed, as far as it is one: `gsv broker`.
-const CLI::App& LastCommand(const CLI::App& app, std::string& words) {
-  const CLI::App* last = &app;
-  words = app.get_name();
-  while (!last->get_subcommands().empty()) {
-    last = last->get_subcommands().front();
-    words += " " + last->get_name();
-  }
-  return *last;
-}
-
 // One sentence, as for everything that is wrong. What CLI11 says of an unknown command is that one
 // is missing.
 std::string UsageSentence(const CLI::App* app, const CLI::Error& error) {
-  std::string words;
-  const CLI::App& last = LastCommand(*app, words);
-  const std::vector<std::string> unknown = last.remaining();
-  const bool is_command_missing =
-      last.get_require_subcommand_min() > 0 && last.get_subcommands().empty();
+  const CLI::App* typed = app;  // as far as it is a command
+  std::string words = app->get_name();
+  while (!typed->get_subcommands().empty()) {
+    typed = typed->get_subcommands().front();
+    words += " " + typed->get_name();
+  }
   std::string what = error.what();
-  if (is_command_missing && unknown.empty()) what = "a command is missing";
-  if (is_command_missing && !unknown.empty()) {
-    const std::string& word = unknown.front();
-    what = "there is no " + std::string(word.starts_with('-') ? "option " : "command ") + word;
+  const bool is_required = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError);
+  if (is_required && typed->get_require_subcommand_min() > 0) {
+    const std::vector<std::string> unknown = typed->remaining();
+    const bool is_option = !unknown.empty() && unknown.front().starts_with('-');
+    what = unknown.empty()
+               ? "a command is missing"
+               : (is_option ? "there is no option " : "there is no command ") + unknown.front();
   }
   return "gsv: " + what + "; " + words + " --help says what there is\n";
 }

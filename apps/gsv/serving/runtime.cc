@@ -27,7 +27,7 @@
 namespace gsv::app {
 namespace {
 
-// It takes some 20 ms. What counts is that a machine which is very busy gets the same verdict.
+// It takes 0.1 s. What counts is that a machine which is very busy gets the same verdict.
 constexpr std::chrono::seconds kBrokerStartTimeout{60};
 
 std::string HostName() {
