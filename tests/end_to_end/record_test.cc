@@ -57,8 +57,8 @@ TEST_F(Record, AWordThatIsNoNameIsRefused) {
   for (const std::string word : {"true", "false"}) {
     const Outcome run = RunProgram("gsv", {"run", "playground", "--headless", "--record", word});
     EXPECT_EQ(run.ending, "exit code 2");
-    EXPECT_EQ(run.err.find("--record: it is a file, NAME.mcap, or a folder, found \"" + word), 0u)
-        << run.err;
+    EXPECT_EQ(run.err, "gsv: --record: it is a file, NAME.mcap, or a folder, found \"" + word +
+                           "\"; gsv run --help says what there is\n");
     EXPECT_FALSE(std::filesystem::exists(word));
   }
 }
