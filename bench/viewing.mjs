@@ -13,7 +13,8 @@ import path from "node:path";
 import process from "node:process";
 
 const HOUSE = path.join(process.env.GSV_REAL_DIR ?? "", "turtlebot3/worlds/turtlebot3_house.world");
-const [build, world = HOUSE, only = ""] = process.argv.slice(2);
+const [build, given, only = ""] = process.argv.slice(2);
+const world = given || HOUSE;
 if (!build) throw new Error("usage: bench/viewing.mjs BUILD [WORLD [picture|clicks|frames|drawing]]");
 process.env.GSV_BUILD_DIR = path.resolve(build);
 const { openBrowser, openPage, waitUntilDrawn } = await import("../tests/browser/browser.mjs");

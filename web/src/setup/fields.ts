@@ -35,10 +35,34 @@ function labelled<Value>(
   };
 }
 
+// Gives `take` what was typed once it is done. What shows a value in the meantime (an answer of the
+// server's, another field) waits until then: nobody loses what they are typing.
+function keepTyped(input: HTMLInputElement, take: () => void) {
+  let isTyping = false;
+  let latest = input.value;
+  input.addEventListener("input", () => (isTyping = true));
+  input.addEventListener("change", () => {
+    isTyping = false;
+    take();
+  });
+  // Left without a change: it was typed back to what it had been.
+  input.addEventListener("blur", () => {
+    isTyping = false;
+    input.value = latest;
+  });
+  return {
+    isTyping: () => isTyping,
+    show: (text: string) => {
+      latest = text;
+      if (!isTyping) input.value = text;
+    },
+  };
+}
+
 export function textField(label: string, placeholder: string, take: (text: string) => void): Field<string> {
   const input = element("input", { type: "text", placeholder, spellcheck: "false", autocomplete: "off" });
-  input.addEventListener("change", () => take(input.value.trim()));
-  return labelled(label, input, (text) => (input.value = text));
+  const { show } = keepTyped(input, () => take(input.value.trim()));
+  return labelled(label, input, show);
 }
 
 // An empty field counts as `otherwise`; so many digits after the point are shown.
@@ -49,10 +73,8 @@ export function numberField(
   { step = "any", least = "", digits = 6 } = {},
 ): Field<number | null> {
   const input = element("input", { type: "number", step, ...(least && { min: least }) });
-  input.addEventListener("change", () => take(input.value === "" ? otherwise : Number(input.value)));
-  return labelled(label, input, (value) => {
-    input.value = value === null ? "" : String(Number(value.toFixed(digits)));
-  });
+  const { show } = keepTyped(input, () => take(input.value === "" ? otherwise : Number(input.value)));
+  return labelled(label, input, (value) => show(value === null ? "" : String(Number(value.toFixed(digits)))));
 }
 
 export function checkField(label: string, take: (value: boolean) => void): Field<boolean> {
@@ -76,6 +98,7 @@ export interface ChoiceField extends Field<string> {
 // Chooses from a list, which may change.
 export function choiceField(label: string, take: (value: string) => void): ChoiceField {
   const select = element("select", {});
+  const replace = replaceOptions(select);
   let shown = "";
   select.addEventListener("change", () => take(select.value));
   const field = labelled<string>(label, select, (value) => {
@@ -85,9 +108,21 @@ export function choiceField(label: string, take: (value: string) => void): Choic
   return {
     ...field,
     offer: (options) => {
-      select.replaceChildren(...grouped(options));
-      select.value = shown;
+      if (replace(options)) select.value = shown;
     },
+  };
+}
+
+// Gives `select` other options, if they are others: a list that is open closes when its options are
+// replaced. Whether they were.
+function replaceOptions(select: HTMLSelectElement) {
+  let offered = "";
+  return (options: Option[]): boolean => {
+    const described = JSON.stringify(options);
+    if (described === offered) return false;
+    offered = described;
+    select.replaceChildren(...grouped(options));
+    return true;
   };
 }
 
@@ -118,32 +153,41 @@ export function choiceOrText(
     spellcheck: "false",
   });
   const select = element("select", {});
+  const replace = replaceOptions(select);
   const field = labelled<string>(label, select, () => {}, input);
+  const text = keepTyped(input, () => {
+    isAsked = false;
+    take(input.value.trim());
+  });
+  let isAsked = false; // the text, and nothing is typed yet
   let values: string[] = [];
   let shown = "";
   input.hidden = true;
-  input.addEventListener("change", () => take(input.value.trim()));
   select.addEventListener("change", () => {
-    input.hidden = select.value !== OTHER;
-    if (input.hidden) take(select.value);
-    else input.focus();
+    isAsked = select.value === OTHER;
+    input.hidden = !isAsked;
+    if (isAsked) input.focus();
+    else take(select.value);
+  });
+  input.addEventListener("blur", () => {
+    isAsked = false;
+    show(shown);
   });
   const show = (value: string) => {
     shown = value;
+    if (isAsked || text.isTyping()) return;
     const isKnown = values.includes(value);
     select.value = isKnown ? value : OTHER;
-    if (!isKnown) input.value = value;
+    text.show(isKnown ? "" : value);
     input.hidden = isKnown;
   };
   return {
     ...field,
     show,
     offer: (options) => {
-      const isOther = select.value === OTHER && !input.hidden && input.value === "";
       values = options.map(({ value }) => value);
-      const all = [...options, { value: OTHER, label: other.choice }];
-      select.replaceChildren(...all.map(({ value, label }) => new Option(label, value)));
-      if (isOther) select.value = OTHER;
+      if (!replace([...options, { value: OTHER, label: other.choice }])) return;
+      if (isAsked || text.isTyping()) select.value = OTHER;
       else show(shown);
     },
   };
