@@ -136,6 +136,39 @@ test("what is created is joined, and the form goes", async () => {
   expect(panel.hidden).toBe(true);
 });
 
+test("a press on Create right after a change is not lost, and two presses create one", async () => {
+  const { app, panel } = await opened();
+  let answer = () => {};
+  const shown = await api.preview({});
+  api.preview.mockReturnValueOnce(new Promise((resolve) => (answer = () => resolve(shown))));
+  app.setUp.change({ duration: 5 }); // typed, and left by the press
+  const create = panel.querySelector<HTMLButtonElement>(".set-up-end .primary")!;
+  expect(create.disabled).toBe(false);
+  create.click();
+  create.click();
+  answer();
+  await vi.waitFor(() => expect(app.store.get().setUp).toBeNull());
+  expect(api.create).toHaveBeenCalledOnce();
+  expect(api.create).toHaveBeenCalledWith(expect.objectContaining({ duration: 5 }));
+});
+
+test("nothing can be created while a world is on its way", async () => {
+  const { app, panel } = await opened();
+  let sent = (_world: string) => {};
+  api.upload.mockReturnValueOnce(new Promise((resolve) => (sent = resolve)));
+  const dropping = app.setUp.drop([dropped("mine.world")]);
+  app.setUp.change({ duration: 5 });
+  await vi.waitFor(() => expect(api.preview).toHaveBeenCalledTimes(2));
+  const create = panel.querySelector<HTMLButtonElement>(".set-up-end .primary")!;
+  expect(create.disabled).toBe(true);
+  await app.setUp.create();
+  expect(api.create).not.toHaveBeenCalled();
+  sent("/tmp/up/1/mine.world");
+  await dropping;
+  await settled(app);
+  expect(create.disabled).toBe(false);
+});
+
 test("a scenario file is loaded, YAML as well, and what is none is refused with a sentence", async () => {
   const { app, store } = await opened();
   const yaml = "world: maze\nseed: 3\nrobots:\n  - {model: pebble, x: 1, y: 2, yaw: 0}\nfaults: []\n";

@@ -40,9 +40,9 @@ export class SetUpControl {
     this.session.rest();
     const none = { worlds: [], models: [], behaviours: null };
     const setUp = { ...none, scenario: EMPTY_SCENARIO, past: [], future: [], warnings: [], poses: null };
-    this.store.set({ setUp: { ...setUp, wrong: null, isBusy: true } });
+    this.store.set({ setUp: { ...setUp, wrong: null, isBusy: true, isHeld: true } });
     void this.lookForOffers();
-    await this.ask(async () => {
+    await this.hold(async () => {
       const [worlds, models] = await Promise.all([this.api.worlds(), this.api.models()]);
       const world = worlds.includes(FIRST_WORLD) ? FIRST_WORLD : (worlds[0] ?? "");
       // Somebody may have dropped a world meanwhile.
@@ -58,11 +58,12 @@ export class SetUpControl {
     else this.session.start();
   }
 
+  // What was changed last may be on its way to the server still.
   async create(): Promise<void> {
     await this.previewing;
     const { setUp } = this.store.get();
-    if (!setUp || setUp.isBusy) return;
-    await this.ask(async () => {
+    if (!setUp || setUp.isHeld) return;
+    await this.hold(async () => {
       const name = await this.api.create(setUp.scenario);
       this.end();
       await this.session.joinNew(name);
@@ -128,12 +129,14 @@ export class SetUpControl {
 
   // A world from this machine, with what belongs to it.
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
-    this.patch(() => ({ isBusy: true }));
+    this.patch(() => ({ isBusy: true, isHeld: true }));
     try {
       const world = await this.api.upload(worldFirst(await unpacked(await files)));
       this.change({ world });
     } catch (error) {
       this.patch(() => ({ isBusy: false, wrong: { field: "world", sentence: (error as Error).message } }));
+    } finally {
+      this.patch(() => ({ isHeld: false }));
     }
   }
 
@@ -183,6 +186,13 @@ export class SetUpControl {
     } finally {
       this.patch(() => ({ isBusy: false }));
     }
+  }
+
+  // Likewise, and nothing can be created meanwhile.
+  private async hold(work: () => Promise<void>): Promise<void> {
+    this.patch(() => ({ isHeld: true }));
+    await this.ask(work);
+    this.patch(() => ({ isHeld: false }));
   }
 
   // Behaviours come and go while one sets up.

@@ -58,7 +58,8 @@ export function createSetUpPanel(app: App): HTMLElement {
       setText(hint, hintFor(scenario));
       showOffers(offers, setUp);
       warnings.replaceChildren(...setUp.warnings.slice(0, 20).map((each) => element("li", {}, each)));
-      create.disabled = setUp.isBusy;
+      panel.setAttribute("aria-busy", String(setUp.isBusy));
+      create.disabled = setUp.isHeld;
     },
   );
 

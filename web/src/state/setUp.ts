@@ -21,6 +21,7 @@ export interface SetUp extends Choices {
   warnings: string[]; // what the files lack
   poses: Float64Array | null; // of the scene that is shown; null: not known yet
   isBusy: boolean; // the server is being asked
+  isHeld: boolean; // nothing can be created now: the choices or a world are on their way, or it is being created
 }
 
 const MOST_PAST = 100;
