@@ -22,7 +22,7 @@ export function createSetUpPanel(app: App): HTMLElement {
   const wrong = element("p", { class: "field-error", role: "alert" });
   const create = element(
     "button",
-    { class: "button primary", type: "button", onclick: () => void app.setUp.create() },
+    { class: "button primary", type: "button", onclick: () => void app.setUp.create().then(showObjection) },
     "Create",
   );
   const panel = element(
@@ -62,6 +62,11 @@ export function createSetUpPanel(app: App): HTMLElement {
       create.disabled = setUp.isHeld;
     },
   );
+
+  // It may stand where the form is not scrolled to.
+  function showObjection(): void {
+    panel.querySelector(".field-error:not([hidden])")?.scrollIntoView({ block: "center" });
+  }
 
   function showWrong({ wrong: found }: SetUp): void {
     const { field = "", sentence = "" } = found ?? {};
