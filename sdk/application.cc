@@ -162,6 +162,10 @@ class SimulationProxy final : public RemoteSimulation {
     return Ask([this] { simulation_->reset(); });
   }
 
+  base::Status SetFactor(double factor) override {
+    return Ask([this, factor] { simulation_->set_factor(factor); });
+  }
+
   base::Status RunUntil(SimTime until, std::chrono::seconds patience,
                         const std::function<bool()>& go_on) override {
     const auto give_up = std::chrono::steady_clock::now() + patience;

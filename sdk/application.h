@@ -75,6 +75,9 @@ class RemoteSimulation {
   virtual base::Status Stop() = 0;
   // Back to the start, with the same robots.
   virtual base::Status Reset() = 0;
+  // In real time: simulated seconds a wall second from the next step on; above 0, at most 1e6. It
+  // outlives a reset. Fails with kInvalidArgument in lockstep, which goes as fast as it can.
+  virtual base::Status SetFactor(double factor) = 0;
   // Runs to that instant and freezes there; blocks until then. `patience` is wall time. `go_on` is
   // asked every two seconds of it at least; false: the run goes on, this returns kEnded.
   virtual base::Status RunUntil(SimTime until,

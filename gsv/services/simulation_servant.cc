@@ -155,6 +155,11 @@ void SimulationServant::run_until(CORBA::LongLong instant) {
                     orb::kRefused | orb::kNotRunning | orb::kEnded);
 }
 
+void SimulationServant::set_factor(CORBA::Double factor) {
+  NoteContact();
+  orb::ValueOrThrow(simulation_->SetFactor(factor), orb::kRefused | orb::kEnded);
+}
+
 void SimulationServant::stop() {
   NoteContact();
   orb::ValueOrThrow(simulation_->Stop(), orb::kEnded);

@@ -43,6 +43,7 @@ class SimulationServant final : public POA_sba::Simulation {
   void resume() override;
   void step(CORBA::ULongLong count) override;
   void run_until(CORBA::LongLong instant) override;
+  void set_factor(CORBA::Double factor) override;
   void stop() override;
   void reset() override;
   sba::SimulationState* state() override;

@@ -136,6 +136,8 @@ void BindApplications(py::module_& module) {
       .def("stop", Calling(&RemoteSimulation::Stop), LetOthersRun())
       .def("reset", Calling(&RemoteSimulation::Reset), LetOthersRun(),
            "Back to the start, with the same robots.")
+      .def("set_factor", Calling(&RemoteSimulation::SetFactor), py::arg("factor"), LetOthersRun(),
+           "In real time: simulated seconds a second from the next step on. Lockstep refuses.")
       .def("run_until", &RunUntil, py::arg("instant"), py::kw_only(), py::arg("patience") = 600.0,
            "Runs to that simulated second and freezes there; blocks until then, for `patience` "
            "seconds of wall time at most.")

@@ -125,6 +125,28 @@ test("pause freezes the simulated time, resume lets it go on", async () => {
   await page.waitForFunction((then) => window.gsv.time > then + 0.2, frozen);
 });
 
+test("the number of steps to take, and how fast it goes, are set in a menu", async () => {
+  await pause();
+  const before = await ask("");
+  await press("Speed and steps");
+  const sheet = page.getByRole("group", { name: "Speed and steps" });
+  await sheet.getByLabel("Steps (paused)").fill("25");
+  await press("Take them");
+  await until(async () => (await ask("")).step === before.step + 25, "the steps");
+  await phaseIs("paused");
+  await page.getByRole("button", { name: "2×", exact: true }).click();
+  await page.getByTestId("factor").getByText("/ 2.00×").waitFor();
+  assert.equal((await ask("")).target_factor, 2);
+  await sheet.getByLabel("Simulated seconds a second").fill("0.5");
+  await page.keyboard.press("Enter");
+  await page.getByTestId("factor").getByText("/ 0.50×").waitFor();
+  await page.getByRole("button", { name: "1×", exact: true }).click();
+  await page.getByTestId("factor").getByText("/ 1.00×").waitFor();
+  await page.keyboard.press("Escape");
+  await sheet.waitFor({ state: "hidden" });
+  await resume();
+});
+
 // Seen from above, where no wall hides a robot; a desk may, hence "half" of several. What is at a
 // robot's middle must be something else once it has gone.
 test("robots are drawn at their projected places, and leave them when they move", async () => {

@@ -1,4 +1,4 @@
-// gsv ps, pause, resume, step, stop and reset against simulations in other processes.
+// gsv ps, pause, resume, step, factor, stop and reset against simulations in other processes.
 #include <csignal>
 #include <cstdlib>
 
@@ -112,6 +112,25 @@ TEST_F(Control, ResetGoesBackToTheStartAndTheSameComesOutAgain) {
   EXPECT_EQ(Json({"step", "40"})["state_hash"], first["state_hash"]);
   EXPECT_EQ(Json({"reset"})["phase"], "created");
   EXPECT_THAT(Json({"resume"})["phase"].get<std::string>(), AnyOf("starting", "running"));
+}
+
+TEST_F(Control, TheFactorOfARunInRealTimeIsSet) {
+  Running run("gsv", {"run", "playground", "--headless", "--factor", "0.001", "--duration", "20"});
+  run.AwaitLine("broker: ");
+  const Outcome set = Gsv({"factor", "2.5"});
+  EXPECT_EQ(set.ending, "exit code 0") << set.err;
+  EXPECT_THAT(set.out, HasSubstr("(target 2.5)"));
+  ExpectComplaint({"factor", "0"}, 2, "must lie above 0 and not above 1e6");
+  ExpectComplaint({"factor", "fast"}, 2, "fast");
+  ExpectComplaint({"factor"}, 2, "factor is required");
+  EXPECT_EQ(Json({"ps"})["target_factor"], 2.5);
+  EXPECT_EQ(Gsv({"factor", "1000000"}).ending, "exit code 0");
+  EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");  // at its first pace: five and a half hours
+}
+
+TEST_F(Control, LockstepHasNoFactorToSet) {
+  const auto run = StartRun();
+  ExpectComplaint({"factor", "2"}, 2, "in lockstep a simulation goes as fast as it can");
 }
 
 TEST_F(Control, WithoutABrokerTheNewestRunIsMeant) {

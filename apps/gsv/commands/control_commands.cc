@@ -59,6 +59,7 @@ struct Arguments {
   Selection selection;
   bool json = false;
   std::uint64_t steps = 1;
+  double factor = 1;
 };
 
 // What servers of this user were running when they ended without a word.
@@ -114,13 +115,13 @@ base::Result<bool> AwaitRest(const RemoteSimulation& simulation, Signals& signal
   return true;
 }
 
-int Steer(const Arguments& arguments, const Call& call, bool takes_steps, Signals& signals) {
+int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signals& signals) {
   auto simulation = FindOneSimulation(arguments.selection);
   if (!simulation) return Complain(simulation.error());
   const auto done =
       orb::Call(simulation->server.Describe(), [&] { call(simulation->reference, arguments); });
   if (!done) return Complain(done.error());
-  if (takes_steps) {
+  if (awaits_rest) {
     const auto rested = AwaitRest(*simulation, signals);
     if (!rested) return Complain(rested.error());
     if (!*rested) return kInterrupted;
@@ -153,20 +154,29 @@ std::shared_ptr<Arguments> AddSelection(CLI::App& command) {
   return arguments;
 }
 
-void AddSteering(const CommandLine& line, const char* name, const char* description, Call call) {
+// `add_value` adds what is given before the simulation's name.
+void AddSteering(const CommandLine& line, const char* name, const char* description, Call call,
+                 const std::function<void(CLI::App&, Arguments&)>& add_value = {},
+                 bool awaits_rest = false) {
   CLI::App* command = line.app.add_subcommand(name, description);
   auto arguments = AddSelection(*command);
-  const bool takes_steps = std::string(name) == "step";
-  if (takes_steps) {
-    command->add_option("count", arguments->steps, "how many steps")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
-        ->capture_default_str();
-  }
+  if (add_value) add_value(*command, *arguments);
   command->add_option("simulation", arguments->selection.simulation,
                       "its name; without it: the newest run's, or the only one there is");
-  command->callback([arguments, line, call = std::move(call), takes_steps] {
-    line.exit_code = Steer(*arguments, call, takes_steps, line.signals);
+  command->callback([arguments, line, call = std::move(call), awaits_rest] {
+    line.exit_code = Steer(*arguments, call, awaits_rest, line.signals);
   });
+}
+
+void AddStepCount(CLI::App& command, Arguments& arguments) {
+  command.add_option("count", arguments.steps, "how many steps")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+      ->capture_default_str();
+}
+
+void AddFactor(CLI::App& command, Arguments& arguments) {
+  command.add_option("factor", arguments.factor, "simulated seconds a second: 0.5, 1, 10")
+      ->required();
 }
 
 }  // namespace
@@ -189,10 +199,16 @@ void AddControlCommands(const CommandLine& line) {
                   simulation->resume();
                 }
               });
-  AddSteering(line, "step", "Take some steps of a paused simulation, and pause again",
-              [](sba::Simulation_ptr simulation, const Arguments& given) {
-                simulation->step(given.steps);
-              });
+  AddSteering(
+      line, "step", "Take some steps of a paused simulation, and pause again",
+      [](sba::Simulation_ptr simulation, const Arguments& given) { simulation->step(given.steps); },
+      &AddStepCount, true);
+  AddSteering(
+      line, "factor", "Set how fast a simulation in real time goes, until it is set again",
+      [](sba::Simulation_ptr simulation, const Arguments& given) {
+        simulation->set_factor(given.factor);
+      },
+      &AddFactor);
   AddSteering(line, "stop", "End a simulation",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->stop(); });
   AddSteering(line, "reset", "Put a simulation back to its start, where `resume` starts it",

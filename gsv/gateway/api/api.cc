@@ -24,6 +24,12 @@ base::Status Obey(Simulation& simulation, const SimulationCommand& command,
   return command.run(simulation, *count);
 }
 
+base::Status SetFactor(Simulation& simulation, const std::string& body) {
+  const base::Result<double> factor = ParseFactor(body);
+  if (!factor) return base::Fail(factor.error());
+  return simulation.SetFactor(*factor);
+}
+
 Response StatusOf(const Simulation& simulation) {
   return JsonResponse(200, StatusJson(simulation.status()));
 }
@@ -128,12 +134,13 @@ Response Api::OfSimulation(const Request& request) {
   }
   if (path[3] == "scene") return is_get ? Scene(*simulation) : MethodNotAllowed("GET");
   if (path[3] == "recording") return Recording(request, simulation);
+  const bool sets_factor = path[3] == "factor";
   const SimulationCommand* command = FindSimulationCommand(path[3]);
-  if (command == nullptr) return NoSuchAddress();
+  if (command == nullptr && !sets_factor) return NoSuchAddress();
   if (request.method != "POST") return MethodNotAllowed("POST");
-  if (const base::Status done = Obey(*simulation, *command, request.body); !done) {
-    return ErrorResponse(done.error());
-  }
+  const base::Status done = sets_factor ? SetFactor(*simulation, request.body)
+                                        : Obey(*simulation, *command, request.body);
+  if (!done) return ErrorResponse(done.error());
   return StatusOf(*simulation);
 }
 

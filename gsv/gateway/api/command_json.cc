@@ -42,6 +42,14 @@ base::Result<std::int64_t> ParseStepCount(std::string_view body) {
   return count->get<std::int64_t>();
 }
 
+base::Result<double> ParseFactor(std::string_view body) {
+  const base::Result<Json> json = ParseObject(body);
+  if (!json) return base::Fail(json.error());
+  const auto factor = json->find("factor");
+  if (factor != json->end() && factor->is_number()) return factor->get<double>();
+  return Invalid("to set the real-time factor, give {\"factor\": simulated seconds a second}");
+}
+
 base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body) {
   const base::Result<Json> json = ParseObject(body);
   if (!json) return base::Fail(json.error());

@@ -14,6 +14,9 @@ namespace gsv::gateway {
 // {"count": N}, N from 1 to a thousand million; 1 when it is absent.
 base::Result<std::int64_t> ParseStepCount(std::string_view body);
 
+// {"factor": F}, simulated seconds a wall second; what it may be, the simulation says.
+base::Result<double> ParseFactor(std::string_view body);
+
 // {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}; what is absent is 0.
 base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body);
 

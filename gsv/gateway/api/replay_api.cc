@@ -159,6 +159,9 @@ Response ReplayApi::OfSimulation(const Request& request) {
   if (path[3] == "replay") return Replay(request);
   if (path[3] == "events") return is_get ? Events() : MethodNotAllowed("GET");
   if (path[3] == "log") return is_get ? Log() : MethodNotAllowed("GET");
+  if (path[3] == "factor") {
+    return ErrorResponse(409, "this is a replay: its speed is set by POST to .../replay");
+  }
   if (path[3] == "curve") return is_get ? Curve(request.target) : MethodNotAllowed("GET");
   if (!Actions().contains(path[3])) return NoSuchAddress();
   return is_get ? MethodNotAllowed("POST") : Act(path[3], request.body);

@@ -50,6 +50,18 @@ def test_a_reset_goes_back_to_the_start(simulate):
     assert simulation.state_hash() == first
 
 
+def test_how_fast_real_time_goes_is_set_in_mid_run(simulator, simulate):
+    with simulator.create("playground", lockstep=False, factor=1e-4) as simulation:
+        simulation.start()
+        simulation.set_factor(1e6)
+        simulation.run_until(5)  # at its first pace: fourteen hours
+        assert simulation.state().time == 5
+        with pytest.raises(gsv.Refused, match="above 0"):
+            simulation.set_factor(0)
+    with pytest.raises(gsv.Refused, match="as fast as it can"):
+        simulate("playground").set_factor(2)
+
+
 def test_a_run_until_something_is_true_stops_at_the_same_instant(simulate):
     instants = set()
     for _ in range(2):

@@ -16,6 +16,14 @@ test("an action is posted to its simulation, whose name may hold anything", asyn
   expect(init).toMatchObject({ method: "POST", body: '{"count":5}' });
 });
 
+test("how fast it goes is posted to its own address", async () => {
+  const { api, fetchPage } = answering({ ...STATUS, target_factor: 2.5 });
+  expect((await api.setFactor("a b", 2.5)).targetFactor).toBe(2.5);
+  const [url, init] = fetchPage.mock.calls[0]!;
+  expect(url).toBe("http://127.0.0.1:8080/api/simulations/a%20b/factor");
+  expect(init).toMatchObject({ method: "POST", body: '{"factor":2.5}' });
+});
+
 test("a replay is moved and changed at its own addresses", async () => {
   const { api, fetchPage } = answering({ ...STATUS, start_s: 0, end_s: 9, speed: 2, loop: false });
   await api.seek("a b", 1.5);

@@ -77,6 +77,11 @@ export class SimulationApi {
     return parseStatus(await this.server.post(`${simulationPath(name)}/${action}`, body, ACTION_TIMEOUT_MS));
   }
 
+  // In real time: simulated seconds a second.
+  async setFactor(name: string, factor: number): Promise<SimulationStatus> {
+    return parseStatus(await this.server.post(`${simulationPath(name)}/factor`, { factor }));
+  }
+
   // The recorded instant, or the end that is nearer.
   async seek(name: string, time: number): Promise<SimulationStatus> {
     return parseStatus(await this.server.post(`${simulationPath(name)}/seek`, { time_s: time }));

@@ -68,12 +68,21 @@ export class App {
 
   // Sends one action. What comes of it arrives with the stream: the answer may come later than what
   // happened after it. A refusal shows the server's sentence.
-  async act(action: Action, count = 1): Promise<void> {
+  act(action: Action, count = 1): Promise<void> {
+    return this.command(action, (simulation) => this.api.act(simulation, action, count));
+  }
+
+  // How fast a simulation in real time goes: simulated seconds a second.
+  setFactor(factor: number): Promise<void> {
+    return this.command("factor", (simulation) => this.api.setFactor(simulation, factor));
+  }
+
+  private async command(name: State["pending"], send: (simulation: string) => Promise<unknown>): Promise<void> {
     const { simulation, pending } = this.store.get();
     if (!simulation || pending) return;
-    this.store.set({ pending: action });
+    this.store.set({ pending: name });
     try {
-      await this.api.act(simulation, action, count);
+      await send(simulation);
     } catch (error) {
       notify(this.store, "error", (error as Error).message);
     } finally {

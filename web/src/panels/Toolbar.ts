@@ -2,15 +2,15 @@
 import type { App } from "../app/App";
 import type { Action } from "../api/SimulationApi";
 import type { State, ViewMode } from "../state/State";
-import { isAllowed, mainAction } from "../state/actions";
+import { canAct, isAllowed, mainAction } from "../state/actions";
 import { canEdit } from "../state/editing";
-import { mayAct } from "../state/people";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon, setIcon } from "../ui/icons";
 import { createRecordButton } from "./RecordButton";
 import { createOverlayMenu } from "./OverlayMenu";
+import { createPaceMenu } from "./PaceMenu";
 import { createPeopleMenu } from "./PeopleMenu";
 import { createShareMenu } from "./ShareMenu";
 
@@ -79,6 +79,7 @@ function transport(app: App): HTMLElement {
     { class: "toolbar-transport", role: "group", "aria-label": "Run" },
     mainButton(app),
     actionButton(app, "step", "step", "Step", "One step (paused)"),
+    createPaceMenu(app),
     actionButton(app, "stop", "stop", "Stop", "Stop for good"),
     actionButton(app, "reset", "reset", "Reset", "Back to the start"),
     editButton(app),
@@ -209,10 +210,6 @@ function actionButton(
     (enabled) => (button.disabled = !enabled),
   );
   return button;
-}
-
-function canAct({ connection, pending, people }: State): boolean {
-  return connection.phase === "open" && pending === null && mayAct(people);
 }
 
 function viewButton(picture: IconName, label: string, key: string, onclick: () => void): HTMLElement {

@@ -24,7 +24,7 @@ const POSE = {
 };
 
 function enabledButtons(toolbar: HTMLElement): string[] {
-  const buttons = toolbar.querySelectorAll<HTMLButtonElement>(".toolbar-transport button:not(:disabled)");
+  const buttons = toolbar.querySelectorAll<HTMLButtonElement>(".toolbar-transport > button:not(:disabled)");
   return [...buttons].map((button) => button.getAttribute("aria-label") ?? button.textContent ?? "");
 }
 
@@ -53,6 +53,35 @@ test("nothing can be pressed while the connection is lost or an answer is awaite
   expect(enabledButtons(toolbar)).toEqual([]);
   store.set({ pending: null, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } });
   expect(enabledButtons(toolbar)).toEqual([]);
+});
+
+test("how fast it goes and how many steps it takes can be set", () => {
+  const act = vi.fn(async () => simulationStatus("paused"));
+  const setFactor = vi.fn(async () => simulationStatus("paused"));
+  const { app, store } = testApp({ status: simulationStatus("paused", { targetFactor: 2 }) }, { act, setFactor });
+  const menu = createToolbar(app, true, () => {}).querySelector<HTMLElement>(".toolbar-transport .menu-sheet")!;
+  const button = (text: string) => [...menu.querySelectorAll("button")].find((each) => each.textContent === text)!;
+  expect(button("2×").getAttribute("aria-pressed")).toBe("true");
+  expect(button("1×").getAttribute("aria-pressed")).toBe("false");
+  button("5×").click();
+  expect(setFactor).toHaveBeenCalledWith("house", 5);
+  store.set({ pending: null, status: simulationStatus("paused", { targetFactor: 0.25 }) }); // somebody else's press
+  const [typed, steps] = menu.querySelectorAll("input");
+  expect(typed!.value).toBe("0.25");
+
+  steps!.value = "250";
+  steps!.dispatchEvent(new Event("change"));
+  button("Take them").click();
+  expect(act).toHaveBeenCalledWith("house", "step", 250);
+  store.set({ pending: null, status: simulationStatus("running") });
+  expect(button("Take them").disabled).toBe(true);
+});
+
+test("what goes as fast as it can says so where its speed would be set", () => {
+  const { app } = testApp({ status: simulationStatus("running", { mode: "lockstep" }) });
+  const menu = createToolbar(app, true, () => {}).querySelector(".toolbar-transport .menu-sheet")!;
+  expect(menu.querySelector<HTMLElement>(".pace-choices")!.hidden).toBe(true);
+  expect(menu.querySelector<HTMLElement>(".hint")!.hidden).toBe(false);
 });
 
 test("several simulations can be chosen from", () => {

@@ -4,8 +4,8 @@ import type { RobotList, RobotSetUp } from "../state/scenario";
 import type { SetUp } from "../state/setUp";
 import { element, setText } from "../ui/element";
 import { icon } from "../ui/icons";
-import type { Field } from "./fields";
-import { choiceField, choiceOrText, numberField, textField } from "./fields";
+import type { Field } from "../ui/fields";
+import { choiceField, choiceOrText, numberField, textField } from "../ui/fields";
 
 const DEGREES = 180 / Math.PI;
 const BY_CONSTRAINT = { choice: "By constraint…", placeholder: "name == 'wander' and time_managed" };

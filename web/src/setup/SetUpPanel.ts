@@ -6,7 +6,7 @@ import { robotOfField } from "../state/setUp";
 import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
-import { checkField, choiceField, choiceOrText, numberField, textField } from "./fields";
+import { checkField, choiceField, choiceOrText, numberField, textField } from "../ui/fields";
 import { chosenFiles, droppedFiles } from "./dropped";
 import { RobotRow } from "./RobotRow";
 

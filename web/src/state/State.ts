@@ -69,7 +69,7 @@ export interface State {
   plots: Plots;
   log: Log;
   diagnostics: Diagnostics;
-  pending: Action | null; // sent to the server, not answered yet
+  pending: Action | "factor" | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
   filming: boolean;

@@ -1,6 +1,8 @@
 // What a person may do in each phase of a simulation. The server has the last word.
 import type { Action } from "../api/SimulationApi";
 import type { Phase } from "../api/status";
+import type { State } from "./State";
+import { mayAct } from "./people";
 
 const ALLOWED: Record<Phase, readonly Action[]> = {
   created: ["start", "step", "stop", "reset"],
@@ -14,6 +16,11 @@ const ALLOWED: Record<Phase, readonly Action[]> = {
 
 export function isAllowed(phase: Phase | undefined, action: Action): boolean {
   return phase !== undefined && ALLOWED[phase].includes(action);
+}
+
+// Whether anything can be asked of the server now.
+export function canAct({ connection, pending, people }: State): boolean {
+  return connection.phase === "open" && pending === null && mayAct(people);
 }
 
 // The one action that the main button stands for: what makes it run, or stand still.

@@ -1,5 +1,5 @@
-// The parts of the form: labelled inputs, each with the place where the server's objection stands.
-import { element, setText } from "../ui/element";
+// Labelled inputs of forms, each with the place where the server's objection stands.
+import { element, setText } from "./element";
 
 export interface Field<Value> {
   element: HTMLElement;

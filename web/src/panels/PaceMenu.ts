@@ -1,0 +1,79 @@
+// How fast a simulation goes, and how many steps it takes at once.
+import type { App } from "../app/App";
+import { canAct, isAllowed } from "../state/actions";
+import { mayAct } from "../state/people";
+import { shallowEqual } from "../state/Store";
+import { element } from "../ui/element";
+import { numberField } from "../ui/fields";
+import { createMenu } from "../ui/menu";
+
+const FACTORS = [0.1, 0.5, 1, 2, 5, 10];
+const FIRST_STEPS = 10;
+
+export function createPaceMenu(app: App): HTMLElement {
+  const menu = createMenu("Speed and steps", "gauge", speedPart(app), stepsPart(app));
+  menu.button.classList.remove("plain");
+  app.store.watch(
+    ({ status, connection, people }) => status !== null && connection.phase === "open" && mayAct(people),
+    (enabled) => (menu.button.disabled = !enabled),
+  );
+  return menu.element;
+}
+
+function speedPart(app: App): HTMLElement {
+  const set = (factor: number | null) => factor !== null && void app.setFactor(factor);
+  const choices = FACTORS.map((factor) => ({
+    factor,
+    button: element("button", { class: "button small", type: "button", onclick: () => set(factor) }, `${factor}×`),
+  }));
+  const typed = numberField("Simulated seconds a second", null, set, { least: "0" });
+  const hint = element("p", { class: "hint" }, "In lockstep it goes as fast as it can: it has no speed to set.");
+  const buttons = element("div", { class: "pace-choices" }, ...choices.map(({ button }) => button));
+  app.store.watch(
+    ({ status }) => ({ factor: status?.targetFactor ?? 1, isPaced: status?.mode === "real_time" }),
+    ({ factor, isPaced }) => {
+      for (const each of choices) each.button.setAttribute("aria-pressed", String(each.factor === factor));
+      typed.show(factor);
+      buttons.hidden = typed.element.hidden = !isPaced;
+      hint.hidden = isPaced;
+    },
+    shallowEqual,
+  );
+  return element(
+    "div",
+    { class: "pace-part", role: "group", "aria-label": "Speed" },
+    element("h3", {}, "Speed"),
+    buttons,
+    typed.element,
+    hint,
+  );
+}
+
+function stepsPart(app: App): HTMLElement {
+  let count = FIRST_STEPS;
+  const take = element(
+    "button",
+    { class: "button", type: "button", title: "Then it is paused again", onclick: () => void app.act("step", count) },
+    "Take them",
+  );
+  const field = numberField(
+    "Steps (paused)",
+    null,
+    (value) => {
+      count = Math.max(1, Math.round(value ?? FIRST_STEPS));
+      field.show(count);
+    },
+    { step: "1", least: "1" },
+  );
+  field.show(count);
+  app.store.watch(
+    (state) => canAct(state) && isAllowed(state.status?.phase, "step"),
+    (enabled) => (take.disabled = !enabled),
+  );
+  return element(
+    "div",
+    { class: "pace-part", role: "group", "aria-label": "Steps" },
+    element("h3", {}, "Steps"),
+    element("div", { class: "field-pair pace-steps" }, field.element, take),
+  );
+}
