@@ -93,6 +93,15 @@ test("a robot is added with a behaviour, removed, and comes back where it stood"
   assert.ok(distance(await placeNow("rover4"), stood) < 1e-6);
 });
 
+test("the inspector tells where the chosen robot stands after it was moved", async () => {
+  await page.locator('[data-robot="pebble"]').click();
+  const inspector = page.getByRole("region", { name: "Selected robot" });
+  for (const place of [{ x: 1.25, y: -1.5 }, { x: -1.25, y: -1.5 }]) {
+    await ask(page, "/bodies/pebble/place", place);
+    await inspector.getByText(`${place.x.toFixed(2)}, ${place.y.toFixed(2)}, `).waitFor();
+  }
+});
+
 test("a robot on another is refused with a sentence and stays", async () => {
   const before = await placeNow("rover4");
   const { x_m: x, y_m: y } = await placeNow("pebble");

@@ -102,7 +102,10 @@ function showSelectedPose(): void {
 function connectWorld(world: World3D): void {
   store.watch(
     ({ scene }) => scene,
-    (scene) => world.setScene(scene),
+    (scene) => {
+      world.setScene(scene);
+      showSelectedPose(); // its poses may have come before it
+    },
   );
   store.watch(
     ({ shown }) => shown,

@@ -2,7 +2,7 @@
 import { expect, test, vi } from "vitest";
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
-import { commandOf, isTyping, replayCommandOf } from "./Keyboard";
+import { commandOf, isTyping, listenForKeys, replayCommandOf } from "./Keyboard";
 
 const plain = { ctrlKey: false, altKey: false, metaKey: false };
 
@@ -52,6 +52,24 @@ test("a recording's keys step, jump and find events", () => {
   press(".");
   expect(replay.toEvent.mock.calls).toEqual([[-1], [1]]);
   expect(replayCommandOf({ ...plain, key: "ArrowLeft", altKey: true })).toBeNull();
+});
+
+test("Space runs and pauses after a button was pressed with the pointer, and is its own where it was reached by keys", () => {
+  const startPauseOrResume = vi.fn();
+  const state = { replay: null, setUp: null, editing: null };
+  listenForKeys({ startPauseOrResume, store: { get: () => state } } as unknown as App);
+  document.body.innerHTML = "<button>Top view</button>";
+  const button = document.querySelector("button")!;
+  const space = () =>
+    document.activeElement!.dispatchEvent(new KeyboardEvent("keydown", { key: " ", bubbles: true }));
+  button.focus();
+  space();
+  button.dispatchEvent(new MouseEvent("click", { detail: 0, bubbles: true })); // by Enter
+  space();
+  expect(startPauseOrResume).not.toHaveBeenCalled();
+  button.dispatchEvent(new MouseEvent("click", { detail: 1, bubbles: true }));
+  space();
+  expect(startPauseOrResume).toHaveBeenCalledOnce();
 });
 
 test("the timeline's slider leaves keys to the page", () => {

@@ -101,4 +101,8 @@ export function listenForKeys(app: App): void {
     event.preventDefault();
     command(app);
   });
+  // A button that was pressed with the pointer does not keep Space for itself.
+  addEventListener("click", ({ detail, target }) => {
+    if (detail > 0 && target instanceof Element) target.closest("button")?.blur();
+  });
 }

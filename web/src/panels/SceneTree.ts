@@ -72,7 +72,10 @@ class RobotRow {
   private readonly distance = element("span", { class: "number" });
   private readonly collisions = element("span", { class: "number collisions" });
 
-  constructor(app: App, robot: string) {
+  constructor(
+    private readonly app: App,
+    robot: string,
+  ) {
     this.button = element(
       "button",
       { class: "robot", type: "button", "data-robot": robot, onclick: () => app.select(robot) },
@@ -107,7 +110,8 @@ class RobotRow {
     setAttribute(this.dot, "data-phase", robot.agentPhase);
     setAttribute(this.dot, "title", label);
     setText(this.name, robot.name);
-    setText(this.behaviour, isAvatar ? "avatar · W A S D" : `${robot.behaviour || "no behaviour"} · ${label}`);
+    const avatar = this.app.store.get().replay ? "avatar" : "avatar · W A S D"; // what was recorded stays so
+    setText(this.behaviour, isAvatar ? avatar : `${robot.behaviour || "no behaviour"} · ${label}`);
     setText(this.distance, formatDistance(robot.distance));
     setText(this.collisions, robot.collisions > 0 ? count(robot.collisions, "collision") : "");
     setAttribute(this.button, "title", robot.detail);

@@ -187,7 +187,9 @@ function typedTime(app: App): HTMLElement {
     if (key !== "Enter") return;
     const time = parseTime(field.value);
     field.setAttribute("aria-invalid", String(time === null));
-    if (time !== null) void app.replay.seek(time);
+    if (time === null) return;
+    field.blur(); // keys are the replay's again
+    void app.replay.seek(time);
   });
   return field;
 }

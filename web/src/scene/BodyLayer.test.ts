@@ -80,6 +80,18 @@ test("what is static stays where the scene puts it", () => {
   expect(matrixX(meshesOf(bodies)[2]!, 0)).toBe(3);
 });
 
+test("what is fixed to the world is in the way, robots are not", () => {
+  const bodies = layer();
+  bodies.setPoses(poses(10, 11.5, 20));
+  bodies.group.updateMatrixWorld(true);
+  const x = new Vector3(1, 0, 0);
+  const free = bodies.freeAlong(new Vector3(0, 0, 0), x, 50); // the wall is at 3
+  expect(free).toBeGreaterThan(1);
+  expect(free).toBeLessThan(3);
+  expect(bodies.freeAlong(new Vector3(0, 0, 0), x, free - 0.1)).toBe(Infinity);
+  expect(bodies.freeAlong(new Vector3(5, 0, 0), x, 50)).toBe(Infinity); // robots at 10 and 20
+});
+
 test("a ray from above picks the robot below it after it moved", () => {
   const bodies = layer();
   bodies.group.updateMatrixWorld(true);

@@ -1,7 +1,7 @@
 // The bodies of a scene. Bodies of one model share its geometry and are drawn in one call for each
 // part; a link that moves against its model is placed by its own pose.
-import type { Box3, Intersection, PerspectiveCamera, Raycaster } from "three";
-import { Group, InstancedMesh, Matrix4, Mesh, Quaternion, Vector3 } from "three";
+import type { Box3, Intersection, Material, PerspectiveCamera } from "three";
+import { Group, InstancedMesh, Matrix4, Mesh, Quaternion, Raycaster, Vector3 } from "three";
 import type { PoseNumbers, SceneBody, SceneDescription } from "../api/scene";
 import { CrowdDetail } from "./CrowdDetail";
 import type { ModelPart, ModelTemplate } from "./ModelTemplate";
@@ -134,6 +134,14 @@ export class BodyLayer {
   // Where the ray meets what is fixed to the world.
   pointOf(raycaster: Raycaster): Vector3 | null {
     return this.hitsOf(raycaster).find((hit) => this.bodyAt(hit)?.isStatic)?.point ?? null;
+  }
+
+  // How far one sees from there in a direction of length 1 until what is fixed to the world is in the
+  // way; Infinity: nothing within `far`.
+  freeAlong(from: Vector3, direction: Vector3, far: number): number {
+    const blocks = (hit: Intersection) =>
+      this.bodyAt(hit)?.isStatic && !((hit.object as Mesh).material as Material).transparent;
+    return this.hitsOf(new Raycaster(from, direction, 0, far)).find(blocks)?.distance ?? Infinity;
   }
 
   dispose(): void {

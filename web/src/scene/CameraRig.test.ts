@@ -19,6 +19,71 @@ function expectNear(actual: Vector3, x: number, y: number, z: number): void {
 
 const HERE = { position: new Vector3(1, 2, 0.5), middle: new Vector3(1, 2, 0.5), yaw: 0 };
 
+// One whose walls are `free` metres from whatever is chased; it looks for them at each update.
+function rigBeforeWalls(free: { m: number }): CameraRig {
+  const rig = new CameraRig(document.createElement("canvas"), () => {}, () => free.m);
+  rig.viewpoint = { position: new Vector3(0, -4, 12), target: new Vector3(0, 0, 0) };
+  return rig;
+}
+
+const drawnFrom = (rig: CameraRig) => rig.camera.position.distanceTo(rig.controls.target);
+
+test("a chase is drawn from before the wall, and from where one stands where there is none", () => {
+  const free = { m: Infinity };
+  const rig = rigBeforeWalls(free);
+  rig.follow(HERE, true);
+  rig.update(1000);
+  const stand = rig.viewpoint.position;
+  const far = drawnFrom(rig);
+  free.m = 1;
+  rig.update(2000);
+  expect(drawnFrom(rig)).toBeCloseTo(0.85);
+  expectNear(rig.viewpoint.position, stand.x, stand.y, stand.z);
+  const direction = (from: Vector3) => from.clone().sub(HERE.middle).normalize();
+  expectNear(direction(rig.camera.position), ...direction(stand).toArray());
+  rig.follow(null); // one stands there from now on
+  rig.update(2500);
+  expect(drawnFrom(rig)).toBeCloseTo(0.85);
+  rig.follow(HERE, true);
+  free.m = 0.1; // the robot stands at the wall
+  rig.update(3000);
+  expect(drawnFrom(rig)).toBeCloseTo(0.4);
+  free.m = Infinity;
+  rig.update(4000);
+  expect(drawnFrom(rig)).toBeCloseTo(far);
+});
+
+test("a chase draws back little by little, and asks for pictures until it has", () => {
+  vi.stubGlobal("matchMedia", () => ({ matches: false }));
+  const free = { m: 1 };
+  const rig = rigBeforeWalls(free);
+  rig.follow(HERE, true);
+  rig.update(performance.now() + 1000); // the flight is over
+  let now = performance.now() + 2000;
+  rig.update(now);
+  expect(drawnFrom(rig)).toBeCloseTo(0.85);
+  free.m = Infinity;
+  rig.update(now + 20); // it has not looked yet
+  expect(drawnFrom(rig)).toBeCloseTo(0.85);
+  now += 110;
+  expect(rig.update(now)).toBe(true);
+  const first = drawnFrom(rig);
+  expect(first).toBeGreaterThan(0.86);
+  expect(first).toBeLessThan(2.5);
+  for (let i = 0; i < 100; i++) rig.update((now += 50));
+  expect(rig.update(now)).toBe(false);
+  expect(drawnFrom(rig)).toBeCloseTo(rig.viewpoint.position.distanceTo(rig.viewpoint.target), 1);
+});
+
+test("walls are in nobody's way who does not chase", () => {
+  const rig = rigBeforeWalls({ m: 1 });
+  rig.update(1000);
+  expect(drawnFrom(rig)).toBeCloseTo(Math.hypot(4, 12));
+  rig.follow(HERE);
+  rig.update(2000);
+  expect(drawnFrom(rig)).toBeCloseTo(5);
+});
+
 test("following keeps the direction of the view while the robot moves and turns", () => {
   const rig = rigAt(new Vector3(0, -4, 12), new Vector3(0, 0, 0));
   rig.follow(HERE);

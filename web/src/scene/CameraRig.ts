@@ -1,11 +1,14 @@
 // The eye: orbits, flies to views, goes along with a robot, or looks out of it. The world's z is up.
+// A chase draws nearer than one stands where a wall is in between.
 import type { Box3 } from "three";
-import { Matrix4, PerspectiveCamera, Vector3 } from "three";
+import { MathUtils, Matrix4, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { CameraView } from "../api/scene";
 import type { Eye } from "./eye";
 import { cameraRotation, fieldOfViewDeg } from "./eye";
 import { fittingDistance } from "./framing";
+
+const { clamp } = MathUtils;
 
 const FIELD_OF_VIEW_DEG = 50;
 const FLIGHT_MS = 450;
@@ -18,6 +21,10 @@ const FOLLOWING_DISTANCE = 5; // m
 const FOLLOWING_STEEPNESS = Math.tan((68 * Math.PI) / 180); // over the walls beside a robot
 const BEHIND = 2.4; // m, of a chase
 const ABOVE = 1.5;
+const NEAREST = 0.4; // m, to what is chased
+const BEFORE_WALL = 0.15; // m
+const LOOK_MS = 100; // between looks for walls
+const BACK_OFF_MS = 250; // to draw back once there is room
 const AHEAD = 2; // m: where one looks who leaves a robot's eye
 
 // A robot that is watched: where it is, the middle of its shape (which is its place until the shape
@@ -43,8 +50,13 @@ interface Flight {
 }
 
 export class CameraRig {
-  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.05, 500);
-  readonly controls: OrbitControls;
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, 0.05, 500); // that draws
+  readonly controls: OrbitControls; // of `stand`
+  private readonly stand = this.camera.clone(); // where one stands
+  private free = Infinity; // m, from what is chased towards where one stands
+  private looked = -Infinity; // ms
+  private drawn = Infinity; // m, from what is chased
+  private drawnMs = 0;
   private flight: Flight | null = null;
   private subject: Subject | null = null;
   private turning = false; // with the subject
@@ -52,10 +64,16 @@ export class CameraRig {
   private eyeView: CameraView | null = null; // of that robot's camera
   private readonly still: boolean;
 
-  constructor(canvas: HTMLElement, onChange: () => void) {
-    this.camera.up.set(0, 0, 1);
-    this.camera.position.set(-4, -8, 8);
-    this.controls = new OrbitControls(this.camera, canvas);
+  // `freeAlong`: how far one sees from a place in a direction (of length 1), of at most `far`; more
+  // where nothing is in the way. In metres.
+  constructor(
+    canvas: HTMLElement,
+    onChange: () => void,
+    private readonly freeAlong: (from: Vector3, direction: Vector3, far: number) => number = () => Infinity,
+  ) {
+    for (const each of [this.stand, this.camera]) each.up.set(0, 0, 1);
+    this.stand.position.set(-4, -8, 8);
+    this.controls = new OrbitControls(this.stand, canvas);
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.18;
     this.controls.zoomToCursor = true;
@@ -67,14 +85,14 @@ export class CameraRig {
   }
 
   resize(width: number, height: number): void {
-    this.camera.aspect = width / Math.max(1, height);
+    this.stand.aspect = this.camera.aspect = width / Math.max(1, height);
     this.widen();
   }
 
   // Where it stands and looks, or will when it has arrived.
   get viewpoint(): Viewpoint {
     const { position, target } = this.flight?.to ??
-      this.beforeEye ?? { position: this.camera.position, target: this.controls.target };
+      this.beforeEye ?? { position: this.stand.position, target: this.controls.target };
     return { position: position.clone(), target: target.clone() };
   }
 
@@ -85,9 +103,10 @@ export class CameraRig {
       this.beforeEye = { position: position.clone(), target: target.clone() };
       return;
     }
-    this.camera.position.copy(position);
+    this.stand.position.copy(position);
     this.controls.target.copy(target);
     this.controls.update();
+    this.draw(performance.now());
     this.controls.dispatchEvent({ type: "change" });
   }
 
@@ -113,12 +132,14 @@ export class CameraRig {
   // turns. null ends it.
   follow(subject: Subject | null, turning = false): void {
     if (!subject) {
+      if (this.subject && this.turning) this.stayBeforeWall();
       this.subject = null;
       return;
     }
     if (this.subject && this.turning === turning) return;
     this.subject = { ...subject, position: subject.position.clone() };
     this.turning = turning;
+    this.looked = -Infinity;
     const target = subject.middle.clone();
     this.fly({ position: target.clone().add(turning ? behind(subject.yaw) : this.overhead()), target });
   }
@@ -157,7 +178,39 @@ export class CameraRig {
     if (this.beforeEye) return false;
     if (this.flight) this.advanceFlight(this.flight, nowMs);
     const moved = this.controls.update();
-    return moved || this.flight !== null;
+    const isBackingOff = this.draw(nowMs);
+    return moved || isBackingOff || this.flight !== null;
+  }
+
+  // Who ends a chase stands where it was drawn from.
+  private stayBeforeWall(): void {
+    if (!this.beforeEye) this.stand.position.copy(this.camera.position);
+  }
+
+  // Draws from where one stands, or from before the wall that is in the way. Whether there is room to
+  // draw back.
+  private draw(nowMs: number): boolean {
+    this.camera.position.copy(this.stand.position);
+    this.camera.quaternion.copy(this.stand.quaternion);
+    const back = this.stand.position.clone().sub(this.controls.target);
+    const far = back.length();
+    const isChase = this.subject !== null && this.turning && far > NEAREST;
+    const wanted = isChase ? Math.min(far, this.clearWay(back.clone().normalize(), far, nowMs)) : far;
+    const share = this.still ? 1 : clamp((nowMs - this.drawnMs) / BACK_OFF_MS, 0, 1);
+    const isEasing = isChase && this.drawn < wanted && share < 1;
+    this.drawn = isEasing ? this.drawn + share * (wanted - this.drawn) : wanted;
+    this.drawnMs = nowMs;
+    if (this.drawn < far) this.camera.position.copy(this.controls.target).add(back.setLength(this.drawn));
+    this.camera.updateMatrixWorld();
+    return isEasing && wanted - this.drawn > 0.01;
+  }
+
+  private clearWay(direction: Vector3, far: number, nowMs: number): number {
+    if (nowMs - this.looked >= LOOK_MS) {
+      this.free = this.freeAlong(this.controls.target, direction, far);
+      this.looked = nowMs;
+    }
+    return this.free > far ? far : Math.max(NEAREST, this.free - BEFORE_WALL);
   }
 
   private leaveEye(): void {
@@ -166,6 +219,8 @@ export class CameraRig {
     this.beforeEye = this.eyeView = null;
     this.widen();
     this.controls.enabled = true;
+    this.stand.position.copy(this.camera.position);
+    this.stand.quaternion.copy(this.camera.quaternion);
     const ahead = new Vector3(0, 0, -AHEAD).applyQuaternion(this.camera.quaternion);
     this.controls.target.copy(this.camera.position).add(ahead);
     this.fly(beforeEye);
@@ -175,7 +230,7 @@ export class CameraRig {
   private widen(): void {
     const { camera, eyeView } = this;
     camera.fov = eyeView ? fieldOfViewDeg(eyeView, camera.aspect) : FIELD_OF_VIEW_DEG;
-    camera.updateProjectionMatrix();
+    for (const each of [this.stand, camera]) each.updateProjectionMatrix();
   }
 
   private overhead(): Vector3 {
@@ -185,7 +240,7 @@ export class CameraRig {
   }
 
   private *points(): Generator<Vector3> {
-    yield this.camera.position;
+    yield this.stand.position;
     yield this.controls.target;
     if (!this.flight) return;
     for (const { position, target } of [this.flight.from, this.flight.to]) {
@@ -199,15 +254,17 @@ export class CameraRig {
     const distance = MARGIN * fittingDistance(this.camera, box, direction);
     const position = target.clone().addScaledVector(direction, -distance);
     this.controls.maxDistance = Math.max(50, 6 * distance);
-    this.camera.far = 3 * this.controls.maxDistance;
-    this.camera.near = Math.min(0.1, distance / 100);
-    this.camera.updateProjectionMatrix();
+    for (const each of [this.stand, this.camera]) {
+      each.far = 3 * this.controls.maxDistance;
+      each.near = Math.min(0.1, distance / 100);
+      each.updateProjectionMatrix();
+    }
     if (fly) this.fly({ position, target });
     else this.viewpoint = { position, target };
   }
 
   private fly(to: Viewpoint): void {
-    const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
+    const from = { position: this.stand.position.clone(), target: this.controls.target.clone() };
     this.flight = { from, to, startMs: this.still ? -Infinity : performance.now() };
     this.controls.dispatchEvent({ type: "change" });
   }
@@ -215,7 +272,7 @@ export class CameraRig {
   private advanceFlight({ from, to, startMs }: Flight, nowMs: number): void {
     const share = Math.min(1, (nowMs - startMs) / FLIGHT_MS);
     const eased = share < 0.5 ? 4 * share ** 3 : 1 - (-2 * share + 2) ** 3 / 2;
-    this.camera.position.lerpVectors(from.position, to.position, eased);
+    this.stand.position.lerpVectors(from.position, to.position, eased);
     this.controls.target.lerpVectors(from.target, to.target, eased);
     if (share >= 1) this.flight = null;
   }

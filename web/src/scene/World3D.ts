@@ -96,7 +96,11 @@ export class World3D {
       (took) => this.tookFrame(took),
       fenceOf(this.renderer.getContext() as WebGL2RenderingContext),
     );
-    this.rig = new CameraRig(canvas, () => this.loop.request());
+    this.rig = new CameraRig(
+      canvas,
+      () => this.loop.request(),
+      (from, direction, far) => this.bodies?.freeAlong(from, direction, far) ?? Infinity,
+    );
     this.watch = new RobotWatch(this.rig);
     this.arranger = new Arranger(this.arrangerView(), events);
     this.scene.add(this.overlays.group, this.watch.ring.mesh, this.arranger.handle.group);

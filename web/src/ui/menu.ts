@@ -22,19 +22,21 @@ export function createMenu(label: string, picture: IconName, ...items: HTMLEleme
   const open = (value: boolean) => {
     sheet.hidden = !value;
     button.setAttribute("aria-expanded", String(value));
-    if (value) addEventListener("pointerdown", closeOutside, true);
-    else removeEventListener("pointerdown", closeOutside, true);
+    const listen = value ? addEventListener : removeEventListener;
+    listen("pointerdown", closeOutside, true);
+    listen("keydown", closeByKey, true);
   };
   const closeOutside = (event: Event) => {
     if (!(event.target instanceof Node && place.contains(event.target))) open(false);
   };
-  button.addEventListener("click", () => open(sheet.hidden));
-  place.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape" || sheet.hidden) return;
+  const closeByKey = (event: KeyboardEvent) => {
+    if (event.key !== "Escape") return;
     event.stopPropagation();
+    const hadFocus = sheet.contains(document.activeElement);
     open(false);
-    button.focus();
-  });
+    if (hadFocus) button.focus();
+  };
+  button.addEventListener("click", () => open(sheet.hidden));
   return { element: place, button, sheet };
 }
 
