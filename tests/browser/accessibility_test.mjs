@@ -91,7 +91,7 @@ test("editing, and putting another simulation together", async () => {
   await judge(page);
   await page.getByRole("button", { name: "New simulation" }).click();
   await page.getByRole("button", { name: "Add robot" }).click();
-  await page.locator(".set-up[aria-busy="false"]").waitFor();
+  await page.locator('.set-up[aria-busy="false"]').waitFor();
   await page.getByText("Parameters", { exact: true }).click();
   await page.getByLabel("Factor (simulated seconds a second)").fill("-1");
   await page.keyboard.press("Tab");

@@ -44,7 +44,7 @@ const field = (label, within = page) => within.getByLabel(label, { exact: true }
 
 // What the server was asked has been answered.
 async function answered() {
-  await page.locator(".set-up[aria-busy="false"]").waitFor();
+  await page.locator('.set-up[aria-busy="false"]').waitFor();
   await settled(page);
 }
 

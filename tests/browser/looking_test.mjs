@@ -57,6 +57,12 @@ test("the menu of overlays shows what is on, and keys do the same", async () => 
   assert.equal(await trails.getAttribute("aria-pressed"), "true");
   await page.keyboard.press("Escape");
   assert.equal(await trails.isVisible(), false);
+  // Who came by keys is back at the button.
+  await page.getByRole("button", { name: "Overlays", exact: true }).focus();
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Escape");
+  assert.equal(await trails.isVisible(), false);
   assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "Overlays");
 });
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "gsv/base/sanitizer.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/orb.h"
@@ -15,7 +16,9 @@ int Rounds() {
 }
 
 void Served::SetUpTestSuite() {
-  auto orb = orb::StartOrb({});
+  orb::OrbOptions options;
+  options.call_timeout *= base::kTimesAsSlow;
+  auto orb = orb::StartOrb(options);
   ASSERT_TRUE(orb);
   orb_ = *orb;
 }
@@ -24,9 +27,9 @@ void Served::TearDownTestSuite() { orb_->destroy(); }
 
 Served::Served() {
   server_.AwaitLine("broker: ");
-  auto client = broker::BrokerClient::Connect(orb_, broker_.reference());
-  const auto offers = client->Query(broker::SimulationServiceType().name, "", "first", 1);
-  service_ = sba::SimulationService::_narrow(offers->front().object);
+  auto client = broker::BrokerClient::Connect(orb_, broker_.reference()).value();
+  const auto offers = client.Query(broker::SimulationServiceType().name, "", "first", 1).value();
+  service_ = sba::SimulationService::_narrow(offers.front().object);
 }
 
 sba::SimulationSpecification Served::Playground(sba::PacingMode pacing) {

@@ -1,6 +1,7 @@
 // Any messages from a viewer, one a line, to the hub of a simulation: texts, or binary ones where
 // the line begins with a tab ('\\' and 'n' within are escaped as \\ and \n). And any messages from
 // another instance, to whoever relays it.
+#include <atomic>
 #include <cstdint>
 #include <set>
 
@@ -26,7 +27,7 @@ class CountingClient final : public Client {
   }
   void Close(CloseCode, std::string) override {}
 
-  std::size_t bytes = 0;
+  std::atomic<std::size_t> bytes = 0;  // services answer from a thread of their own
 };
 
 std::string Unescaped(std::string_view line) {

@@ -103,6 +103,7 @@ TEST_F(ServerTest, AFrameThatLiesAboutItsLengthEndsItsOwnConnectionOnly) {
 TEST_F(ServerTest, AReaderThatStallsLosesTheOldestAndCostsNobodyElse) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
+  options.limits.idle_time = std::chrono::minutes(10);  // who reads nothing reads no pings
   Start(options);
   Viewer stalled(port()), healthy(port());
   stalled.Subscribe(1, "/numbers");
@@ -133,6 +134,7 @@ TEST_F(ServerTest, AReaderThatStallsLosesTheOldestAndCostsNobodyElse) {
 TEST_F(ServerTest, AStalledReaderAmongFiftyTakesNothingFromTheOthers) {
   ServerOptions options;
   options.limits.send.data_messages = 4;
+  options.limits.idle_time = std::chrono::minutes(10);  // it reads no pings either
   Start(options);
   // It subscribes, and reads no more.
   Viewer stalled(port());
