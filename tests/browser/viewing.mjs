@@ -1,5 +1,6 @@
 // What several tests ask of a page on the viewer.
 import assert from "node:assert/strict";
+import { setImmediate } from "node:timers/promises";
 
 const CARDS_WIDTH_PX = 300; // the inspector and the camera lie at the view's right
 const LONGEST_WAIT_MS = 60_000; // two pictures of a busy machine may take ten seconds
@@ -30,7 +31,10 @@ export async function settled(page) {
 
 export async function until(isTrue, what) {
   const end = Date.now() + LONGEST_WAIT_MS;
-  while (!(await isTrue())) assert.ok(Date.now() < end, `${what} did not come`);
+  while (!(await isTrue())) {
+    assert.ok(Date.now() < end, `${what} did not come`);
+    await setImmediate(); // what the browser tells meanwhile is heard: an answer that is at hand leaves no time for it
+  }
 }
 
 // What the page's server says of its first simulation, past the page's own code.
