@@ -12,6 +12,9 @@ add_compile_options(
   # bits on every machine hangs on it.
   -ffp-contract=off)
 
+# GCC collects its garbage when it has 128 MiB of it, again and again in files that need a gigabyte.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
+
 # Checks stay on in release builds (GSV_CHECK), so -DNDEBUG only affects libraries.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 

@@ -40,7 +40,7 @@ after(async () => {
 });
 
 test("a thousand robots are listed and drawn, and they move", async () => {
-  await page.getByRole("heading", { name: `${ROBOTS} robots` }).waitFor();
+  await page.getByRole("heading", { name: `${ROBOTS.toLocaleString("en")} robots` }).waitFor();
   assert.equal(await page.locator("[data-robot]").count(), ROBOTS);
   assert.equal(isBlank(await picture(page, await viewClip(page))), false);
   const time = (await ask(page, "")).time_s;

@@ -11,6 +11,7 @@
 #include "gsv/broker/client/gsv_service_types.h"
 #include "gsv/orb/orb.h"
 #include "idl/simulation.hh"
+#include "tests/end_to_end/served.h"
 #include "tests/support/programs.h"
 
 namespace gsv::testing {
@@ -133,7 +134,7 @@ TEST_F(SensorPlugin, IsReadThroughItsOwnInterface) {
   Running server(
       "gsv", {"serve", "--broker", broker.reference(), "--headless", "--sensor-plugin", plugin_});
   server.AwaitLine("broker: ");
-  auto orb = orb::StartOrb({});
+  auto orb = StartPatientOrb();
   ASSERT_TRUE(orb);
   {
     auto client = broker::BrokerClient::Connect(*orb, broker.reference());

@@ -15,10 +15,14 @@ int Rounds() {
   return soak == nullptr ? 1 : std::max(1, std::atoi(soak));
 }
 
-void Served::SetUpTestSuite() {
+base::Result<CORBA::ORB_var> StartPatientOrb() {
   orb::OrbOptions options;
   options.call_timeout *= base::kTimesAsSlow;
-  auto orb = orb::StartOrb(options);
+  return orb::StartOrb(options);
+}
+
+void Served::SetUpTestSuite() {
+  auto orb = StartPatientOrb();
   ASSERT_TRUE(orb);
   orb_ = *orb;
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/base/error.h"
 #include "idl/simulation.hh"
 #include "tests/support/programs.h"
 
@@ -13,6 +14,9 @@ namespace gsv::testing {
 
 // How often a case is run: once in make test, GSV_SOAK times in make soak.
 int Rounds();
+
+// The process's ORB, whose calls wait as long as a build with a sanitizer may take.
+base::Result<CORBA::ORB_var> StartPatientOrb();
 
 class Served : public ::testing::Test {
  protected:

@@ -11,8 +11,8 @@
 
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/gsv_service_types.h"
-#include "gsv/orb/orb.h"
 #include "sdk/application.h"
+#include "tests/end_to_end/served.h"
 #include "tests/support/group.h"
 #include "tests/support/other_host.h"
 
@@ -155,7 +155,7 @@ TEST(Servers, WhoAsksForTheLeastLoadGetsTheIdleOne) {
   const auto one = Serve(broker.reference(), "one", {}), two = Serve(broker.reference(), "two", {});
   auto application = Application::Connect(broker.reference());
   ASSERT_TRUE(application) << application.error().Sentence();
-  auto orb = orb::StartOrb({});  // the same: a process has one
+  auto orb = StartPatientOrb();  // the same: a process has one
   ASSERT_TRUE(orb);
   auto client = broker::BrokerClient::Connect(*orb, broker.reference());
   ASSERT_TRUE(client);

@@ -5,9 +5,9 @@
 
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/gsv_service_types.h"
-#include "gsv/orb/orb.h"
 #include "idl/simulation.hh"
 #include "sdk/application.h"
+#include "tests/end_to_end/served.h"
 #include "tests/support/programs.h"
 
 namespace gsv::testing {
@@ -24,7 +24,7 @@ class Services : public ::testing::Test {
     server_->AwaitLine("broker: ");
     wander_ = new Running("gsv-wander", {"--broker", broker_->reference()});
     wander_->AwaitLine("offered at");
-    auto orb = orb::StartOrb({});
+    auto orb = StartPatientOrb();
     ASSERT_TRUE(orb);
     orb_ = *orb;
     auto client = broker::BrokerClient::Connect(orb_, broker_->reference());

@@ -1,4 +1,5 @@
-// What the pages beside the viewer have in common: the bar with the way back to the simulation.
+// What the pages beside the viewer have in common: the bar with the way back to the simulation, and
+// from each to the others.
 import "../style/page.css";
 import "../style/panels.css";
 import "../style/frame.css";
@@ -7,6 +8,12 @@ import { element } from "../ui/element";
 export interface Frame {
   note: HTMLElement; // beside the title: where what is shown comes from
 }
+
+const PAGES = [
+  { title: "Join", href: "join.html" },
+  { title: "Recordings", href: "recordings.html" },
+  { title: "Broker", href: "broker.html" },
+];
 
 // `parts` are the page's own, each with its place in the grid (style/page.css).
 export function showFrame(page: HTMLElement, title: string, ...parts: HTMLElement[]): Frame {
@@ -19,6 +26,14 @@ export function showFrame(page: HTMLElement, title: string, ...parts: HTMLElemen
     note,
   );
   page.classList.add("frame-page");
-  page.append(element("header", { class: "toolbar" }, bar), ...parts);
+  page.append(element("header", { class: "toolbar" }, bar, pages(title)), ...parts);
   return { note };
+}
+
+function pages(current: string): HTMLElement {
+  const links = PAGES.map(({ title, href }) =>
+    element("a", { class: "button plain", href, "aria-current": title === current && "page" }, title),
+  );
+  const simulation = element("a", { class: "button plain", href: "./" }, "Simulation");
+  return element("nav", { class: "frame-pages", "aria-label": "Pages" }, simulation, ...links);
 }

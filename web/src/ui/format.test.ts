@@ -53,11 +53,11 @@ test.each([
   expect(formatValue(value, unit)).toBe(text);
 });
 
-test("one of a thing is singular", () => {
-  expect([count(1, "robot"), count(0, "robot"), count(2, "robot")]).toEqual([
+test("one of a thing is singular, thousands are set apart", () => {
+  expect([count(1, "robot"), count(0, "robot"), count(12_345, "robot")]).toEqual([
     "1 robot",
     "0 robots",
-    "2 robots",
+    "12,345 robots",
   ]);
 });
 

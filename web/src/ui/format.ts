@@ -48,8 +48,9 @@ export function formatValue(value: number, unit: string): string {
   return formatNumber(value, unit === "°" ? 7 : size >= 1000 ? 1 : 3) + tail;
 }
 
+// 12345, "message" → "12,345 messages".
 export function count(number: number, one: string, many = `${one}s`): string {
-  return `${number} ${number === 1 ? one : many}`;
+  return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
 }
 
 // 1_500_000 → "1.5 MB".
