@@ -27,6 +27,8 @@ import { createTimeline } from "./panels/Timeline";
 import { createToolbar } from "./panels/Toolbar";
 import { createEditPanel } from "./panels/EditPanel";
 import type { PosesMessage } from "./protocol/messages";
+import { startGraphics } from "./scene/graphics";
+import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
 import { createSetUpPanel } from "./setup/SetUpPanel";
 import { browserStorage, keepShown, loadShown } from "./state/overlays";
@@ -45,15 +47,19 @@ const store = new Store<State>({ ...initialState, shown: loadShown(storage) });
 const credentials = pageCredentials(window);
 const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
 
+// The 3D view comes once the browser has started what draws. What it is to show is kept until then.
+let world: World3D | null = null;
+let lastPoses: PosesMessage | null = null;
+const library = new ModelLibrary(
+  (id) => api.modelUrl(id),
+  () => credentials.headers,
+);
+
 function createWorld(host: HTMLElement): World3D | null {
   try {
     return new World3D(
       host,
-      {
-        urlOfModel: (id) => api.modelUrl(id),
-        headersOfModels: () => credentials.headers,
-        fixedQuality: parameters.get("quality") === "high",
-      },
+      { library, fixedQuality: parameters.get("quality") === "high" },
       {
         onPick: (body) => app.pick(body),
         onPlace: (body, place) => app.place(body, place),
@@ -69,13 +75,13 @@ function createWorld(host: HTMLElement): World3D | null {
 }
 
 const view = element("main", { class: "view" });
-const world = createWorld(view);
 const selected = new SelectedPose();
 const session = new Session(
   api,
   store,
   {
     onPoses: (message) => {
+      lastPoses = message;
       world?.setPoses(message);
       app.plots.takePoses(message);
       showSelectedPose();
@@ -84,7 +90,7 @@ const session = new Session(
   },
   { simulation: parameters.get("simulation"), recording: parameters.get("recording") },
 );
-const app = new App(store, session, api, world);
+const app = new App(store, session, api, () => world);
 
 let nextPose: ReturnType<typeof setTimeout> | undefined;
 
@@ -99,7 +105,20 @@ function showSelectedPose(): void {
   else nextPose = setTimeout(showSelectedPose, SHORTEST_UPDATE_MS);
 }
 
+async function openWorld(): Promise<void> {
+  const unwatch = store.watch(
+    ({ scene }) => scene,
+    (scene) => scene && library.prepare(scene),
+  );
+  await startGraphics();
+  unwatch();
+  world = createWorld(view);
+  if (world) connectWorld(world);
+  store.set({ view: world ? "open" : "none" });
+}
+
 function connectWorld(world: World3D): void {
+  if (lastPoses) world.setPoses(lastPoses);
   store.watch(
     ({ scene }) => scene,
     (scene) => {
@@ -160,12 +179,12 @@ const toggleSidebar = () => page.classList.toggle("sidebar-open");
 view.append(
   element("div", { class: "cards" }, createInspector(app), createCameraPane(app)),
   createEditPanel(app),
-  createOverlay(app, world !== null),
+  createOverlay(app),
   createControlQuestion(app),
   createNotices(app),
 );
 page.append(
-  createToolbar(app, world !== null, toggleSidebar),
+  createToolbar(app, toggleSidebar),
   createSceneTree(app),
   createSetUpPanel(app),
   view,
@@ -188,10 +207,9 @@ store.watch(
   ({ shown }) => shown,
   (shown) => keepShown(storage, shown),
 );
-if (world) connectWorld(world);
 listenForKeys(app);
 new AvatarSteering(avatarToDrive, drive).listen(window);
-exposeForTests(store, world);
+exposeForTests(store, () => world);
 app.plots.start();
 app.wholeCurves.start();
 app.logFeed.start();
@@ -201,3 +219,4 @@ app.link.start(window);
 // A replay of one's own is nobody else's to watch or to move.
 if (!parameters.has("recording")) app.people.start(window);
 session.start();
+void openWorld();

@@ -32,14 +32,14 @@ declare global {
   }
 }
 
-export function exposeForTests(store: Store<State>, world: World3D | null): void {
+export function exposeForTests(store: Store<State>, world: () => World3D | null): void {
   window.gsv = {
     ready: firstPicture(store, world),
     get frames() {
-      return world?.frames ?? 0;
+      return world()?.frames ?? 0;
     },
     get isDrawing() {
-      return world?.isDrawing ?? false;
+      return world()?.isDrawing ?? false;
     },
     get time() {
       return store.get().time;
@@ -48,32 +48,32 @@ export function exposeForTests(store: Store<State>, world: World3D | null): void
       return store.get().status?.phase ?? null;
     },
     get view() {
-      return world?.viewpoint ?? null;
+      return world()?.viewpoint ?? null;
     },
     get robots() {
       return store.get().status?.robots.map(({ name }) => name) ?? [];
     },
     robotPosition: (name) => {
-      const latest = world?.latestPose(name);
+      const latest = world()?.latestPose(name);
       if (!latest) return null;
       const [x, y, z] = latest.pose.elements.slice(12) as [number, number, number];
       return { x, y, z, time: latest.stamp };
     },
-    robotScreenPosition: (name) => world?.screenPosition(name) ?? null,
-    turnHandle: () => world?.turnHandle() ?? null,
+    robotScreenPosition: (name) => world()?.screenPosition(name) ?? null,
+    turnHandle: () => world()?.turnHandle() ?? null,
   };
 }
 
-function firstPicture(store: Store<State>, world: World3D | null): Promise<void> {
+function firstPicture(store: Store<State>, world: () => World3D | null): Promise<void> {
   return new Promise((resolve) => {
     let framesThen = -1;
     const unwatch = store.watch(
-      ({ scene, modelsMissing }) => scene !== null && modelsMissing === 0,
+      ({ view, scene, modelsMissing }) => view !== "starting" && scene !== null && modelsMissing === 0,
       (complete) => {
         if (!complete || framesThen >= 0) return;
-        framesThen = world?.frames ?? 0;
+        framesThen = world()?.frames ?? 0;
         const check = () => {
-          if (world && world.frames <= framesThen) {
+          if ((world()?.frames ?? Infinity) <= framesThen) {
             requestAnimationFrame(check);
             return;
           }

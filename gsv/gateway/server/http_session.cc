@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include <boost/asio/dispatch.hpp>
@@ -15,6 +14,7 @@
 #include "gsv/base/log.h"
 #include "gsv/gateway/access/need.h"
 #include "gsv/gateway/server/websocket_session.h"
+#include "gsv/gateway/transport/byte_stream.h"
 #include "gsv/gateway/uploads/uploads_api.h"
 
 namespace gsv::gateway {
@@ -23,6 +23,8 @@ namespace {
 namespace beast = boost::beast;
 namespace http = beast::http;
 using boost::system::error_code;
+using transport::ByteStream;
+using transport::Completion;
 using SpanBody = http::span_body<const char>;
 
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
@@ -71,12 +73,10 @@ std::string PathOf(const Target& target) {
 
 using KeepTrack = std::function<void(std::weak_ptr<Connection>)>;
 
-template <typename Stream>
-class HttpSession final : public Connection,
-                          public std::enable_shared_from_this<HttpSession<Stream>> {
+class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
   // `buffer`: what has been read already.
-  HttpSession(Stream stream, beast::flat_buffer buffer, std::shared_ptr<ServerContext> context,
+  HttpSession(ByteStream stream, beast::flat_buffer buffer, std::shared_ptr<ServerContext> context,
               std::unique_ptr<ConnectionSlot> slot, KeepTrack keep_track)
       : stream_(std::move(stream)),
         buffer_(std::move(buffer)),
@@ -84,21 +84,17 @@ class HttpSession final : public Connection,
         slot_(std::move(slot)),
         keep_track_(std::move(keep_track)) {}
 
-  void Begin() {
-    if constexpr (kIsTls) {
-      tcp().expires_after(std::min(kHandshakeTime, limits().request_time));
-      is_idle_ = true;
-      stream_.async_handshake(
-          boost::asio::ssl::stream_base::server, buffer_.data(),
-          [self = this->shared_from_this()](error_code error, std::size_t used) {
-            self->is_idle_ = false;
-            if (error) return self->tcp().close();
-            self->buffer_.consume(used);
-            self->Read();
-          });
-    } else {
-      Read();
-    }
+  void BeginTls() {
+    stream_.StartTls(*context_->tls);
+    tcp().expires_after(std::min(kHandshakeTime, limits().request_time));
+    is_idle_ = true;
+    stream_.Handshake(boost::asio::ssl::stream_base::server, buffer_.data(),
+                      Completion([self = shared_from_this()](error_code error, std::size_t used) {
+                        self->is_idle_ = false;
+                        if (error) return self->tcp().close();
+                        self->buffer_.consume(used);
+                        self->Read();
+                      }));
   }
 
   void Read() {
@@ -109,7 +105,7 @@ class HttpSession final : public Connection,
     tcp().expires_after(limits().request_time);
     is_idle_ = true;
     http::async_read_header(stream_, buffer_, *parser_,
-                            [self = this->shared_from_this()](error_code error, std::size_t) {
+                            [self = shared_from_this()](error_code error, std::size_t) {
                               self->is_idle_ = false;
                               self->OnHeader(error);
                             });
@@ -122,9 +118,7 @@ class HttpSession final : public Connection,
   void Cut() override { tcp().close(); }
 
  private:
-  static constexpr bool kIsTls = std::is_same_v<Stream, TlsStream>;
-
-  beast::tcp_stream& tcp() { return beast::get_lowest_layer(stream_); }
+  beast::tcp_stream& tcp() { return stream_.tcp(); }
   const ServerLimits& limits() const { return context_->options.limits; }
 
   // What is too long, or not for who sends it, is refused before it is read.
@@ -151,10 +145,9 @@ class HttpSession final : public Connection,
       }
       tcp().expires_after(kUploadTime);
     }
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = this->shared_from_this()](error_code failed, std::size_t) {
-                       self->OnRead(failed);
-                     });
+    http::async_read(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](error_code failed, std::size_t) { self->OnRead(failed); });
   }
 
   void Complain(error_code error) {
@@ -230,7 +223,7 @@ class HttpSession final : public Connection,
     request.viewer = std::string(View(message["Gsv-Viewer"]));
     upload_.reset();
     tcp().expires_never();  // whoever answers has limits of their own
-    context_->handler.Handle(std::move(request), [self = this->shared_from_this()](
+    context_->handler.Handle(std::move(request), [self = shared_from_this()](
                                                      Response response) mutable {
       auto executor = self->stream_.get_executor();
       boost::asio::post(executor, [self = std::move(self), answer = std::move(response)]() mutable {
@@ -298,7 +291,7 @@ class HttpSession final : public Connection,
     tcp().expires_after(limits().request_time);
     http::async_write(
         stream_, *message,
-        [self = this->shared_from_this(), message, bytes](error_code error, std::size_t length) {
+        [self = shared_from_this(), message, bytes](error_code error, std::size_t length) {
           self->context_->traffic->sent_bytes += length;
           self->OnWritten(error);
         });
@@ -307,12 +300,8 @@ class HttpSession final : public Connection,
   void OnWritten(error_code error) {
     if (error) return;
     if (keep_alive_ && !context_->stopping) return Read();
-    if constexpr (kIsTls) {
-      tcp().expires_after(kLeaveTime);
-      stream_.async_shutdown([self = this->shared_from_this()](error_code) { self->HangUp(); });
-    } else {
-      HangUp();
-    }
+    tcp().expires_after(kLeaveTime);
+    stream_.Shutdown(Completion([self = shared_from_this()](error_code) { self->HangUp(); }));
   }
 
   void HangUp() {
@@ -327,12 +316,12 @@ class HttpSession final : public Connection,
     tcp().expires_after(kLeaveTime);
     buffer_.clear();
     tcp().async_read_some(buffer_.prepare(4096),
-                          [self = this->shared_from_this()](error_code error, std::size_t) {
+                          Completion([self = shared_from_this()](error_code error) {
                             if (!error) self->Drain();
-                          });
+                          }));
   }
 
-  Stream stream_;
+  ByteStream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::shared_ptr<ServerContext> context_;
@@ -358,25 +347,25 @@ class TlsDoor final : public Connection, public std::enable_shared_from_this<Tls
         keep_track_(std::move(keep_track)) {}
 
   void Open() {
-    stream_.expires_after(std::min(kHandshakeTime, context_->options.limits.request_time));
+    tcp().expires_after(std::min(kHandshakeTime, context_->options.limits.request_time));
     beast::async_detect_ssl(stream_, buffer_,
                             [self = shared_from_this()](error_code error, bool is_tls) {
-                              if (error) return self->stream_.close();
+                              if (error) return self->tcp().close();
                               is_tls ? self->LetIn() : self->TurnAway();
                             });
   }
 
-  void Shutdown() override { stream_.close(); }
-  void Cut() override { stream_.close(); }
+  void Shutdown() override { tcp().close(); }
+  void Cut() override { tcp().close(); }
 
  private:
+  beast::tcp_stream& tcp() { return stream_.tcp(); }
+
   void LetIn() {
-    stream_.expires_never();
-    const auto session = std::make_shared<HttpSession<TlsStream>>(
-        TlsStream(beast::tcp_stream(stream_.release_socket()), *context_->tls), std::move(buffer_),
-        context_, std::move(slot_), keep_track_);
+    const auto session = std::make_shared<HttpSession>(std::move(stream_), std::move(buffer_),
+                                                       context_, std::move(slot_), keep_track_);
     keep_track_(session);
-    session->Begin();
+    session->BeginTls();
   }
 
   void TurnAway() {
@@ -386,7 +375,7 @@ class TlsDoor final : public Connection, public std::enable_shared_from_this<Tls
     boost::asio::async_write(stream_, boost::asio::buffer(kAnswer.data(), kAnswer.size()),
                              [self = shared_from_this()](error_code error, std::size_t) {
                                if (error) return;
-                               self->stream_.socket().shutdown(
+                               self->tcp().socket().shutdown(
                                    boost::asio::ip::tcp::socket::shutdown_send, error);
                                self->Drain();
                              });
@@ -394,15 +383,15 @@ class TlsDoor final : public Connection, public std::enable_shared_from_this<Tls
 
   // As HttpSession does.
   void Drain() {
-    stream_.expires_after(kLeaveTime);
+    tcp().expires_after(kLeaveTime);
     buffer_.clear();
-    stream_.async_read_some(buffer_.prepare(4096),
-                            [self = shared_from_this()](error_code error, std::size_t) {
-                              if (!error) self->Drain();
-                            });
+    stream_.ReadSome(buffer_.prepare(4096),
+                     Completion([self = shared_from_this()](error_code error, std::size_t) {
+                       if (!error) self->Drain();
+                     }));
   }
 
-  beast::tcp_stream stream_;
+  ByteStream stream_;
   beast::flat_buffer buffer_;
   const std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
@@ -420,11 +409,11 @@ void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<Serve
     keep_track(door);
     return door->Open();
   }
-  const auto session = std::make_shared<HttpSession<PlainStream>>(
-      PlainStream(std::move(socket)), beast::flat_buffer(), std::move(context), std::move(slot),
-      keep_track);
+  const auto session =
+      std::make_shared<HttpSession>(ByteStream(std::move(socket)), beast::flat_buffer(),
+                                    std::move(context), std::move(slot), keep_track);
   keep_track(session);
-  session->Begin();
+  session->Read();
 }
 
 }  // namespace gsv::gateway

@@ -9,7 +9,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 
 namespace gsv::gateway {
 namespace {
@@ -30,12 +29,11 @@ websocket::close_reason Reason(CloseCode code, const std::string& text) {
   return {static_cast<websocket::close_code>(code), beast::string_view(text.data(), length)};
 }
 
-template <typename Stream>
 class WebSocketSession final : public Client,
                                public Connection,
-                               public std::enable_shared_from_this<WebSocketSession<Stream>> {
+                               public std::enable_shared_from_this<WebSocketSession> {
  public:
-  WebSocketSession(Stream stream, HttpRequest request, std::shared_ptr<Hub> hub,
+  WebSocketSession(transport::ByteStream stream, HttpRequest request, std::shared_ptr<Hub> hub,
                    std::shared_ptr<ServerContext> context, std::unique_ptr<ConnectionSlot> slot,
                    Ticket ticket)
       : stream_(std::move(stream)),
@@ -61,7 +59,7 @@ class WebSocketSession final : public Client,
         }));
     stream_.auto_fragment(false);
     stream_.read_message_max(0);  // OnRead() limits it, with a sentence
-    stream_.async_accept(request_, [self = this->shared_from_this()](error_code error) {
+    stream_.async_accept(request_, [self = shared_from_this()](error_code error) {
       if (!error) self->OnAccepted();
     });
   }
@@ -88,7 +86,7 @@ class WebSocketSession final : public Client,
 
   void Close(CloseCode code, std::string reason) override {
     boost::asio::post(stream_.get_executor(),
-                      [self = this->shared_from_this(), code, reason = std::move(reason)] {
+                      [self = shared_from_this(), code, reason = std::move(reason)] {
                         self->BeginClose(code, reason);
                       });
   }
@@ -109,7 +107,7 @@ class WebSocketSession final : public Client,
     is_open_ = true;
     is_counted_ = true;
     ++context_->traffic->viewers;
-    hub_->Add(this->shared_from_this(), subprotocol_);
+    hub_->Add(shared_from_this(), subprotocol_);
     if (close_reason_) return WriteNext();
     Read();
   }
@@ -117,7 +115,7 @@ class WebSocketSession final : public Client,
   void Read() {
     stream_.async_read_some(
         buffer_, kReadSize,
-        [self = this->shared_from_this()](error_code error, std::size_t) { self->OnRead(error); });
+        [self = shared_from_this()](error_code error, std::size_t) { self->OnRead(error); });
   }
 
   void OnRead(error_code error) {
@@ -152,7 +150,7 @@ class WebSocketSession final : public Client,
   // Any thread: sees to it that the queue is written out. At most one post is under way.
   void Wake() {
     if (is_woken_.exchange(true)) return;
-    boost::asio::post(stream_.get_executor(), [self = this->shared_from_this()] {
+    boost::asio::post(stream_.get_executor(), [self = shared_from_this()] {
       self->is_woken_ = false;
       self->WriteNext();
     });
@@ -174,31 +172,29 @@ class WebSocketSession final : public Client,
     const std::array<boost::asio::const_buffer, 2> parts{
         boost::asio::buffer(in_flight_.header.bytes.data(), in_flight_.header.size),
         boost::asio::buffer(in_flight_.payload.data(), in_flight_.payload.size())};
-    stream_.async_write(parts,
-                        [self = this->shared_from_this()](error_code error, std::size_t length) {
-                          self->context_->traffic->sent_bytes += length;
-                          self->is_writing_ = false;
-                          self->in_flight_ = {};
-                          if (error) return self->Leave();
-                          self->WriteNext();
-                        });
+    stream_.async_write(parts, [self = shared_from_this()](error_code error, std::size_t length) {
+      self->context_->traffic->sent_bytes += length;
+      self->is_writing_ = false;
+      self->in_flight_ = {};
+      if (error) return self->Leave();
+      self->WriteNext();
+    });
   }
 
   void BeginClose(CloseCode code, const std::string& reason) {
     if (close_reason_) return;
     close_reason_ = Reason(code, reason);
     farewell_.expires_after(kFarewell);
-    farewell_.async_wait([weak = this->weak_from_this()](error_code error) {
+    farewell_.async_wait([weak = weak_from_this()](error_code error) {
       const auto self = weak.lock();
-      if (!error && self) beast::get_lowest_layer(self->stream_).close();
+      if (!error && self) self->stream_.next_layer().tcp().close();
     });
     WriteNext();
   }
 
   void SendCloseFrame() {
     is_open_ = false;
-    stream_.async_close(*close_reason_,
-                        [self = this->shared_from_this()](error_code) { self->Leave(); });
+    stream_.async_close(*close_reason_, [self = shared_from_this()](error_code) { self->Leave(); });
   }
 
   void Leave() {
@@ -206,11 +202,11 @@ class WebSocketSession final : public Client,
     farewell_.cancel();
     if (std::exchange(has_left_, true)) return;
     if (is_counted_) --context_->traffic->viewers;
-    beast::get_lowest_layer(stream_).close();  // a write that hangs ends, too
+    stream_.next_layer().tcp().close();  // a write that hangs ends, too
     hub_->Remove(this);
   }
 
-  websocket::stream<Stream> stream_;
+  websocket::stream<transport::ByteStream> stream_;
   boost::asio::steady_timer farewell_;
   HttpRequest request_;
   beast::flat_buffer buffer_;
@@ -231,24 +227,17 @@ class WebSocketSession final : public Client,
 
 }  // namespace
 
-template <typename Stream>
-std::weak_ptr<Connection> StartWebSocketSession(
-    Stream stream, HttpRequest request, std::string_view subprotocol, std::shared_ptr<Hub> hub,
-    std::shared_ptr<ServerContext> context, std::unique_ptr<ConnectionSlot> slot, Ticket ticket) {
-  const auto session = std::make_shared<WebSocketSession<Stream>>(
-      std::move(stream), std::move(request), std::move(hub), std::move(context), std::move(slot),
-      std::move(ticket));
+std::weak_ptr<Connection> StartWebSocketSession(transport::ByteStream stream, HttpRequest request,
+                                                std::string_view subprotocol,
+                                                std::shared_ptr<Hub> hub,
+                                                std::shared_ptr<ServerContext> context,
+                                                std::unique_ptr<ConnectionSlot> slot,
+                                                Ticket ticket) {
+  const auto session =
+      std::make_shared<WebSocketSession>(std::move(stream), std::move(request), std::move(hub),
+                                         std::move(context), std::move(slot), std::move(ticket));
   session->Accept(subprotocol);
   return session;
 }
-
-template std::weak_ptr<Connection> StartWebSocketSession(PlainStream, HttpRequest, std::string_view,
-                                                         std::shared_ptr<Hub>,
-                                                         std::shared_ptr<ServerContext>,
-                                                         std::unique_ptr<ConnectionSlot>, Ticket);
-template std::weak_ptr<Connection> StartWebSocketSession(TlsStream, HttpRequest, std::string_view,
-                                                         std::shared_ptr<Hub>,
-                                                         std::shared_ptr<ServerContext>,
-                                                         std::unique_ptr<ConnectionSlot>, Ticket);
 
 }  // namespace gsv::gateway

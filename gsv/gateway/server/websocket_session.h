@@ -4,22 +4,18 @@
 #include <memory>
 #include <string_view>
 
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
-#include <boost/beast/ssl/ssl_stream.hpp>
 
 #include "gsv/gateway/server/connection.h"
+#include "gsv/gateway/transport/byte_stream.h"
 
 namespace gsv::gateway {
 
-using PlainStream = boost::beast::tcp_stream;
-using TlsStream = boost::beast::ssl_stream<boost::beast::tcp_stream>;
-
-// Accepts the upgrade that `request` asks for and joins the hub. Of PlainStream and TlsStream.
-template <typename Stream>
+// Accepts the upgrade that `request` asks for and joins the hub.
 std::weak_ptr<Connection> StartWebSocketSession(
-    Stream stream, boost::beast::http::request<boost::beast::http::string_body> request,
+    transport::ByteStream stream,
+    boost::beast::http::request<boost::beast::http::string_body> request,
     std::string_view subprotocol, std::shared_ptr<Hub> hub, std::shared_ptr<ServerContext> context,
     std::unique_ptr<ConnectionSlot> slot, Ticket ticket);
 

@@ -23,8 +23,7 @@ constexpr std::uint64_t kLargestBody = std::uint64_t{512} << 20;
 // The steps of one exchange, each of which starts the next.
 class Exchange {
  public:
-  Exchange(const Address& address, const Request& request)
-      : address_(address), transport_(io_, address) {
+  Exchange(const Address& address, const Request& request) : address_(address) {
     message_.method_string(request.method);
     message_.target(request.raw_target);
     message_.version(11);
@@ -69,25 +68,25 @@ class Exchange {
   }
 
   void Connect(const tcp::resolver::results_type& results) {
-    transport_.tcp().async_connect(results, [this](error_code error, const tcp::endpoint&) {
-      if (!Failed(error)) Secure();
+    stream_.tcp().async_connect(results, [this](error_code error, const tcp::endpoint&) {
+      if (!Failed(error)) BeSecure();
     });
   }
 
-  void Secure() {
-    transport_.AsyncSecure([this](error_code error) {
-      if (!Failed(error)) Write();
-    });
+  void BeSecure() {
+    Secure(stream_, address_, transport::Completion([this](error_code error) {
+             if (!Failed(error)) Write();
+           }));
   }
 
   void Write() {
-    http::async_write(transport_, message_, [this](error_code error, std::size_t) {
+    http::async_write(stream_, message_, [this](error_code error, std::size_t) {
       if (!Failed(error)) Read();
     });
   }
 
   void Read() {
-    http::async_read(transport_, buffer_, parser_,
+    http::async_read(stream_, buffer_, parser_,
                      [this](error_code error, std::size_t) { is_done_ = !Failed(error); });
   }
 
@@ -113,7 +112,7 @@ class Exchange {
   beast::flat_buffer buffer_;
   boost::asio::io_context io_;
   tcp::resolver resolver_{io_};
-  Transport transport_;
+  transport::ByteStream stream_{io_};
   error_code error_;
   bool is_done_ = false;
 };

@@ -28,7 +28,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using WebSocket = websocket::stream<Transport>;
+using WebSocket = websocket::stream<transport::ByteStream>;
 
 // A big picture, or the list of two thousand channels with their definitions.
 constexpr std::size_t kLargestMessage = 64u << 20;
@@ -47,7 +47,7 @@ foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulatio
 // One attempt, from looking up the name to the end of the connection. What is under way keeps it
 // alive; whatever comes of an attempt that is not the present one is not heard.
 struct Attempt {
-  Attempt(asio::io_context& io, const Address& address) : resolver(io), socket(io, address) {}
+  explicit Attempt(asio::io_context& io) : resolver(io), socket(io) {}
 
   void Abandon() {
     resolver.cancel();
@@ -121,7 +121,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
 
   void Connect() {
     state_ = State::kConnecting;
-    attempt_ = std::make_shared<Attempt>(io_, address_);
+    attempt_ = std::make_shared<Attempt>(io_);
     attempt_->resolver.async_resolve(
         address_.host, address_.port,
         ForThis([](RemoteStream& self, error_code error, const tcp::resolver::results_type& found) {
@@ -136,15 +136,16 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     tcp_stream.async_connect(
         found, ForThis([](RemoteStream& self, error_code error, const tcp::endpoint&) {
           if (error) return self.TryAgain(error.message());
-          self.Secure();
+          self.BeSecure();
         }));
   }
 
-  void Secure() {
-    attempt_->socket.next_layer().AsyncSecure(ForThis([](RemoteStream& self, error_code error) {
-      if (error) return self.TryAgain(WhyNotConnected(error));
-      self.Handshake();
-    }));
+  void BeSecure() {
+    Secure(attempt_->socket.next_layer(), address_,
+           transport::Completion(ForThis([](RemoteStream& self, error_code error) {
+             if (error) return self.TryAgain(WhyNotConnected(error));
+             self.Handshake();
+           })));
   }
 
   void Handshake() {

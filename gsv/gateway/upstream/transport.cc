@@ -1,6 +1,9 @@
 #include "gsv/gateway/upstream/transport.h"
 
+#include <utility>
+
 #include <boost/asio/ip/address.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/ssl/error.hpp>
 #include <boost/asio/ssl/host_name_verification.hpp>
 
@@ -8,12 +11,6 @@ namespace gsv::gateway::upstream {
 namespace {
 
 namespace ssl = boost::asio::ssl;
-
-// For instances without TLS, which show nothing.
-ssl::context& NoContext() {
-  static ssl::context context(ssl::context::tls_client);
-  return context;
-}
 
 bool IsName(const std::string& host) {
   boost::system::error_code error;
@@ -23,15 +20,17 @@ bool IsName(const std::string& host) {
 
 }  // namespace
 
-Transport::Transport(boost::asio::io_context& io, const Address& address)
-    : is_secure_(address.tls != nullptr), stream_(io, is_secure_ ? *address.tls : NoContext()) {
-  if (!is_secure_) return;
-  stream_.set_verify_mode(ssl::verify_peer);
-  stream_.set_verify_callback(ssl::host_name_verification(address.host));
-  // Servers of several names choose their certificate by it; addresses have no place there.
-  if (IsName(address.host)) {
-    SSL_set_tlsext_host_name(stream_.native_handle(), address.host.c_str());
+void Secure(transport::ByteStream& stream, const Address& address, transport::Completion then) {
+  if (!address.tls) {
+    return boost::asio::post(stream.get_executor(),
+                             [then = std::move(then)]() mutable { then({}); });
   }
+  transport::ByteStream::Tls& tls = stream.StartTls(*address.tls);
+  tls.set_verify_mode(ssl::verify_peer);
+  tls.set_verify_callback(ssl::host_name_verification(address.host));
+  // Servers of several names choose their certificate by it; addresses have no place there.
+  if (IsName(address.host)) SSL_set_tlsext_host_name(tls.native_handle(), address.host.c_str());
+  stream.Handshake(ssl::stream_base::client, {}, std::move(then));
 }
 
 std::string WhyNotConnected(const boost::system::error_code& error) {

@@ -43,7 +43,7 @@ function appIn(phase: Phase, act: SimulationApi["act"]) {
   });
   const api = { act } as unknown as SimulationApi;
   const session = new Session(api, store, { onPoses: () => {}, onBeams: () => {} }, NOTHING_WANTED);
-  return { store, app: new App(store, session, api, null) };
+  return { store, app: new App(store, session, api, () => null) };
 }
 
 test("the main action is what the phase calls for, and a late answer does not undo the stream", async () => {

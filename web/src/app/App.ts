@@ -43,13 +43,13 @@ export class App {
   readonly records: RecordControl;
   readonly people: PeopleControl;
   onPlotData: () => void = () => {};
-  private readonly filming: Filming | null;
+  private readonly filming: Filming;
 
   constructor(
     readonly store: Store<State>,
     readonly session: Session,
     private readonly api: SimulationApi,
-    private readonly world: World3D | null, // null where the browser cannot draw in 3D
+    private readonly world: () => World3D | null, // null: the browser cannot draw in 3D, or not yet
   ) {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
     this.link = new LinkControl(this, world);
@@ -58,12 +58,12 @@ export class App {
     this.logFeed = new LogFeed(store, session, api);
     this.diagnosticsFeed = new DiagnosticsFeed(store, session, api.metrics);
     this.setUp = new SetUpControl(store, session, api.setUp);
-    this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world, body) }, () =>
+    this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world(), body) }, () =>
       this.act("pause"),
     );
     this.records = new RecordControl(store, api);
     this.people = new PeopleControl(store, session, api.viewers, browserStorage());
-    this.filming = world && new Filming(store, () => world.video());
+    this.filming = new Filming(store, () => world()?.video() ?? null);
   }
 
   // Sends one action. What comes of it arrives with the stream: the answer may come later than what
@@ -169,12 +169,12 @@ export class App {
 
   topView(): void {
     this.leaveEye();
-    this.world?.topView();
+    this.world()?.topView();
   }
 
   resetView(): void {
     this.store.set({ viewMode: "orbit" });
-    this.world?.resetView();
+    this.world()?.resetView();
   }
 
   // What turns the view by hand needs an eye of its own.
@@ -216,7 +216,7 @@ export class App {
   async savePicture(): Promise<void> {
     const { simulation, time } = this.store.get();
     try {
-      const picture = await this.world?.picture();
+      const picture = await this.world()?.picture();
       if (picture) download(fileName(simulation, time, "view", "png"), picture);
     } catch (error) {
       notify(this.store, "error", (error as Error).message);
@@ -225,7 +225,7 @@ export class App {
 
   // Begins a video of the view, or ends it.
   film(): void {
-    this.filming?.toggle();
+    this.filming.toggle();
   }
 
   // The address bar shows the link as well.

@@ -15,7 +15,7 @@ export class Filming {
 
   constructor(
     private readonly store: Store<State>,
-    private readonly video: () => MediaStream,
+    private readonly video: () => MediaStream | null, // null: nothing is seen
     private readonly save: (name: string, content: Blob) => void = download,
   ) {}
 
@@ -29,6 +29,7 @@ export class Filming {
     if (!type) return notify(this.store, "error", "This browser records no video.");
     const { simulation, time } = this.store.get();
     const stream = this.video();
+    if (!stream) return;
     const recorder = new MediaRecorder(stream, { mimeType: type });
     this.recorder = recorder;
     recorder.ondataavailable = ({ data }) => this.take(recorder, data);

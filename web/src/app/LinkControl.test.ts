@@ -21,7 +21,7 @@ function page(state: Partial<State> = {}) {
   const place = { viewpoint: [9, 9, 9, 0, 0, 0] as Viewpoint };
   const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
   const act = vi.spyOn(app, "act").mockResolvedValue();
-  return { app, store, place, seek, act, control: new LinkControl(app, place) };
+  return { app, store, place, seek, act, control: new LinkControl(app, () => place) };
 }
 
 test("a link shows the same instant from the same place with the same robot", async () => {

@@ -16,7 +16,7 @@ export class LinkControl {
 
   constructor(
     private readonly app: App,
-    private readonly place: Place | null, // null where there is no 3D view
+    private readonly place: () => Place | null, // null where there is no 3D view
   ) {}
 
   // Shows what the address asks for, now or as soon as it is there, and whenever it changes.
@@ -27,7 +27,7 @@ export class LinkControl {
     };
     window.addEventListener("hashchange", read);
     this.app.store.watch(
-      ({ scene, status }) => scene !== null && status !== null,
+      ({ scene, status, view }) => scene !== null && status !== null && view !== "starting",
       () => this.show(this.app.store),
     );
     this.app.store.watch(
@@ -45,21 +45,22 @@ export class LinkControl {
     if (simulation !== null && (simulations?.length ?? 0) > 1) url.searchParams.set("simulation", simulation);
     // Who opens a recording's link has a replay of their own.
     if (replay && abilities.recording !== "") url.searchParams.set("recording", abilities.recording);
-    const viewpoint = this.place?.viewpoint ?? null;
+    const viewpoint = this.place()?.viewpoint ?? null;
     url.hash = hashOf({ time: replay ? time : null, viewpoint, selection, viewMode, shown });
     return url.href;
   }
 
   private show(store: Store<State>): void {
-    const { scene, status } = store.get();
-    if (!this.wanted || !scene || !status) return;
+    const { scene, status, view } = store.get();
+    if (!this.wanted || !scene || !status || view === "starting") return;
     const { time, viewpoint, selection, viewMode, shown } = this.wanted;
     this.wanted = null;
     this.instant = time;
     if (shown) store.set({ shown });
     if (selection !== null && scene.bodies.some(({ name }) => name === selection)) this.app.select(selection);
     if (viewMode && store.get().selection !== null) store.set({ viewMode });
-    if (viewpoint && this.place) this.place.viewpoint = viewpoint;
+    const place = this.place();
+    if (viewpoint && place) place.viewpoint = viewpoint;
     void this.goToInstant();
   }
 

@@ -4,26 +4,27 @@ import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { situationOf } from "./Overlay";
 
-const open: State = { ...initialState, connection: { phase: "open" } };
-const waiting: State = { ...initialState, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } };
+const open: State = { ...initialState, view: "open", connection: { phase: "open" } };
+const waiting: State = { ...open, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } };
 const summary = { name: "house", phase: "running", robots: 1 } as const;
 
 test("the page says what it waits for, from the first connection to the scene", () => {
-  expect(situationOf(initialState, true)).toBe("connecting");
-  expect(situationOf({ ...open, simulations: [] }, true)).toBe("no-simulation");
-  expect(situationOf({ ...open, simulations: [summary], simulation: "house" }, true)).toBe("loading");
-  expect(situationOf({ ...open, simulation: "house", scene: scene() }, true)).toBe("none");
+  expect(situationOf(initialState)).toBe("connecting");
+  expect(situationOf({ ...open, simulations: [] })).toBe("no-simulation");
+  expect(situationOf({ ...open, simulations: [summary], simulation: "house" })).toBe("loading");
+  expect(situationOf({ ...open, view: "starting", simulation: "house", scene: scene() })).toBe("loading");
+  expect(situationOf({ ...open, simulation: "house", scene: scene() })).toBe("none");
 });
 
 test("a server that never answered differs from one that was lost", () => {
-  expect(situationOf(waiting, true)).toBe("unreachable");
-  expect(situationOf({ ...waiting, simulation: "house", scene: scene() }, true)).toBe("lost");
+  expect(situationOf(waiting)).toBe("unreachable");
+  expect(situationOf({ ...waiting, simulation: "house", scene: scene() })).toBe("lost");
 });
 
 test("the notice of a lost connection stays while the next attempt is under way", () => {
-  expect(situationOf({ ...initialState, simulation: "house", scene: scene() }, true)).toBe("lost");
+  expect(situationOf({ ...initialState, simulation: "house", scene: scene() })).toBe("lost");
 });
 
 test("without WebGL the page says so once a simulation is there", () => {
-  expect(situationOf({ ...open, simulation: "house", scene: scene() }, false)).toBe("no-webgl");
+  expect(situationOf({ ...open, simulation: "house", view: "none", scene: scene() })).toBe("no-webgl");
 });

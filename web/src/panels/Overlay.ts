@@ -7,23 +7,24 @@ import { createTokenForm } from "../ui/tokenForm";
 
 type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
 
-export function situationOf(state: State, hasView: boolean): Situation {
-  const { connection, simulations, simulation, scene, setUp, missing, refusal } = state;
+export function situationOf(state: State): Situation {
+  const { connection, simulations, simulation, view, setUp, missing, refusal } = state;
+  const scene = view === "starting" ? null : state.scene; // as good as not there yet
   if (refusal !== "") return "refused";
   if (missing !== "") return "missing";
-  if (setUp) return !hasView ? "no-webgl" : scene ? "none" : "loading";
-  if (connection.phase !== "open" && scene) return "lost";
+  if (setUp) return view === "none" ? "no-webgl" : scene ? "none" : "loading";
+  if (connection.phase !== "open" && state.scene) return "lost";
   if (connection.phase === "waiting") return "unreachable";
   if (simulations !== null && simulations.length === 0 && simulation === null) return "no-simulation";
-  if (!hasView) return "no-webgl";
+  if (view === "none") return "no-webgl";
   if (scene) return "none";
   return simulation === null ? "connecting" : "loading";
 }
 
-export function createOverlay(app: App, hasView: boolean): HTMLElement {
+export function createOverlay(app: App): HTMLElement {
   const place = element("div", { class: "overlay", "aria-live": "polite" });
   app.store.watch(
-    (state) => situationOf(state, hasView),
+    situationOf,
     (situation) => {
       place.hidden = situation === "none";
       place.dataset.situation = situation;

@@ -71,7 +71,7 @@ test("the holder is told who asks, and answers", () => {
 
 test("while somebody else holds control the buttons rest", () => {
   const { app, store } = testApp({ status: simulationStatus("running"), ...people() });
-  const bar = createToolbar(app, true, () => {});
+  const bar = createToolbar(app, () => {});
   const pause = bar.querySelector<HTMLButtonElement>(".main-action")!;
   expect(pause.disabled).toBe(false);
   store.set(people({}, { holds: true }));

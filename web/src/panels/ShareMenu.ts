@@ -2,7 +2,7 @@
 import type { App } from "../app/App";
 import { createMenu, menuItem } from "../ui/menu";
 
-export function createShareMenu(app: App, hasView: boolean): HTMLElement {
+export function createShareMenu(app: App): HTMLElement {
   const film = menuItem(
     "Film the view",
     "M",
@@ -18,7 +18,11 @@ export function createShareMenu(app: App, hasView: boolean): HTMLElement {
     film,
   );
   // Without a picture there is still a link.
-  for (const item of [...menu.sheet.querySelectorAll("button")].slice(1)) item.disabled = !hasView;
+  const ofTheView = [...menu.sheet.querySelectorAll("button")].slice(1);
+  app.store.watch(
+    ({ view }) => view === "open",
+    (isOpen) => ofTheView.forEach((item) => (item.disabled = !isOpen)),
+  );
   app.store.watch(
     ({ filming }) => filming,
     (filming) => {

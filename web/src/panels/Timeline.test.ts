@@ -18,7 +18,7 @@ function timeline(state: Partial<State> = {}) {
 test("it is there for recordings only, and takes the buttons' place", () => {
   const { app, store } = testApp({ status: simulationStatus("running") });
   const bar = createTimeline(app);
-  const run = createToolbar(app, true, () => {}).querySelector<HTMLElement>(".toolbar-transport")!;
+  const run = createToolbar(app, () => {}).querySelector<HTMLElement>(".toolbar-transport")!;
   expect([bar.hidden, run.hidden]).toEqual([true, false]);
   store.set({ replay: REPLAY });
   expect([bar.hidden, run.hidden]).toEqual([false, true]);

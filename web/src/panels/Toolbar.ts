@@ -14,7 +14,7 @@ import { createPaceMenu } from "./PaceMenu";
 import { createPeopleMenu } from "./PeopleMenu";
 import { createShareMenu } from "./ShareMenu";
 
-export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => void): HTMLElement {
+export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement {
   return element(
     "header",
     { class: "toolbar" },
@@ -40,7 +40,7 @@ export function createToolbar(app: App, hasView: boolean, toggleSidebar: () => v
       plotsButton(app),
       logButton(app),
       diagnosticsButton(app),
-      createShareMenu(app, hasView),
+      createShareMenu(app),
       createPeopleMenu(app),
       element("span", { class: "divider", "aria-hidden": "true" }),
       pageLink(app, "join", "join.html", "Join another simulation", isLive),

@@ -37,19 +37,19 @@ test.each([
   ["failed", ["Reset"]],
 ] as const)("while it is %s these buttons can be pressed: %s", (phase, names) => {
   const { app } = testApp({ status: simulationStatus(phase) });
-  expect(enabledButtons(createToolbar(app, true, () => {}))).toEqual(names);
+  expect(enabledButtons(createToolbar(app, () => {}))).toEqual(names);
 });
 
 test("buttons follow what another viewer pressed", () => {
   const { app, store } = testApp({ status: simulationStatus("running") });
-  const toolbar = createToolbar(app, true, () => {});
+  const toolbar = createToolbar(app, () => {});
   store.set({ status: simulationStatus("paused") });
   expect(toolbar.querySelector(".main-action")?.textContent).toBe("Resume");
 });
 
 test("nothing can be pressed while the connection is lost or an answer is awaited", () => {
   const { app, store } = testApp({ status: simulationStatus("running"), pending: "pause" });
-  const toolbar = createToolbar(app, true, () => {});
+  const toolbar = createToolbar(app, () => {});
   expect(enabledButtons(toolbar)).toEqual([]);
   store.set({ pending: null, connection: { phase: "waiting", attempt: 1, retryAtMs: 0 } });
   expect(enabledButtons(toolbar)).toEqual([]);
@@ -59,7 +59,7 @@ test("how fast it goes and how many steps it takes can be set", () => {
   const act = vi.fn(async () => simulationStatus("paused"));
   const setFactor = vi.fn(async () => simulationStatus("paused"));
   const { app, store } = testApp({ status: simulationStatus("paused", { targetFactor: 2 }) }, { act, setFactor });
-  const menu = createToolbar(app, true, () => {}).querySelector<HTMLElement>(".toolbar-transport .menu-sheet")!;
+  const menu = createToolbar(app, () => {}).querySelector<HTMLElement>(".toolbar-transport .menu-sheet")!;
   const button = (text: string) => [...menu.querySelectorAll("button")].find((each) => each.textContent === text)!;
   expect(button("2×").getAttribute("aria-pressed")).toBe("true");
   expect(button("1×").getAttribute("aria-pressed")).toBe("false");
@@ -79,7 +79,7 @@ test("how fast it goes and how many steps it takes can be set", () => {
 
 test("what goes as fast as it can says so where its speed would be set", () => {
   const { app } = testApp({ status: simulationStatus("running", { mode: "lockstep" }) });
-  const menu = createToolbar(app, true, () => {}).querySelector(".toolbar-transport .menu-sheet")!;
+  const menu = createToolbar(app, () => {}).querySelector(".toolbar-transport .menu-sheet")!;
   expect(menu.querySelector<HTMLElement>(".pace-choices")!.hidden).toBe(true);
   expect(menu.querySelector<HTMLElement>(".hint")!.hidden).toBe(false);
 });
@@ -88,7 +88,7 @@ test("several simulations can be chosen from", () => {
   const simulations = ["house", "yard"].map((name) => ({ name, phase: "running", robots: 0 }) as const);
   const { app } = testApp({ simulations });
   const join = vi.spyOn(app.session, "join").mockImplementation(() => {});
-  const choice = createToolbar(app, true, () => {}).querySelector("select")!;
+  const choice = createToolbar(app, () => {}).querySelector("select")!;
   expect(choice.value).toBe("house");
   choice.value = "yard";
   choice.dispatchEvent(new Event("change"));

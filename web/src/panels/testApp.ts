@@ -44,9 +44,10 @@ export function testApp(
   const store = new Store<State>({
     ...initialState,
     connection: { phase: "open" },
+    view: "open",
     simulation: "house",
     ...state,
   });
   const session = new Session(api as SimulationApi, store, { onPoses: () => {}, onBeams: () => {} }, NOTHING_WANTED);
-  return { app: new App(store, session, api as SimulationApi, null), store };
+  return { app: new App(store, session, api as SimulationApi, () => null), store };
 }

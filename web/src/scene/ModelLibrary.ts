@@ -1,5 +1,6 @@
 // Fetches models by ID, each once, and keeps those that the present scene uses.
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import type { SceneDescription } from "../api/scene";
 import type { ModelTemplate } from "./ModelTemplate";
 import { disposeTemplate, makeTemplate } from "./ModelTemplate";
 
@@ -21,6 +22,11 @@ export class ModelLibrary {
       template.catch(() => this.templates.delete(id));
     }
     return template;
+  }
+
+  // Begins to fetch what a scene is drawn with. What fails is told to who gets it.
+  prepare({ bodies }: SceneDescription): void {
+    for (const { model, links } of bodies) this.get(model, links).catch(() => {});
   }
 
   // Lets go of every model that is not among these.

@@ -16,7 +16,7 @@ import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
 import { FrameRate } from "./FrameRate";
 import { LabelLayer } from "./LabelLayer";
-import { ModelLibrary } from "./ModelLibrary";
+import type { ModelLibrary } from "./ModelLibrary";
 import { OverlayLayers } from "./OverlayLayers";
 import type { ScreenPlace } from "./picking";
 import { nearest, onClick, rayThrough, screenPlaceOf } from "./picking";
@@ -43,8 +43,7 @@ export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
 }
 
 export interface WorldOptions {
-  urlOfModel(id: string): string;
-  headersOfModels(): Record<string, string>;
+  library: ModelLibrary;
   fixedQuality: boolean;
 }
 
@@ -84,7 +83,7 @@ export class World3D {
     this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE, !isFine);
     const canvas = this.renderer.domElement;
     this.quality = new Quality(devicePixelRatio, options.fixedQuality);
-    this.library = new ModelLibrary((id) => options.urlOfModel(id), () => options.headersOfModels());
+    this.library = options.library;
     this.collisions = new CollisionLayer(this.scene, this.library, {
       onChange: () => this.loop.request(),
       onProblem: (sentence) => events.onProblem(sentence),

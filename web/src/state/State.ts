@@ -39,6 +39,9 @@ export interface RobotPose {
 }
 
 // How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
+// Whether the browser draws in 3D.
+export type View = "starting" | "open" | "none";
+
 export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {
@@ -58,6 +61,7 @@ export interface State {
   replay: Replay | null; // null: it is no recording, or not known yet
   events: RecordedEvent[]; // of the recording, by time
   wishedTime: number | null; // s: the instant of the recording that was asked for and is not there yet
+  view: View;
   scene: SceneDescription | null;
   modelsMissing: number; // shapes that are still being fetched
   selection: string | null; // a robot's name
@@ -92,6 +96,7 @@ export const initialState: State = {
   replay: null,
   events: [],
   wishedTime: null,
+  view: "starting",
   scene: null,
   modelsMissing: 0,
   selection: null,

@@ -1,0 +1,109 @@
+// The bytes of a connection, by TLS or without: what Boost.Beast calls an AsyncStream, and one type
+// either way. What waits for them goes behind one type as well, so that the operations of TCP and
+// TLS are compiled once, in byte_stream.cc, and not again for each of HTTP's and WebSocket's that
+// waits: those took most of a build's time.
+//
+// Threads  that which runs the executor.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <boost/asio/async_result.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/ssl/stream_base.hpp>
+#include <boost/beast/core/role.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/ssl/ssl_stream.hpp>
+#include <boost/container/static_vector.hpp>
+
+#include "gsv/gateway/transport/completion.h"
+
+namespace gsv::gateway::transport {
+
+// Of a longer sequence the first are written, as any part may be.
+using Parts = boost::container::static_vector<boost::asio::const_buffer, 8>;
+
+class ByteStream {
+ public:
+  using executor_type = boost::beast::tcp_stream::executor_type;
+  using error_code = boost::system::error_code;
+  using Tls = boost::beast::ssl_stream<boost::beast::tcp_stream>;
+
+  // Not connected yet.
+  explicit ByteStream(boost::asio::io_context& io) : plain_(std::in_place, io) {}
+  explicit ByteStream(boost::asio::ip::tcp::socket socket)
+      : plain_(std::in_place, std::move(socket)) {}
+
+  // Below TLS: to connect it, to limit its time, to close it.
+  boost::beast::tcp_stream& tcp() { return tls_ ? tls_->next_layer() : *plain_; }
+  executor_type get_executor() { return tcp().get_executor(); }
+
+  // All that follows goes by TLS, which Handshake() begins. `context` outlives the stream.
+  Tls& StartTls(boost::asio::ssl::context& context);
+  // `come` has been read already; `then` is told how many bytes of it were used. Needs StartTls().
+  void Handshake(boost::asio::ssl::stream_base::handshake_type type, boost::asio::const_buffer come,
+                 Completion then);
+  // Takes leave, by TLS; without it there is nothing to say, and then() comes at once.
+  void Shutdown(Completion then);
+
+  void ReadSome(boost::asio::mutable_buffer into, Completion then);
+  void WriteSome(const Parts& parts, Completion then);
+  // How a WebSocket ends a connection in order.
+  void Teardown(boost::beast::role_type role, Completion then);
+
+  // The same as Boost.Beast calls it.
+  template <typename Buffers, typename Token>
+  auto async_read_some(const Buffers& buffers, Token&& token) {
+    return boost::asio::async_initiate<Token, void(error_code, std::size_t)>(
+        [this](auto&& handler, boost::asio::mutable_buffer into) {
+          ReadSome(into, Completion(std::forward<decltype(handler)>(handler)));
+        },
+        token, FirstOf(buffers));
+  }
+  template <typename Buffers, typename Token>
+  auto async_write_some(const Buffers& buffers, Token&& token) {
+    return boost::asio::async_initiate<Token, void(error_code, std::size_t)>(
+        [this](auto&& handler, const Parts& parts) {
+          WriteSome(parts, Completion(std::forward<decltype(handler)>(handler)));
+        },
+        token, PartsOf(buffers));
+  }
+  template <typename Handler>
+  friend void async_teardown(boost::beast::role_type role, ByteStream& stream, Handler&& handler) {
+    stream.Teardown(role, Completion(std::forward<Handler>(handler)));
+  }
+  friend void beast_close_socket(ByteStream& stream) { stream.tcp().close(); }
+
+ private:
+  template <typename Buffers>
+  static boost::asio::mutable_buffer FirstOf(const Buffers& buffers) {
+    const auto end = boost::asio::buffer_sequence_end(buffers);
+    for (auto part = boost::asio::buffer_sequence_begin(buffers); part != end; ++part) {
+      const boost::asio::mutable_buffer buffer = *part;
+      if (buffer.size() > 0) return buffer;
+    }
+    return {};
+  }
+  template <typename Buffers>
+  static Parts PartsOf(const Buffers& buffers) {
+    Parts parts;
+    const auto end = boost::asio::buffer_sequence_end(buffers);
+    for (auto part = boost::asio::buffer_sequence_begin(buffers);
+         part != end && parts.size() < parts.capacity(); ++part) {
+      const boost::asio::const_buffer buffer = *part;
+      if (buffer.size() > 0) parts.push_back(buffer);
+    }
+    return parts;
+  }
+
+  std::optional<boost::beast::tcp_stream> plain_;  // until StartTls()
+  std::unique_ptr<Tls> tls_;
+};
+
+}  // namespace gsv::gateway::transport
