@@ -41,6 +41,7 @@ import { element } from "./ui/element";
 // The page's address may carry: simulation=NAME, which one to join; recording=NAME, which one to
 // replay; quality=high, which keeps the
 // picture sharp however slow it gets.
+const graphics = startGraphics();
 const parameters = new URLSearchParams(location.search);
 const storage = browserStorage();
 const store = new Store<State>({ ...initialState, shown: loadShown(storage) });
@@ -110,7 +111,7 @@ async function openWorld(): Promise<void> {
     ({ scene }) => scene,
     (scene) => scene && library.prepare(scene),
   );
-  await startGraphics();
+  await graphics;
   unwatch();
   world = createWorld(view);
   if (world) connectWorld(world);

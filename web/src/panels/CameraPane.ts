@@ -115,6 +115,7 @@ function fillChoice(choice: HTMLSelectElement, cameras: CameraChoice[], chosen: 
 class PicturePainter {
   private next: CompressedImageMessage | null = null;
   private busy = false;
+  private isPainted = false;
   private generation = 0;
   // Kept by the processor, not the graphics card: where none is, the page would wait for the 3D picture
   // that is being drawn.
@@ -130,7 +131,9 @@ class PicturePainter {
   clear(): void {
     this.generation += 1;
     this.next = null;
-    this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    // The first call on a canvas waits until the browser has started to draw.
+    if (this.isPainted) this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.isPainted = false;
   }
 
   take(image: CompressedImageMessage): void {
@@ -157,6 +160,7 @@ class PicturePainter {
     this.canvas.width = bitmap.width;
     this.canvas.height = bitmap.height;
     this.context?.drawImage(bitmap, 0, 0);
+    this.isPainted = true;
     bitmap.close();
     this.onPainted(seconds(image.header.stamp));
   }
