@@ -26,8 +26,9 @@
 
 namespace gsv::gateway::transport {
 
-// Of a longer sequence the first are written, as any part may be.
-using Parts = boost::container::static_vector<boost::asio::const_buffer, 8>;
+// Of a longer sequence the first are written, as any part may be. An answer of HTTP has about a
+// dozen.
+using Parts = boost::container::static_vector<boost::asio::const_buffer, 16>;
 
 class ByteStream {
  public:
