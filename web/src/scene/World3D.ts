@@ -103,7 +103,7 @@ export class World3D {
     this.watch = new RobotWatch(this.rig);
     this.arranger = new Arranger(this.arrangerView(), events);
     this.scene.add(this.overlays.group, this.watch.ring.mesh, this.arranger.handle.group);
-    host.append(canvas, this.labels.element);
+    host.prepend(canvas, this.labels.element); // below what lies over the picture
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
     }
