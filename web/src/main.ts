@@ -26,7 +26,7 @@ import { createStatusBar } from "./panels/StatusBar";
 import { createTimeline } from "./panels/Timeline";
 import { createToolbar } from "./panels/Toolbar";
 import { createEditPanel } from "./panels/EditPanel";
-import type { PosesMessage } from "./protocol/messages";
+import type { MarkerArrayMessage, PosesMessage } from "./protocol/messages";
 import { startGraphics } from "./scene/graphics";
 import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
@@ -51,6 +51,7 @@ const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
 // The 3D view comes once the browser has started what draws. What it is to show is kept until then.
 let world: World3D | null = null;
 let lastPoses: PosesMessage | null = null;
+let lastBeams: MarkerArrayMessage | null = null;
 const library = new ModelLibrary(
   (id) => api.modelUrl(id),
   () => credentials.headers,
@@ -87,7 +88,10 @@ const session = new Session(
       app.plots.takePoses(message);
       showSelectedPose();
     },
-    onBeams: (message) => world?.setBeams(message),
+    onBeams: (message) => {
+      lastBeams = message;
+      world?.setBeams(message);
+    },
   },
   { simulation: parameters.get("simulation"), recording: parameters.get("recording") },
 );
@@ -119,7 +123,6 @@ async function openWorld(): Promise<void> {
 }
 
 function connectWorld(world: World3D): void {
-  if (lastPoses) world.setPoses(lastPoses);
   store.watch(
     ({ scene }) => scene,
     (scene) => {
@@ -127,6 +130,9 @@ function connectWorld(world: World3D): void {
       showSelectedPose(); // its poses may have come before it
     },
   );
+  // What stands still sends these once.
+  if (lastPoses) world.setPoses(lastPoses);
+  if (lastBeams) world.setBeams(lastBeams);
   store.watch(
     ({ shown }) => shown,
     (shown) => world.show(shown),
