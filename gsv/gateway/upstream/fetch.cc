@@ -7,7 +7,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 
-#include "gsv/gateway/upstream/transport.h"
+#include "gsv/gateway/upstream/secure.h"
 
 namespace gsv::gateway::upstream {
 namespace {
@@ -69,11 +69,11 @@ class Exchange {
 
   void Connect(const tcp::resolver::results_type& results) {
     stream_.tcp().async_connect(results, [this](error_code error, const tcp::endpoint&) {
-      if (!Failed(error)) BeSecure();
+      if (!Failed(error)) BeginTls();
     });
   }
 
-  void BeSecure() {
+  void BeginTls() {
     Secure(stream_, address_, transport::Completion([this](error_code error) {
              if (!Failed(error)) Write();
            }));

@@ -16,7 +16,7 @@
 
 #include "gsv/gateway/http/target.h"
 #include "gsv/gateway/upstream/channel_map.h"
-#include "gsv/gateway/upstream/transport.h"
+#include "gsv/gateway/upstream/secure.h"
 
 namespace gsv::gateway::upstream {
 namespace {
@@ -136,11 +136,11 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     tcp_stream.async_connect(
         found, ForThis([](RemoteStream& self, error_code error, const tcp::endpoint&) {
           if (error) return self.TryAgain(error.message());
-          self.BeSecure();
+          self.BeginTls();
         }));
   }
 
-  void BeSecure() {
+  void BeginTls() {
     Secure(attempt_->socket.next_layer(), address_,
            transport::Completion(ForThis([](RemoteStream& self, error_code error) {
              if (error) return self.TryAgain(WhyNotConnected(error));

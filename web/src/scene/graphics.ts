@@ -4,7 +4,12 @@ const LONGEST_MS = 5000;
 
 export function startGraphics(): Promise<void> {
   if (typeof Worker === "undefined" || typeof OffscreenCanvas === "undefined") return Promise.resolve();
-  const worker = new Worker(new URL("./graphicsWorker.ts", import.meta.url), { type: "module" });
+  let worker: Worker;
+  try {
+    worker = new Worker(new URL("./graphicsWorker.ts", import.meta.url), { type: "module" });
+  } catch {
+    return Promise.resolve(); // some browsers forbid it: then the page waits with the view
+  }
   return new Promise<void>((resolve) => {
     worker.onmessage = worker.onerror = () => resolve();
     setTimeout(resolve, LONGEST_MS);

@@ -1,4 +1,4 @@
-#include "gsv/gateway/upstream/transport.h"
+#include "gsv/gateway/upstream/secure.h"
 
 #include <utility>
 
