@@ -49,7 +49,7 @@ function(gsv_compile_together TARGET GROUP)
 endfunction()
 
 # Tests need not be fast, only what they test: without optimising they compile in half of the time.
-set(GSV_TEST_OPTIONS $<$<CONFIG:Release>:-O0>)
+set(GSV_TEST_OPTIONS $<$<CONFIG:Release,RelWithDebInfo>:-O0>)
 
 # gsv_compile_sooner(TARGET): for code of large templates whose own speed nobody notices. At -O1 Boost.Beast takes half
 # of the time to compile, the command line three quarters.

@@ -26,7 +26,7 @@ import { createStatusBar } from "./panels/StatusBar";
 import { createTimeline } from "./panels/Timeline";
 import { createToolbar } from "./panels/Toolbar";
 import { createEditPanel } from "./panels/EditPanel";
-import type { MarkerArrayMessage, PosesMessage } from "./protocol/messages";
+import type { PosesMessage } from "./protocol/messages";
 import { startGraphics } from "./scene/graphics";
 import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
@@ -48,20 +48,18 @@ const store = new Store<State>({ ...initialState, shown: loadShown(storage) });
 const credentials = pageCredentials(window);
 const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
 
-// The 3D view comes once the browser has started what draws. What it is to show is kept until then.
+// The 3D view comes once the browser has started what draws.
 let world: World3D | null = null;
-let lastPoses: PosesMessage | null = null;
-let lastBeams: MarkerArrayMessage | null = null;
 const library = new ModelLibrary(
   (id) => api.modelUrl(id),
   () => credentials.headers,
 );
 
-function createWorld(host: HTMLElement): World3D | null {
+function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
   try {
     return new World3D(
       host,
-      { library, fixedQuality: parameters.get("quality") === "high" },
+      { library, inSoftware, fixedQuality: parameters.get("quality") === "high" },
       {
         onPick: (body) => app.pick(body),
         onPlace: (body, place) => app.place(body, place),
@@ -83,15 +81,11 @@ const session = new Session(
   store,
   {
     onPoses: (message) => {
-      lastPoses = message;
       world?.setPoses(message);
       app.plots.takePoses(message);
       showSelectedPose();
     },
-    onBeams: (message) => {
-      lastBeams = message;
-      world?.setBeams(message);
-    },
+    onBeams: (message) => world?.setBeams(message),
   },
   { simulation: parameters.get("simulation"), recording: parameters.get("recording") },
 );
@@ -115,9 +109,9 @@ async function openWorld(): Promise<void> {
     ({ scene }) => scene,
     (scene) => scene && library.prepare(scene),
   );
-  await graphics;
+  const inSoftware = await graphics;
   unwatch();
-  world = createWorld(view);
+  world = createWorld(view, inSoftware);
   if (world) connectWorld(world);
   store.set({ view: world ? "open" : "none" });
 }
@@ -130,9 +124,6 @@ function connectWorld(world: World3D): void {
       showSelectedPose(); // its poses may have come before it
     },
   );
-  // What stands still sends these once.
-  if (lastPoses) world.setPoses(lastPoses);
-  if (lastBeams) world.setBeams(lastBeams);
   store.watch(
     ({ shown }) => shown,
     (shown) => world.show(shown),

@@ -66,21 +66,22 @@ export function exposeForTests(store: Store<State>, world: () => World3D | null)
 
 function firstPicture(store: Store<State>, world: () => World3D | null): Promise<void> {
   return new Promise((resolve) => {
-    let framesThen = -1;
+    let framesThen: number | null = null; // when the last shape came; null while one is missing
+    const check = () => {
+      if (framesThen === null) return;
+      if ((world()?.frames ?? Infinity) <= framesThen) {
+        requestAnimationFrame(check);
+        return;
+      }
+      unwatch();
+      resolve();
+    };
+    // A scene is there a moment before the view says how many of its shapes are missing.
     const unwatch = store.watch(
       ({ view, scene, modelsMissing }) => view !== "starting" && scene !== null && modelsMissing === 0,
-      (complete) => {
-        if (!complete || framesThen >= 0) return;
-        framesThen = world()?.frames ?? 0;
-        const check = () => {
-          if ((world()?.frames ?? Infinity) <= framesThen) {
-            requestAnimationFrame(check);
-            return;
-          }
-          unwatch();
-          resolve();
-        };
-        requestAnimationFrame(check);
+      (isComplete) => {
+        framesThen = isComplete ? (world()?.frames ?? 0) : null;
+        if (isComplete) requestAnimationFrame(check);
       },
     );
   });

@@ -115,18 +115,18 @@ export class SetUpApi {
     return { scene, poses, warnings };
   }
 
-  // Sends files that belong together; gives where the first of them lies on the server's machine.
-  async upload(files: readonly DroppedFile[]): Promise<string> {
+  // Sends files that belong together; gives where each lies on the server's machine.
+  async upload(files: readonly DroppedFile[]): Promise<string[]> {
     const begun = objectAt(await this.server.post("api/uploads", {}), "upload");
     const set = textAt(begun.upload, "upload");
-    let first = "";
+    const places: string[] = [];
     for (const { path, content } of files) {
       const place = path.split("/").map(encodeURIComponent).join("/");
       const sent = this.server.put(`api/uploads/${set}/${place}`, await content(), UPLOAD_TIMEOUT_MS);
       const answer = objectAt(await sent, "upload");
-      first ||= textAt(answer.path, "path");
+      places.push(textAt(answer.path, "path"));
     }
-    return first;
+    return places;
   }
 
   // Gives its name.

@@ -13,7 +13,7 @@ import { Session } from "./Session";
 
 // A server that can be told what to answer, and the stream to it.
 class Fixture {
-  readonly store = new Store<State>(initialState);
+  readonly store = new Store<State>({ ...initialState, view: "open" });
   readonly handlers = new Map<string, (message: never) => void>();
   readonly clients: { url: string; events: ClientEvents; closed: boolean }[] = [];
   readonly onPoses = vi.fn();
@@ -145,6 +145,18 @@ test("it takes up the scene and turns to a robot's camera rather than a visitor'
   expect(state.scene?.name).toBe("house");
   expect(state.camera?.robot).toBe("a");
   expect(clients[0]?.url).toBe("ws://test/ws?simulation=house");
+});
+
+test("what changes all the time is heard once there is a view for it, the scene and its state before", async () => {
+  const fixture = new Fixture();
+  fixture.store.set({ view: "starting" });
+  await joined(fixture);
+  expect(fixture.state.scene?.name).toBe("house");
+  expect([...fixture.handlers.keys()]).toEqual([]);
+
+  fixture.store.set({ view: "open" });
+  fixture.sendPoses(1);
+  expect(fixture.onPoses).toHaveBeenCalledTimes(1);
 });
 
 test("while there is no simulation it looks again until there is one", async () => {

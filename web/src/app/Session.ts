@@ -81,6 +81,7 @@ export class Session {
     private readonly makeClient: ClientFactory = (url, events) => new FoxgloveClient(url, events),
   ) {
     this.wishes = new TopicWishes(api, store, () => this.client?.missingTopics ?? []);
+    store.watch(({ view }) => view, () => this.hear());
   }
 
   start(): void {
@@ -223,6 +224,16 @@ export class Session {
     });
     this.client = client;
     this.topics = new SharedTopics(client);
+    this.hear();
+    client.connect();
+  }
+
+  // Listens to what changes all the time, once there is a view for it: until then each update would
+  // be another picture of the page, which take long where no graphics card makes them.
+  private hear(): void {
+    const { client } = this;
+    const { simulation: name, view } = this.store.get();
+    if (!client || name === null || view === "starting") return;
     client.subscribe<PosesMessage>("/gsv/poses", (message) => this.takePoses(name, message));
     client.subscribe<MarkerArrayMessage>("/gsv/beams", (message) => this.live.onBeams(message), {
       newestOnly: true,
@@ -235,7 +246,6 @@ export class Session {
       if (message.state === "failed" && !hadFailed) void this.fetchStatus(name);
     });
     client.subscribe<LifecycleEventMessage>("/gsv/events", (message) => this.takeEvent(message));
-    client.connect();
   }
 
   private async opened(name: string): Promise<void> {

@@ -25,7 +25,7 @@ function fakeApi() {
       warnings: [] as string[],
     })),
     create: vi.fn(async () => "fresh"),
-    upload: vi.fn(async (files: { path: string }[]) => `/tmp/up/1/${files[0]!.path}`),
+    upload: vi.fn(async (files: { path: string }[]) => files.map(({ path }) => `/tmp/up/1/${path}`)),
   };
 }
 
@@ -154,7 +154,7 @@ test("a press on Create right after a change is not lost, and two presses create
 
 test("nothing can be created while a world is on its way", async () => {
   const { app, panel } = await opened();
-  let sent = (_world: string) => {};
+  let sent = (_worlds: string[]) => {};
   api.upload.mockReturnValueOnce(new Promise((resolve) => (sent = resolve)));
   const dropping = app.setUp.drop([dropped("mine.world")]);
   app.setUp.change({ duration: 5 });
@@ -163,7 +163,7 @@ test("nothing can be created while a world is on its way", async () => {
   expect(create.disabled).toBe(true);
   await app.setUp.create();
   expect(api.create).not.toHaveBeenCalled();
-  sent("/tmp/up/1/mine.world");
+  sent(["/tmp/up/1/mine.world"]);
   await dropping;
   await settled(app);
   expect(create.disabled).toBe(false);
@@ -180,6 +180,27 @@ test("a scenario file is loaded, YAML as well, and what is none is refused with 
   expect(store.get().setUp!.scenario.world).toBe("maze");
   await app.setUp.load(file("huge.yaml", "x".repeat(1_000_001)));
   expect(store.get().notices.at(-1)!.sentence).toContain("at most 1 MB");
+});
+
+test("of several worlds that are dropped each can be chosen", async () => {
+  const { app, store, panel } = await opened();
+  await app.setUp.drop([dropped("w/model.sdf"), dropped("w/b.world"), dropped("w/a.world")]);
+  await settled(app);
+  expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/w/a.world");
+  const choice = control(panel, "Environment") as unknown as HTMLSelectElement;
+  expect([...choice.options].slice(0, 3).map(({ label }) => label)).toEqual(["w/a.world", "w/b.world", "maze"]);
+  choice.value = "/tmp/up/1/w/b.world";
+  choice.dispatchEvent(new Event("change"));
+  await settled(app);
+  expect(api.preview.mock.lastCall![0]).toMatchObject({ world: "/tmp/up/1/w/b.world" });
+});
+
+test("a world that is dropped onto another page of the viewer opens the form with it", async () => {
+  const { app, store } = testApp({}, { setUp: api } as never);
+  await app.setUp.drop([dropped("mine.world")]);
+  await settled(app);
+  expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/mine.world");
+  expect(api.models).toHaveBeenCalledOnce();
 });
 
 test("a world that is dropped is uploaded and shown; what is none has its sentence beside the field", async () => {

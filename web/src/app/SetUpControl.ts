@@ -10,7 +10,7 @@ import { withChangedRobot, withRobot, withoutRobot } from "../state/scenario";
 import type { SetUp } from "../state/setUp";
 import { changed, redone, undone } from "../state/setUp";
 import type { DroppedFile } from "../setup/DroppedFile";
-import { unpacked, worldFirst } from "../setup/dropped";
+import { unpacked, worldsFirst } from "../setup/dropped";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { download } from "./files";
@@ -38,7 +38,7 @@ export class SetUpControl {
     if (this.store.get().setUp) return;
     this.left = this.store.get().simulation;
     this.session.rest();
-    const none = { worlds: [], models: [], behaviours: null };
+    const none = { worlds: [], uploaded: [], models: [], behaviours: null };
     const setUp = { ...none, scenario: EMPTY_SCENARIO, past: [], future: [], warnings: [], poses: null };
     this.store.set({ setUp: { ...setUp, wrong: null, isBusy: true, isHeld: true } });
     void this.lookForOffers();
@@ -127,12 +127,16 @@ export class SetUpControl {
     }
   }
 
-  // A world from this machine, with what belongs to it.
+  // A world from this machine, or several to choose from, with what belongs to them.
   async drop(files: Promise<DroppedFile[]> | DroppedFile[]): Promise<void> {
+    if (!this.store.get().setUp) await this.open();
     this.patch(() => ({ isBusy: true, isHeld: true }));
     try {
-      const world = await this.api.upload(worldFirst(await unpacked(await files)));
-      this.change({ world });
+      const delivery = worldsFirst(await unpacked(await files));
+      const places = await this.api.upload(delivery.files);
+      const worlds = places.slice(0, delivery.worlds).map((path, index) => ({ name: delivery.files[index]!.path, path }));
+      this.patch(({ uploaded }) => ({ uploaded: [...worlds, ...uploaded] }));
+      this.change({ world: places[0]! });
     } catch (error) {
       this.patch(() => ({ isBusy: false, wrong: { field: "world", sentence: (error as Error).message } }));
     } finally {

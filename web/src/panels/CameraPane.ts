@@ -55,11 +55,12 @@ export function createCameraPane(app: App): HTMLElement {
     setText(caption, "");
     waiting.hidden = false;
     setText(waiting, "Waiting for a picture…");
-    const { cameraOpen } = app.store.get();
+    const { cameraOpen, view } = app.store.get();
     card.hidden = !camera || !cameraOpen;
     reopen.hidden = !camera || cameraOpen;
-    if (camera && cameraOpen) {
-      choice.value = camera.topic;
+    if (camera && cameraOpen) choice.value = camera.topic;
+    // A canvas takes its first picture only when the browser has started what draws.
+    if (camera && cameraOpen && view !== "starting") {
       unsubscribe = app.session.subscribe<CompressedImageMessage>(camera.topic, (image) =>
         painter.take(image),
       );
@@ -89,7 +90,7 @@ export function createCameraPane(app: App): HTMLElement {
   );
   // Another simulation has another stream, even under the same topic's name.
   app.store.watch(
-    ({ simulation, cameraOpen }) => ({ simulation, cameraOpen }),
+    ({ simulation, cameraOpen, view }) => ({ simulation, cameraOpen, isStarting: view === "starting" }),
     () => listen(app.store.get().camera),
     shallowEqual,
   );

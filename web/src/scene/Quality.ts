@@ -39,13 +39,3 @@ export class Quality {
     return true;
   }
 }
-
-// Whether the browser has no graphics card to draw with.
-export function drawsInSoftware(): boolean {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  if (!gl) return true;
-  const names = gl.getExtension("WEBGL_debug_renderer_info");
-  const renderer: unknown = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
-  gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(String(renderer));
-}

@@ -21,7 +21,7 @@ import { OverlayLayers } from "./OverlayLayers";
 import type { ScreenPlace } from "./picking";
 import { nearest, onClick, rayThrough, screenPlaceOf } from "./picking";
 import { pngOf, videoOf } from "./capture";
-import { drawsInSoftware, Quality } from "./Quality";
+import { Quality } from "./Quality";
 import { makeRenderer } from "./renderer";
 import { RenderLoop } from "./RenderLoop";
 import { RobotPlaces } from "./RobotPlaces";
@@ -44,6 +44,7 @@ export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
 
 export interface WorldOptions {
   library: ModelLibrary;
+  inSoftware: boolean; // no graphics card draws
   fixedQuality: boolean;
 }
 
@@ -78,7 +79,7 @@ export class World3D {
     options: WorldOptions,
     private readonly events: WorldEvents,
   ) {
-    const isFine = options.fixedQuality || !drawsInSoftware();
+    const isFine = options.fixedQuality || !options.inSoftware;
     this.renderer = makeRenderer(isFine);
     this.overlays = new OverlayLayers(isFine ? MOST_BEAMS : MOST_BEAMS_IN_SOFTWARE, !isFine);
     const canvas = this.renderer.domElement;

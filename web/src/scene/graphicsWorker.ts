@@ -1,3 +1,5 @@
-// Asks for a context to draw with, which starts what draws (graphics.ts). The page makes its own then.
-new OffscreenCanvas(1, 1).getContext("webgl2");
-postMessage("started");
+// Asks for a context to draw with, which starts what draws, and says what that is (graphics.ts). The
+// page makes its own context then.
+import { drawsInSoftware } from "./software";
+
+postMessage(drawsInSoftware(new OffscreenCanvas(1, 1)));

@@ -49,7 +49,10 @@ export function createSetUpPanel(app: App): HTMLElement {
       panel.hidden = setUp === null;
       if (!setUp) return;
       const { scenario } = setUp;
-      world.offer(setUp.worlds.map((name) => ({ value: name, label: name })));
+      world.offer([
+        ...setUp.uploaded.map(({ name, path }) => ({ value: path, label: name })),
+        ...setUp.worlds.map((name) => ({ value: name, label: name })),
+      ]);
       world.show(scenario.world);
       for (const [key, field] of parameters) field.show(scenario[key] as never);
       lists.robots.show(setUp);
@@ -147,13 +150,24 @@ function uploads(app: App): HTMLElement {
   );
 }
 
-// Elsewhere a dropped file would replace the page.
+// Whatever the page shows: a file that it did not take would replace it.
 function takeDrops(app: App): void {
-  addEventListener("dragover", (event) => event.preventDefault());
+  const isTaken = ({ dataTransfer }: DragEvent) => {
+    const { setUp, abilities } = app.store.get();
+    return (setUp !== null || abilities.creates) && (dataTransfer?.types.includes("Files") ?? false);
+  };
+  const invite = (isInviting: boolean) => document.body.classList.toggle("takes-drop", isInviting);
+  addEventListener("dragover", (event) => {
+    event.preventDefault();
+    invite(isTaken(event));
+  });
+  addEventListener("dragleave", ({ relatedTarget }) => {
+    if (relatedTarget === null) invite(false); // out of the window
+  });
   addEventListener("drop", (event) => {
     event.preventDefault();
-    if (!app.store.get().setUp || !event.dataTransfer?.types.includes("Files")) return;
-    void app.setUp.drop(droppedFiles(event.dataTransfer));
+    invite(false);
+    if (isTaken(event)) void app.setUp.drop(droppedFiles(event.dataTransfer!));
   });
 }
 

@@ -1,16 +1,29 @@
 import { expect, test } from "vitest";
 import type { DroppedFile } from "./DroppedFile";
-import { unpacked, worldFirst } from "./dropped";
+import { unpacked, worldsFirst } from "./dropped";
 
 function file(path: string, size = 10): DroppedFile {
   return { path, size, content: async () => new Blob() };
 }
-const first = (...paths: string[]) => worldFirst(paths.map((path) => file(path)))[0]!.path;
+const first = (...paths: string[]) => worldsFirst(paths.map((path) => file(path))).files[0]!.path;
 
 test("of a folder's files the world goes first", () => {
   expect(first("a/meshes/x.stl", "a/models/box/model.sdf", "a/b/deep.world", "a/room.world")).toBe("a/room.world");
   expect(first("box/model.config", "box/model.sdf")).toBe("box/model.sdf");
-  expect(worldFirst([file("m.stl"), file("w.sdf")]).map(({ path }) => path)).toEqual(["w.sdf", "m.stl"]);
+  expect(worldsFirst([file("m.stl"), file("w.sdf")]).files.map(({ path }) => path)).toEqual(["w.sdf", "m.stl"]);
+});
+
+test("of several worlds all can be chosen; models that lie beside them are none", () => {
+  const worlds = (...paths: string[]) => {
+    const { files, worlds: count } = worldsFirst(paths.map((path) => file(path)));
+    return files.slice(0, count).map(({ path }) => path);
+  };
+  expect(worlds("models/box/model.sdf", "worlds/b.world", "worlds/deep/a.world", "worlds/c.sdf")).toEqual([
+    "worlds/b.world",
+    "worlds/deep/a.world",
+    "worlds/c.sdf",
+  ]);
+  expect(worlds("b/model.sdf", "a/model.sdf")).toEqual(["a/model.sdf"]);
 });
 
 test("a single file is sent whatever its name: the server says what is wrong with it", () => {
@@ -18,9 +31,9 @@ test("a single file is sent whatever its name: the server says what is wrong wit
 });
 
 test("what is too large, too many, or holds no world is refused with a sentence", () => {
-  expect(() => worldFirst([file("big.sdf", 2 ** 31)])).toThrow("big.sdf has 2048 MiB; at most 64 MiB");
-  expect(() => worldFirst([file("a.stl"), file("b.stl")])).toThrow("no world among these files");
-  expect(() => worldFirst(Array.from({ length: 2001 }, (_, i) => file(`${i}.sdf`)))).toThrow("2001 files");
+  expect(() => worldsFirst([file("big.sdf", 2 ** 31)])).toThrow("big.sdf has 2048 MiB; at most 64 MiB");
+  expect(() => worldsFirst([file("a.stl"), file("b.stl")])).toThrow("no world among these files");
+  expect(() => worldsFirst(Array.from({ length: 2001 }, (_, i) => file(`${i}.sdf`)))).toThrow("2001 files");
 });
 
 test("only an archive on its own is unpacked", async () => {

@@ -3,16 +3,26 @@ import type { DroppedFile } from "./DroppedFile";
 import { droppedFile, isHidden, LARGEST_FILE, MOST_FILES } from "./DroppedFile";
 import { filesInZip, isZip } from "./zip";
 
-// The order in which they are sent, the world first. Throws a sentence for people.
-export function worldFirst(files: readonly DroppedFile[]): DroppedFile[] {
+// What is sent: the worlds first, the likeliest of them at the front.
+export interface Delivery {
+  files: DroppedFile[];
+  worlds: number; // how many of the files, at least one
+}
+
+// Throws a sentence for people.
+export function worldsFirst(files: readonly DroppedFile[]): Delivery {
   if (files.length > MOST_FILES) throw new Error(`These are ${files.length} files; at most ${MOST_FILES} can be taken.`);
   const large = files.find(({ size }) => size > LARGEST_FILE);
   if (large) {
     throw new Error(`${large.path} has ${Math.round(large.size / 2 ** 20)} MiB; at most 64 MiB can be taken.`);
   }
-  const world = files.length === 1 ? files[0] : [...files].sort(byLikelihood).find(({ path }) => rankOf(path) < 9);
-  if (!world) throw new Error("There is no world among these files: its name ends in .world or .sdf.");
-  return [world, ...files.filter((each) => each !== world)];
+  if (files.length === 1) return { files: [...files], worlds: 1 };
+  const candidates = files.filter(({ path }) => rankOf(path) < NO_WORLD).sort(byLikelihood);
+  if (candidates.length === 0) throw new Error("There is no world among these files: its name ends in .world or .sdf.");
+  // Where there are worlds, models belong to them.
+  const worlds = candidates.filter(({ path }) => rankOf(path) < A_MODEL);
+  const front = new Set(worlds.length > 0 ? worlds : candidates.slice(0, 1));
+  return { files: [...front, ...files.filter((each) => !front.has(each))], worlds: front.size };
 }
 
 // A world's file before a model's, the outermost first.
@@ -21,11 +31,14 @@ function byLikelihood(a: DroppedFile, b: DroppedFile): number {
   return rankOf(a.path) - rankOf(b.path) || depth(a) - depth(b) || a.path.localeCompare(b.path);
 }
 
+const A_MODEL = 2;
+const NO_WORLD = 9;
+
 function rankOf(path: string): number {
   if (/\.world$/i.test(path)) return 0;
-  if (/(^|\/)model[^/]*\.sdf$/i.test(path)) return 2;
+  if (/(^|\/)model[^/]*\.sdf$/i.test(path)) return A_MODEL;
   if (/\.sdf$/i.test(path)) return 1;
-  return /\.urdf$/i.test(path) ? 3 : 9;
+  return /\.urdf$/i.test(path) ? 3 : NO_WORLD;
 }
 
 // An archive on its own stands for what is in it. Throws a sentence for people.

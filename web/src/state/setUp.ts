@@ -13,7 +13,14 @@ export interface Choices {
   behaviours: Behaviours | null; // null: not known yet
 }
 
+// A world from the person's own machine.
+export interface UploadedWorld {
+  name: string; // its path among the files that came with it
+  path: string; // where it lies on the server's machine
+}
+
 export interface SetUp extends Choices {
+  uploaded: UploadedWorld[]; // the newest first
   scenario: Scenario;
   past: Scenario[]; // the newest last
   future: Scenario[];
