@@ -107,6 +107,20 @@ test("a zip archive with a world and its models is unpacked and shown", async ()
   assert.equal(await objection().textContent(), "");
 });
 
+test("of several worlds in a folder another is chosen, and the view turns to it", async () => {
+  const models = { cube: { "model.config": CONFIG, "model.sdf": CUBE } };
+  await drop({ two: { "here.world": WORLD, "there.world": WORLD.replace("0 0 0.5", "30 0 0.5"), models } });
+  const choice = page.getByLabel("Environment", { exact: true });
+  const looksAt = (x) =>
+    until(() => page.evaluate((x) => Math.abs(window.gsv.view[3] - x) < 0.01, x), `a view of what stands at x = ${x} m`);
+  await choice.locator("option", { hasText: "two/there.world" }).waitFor({ state: "attached" });
+  await looksAt(0);
+  await choice.selectOption({ label: "two/there.world" });
+  await looksAt(30);
+  await choice.selectOption({ label: "two/here.world" });
+  await looksAt(0);
+});
+
 test("an archive whose names lead out of it, or that is cut off, is refused with a sentence", async () => {
   await choose(zipped({ "room.world": WORLD, "../../evil.sh": "x" }));
   await objection().filter({ hasText: 'lab.zip cannot be taken: the name "../../evil.sh" in it leads out of it.' }).waitFor();

@@ -14,6 +14,7 @@ import type { ViewNumbers } from "./CameraRig";
 import { CollisionLayer } from "./CollisionLayer";
 import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
+import { environmentOf } from "./framing";
 import { FrameRate } from "./FrameRate";
 import { LabelLayer } from "./LabelLayer";
 import type { ModelLibrary } from "./ModelLibrary";
@@ -66,7 +67,7 @@ export class World3D {
   private parts: SceneParts | null = null;
   private lastBeams: MarkerArrayMessage | null = null;
   private shown: Shown = FIRST_SHOWN;
-  private framedFor = ""; // the name of the scene that the camera was set up for
+  private framedFor = ""; // the environment that the camera was set up for
   private width = 1;
   private height = 1;
   private isResized = false; // since the last frame
@@ -277,8 +278,9 @@ export class World3D {
     this.watch.robots = new RobotPlaces(bodies, this.overlays.frames);
     this.overlays.setScene(bodies);
     this.collisions.setScene(scene);
-    if (this.framedFor !== scene.name) this.rig.frame(focus, false);
-    this.framedFor = scene.name;
+    const environment = environmentOf(scene);
+    if (this.framedFor !== environment) this.rig.frame(focus, false);
+    this.framedFor = environment;
     this.poses.setScene(bodies);
     if (this.lastBeams) this.takeBeams(this.lastBeams);
     this.parts.load(this.library, {

@@ -1,6 +1,6 @@
 import { Box3, PerspectiveCamera, Vector3 } from "three";
 import { expect, test } from "vitest";
-import { fittingDistance, focusOf } from "./framing";
+import { environmentOf, fittingDistance, focusOf } from "./framing";
 import { body, scene } from "./testScene";
 
 function camera(aspect: number): PerspectiveCamera {
@@ -8,6 +8,17 @@ function camera(aspect: number): PerspectiveCamera {
   made.up.set(0, 0, 1);
   return made;
 }
+
+test("another world of the same name is another environment; what is added or moves is not", () => {
+  const wall = (model: string, x = 0) =>
+    body("wall", { model, isStatic: true, isFixed: true, pose: [x, 0, 0, 0, 0, 0, 1] });
+  const robot = body("a", { isRobot: true });
+  const first = environmentOf(scene({ name: "preview", bodies: [wall("1")] }));
+  expect(environmentOf(scene({ name: "preview", bodies: [wall("1"), robot] }))).toBe(first);
+  expect(environmentOf(scene({ name: "preview", bodies: [wall("2")] }))).not.toBe(first);
+  expect(environmentOf(scene({ name: "preview", bodies: [wall("1", 30)] }))).not.toBe(first);
+  expect(environmentOf(scene({ name: "other", bodies: [wall("1")] }))).not.toBe(first);
+});
 
 test("looking along x at a flat square, the distance is half its height over the tangent", () => {
   const box = new Box3(new Vector3(0, -2, -2), new Vector3(0, 2, 2));

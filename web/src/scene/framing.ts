@@ -27,6 +27,12 @@ export function focusOf(scene: SceneDescription): Box3 {
   return robots;
 }
 
+// What a camera was set up for: it stays where it is while this stays the same. Different worlds may
+// have one name, as the previews of a set-up have.
+export function environmentOf({ name, bodies }: SceneDescription): string {
+  return JSON.stringify([name, bodies.filter(({ isFixed }) => isFixed).map(({ model, pose }) => [model, pose])]);
+}
+
 function boxAround(centre: Vector3, halfWidth: number): Box3 {
   return new Box3(
     new Vector3(centre.x - halfWidth, centre.y - halfWidth, 0),
