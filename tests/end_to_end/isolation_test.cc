@@ -121,9 +121,11 @@ TEST_F(OthersHash, IsTheSameInAFloodOfCalls) {
     const sba::SimulationState_var state = flooded->state();
     const sba::Simulations_var all = service_->list();
   });
-  ExpectUndisturbedUntil([&] { return asking.count() > 100; });
-  // The behaviours' flood has gone on as well.
-  EXPECT_EQ(CountOf(sba::SimulationState_var(flooded->state()).in(), sba::AGENT_RUNNING), 3);
+  // The behaviours' flood goes on as well, once all of them have started.
+  ExpectUndisturbedUntil([&] {
+    const sba::SimulationState_var state = flooded->state();
+    return asking.count() > 100 && CountOf(state.in(), sba::AGENT_RUNNING) == 3;
+  });
 }
 
 TEST_F(OthersHash, IsTheSameWhenSimulationsAreDestroyedInMidStep) {
