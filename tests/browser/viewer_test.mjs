@@ -319,6 +319,10 @@ test("it works on a phone's screen", async () => {
     const overflow = await small.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.equal(overflow, 0);
     await press("Robots", small.page);
+    assert.deepEqual(
+      await small.page.locator(".sidebar-pages a:visible").evaluateAll((links) => links.map((link) => link.getAttribute("href"))),
+      ["join.html", "recordings.html", "broker.html"],
+    );
     await small.page.locator("[data-robot]").first().click();
     await small.page.getByRole("region", { name: "Selected robot" }).waitFor();
     await press("Pause", small.page);

@@ -6,6 +6,7 @@ import { robotsOf } from "../api/scene";
 import { shallowEqual } from "../state/Store";
 import { element, setAttribute, setText } from "../ui/element";
 import { count, formatDistance } from "../ui/format";
+import { pageNames } from "./pageLinks";
 
 export function createSceneTree(app: App): HTMLElement {
   const heading = element("h2", {}, "Robots");
@@ -17,7 +18,7 @@ export function createSceneTree(app: App): HTMLElement {
     element("code", {}, "gsv run WORLD --robot MODEL@x,y --behaviour wander"),
   );
   const world = element("details", { class: "world-tree" });
-  const tree = element("nav", { class: "sidebar", "aria-label": "Scene" }, heading, robots, empty, world);
+  const tree = element("nav", { class: "sidebar", "aria-label": "Scene" }, heading, robots, empty, world, pageNames(app));
 
   app.store.watch(
     ({ setUp }) => setUp !== null,

@@ -1,7 +1,7 @@
 // The bar at the top: which simulation, the buttons that run it, and the views.
 import type { App } from "../app/App";
 import type { Action } from "../api/SimulationApi";
-import type { State, ViewMode } from "../state/State";
+import type { ViewMode } from "../state/State";
 import { canAct, isAllowed, mainAction } from "../state/actions";
 import { canEdit } from "../state/editing";
 import { shallowEqual } from "../state/Store";
@@ -12,6 +12,7 @@ import { createRecordButton } from "./RecordButton";
 import { createOverlayMenu } from "./OverlayMenu";
 import { createPaceMenu } from "./PaceMenu";
 import { createPeopleMenu } from "./PeopleMenu";
+import { pageLinks } from "./pageLinks";
 import { createShareMenu } from "./ShareMenu";
 
 export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement {
@@ -43,33 +44,10 @@ export function createToolbar(app: App, toggleSidebar: () => void): HTMLElement 
       createShareMenu(app),
       createPeopleMenu(app),
       element("span", { class: "divider", "aria-hidden": "true" }),
-      pageLink(app, "join", "join.html", "Join another simulation", isLive),
-      pageLink(app, "recordings", "recordings.html", "Recordings", hasRecordings),
-      pageLink(app, "broker", "broker.html", "Broker", isLive),
+      ...pageLinks(app),
       viewButton("help", "Help", "?", () => app.openHelp(true)),
     ),
   );
-}
-
-// A recording has no broker.
-function isLive({ replay }: State): boolean {
-  return replay === null;
-}
-
-function hasRecordings({ abilities }: State): boolean {
-  return abilities.recordings;
-}
-
-function pageLink(
-  app: App,
-  picture: IconName,
-  href: string,
-  label: string,
-  isOffered: (state: State) => boolean,
-): HTMLElement {
-  const link = element("a", { class: "button plain", href, "aria-label": label, title: label }, icon(picture));
-  app.store.watch(isOffered, (offered) => (link.hidden = !offered));
-  return link;
 }
 
 // A recording has its own, in the timeline.

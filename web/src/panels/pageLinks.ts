@@ -1,0 +1,52 @@
+// The other pages, as far as there is something to see on them.
+import type { App } from "../app/App";
+import type { State } from "../state/State";
+import { element } from "../ui/element";
+import type { IconName } from "../ui/icons";
+import { icon } from "../ui/icons";
+
+interface Page {
+  picture: IconName;
+  href: string;
+  name: string;
+  label: string;
+  isOffered: (state: State) => boolean;
+}
+
+const PAGES: Page[] = [
+  { picture: "join", href: "join.html", name: "Join", label: "Join another simulation", isOffered: isLive },
+  {
+    picture: "recordings",
+    href: "recordings.html",
+    name: "Recordings",
+    label: "Recordings",
+    isOffered: ({ abilities }) => abilities.recordings,
+  },
+  { picture: "broker", href: "broker.html", name: "Broker", label: "Broker", isOffered: isLive },
+];
+
+// A recording has no broker.
+function isLive({ replay }: State): boolean {
+  return replay === null;
+}
+
+// As pictures in the toolbar.
+export function pageLinks(app: App): HTMLElement[] {
+  return PAGES.map(({ picture, href, label, isOffered }) => {
+    const link = element("a", { class: "button plain", href, "aria-label": label, title: label }, icon(picture));
+    return whileOffered(app, link, isOffered);
+  });
+}
+
+// By name, where the toolbar has no room for them.
+export function pageNames(app: App): HTMLElement {
+  const links = PAGES.map(({ href, name, isOffered }) =>
+    whileOffered(app, element("a", { class: "button plain", href }, name), isOffered),
+  );
+  return element("div", { class: "sidebar-pages" }, ...links);
+}
+
+function whileOffered(app: App, link: HTMLElement, isOffered: (state: State) => boolean): HTMLElement {
+  app.store.watch(isOffered, (offered) => (link.hidden = !offered));
+  return link;
+}
