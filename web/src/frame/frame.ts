@@ -4,16 +4,13 @@ import "../style/page.css";
 import "../style/panels.css";
 import "../style/frame.css";
 import { element } from "../ui/element";
+import { BROKER, JOIN, RECORDINGS } from "../ui/pages";
 
 export interface Frame {
   note: HTMLElement; // beside the title: where what is shown comes from
 }
 
-const PAGES = [
-  { title: "Join", href: "join.html" },
-  { title: "Recordings", href: "recordings.html" },
-  { title: "Broker", href: "broker.html" },
-];
+const PAGES = [JOIN, RECORDINGS, BROKER];
 
 // `parts` are the page's own, each with its place in the grid (style/page.css).
 export function showFrame(page: HTMLElement, title: string, ...parts: HTMLElement[]): Frame {
@@ -31,8 +28,8 @@ export function showFrame(page: HTMLElement, title: string, ...parts: HTMLElemen
 }
 
 function pages(current: string): HTMLElement {
-  const links = PAGES.map(({ title, href }) =>
-    element("a", { class: "button plain", href, "aria-current": title === current && "page" }, title),
+  const links = PAGES.map(({ name, href }) =>
+    element("a", { class: "button plain", href, "aria-current": name === current && "page" }, name),
   );
   const simulation = element("a", { class: "button plain", href: "./" }, "Simulation");
   return element("nav", { class: "frame-pages", "aria-label": "Pages" }, simulation, ...links);

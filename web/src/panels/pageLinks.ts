@@ -4,25 +4,19 @@ import type { State } from "../state/State";
 import { element } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
+import type { Page } from "../ui/pages";
+import { BROKER, JOIN, RECORDINGS } from "../ui/pages";
 
-interface Page {
+interface Link extends Page {
   picture: IconName;
-  href: string;
-  name: string;
   label: string;
   isOffered: (state: State) => boolean;
 }
 
-const PAGES: Page[] = [
-  { picture: "join", href: "join.html", name: "Join", label: "Join another simulation", isOffered: isLive },
-  {
-    picture: "recordings",
-    href: "recordings.html",
-    name: "Recordings",
-    label: "Recordings",
-    isOffered: ({ abilities }) => abilities.recordings,
-  },
-  { picture: "broker", href: "broker.html", name: "Broker", label: "Broker", isOffered: isLive },
+const LINKS: Link[] = [
+  { ...JOIN, picture: "join", label: "Join another simulation", isOffered: isLive },
+  { ...RECORDINGS, picture: "recordings", label: "Recordings", isOffered: ({ abilities }) => abilities.recordings },
+  { ...BROKER, picture: "broker", label: "Broker", isOffered: isLive },
 ];
 
 // A recording has no broker.
@@ -32,7 +26,7 @@ function isLive({ replay }: State): boolean {
 
 // As pictures in the toolbar.
 export function pageLinks(app: App): HTMLElement[] {
-  return PAGES.map(({ picture, href, label, isOffered }) => {
+  return LINKS.map(({ picture, href, label, isOffered }) => {
     const link = element("a", { class: "button plain", href, "aria-label": label, title: label }, icon(picture));
     return whileOffered(app, link, isOffered);
   });
@@ -40,7 +34,7 @@ export function pageLinks(app: App): HTMLElement[] {
 
 // By name, where the toolbar has no room for them.
 export function pageNames(app: App): HTMLElement {
-  const links = PAGES.map(({ href, name, isOffered }) =>
+  const links = LINKS.map(({ href, name, isOffered }) =>
     whileOffered(app, element("a", { class: "button plain", href }, name), isOffered),
   );
   return element("div", { class: "sidebar-pages" }, ...links);
