@@ -83,7 +83,8 @@ endfunction()
 
 # gsv_test(NAME SOURCES … [DEPENDS …] [LABEL …] [TIMEOUT seconds])
 #
-# Adds the GoogleTest program NAME; each of its tests becomes one ctest test. GSV_REAL_DIR (other
+# Adds the GoogleTest program NAME; each of its tests becomes one ctest test, whose report GoogleTest
+# leaves in test-reports of the build folder. GSV_REAL_DIR (other
 # people's worlds and robots, may be absent), GSV_SOURCE_DIR and GSV_BUILD_DIR reach every test as
 # environment.
 function(gsv_test NAME)
@@ -106,6 +107,7 @@ function(gsv_test NAME)
   endif()
   gtest_discover_tests(${NAME}
     DISCOVERY_MODE PRE_TEST
+    XML_OUTPUT_DIR ${CMAKE_BINARY_DIR}/test-reports
     PROPERTIES TIMEOUT ${ARG_TIMEOUT} ${LABELS})
 endfunction()
 

@@ -4,7 +4,9 @@
 import importlib.machinery
 import importlib.util
 import sys
+import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -26,10 +28,12 @@ PAGE = """# Title
 After."""
 
 
-def outcome(name, result="COMPLETED", failures=(), **within):
-    suite, test = name.split(".")
-    properties = {f"within {key.replace('_', ' ')}": value for key, value in within.items()}
-    return tables.Outcome({"name": suite}, {"name": test, "result": result, "failures": failures} | properties)
+def outcome(name, inside="", **within):
+    suite, test = name.rsplit(".", 1)
+    properties = "".join(f'<property name="within {key.replace("_", " ")}" value="{value}"/>'
+                         for key, value in within.items())
+    return tables.Outcome(ElementTree.fromstring(
+        f'<testcase classname="{suite}" name="{test}"><properties>{properties}</properties>{inside}</testcase>'))
 
 
 class MakeFidelityTables(unittest.TestCase):
@@ -59,12 +63,26 @@ class MakeFidelityTables(unittest.TestCase):
         self.assertEqual(problems, ["its tests leave no errors behind, and no bound is written"])
 
     def test_names_what_is_missing_and_what_failed(self):
-        _, problems = tables.fill(self.falls, [outcome("Ball.FallsFar", failures=[{}])])
+        _, problems = tables.fill(self.falls, [outcome("Ball.FallsFar", inside="<failure/>")])
         self.assertEqual(problems, ["Ball.FallsFar failed", "no test is called Cone.Sounds"])
 
     def test_leaves_the_row_of_a_skipped_test_alone(self):
-        cells, problems = tables.fill(self.holds, [outcome("Ball.Rests", result="SKIPPED")])
+        cells, problems = tables.fill(self.holds, [outcome("Ball.Rests", inside="<skipped/>")])
         self.assertEqual((cells[2], problems), ("", []))
+
+    def test_reads_the_reports_that_the_tests_left(self):
+        with tempfile.TemporaryDirectory() as build:
+            report = Path(build) / "test-reports" / "Many" / "Ball.Falls" / "0.xml"
+            report.parent.mkdir(parents=True)
+            report.write_text("""<?xml version="1.0"?><testsuites><testsuite name="Many/Ball">
+                <testcase name="Falls/0" status="run" result="completed" classname="Many/Ball">
+                  <properties><property name="within 1e-09 m" value="3.2e-14"/></properties>
+                </testcase>
+                <testcase name="Rests" status="notrun" result="suppressed" classname="Many/Ball"/>
+              </testsuite></testsuites>""")
+            outcomes = tables.read_outcomes(build)
+        self.assertEqual([(each.name, each.errors) for each in outcomes],
+                         [("Many/Ball.Falls/0", {(1e-9, "m"): 3.2e-14})])
 
     def test_writes_numbers_as_people_do(self):
         for value, unit, expected in ((0.002, "m", "2 mm"), (1e-6, "m", "1 µm"), (1e-9, "m", "1e-9 m"),

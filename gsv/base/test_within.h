@@ -5,8 +5,9 @@
 //   EXPECT_WITHIN_3_SIGMA(mean, 0.0, 1 / std::sqrt(count));    // of the statistic's deviation
 //
 // The running test keeps the largest error for each bound and unit as its property (GoogleTest's
-// RecordProperty) "within BOUND UNIT", as in "within 1e-09 m": "3.2e-14".
-// tools/make_fidelity_tables reads these. What is not a number is not near anything.
+// RecordProperty) "within BOUND UNIT", as in "within 1e-09 m": "3.2e-14";
+// tools/make_fidelity_tables reads these from GoogleTest's reports. What is not a number is not
+// near anything.
 #pragma once
 
 #include <cmath>

@@ -251,6 +251,11 @@ class TakenPort {
   std::string port_;
 };
 
+TEST(BadInput, ViewersAddressOfAnotherKind) {
+  ExpectOneSentence(RunProgram("gsv", {"view", "ftp://127.0.0.1:8080/"}), 2,
+                    "ftp://127.0.0.1:8080/: a viewer's address begins with http:// or https://");
+}
+
 TEST(BadInput, ViewerPortInUse) {
   const TakenPort taken;
   const Outcome outcome =

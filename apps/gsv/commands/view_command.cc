@@ -16,6 +16,10 @@ namespace {
 // The viewer's address of an instance that is named by it, or by its offer.
 base::Result<std::string> ViewerOf(const std::string& instance, const std::string& broker) {
   if (instance.starts_with("http://") || instance.starts_with("https://")) return instance;
+  if (instance.find("://") != std::string::npos) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "a viewer's address begins with http:// or https://", instance);
+  }
   const auto found = FindOneInstance({broker, instance, {}});
   if (!found) return base::Fail(found.error());
   if (!found->viewer_url.empty()) return found->viewer_url;

@@ -209,12 +209,12 @@ test("a world that is dropped is uploaded and shown; what is none has its senten
   await settled(app);
   expect(store.get().setUp!.scenario.world).toBe("/tmp/up/1/w/my.world");
   expect(api.preview.mock.lastCall![0]).toMatchObject({ world: "/tmp/up/1/w/my.world" });
-  const refusal = new ApiError(400, "holiday.jpg: this is no XML", "world");
+  const refusal = new ApiError(400, "/tmp/up/1/holiday.jpg: this is no XML", "world");
   api.preview.mockRejectedValueOnce(refusal);
   await app.setUp.drop([dropped("holiday.jpg")]);
   await settled(app);
   const field = control(panel, "Environment").closest(".field")!;
-  expect(field.querySelector(".field-error")!.textContent).toBe(refusal.message);
+  expect(field.querySelector(".field-error")!.textContent).toBe("holiday.jpg: this is no XML");
   await app.setUp.drop([dropped("big.sdf", 2 ** 31)]);
   expect(field.querySelector(".field-error")!.textContent).toContain("at most 64 MiB");
   expect(api.upload).toHaveBeenCalledTimes(2);

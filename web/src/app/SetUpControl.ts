@@ -8,7 +8,7 @@ import type { Placed, RobotList, RobotSetUp, Scenario } from "../state/scenario"
 import { EMPTY_SCENARIO, findRobot, newRobot } from "../state/scenario";
 import { withChangedRobot, withRobot, withoutRobot } from "../state/scenario";
 import type { SetUp } from "../state/setUp";
-import { changed, redone, undone } from "../state/setUp";
+import { changed, inTheirWords, redone, undone } from "../state/setUp";
 import type { DroppedFile } from "../setup/DroppedFile";
 import { unpacked, worldsFirst } from "../setup/dropped";
 import type { State } from "../state/State";
@@ -173,7 +173,11 @@ export class SetUpControl {
       if (!setUp?.scenario.world) return;
       await this.ask(async () => {
         const { scene, poses, warnings } = await this.api.preview(setUp.scenario);
-        this.store.set(({ setUp }) => (setUp ? { scene, setUp: { ...setUp, poses, warnings } } : {}));
+        this.store.set(({ setUp }) => {
+          if (!setUp) return {};
+          const readable = warnings.map((warning) => inTheirWords(warning, setUp.uploaded));
+          return { scene, setUp: { ...setUp, poses, warnings: readable } };
+        });
       });
     }
   }
@@ -185,8 +189,9 @@ export class SetUpControl {
       await work();
       this.patch(() => ({ wrong: null }));
     } catch (error) {
-      const { message: sentence } = error as Error;
-      this.patch(() => ({ wrong: { field: error instanceof ApiError ? error.field : "", sentence } }));
+      const { message } = error as Error;
+      const field = error instanceof ApiError ? error.field : "";
+      this.patch(({ uploaded }) => ({ wrong: { field, sentence: inTheirWords(message, uploaded) } }));
     } finally {
       this.patch(() => ({ isBusy: false }));
     }

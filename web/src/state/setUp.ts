@@ -31,6 +31,13 @@ export interface SetUp extends Choices {
   isHeld: boolean; // nothing can be created now: the choices or a world are on their way, or it is being created
 }
 
+// The server's sentence, with the files of an upload as the person has them, without the folder in
+// which the server keeps them.
+export function inTheirWords(sentence: string, uploaded: readonly UploadedWorld[]): string {
+  const folders = uploaded.filter(({ name, path }) => path.endsWith(name)).map(({ name, path }) => path.slice(0, -name.length));
+  return folders.reduce((said, folder) => (folder === "" ? said : said.replaceAll(folder, "")), sentence);
+}
+
 const MOST_PAST = 100;
 
 export function changed(setUp: SetUp, scenario: Scenario): SetUp {
