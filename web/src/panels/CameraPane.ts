@@ -54,8 +54,9 @@ export function createCameraPane(app: App): HTMLElement {
     painter.clear();
     setText(caption, "");
     waiting.hidden = false;
-    setText(waiting, "Waiting for a picture…");
-    const { cameraOpen, view } = app.store.get();
+    const { cameraOpen, view, replay } = app.store.get();
+    // A recording holds those that somebody asked for; what it has, it gives at once.
+    setText(waiting, replay ? "No picture of it is recorded up to here." : "Waiting for a picture…");
     card.hidden = !camera || !cameraOpen;
     reopen.hidden = !camera || cameraOpen;
     if (camera && cameraOpen) choice.value = camera.topic;
@@ -90,7 +91,12 @@ export function createCameraPane(app: App): HTMLElement {
   );
   // Another simulation has another stream, even under the same topic's name.
   app.store.watch(
-    ({ simulation, cameraOpen, view }) => ({ simulation, cameraOpen, isStarting: view === "starting" }),
+    ({ simulation, cameraOpen, view, replay }) => ({
+      simulation,
+      cameraOpen,
+      isStarting: view === "starting",
+      isRecorded: replay !== null,
+    }),
     () => listen(app.store.get().camera),
     shallowEqual,
   );
