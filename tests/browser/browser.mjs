@@ -1,4 +1,5 @@
-// Debian's Chromium, headless, drawing in software; alone on a profile of its own.
+// Debian's Chromium, headless, drawing in software as it does for people who have no graphics card: only
+// WebGL is SwiftShader's, the page is put together by the processor. Alone on a profile of its own.
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import os from "node:os";
@@ -13,7 +14,7 @@ const { chromium } = requireFromWeb("playwright-core");
 const EXECUTABLE = process.env.GSV_CHROMIUM ?? "/usr/bin/chromium";
 const ARGUMENTS = [
   "--no-sandbox",
-  "--use-angle=swiftshader",
+  "--disable-gpu",
   "--enable-unsafe-swiftshader",
   "--disable-quic",
   "--no-first-run",
