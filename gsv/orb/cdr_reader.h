@@ -60,10 +60,12 @@ class CdrReader {
     position_ += length;
     return octets;
   }
-  // Without the zero at its end. Fails where that is missing.
+  // Without the zero at its end. Fails where that is missing, and where there is another: CORBA's
+  // strings hold none (CORBA 3.1 part 2, 9.3.2.7), and what omniORB makes of one is shorter than it
+  // says.
   std::string_view String() {
     std::string_view text = Octets();
-    if (text.empty() || text.back() != '\0') {
+    if (text.empty() || text.find('\0') != text.size() - 1) {
       Fail();
       return {};
     }

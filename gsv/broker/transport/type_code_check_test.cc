@@ -1,11 +1,15 @@
 #include "gsv/broker/transport/type_code_check.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "gsv/broker/testing/raw_message.h"
 
 namespace gsv::broker {
 namespace {
+
+using namespace std::string_literals;
 
 constexpr std::uint32_t kLong = 3;
 constexpr std::uint32_t kOctet = 10;
@@ -59,6 +63,15 @@ TEST(TypeCodeCheckTest, RefusesMembersThatAreMissing) {
   EXPECT_FALSE(IsTypeCode(With({}, kSequence, Parameters())));
   EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kStruct).ULong(0)));
   EXPECT_FALSE(IsTypeCode(RawCdr().ULong(kStruct).ULong(100)));
+}
+
+// A broker would keep an offer with such a type, and could not read it again.
+TEST(TypeCodeCheckTest, RefusesNamesWithAZeroInside) {
+  const auto named = [](RawCdr id) { return With({}, kAlias, id.String("T").ULong(kLong)); };
+  EXPECT_TRUE(IsTypeCode(named(Parameters().Octets("IDL:T:1.0\0"s))));
+  EXPECT_FALSE(IsTypeCode(named(Parameters().Octets("IDL:\0T:1.0\0"s))));
+  EXPECT_FALSE(IsTypeCode(named(Parameters().Octets("IDL:T:1.0\0\0"s))));
+  EXPECT_FALSE(IsTypeCode(named(Parameters().Octets("\0\0"s))));
 }
 
 TEST(TypeCodeCheckTest, RefusesKindsThatNobodyCanUse) {
