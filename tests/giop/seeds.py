@@ -112,9 +112,21 @@ class World:
         for link in self.call("CosTrading::Link", "list_links")[""]:
             self.call("CosTrading::Link", "remove_link", name=link)
         types = self.call(REPOSITORY, "list_types", which_types=("all", None))[""]
-        for name in reversed(types):  # a type after its super types
-            if name not in self.types:
-                self.call(REPOSITORY, "remove_type", name=name)
+        self.remove_types([name for name in types if name not in self.types])
+
+    def remove_types(self, names):
+        """Each before its super types, whatever mutations have called it."""
+        while names:
+            left, refused = [], None
+            for name in names:
+                try:
+                    self.call(REPOSITORY, "remove_type", name=name)
+                except Refused as refusal:  # it has sub types yet
+                    left.append(name)
+                    refused = refusal
+            if left == names:
+                raise refused
+            names = left
 
     def renew(self):
         """A new simulation with a robot that has all sensors, offers, iterators, a run, a behaviour's instance."""
