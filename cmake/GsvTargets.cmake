@@ -84,9 +84,8 @@ endfunction()
 # gsv_test(NAME SOURCES … [DEPENDS …] [LABEL …] [TIMEOUT seconds])
 #
 # Adds the GoogleTest program NAME; each of its tests becomes one ctest test, whose report GoogleTest
-# leaves in test-reports of the build folder. GSV_REAL_DIR (other
-# people's worlds and robots, may be absent), GSV_SOURCE_DIR and GSV_BUILD_DIR reach every test as
-# environment.
+# leaves in test-reports of the build folder. GSV_REAL_DIR (other people's worlds and robots, may be
+# absent), GSV_SOURCE_DIR and GSV_BUILD_DIR reach every test as environment.
 function(gsv_test NAME)
   cmake_parse_arguments(ARG "" "TIMEOUT;LABEL" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_TIMEOUT)
