@@ -311,6 +311,21 @@ test("two browsers show the same phase, whoever presses", async () => {
   }
 });
 
+test("the simulation's name can be read in a window of any width", async () => {
+  const { width, height } = page.viewportSize();
+  try {
+    for (const narrow of [1280, 1200, 1120, 1024, 960, 800, 360]) {
+      await page.setViewportSize({ width: narrow, height });
+      const [shown, whole] = await page
+        .locator(".simulation-choice h1")
+        .evaluate(({ clientWidth, scrollWidth }) => [clientWidth, scrollWidth]);
+      assert.ok(shown >= whole && whole > 0, `${shown} of ${whole} pixels in a window of ${narrow}`);
+    }
+  } finally {
+    await page.setViewportSize({ width, height });
+  }
+});
+
 test("it works on a phone's screen", async () => {
   const phone = await openBrowser({ width: 390, height: 760 });
   try {

@@ -126,7 +126,7 @@ function simulationChoice(app: App): HTMLElement {
     ({ simulations, simulation }) => [simulation, ...(simulations ?? []).map(({ name }) => name)],
     ([chosen, ...names]) => {
       if (!chosen) return place.replaceChildren(element("h1", { class: "unseen" }, "Viewer"));
-      if (names.length < 2) return place.replaceChildren(element("h1", {}, chosen));
+      if (names.length < 2) return place.replaceChildren(element("h1", { title: chosen }, chosen));
       const choice = element("select", { "aria-label": "Simulation" });
       for (const name of names) choice.append(new Option(name ?? "", name ?? "", false, name === chosen));
       choice.addEventListener("change", () => app.session.join(choice.value));
