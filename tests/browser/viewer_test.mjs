@@ -314,7 +314,7 @@ test("two browsers show the same phase, whoever presses", async () => {
 test("the simulation's name can be read in a window of any width", async () => {
   const { width, height } = page.viewportSize();
   try {
-    for (const narrow of [1280, 1200, 1120, 1024, 960, 800, 360]) {
+    for (const narrow of [1280, 1240, 1200, 1121, 1120, 1024, 960, 800, 360]) {
       await page.setViewportSize({ width: narrow, height });
       const [shown, whole] = await page
         .locator(".simulation-choice h1")
