@@ -142,7 +142,7 @@ class Dice {
 Scene RandomScene(Dice& dice) {
   Scene scene;
   scene.mode = dice.Below(4) == 0 ? Mode::kRealTime : Mode::kLockstep;
-  scene.duration = dice.Below(2) == 0 ? 0 : 1 + dice.Below(120);
+  scene.duration = dice.Below(2) == 0 ? 0 : 1 + dice.Below(dice.Below(2) == 0 ? 4 : 120);
   scene.behaviours = static_cast<int>(dice.Below(3));
   return scene;
 }

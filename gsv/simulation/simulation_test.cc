@@ -322,6 +322,23 @@ TEST(Simulation, ResumingDuringAFewStepsGoesOnBeyondThem) {
   EXPECT_EQ(simulation->status().phase, Phase::kRunning);
 }
 
+// It had paused at its end, and going on took one step too many.
+TEST(Simulation, ARunPausedDuringItsLastStepHasNoStepBeyondIt) {
+  auto simulation = Make(Lockstep(20ms));
+  for (int i = 0; i < 400;
+       ++i)  // so many that the pause mostly comes while the last step is under way
+    ASSERT_TRUE(simulation->AddRobot(Robot("", -1 - i / 20, i % 20)));
+  for (int round = 0; round < 20; ++round) {
+    ASSERT_TRUE(simulation->Start());
+    while (simulation->snapshot()->state.step == 0) std::this_thread::yield();
+    if (simulation->Pause()) (void)simulation->state_hash();  // waits for the step
+    (void)simulation->Resume();                               // refused when it is over
+    ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
+    ASSERT_EQ(simulation->status().step, 2) << "round " << round;
+    ASSERT_TRUE(simulation->Reset());
+  }
+}
+
 TEST(Simulation, ASonarIsMountedAtAPose) {
   auto simulation = Make(Lockstep(0s));
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0)));

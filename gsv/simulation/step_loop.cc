@@ -244,6 +244,7 @@ void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>&
   statistics_.Stepped(end, shared_->now, end - start);
   // A step that was under way when somebody paused and asked for steps is none of these.
   if (steps_left_ > 0 && stepped_run_ == run_) --steps_left_;
+  // Also when somebody paused during this last step: going on later would take one step too many.
   if (specification_.duration.count() > 0 && shared_->now >= specification_.duration)
     return Finish();
   const bool arrived = run_until_.count() > 0 && shared_->now >= run_until_;
@@ -258,7 +259,7 @@ void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>&
 }
 
 void SteppingSimulation::Finish() {
-  if (shared_->phase != Phase::kRunning) return;
+  if (shared_->phase == Phase::kStopped || shared_->phase == Phase::kFailed) return;
   final_hash_ = HashNow();
   SetPhase(Phase::kFinished);
   AddEvent("finished");

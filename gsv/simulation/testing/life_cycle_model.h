@@ -74,6 +74,7 @@ class LifeCycle {
     for (State state : WithWhatComesByItself()) {
       if (state.phase != seen.phase || seen.step < state.step.low || seen.step > state.step.high)
         continue;
+      if (state.phase == Phase::kPaused && seen.step >= end_) continue;
       state.step.low = seen.step;
       // The step that was under way when a pause or stop came is the last one.
       if (state.phase != Phase::kRunning)
@@ -102,6 +103,9 @@ class LifeCycle {
   std::vector<State> WithWhatComesByItself() const {
     std::vector<State> all = states_;
     for (const State& state : states_) {
+      // The step that was under way when the pause came may have been the run's last.
+      if (state.phase == Phase::kPaused && state.step.high >= end_)
+        all.push_back(Frozen(Phase::kFinished, {end_, end_}));
       if (state.phase != Phase::kRunning) continue;
       const auto goal = state.Goal();
       if (goal && goal->low < end_) {
