@@ -6,7 +6,7 @@ import struct
 from cdr import Reader, Reference, Writer
 
 REQUEST, REPLY, CANCEL, LOCATE, LOCATE_REPLY, CLOSE, ERROR, FRAGMENT = range(8)
-TIMEOUT_S = 10  # of a right call
+TIMEOUT_S = 60  # of a right call: who takes longer has hung
 STATUS = ["result", "user exception", "system exception", "forward"]
 
 

@@ -37,7 +37,7 @@ from seeds import World, missing, prove  # noqa: E402
 
 WORKERS = 6
 OF_A_ROUND = 40  # messages of each worker
-ANSWER_S = 0.3   # how long one is waited for; a right call is given ten seconds
+ANSWER_S = 0.3   # how long one is waited for; a right call is given a minute
 END_S = 60       # how long a program may take to end
 
 
