@@ -1,5 +1,6 @@
 # gsv_precompile(TARGET KIND) gives a target the headers that nearly every file of its kind includes
-# (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", or "test" for programs made of tests.
+# (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", "program", or "test" for programs made of
+# tests.
 function(gsv_precompile TARGET KIND)
   set(OWNER gsv_precompiled_${KIND})
   if(NOT TARGET ${OWNER})
@@ -8,13 +9,15 @@ function(gsv_precompile TARGET KIND)
     file(CONFIGURE OUTPUT ${SOURCE} CONTENT "int main() {}\n")
     # A precompiled header serves only files that are compiled with the same options, and programs'
     # differ from libraries'.
-    if(KIND STREQUAL "test")
+    if(KIND STREQUAL "library")
+      add_library(${OWNER} OBJECT EXCLUDE_FROM_ALL ${SOURCE})
+    else()
       add_executable(${OWNER} EXCLUDE_FROM_ALL ${SOURCE})
+      set_target_properties(${OWNER} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+    endif()
+    if(KIND STREQUAL "test")
       target_link_libraries(${OWNER} PRIVATE GTest::gtest GTest::gmock)
       target_compile_options(${OWNER} PRIVATE "${GSV_TEST_OPTIONS}")
-      set_target_properties(${OWNER} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
-    else()
-      add_library(${OWNER} OBJECT EXCLUDE_FROM_ALL ${SOURCE})
     endif()
     target_precompile_headers(${OWNER} PRIVATE ${HEADER})
   endif()
@@ -33,7 +36,7 @@ function(gsv_compile_in_groups TARGET)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug")
     return()
   endif()
-  set(FILES_A_GROUP 6)
+  set(FILES_A_GROUP 10)
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(SOURCES ${TARGET} SOURCES)
   list(FILTER SOURCES INCLUDE REGEX "\\.cc$")
@@ -55,6 +58,14 @@ set(GSV_TEST_OPTIONS $<$<CONFIG:Release,RelWithDebInfo>:-O0>)
 # of the time to compile, the command line three quarters.
 function(gsv_compile_sooner TARGET)
   target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# gsv_test_helper(TARGET …): what only tests link to or start, and nobody else waits for.
+function(gsv_test_helper)
+  foreach(TARGET IN LISTS ARGN)
+    target_compile_options(${TARGET} PRIVATE "${GSV_TEST_OPTIONS}")
+    set_target_properties(${TARGET} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  endforeach()
 endfunction()
 
 # gsv_library(NAME SOURCES … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …])

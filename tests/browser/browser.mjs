@@ -54,7 +54,7 @@ export async function openPage(browser, url) {
   const { origin } = new URL(url);
   page.on("pageerror", (error) => faults.push(`script error: ${error.message}`));
   page.on("console", (message) => {
-    if (message.type() === "error") faults.push(`console: ${message.text()}`);
+    if (message.type() === "error") faults.push(`console: ${message.text()} (${message.location().url})`);
   });
   page.on("request", (request) => {
     const asked = request.url();

@@ -8,14 +8,11 @@
 namespace gsv::app {
 namespace {
 
+using gateway::WrongField;
 using simulation::RobotSpecification;
 using simulation::Simulation;
 
 constexpr int kPlacesTried = 400;
-
-tl::unexpected<FieldError> Wrong(std::string field, base::Error error) {
-  return tl::make_unexpected(FieldError{std::move(error), std::move(field)});
-}
 
 // Names the list's element before the field that is wrong with it.
 tl::unexpected<FieldError> WrongIn(const char* list, std::size_t i, FieldError wrong) {
@@ -53,12 +50,13 @@ FieldResult<RobotSpecification> Specify(const Simulation& simulation,
                                         const scenario::RobotEntry& entry, bool is_avatar,
                                         base::Problems& problems) {
   const auto model = ModelFor(simulation, library, entry, problems);
-  if (!model) return Wrong(entry.model.empty() ? "name" : "model", model.error());
+  if (!model) return WrongField(entry.model.empty() ? "name" : "model", model.error());
   if (!(*model)->drive) {
-    return Wrong("model", {base::ErrorCode::kBadModel,
-                           "it has no drive that gsv knows, so it cannot be a robot; choose "
-                           "another, or add a plugin such as gz::sim::systems::DiffDrive to it",
-                           (*model)->name});
+    return WrongField("model",
+                      {base::ErrorCode::kBadModel,
+                       "it has no drive that gsv knows, so it cannot be a robot; choose "
+                       "another, or add a plugin such as gz::sim::systems::DiffDrive to it",
+                       (*model)->name});
   }
   RobotSpecification robot;
   robot.name = entry.name;
@@ -221,7 +219,7 @@ FieldResult<std::string> AddOne(Simulation& simulation, formats::ModelLibrary& l
   if (added) return placed.name;
   if (*behaviour != nullptr) (*behaviour)->Destroy();
   const bool is_behaviours = added.error().code == base::ErrorCode::kBehaviour;
-  return Wrong(is_behaviours ? "behaviour" : "", added.error());
+  return WrongField(is_behaviours ? "behaviour" : "", added.error());
 }
 
 FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibrary& library,
@@ -233,14 +231,14 @@ FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibr
   if (!request.model.empty()) {
     auto model =
         library.ReadModel(request.model, problems, simulation.specification().world->source);
-    if (!model) return Wrong("model", model.error());
+    if (!model) return WrongField("model", model.error());
     object.model = *std::move(model);
   }
   if (request.place) {
     object.world_from_object = request.place->world_from_body;
     object.on_ground = request.place->on_ground;
     auto name = simulation.AddObject(std::move(object));
-    return name ? FieldResult<std::string>(*std::move(name)) : Wrong("", name.error());
+    return name ? FieldResult<std::string>(*std::move(name)) : WrongField("", name.error());
   }
   base::Error refusal;
   for (int n = 0; n < kPlacesTried; ++n) {
@@ -251,7 +249,7 @@ FieldResult<std::string> AddOneObject(Simulation& simulation, formats::ModelLibr
     // Elsewhere it would be the same: its name, its model, or that the simulation runs.
     if (refusal.code != base::ErrorCode::kBadModel) break;
   }
-  return Wrong("", refusal);
+  return WrongField("", refusal);
 }
 
 }  // namespace gsv::app

@@ -11,16 +11,13 @@ namespace gsv::app {
 namespace {
 
 using gateway::SimulationRequest;
+using gateway::WrongField;
 using simulation::Simulation;
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t kWorldsKept = 4;
 constexpr std::size_t kMostOffers = 200;
-
-tl::unexpected<FieldError> Wrong(std::string field, base::Error error) {
-  return tl::make_unexpected(FieldError{std::move(error), std::move(field)});
-}
 
 // Each once, in order.
 void AddSentences(const base::Problems& problems, std::vector<std::string>& sentences) {
@@ -101,7 +98,7 @@ base::Result<SimulationBuilder::Behaviours> SimulationBuilder::FindBehaviours(
 
 FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const std::string& world) {
   auto file = FindWorld(world);
-  if (!file) return Wrong("world", file.error());
+  if (!file) return WrongField("world", file.error());
   KnownWorld read;
   read.file = *file;
   std::error_code ignored;
@@ -114,12 +111,12 @@ FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const st
   }
   if (!IsOurs(read.file)) {
     if (auto ok = TryToRead(read.file, model_path_, reading_); !ok) {
-      return Wrong("world", ok.error());
+      return WrongField("world", ok.error());
     }
   }
   base::Problems problems;
   auto description = host_.library().ReadWorld(read.file, problems);
-  if (!description) return Wrong("world", description.error());
+  if (!description) return WrongField("world", description.error());
   read.world = std::make_shared<const model::WorldDescription>(*std::move(description));
   AddSentences(problems, read.warnings);
   const std::lock_guard lock(mutex_);
@@ -135,7 +132,7 @@ FieldResult<std::shared_ptr<simulation::BehaviourPort>> SimulationBuilder::Behav
   auto behaviour = behaviours_.Get(is_named ? services::ConstraintForName(robot.behaviour)
                                             : robot.behaviour_constraint);
   if (!behaviour) {
-    return Wrong(is_named ? "behaviour" : "behaviour_constraint", behaviour.error());
+    return WrongField(is_named ? "behaviour" : "behaviour_constraint", behaviour.error());
   }
   return *std::move(behaviour);
 }
@@ -148,7 +145,7 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
   specification.mode = simulation::Mode::kRealTime;  // on one thread: it takes no step
   specification.world = world->world;
   auto simulation = host_.CreateUnlisted(std::move(specification));
-  if (!simulation) return Wrong("", simulation.error());
+  if (!simulation) return WrongField("", simulation.error());
   Preview preview{*simulation, world->warnings};
   base::Problems problems;
   const auto population = Populate(**simulation, host_.library(), request.scenario, problems);
@@ -165,7 +162,7 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
   specification.world = world->world;
   base::Problems problems;  // those of the world were told with its preview
   auto created = host_.Create(std::move(specification), {}, problems);
-  if (!created) return Wrong("name", created.error());
+  if (!created) return WrongField("name", created.error());
   const std::string name = (*created)->specification().name;
   const auto give_up = [&](FieldError wrong) {
     (void)host_.Remove(name);

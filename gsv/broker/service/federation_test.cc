@@ -12,12 +12,6 @@
 namespace gsv::broker {
 namespace {
 
-CORBA::Any ULong(CORBA::ULong value) {
-  CORBA::Any any;
-  any <<= value;
-  return any;
-}
-
 CosTrading::Policy Follow(CosTrading::FollowOption rule) {
   CORBA::Any any;
   any <<= rule;

@@ -17,12 +17,6 @@ CosTrading::PolicySeq Policies(const std::vector<CosTrading::Policy>& policies) 
   return result;
 }
 
-CORBA::Any ULong(CORBA::ULong value) {
-  CORBA::Any any;
-  any <<= value;
-  return any;
-}
-
 CORBA::Any Boolean(bool value) {
   CORBA::Any any;
   any <<= CORBA::Any::from_boolean(value);

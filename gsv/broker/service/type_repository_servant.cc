@@ -9,7 +9,7 @@ namespace {
 
 using Repository = CosTradingRepos::ServiceTypeRepository;
 
-Repository::ServiceTypeNameSeq* ToCorba(const std::vector<std::string>& names) {
+Repository::ServiceTypeNameSeq* ToTypeNames(const std::vector<std::string>& names) {
   Repository::ServiceTypeNameSeq_var result = new Repository::ServiceTypeNameSeq;
   result->length(static_cast<CORBA::ULong>(names.size()));
   for (CORBA::ULong i = 0; i < names.size(); ++i) result[i] = names[i].c_str();
@@ -44,7 +44,7 @@ Repository::ServiceTypeNameSeq* TypeRepositoryServant::list_types(
     const Repository::SpecifiedServiceTypes& which_types) {
   std::optional<std::uint64_t> since;
   if (which_types._d() == Repository::since) since = FromIncarnation(which_types.incarnation());
-  return ToCorba(trader_.ListTypes(since));
+  return ToTypeNames(trader_.ListTypes(since));
 }
 
 Repository::TypeStruct* TypeRepositoryServant::describe_type(const char* name) {

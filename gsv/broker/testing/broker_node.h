@@ -8,6 +8,12 @@
 
 namespace gsv::broker {
 
+inline CORBA::Any ULong(CORBA::ULong value) {
+  CORBA::Any any;
+  any <<= value;
+  return any;
+}
+
 class BrokerNode : public BrokerFixture {
  public:
   explicit BrokerNode(std::vector<std::string> arguments = {"0"})

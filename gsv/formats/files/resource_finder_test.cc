@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string Sdf(const std::string& version) { return "<sdf version='" + version + "'/>"; }
+std::string Empty(const std::string& version) { return "<sdf version='" + version + "'/>"; }
 
 TEST(ResourceFinder, FindsModelsBesideTheFileInItsParentsAndTheirModelsFolders) {
   const base::testing::TestFolder folder;
@@ -75,7 +75,7 @@ TEST(ResourceFinder, SaysThatTheWebIsNotLookedAt) {
 TEST(ModelFileIn, TakesTheNewestVersionThatCanBeRead) {
   const base::testing::TestFolder folder;
   for (const char* version : {"1.2", "1.4", "1.9", "1.11"}) {
-    folder.Write(std::string(version) + ".sdf", Sdf(version));
+    folder.Write(std::string(version) + ".sdf", Empty(version));
   }
   folder.Write("model.config",
                "<model><sdf version='1.2'>1.2.sdf</sdf><sdf version='1.11'>1.11.sdf</sdf>"

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gsv/scenario/scenario.h"
@@ -23,6 +24,9 @@ struct FieldError {
 };
 template <typename T>
 using FieldResult = tl::expected<T, FieldError>;
+inline tl::unexpected<FieldError> WrongField(std::string field, base::Error error) {
+  return tl::make_unexpected(FieldError{std::move(error), std::move(field)});
+}
 
 struct SimulationRequest {
   scenario::Scenario scenario;

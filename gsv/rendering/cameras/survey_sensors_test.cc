@@ -21,13 +21,13 @@ using geometry::PlanarPose;
 using geometry::Vector3;
 using sensing::Reading;
 
-constexpr int kWidth = 64, kHeight = 48;
-constexpr double kFov = 1.2;
-const double kFocal = kWidth / (2 * std::tan(kFov / 2));
+constexpr int kSurveyWidth = 64, kSurveyHeight = 48;
+constexpr double kSurveyFov = 1.2;
+const double kFocal = kSurveyWidth / (2 * std::tan(kSurveyFov / 2));
 
 // The ray through the middle of a pixel, at a distance of 1 along the view.
 Vector3 RayOf(int x, int y) {
-  return {1, (kWidth / 2 - x - 0.5) / kFocal, (kHeight / 2 - y - 0.5) / kFocal};
+  return {1, (kSurveyWidth / 2 - x - 0.5) / kFocal, (kSurveyHeight / 2 - y - 0.5) / kFocal};
 }
 
 class SurveyTest : public ::testing::Test {
@@ -56,9 +56,9 @@ class SurveyTest : public ::testing::Test {
     description.name = "eye";
     description.type = type;
     description.link_from_sensor.position = {0.3, 0, 0};  // at (0.3, 0, 1) of the world
-    description.parameters = {{"image.width", double(kWidth)},
-                              {"image.height", double(kHeight)},
-                              {"horizontal_fov", kFov},
+    description.parameters = {{"image.width", double(kSurveyWidth)},
+                              {"image.height", double(kSurveyHeight)},
+                              {"horizontal_fov", kSurveyFov},
                               {"clip.far", 50.0}};
     return description;
   }
@@ -96,13 +96,14 @@ TEST_F(SurveyTest, DepthOfAPlaneIsThatOfItsEquation) {
   Add("wall", geometry::Box{{0.2, 60, 60}},
       {on_face - 0.1 * normal, geometry::FromRollPitchYaw({0, 0, turn})});
   const Reading reading = Sample(Description("depth_camera"));
-  ASSERT_EQ(reading.values.size(), 2u + kWidth * kHeight);
-  EXPECT_EQ(reading.values[0], kWidth);
-  EXPECT_EQ(reading.values[1], kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  ASSERT_EQ(reading.values.size(), 2u + kSurveyWidth * kSurveyHeight);
+  EXPECT_EQ(reading.values[0], kSurveyWidth);
+  EXPECT_EQ(reading.values[1], kSurveyHeight);
+  for (int y = 0; y < kSurveyHeight; ++y) {
+    for (int x = 0; x < kSurveyWidth; ++x) {
       const double expected = Dot(on_face - Vector3{0.3, 0, 1}, normal) / Dot(RayOf(x, y), normal);
-      EXPECT_WITHIN_PERCENT(reading.values[2 + y * kWidth + x], expected, 0.001) << x << " " << y;
+      EXPECT_WITHIN_PERCENT(reading.values[2 + y * kSurveyWidth + x], expected, 0.001)
+          << x << " " << y;
     }
   }
 }
@@ -110,9 +111,9 @@ TEST_F(SurveyTest, DepthOfAPlaneIsThatOfItsEquation) {
 TEST_F(SurveyTest, DepthOfTheGroundIsThatOfItsEquation) {
   Add("floor", geometry::Plane{{0, 0, 1}, {200, 200}}, {});
   const Reading reading = Sample(Description("depth_camera"));
-  for (int y = 0; y < kHeight; ++y) {
+  for (int y = 0; y < kSurveyHeight; ++y) {
     const double down = -RayOf(0, y).z;
-    const double depth = reading.values[2 + y * kWidth + 7];
+    const double depth = reading.values[2 + y * kSurveyWidth + 7];
     if (down <= 0.021) continue;  // beyond 50 m
     EXPECT_WITHIN_PERCENT(depth, 1 / down, 0.01) << y;
   }
@@ -125,11 +126,11 @@ TEST_F(SurveyTest, ADepthPictureIsACloudOfPoints) {
   const Reading reading = Sample(description);
   const auto cloud = Sent<messages::sensor_msgs::PointCloud2>(description, reading);
   EXPECT_EQ(cloud.header.frame_id, "robot/eye");
-  ASSERT_EQ(cloud.width, std::uint32_t{kWidth});
-  ASSERT_EQ(cloud.data.size(), 12u * kWidth * kHeight);
+  ASSERT_EQ(cloud.width, std::uint32_t{kSurveyWidth});
+  ASSERT_EQ(cloud.data.size(), 12u * kSurveyWidth * kSurveyHeight);
   for (const auto& [x, y] : {std::pair{0, 0}, {63, 10}, {31, 47}}) {
     float xyz[3];
-    std::memcpy(xyz, &cloud.data[12 * (y * kWidth + x)], sizeof xyz);
+    std::memcpy(xyz, &cloud.data[12 * (y * kSurveyWidth + x)], sizeof xyz);
     const Vector3 expected = 4 * RayOf(x, y);
     EXPECT_NEAR(xyz[0], expected.x, 1e-4);
     EXPECT_NEAR(xyz[1], expected.y, 1e-4);
@@ -144,7 +145,7 @@ TEST_F(SurveyTest, DepthNoiseHasItsDeviation) {
   const Reading reading = Sample(description);
   EXPECT_EQ(Sample(description).values.size(), reading.values.size());
   double sum = 0, squares = 0;
-  const int n = kWidth * kHeight;
+  const int n = kSurveyWidth * kSurveyHeight;
   for (int i = 0; i < n; ++i) {
     const double error = reading.values[2 + i] - 4;
     sum += error, squares += error * error;
@@ -168,12 +169,12 @@ TEST_F(SurveyTest, SegmentationNamesWhatRaysHit) {
   const auto scene = rays_.At(snapshot_);
   const int robot = snapshot_->layout->Find("robot");
   int differing = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSurveyHeight; ++y) {
+    for (int x = 0; x < kSurveyWidth; ++x) {
       const Vector3 ray = RayOf(x, y);
       const auto hit = scene->Cast({{0.3, 0, 1}, geometry::Normalized(ray), 50}, robot);
       const double expected = hit ? hit->body + 1 : 0;
-      differing += reading.values[2 + y * kWidth + x] != expected;
+      differing += reading.values[2 + y * kSurveyWidth + x] != expected;
     }
   }
   // The ball is drawn of triangles: at its rim a pixel may miss them.
@@ -195,7 +196,7 @@ TEST_F(SurveyTest, TheColoursOfASegmentationTellItsLabels) {
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
   ASSERT_NE(png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr), 0);
   std::map<std::uint32_t, double> label_of;
-  for (std::size_t i = 0; i < std::size_t{kWidth} * kHeight; ++i) {
+  for (std::size_t i = 0; i < std::size_t{kSurveyWidth} * kSurveyHeight; ++i) {
     const std::uint32_t colour = pixels[3 * i] << 16 | pixels[3 * i + 1] << 8 | pixels[3 * i + 2];
     EXPECT_EQ(label_of.emplace(colour, reading.values[2 + i]).first->second, reading.values[2 + i]);
   }
@@ -211,10 +212,10 @@ TEST_F(SurveyTest, ABoundingBoxHoldsWhatIsSeen) {
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
   ASSERT_EQ(reading.values.size(), 4u);
   // Its left side is seen as well, which reaches back to 4 m.
-  EXPECT_WITHIN(reading.values[0], kWidth / 2 + kFocal * 0.5 / 4, 1, "pixel");
-  EXPECT_WITHIN(reading.values[1], kHeight / 2 - kFocal * 0.5 / 3, 1, "pixel");
-  EXPECT_WITHIN(reading.values[2], kWidth / 2 + kFocal * 1.5 / 3, 1, "pixel");
-  EXPECT_WITHIN(reading.values[3], kHeight / 2 + kFocal * 0.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[0], kSurveyWidth / 2 + kFocal * 0.5 / 4, 1, "pixel");
+  EXPECT_WITHIN(reading.values[1], kSurveyHeight / 2 - kFocal * 0.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[2], kSurveyWidth / 2 + kFocal * 1.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[3], kSurveyHeight / 2 + kFocal * 0.5 / 3, 1, "pixel");
   const auto message = Sent<messages::vision_msgs::Detection2DArray>(description, reading);
   ASSERT_EQ(message.detections.size(), 1u);
   EXPECT_EQ(message.detections[0].id, "box");

@@ -13,8 +13,7 @@
 #include "gsv/messages/ros_gz_interfaces.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/vision_msgs.h"
-#include "gsv/sensing/devices/built_in.h"
-#include "gsv/sensing/registry.h"
+#include "gsv/sensing/testing/test_sensor.h"
 #include "gsv/sensing/testing/test_snapshot.h"
 
 namespace gsv::sensing {
@@ -22,27 +21,11 @@ namespace {
 
 using geometry::PlanarPose;
 using geometry::Vector3;
+using testing::BuiltInSensors;
+using testing::DescriptionOf;
 using ::testing::TestWithParam;
 
 using geometry::kPi;
-
-const SensorRegistry& Registry() {
-  static const SensorRegistry registry = [] {
-    SensorRegistry made;
-    AddBuiltInSensors(made);
-    return made;
-  }();
-  return registry;
-}
-
-model::SensorDescription Description(const std::string& type, model::Parameters parameters = {}) {
-  model::SensorDescription description;
-  description.name = "it";
-  description.type = type;
-  description.link_from_sensor = PlanarPose(0.2, 0, 0.3, 0);
-  description.parameters = std::move(parameters);
-  return description;
-}
 
 // A robot at (1, 0) that faces y, with an arm that turns about its z axis; another robot 3 m before
 // it, a box that hides a third one, and a floor.
@@ -77,7 +60,7 @@ class FamilyTest : public ::testing::Test {
   world::Acceleration& acceleration() { return snapshot_->accelerations[body_]; }
 
   base::Result<Reading> TrySample(const model::SensorDescription& description) {
-    const auto sensor = Registry().Find(description.type)->create(description);
+    const auto sensor = BuiltInSensors().Find(description.type)->create(description);
     if (!sensor) return base::Fail(sensor.error());
     return (*sensor)->Sample(Sampling(snapshot_, body_, 1, rays_));
   }
@@ -88,8 +71,9 @@ class FamilyTest : public ::testing::Test {
   }
   template <typename Message>
   Message Sent(const model::SensorDescription& description) {
-    const auto bytes =
-        Registry().Find(description.type)->encode(description, Sample(description), "robot/it");
+    const auto bytes = BuiltInSensors()
+                           .Find(description.type)
+                           ->encode(description, Sample(description), "robot/it");
     const auto message = messages::Decode<Message>(std::as_bytes(std::span(bytes)));
     EXPECT_TRUE(message);
     return *message;
@@ -118,29 +102,29 @@ void ExpectValues(const Reading& reading, const std::vector<double>& expected,
 }
 
 TEST_F(FamilyTest, AnImuAtRestFeelsWhatHoldsItUp) {
-  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 0, 9.8}, kImu);
+  ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 0, 9.8}, kImu);
   // On its left side, what holds it up comes from its right: along its own y, upwards.
   body().world_from_model.orientation = geometry::FromRollPitchYaw({kPi / 2, 0, 0});
-  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 9.8, 0}, kImu);
+  ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 9.8, 0}, kImu);
 }
 
 TEST_F(FamilyTest, AnImuInFreeFallFeelsNothing) {
   acceleration().linear = {0, 0, -9.8};
   body().linear_velocity = {0, 0, -3};
-  ExpectValues(Sample(Description("imu")), {0, 0, 0, 0, 0, 0}, kImu);
+  ExpectValues(Sample(DescriptionOf("imu")), {0, 0, 0, 0, 0, 0}, kImu);
 }
 
 TEST_F(FamilyTest, AnImuOnATurntableFeelsTheCentripetalForce) {
   const double rate = 3;
   body().angular_velocity = {0, 0, rate};
-  ExpectValues(Sample(Description("imu")), {0, 0, rate, -rate * rate * 0.2, 0, 9.8}, kImu);
+  ExpectValues(Sample(DescriptionOf("imu")), {0, 0, rate, -rate * rate * 0.2, 0, 9.8}, kImu);
   // That speeds up.
   acceleration().angular = {0, 0, 2};
-  ExpectValues(Sample(Description("imu")), {0, 0, rate, -rate * rate * 0.2, 2 * 0.2, 9.8}, kImu);
+  ExpectValues(Sample(DescriptionOf("imu")), {0, 0, rate, -rate * rate * 0.2, 2 * 0.2, 9.8}, kImu);
 }
 
 TEST_F(FamilyTest, AnImuOnATurretFeelsItTurn) {
-  auto description = Description("imu");
+  auto description = DescriptionOf("imu");
   description.link = 1;
   snapshot_->state.joint_positions[0] = 1.1;
   snapshot_->state.joint_velocities[0] = 2;
@@ -151,14 +135,14 @@ TEST_F(FamilyTest, AnImuOnATurretFeelsItTurn) {
 }
 
 TEST_F(FamilyTest, AnImuTellsItsOrientationIfItShould) {
-  const Reading reading = Sample(Description("imu"));
+  const Reading reading = Sample(DescriptionOf("imu"));
   ASSERT_EQ(reading.values.size(), 10u);
   EXPECT_NEAR(reading.values[6], std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(reading.values[9], std::sqrt(0.5), 1e-12);
-  const auto description = Description("imu", {{"enable_orientation", false}});
+  const auto description = DescriptionOf("imu", {{"enable_orientation", false}});
   EXPECT_EQ(Sample(description).values.size(), 6u);
   EXPECT_EQ(Sent<messages::sensor_msgs::Imu>(description).orientation_covariance[0], -1);
-  const auto message = Sent<messages::sensor_msgs::Imu>(Description("imu"));
+  const auto message = Sent<messages::sensor_msgs::Imu>(DescriptionOf("imu"));
   EXPECT_EQ(message.header.frame_id, "robot/it");
   EXPECT_NEAR(message.linear_acceleration.z, 9.8, 1e-12);
   EXPECT_NEAR(message.orientation.z, std::sqrt(0.5), 1e-12);
@@ -166,25 +150,25 @@ TEST_F(FamilyTest, AnImuTellsItsOrientationIfItShould) {
 
 TEST_F(FamilyTest, AMagnetometerTurnsTheField) {
   // It faces y: its x is the world's y, its y the world's -x.
-  ExpectValues(Sample(Description("magnetometer")), {2e-5, -1e-5, -4e-5}, {"T", "T", "T"}, 1e-18);
+  ExpectValues(Sample(DescriptionOf("magnetometer")), {2e-5, -1e-5, -4e-5}, {"T", "T", "T"}, 1e-18);
   EXPECT_NEAR(
-      Sent<messages::sensor_msgs::MagneticField>(Description("magnetometer")).magnetic_field.x,
+      Sent<messages::sensor_msgs::MagneticField>(DescriptionOf("magnetometer")).magnetic_field.x,
       2e-5, 1e-18);
 }
 
 TEST_F(FamilyTest, AnAltimeterMeasuresFromWhereItStarted) {
   body().world_from_model.position.z += 2;
   body().linear_velocity = {5, 0, -0.5};
-  ExpectValues(Sample(Description("altimeter")), {2, -0.5, 0.3}, {"m", "m/s", "m"});
-  ExpectValues(Sample(Description("altimeter", {{"vertical_reference", -1.0}})), {3.3, -0.5, -1},
+  ExpectValues(Sample(DescriptionOf("altimeter")), {2, -0.5, 0.3}, {"m", "m/s", "m"});
+  ExpectValues(Sample(DescriptionOf("altimeter", {{"vertical_reference", -1.0}})), {3.3, -0.5, -1},
                {"m", "m/s", "m"});
   EXPECT_EQ(
-      Sent<messages::ros_gz_interfaces::Altimeter>(Description("altimeter")).vertical_velocity,
+      Sent<messages::ros_gz_interfaces::Altimeter>(DescriptionOf("altimeter")).vertical_velocity,
       -0.5);
 }
 
 TEST_F(FamilyTest, ASatelliteReceiverNeedsAPlaceOnEarth) {
-  const auto reading = TrySample(Description("navsat"));
+  const auto reading = TrySample(DescriptionOf("navsat"));
   ASSERT_FALSE(reading);
   EXPECT_NE(reading.error().Sentence().find("<spherical_coordinates>"), std::string::npos);
 }
@@ -194,14 +178,15 @@ TEST_F(FamilyTest, ASatelliteReceiverTellsWhereItIsAndHowItMoves) {
   body().linear_velocity = {1, 2, 3};
   // On the equator, 1 m east and 0.2 m north of the origin, 100.3 m up.
   const double a = 6378137.0 + 100.3, e2 = (2 - 1 / 298.257223563) / 298.257223563;
-  const Reading reading = Sample(Description("navsat"));
+  const Reading reading = Sample(DescriptionOf("navsat"));
   ExpectValues(reading, {0.2 / (6378137.0 * (1 - e2) + 100.3) * 180 / kPi, 1 / a * 180 / kPi},
                {"°", "°"});
   EXPECT_NEAR(reading.values[2], 100.3, 1e-6);
   EXPECT_EQ(reading.values[3], 1);
   EXPECT_EQ(reading.values[4], 2);
   EXPECT_EQ(reading.values[5], 3);
-  const auto description = Description("gps", {{"position_sensing.horizontal.noise.stddev", 2.0}});
+  const auto description =
+      DescriptionOf("gps", {{"position_sensing.horizontal.noise.stddev", 2.0}});
   const auto message = Sent<messages::sensor_msgs::NavSatFix>(description);
   EXPECT_EQ(message.position_covariance[0], 4);
   EXPECT_NEAR(message.altitude, 100.3, 1e-4);
@@ -209,8 +194,8 @@ TEST_F(FamilyTest, ASatelliteReceiverTellsWhereItIsAndHowItMoves) {
 
 TEST_F(FamilyTest, AnOdometerTellsWhatTheWheelsSay) {
   body().odometry = {{1, 2, 0, 1}, 0.5, 0.1};
-  ExpectValues(Sample(Description("odometry")), {1, 2, kPi / 2, 0.5, 0.1});
-  const auto message = Sent<messages::nav_msgs::Odometry>(Description("odometry"));
+  ExpectValues(Sample(DescriptionOf("odometry")), {1, 2, kPi / 2, 0.5, 0.1});
+  const auto message = Sent<messages::nav_msgs::Odometry>(DescriptionOf("odometry"));
   EXPECT_EQ(message.header.frame_id, "robot/odom");
   EXPECT_EQ(message.child_frame_id, "robot/base_link");
   EXPECT_EQ(message.pose.pose.position.y, 2);
@@ -219,25 +204,25 @@ TEST_F(FamilyTest, AnOdometerTellsWhatTheWheelsSay) {
 }
 
 TEST_F(FamilyTest, ABumperFeelsWhereItIsTouched) {
-  EXPECT_TRUE(Sample(Description("bumper")).values.empty());
+  EXPECT_TRUE(Sample(DescriptionOf("bumper")).values.empty());
   const int other = snapshot_->layout->Find("other"), floor = snapshot_->layout->Find("floor");
   // By the other one, whose index is lower, straight ahead; by the floor; behind.
   snapshot_->contacts = {{other, body_, {1, 0.5, 0.3}, {0, -1, 0}, 0.01, true, 0.4},
                          {body_, floor, {1, 0, 0}, {0, 0, -1}, 0.001},
                          {body_, floor, {1, -0.5, 0.3}, {0, -1, 0}, 0.02}};
-  const Reading all = Sample(Description("contact"));
+  const Reading all = Sample(DescriptionOf("contact"));
   ASSERT_EQ(all.values.size(), 16u);
   EXPECT_EQ(*all.labels, (std::vector<std::string>{"other", "floor"}));
   ExpectValues(all, {0.3, 0, 0, 1, 0, 0, 0.01, 0.4, -0.7, 0, 0, -1, 0, 0, 0.02, 0});
-  const Reading ahead = Sample(Description("contact", {{"field_of_view", kPi}}));
+  const Reading ahead = Sample(DescriptionOf("contact", {{"field_of_view", kPi}}));
   EXPECT_EQ(*ahead.labels, std::vector<std::string>{"other"});
-  EXPECT_EQ(Sample(Description("contact", {{"ground", true}})).values.size(), 24u);
-  const auto message = Sent<messages::gsv_msgs::Bumper>(Description("contact"));
+  EXPECT_EQ(Sample(DescriptionOf("contact", {{"ground", true}})).values.size(), 24u);
+  const auto message = Sent<messages::gsv_msgs::Bumper>(DescriptionOf("contact"));
   ASSERT_EQ(message.contacts.size(), 2u);
   EXPECT_EQ(message.contacts[0].other, "other");
   EXPECT_NEAR(message.contacts[0].point.x, 0.3, 1e-12);
   EXPECT_EQ(message.contacts[0].closing_speed, 0.4);
-  const auto lines = Registry().Find("contact")->beams(Description("contact"), all);
+  const auto lines = BuiltInSensors().Find("contact")->beams(DescriptionOf("contact"), all);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NEAR(lines[0].from.x, 0.3, 1e-12);
 }
@@ -245,18 +230,18 @@ TEST_F(FamilyTest, ABumperFeelsWhereItIsTouched) {
 TEST_F(FamilyTest, JointEncodersCountTheirTurns) {
   snapshot_->state.joint_positions[0] = 1.0;
   snapshot_->state.joint_velocities[0] = -0.5;
-  const Reading reading = Sample(Description("joint_state"));
+  const Reading reading = Sample(DescriptionOf("joint_state"));
   ExpectValues(reading, {1, -0.5}, {"rad", "rad/s"});
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"turret"});
   // Of 1 rad a hundred counts a turn show fifteen.
-  ExpectValues(Sample(Description("joint_encoders", {{"counts_per_turn", 100.0}})),
+  ExpectValues(Sample(DescriptionOf("joint_encoders", {{"counts_per_turn", 100.0}})),
                {15 * 2 * kPi / 100, -0.5}, {"rad", "rad/s"});
-  const auto message = Sent<messages::sensor_msgs::JointState>(Description("joint_encoders"));
+  const auto message = Sent<messages::sensor_msgs::JointState>(DescriptionOf("joint_encoders"));
   EXPECT_EQ(message.name, std::vector<std::string>{"turret"});
   EXPECT_EQ(message.position, std::vector<double>{1.0});
-  const auto missing = TrySample(Description("joint_encoders", {{"joint", std::string("knee")}}));
+  const auto missing = TrySample(DescriptionOf("joint_encoders", {{"joint", std::string("knee")}}));
   ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().Sentence(), "robot/it: the robot has no joint \"knee\" that moves");
+  EXPECT_EQ(missing.error().Sentence(), "robot/front: the robot has no joint \"knee\" that moves");
 }
 
 TEST_F(FamilyTest, ABatteryFallsByTimeAndByWay) {
@@ -267,18 +252,18 @@ TEST_F(FamilyTest, ABatteryFallsByTimeAndByWay) {
   body().distance = 300;
   body().linear_velocity = {0, 0.5, 0};
   // 0.5 Ah for half an hour at 1 A and 0.5 Ah for 300 m leave 1 of 2 Ah; 1 A + 3 A a m/s are drawn.
-  ExpectValues(Sample(Description("battery", parameters)), {11 - 0.5 * 4, 4, 1, 2, 0.5},
+  ExpectValues(Sample(DescriptionOf("battery", parameters)), {11 - 0.5 * 4, 4, 1, 2, 0.5},
                {"V", "A", "Ah", "Ah"});
   const auto message =
-      Sent<messages::sensor_msgs::BatteryState>(Description("battery", parameters));
+      Sent<messages::sensor_msgs::BatteryState>(DescriptionOf("battery", parameters));
   EXPECT_EQ(message.current, -4);
   EXPECT_EQ(message.percentage, 0.5f);
   body().distance = 1e6;
-  ExpectValues(Sample(Description("battery", parameters)), {0, 0, 0, 2, 0});
+  ExpectValues(Sample(DescriptionOf("battery", parameters)), {0, 0, 0, 2, 0});
 }
 
 TEST_F(FamilyTest, ALogicalCameraNamesWhoIsInView) {
-  auto wide = Description("logical_camera", {{"horizontal_fov", 2.0}});
+  auto wide = DescriptionOf("logical_camera", {{"horizontal_fov", 2.0}});
   const Reading reading = Sample(wide);
   // The box to the right is in view, the one behind it is hidden, the floor has no middle.
   EXPECT_EQ(*reading.labels, (std::vector<std::string>{"box", "other"}));
@@ -302,16 +287,16 @@ TEST_F(FamilyTest, ALogicalCameraNamesWhoIsInView) {
 // Each value is the same whoever was read before, and another for another seed.
 TEST_F(FamilyTest, NoiseHangsOnNobodyElsesReadings) {
   const std::vector<model::SensorDescription> all = {
-      Description("imu", {{"angular_velocity.x.noise.stddev", 1.0},
-                          {"linear_acceleration.z.noise.dynamic_bias_stddev", 1.0},
-                          {"linear_acceleration.z.noise.dynamic_bias_correlation_time", 5.0}}),
-      Description("magnetometer", {{"x.noise.stddev", 1e-6}}),
-      Description("altimeter", {{"vertical_position.noise.bias_stddev", 1.0}}),
-      Description("odometry", {{"linear.noise.stddev", 1.0}}),
-      Description("battery", {{"voltage.noise.stddev", 1.0}}),
-      Description("joint_encoders", {{"position.noise.stddev", 1.0}})};
+      DescriptionOf("imu", {{"angular_velocity.x.noise.stddev", 1.0},
+                            {"linear_acceleration.z.noise.dynamic_bias_stddev", 1.0},
+                            {"linear_acceleration.z.noise.dynamic_bias_correlation_time", 5.0}}),
+      DescriptionOf("magnetometer", {{"x.noise.stddev", 1e-6}}),
+      DescriptionOf("altimeter", {{"vertical_position.noise.bias_stddev", 1.0}}),
+      DescriptionOf("odometry", {{"linear.noise.stddev", 1.0}}),
+      DescriptionOf("battery", {{"voltage.noise.stddev", 1.0}}),
+      DescriptionOf("joint_encoders", {{"position.noise.stddev", 1.0}})};
   const auto values = [&](std::size_t i, std::uint64_t seed) {
-    const auto sensor = Registry().Find(all[i].type)->create(all[i]);
+    const auto sensor = BuiltInSensors().Find(all[i].type)->create(all[i]);
     const Reading reading = *(*sensor)->Sample(Sampling(snapshot_, body_, seed, rays_));
     return std::vector<double>(reading.values.begin(), reading.values.end());
   };
@@ -329,7 +314,8 @@ class RefusedParameter : public TestWithParam<Refused> {};
 
 TEST_P(RefusedParameter, IsNamedInTheSentence) {
   const auto& [type, parameter, value] = GetParam();
-  const auto sensor = Registry().Find(type)->create(Description(type, {{parameter, value}}));
+  const auto sensor =
+      BuiltInSensors().Find(type)->create(DescriptionOf(type, {{parameter, value}}));
   ASSERT_FALSE(sensor);
   EXPECT_NE(sensor.error().Sentence().find(parameter), std::string::npos)
       << sensor.error().Sentence();

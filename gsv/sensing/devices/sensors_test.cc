@@ -8,37 +8,22 @@
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/devices/built_in.h"
 #include "gsv/sensing/registry.h"
+#include "gsv/sensing/testing/test_sensor.h"
 #include "gsv/sensing/testing/test_snapshot.h"
 
 namespace gsv::sensing {
 namespace {
 
+using testing::BuiltInSensors;
+using testing::DescriptionOf;
 using testing::MakeSnapshot;
 using testing::ModelOf;
 
 using geometry::kInfinity;
 using geometry::kPi;
 
-const SensorRegistry& Registry() {
-  static const SensorRegistry registry = [] {
-    SensorRegistry made;
-    AddBuiltInSensors(made);
-    return made;
-  }();
-  return registry;
-}
-
-model::SensorDescription Description(const std::string& type, model::Parameters parameters = {}) {
-  model::SensorDescription description;
-  description.name = "front";
-  description.type = type;
-  description.link_from_sensor = geometry::PlanarPose(0.2, 0, 0.3, 0);
-  description.parameters = std::move(parameters);
-  return description;
-}
-
 base::Result<std::unique_ptr<Sensor>> Make(const model::SensorDescription& description) {
-  return Registry().Find(description.type)->create(description);
+  return BuiltInSensors().Find(description.type)->create(description);
 }
 
 // A robot of radius 0.25 at (1, 0), facing y, and a wall whose near face is at y = 4.
@@ -66,14 +51,15 @@ class SensorTest : public ::testing::Test {
 
 template <typename Message>
 Message Decoded(const model::SensorDescription& description, const Reading& reading) {
-  const auto bytes = Registry().Find(description.type)->encode(description, reading, "robot/front");
+  const auto bytes =
+      BuiltInSensors().Find(description.type)->encode(description, reading, "robot/front");
   const auto message = messages::Decode<Message>(std::as_bytes(std::span(bytes)));
   EXPECT_TRUE(message);
   return *message;
 }
 
 TEST_F(SensorTest, SonarMeasuresToTheWallPastItsOwnRobot) {
-  const Reading reading = Sample(Description("sonar", {{"max", 10.0}}));
+  const Reading reading = Sample(DescriptionOf("sonar", {{"max", 10.0}}));
   ASSERT_EQ(reading.values.size(), 1u);
   EXPECT_NEAR(reading.values[0], 3.8, 1e-12);
   EXPECT_EQ(reading.step, 17);
@@ -81,16 +67,16 @@ TEST_F(SensorTest, SonarMeasuresToTheWallPastItsOwnRobot) {
 }
 
 TEST_F(SensorTest, SonarReportsMaximumRangeWhenNothingIsHit) {
-  EXPECT_EQ(Sample(Description("sonar", {{"max", 3.0}})).values[0], 3.0);
+  EXPECT_EQ(Sample(DescriptionOf("sonar", {{"max", 3.0}})).values[0], 3.0);
 }
 
 TEST_F(SensorTest, SonarReportsMaximumRangeWhenTheEchoIsTooNear) {
-  EXPECT_EQ(Sample(Description("sonar", {{"min", 3.9}, {"max", 10.0}})).values[0], 10.0);
+  EXPECT_EQ(Sample(DescriptionOf("sonar", {{"min", 3.9}, {"max", 10.0}})).values[0], 10.0);
 }
 
 TEST_F(SensorTest, SonarIsDrawnAsALineAsLongAsItsReading) {
-  const auto description = Description("sonar", {{"max", 10.0}});
-  const SensorType& type = *Registry().Find("sonar");
+  const auto description = DescriptionOf("sonar", {{"max", 10.0}});
+  const SensorType& type = *BuiltInSensors().Find("sonar");
   EXPECT_EQ(type.overlay, Overlay::kLines);
   const auto beams = type.beams(description, Sample(description));
   ASSERT_EQ(beams.size(), 1u);
@@ -99,7 +85,7 @@ TEST_F(SensorTest, SonarIsDrawnAsALineAsLongAsItsReading) {
 }
 
 TEST_F(SensorTest, SonarBecomesARange) {
-  const auto description = Description("sonar", {{"min", 0.1}, {"max", 10.0}, {"radius", 10.0}});
+  const auto description = DescriptionOf("sonar", {{"min", 0.1}, {"max", 10.0}, {"radius", 10.0}});
   const auto message = Decoded<messages::sensor_msgs::Range>(description, Sample(description));
   EXPECT_EQ(message.header.frame_id, "robot/front");
   EXPECT_EQ(message.header.stamp.sec, 1);
@@ -120,7 +106,7 @@ model::Parameters Scan(double samples, double min_angle, double max_angle) {
 }
 
 TEST_F(SensorTest, LidarMeasuresAlongItsAngles) {
-  const Reading reading = Sample(Description("lidar", Scan(5, -kPi / 2, kPi / 2)));
+  const Reading reading = Sample(DescriptionOf("lidar", Scan(5, -kPi / 2, kPi / 2)));
   ASSERT_EQ(reading.values.size(), 5u);
   // The wall runs across, 3.8 m ahead: 3.8 / cos(45°) is beyond 5 m.
   EXPECT_EQ(reading.values[0], kInfinity);
@@ -128,16 +114,16 @@ TEST_F(SensorTest, LidarMeasuresAlongItsAngles) {
   EXPECT_NEAR(reading.values[2], 3.8, 1e-12);
   auto further = Scan(3, -kPi / 4, kPi / 4);
   further["range.max"] = 8.0;
-  EXPECT_NEAR(Sample(Description("gpu_lidar", further)).values[0], 3.8 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(Sample(DescriptionOf("gpu_lidar", further)).values[0], 3.8 * std::sqrt(2.0), 1e-9);
 }
 
 TEST_F(SensorTest, LidarTellsTooNearFromTooFar) {
   auto parameters = Scan(1, 0, 0);
   parameters["range.min"] = 4.0;
-  EXPECT_EQ(Sample(Description("ray", parameters)).values[0], -kInfinity);
+  EXPECT_EQ(Sample(DescriptionOf("ray", parameters)).values[0], -kInfinity);
   parameters["range.min"] = 0.1;
   parameters["range.max"] = 3.0;
-  EXPECT_EQ(Sample(Description("ray", parameters)).values[0], kInfinity);
+  EXPECT_EQ(Sample(DescriptionOf("ray", parameters)).values[0], kInfinity);
 }
 
 TEST_F(SensorTest, LidarScansRowsFromTheLowest) {
@@ -145,24 +131,24 @@ TEST_F(SensorTest, LidarScansRowsFromTheLowest) {
   parameters["scan.vertical.samples"] = 3.0;
   parameters["scan.vertical.min_angle"] = -0.2;
   parameters["scan.vertical.max_angle"] = 0.1;
-  const Reading reading = Sample(Description("lidar", parameters));
+  const Reading reading = Sample(DescriptionOf("lidar", parameters));
   ASSERT_EQ(reading.values.size(), 3u);
   EXPECT_NEAR(reading.values[0], 3.8 / std::cos(0.2), 1e-9);
   EXPECT_NEAR(reading.values[1], 3.8 / std::cos(0.05), 1e-9);
   // The message has the row nearest to the horizontal.
   const auto scan =
-      Decoded<messages::sensor_msgs::LaserScan>(Description("lidar", parameters), reading);
+      Decoded<messages::sensor_msgs::LaserScan>(DescriptionOf("lidar", parameters), reading);
   ASSERT_EQ(scan.ranges.size(), 1u);
   EXPECT_FLOAT_EQ(scan.ranges[0], static_cast<float>(3.8 / std::cos(0.05)));
 }
 
 TEST_F(SensorTest, LidarNoiseHangsOnSeedAndStepAndHasItsDeviation) {
   auto parameters = Scan(2001, -0.5, 0.5);
-  const Reading exact = Sample(Description("lidar", parameters));
+  const Reading exact = Sample(DescriptionOf("lidar", parameters));
   parameters["noise.stddev"] = 0.02;
-  const Reading noisy = Sample(Description("lidar", parameters));
-  EXPECT_EQ(Sample(Description("lidar", parameters)).values, noisy.values);
-  EXPECT_NE(Sample(Description("lidar", parameters), 2).values, noisy.values);
+  const Reading noisy = Sample(DescriptionOf("lidar", parameters));
+  EXPECT_EQ(Sample(DescriptionOf("lidar", parameters)).values, noisy.values);
+  EXPECT_NE(Sample(DescriptionOf("lidar", parameters), 2).values, noisy.values);
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < exact.values.size(); ++i) {
     const double error = noisy.values[i] - exact.values[i];
@@ -178,7 +164,7 @@ TEST_F(SensorTest, LidarMissesEchoesAndRoundsThoseItHears) {
   parameters["noise.precision"] = 0.25;
   parameters["noise.dropout_probability"] = 0.1;
   int missed = 0;
-  for (const double range : Sample(Description("lidar", parameters)).values) {
+  for (const double range : Sample(DescriptionOf("lidar", parameters)).values) {
     missed += range == kInfinity;
     if (range != kInfinity) {
       EXPECT_EQ(4 * range, std::round(4 * range));
@@ -189,23 +175,23 @@ TEST_F(SensorTest, LidarMissesEchoesAndRoundsThoseItHears) {
 
 TEST_F(SensorTest, SonarIsDeafWhereAnEchoDropsOut) {
   EXPECT_EQ(
-      Sample(Description("sonar", {{"max", 10.0}, {"noise.dropout_probability", 1.0}})).values[0],
+      Sample(DescriptionOf("sonar", {{"max", 10.0}, {"noise.dropout_probability", 1.0}})).values[0],
       10);
   const double biased =
-      Sample(Description("sonar", {{"max", 10.0}, {"noise.bias_mean", 0.5}})).values[0];
+      Sample(DescriptionOf("sonar", {{"max", 10.0}, {"noise.bias_mean", 0.5}})).values[0];
   EXPECT_NEAR(biased, 4.3, 1e-12);
 }
 
 TEST_F(SensorTest, LidarIsDrawnWhereItsBeamsEnd) {
-  const auto description = Description("lidar", Scan(3, -0.2, 0.2));
-  const auto beams = Registry().Find("lidar")->beams(description, Sample(description));
+  const auto description = DescriptionOf("lidar", Scan(3, -0.2, 0.2));
+  const auto beams = BuiltInSensors().Find("lidar")->beams(description, Sample(description));
   ASSERT_EQ(beams.size(), 3u);
   for (const Segment& beam : beams) EXPECT_NEAR(beam.to.x, 3.8, 1e-9);
   EXPECT_NEAR(beams[0].to.y, -3.8 * std::tan(0.2), 1e-9);
 }
 
 TEST_F(SensorTest, PositioningTellsWhereTheSensorIs) {
-  const auto description = Description("positioning");
+  const auto description = DescriptionOf("positioning");
   const Reading reading = Sample(description);
   ASSERT_EQ(reading.values.size(), 6u);
   EXPECT_NEAR(reading.values[0], 1, 1e-12);
@@ -226,7 +212,7 @@ TEST_F(SensorTest, PositioningNoiseIsThatOfItsParameters) {
   for (int step = 0; step < 1000; ++step) {
     snapshot_->state.step = step;
     const double error =
-        Sample(Description("positioning", {{"noise.position.stddev", 0.5}})).values[0] - 1;
+        Sample(DescriptionOf("positioning", {{"noise.position.stddev", 0.5}})).values[0] - 1;
     squares += error * error;
   }
   EXPECT_NEAR(std::sqrt(squares / 1000), 0.5, 0.05);
@@ -266,7 +252,7 @@ TEST(SensorParameters, AreRefusedWithASentence) {
        "positioning front: noise.position.stddev is -1; it must lie between 0 and 1000"},
   };
   for (const BadParameters& bad : cases) {
-    const auto sensor = Make(Description(bad.type, bad.parameters));
+    const auto sensor = Make(DescriptionOf(bad.type, bad.parameters));
     ASSERT_FALSE(sensor) << bad.sentence;
     EXPECT_EQ(sensor.error().Sentence(), bad.sentence);
     EXPECT_EQ(sensor.error().code, base::ErrorCode::kInvalidArgument);
@@ -274,14 +260,14 @@ TEST(SensorParameters, AreRefusedWithASentence) {
 }
 
 TEST(SensorRegistry, FindsTypesByNameAndAlias) {
-  EXPECT_EQ(Registry().names(),
+  EXPECT_EQ(BuiltInSensors().names(),
             (std::vector<std::string>{"altimeter", "battery", "contact", "gripper", "imu",
                                       "joint_encoders", "lamp", "lidar", "logical_camera",
                                       "magnetometer", "microphone", "navsat", "odometry",
                                       "positioning", "radio", "sonar", "speaker"}));
-  EXPECT_EQ(Registry().Find("gpu_ray"), Registry().Find("lidar"));
-  EXPECT_EQ(Registry().Find("telepathy"), nullptr);
-  EXPECT_EQ(Registry().Find("sonar")->schema->name, "sensor_msgs/msg/Range");
+  EXPECT_EQ(BuiltInSensors().Find("gpu_ray"), BuiltInSensors().Find("lidar"));
+  EXPECT_EQ(BuiltInSensors().Find("telepathy"), nullptr);
+  EXPECT_EQ(BuiltInSensors().Find("sonar")->schema->name, "sensor_msgs/msg/Range");
 }
 
 TEST(SensorRegistry, RefusesANameThatIsTaken) {
