@@ -1,20 +1,21 @@
 # gsv_precompile(TARGET KIND) gives a target the headers that nearly every file of its kind includes
 # (cmake/precompiled_KIND.h), compiled once for all. KIND is "library", "program", or "test" for programs made of
-# tests.
+# tests. The target links to gsv::base.
 function(gsv_precompile TARGET KIND)
   set(OWNER gsv_precompiled_${KIND})
   if(NOT TARGET ${OWNER})
     set(HEADER ${CMAKE_SOURCE_DIR}/cmake/precompiled_${KIND}.h)
     set(SOURCE ${CMAKE_BINARY_DIR}/precompiled_${KIND}.cc)
     file(CONFIGURE OUTPUT ${SOURCE} CONTENT "int main() {}\n")
-    # A precompiled header serves only files that are compiled with the same options, and programs'
-    # differ from libraries'.
+    # A precompiled header serves only files that are compiled with the same options and macros, and
+    # programs' options differ from libraries'.
     if(KIND STREQUAL "library")
       add_library(${OWNER} OBJECT EXCLUDE_FROM_ALL ${SOURCE})
     else()
       add_executable(${OWNER} EXCLUDE_FROM_ALL ${SOURCE})
       set_target_properties(${OWNER} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
     endif()
+    target_compile_definitions(${OWNER} PRIVATE $<TARGET_PROPERTY:gsv_base,INTERFACE_COMPILE_DEFINITIONS>)
     if(KIND STREQUAL "test")
       target_link_libraries(${OWNER} PRIVATE GTest::gtest GTest::gmock)
       target_compile_options(${OWNER} PRIVATE "${GSV_TEST_OPTIONS}")
@@ -22,6 +23,8 @@ function(gsv_precompile TARGET KIND)
     target_precompile_headers(${OWNER} PRIVATE ${HEADER})
   endif()
   target_precompile_headers(${TARGET} REUSE_FROM ${OWNER})
+  # Not to use it costs nothing but time, which nobody would notice.
+  target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Werror=invalid-pch>)
 endfunction()
 
 # All builds but dev compile the sources of a target a few at a time, as one file each: most of the time that a
