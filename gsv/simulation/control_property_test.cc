@@ -123,9 +123,9 @@ base::Status Perform(Simulation& simulation, const Request& request) {
 }
 
 Sight Look(const Simulation& simulation) {
-  // The phase first: once it says paused, the step that is read after it is the last one.
-  const Phase phase = simulation.status().phase;
-  return {phase == Phase::kStarting ? Phase::kRunning : phase, simulation.status().step};
+  // Both at once: a last step between two looks would be seen as a pause at the end of the run.
+  const SimulationStatus status = simulation.status();
+  return {status.phase == Phase::kStarting ? Phase::kRunning : status.phase, status.step};
 }
 
 class Dice {

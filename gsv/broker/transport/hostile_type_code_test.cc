@@ -1,5 +1,6 @@
 // Malformed TypeCodes, over TCP: omniORB 4.2.5 by itself would end with the broker.
 #include <atomic>
+#include <list>
 #include <thread>
 
 #include <COS/CosTradingDynamic.hh>
@@ -118,8 +119,11 @@ class BadService {
 };
 
 TEST_F(HostileTypeCodeTest, OfDynamicPropertiesAreNoValues) {
+  // All are there to the end: at the port of one that is gone another would be taken for it, whose
+  // answer the broker remembers.
+  std::list<BadService> services;
   for (const std::string& type : BadTypeCodes()) {
-    BadService service(type);
+    const BadService& service = services.emplace_back(type);
     const CORBA::Object_var object = TestOrb()->string_to_object(service.reference().c_str());
     CosTradingDynamic::DynamicProp dynamic;
     dynamic.eval_if = CosTradingDynamic::DynamicPropEval::_unchecked_narrow(object);
