@@ -136,6 +136,33 @@ TEST(Simulation, AWaitingAgentsCommandIsRefusedWhileItRuns) {
   EXPECT_EQ(command.error().code, base::ErrorCode::kNotRunning);
 }
 
+// Waits have leases: who asked again at such a pause ran on, and the paused state's hash changed.
+TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
+  auto simulation = Make(Lockstep(0s));
+  std::atomic<int> leases = 0;
+  std::atomic<bool> has_reached = false;
+  auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
+    base::Result<Wait> wait = Wait::kNotYet;
+    for (; wait && *wait == Wait::kNotYet; ++leases, leases.notify_all())
+      wait = agent.SleepUntil(clock, 100ms, 1ms);
+    has_reached = wait.has_value();
+    while (SleepFor(agent, clock, 1h)) {
+    }
+  });
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
+  ASSERT_TRUE(simulation->RunUntil(100ms));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  const std::string hash = simulation->state_hash();
+  for (int i = 0; i < 3; ++i) {
+    if (!has_reached) leases.wait(leases);
+  }
+  EXPECT_FALSE(has_reached);
+  EXPECT_EQ(simulation->state_hash(), hash);
+  ASSERT_TRUE(simulation->Step(1));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  EXPECT_TRUE(has_reached);
+}
+
 TEST(Simulation, PauseFreezesTheClockAndTellsTheBehaviours) {
   auto simulation = Make(Lockstep(0s));
   auto behaviour = Drives(0.01);

@@ -22,7 +22,8 @@ class AgentClocks {
   void Close(ClockId clock) { clocks_.erase(clock); }
 
   // The clock waits for the first step time at or after `until`. True when that is already here,
-  // the clock then runs on. Repeating a wait that is over, or still on, changes nothing.
+  // the clock then runs on. Repeating a wait that is over, or still on, changes nothing: it is on
+  // until Wake(), so that nobody runs on in a simulation that is paused at that very instant.
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
 
   bool IsWaiting(ClockId clock) const;

@@ -50,6 +50,17 @@ TEST(AgentClocks, ARepeatedWaitIsTheSameWait) {
   EXPECT_EQ(HashOf(clocks), before);
 }
 
+TEST(AgentClocks, ARepeatedWaitForAnInstantThatIsHereIsOnUntilItIsWoken) {
+  AgentClocks clocks;
+  const ClockId clock = clocks.Open();
+  clocks.WaitUntil(clock, 50ms, 0ms);
+  const std::uint64_t before = HashOf(clocks);
+  EXPECT_FALSE(clocks.WaitUntil(clock, 50ms, 50ms));
+  EXPECT_EQ(HashOf(clocks), before);
+  EXPECT_TRUE(clocks.Wake(50ms));
+  EXPECT_TRUE(clocks.WaitUntil(clock, 50ms, 50ms));
+}
+
 TEST(AgentClocks, TheAgentWaitsOnlyWhenAllOfItsClocksDo) {
   AgentClocks clocks;
   const ClockId first = clocks.Open();
