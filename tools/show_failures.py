@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""Prints the last lines of what each failed test said, so that they stand where a log ends.
+
+usage: show_failures.py JUNIT.xml
+
+The JUnit file is what `ctest --output-junit` writes; of a test's output at most LINES are printed.
+"""
+
+import sys
+import xml.etree.ElementTree as ElementTree
+
+LINES = 25
+
+
+def failures(root, lines=LINES):
+    """For each failed test its name and the end of its output, in the file's order."""
+    found = []
+    for case in root.iter("testcase"):
+        if case.get("status") != "fail":
+            continue
+        said = (case.findtext("system-out") or "").strip().splitlines()
+        found.append((case.get("name"), said[-lines:]))
+    return found
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: show_failures.py JUNIT.xml")
+    for name, said in failures(ElementTree.parse(sys.argv[1]).getroot()):
+        print(f"{name} failed:")
+        for line in said:
+            print(f"  {line}")
+        print()
+
+
+if __name__ == "__main__":
+    main()
