@@ -171,7 +171,7 @@ TEST(Simulation, PauseFreezesTheClockAndTellsTheBehaviours) {
   ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
   ASSERT_TRUE(simulation->Pause());
   // A step that was under way when the pause came is the last one.
-  while (simulation->status().waiting_for.size() > 0) std::this_thread::yield();
+  while (!simulation->status().waiting_for.empty()) std::this_thread::yield();
   ASSERT_TRUE(simulation->Step(7));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
   const std::int64_t step = simulation->status().step;
@@ -352,9 +352,11 @@ TEST(Simulation, ResumingDuringAFewStepsGoesOnBeyondThem) {
 // It had paused at its end, and going on took one step too many.
 TEST(Simulation, ARunPausedDuringItsLastStepHasNoStepBeyondIt) {
   auto simulation = Make(Lockstep(20ms));
-  for (int i = 0; i < 400;
-       ++i)  // so many that the pause mostly comes while the last step is under way
-    ASSERT_TRUE(simulation->AddRobot(Robot("", -1 - i / 20, i % 20)));
+  // So many that the pause mostly comes while the last step is under way.
+  for (int i = 0; i < 400; ++i) {
+    const int row = i / 20;
+    ASSERT_TRUE(simulation->AddRobot(Robot("", -1 - row, i % 20)));
+  }
   for (int round = 0; round < 20; ++round) {
     ASSERT_TRUE(simulation->Start());
     while (simulation->snapshot()->state.step == 0) std::this_thread::yield();

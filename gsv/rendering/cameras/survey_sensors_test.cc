@@ -27,7 +27,7 @@ const double kFocal = kSurveyWidth / (2 * std::tan(kSurveyFov / 2));
 
 // The ray through the middle of a pixel, at a distance of 1 along the view.
 Vector3 RayOf(int x, int y) {
-  return {1, (kSurveyWidth / 2 - x - 0.5) / kFocal, (kSurveyHeight / 2 - y - 0.5) / kFocal};
+  return {1, (kSurveyWidth / 2.0 - x - 0.5) / kFocal, (kSurveyHeight / 2.0 - y - 0.5) / kFocal};
 }
 
 class SurveyTest : public ::testing::Test {
@@ -212,10 +212,10 @@ TEST_F(SurveyTest, ABoundingBoxHoldsWhatIsSeen) {
   EXPECT_EQ(*reading.labels, std::vector<std::string>{"box"});
   ASSERT_EQ(reading.values.size(), 4u);
   // Its left side is seen as well, which reaches back to 4 m.
-  EXPECT_WITHIN(reading.values[0], kSurveyWidth / 2 + kFocal * 0.5 / 4, 1, "pixel");
-  EXPECT_WITHIN(reading.values[1], kSurveyHeight / 2 - kFocal * 0.5 / 3, 1, "pixel");
-  EXPECT_WITHIN(reading.values[2], kSurveyWidth / 2 + kFocal * 1.5 / 3, 1, "pixel");
-  EXPECT_WITHIN(reading.values[3], kSurveyHeight / 2 + kFocal * 0.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[0], kSurveyWidth / 2.0 + kFocal * 0.5 / 4, 1, "pixel");
+  EXPECT_WITHIN(reading.values[1], kSurveyHeight / 2.0 - kFocal * 0.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[2], kSurveyWidth / 2.0 + kFocal * 1.5 / 3, 1, "pixel");
+  EXPECT_WITHIN(reading.values[3], kSurveyHeight / 2.0 + kFocal * 0.5 / 3, 1, "pixel");
   const auto message = Sent<messages::vision_msgs::Detection2DArray>(description, reading);
   ASSERT_EQ(message.detections.size(), 1u);
   EXPECT_EQ(message.detections[0].id, "box");

@@ -20,7 +20,6 @@ namespace gsv::sensing {
 namespace {
 
 using geometry::PlanarPose;
-using geometry::Vector3;
 using testing::BuiltInSensors;
 using testing::DescriptionOf;
 using ::testing::TestWithParam;
