@@ -12,14 +12,14 @@ import xml.etree.ElementTree as ElementTree
 LINES = 25
 
 
-def failures(root, lines=LINES):
+def failures(root):
     """For each failed test its name and the end of its output, in the file's order."""
     found = []
     for case in root.iter("testcase"):
         if case.get("status") != "fail":
             continue
         said = (case.findtext("system-out") or "").strip().splitlines()
-        found.append((case.get("name"), said[-lines:]))
+        found.append((case.get("name"), said[-LINES:]))
     return found
 
 

@@ -142,10 +142,12 @@ TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
   std::atomic<int> leases = 0;
   std::atomic<bool> has_reached = false;
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
-    base::Result<Wait> wait = Wait::kNotYet;
-    for (; wait && *wait == Wait::kNotYet; ++leases, leases.notify_all())
+    for (base::Result<Wait> wait = Wait::kNotYet; wait && *wait == Wait::kNotYet;) {
       wait = agent.SleepUntil(clock, 100ms, 1ms);
-    has_reached = wait.has_value();
+      has_reached = wait && *wait == Wait::kReached;
+      ++leases;
+      leases.notify_all();
+    }
     while (SleepFor(agent, clock, 1h)) {
     }
   });
@@ -154,7 +156,8 @@ TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
   const std::string hash = simulation->state_hash();
   for (int i = 0; i < 3; ++i) {
-    if (!has_reached) leases.wait(leases);
+    const int ended = leases;
+    if (!has_reached) leases.wait(ended);
   }
   EXPECT_FALSE(has_reached);
   EXPECT_EQ(simulation->state_hash(), hash);
