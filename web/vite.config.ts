@@ -52,5 +52,7 @@ export default defineConfig({
     // Test files share their worker, which saves four fifths of the time: they leave nothing behind.
     pool: "threads",
     isolate: false,
+    // Beside browsers on a busy machine what takes a tenth of a second may take five; only what hangs is to end.
+    testTimeout: 60_000,
   },
 });
