@@ -12,7 +12,7 @@ import { startServer } from "./server.mjs";
 import { ask, until, viewClip } from "./viewing.mjs";
 
 const ROBOTS = 1000;
-const CLICKS = 9;
+const CLICKS = 5;
 const ANSWERED_MS = 200;
 // On a machine that is so busy that a page with a few robots takes long: so many times as long as that one.
 const FEW = 20;

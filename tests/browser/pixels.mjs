@@ -12,6 +12,13 @@ export async function picture(page, clip) {
   return PNG.sync.read(await page.screenshot({ clip, animations: "disabled", caret: "hide" }));
 }
 
+// The part of a picture inside `rectangle`, whose coordinates are the picture's.
+export function cut(image, { x, y, width, height }) {
+  const part = new PNG({ width, height });
+  PNG.bitblt(image, part, x, y, width, height, 0, 0);
+  return part;
+}
+
 // Whether nearly all pixels have one colour: nothing was drawn, or only a background.
 export function isBlank(image) {
   const counts = new Map();

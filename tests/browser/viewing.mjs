@@ -1,9 +1,10 @@
 // What several tests ask of a page on the viewer.
 import assert from "node:assert/strict";
-import { setImmediate } from "node:timers/promises";
+import { setTimeout } from "node:timers/promises";
 
 const CARDS_WIDTH_PX = 300; // the inspector and the camera lie at the view's right
 const LONGEST_WAIT_MS = 60_000; // two pictures of a busy machine may take ten seconds
+const ASK_AGAIN_MS = 20; // asking without a pause takes a processor from those who are to answer
 
 // The 3D view without the cards over it.
 export async function viewClip(page) {
@@ -15,8 +16,10 @@ export async function phaseIs(page, phase) {
   await page.waitForFunction((wanted) => window.gsv.phase === wanted, phase);
 }
 
-// Waits until the picture has stopped changing: poses settled and everything drawn.
+// Waits until the picture has stopped changing: poses settled and everything drawn. Brings the page to the front,
+// for a page in the background has one frame a second.
 export async function settled(page) {
+  await page.bringToFront();
   await page.evaluate(async () => {
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
     let still = 0;
@@ -33,7 +36,7 @@ export async function until(isTrue, what) {
   const end = Date.now() + LONGEST_WAIT_MS;
   while (!(await isTrue())) {
     assert.ok(Date.now() < end, `${what} did not come`);
-    await setImmediate(); // what the browser tells meanwhile is heard: an answer that is at hand leaves no time for it
+    await setTimeout(ASK_AGAIN_MS);
   }
 }
 
