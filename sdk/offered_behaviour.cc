@@ -2,8 +2,7 @@
 
 #include <unistd.h>
 
-#include <array>
-
+#include "gsv/base/host_name.h"
 #include "gsv/base/log.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/gsv_service_types.h"
@@ -13,11 +12,6 @@
 
 namespace gsv {
 namespace {
-
-std::string HostName() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "localhost";
-}
 
 class ExportedBehaviour final : public OfferedBehaviour {
  public:
@@ -40,7 +34,7 @@ class ExportedBehaviour final : public OfferedBehaviour {
 
   base::Status Export(const BehaviourDescription& description) {
     const CORBA::Object_var reference = poa_->id_to_reference(id_);
-    const broker::BehaviourOffer offer{description.name, description.description, HostName(),
+    const broker::BehaviourOffer offer{description.name, description.description, base::HostName(),
                                        static_cast<std::int32_t>(getpid()),
                                        description.time_managed};
     auto id = client_.Export(broker::AgentBehaviourFactoryType().name, reference,

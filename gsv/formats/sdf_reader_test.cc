@@ -275,10 +275,10 @@ TEST_F(SdfReaderTest, ReadsEveryShape) {
   EXPECT_THAT(std::get<geometry::Mesh>(collisions[7].shape).triangles->triangles, SizeIs(8));
 }
 
-constexpr char kObj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+constexpr char kTriangleObj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 TEST_F(SdfReaderTest, ReadsMeshesByEveryKindOfNameAndSharesThem) {
-  folder_.Write("thing/meshes/a.obj", kObj);
+  folder_.Write("thing/meshes/a.obj", kTriangleObj);
   std::string visuals;
   int i = 0;
   for (const std::string& uri :

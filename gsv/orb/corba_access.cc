@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string Variable(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+  const char* value = std::getenv(name);
   return value != nullptr ? value : "";
 }
 

@@ -12,12 +12,10 @@ class CorbaAccessTest : public ::testing::Test {
   void TearDown() override {
     for (const char* name :
          {"GSV_CORBA_CERTIFICATE", "GSV_CORBA_KEY", "GSV_CORBA_AUTHORITY", "GSV_INSECURE_CORBA"}) {
-      unsetenv(name);  // NOLINT(concurrency-mt-unsafe)
+      unsetenv(name);
     }
   }
-  static void Set(const char* name, const char* value) {
-    setenv(name, value, 1);  // NOLINT(concurrency-mt-unsafe)
-  }
+  static void Set(const char* name, const char* value) { setenv(name, value, 1); }
 };
 
 TEST_F(CorbaAccessTest, FindsKeyAndAuthorityBesideTheCertificate) {

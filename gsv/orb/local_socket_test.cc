@@ -18,9 +18,7 @@ namespace fs = std::filesystem;
 class LocalSocket : public ::testing::Test {
  protected:
   void SetUp() override { PutInto(folder_.path()); }
-  static void PutInto(const fs::path& folder) {
-    setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
-  }
+  static void PutInto(const fs::path& folder) { setenv("XDG_RUNTIME_DIR", folder.c_str(), 1); }
   fs::path folder() const { return folder_.path() / "gsv"; }
 
  private:

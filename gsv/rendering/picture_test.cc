@@ -348,9 +348,12 @@ TEST_F(PICTURE_SUITE, ShadowsOfWhatMovesDoNotDependOnTheBatchOrItsOrder) {
     moved->state.bodies[body].world_from_model =
         PlanarPose(8 * std::cos(i), 8 * std::sin(2.3 * i), 0.5, i);
   }
+  constexpr int kViews = 8;
   std::vector<CameraView> views;
-  for (int i = 0; i < 8; ++i) {
-    views.push_back({PlanarPose(i % 3 - 1, i / 3 - 1, 0.8, kPi / 4 * i), {120, 90, 1, 0.1, 50}});
+  views.reserve(kViews);
+  for (int i = 0; i < kViews; ++i) {
+    const int column = i % 3, row = i / 3;
+    views.push_back({PlanarPose(column - 1, row - 1, 0.8, kPi / 4 * i), {120, 90, 1, 0.1, 50}});
   }
   const auto together = renderer_->Draw(moved, views, std::chrono::seconds(30));
   const auto reversed = renderer_->Draw(

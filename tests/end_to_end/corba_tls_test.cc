@@ -238,7 +238,7 @@ TEST_F(CorbaTls, AnExpiredCertificateIsRefusedByItsOwnerAndByOthers) {
             << " && openssl s_client -connect 127.0.0.1:" << broker.port()
             << " -CAfile ca.pem -cert " << name << ".pem -key " << name
             << "-key.pem < /dev/null > /dev/null 2>&1";
-    return std::system(command.str().c_str());  // NOLINT(concurrency-mt-unsafe)
+    return std::system(command.str().c_str());
   };
   EXPECT_EQ(openssl("lab"), 0);
   (void)openssl("old");  // TLS 1.3 tells a client only when it reads
@@ -324,7 +324,7 @@ TEST_F(CorbaTls, ThoseWhoGoRightAfterTheHandshakeLeaveNothing) {
   std::ostringstream command;
   command << "cd " << group_.File("") << " && openssl s_time -connect 127.0.0.1:" << broker.port()
           << " -new -time 1 -CAfile ca.pem -cert lab.pem -key lab-key.pem > /dev/null 2>&1";
-  ASSERT_EQ(std::system(command.str().c_str()), 0);  // NOLINT(concurrency-mt-unsafe)
+  ASSERT_EQ(std::system(command.str().c_str()), 0);
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   while (DescriptorsOf(broker.pid()) > before && std::chrono::steady_clock::now() < deadline) {
   }

@@ -1,13 +1,11 @@
 // gsv certificates: a small authority, and certificates that it has signed.
-#include <unistd.h>
-
-#include <array>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/exit_code.h"
+#include "gsv/base/host_name.h"
 #include "gsv/tls/certificates.h"
 
 namespace gsv::app {
@@ -27,9 +25,8 @@ tls::Validity ValidityOf(int days) {
 
 // Names under which a server is called if nothing else is said.
 std::vector<std::string> UsualHosts() {
-  std::array<char, 256> name{};
   std::vector<std::string> hosts{"localhost", "127.0.0.1", "::1"};
-  if (gethostname(name.data(), name.size() - 1) == 0) hosts.emplace_back(name.data());
+  if (const std::string name = base::HostName(); name != hosts.front()) hosts.push_back(name);
   return hosts;
 }
 

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -14,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/serving/running_instances.h"
+#include "gsv/base/host_name.h"
 #include "gsv/base/whole_file.h"
 
 namespace gsv::app {
@@ -32,11 +32,6 @@ std::string LineOf(const fs::path& file) {
   std::string line;
   std::getline(stream, line);
   return line;
-}
-
-std::string Host() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
 json ToJson(const LostSimulation& simulation) {
@@ -149,12 +144,12 @@ ServerNote NewNote() {
   note.pid = getpid();
   note.started = ProcessStart(note.pid).value_or(0);
   note.boot = LineOf("/proc/sys/kernel/random/boot_id");
-  note.host = Host();
+  note.host = base::HostName();
   return note;
 }
 
 bool IsOfTheLiving(const ServerNote& note) {
-  if (note.host != Host()) return true;
+  if (note.host != base::HostName()) return true;
   return note.boot == LineOf("/proc/sys/kernel/random/boot_id") &&
          ProcessStart(note.pid) == note.started;
 }

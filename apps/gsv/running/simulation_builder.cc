@@ -42,7 +42,7 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
 }
 
 // A world that ships with gsv.
-bool IsOurs(const fs::path& file) {
+bool IsWorldOfOurs(const fs::path& file) {
   std::error_code ignored;
   return fs::equivalent(file.parent_path(), ShareFolder() / "worlds", ignored);
 }
@@ -109,7 +109,7 @@ FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const st
       if (known.file == read.file && known.changed == read.changed) return known;
     }
   }
-  if (!IsOurs(read.file)) {
+  if (!IsWorldOfOurs(read.file)) {
     if (auto ok = TryToRead(read.file, model_path_, reading_); !ok) {
       return WrongField("world", ok.error());
     }

@@ -83,7 +83,7 @@ std::vector<Listener> ListenersOf(const fs::path& process) {
   return listeners;
 }
 
-bool IsOurs(const fs::path& program) {
+bool IsProgramOfOurs(const fs::path& program) {
   const std::string name = program.filename();
   return program.parent_path() == fs::path(ProgramPath()).parent_path() &&
          (name == "gsv" || name.starts_with("gsv-"));
@@ -130,7 +130,7 @@ std::vector<ListeningProcess> FindListeningProcesses() {
     if (process.pid == getpid()) continue;
     std::error_code denied;
     const fs::path program = fs::read_symlink(each->path() / "exe", denied);
-    if (denied || !IsOurs(program)) continue;
+    if (denied || !IsProgramOfOurs(program)) continue;
     process.listeners = ListenersOf(each->path());
     if (process.listeners.empty()) continue;
     std::istringstream arguments(ReadWhole(each->path() / "cmdline"));

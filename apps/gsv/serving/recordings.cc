@@ -1,9 +1,6 @@
 #include "apps/gsv/serving/recordings.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <ctime>
@@ -16,6 +13,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/host_name.h"
 #include "gsv/base/log.h"
 #include "gsv/formats/gltf/gltf_writer.h"
 #include "gsv/recording/mcap/bag_folder.h"
@@ -54,11 +52,6 @@ std::vector<std::string> WithoutSecrets(std::vector<std::string> arguments) {
 
 namespace {
 
-std::string Host() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
 recording::RecorderOptions Options(const RecordingChoice& choice) {
   recording::RecorderOptions options;
   options.write_glb = &formats::WriteGlb;
@@ -75,7 +68,7 @@ recording::RecorderOptions Options(const RecordingChoice& choice) {
       {std::string(kArgumentsKey),
        nlohmann::json(arguments).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
       {std::string(kFolderKey), std::filesystem::current_path(ignored).string()},
-      {"host", Host()}};
+      {"host", base::HostName()}};
   return options;
 }
 

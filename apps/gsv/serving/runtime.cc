@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <thread>
 
@@ -15,6 +14,7 @@
 #include "apps/gsv/serving/broker_page.h"
 #include "apps/gsv/serving/instances_page.h"
 #include "apps/gsv/serving/recordings.h"
+#include "gsv/base/host_name.h"
 #include "gsv/base/log.h"
 #include "gsv/broker/client/client_errors.h"
 #include "gsv/broker/client/corbaloc.h"
@@ -29,11 +29,6 @@ namespace {
 
 // It takes 0.1 s. What counts is that a machine which is very busy gets the same verdict.
 constexpr std::chrono::seconds kBrokerStartTimeout{60};
-
-std::string HostName() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "localhost";
-}
 
 std::vector<broker::Property> WithLoad(std::vector<broker::Property> properties,
                                        services::ServerLoad& load) {
@@ -140,7 +135,7 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
                                 const gateway::Request& request) { return page->Handle(request); };
   gateway.pages["instances"] =
       [page = std::make_shared<InstancesPage>(orb_, broker_->reference(),
-                                              HostName() + ":" + std::to_string(getpid()))](
+                                              base::HostName() + ":" + std::to_string(getpid()))](
           const gateway::Request& request) { return page->Handle(request); };
   if (lost_ != nullptr) {
     gateway.pages["lost"] = [this](const gateway::Request& request) {
@@ -195,7 +190,7 @@ base::Status Runtime::OfferService(const std::string& name, int scenarios) {
   if (auto ok = broker_->EnsureServiceType(broker::SimulationServiceType()); !ok) return ok;
   broker::SimulationServiceOffer offer;
   offer.name = name;
-  offer.host = HostName();
+  offer.host = base::HostName();
   offer.pid = static_cast<std::int32_t>(getpid());
   offer.viewer_url = viewer_url_;
   offer.cores = static_cast<std::int32_t>(std::thread::hardware_concurrency());
@@ -222,7 +217,7 @@ base::Status Runtime::OfferScenarios(const std::string& name, int scenarios) {
   if (auto ok = broker_->EnsureServiceType(type); !ok) return ok;
   broker::ScenarioServiceOffer offer;
   offer.name = name;
-  offer.host = HostName();
+  offer.host = base::HostName();
   offer.pid = static_cast<std::int32_t>(getpid());
   offer.slots = scenarios;
   offer.cores = static_cast<std::int32_t>(std::thread::hardware_concurrency());

@@ -12,6 +12,7 @@
 #include "apps/gsv/machine/child_process.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/trials/campaign_runs.h"
+#include "gsv/base/host_name.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/campaign/slurm_engine.h"
 
@@ -124,10 +125,8 @@ int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& ru
 }
 
 std::string NodeName() {
-  char name[256] = "";
-  gethostname(name, sizeof name - 1);
   const std::string node = Environment("SLURMD_NODENAME");
-  return node.empty() ? name : node;
+  return node.empty() ? base::HostName() : node;
 }
 
 }  // namespace

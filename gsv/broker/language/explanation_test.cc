@@ -5,7 +5,7 @@
 namespace gsv::broker {
 namespace {
 
-using Result = TermOutcome::Result;
+using TermResult = TermOutcome::Result;
 
 const PropertyList kRobotOffer({{"name", Value::String("r2")}, {"speed", Value::Double(2)}});
 
@@ -16,11 +16,11 @@ std::vector<TermOutcome> Outcomes(const std::string& constraint) {
 TEST(Explanation, LooksAtEachTermByItself) {
   const auto outcomes = Outcomes("speed > 1 and speed > 3 and range < 5 and 'r' ~ name");
   ASSERT_EQ(outcomes.size(), 4u);
-  EXPECT_EQ(outcomes[0].result, Result::kTrue);
-  EXPECT_EQ(outcomes[1].result, Result::kFalse);
-  EXPECT_EQ(outcomes[2].result, Result::kNoValue);
+  EXPECT_EQ(outcomes[0].result, TermResult::kTrue);
+  EXPECT_EQ(outcomes[1].result, TermResult::kFalse);
+  EXPECT_EQ(outcomes[2].result, TermResult::kNoValue);
   EXPECT_EQ(outcomes[2].missing, std::vector<std::string>{"range"});
-  EXPECT_EQ(outcomes[3].result, Result::kTrue);
+  EXPECT_EQ(outcomes[3].result, TermResult::kTrue);
 }
 
 TEST(Explanation, SpellsTermsSoThatTheyMeanTheSame) {
@@ -33,7 +33,7 @@ TEST(Explanation, SpellsTermsSoThatTheyMeanTheSame) {
 
 TEST(Explanation, NamesNothingMissingWhereTheTypesDoNotFit) {
   const auto outcomes = Outcomes("name > 3");
-  EXPECT_EQ(outcomes[0].result, Result::kNoValue);
+  EXPECT_EQ(outcomes[0].result, TermResult::kNoValue);
   EXPECT_TRUE(outcomes[0].missing.empty());
 }
 

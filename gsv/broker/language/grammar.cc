@@ -47,8 +47,8 @@ struct Mantissa : peg::sor<peg::seq<Digits, peg::opt<peg::one<'.'>, peg::opt<Dig
                            peg::seq<peg::one<'.'>, Digits>> {};
 struct Exponent : peg::seq<peg::one<'E', 'e'>, peg::opt<peg::one<'+', '-'>>, Digits> {};
 struct NumberText : peg::seq<Mantissa, peg::opt<Exponent>, peg::not_at<Follow>> {};
-struct Number : Token<NumberText> {};
-struct NegativeNumber : peg::seq<Token<peg::one<'-'>>, Number> {};
+struct NumberLiteral : Token<NumberText> {};
+struct NegativeNumber : peg::seq<Token<peg::one<'-'>>, NumberLiteral> {};
 
 // <String> := ' <TChars> ', where <Special> := \\ | \'
 struct Special : peg::if_must<peg::one<'\\'>, peg::one<'\\', '\''>> {};
@@ -84,8 +84,8 @@ struct bool_or;
 struct Existing : Ident {};
 struct Named : Ident {};
 struct Parenthesised : peg::if_must<Open, bool_or, Close> {};
-struct factor : peg::sor<Parenthesised, peg::if_must<Exist, Existing>, True, False, Named, Number,
-                         NegativeNumber, String> {};
+struct factor : peg::sor<Parenthesised, peg::if_must<Exist, Existing>, True, False, Named,
+                         NumberLiteral, NegativeNumber, String> {};
 
 // <factor_not> := not <factor> | <factor>
 struct NotFactor : peg::if_must<Not, factor> {};
@@ -130,10 +130,11 @@ struct bool_and : peg::seq<bool_compare, peg::star<Conjunction>> {};
 struct Disjunction : peg::if_must<Or, bool_and> {};
 struct bool_or : peg::seq<bool_and, peg::star<Disjunction>> {};
 
-struct End : peg::eof {};
+struct EndOfText : peg::eof {};
 
 // <ConstraintExpr> := /* empty */ | <bool>
-struct ConstraintExpr : peg::must<Space, peg::sor<peg::eof, peg::seq<bool_or, peg::must<End>>>> {};
+struct ConstraintExpr
+    : peg::must<Space, peg::sor<peg::eof, peg::seq<bool_or, peg::must<EndOfText>>>> {};
 
 // <Preference> := /* empty */ | min <bool> | max <bool> | with <bool> | random | first
 struct Min : Keyword<TAO_PEGTL_STRING("min")> {};
@@ -143,7 +144,7 @@ struct Random : Keyword<TAO_PEGTL_STRING("random")> {};
 struct First : Keyword<TAO_PEGTL_STRING("first")> {};
 struct PreferenceBody : peg::sor<peg::if_must<Min, bool_or>, peg::if_must<Max, bool_or>,
                                  peg::if_must<With, bool_or>, Random, First, peg::at<peg::eof>> {};
-struct PreferenceExpr : peg::must<Space, PreferenceBody, End> {};
+struct PreferenceExpr : peg::must<Space, PreferenceBody, EndOfText> {};
 
 // ---- Building the tree
 
@@ -380,7 +381,7 @@ constexpr const char* kExpected<Existing> = "a property's name after 'exist'";
 template <>
 constexpr const char* kExpected<Containing> = "a property's name after 'in'";
 template <>
-constexpr const char* kExpected<End> = "an operator or the end";
+constexpr const char* kExpected<EndOfText> = "an operator or the end";
 template <>
 constexpr const char* kExpected<PreferenceBody> = "'min', 'max', 'with', 'random' or 'first'";
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gsv/broker/service/policy_values.h"
 #include "gsv/broker/service/raise.h"
 #include "gsv/broker/trader/iterator_keys.h"
 
@@ -10,14 +11,6 @@ namespace gsv::broker {
 namespace {
 
 constexpr CORBA::ULong kLongestStem = 256;
-
-FollowOption FromCorba(CosTrading::FollowOption option) {
-  return static_cast<FollowOption>(option);
-}
-
-CosTrading::FollowOption ToCorba(FollowOption option) {
-  return static_cast<CosTrading::FollowOption>(option);
-}
 
 CosTrading::Admin::OctetSeq* ToCorba(const std::string& octets) {
   CosTrading::Admin::OctetSeq_var result = new CosTrading::Admin::OctetSeq;

@@ -1,5 +1,7 @@
 #include "gsv/broker/service/attribute_servants.h"
 
+#include "gsv/broker/service/policy_values.h"
+
 namespace gsv::broker {
 
 CosTrading::Lookup_ptr ComponentsServant::lookup_if() {
@@ -55,11 +57,11 @@ CORBA::ULong ImportServant::def_hop_count() { return trader_.attributes().def_ho
 CORBA::ULong ImportServant::max_hop_count() { return trader_.attributes().max_hop_count; }
 
 CosTrading::FollowOption ImportServant::def_follow_policy() {
-  return static_cast<CosTrading::FollowOption>(trader_.attributes().def_follow_policy);
+  return ToCorba(trader_.attributes().def_follow_policy);
 }
 
 CosTrading::FollowOption ImportServant::max_follow_policy() {
-  return static_cast<CosTrading::FollowOption>(trader_.attributes().max_follow_policy);
+  return ToCorba(trader_.attributes().max_follow_policy);
 }
 
 }  // namespace gsv::broker

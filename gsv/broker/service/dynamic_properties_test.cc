@@ -52,7 +52,7 @@ class Evaluator : public POA_CosTradingDynamic::DynamicPropEval {
 };
 
 class DynamicPropertiesTest : public BrokerFixture {
- protected:
+ public:
   DynamicPropertiesTest() {
     AddType("Robot", {Define("speed", CORBA::_tc_double, Repository::PROP_NORMAL)});
     evaluator_ = new Evaluator;
@@ -66,6 +66,7 @@ class DynamicPropertiesTest : public BrokerFixture {
     evaluator_->_remove_ref();
   }
 
+ protected:
   // A property "speed" that is the evaluator's value and `added`.
   CosTrading::PropertySeq Speed(double added = 0, CORBA::TypeCode_ptr type = CORBA::_tc_double) {
     CosTradingDynamic::DynamicProp dynamic;

@@ -1,6 +1,7 @@
 #include "gsv/broker/service/link_servant.h"
 
 #include "gsv/broker/service/interface_check.h"
+#include "gsv/broker/service/policy_values.h"
 #include "gsv/broker/service/raise.h"
 #include "gsv/broker/trader/service_reference.h"
 #include "gsv/broker/transport/memory_reserve.h"
@@ -9,14 +10,6 @@ namespace gsv::broker {
 namespace {
 
 constexpr unsigned long kCallTimeoutMs = 1000;
-
-FollowOption FollowOptionOf(CosTrading::FollowOption option) {
-  return static_cast<FollowOption>(option);
-}
-
-CosTrading::FollowOption ToCorba(FollowOption option) {
-  return static_cast<CosTrading::FollowOption>(option);
-}
 
 }  // namespace
 
@@ -52,8 +45,8 @@ void LinkServant::add_link(const char* name, CosTrading::Lookup_ptr target,
   RequireMemoryReserve();
   ValueOrRaise(objects_.trader.AddLink({.name = name,
                                         .target = CheckLookup(objects_.orb, target),
-                                        .def_pass_on = FollowOptionOf(def_pass_on_follow_rule),
-                                        .limiting = FollowOptionOf(limiting_follow_rule)}));
+                                        .def_pass_on = FromCorba(def_pass_on_follow_rule),
+                                        .limiting = FromCorba(limiting_follow_rule)}));
 }
 
 void LinkServant::remove_link(const char* name) { ValueOrRaise(objects_.trader.RemoveLink(name)); }
@@ -79,8 +72,8 @@ CosTrading::LinkNameSeq* LinkServant::list_links() {
 
 void LinkServant::modify_link(const char* name, CosTrading::FollowOption def_pass_on_follow_rule,
                               CosTrading::FollowOption limiting_follow_rule) {
-  ValueOrRaise(objects_.trader.ModifyLink(name, FollowOptionOf(def_pass_on_follow_rule),
-                                          FollowOptionOf(limiting_follow_rule)));
+  ValueOrRaise(objects_.trader.ModifyLink(name, FromCorba(def_pass_on_follow_rule),
+                                          FromCorba(limiting_follow_rule)));
 }
 
 }  // namespace gsv::broker

@@ -43,7 +43,7 @@ bool IsAnonymousFollowOption(CORBA::TypeCode_ptr type) {
 FollowOption ExtractFollowOption(const CosTrading::Policy& policy) {
   const CORBA::TypeCode_var type = policy.value.type();
   if (!IsAnonymousFollowOption(type)) {
-    return static_cast<FollowOption>(Extract<CosTrading::FollowOption>(policy));
+    return FromCorba(Extract<CosTrading::FollowOption>(policy));
   }
   cdrMemoryStream stream;
   policy.value.NP_marshalDataOnly(stream);
@@ -135,7 +135,7 @@ CosTrading::PolicySeq PoliciesToPassOn(const CosTrading::PolicySeq& policies,
   }
   if (passed.link_follow_rule) {
     CORBA::Any value;
-    value <<= static_cast<CosTrading::FollowOption>(*passed.link_follow_rule);
+    value <<= ToCorba(*passed.link_follow_rule);
     add("link_follow_rule", value);
   }
   if (passed.request_id) {

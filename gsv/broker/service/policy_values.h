@@ -11,6 +11,13 @@
 
 namespace gsv::broker {
 
+inline FollowOption FromCorba(CosTrading::FollowOption option) {
+  return static_cast<FollowOption>(option);
+}
+inline CosTrading::FollowOption ToCorba(FollowOption option) {
+  return static_cast<CosTrading::FollowOption>(option);
+}
+
 // A policy with a name that the standard does not know is passed over.
 // Errors  throws IllegalPolicyName, DuplicatePolicyName, PolicyTypeMismatch, InvalidPolicyValue.
 ImportPolicies ToImportPolicies(const CosTrading::PolicySeq& policies);

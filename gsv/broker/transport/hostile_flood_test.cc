@@ -181,6 +181,7 @@ TEST_F(HostileFloodTest, ConnectionsThatAreHeld) {
   if (descriptors.rlim_cur < 2 * kMoreThanKept) GTEST_SKIP() << "too few descriptors";
   Bystander bystander(lookup_);
   std::vector<int> held;
+  held.reserve(kMoreThanKept);
   for (int i = 0; i < kMoreThanKept; ++i) held.push_back(Connect());
   char byte = 0;
   EXPECT_EQ(recv(held.front(), &byte, 1, 0), 0);
@@ -190,8 +191,10 @@ TEST_F(HostileFloodTest, ConnectionsThatAreHeld) {
 
 TEST_F(HostileFloodTest, SlowSenders) {
   Bystander bystander(lookup_);
+  constexpr int kSenders = 200;
   std::vector<int> slow;
-  for (int i = 0; i < 200; ++i) slow.push_back(Connect());
+  slow.reserve(kSenders);
+  for (int i = 0; i < kSenders; ++i) slow.push_back(Connect());
   const std::string message = std::string("GIOP\x01\x02\x01\x00\x40\x00\x00\x00", 12);
   for (const char byte : message) {
     for (const int socket : slow) send(socket, &byte, 1, MSG_NOSIGNAL);
@@ -204,8 +207,10 @@ TEST_F(HostileFloodTest, SlowSenders) {
 // More slow connections than the broker has threads for, and yet who comes after them is served.
 TEST_F(HostileFloodTest, SlowSendersBeyondTheThreads) {
   Bystander bystander(lookup_);
+  constexpr int kSenders = 700;
   std::vector<int> slow;
-  for (int i = 0; i < 700; ++i) slow.push_back(Connect());
+  slow.reserve(kSenders);
+  for (int i = 0; i < kSenders; ++i) slow.push_back(Connect());
   const std::string message = std::string("GIOP\x01\x02\x01\x00\x40\x00\x00\x00", 12);
   const auto drip = [&](char byte) {
     for (const int socket : slow) send(socket, &byte, 1, MSG_NOSIGNAL);
@@ -234,8 +239,10 @@ TEST_F(HostileFloodTest, GreedyQueries) {
   std::string constraint = "n + 1 == 0";
   for (int i = 0; i < 150; ++i) constraint += " or n * 2 == -1";
   Bystander bystander(lookup_);
+  constexpr int kClients = 4;
   std::vector<std::jthread> greedy;
-  for (int i = 0; i < 4; ++i) {
+  greedy.reserve(kClients);
+  for (int i = 0; i < kClients; ++i) {
     greedy.emplace_back([&] {
       // They wait for each other, and on a slow machine longer than a client does.
       try {

@@ -107,8 +107,10 @@ TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
 }
 
 TEST_F(HostileInputTest, TakesAsManyPropertiesAsItMay) {
+  constexpr int kMost = 128;
   std::vector<Property> properties;
-  for (int i = 0; i < 128; ++i) properties.push_back({"p" + std::to_string(i), Value::Long(i)});
+  properties.reserve(kMost + 1);
+  for (int i = 0; i < kMost; ++i) properties.push_back({"p" + std::to_string(i), Value::Long(i)});
   EXPECT_NO_THROW(Export("Robot", properties));
   properties.push_back({"one_more", Value::Long(1)});
   Raised<CORBA::IMP_LIMIT>([&] { Export("Robot", properties); });
@@ -122,8 +124,10 @@ TEST_F(HostileInputTest, RefusesOffersThatAreTooLarge) {
   CORBA::Any text;
   text <<= std::string(40'000, 'x').c_str();
   Raised<CORBA::IMP_LIMIT>([&] { ExportValue(text); });
+  constexpr int kMany = 200;
   std::vector<Property> many;
-  for (int i = 0; i < 200; ++i) many.push_back({"p" + std::to_string(i), Value::Long(i)});
+  many.reserve(kMany);
+  for (int i = 0; i < kMany; ++i) many.push_back({"p" + std::to_string(i), Value::Long(i)});
   Raised<CORBA::IMP_LIMIT>([&] { Export("Robot", many); });
   ExpectAlive();
 }
@@ -174,6 +178,7 @@ TEST_F(HostileInputTest, LeavesOutRequestsToCancelAndEndsInOrder) {
 TEST_F(HostileInputTest, ServesManyClientsAtOnce) {
   constexpr int kClients = 16;
   std::vector<std::thread> clients;
+  clients.reserve(kClients);
   for (int client = 0; client < kClients; ++client) {
     clients.emplace_back([this, client] {
       const std::string mine = "n == " + std::to_string(client);

@@ -15,6 +15,7 @@ class PairFinder {
  public:
   struct Pair {
     std::uint32_t first, second;  // first < second
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     friend auto operator<=>(const Pair&, const Pair&) = default;
   };
 

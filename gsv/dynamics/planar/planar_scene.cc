@@ -189,6 +189,7 @@ std::vector<Interval> PlanarScene::AssignLevels() {
   }
   const auto intervals = [&](double quantum) {
     std::vector<Interval> all;
+    all.reserve(wanted.size());
     for (Wanted& w : wanted) {
       all.push_back(quantum > 0 ? RoundedUp(w.heights, quantum) : w.heights);
     }

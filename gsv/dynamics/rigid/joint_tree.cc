@@ -16,6 +16,7 @@ namespace {
 
 using geometry::Pose;
 using geometry::Vector3;
+using Kind = world::JointCommand::Kind;
 
 constexpr double kNoLimit = 1e6;  // N, N m, m/s, rad/s: where the model sets none
 // 1/s: a joint that is to be at a position turns there at this times the distance.
@@ -270,7 +271,6 @@ void JointTree::Drive(double seconds) {
 
 // What a joint is to do now: its drive's part in it, or what it is told.
 world::JointCommand JointTree::CommandOf(int joint) const {
-  using Kind = world::JointCommand::Kind;
   if (servo_) {
     const model::Drive& drive = *plan_.model->drive;
     if (Holds(drive.steered, joint)) return {Kind::kPosition, wanted_positions_[joint]};
@@ -282,7 +282,6 @@ world::JointCommand JointTree::CommandOf(int joint) const {
 }
 
 void JointTree::TurnMotors(double seconds) {
-  using Kind = world::JointCommand::Kind;
   for (const Motor& motor : motors_) {
     const model::Joint& joint = plan_.model->joints[motor.joint];
     const double effort = std::min(joint.effort_limit, kNoLimit);

@@ -11,6 +11,7 @@ namespace gsv::dynamics {
 // Bodies' indices in the layout.
 struct BodyPair {
   int first, second;
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
 };
 

@@ -52,8 +52,9 @@ class Viewer {
   };
 
   // Throws std::runtime_error with the server's answer when it refuses.
-  Viewer(std::uint16_t port, const std::string& target = "/ws",
-         const std::string& subprotocols = "foxglove.sdk.v1", const std::string& origin = "");
+  explicit Viewer(std::uint16_t port, const std::string& target = "/ws",
+                  const std::string& subprotocols = "foxglove.sdk.v1",
+                  const std::string& origin = "");
   ~Viewer();
 
   const std::string& subprotocol() const;  // that the server chose

@@ -11,7 +11,7 @@
 namespace gsv::rendering {
 namespace {
 
-constexpr std::chrono::seconds kLong{30};
+constexpr std::chrono::seconds kDrawTimeout{30};
 
 std::shared_ptr<Renderer> StartRenderer(BackEnd back_end) {
   RendererOptions options;
@@ -51,7 +51,7 @@ TEST(Rasteriser, LeavesNoGapsBetweenTriangles) {
     const CameraView view{{{0.3 * std::cos(i), 0.2 * std::sin(i), 0.1},
                            geometry::FromRollPitchYaw({0.2 * i, 0.3 * i, 0.7 * i})},
                           {320, 240, 1.5, 0.01, 100}};
-    const auto picture = renderer->Draw(scene.Snapshot(), view, kLong);
+    const auto picture = renderer->Draw(scene.Snapshot(), view, kDrawTimeout);
     ASSERT_TRUE(picture);
     for (std::size_t p = 0; p < (*picture)->pixels.size(); p += 3) {
       ASSERT_LT((*picture)->pixels[p], 128) << "view " << i << ", pixel " << p / 3;
@@ -65,7 +65,7 @@ TEST(Rasteriser, DrawsWhatReachesBehindTheCamera) {
   scene.Add("wall", geometry::Box{{400, 0.1, 2}}, {{0, -1, 0}, {}}, Glowing(0, 1, 0));
   const auto renderer = StartRenderer(BackEnd::kRasteriser);
   const auto picture = renderer->Draw(
-      scene.Snapshot(), CameraView{{}, {200, 100, std::numbers::pi / 2, 0.1, 150}}, kLong);
+      scene.Snapshot(), CameraView{{}, {200, 100, std::numbers::pi / 2, 0.1, 150}}, kDrawTimeout);
   ASSERT_TRUE(picture);
   // f is 100: the wall 0.95 m to the right ends at 150 m, 0.6 pixels right of the middle; at pixel
   // u its upper and lower edges are (u - 100) / 0.95 from the middle row.
@@ -135,8 +135,8 @@ TEST(BackEnds, DrawAboutTheSamePicture) {
   const CameraView view{{{0, 0, 1}, geometry::FromRollPitchYaw({0, 0.2, 0})},
                         {320, 240, 1.1, 0.05, 60}};
   const auto snapshot = scene.Snapshot();
-  const auto ours = StartRenderer(BackEnd::kRasteriser)->Draw(snapshot, view, kLong);
-  const auto theirs = StartRenderer(BackEnd::kOpenGl)->Draw(snapshot, view, kLong);
+  const auto ours = StartRenderer(BackEnd::kRasteriser)->Draw(snapshot, view, kDrawTimeout);
+  const auto theirs = StartRenderer(BackEnd::kOpenGl)->Draw(snapshot, view, kDrawTimeout);
   ASSERT_TRUE(ours && theirs);
   double sum = 0;
   int far_off = 0;

@@ -80,6 +80,7 @@ std::vector<std::size_t> ShadowRegion::MovingCasters(const DrawPlan& plan,
   // A shadow has no end; this is beyond all that any camera sees.
   const Vector3 shade = -1e7 * axes_[2];
   std::vector<std::pair<Vector3, Frustum>> seen;
+  seen.reserve(views.size());
   for (const CameraView& view : views) {
     seen.emplace_back(view.world_from_camera.position, FrustumOf(view));
   }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "gsv/geometry/constants.h"
 #include "gsv/messages/vision_msgs.h"
 #include "gsv/sensing/sensor_type.h"
 
@@ -14,6 +14,7 @@ namespace gsv::sensing {
 namespace {
 
 using geometry::Bounds;
+using geometry::kInfinity;
 using geometry::Pose;
 using geometry::Vector3;
 
@@ -21,7 +22,6 @@ constexpr std::size_t kValuesOfModel = 6;  // of one model
 
 // The middle of the box around a model's collisions, joints at zero; empty without any.
 std::optional<Vector3> CentreOf(const model::Model& model) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vector3 low{kInfinity, kInfinity, kInfinity}, high = -low;
   for (const model::Link& link : model.links) {
     for (const model::Collision& collision : link.collisions) {
