@@ -25,7 +25,7 @@ class SharedOrb {
   CORBA::ORB_ptr orb() const { return orb_; }
 
  private:
-  explicit SharedOrb(CORBA::ORB_var orb) : orb_(std::move(orb)) {}
+  explicit SharedOrb(const CORBA::ORB_var& orb) : orb_(orb) {}
 
   CORBA::ORB_var orb_;
 };

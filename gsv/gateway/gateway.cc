@@ -147,7 +147,8 @@ class LocalGateway final : public Gateway, private Handler {
 base::Result<std::unique_ptr<Gateway>> Gateway::Start(
     const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory) {
   auto gateway = std::make_unique<LocalGateway>(options, std::move(directory));
-  if (base::Status opened = gateway->Open(options); !opened) return base::Fail(opened.error());
+  if (base::Status opened = gateway->Open(static_cast<const ServerOptions&>(options)); !opened)
+    return base::Fail(opened.error());
   return gateway;
 }
 

@@ -131,7 +131,8 @@ base::Result<std::unique_ptr<Relay>> Relay::Start(const GatewayOptions& options,
   if (!address) return base::Fail(address.error());
   address->token = there.token;
   auto relay = std::make_unique<LocalRelay>(options, std::move(*address));
-  if (base::Status opened = relay->Open(options); !opened) return base::Fail(opened.error());
+  if (base::Status opened = relay->Open(static_cast<const ServerOptions&>(options)); !opened)
+    return base::Fail(opened.error());
   return relay;
 }
 

@@ -100,7 +100,8 @@ class LocalReplayGateway final : public ReplayGateway, private Handler {
 base::Result<std::unique_ptr<ReplayGateway>> ReplayGateway::Start(const GatewayOptions& options,
                                                                   ReplayPlayer& player) {
   auto gateway = std::make_unique<LocalReplayGateway>(options, player);
-  if (base::Status opened = gateway->Open(options); !opened) return base::Fail(opened.error());
+  if (base::Status opened = gateway->Open(static_cast<const ServerOptions&>(options)); !opened)
+    return base::Fail(opened.error());
   return gateway;
 }
 

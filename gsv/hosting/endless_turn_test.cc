@@ -37,7 +37,7 @@ void Wait(gsv::Robot& robot) {
 
 // A simulation among whose robots one has a turn that ends when the test says so.
 class EndlessTurn : public ::testing::TestWithParam<Mode> {
- protected:
+ public:
   EndlessTurn() {
     auto specification = simulation::Lockstep(300ms);
     specification.mode = GetParam();
@@ -53,15 +53,17 @@ class EndlessTurn : public ::testing::TestWithParam<Mode> {
     EXPECT_EQ(ended.wait_for(kPatience), std::future_status::ready) << "it was never destroyed";
   }
 
+ protected:
   void AddRobots(const EndlessBehaviour::Body& body) {
     for (int i = 0; i < 40; ++i) {  // enough for the turns to be shared out
       const std::string name = "robot_" + std::to_string(i);
+      const int column = i % 10, row = i / 10;
       auto behaviour = HostedEndless("patient", Wait);
       // Held by the simulation as long as it lives.
       if (i == 20)
         behaviour = HostedEndless("endless", [body, held = token_](auto& r) { body(r); });
-      ASSERT_TRUE(simulation_->AddRobot(
-          simulation::Robot(name, -(i % 10), 0.5 * (i / 10), std::move(behaviour))));
+      ASSERT_TRUE(
+          simulation_->AddRobot(simulation::Robot(name, -column, 0.5 * row, std::move(behaviour))));
     }
   }
   void AwaitRelease() { released_.wait(false); }

@@ -47,7 +47,8 @@ TEST(Fibre, OneThatIsGivenUpUnwindsItsStack) {
   {
     Fibre* self = nullptr;
     Fibre fibre([&self, copy = held] {
-      const auto on_the_stack = copy;
+      std::shared_ptr<int> on_the_stack;
+      on_the_stack = copy;
       self->Suspend();
     });
     self = &fibre;

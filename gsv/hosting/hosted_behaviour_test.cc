@@ -67,8 +67,9 @@ std::string HashOfACrowd(
   specification.threads = threads;
   auto crowd = simulation::Make(specification);
   for (int i = 0; i < robots; ++i) {
+    const int column = i % 10, row = i / 10;
     EXPECT_TRUE(crowd->AddRobot(
-        simulation::Robot("robot_" + std::to_string(i), -i % 10, 0.5 * (i / 10), behaviour(i))));
+        simulation::Robot("robot_" + std::to_string(i), -column, 0.5 * row, behaviour(i))));
   }
   EXPECT_EQ(RunToEnd(*crowd), Phase::kFinished);
   EXPECT_GT(StatusOf(*crowd, "robot_0").distance, 0.5);

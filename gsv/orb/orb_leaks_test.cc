@@ -78,7 +78,7 @@ void PutReference(cdrStream& stream, const std::string& profile) {
 }
 
 class ObjectReferences : public testing::Test {
- protected:
+ public:
   ~ObjectReferences() override { orb_->destroy(); }
 
  private:

@@ -74,6 +74,13 @@ std::string Message(int type, const std::string& body, bool more = false) {
 }
 
 class WholeTransportTest : public ::testing::Test {
+ public:
+  ~WholeTransportTest() override {
+    door_->Open();
+    for (const int connection : connections_) close(connection);
+    if (!CORBA::is_nil(orb_)) orb_->destroy();
+  }
+
  protected:
   // The ORB, with a doorkeeper in it.
   void Start(const OrbOptions& options = {}) {
@@ -83,11 +90,6 @@ class WholeTransportTest : public ::testing::Test {
     const CORBA::Object_var object = poa->id_to_reference(id);
     address_ = AddressOf(object);
     key_ = KeyOf(object);
-  }
-  ~WholeTransportTest() override {
-    door_->Open();
-    for (const int connection : connections_) close(connection);
-    if (!CORBA::is_nil(orb_)) orb_->destroy();
   }
 
   static std::string KeyOf(CORBA::Object_ptr object);
@@ -174,7 +176,7 @@ std::string WholeTransportTest::KeyOf(CORBA::Object_ptr object) {
   cdrEncapsulationStream inner(profile);
   inner.unmarshalOctet();
   inner.unmarshalOctet();
-  CORBA::String_var(inner.unmarshalRawString());
+  const CORBA::String_var host = inner.unmarshalRawString();
   CORBA::UShort port = 0;
   port <<= inner;
   _CORBA_Unbounded_Sequence_Octet key;

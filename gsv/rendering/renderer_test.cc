@@ -90,8 +90,10 @@ TEST(Renderer, ServesManyThreadsAtOnce) {
   scene.Add("left", geometry::Box{{0.5, 0.5, 0.5}}, {{3, 0.8, 0}, {}}, Glowing(1, 0, 0));
   scene.Add("right", geometry::Box{{0.5, 0.5, 0.5}}, {{3, -0.8, 0}, {}}, Glowing(0, 1, 0));
   const auto snapshots = {scene.Snapshot(), scene.Snapshot()};
+  constexpr int kThreads = 8;
   std::vector<std::future<bool>> asked;
-  for (int thread = 0; thread < 8; ++thread) {
+  asked.reserve(kThreads);
+  for (int thread = 0; thread < kThreads; ++thread) {
     asked.push_back(std::async(std::launch::async, [&, thread] {
       bool good = true;
       for (int i = 0; i < 4; ++i) {
@@ -113,8 +115,9 @@ TEST(Renderer, DrawsAThousandThingsInOneWorld) {
   const auto renderer = StartRenderer();
   TestScene scene;
   for (int i = 0; i < 1000; ++i) {
+    const int column = i % 40, row = i / 40;
     scene.Add("box" + std::to_string(i), geometry::Box{{0.05, 0.02, 0.02}},
-              {{2.0, 0.05 * (i % 40 - 20), 0.05 * (i / 40 - 12)}, {}}, Glowing(0, 1, 0));
+              {{2.0, 0.05 * (column - 20), 0.05 * (row - 12)}, {}}, Glowing(0, 1, 0));
   }
   const auto picture =
       renderer->Draw(scene.Snapshot(), CameraView{{}, {320, 240, 1.2, 0.1, 100}}, kLong);

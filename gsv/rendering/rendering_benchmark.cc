@@ -151,6 +151,7 @@ void Pictures(benchmark::State& bench) {
   const auto draw = [&] {
     office.Move();
     std::vector<CameraView> views;
+    views.reserve(static_cast<std::size_t>(cameras));
     for (int i = 0; i < cameras; ++i) views.push_back(office.CameraOf(next++));
     const auto pictures = (*renderer)->Draw(office.snapshot(), views, std::chrono::minutes(1));
     GSV_CHECK(pictures.has_value());

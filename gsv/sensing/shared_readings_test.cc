@@ -118,9 +118,11 @@ TEST_F(SharedReadingsTest, AFailureIsNotKept) {
 TEST_F(SharedReadingsTest, WhoAsksMeanwhileWaitsForIt) {
   const auto snapshot = TwoRobots();
   const auto camera = Make("camera");
+  constexpr int kAskers = 8;
   std::vector<std::thread> askers;
+  askers.reserve(kAskers);
   std::atomic<int> right = 0;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < kAskers; ++i) {
     askers.emplace_back([&] { right += Number(*camera, snapshot) == 1; });
   }
   for (std::thread& asker : askers) asker.join();

@@ -9,7 +9,7 @@ namespace gsv::simulation {
 namespace {
 
 class LimitsTest : public ::testing::Test {
- protected:
+ public:
   ~LimitsTest() override { ProcessLimits() = {}; }
 };
 

@@ -323,6 +323,7 @@ base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
   AwaitTurns();
   if (auto ok = PlaceRobots(robots); !ok) return base::Fail(ok.error());
   std::vector<std::string> names;
+  names.reserve(robots.size());
   for (const RobotSpecification& robot : robots) names.push_back(robot.name);
   std::vector<AgentPtr> with_behaviour;
   for (const RobotSpecification& robot : robots) {

@@ -42,8 +42,10 @@ class BadBehaviour final : public Behaviour {
 
  private:
   void Flood(Robot& robot) {
+    constexpr int kThreads = 4;
     std::vector<std::jthread> threads;
-    for (int i = 0; i < 4; ++i) {
+    threads.reserve(kThreads);
+    for (int i = 0; i < kThreads; ++i) {
       threads.emplace_back([&] {
         while (robot.IsRunning()) (void)sonar_->Range();
       });

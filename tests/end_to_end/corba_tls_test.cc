@@ -156,7 +156,7 @@ TEST_F(CorbaTls, BeyondThisMachineItTakesACertificate) {
   EXPECT_THAT(refused.err, HasSubstr("0.0.0.0: other machines can reach this address"));
   EXPECT_THAT(refused.err, HasSubstr("--insecure-corba"));
   // Nor does a behaviour that its broker would call from elsewhere.
-  const std::string there = everywhere.reference();
+  const std::string& there = everywhere.reference();
   const std::string elsewhere = "corbaloc::1.2@" + there.substr(there.find('@') + 1);
   if (elsewhere.find("@127.") == std::string::npos) {
     const Outcome behaviour = RunProgram("gsv-wander", {"--broker", elsewhere});

@@ -19,7 +19,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 class Lost : public ::testing::Test {
- protected:
+ public:
   Lost() {
     setenv("XDG_STATE_HOME", (folder_.path() / "state").c_str(), 1);
     setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
@@ -28,6 +28,7 @@ class Lost : public ::testing::Test {
   }
   ~Lost() override { server_.reset(); }
 
+ protected:
   // A server whose recordings lie in that folder.
   void Serve(const std::string& folder = "recordings") {
     server_.emplace(

@@ -169,7 +169,7 @@ TEST_F(SimulationService, SimulationsAreIndependent) {
 
 TEST_F(SimulationService, LifecycleFollowsTheCalls) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
-  CORBA::String_var(simulation->add_robot(Pebble(0, 0, "name == 'wander'")));
+  const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   simulation->start();
   ASSERT_EQ(Await(simulation, sba::PHASE_RUNNING), sba::PHASE_RUNNING);
   simulation->pause();
@@ -196,7 +196,7 @@ TEST_F(SimulationService, ReportsStateTimeAndResults) {
   std::vector<std::string> hashes;
   for (int run = 0; run < 2; ++run) {
     sba::Simulation_var simulation = service_->create_simulation(Playground());
-    CORBA::String_var(simulation->add_robot(Pebble(0, 0, "name == 'wander'")));
+    const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
     ASSERT_EQ(RunTo(simulation, 1.0), sba::PHASE_PAUSED);
     const sba::SimulationState_var state = simulation->state();
     EXPECT_EQ(state->time_ns, 1'000'000'000);
@@ -243,7 +243,7 @@ TEST_F(AgentBehaviour, OneProgramServesSeveralRobots) {
 
 TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
-  CORBA::String_var(simulation->add_robot(Pebble(0, 0, "name == 'wander'")));
+  const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   ASSERT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
   simulation->stop();
   // The same behaviour runs again: its thread has come back from its wait.

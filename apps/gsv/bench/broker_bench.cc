@@ -75,6 +75,7 @@ base::Result<Clock::duration> Spread(
   const auto start = Clock::now();
   {
     std::vector<std::jthread> threads;
+    threads.reserve(ends.size());
     for (int client = 0; client < clients; ++client) {
       threads.emplace_back([&, client] {
         base::Status& end = ends[static_cast<std::size_t>(client)];
@@ -181,9 +182,10 @@ base::Status MeasureInProcess(CORBA::ORB_ptr orb, std::uint32_t offers, const st
   if (!state) return base::Fail(state.error());
   if (auto ok = durable.Restore(std::move(*state), std::move(*file)); !ok) return ok;
   if (auto added = durable.AddType({.name = kType}); !added) return ToStatus(added.error());
-  const auto exported = Spread(kClients, offers / 5, TargetOf(durable, reference).export_one);
+  const auto durable_offers = offers / 5;
+  const auto exported = Spread(kClients, durable_offers, TargetOf(durable, reference).export_one);
   if (!exported) return base::Fail(exported.error());
-  figures["exports_durable_per_s"] = offers / 5 / Seconds(*exported);
+  figures["exports_durable_per_s"] = durable_offers / Seconds(*exported);
   return {};
 }
 
@@ -251,9 +253,10 @@ base::Status MeasureOverTcp(CORBA::ORB_ptr orb, std::uint32_t offers, const std:
   }
   auto durable = StartRemote(orb, {"--data", folder + "/tcp.db"});
   if (!durable) return base::Fail(durable.error());
-  const auto exported = Spread(kClients, offers / 5, durable->target().export_one);
+  const auto durable_offers = offers / 5;
+  const auto exported = Spread(kClients, durable_offers, durable->target().export_one);
   if (!exported) return base::Fail(exported.error());
-  figures["exports_durable_per_s"] = offers / 5 / Seconds(*exported);
+  figures["exports_durable_per_s"] = durable_offers / Seconds(*exported);
   return {};
 }
 

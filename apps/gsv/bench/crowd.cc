@@ -64,6 +64,7 @@ class CheckedController final : public CrowdController {
   }
   DriveCommand Control(const std::vector<Reading>& readings) override {
     std::vector<double> ranges;
+    ranges.reserve(readings.size());
     for (const Reading& reading : readings) ranges.push_back(reading.values.at(0));
     if (const auto simulation = simulation_.lock()) {
       check_->TakeReadings(*simulation->snapshot(), robot_, ranges);

@@ -16,9 +16,10 @@ namespace {
 using recording::operator""s;
 
 class RecordingsTest : public testing::Test {
- protected:
+ public:
   ~RecordingsTest() override { std::filesystem::remove(path_); }
 
+ protected:
   const std::string path_ =
       testing::TempDir() + "gsv_recordings_" + std::to_string(getpid()) + ".mcap";
   std::shared_ptr<simulation::Simulation> simulation_ = recording::MakeSimulation(1s, nullptr);

@@ -88,8 +88,10 @@ TEST(NumberColumns, FindWhatLookingAtEachFinds) {
   RandomOffers random;
   Trader trader(TraderLimits{}, 1, 1);
   ASSERT_TRUE(trader.AddType({.name = "Robot"}));
+  constexpr int kOffers = 2000;
   std::vector<std::string> ids;
-  for (int i = 0; i < 2000; ++i) {
+  ids.reserve(kOffers);
+  for (int i = 0; i < kOffers; ++i) {
     ids.push_back(*trader.Export("Robot", "IOR:00", random.Properties()));
   }
   for (int round = 0; round < 100; ++round) {
@@ -122,6 +124,7 @@ std::vector<std::uint64_t> OneByOneInOrder(const Trader& trader, const std::stri
   }
   std::sort(with_number.begin(), with_number.end());
   std::vector<std::uint64_t> numbers;
+  numbers.reserve(with_number.size() + without.size());
   for (const auto& [number, offer] : with_number) numbers.push_back(offer);
   numbers.insert(numbers.end(), without.begin(), without.end());
   return numbers;

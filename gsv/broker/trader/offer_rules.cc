@@ -77,6 +77,7 @@ Traded<void> CheckChange(const ServiceType& type, const PropertyList& current,
 Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
                                  bool dynamic_allowed) {
   std::vector<std::string_view> names;
+  names.reserve(properties.size());
   for (const Property& property : properties) names.emplace_back(property.name);
   if (auto checked = CheckNames(names); !checked) return Refuse(checked.error());
   for (const Property& property : properties) {

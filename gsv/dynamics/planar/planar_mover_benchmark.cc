@@ -46,9 +46,10 @@ void Step(benchmark::State& bench) {
   const auto box = WheeledBox();
   const int columns = static_cast<int>(std::ceil(std::sqrt(robots)));
   for (int i = 0; i < robots; ++i) {
-    world.AddRobot("r" + std::to_string(i), i % 2 ? disc : box,
-                   geometry::PlanarPose(2.0 * (i % columns) - half_side,
-                                        2.0 * (i / columns) - half_side, 0, uniform(-3, 3)));
+    const int column = i % columns, row = i / columns;
+    world.AddRobot(
+        "r" + std::to_string(i), i % 2 ? disc : box,
+        geometry::PlanarPose(2.0 * column - half_side, 2.0 * row - half_side, 0, uniform(-3, 3)));
   }
   for (int i = 0; i < robots / 4; ++i) {
     world.AddBox("w" + std::to_string(i), {1.2, 0.1, 1},

@@ -42,6 +42,7 @@ std::vector<Vector3> HullCorners(const std::vector<Vector3>& points) {
   btConvexHullComputer computer;
   computer.compute(&points[0].x, sizeof(Vector3), static_cast<int>(points.size()), 0, 0);
   std::vector<Vector3> corners;
+  corners.reserve(static_cast<std::size_t>(computer.vertices.size()));
   for (int i = 0; i < computer.vertices.size(); ++i) {
     corners.push_back(FromBullet(computer.vertices[i]));
   }

@@ -56,6 +56,7 @@ class RigidShapes {
   struct MeshKey {
     const geometry::TriangleMesh* triangles;
     double x, y, z;  // scale
+    // NOLINTNEXTLINE(modernize-use-nullptr)
     friend auto operator<=>(const MeshKey&, const MeshKey&) = default;
   };
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;

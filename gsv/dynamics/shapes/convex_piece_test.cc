@@ -63,8 +63,9 @@ TEST(Separate, KnowsAMicrometreBesideALongWall) {
 }
 
 ConvexPiece RandomPiece(base::Noise& noise) {
-  std::vector<Vector2> points;
   const int count = 1 + static_cast<int>(noise.Uniform() * 7);
+  std::vector<Vector2> points;
+  points.reserve(static_cast<std::size_t>(count));
   const Vector2 centre{2 * noise.Uniform(), 2 * noise.Uniform()};
   for (int i = 0; i < count; ++i)
     points.push_back(centre + Vector2{noise.Uniform(), noise.Uniform()});
@@ -123,8 +124,10 @@ TEST(Hull, KeepsCornersOnlyAndTurnsCounterClockwise) {
 }
 
 TEST(Hull, OfManyCornersHoldsThemAllAndLittleMore) {
+  constexpr int kCorners = 100;
   std::vector<Vector2> points;
-  for (int i = 0; i < 100; ++i) points.push_back({std::cos(0.0628 * i), std::sin(0.0628 * i)});
+  points.reserve(kCorners);
+  for (int i = 0; i < kCorners; ++i) points.push_back({std::cos(0.0628 * i), std::sin(0.0628 * i)});
   const ConvexPiece hull = Hull(points);
   EXPECT_LE(hull.vertex_count, ConvexPiece::kMaxVertices);
   for (const Vector2 p : points) EXPECT_LE(Separate(Disc(p, 0), hull).distance, 1e-9);

@@ -166,6 +166,7 @@ void SliceMesh(const geometry::Mesh& mesh, const Pose& pose, Interval heights,
                std::vector<ConvexPiece>& pieces) {
   ForEachClipped(*mesh.triangles, mesh.scale, pose, heights, [&](const Clipped& clipped) {
     std::vector<Vector2> corners;
+    corners.reserve(static_cast<std::size_t>(clipped.count));
     for (int i = 0; i < clipped.count; ++i) corners.push_back(Flat(clipped.corners[i]));
     pieces.push_back(Hull(std::move(corners)));
   });

@@ -31,8 +31,9 @@ class Crowd {
     const int columns = static_cast<int>(std::ceil(std::sqrt(places)));
     const double raster = side / columns;
     for (int i = 0; i < places; ++i) {
-      const double x = (i % columns + 0.5) * raster - side / 2;
-      const double y = (i / columns + 0.5) * raster - side / 2;
+      const int column = i % columns, row = i / columns;
+      const double x = (column + 0.5) * raster - side / 2;
+      const double y = (row + 0.5) * raster - side / 2;
       const double yaw = Uniform(-3, 3);
       if (i % 5 == 4) {
         world_.AddBox("box" + std::to_string(i), {1, 1, 1}, x, y, 0, yaw);

@@ -31,7 +31,7 @@ std::string Robot(int i) { return "robot_" + std::to_string(i); }
 
 // A recording of more sensors than are listed, with one reading each, and who replays it.
 class CrowdReplayTest : public ::testing::Test {
- protected:
+ public:
   CrowdReplayTest() {
     Write();
     reader_ = recording::McapReader::Open(path_).value();
@@ -43,6 +43,7 @@ class CrowdReplayTest : public ::testing::Test {
   }
   ~CrowdReplayTest() override { std::filesystem::remove(path_); }
 
+ protected:
   void Write() const {
     auto writer = recording::McapWriter::Create(path_, {.replace = true}).value();
     for (int robot = 0; robot < kRobots; ++robot) {

@@ -14,12 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 
 class BagFolder : public ::testing::Test {
- protected:
+ public:
   BagFolder() : folder_(fs::path(::testing::TempDir()) / ("bag_" + Name())) {
     fs::remove_all(folder_);
   }
   ~BagFolder() override { fs::remove_all(folder_); }
 
+ protected:
   static std::string Name() {
     return ::testing::UnitTest::GetInstance()->current_test_info()->name();
   }

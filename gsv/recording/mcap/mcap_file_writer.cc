@@ -48,6 +48,7 @@ class SummaryBuilder {
 template <typename Record>
 std::vector<Record> Values(const std::map<std::uint16_t, Record>& map) {
   std::vector<Record> values;
+  values.reserve(map.size());
   for (const auto& [id, record] : map) values.push_back(record);
   return values;
 }

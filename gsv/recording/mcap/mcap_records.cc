@@ -76,9 +76,9 @@ std::map<std::uint16_t, std::uint64_t> GetNumbers(ByteReader& reader, bool& ok) 
 }
 
 template <typename Record>
-std::optional<Record> IfOk(bool ok, Record&& record) {
+std::optional<Record> IfOk(bool ok, Record record) {
   if (!ok) return std::nullopt;
-  return std::forward<Record>(record);
+  return record;
 }
 
 }  // namespace
@@ -229,7 +229,7 @@ std::optional<FooterRecord> Parse(std::span<const std::byte> content) {
   ByteReader reader(content);
   FooterRecord record{reader.Get<std::uint64_t>(), reader.Get<std::uint64_t>(),
                       reader.Get<std::uint32_t>()};
-  return IfOk(reader.ok(), std::move(record));
+  return IfOk(reader.ok(), record);
 }
 
 template <>
@@ -254,7 +254,7 @@ std::optional<MessageRecord> Parse(std::span<const std::byte> content) {
   ByteReader reader(content);
   MessageRecord record{reader.Get<std::uint16_t>(), reader.Get<std::uint32_t>(), reader.GetTime(),
                        reader.GetTime(), reader.Take(reader.remaining())};
-  return IfOk(reader.ok(), std::move(record));
+  return IfOk(reader.ok(), record);
 }
 
 template <>

@@ -61,6 +61,7 @@ TEST(McapWriter, RecordsWhatSeveralThreadsWrite) {
   }
   {
     std::vector<std::jthread> producers;
+    producers.reserve(channels.size());
     for (const ChannelId channel : channels) {
       producers.emplace_back([&writer, channel] {
         for (int i = 0; i < 20'000; ++i) writer.Write(channel, i * 1ms, ClockMessage(i * 1ms));

@@ -29,12 +29,13 @@ inline RecorderOptions NamingOptions() {
 }
 
 class SimulationRecorderTest : public ::testing::Test {
- protected:
+ public:
   SimulationRecorderTest()
       : path_(::testing::TempDir() + "gsv_recorder_" +
               ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".mcap") {}
   ~SimulationRecorderTest() override { std::filesystem::remove(path_); }
 
+ protected:
   std::unique_ptr<SimulationRecorder> Start(
       const std::shared_ptr<simulation::Simulation>& simulation) {
     auto recorder = SimulationRecorder::Start(simulation, path_, NamingOptions());

@@ -53,7 +53,7 @@ Lens ReadPinhole(sensing::ParameterReader& reader, const CameraParameters& camer
 }  // namespace
 
 Optics::Optics(const CameraParameters& camera, Lens lens)
-    : camera_(camera), lens_(std::move(lens)), joining_(JoiningOf(camera_, lens_)) {}
+    : camera_(camera), lens_(lens), joining_(JoiningOf(camera_, lens_)) {}
 
 std::shared_ptr<Optics::Joining> Optics::JoiningOf(const CameraParameters& camera,
                                                    const Lens& lens) {
@@ -95,7 +95,7 @@ Optics Optics::Read(sensing::ParameterReader& reader, const std::string& lens_ty
                     " are more");
       lens = Lens(CameraParameters());
     }
-    return {camera, std::move(lens)};
+    return {camera, lens};
   };
   if (type == "gnomonical") {
     camera.horizontal_fov = fov;
@@ -117,8 +117,8 @@ const LensMap& Optics::Map() const {
 std::optional<geometry::Vector3> Optics::RayOfPixel(std::size_t pixel) const {
   if (!lens_.has_quick_rays()) return Map().RayOfPixel(pixel);
   const auto width = static_cast<std::size_t>(camera_.width);
-  return lens_.RayAt(static_cast<double>(pixel % width) + 0.5,
-                     static_cast<double>(pixel / width) + 0.5);
+  const std::size_t column = pixel % width, row = pixel / width;
+  return lens_.RayAt(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
 }
 
 base::Result<std::shared_ptr<const model::Image>> Optics::Draw(

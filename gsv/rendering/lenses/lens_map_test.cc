@@ -203,8 +203,9 @@ INSTANTIATE_TEST_SUITE_P(Lenses, LensPicture, testing::ValuesIn(Cases()), [](con
 TEST_P(LensPicture, ItsMapKnowsTheRayOfEachPixel) {
   const Optics optics = Read();
   for (std::size_t i = 0; i < 640 * 480; i += 97) {
+    const std::size_t column = i % 640, row = i / 640;
     const auto expected =
-        optics.lens().RayAt(static_cast<double>(i % 640) + 0.5, static_cast<double>(i / 640) + 0.5);
+        optics.lens().RayAt(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     const auto ray = optics.RayOfPixel(i);
     ASSERT_EQ(ray.has_value(), expected.has_value()) << i;
     if (ray) {

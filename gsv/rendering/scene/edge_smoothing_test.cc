@@ -41,7 +41,8 @@ TEST(EdgeSmoothing, GivesPixelsOnAStraightEdgeTheShareThatLiesInside) {
       for (int x = 10; x < 50; ++x) {
         double inside = 0;  // by sampling
         for (int s = 0; s < 400; ++s) {
-          inside += y + (s / 20 + 0.5) / 20 > height(x + (s % 20 + 0.5) / 20);
+          const int column = s % 20, row = s / 20;
+          inside += y + (row + 0.5) / 20 > height(x + (column + 0.5) / 20);
         }
         inside /= 400;
         error += std::abs(drawn.Red(x, y) / 255.0 - inside);

@@ -157,8 +157,9 @@ class RangeFidelity : public ::testing::Test {
       const std::vector<double> ranges = Read(lidar);
       ASSERT_EQ(ranges.size(), std::size_t{kAzimuths * kElevations});
       for (int beam = 0; beam < kAzimuths * kElevations; ++beam) {
-        const double elevation = -1.2 + 2.4 * (beam / kAzimuths) / (kElevations - 1);
-        const double azimuth = -kPi + 2 * kPi * (beam % kAzimuths) / kAzimuths;
+        const int column = beam % kAzimuths, row = beam / kAzimuths;
+        const double elevation = -1.2 + 2.4 * row / (kElevations - 1);
+        const double azimuth = -kPi + 2 * kPi * column / kAzimuths;
         const double expected =
             expected_along({std::cos(elevation) * std::cos(azimuth),
                             std::cos(elevation) * std::sin(azimuth), std::sin(elevation)});

@@ -85,8 +85,10 @@ TEST(ColumnGrid, FindsBoxesOnEitherSideOfARayAlongTheirBorder) {
 }
 
 TEST(ColumnGrid, StopsWhereTheLengthIsShortened) {
+  constexpr int kBoxes = 100;
   std::vector<Bounds> boxes;
-  for (int x = 0; x < 100; ++x) boxes.push_back(BoxAt({x + 0.5, 0, 0}, {0.1, 0.1, 0.1}));
+  boxes.reserve(kBoxes);
+  for (int x = 0; x < kBoxes; ++x) boxes.push_back(BoxAt({x + 0.5, 0, 0}, {0.1, 0.1, 0.1}));
   ColumnGrid grid;
   grid.Build(boxes);
   double length = 1000;

@@ -51,6 +51,7 @@ geometry::Shape AnyShape(Random& random) {
 // Shapes of all kinds anywhere, standing and moving, a floor, and a mesh.
 std::shared_ptr<world::Snapshot> Clutter(Random& random, int count) {
   std::vector<testing::Placed> bodies;
+  bodies.reserve(static_cast<std::size_t>(count) + 2);
   for (int i = 0; i < count; ++i) {
     bodies.push_back({"body" + std::to_string(i), testing::ModelOf(AnyShape(random)),
                       random.AnyPose(6), random.Uniform(0, 1) < 0.6});

@@ -12,8 +12,6 @@
 namespace gsv::sensing {
 namespace {
 
-using geometry::Vector3;
-
 // A hilly sheet, 30 m wide, of 2 side² triangles.
 geometry::Mesh Sheet(int side) {
   auto mesh = std::make_shared<geometry::TriangleMesh>();

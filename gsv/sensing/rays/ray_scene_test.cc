@@ -94,8 +94,10 @@ TEST(RayScene, AgreesWithLookingAtEverything) {
 // from all others.
 TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
   Random random(14);
+  constexpr int kFloors = 120;
   std::vector<Placed> bodies;
-  for (int i = 0; i < 120; ++i) {
+  bodies.reserve(kFloors);
+  for (int i = 0; i < kFloors; ++i) {
     bodies.push_back({"floor" + std::to_string(i),
                       ModelOf(geometry::Box{{1, 1, 0.1}}),
                       {{random.Uniform(-1, 1), random.Uniform(-1, 1), 0.2 * i}, {}},
@@ -128,8 +130,10 @@ TEST(RayScene, AgreesWithLookingAtEverythingInTowersAndFarAway) {
 
 TEST(RayScene, OfTwoBodiesAtOneDistanceTheFirstIsHit) {
   // Side by side, some of them standing; rays run along their common faces.
+  constexpr int kBoxes = 20;
   std::vector<Placed> bodies;
-  for (int i = 0; i < 20; ++i) {
+  bodies.reserve(kBoxes);
+  for (int i = 0; i < kBoxes; ++i) {
     bodies.push_back({"box" + std::to_string(10 + (7 * i) % 20),
                       ModelOf(geometry::Box{{1, 1, 1}}),
                       {{i + 0.5, 0, 0}, {}},
@@ -257,6 +261,7 @@ TEST(RayScene, ThreadsGetTheSameAnswers) {
   RaySceneCache cache;
   std::vector<std::vector<double>> answers(4);
   std::vector<std::thread> threads;
+  threads.reserve(answers.size());
   for (auto& answer : answers) {
     threads.emplace_back([&] {
       for (int round = 0; round < 5; ++round) {

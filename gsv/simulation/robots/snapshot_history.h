@@ -23,6 +23,7 @@ namespace gsv::simulation {
 struct Cadence {
   base::SimTime period{0};   // 0: a sample at every step, and no latency
   base::SimTime latency{0};  // from the sampling instant until it can be read
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const Cadence&, const Cadence&) = default;
 };
 
