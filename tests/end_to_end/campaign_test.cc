@@ -28,7 +28,7 @@ class CampaignCommand : public ::testing::Test {
     return RunProgram("gsv", more);
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const std::string file_ = folder_.Write("c.yaml",
                                           "scenario: s.yaml\nparameters:\n"
                                           "  robots[0].x: [0, 1]\n"

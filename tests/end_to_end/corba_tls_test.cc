@@ -85,7 +85,7 @@ class CorbaTls : public ::testing::Test {
     return folder;
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const Variable runtime_;
 };
 

@@ -93,7 +93,7 @@ class Lost : public ::testing::Test {
     return nullptr;
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   std::optional<Running> server_;
   std::uint16_t port_ = 0;
 };

@@ -29,7 +29,7 @@ class Record : public ::testing::Test {
     return topics;
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const std::string file_ = folder_.path() / "run.mcap";
 };
 

@@ -39,7 +39,7 @@ class Resimulation : public ::testing::Test {
     return RunProgram("gsv", arguments);
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const std::filesystem::path world_, recording_;
 };
 

@@ -21,7 +21,7 @@ class Scenario : public ::testing::Test {
     return RunProgram("gsv", arguments);
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
 };
 
 TEST_F(Scenario, AFileSaysWhatOptionsSay) {

@@ -117,7 +117,7 @@ class StrangersWorld : public ::testing::Test {
 </link></model></world></sdf>)");
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
 };
 
 TEST_F(StrangersWorld, ThatIsSoundIsShown) {

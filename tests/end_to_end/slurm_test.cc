@@ -79,7 +79,7 @@ class SlurmCampaign : public ::testing::Test {
     EXPECT_EQ(numbers.size(), static_cast<std::size_t>(runs));
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const std::string file_ = folder_.path() / "c.yaml";
 };
 

@@ -36,7 +36,7 @@ class TestCommand : public ::testing::Test {
     return folder_.Write(name, kStands + more);
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
 };
 
 TEST_F(TestCommand, AFolderOfScenariosPassesOrNot) {

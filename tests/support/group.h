@@ -33,7 +33,7 @@ class Group {
   }
 
  private:
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const Variable certificate_;
 };
 

@@ -50,7 +50,7 @@ class SlurmCluster {
   void AwaitNodes() const;
   std::vector<pid_t> ProcessesWith(const std::string& variable, const std::string& text) const;
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const std::string configuration_ = folder_.path() / "slurm.conf";
   std::unique_ptr<Running> munged_, controller_;
   std::vector<std::unique_ptr<Running>> nodes_;

@@ -29,7 +29,7 @@ class StaticFilesTest : public ::testing::Test {
     return StaticFiles(place_ / "web").Get(request);
   }
 
-  const base::testing::TestFolder folder_;
+  const base::testing::TestFolder folder_{};
   const fs::path place_ = folder_.path();
 };
 

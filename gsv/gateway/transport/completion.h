@@ -15,8 +15,8 @@ namespace gsv::gateway::transport {
 class Completion {
  public:
   // `then` takes what a Completion is called with, or the error alone.
-  // NOLINTNEXTLINE(bugprone-forwarding-reference-overload)
   template <typename Then>
+  // NOLINTNEXTLINE(bugprone-forwarding-reference-overload)
   requires(!std::is_same_v<std::remove_cvref_t<Then>, Completion>) explicit Completion(Then&& then)
       : step_(std::make_unique<Step<std::remove_cvref_t<Then>>>(std::forward<Then>(then))) {}
 
