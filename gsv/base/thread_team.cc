@@ -47,7 +47,6 @@ void ThreadTeam::Run(const Job& job) {
   }
   called_.notify_all();
   TakePieces(0);
-  state_.fetch_and(~kOpen, std::memory_order_relaxed);
   AwaitWorkers();
 }
 
@@ -71,6 +70,9 @@ void ThreadTeam::TakePieces(std::size_t self) {
       job_.call(job_.work, begin, std::min(begin + job_.grain, part.end));
     }
   }
+  // None is left: whoever sees that first closes the job, lest others join it again and again while
+  // the last pieces are being done.
+  state_.fetch_and(~kOpen, std::memory_order_relaxed);
 }
 
 bool ThreadTeam::TryJoin() {

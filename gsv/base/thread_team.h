@@ -58,8 +58,8 @@ class ThreadTeam {
   bool Join();
   bool TryJoin();
 
-  // While a job is open workers may join it; the caller closes it when no piece is left and waits
-  // for those who did. A worker that wakes too late is not waited for.
+  // While a job is open workers may join it; whoever finds no piece left closes it, and the caller
+  // waits for those who joined. A worker that wakes too late is not waited for.
   static constexpr unsigned kOpen = 1u << 31;
   Job job_;
   // A thread's own part of the range. It begins there, so that from one job to the next it tends to

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <set>
+#include <thread>
 #include <vector>
 
 namespace gsv::base {
@@ -50,6 +53,16 @@ TEST(ThreadTeam, ManyJobsInARowAreAllDone) {
     sum += part;
   }
   EXPECT_EQ(sum, 20'000u * 6);
+}
+
+// Sixteen threads once drew four cameras' pictures with all sixteen processors busy.
+TEST(ThreadTeam, AThreadWithoutAPieceCostsNoProcessor) {
+  constexpr auto kPiece = std::chrono::milliseconds(200);  // asleep: what is used, others use
+  ThreadTeam team(4);
+  const std::clock_t before = std::clock();
+  team.Share(2, 1, [&](std::size_t, std::size_t) { std::this_thread::sleep_for(kPiece); });
+  const double used = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  EXPECT_LT(used, 0.05) << "s of processor time while two pieces lasted 0.2 s each";
 }
 
 }  // namespace

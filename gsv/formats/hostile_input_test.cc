@@ -106,5 +106,73 @@ TEST_F(HostileInputTest, AGltfWhoseIndicesOrBuffersReachTooFarIsRefused) {
   EXPECT_FALSE(Mesh("huge.gltf", Gltf("AAEC", 2'000'000'000)).has_value());
 }
 
+std::string Word(std::uint32_t value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+// A .glb of `json` and `data`, whose chunks claim to be so much longer than they are.
+std::string Glb(std::string json, const std::string& data, std::uint32_t more_json = 0,
+                std::uint32_t more_data = 0) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto length = [](std::size_t bytes) { return static_cast<std::uint32_t>(bytes); };
+  const std::string chunks = Word(length(json.size()) + more_json) + "JSON" + json +
+                             Word(length(data.size()) + more_data) + std::string("BIN\0", 4) + data;
+  return "glTF" + Word(2) + Word(length(12 + chunks.size())) + chunks;
+}
+
+std::string TriangleJson(const std::string& accessor_more = "", const std::string& extras = "{}") {
+  return R"({"asset":{"version":"2.0"},"extras":{"count":-1},"scene":0,"scenes":[{"nodes":[0]}],)"
+         R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}],"extras":)" +
+         extras +
+         R"(}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3")" +
+         accessor_more +
+         R"(}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+         R"("buffers":[{"byteLength":36}]})";
+}
+
+std::string TriangleData() {
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  return {reinterpret_cast<const char*>(corners), sizeof corners};
+}
+
+// Found by the fuzzer: assimp took 3 GB for a file of 700 bytes.
+TEST_F(HostileInputTest, AGlbWhoseChunksReachBeyondItsEndIsRefused) {
+  const auto good = Mesh("good.glb", Glb(TriangleJson(), TriangleData()));
+  ASSERT_TRUE(good.has_value()) << good.error().Sentence();
+  EXPECT_EQ(good->triangles->triangles.size(), 1u);
+  for (const auto& [more_json, more_data] : {std::pair{2'990'000'000u, 0u}, {0u, 2'990'000'000u}}) {
+    const auto mesh = Mesh("long.glb", Glb(TriangleJson(), TriangleData(), more_json, more_data));
+    ASSERT_FALSE(mesh.has_value());
+    EXPECT_THAT(mesh.error().message, HasSubstr("claims more bytes than the file holds"));
+  }
+  for (const std::size_t length : {std::size_t{0}, std::size_t{12}, std::size_t{19}}) {
+    EXPECT_FALSE(
+        Mesh("cut.glb", Glb(TriangleJson(), TriangleData()).substr(0, length)).has_value());
+  }
+}
+
+TEST_F(HostileInputTest, AGltfThatClaimsMoreThanTheLimitsIsRefused) {
+  for (const char* claim :
+       {R"(,"sparse":{"count":1000000000000})", R"(,"byteOffset":-1)", R"(,"byteOffset":1e300)",
+        R"(,"sparse":{"count":1,"indices":{"byteOffset":99999999999999}})"}) {
+    const auto mesh = Mesh("claim.glb", Glb(TriangleJson(claim), TriangleData()));
+    ASSERT_FALSE(mesh.has_value()) << claim;
+    EXPECT_THAT(mesh.error().message, HasSubstr("more values than the limits allow")) << claim;
+  }
+  // What is nobody's claim may be any number.
+  EXPECT_TRUE(Mesh("extras.glb", Glb(TriangleJson(R"(,"extras":{"count":-1})",
+                                                  R"({"count":1e300,"byteLength":-7})"),
+                                     TriangleData()))
+                  .has_value());
+}
+
+TEST_F(HostileInputTest, AGltfThatIsNestedWithoutEndIsRefused) {
+  constexpr int kLevels = 200'000;
+  const std::string nested = std::string(kLevels, '[') + std::string(kLevels, ']');
+  const auto mesh = Mesh("deep.glb", Glb(TriangleJson("", nested), TriangleData()));
+  ASSERT_FALSE(mesh.has_value());
+  EXPECT_THAT(mesh.error().message, HasSubstr("nested too deeply"));
+}
+
 }  // namespace
 }  // namespace gsv::formats

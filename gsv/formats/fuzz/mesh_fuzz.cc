@@ -11,6 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static constexpr const char* kNames[] = {"m.dae", "m.obj", "m.stl", "m.gltf", "m.glb"};
   if (size == 0) return 0;
   formats::ReadLimits limits;
+  limits.mesh_bytes = 1 << 20;
   limits.mesh_triangles = 10'000;
   limits.mesh_vertices = 10'000;
   formats::TextureReader textures(limits);

@@ -17,6 +17,7 @@
 #include <assimp/postprocess.h>
 
 #include "gsv/formats/meshes/collada_check.h"
+#include "gsv/formats/meshes/gltf_check.h"
 
 namespace gsv::formats {
 namespace {
@@ -134,6 +135,10 @@ base::Result<AssimpScene> OpenScene(const fs::path& given, const ReadLimits& lim
   if (extension == ".dae") {
     if (auto status = CheckCollada(*bytes, path.string()); !status) return Fail(status.error());
     MoveBlanksOutOfColours(*bytes);
+  }
+  if (extension == ".gltf" || extension == ".glb") {
+    const auto status = CheckGltf(*bytes, extension == ".glb", limits, path.string());
+    if (!status) return Fail(status.error());
   }
   // assimp's OBJ reader runs past a last line that does not end.
   if (extension == ".obj") *bytes += '\n';

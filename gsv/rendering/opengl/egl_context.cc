@@ -59,10 +59,12 @@ bool IsSoftware(EGLDeviceEXT device) {
 
 std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
   std::vector<EGLDisplay> displays;
-  if (!Has(client_extensions, "EGL_EXT_platform_device") ||
-      !Has(client_extensions, "EGL_EXT_device_enumeration")) {
-    return displays;
-  }
+  // EGL_EXT_device_base is the older name of device_enumeration and device_query together. Where
+  // NVIDIA's driver is the only one, it is the only name that is given.
+  const bool lists_devices = Has(client_extensions, "EGL_EXT_device_base") ||
+                             (Has(client_extensions, "EGL_EXT_device_enumeration") &&
+                              Has(client_extensions, "EGL_EXT_device_query"));
+  if (!lists_devices || !Has(client_extensions, "EGL_EXT_platform_device")) return displays;
   EGLDeviceEXT devices[16];
   EGLint count = 0;
   if (!eglQueryDevicesEXT(16, devices, &count)) return displays;

@@ -1,0 +1,125 @@
+#include "gsv/formats/meshes/gltf_check.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace gsv::formats {
+namespace {
+
+using base::ErrorCode;
+
+constexpr int kDeepest = 64;  // glTF itself nests about ten deep; the rest is for "extras"
+
+std::uint32_t WordAt(std::string_view bytes, std::size_t place) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + place, sizeof word);
+  return word;
+}
+
+// The JSON of a .glb; nothing where one of the two chunks that assimp reads reaches beyond the end.
+std::optional<std::string_view> JsonOf(std::string_view glb) {
+  constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
+  if (glb.size() < kFileHeader + kChunkHeader) return std::nullopt;
+  const std::string_view chunks = glb.substr(kFileHeader);
+  const std::size_t length = WordAt(chunks, 0);
+  if (length > chunks.size() - kChunkHeader) return std::nullopt;
+  const std::string_view json = chunks.substr(kChunkHeader, length);
+  // A chunk begins at a multiple of four bytes.
+  const std::size_t end = std::min(kChunkHeader + (length + 3) / 4 * 4, chunks.size());
+  const std::string_view second = chunks.substr(end);
+  if (second.size() >= kChunkHeader && WordAt(second, 0) > second.size() - kChunkHeader) {
+    return std::nullopt;
+  }
+  return json;
+}
+
+// Hears of each value in turn; keeps none.
+class ClaimChecker : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  explicit ClaimChecker(const ReadLimits& limits)
+      : most_bytes_(limits.mesh_bytes),
+        most_values_(std::max(limits.mesh_vertices, 3 * limits.mesh_triangles)) {}
+
+  bool key(string_t& name) override {
+    if (depth_ == kInRoot) {
+      claims_ = name == "buffers" || name == "bufferViews" || name == "accessors";
+    }
+    if (depth_ == kInElement) is_sparse_ = name == "sparse";
+    // Elsewhere, and in an element's "extras", such a name means something else.
+    if (!claims_ || !(depth_ == kInElement || (depth_ > kInElement && is_sparse_))) return true;
+    if (name == "byteLength" || name == "byteOffset" || name == "byteStride") most_ = most_bytes_;
+    if (name == "count") most_ = most_values_;
+    return true;
+  }
+  bool number_unsigned(number_unsigned_t value) override { return Take(value <= most_); }
+  bool number_integer(number_integer_t) override { return Take(most_ == kNoMost); }  // below zero
+  bool number_float(number_float_t, const string_t&) override { return Take(most_ == kNoMost); }
+  bool null() override { return Take(true); }
+  bool boolean(bool) override { return Take(true); }
+  bool string(string_t&) override { return Take(true); }
+  bool binary(binary_t&) override { return Take(true); }
+  bool start_object(std::size_t) override { return Enter(); }
+  bool end_object() override { return Leave(); }
+  bool start_array(std::size_t) override { return Enter(); }
+  bool end_array() override { return Leave(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override {
+    wrong = "the mesh cannot be read: its JSON is malformed";
+    return false;
+  }
+
+  const char* wrong = nullptr;
+
+ private:
+  static constexpr std::size_t kNoMost = SIZE_MAX;
+  static constexpr int kInRoot = 1, kInElement = 3;  // depths: an object in an array of the root
+
+  bool Take(bool is_allowed) {
+    if (!is_allowed) wrong = "the mesh claims more values than the limits allow";
+    most_ = kNoMost;
+    return is_allowed;
+  }
+  bool Enter() {
+    if (++depth_ > kDeepest) wrong = "the mesh cannot be read: its JSON is nested too deeply";
+    return Take(true) && wrong == nullptr;
+  }
+  bool Leave() {
+    --depth_;
+    return true;
+  }
+
+  const std::size_t most_bytes_, most_values_;
+  std::size_t most_ = kNoMost;  // what the next number may be
+  int depth_ = 0;
+  bool claims_ = false, is_sparse_ = false;  // where the parser is
+};
+
+}  // namespace
+
+base::Status CheckGltf(const std::string& bytes, bool is_binary, const ReadLimits& limits,
+                       const std::string& file) {
+  std::string_view json = bytes;
+  if (is_binary) {
+    if (!json.starts_with("glTF")) {
+      return Fail(ErrorCode::kBadModel, "the mesh cannot be read: a .glb begins with glTF", file);
+    }
+    const std::optional<std::string_view> chunk = JsonOf(bytes);
+    if (!chunk) {
+      return Fail(ErrorCode::kBadModel, "the mesh's header claims more bytes than the file holds",
+                  file);
+    }
+    json = *chunk;
+  }
+  // Some writers fill the chunk up with zeros, where assimp's reader stops.
+  json = json.substr(0, json.find('\0'));
+  ClaimChecker checker(limits);
+  nlohmann::json::sax_parse(json, &checker);
+  if (checker.wrong == nullptr) return {};
+  return Fail(ErrorCode::kBadModel, checker.wrong, file);
+}
+
+}  // namespace gsv::formats
