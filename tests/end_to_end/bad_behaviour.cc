@@ -1,8 +1,6 @@
 // A behaviour that goes wrong in the way it is told to, for tests.
 #include <csignal>
 #include <stdexcept>
-#include <thread>
-#include <vector>
 
 #include <unistd.h>
 
@@ -32,7 +30,7 @@ class BadBehaviour final : public Behaviour {
     if (fault_ == "never-wait") {
       while (robot.IsRunning()) usleep(1000);  // busy with itself: it never tells the simulation
     }
-    if (fault_ == "flood") return Flood(robot);
+    while (fault_ == "flood" && robot.IsRunning()) (void)sonar_->Range();
     const bool goes_on = robot.SleepFor(200ms);
     if (goes_on && fault_ == "die") raise(SIGKILL);
     if (goes_on && fault_ == "throw") throw std::runtime_error("out of ideas");
@@ -41,17 +39,6 @@ class BadBehaviour final : public Behaviour {
   }
 
  private:
-  void Flood(Robot& robot) {
-    constexpr int kThreads = 4;
-    std::vector<std::jthread> threads;
-    threads.reserve(kThreads);
-    for (int i = 0; i < kThreads; ++i) {
-      threads.emplace_back([&] {
-        while (robot.IsRunning()) (void)sonar_->Range();
-      });
-    }
-  }
-
   const std::string fault_;
   std::unique_ptr<Sonar> sonar_;
 };
