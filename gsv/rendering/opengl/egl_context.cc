@@ -59,12 +59,7 @@ bool IsSoftware(EGLDeviceEXT device) {
 
 std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
   std::vector<EGLDisplay> displays;
-  // EGL_EXT_device_base is the older name of device_enumeration and device_query together. Where
-  // NVIDIA's driver is the only one, it is the only name that is given.
-  const bool lists_devices = Has(client_extensions, "EGL_EXT_device_base") ||
-                             (Has(client_extensions, "EGL_EXT_device_enumeration") &&
-                              Has(client_extensions, "EGL_EXT_device_query"));
-  if (!lists_devices || !Has(client_extensions, "EGL_EXT_platform_device")) return displays;
+  if (!ListsDevices(client_extensions)) return displays;
   EGLDeviceEXT devices[16];
   EGLint count = 0;
   if (!eglQueryDevicesEXT(16, devices, &count)) return displays;
@@ -121,6 +116,15 @@ std::string GlText(unsigned name) {
 }
 
 }  // namespace
+
+// EGL_EXT_device_base is the older name of device_enumeration and device_query together. Where
+// NVIDIA's driver is the only one, it is the only name that is given.
+bool ListsDevices(const char* client_extensions) {
+  const bool enumerates = Has(client_extensions, "EGL_EXT_device_base") ||
+                          (Has(client_extensions, "EGL_EXT_device_enumeration") &&
+                           Has(client_extensions, "EGL_EXT_device_query"));
+  return enumerates && Has(client_extensions, "EGL_EXT_platform_device");
+}
 
 Result<std::unique_ptr<EglContext>> EglContext::Create(const EglOptions& options) {
   for (const std::string& library : {options.egl_library, options.gl_library}) {

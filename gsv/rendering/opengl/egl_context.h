@@ -21,6 +21,10 @@ struct EglOptions {
   std::string gl_library = "libOpenGL.so.0";
 };
 
+// Whether EGL can be asked for graphics devices without a display, by the extensions that it has
+// for no display (EGL_EXT_device_enumeration, EGL_EXT_platform_device). Null: it has none.
+bool ListsDevices(const char* client_extensions);
+
 class EglContext {
  public:
   static base::Result<std::unique_ptr<EglContext>> Create(const EglOptions& options);
