@@ -106,10 +106,10 @@ base::Status LocalRobot::Send(const MountedSensor& radio, const std::string& rec
   return status;
 }
 
-base::Status LocalRobot::Act(const MountedSensor& actuator, world::ActuatorOrder order) {
+base::Status LocalRobot::Act(const MountedSensor& actuator, world::DeviceCommand command) {
   if (!is_running_) return base::Fail(base::ErrorCode::kEnded, "the run is over", name());
-  auto status = turn_ != nullptr ? turn_->Act(actuator, std::move(order))
-                                 : agent_->Act(actuator.name(), std::move(order));
+  auto status = turn_ != nullptr ? turn_->Act(actuator, std::move(command))
+                                 : agent_->Act(actuator.name(), std::move(command));
   if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
   return status;
 }

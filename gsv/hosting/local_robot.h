@@ -55,7 +55,7 @@ class LocalRobot final : public Robot {
   base::Status Send(const simulation::MountedSensor& radio, const std::string& receiver,
                     const std::string& content);
 
-  base::Status Act(const simulation::MountedSensor& actuator, world::ActuatorOrder order);
+  base::Status Act(const simulation::MountedSensor& actuator, world::DeviceCommand command);
 
   // Of the robot's model, by index. Nothing comes of either when the run is over; a command that is
   // refused ends it.

@@ -53,7 +53,7 @@ void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn)
     turn.Command(*drive);
   } else if (const auto* told = std::get_if<RecordedOrder>(&command.command)) {
     if (const auto actuator = agent_->Mounted(told->actuator)) {
-      (void)turn.Act(**actuator, told->order);
+      (void)turn.Act(**actuator, told->command);
     }
   } else if (const auto* sending = std::get_if<RecordedSending>(&command.command)) {
     if (const auto radio = agent_->Mounted(sending->radio)) {

@@ -13,7 +13,7 @@ namespace gsv::hosting {
 
 struct RecordedOrder {
   std::string actuator;
-  world::ActuatorOrder order;
+  world::DeviceCommand command;
 };
 
 struct RecordedSending {

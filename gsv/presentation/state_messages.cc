@@ -152,15 +152,16 @@ messages::gsv_msgs::Command CommandMessage(const std::string& robot, const world
   return message;
 }
 
-messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::ActuatorState& told,
+messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& device,
                                                     const world::State& state) {
+  const world::FollowedCommand& followed = *device.followed();
   messages::gsv_msgs::ActuatorCommand message;
-  message.stamp = messages::ToMessage(told.since);
-  message.step = StepAt(told.since, state);
-  message.robot = told.robot;
-  message.actuator = told.actuator;
-  message.values = told.order.values;
-  message.word = told.order.word;
+  message.stamp = messages::ToMessage(followed.since);
+  message.step = StepAt(followed.since, state);
+  message.robot = device.robot();
+  message.actuator = device.device();
+  message.values = followed.command.values;
+  message.word = followed.command.word;
   return message;
 }
 

@@ -38,8 +38,8 @@ void AppendSensorTransform(const world::Layout& layout, int body,
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
                                            const world::Contact& contact);
 
-// What an actuator was told last.
-messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::ActuatorState& told,
+// The command that a device follows; it follows one.
+messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& device,
                                                     const world::State& state);
 
 messages::gsv_msgs::Transmission TransmissionMessage(const world::Snapshot& snapshot,

@@ -377,15 +377,27 @@ void BeforeAWall(TestScene& scene) {
   scene.Add("robot", Box{{0.1, 0.1, 0.1}}, {{2, 0.6, 0}, {}}, Matt(0.1, 0.1, 0.1));
 }
 
-std::shared_ptr<const model::Image> TakeWith(Renderer& renderer, TestScene& scene,
-                                             const world::LampSetup& lamp, double brightness) {
+class GlowingDevice final : public world::DeviceState {
+ public:
+  GlowingDevice(world::DeviceMount mount, const world::Glow& glow)
+      : DeviceState(std::move(mount)), glow_(glow) {}
+  void AddToHash(base::Hash&) const override {}
+  std::optional<world::Glow> glow() const override {
+    return glow_.brightness > 0 ? std::optional(glow_) : std::nullopt;
+  }
+
+ private:
+  const world::Glow glow_;
+};
+
+std::shared_ptr<const model::Image> TakeWith(Renderer& renderer, TestScene& scene, world::Glow lamp,
+                                             double brightness) {
   const auto snapshot = std::make_shared<world::Snapshot>(*scene.Snapshot());
-  auto state = std::make_shared<world::ActuatorState>();
-  state->robot = "robot", state->actuator = "lamp";
-  state->setup = std::make_shared<const world::ActuatorSetup>(
-      world::ActuatorSetup{0, {{0, -0.6, 0}, {}}, lamp});
-  state->order.values = {brightness, 1, 0, 0};
-  snapshot->state.actuators = std::make_shared<const world::Actuators>(world::Actuators{state});
+  lamp.brightness = brightness;
+  lamp.colour = {1, 0, 0, 1};
+  snapshot->state.devices = std::make_shared<const world::DeviceStates>(
+      world::DeviceStates{std::make_shared<const GlowingDevice>(
+          world::DeviceMount{"robot", "lamp", 0, {{0, -0.6, 0}, {}}}, lamp)});
   auto picture =
       renderer.Draw(snapshot, CameraView{{}, {160, 120, 1, 0.05, 100}}, std::chrono::seconds(30));
   EXPECT_TRUE(picture) << picture.error().Sentence();
@@ -399,7 +411,7 @@ int RedAt(const model::Image& picture, int x) {
 
 TEST_F(PICTURE_SUITE, AnLedGlowsWhereItIsMountedAndLightsNothing) {
   BeforeAWall(scene_);
-  world::LampSetup led;
+  world::Glow led;
   led.radius = 0.1;
   const auto dark = TakeWith(*renderer_, scene_, led, 0),
              lit = TakeWith(*renderer_, scene_, led, 1);
@@ -415,7 +427,7 @@ TEST_F(PICTURE_SUITE, AnLedGlowsWhereItIsMountedAndLightsNothing) {
 
 TEST_F(PICTURE_SUITE, ALampLightsWhatIsNear) {
   BeforeAWall(scene_);
-  world::LampSetup lamp;
+  world::Glow lamp;
   lamp.range = 5;
   const int dark = RedAt(*TakeWith(*renderer_, scene_, lamp, 0), 40);
   const int dim = RedAt(*TakeWith(*renderer_, scene_, lamp, 0.3), 40),
@@ -429,7 +441,7 @@ TEST_F(PICTURE_SUITE, ALampLightsWhatIsNear) {
 
 TEST_F(PICTURE_SUITE, ALampWithAnAngleLightsAConeAlongItsAxis) {
   BeforeAWall(scene_);
-  world::LampSetup lamp;
+  world::Glow lamp;
   lamp.range = 5;
   lamp.angle = 0.6;  // on the wall, 0.9 m away, a disc of 0.28 m
   lamp.radius = 0.01;

@@ -7,12 +7,12 @@
 
 namespace gsv::sensing {
 
-base::Status Actuator::CheckShape(const world::ActuatorOrder& order, std::size_t count) const {
-  if (order.values.size() != count) {
+base::Status Actuator::CheckShape(const world::DeviceCommand& command, std::size_t count) const {
+  if (command.values.size() != count) {
     return Refuse(fmt::format("a {} is told {} numbers, not {}", description().type, count,
-                              order.values.size()));
+                              command.values.size()));
   }
-  if (std::any_of(order.values.begin(), order.values.end(),
+  if (std::any_of(command.values.begin(), command.values.end(),
                   [](double value) { return !std::isfinite(value); })) {
     return Refuse("what an actuator is told must be finite");
   }

@@ -13,8 +13,8 @@
 
 namespace gsv::sensing {
 
-// Grows with every change of SensorType, Sensor, Sampling or Reading.
-inline constexpr int kSensorInterface = 2;
+// Grows with every change of SensorType, Sensor, Device, Sampling or Reading.
+inline constexpr int kSensorInterface = 3;
 inline constexpr const char* kSensorModuleSymbol = "gsv_sensor_module";
 
 struct SensorModule {

@@ -23,14 +23,14 @@ double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup
          walls * sender.wall_loss;
 }
 
-int WallsBetween(const RayScene& scene, const Antenna& from, const Antenna& to) {
-  const geometry::Vector3 gap = to.place - from.place;
+int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenna& to) {
+  const geometry::Vector3 gap = to.position - from.position;
   double left = Norm(gap);
   if (left <= kPastASurface) return 0;
-  Ray ray{from.place, (1 / left) * gap, left};
+  world::Ray ray{from.position, (1 / left) * gap, left};
   int crossings = 0;
   for (int i = 0; i < kMostCrossings; ++i) {
-    const auto hit = scene.Cast(ray, from.body);
+    const auto hit = rays.Cast(ray, from.body);
     if (!hit) break;
     if (hit->body != to.body) ++crossings;
     const double step = hit->distance + kPastASurface;
@@ -39,6 +39,22 @@ int WallsBetween(const RayScene& scene, const Antenna& from, const Antenna& to) 
     ray = {ray.origin + step * ray.direction, ray.direction, left};
   }
   return (crossings + 1) / 2;
+}
+
+std::optional<double> HeardAt(const Antenna& from, const Antenna& to,
+                              const world::RayCaster& rays) {
+  const world::RadioSetup& sender = *from.setup;
+  const world::RadioSetup& receiver = *to.setup;
+  if (sender.network != receiver.network || sender.frequency != receiver.frequency) return {};
+  const double distance = Norm(to.position - from.position);
+  if (sender.range > 0 && distance > sender.range) return {};
+  const double in_the_open = ArrivingStrength(sender, receiver, distance, 0);
+  if (in_the_open < receiver.sensitivity) return {};
+  if (sender.wall_loss == 0) return in_the_open;
+  const double strength =
+      ArrivingStrength(sender, receiver, distance, WallsBetween(rays, from, to));
+  if (strength < receiver.sensitivity) return {};
+  return strength;
 }
 
 }  // namespace gsv::sensing

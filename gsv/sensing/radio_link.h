@@ -8,16 +8,12 @@
 
 #include <optional>
 
-#include "gsv/sensing/rays/ray_scene.h"
 #include "gsv/world/radio.h"
+#include "gsv/world/ray_caster.h"
 
 namespace gsv::sensing {
 
-struct Antenna {
-  const world::RadioSetup* setup = nullptr;
-  geometry::Vector3 place;  // world
-  int body = -1;            // that carries it
-};
+using world::Antenna;
 
 // dBm at `distance` (m), behind so many walls. Nearer than 1 cm counts as that.
 double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup& receiver,
@@ -25,24 +21,10 @@ double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup
 
 // How many solids stand between two antennas, those that carry them left out: half of the surfaces
 // that the line of sight crosses, rounded up.
-int WallsBetween(const RayScene& scene, const Antenna& from, const Antenna& to);
+int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenna& to);
 
-// The strength at which `to` hears `from`; nothing if it does not. `scene` is asked for walls only
-// where they make a difference; see SceneSource.
-template <class SceneSource>
-std::optional<double> HeardAt(const Antenna& from, const Antenna& to, const SceneSource& scene) {
-  const world::RadioSetup& sender = *from.setup;
-  const world::RadioSetup& receiver = *to.setup;
-  if (sender.network != receiver.network || sender.frequency != receiver.frequency) return {};
-  const double distance = Norm(to.place - from.place);
-  if (sender.range > 0 && distance > sender.range) return {};
-  const double in_the_open = ArrivingStrength(sender, receiver, distance, 0);
-  if (in_the_open < receiver.sensitivity) return {};
-  if (sender.wall_loss == 0) return in_the_open;
-  const double strength =
-      ArrivingStrength(sender, receiver, distance, WallsBetween(scene(), from, to));
-  if (strength < receiver.sensitivity) return {};
-  return strength;
-}
+// The strength at which `to` hears `from`; nothing if it does not. Rays are cast only where walls
+// make a difference.
+std::optional<double> HeardAt(const Antenna& from, const Antenna& to, const world::RayCaster& rays);
 
 }  // namespace gsv::sensing

@@ -86,7 +86,7 @@ class Sampling {
   mutable geometry::Pose world_from_link_;
 };
 
-class Actuator;
+class Device;
 
 class Sensor {
  public:
@@ -106,11 +106,8 @@ class Sensor {
   // Whether Sample() casts rays: then who samples many has the scene made ready for all beforehand.
   virtual bool CastsRays() const { return false; }
 
-  // What a radio is able to: messages can be sent with it. Null for all other sensors.
-  virtual world::RadioSetupPtr radio() const { return nullptr; }
-
-  // The same as an actuator, which can be told something; null for all others.
-  virtual const Actuator* actuator() const { return nullptr; }
+  // This sensor as a device, or null if it keeps no state from one step to the next.
+  virtual const Device* device() const { return nullptr; }
 
  private:
   model::SensorDescription description_;

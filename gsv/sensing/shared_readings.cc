@@ -27,8 +27,7 @@ class SharedSensor final : public Sensor {
   }
   bool TakesLong() const override { return sensor_->TakesLong(); }
   bool CastsRays() const override { return sensor_->CastsRays(); }
-  world::RadioSetupPtr radio() const override { return sensor_->radio(); }
-  const Actuator* actuator() const override { return sensor_->actuator(); }
+  const Device* device() const override { return sensor_->device(); }
 
  private:
   const std::unique_ptr<Sensor> sensor_;

@@ -20,8 +20,8 @@ class ActuatorServant : public SensorServant<Skeleton> {
   }
 
  protected:
-  void Act(world::ActuatorOrder order, unsigned raises = orb::kAll) {
-    orb::ValueOrThrow(this->agent().Act(this->description().name, std::move(order)), raises);
+  void Act(world::DeviceCommand command, unsigned raises = orb::kAll) {
+    orb::ValueOrThrow(this->agent().Act(this->description().name, std::move(command)), raises);
   }
 };
 

@@ -43,8 +43,8 @@ TEST(Actuators, ActFromTheInstantAtWhichTheyAreTold) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(seen, (std::vector<double>{0, 0.75}));
   const auto snapshot = simulation->snapshot();
-  ASSERT_EQ(snapshot->state.actuators->size(), 1u);
-  EXPECT_EQ(snapshot->state.actuators->front()->since, 20ms);
+  ASSERT_EQ(snapshot->state.devices->size(), 1u);
+  EXPECT_EQ(snapshot->state.devices->front()->followed()->since, 20ms);
 }
 
 TEST(Actuators, WhatCannotBeToldIsRefusedWithASentence) {
@@ -66,7 +66,7 @@ TEST(Actuators, WhatCannotBeToldIsRefusedWithASentence) {
                      "robot: the robot has no sensor \"siren\"",
                      "robot/speaker: there is no sound \"song\"; there are tone, buzz, chirp, "
                      "noise"}));
-  EXPECT_EQ(simulation->snapshot()->state.actuators, nullptr);
+  EXPECT_EQ(simulation->snapshot()->state.devices, nullptr);
 }
 
 TEST(Actuators, LeaveTheSameHashWhoeverIsSlow) {
@@ -101,13 +101,13 @@ TEST(Actuators, ALampCanBeOnFromTheStartAndAgainAfterAReset) {
   for (int run = 0; run < 2; ++run) {
     ASSERT_TRUE(simulation->RunUntil(20ms));
     ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
-    ASSERT_NE(simulation->snapshot()->state.actuators, nullptr);
+    ASSERT_NE(simulation->snapshot()->state.devices, nullptr);
     EXPECT_EQ(BrightnessOf(*simulation, "robot"), 0.5);
     ASSERT_TRUE(simulation->Resume());
     ASSERT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
     EXPECT_EQ(BrightnessOf(*simulation, "robot"), 0);
     ASSERT_TRUE(simulation->Reset());
-    EXPECT_EQ(simulation->snapshot()->state.actuators, nullptr);
+    EXPECT_EQ(simulation->snapshot()->state.devices, nullptr);
   }
 }
 
@@ -132,11 +132,11 @@ TEST(Actuators, GoWithTheirRobotAndWithASensorThatIsTakenOff) {
   ASSERT_TRUE(simulation->RunUntil(50ms));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
   // Its own lamp goes on shining, also when nobody has it open.
-  ASSERT_EQ(simulation->snapshot()->state.actuators->size(), 2u);
+  ASSERT_EQ(simulation->snapshot()->state.devices->size(), 2u);
   EXPECT_EQ(BrightnessOf(*simulation, "robot"), 1);
   ASSERT_TRUE(simulation->RemoveRobot("robot"));
-  ASSERT_EQ(simulation->snapshot()->state.actuators->size(), 1u);
-  EXPECT_EQ(simulation->snapshot()->state.actuators->front()->robot, "other");
+  ASSERT_EQ(simulation->snapshot()->state.devices->size(), 1u);
+  EXPECT_EQ(simulation->snapshot()->state.devices->front()->robot(), "other");
 }
 
 }  // namespace

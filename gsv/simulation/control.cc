@@ -95,7 +95,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
   for (const world::Body& body : layout_->bodies) {
     if (!body.is_robot) continue;
     const auto agent = std::make_shared<RobotAgent>(body.name, body.model, false, shared_);
-    agent->StartActuators();
+    agent->StartDevices();
     agents_.emplace(body.name, agent);
   }
   IndexAgents();
@@ -318,7 +318,7 @@ base::Status SteppingSimulation::Reset() {
     if (auto ok = UndoFaults(); !ok) return ok;
     const std::lock_guard lock(shared_->mutex);
     state_ = world::InitialState(*layout_);
-    if (!engine_holds_.empty()) GSV_CHECK(SetEngineLayout(layout_, state_));
+    attachments_.Follow(layout_, state_, *engine_);
     shared_->sleepers.Clear();
     shared_->commanded.clear();
     shared_->given_up.clear();
@@ -331,7 +331,7 @@ base::Status SteppingSimulation::Reset() {
     for (const auto& [name, agent] : agents_) {
       agent->ResetClocks();
       agent->rack().Reset();
-      agent->StartActuators();
+      agent->StartDevices();
     }
     failure_.clear();
     final_hash_.clear();

@@ -162,7 +162,7 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
     auto agent = std::make_shared<RobotAgent>(robot.name, robot.model, robot.is_avatar, shared_);
     agent->SetBehaviour(robot.behaviour);
     if (robot.behaviour != nullptr && robot.behaviour->local() != nullptr) has_hosted_ = true;
-    agent->StartActuators();
+    agent->StartDevices();
     agents_.emplace(robot.name, std::move(agent));
   }
   IndexAgents();
@@ -174,7 +174,7 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
   const std::uint32_t version = layout_->version + 1;
   auto layout = world::MakeLayout(version, std::move(bodies), layout_->description);
   world::State state = CarryOver(*layout);
-  LetGo(*layout, placed, state);
+  CarryOverDevices(*layout, placed, state);
   auto status = SetEngineLayout(layout, state);
   for (const std::string& name : placed) PutAtRest(*layout, layout->Find(name), state);
   if (status && !placed.empty()) status = MakeRoom(*layout, placed, state);
@@ -182,7 +182,7 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
     if (const auto back = SetEngineLayout(layout_, state_); !back) return back;
     return status;
   }
-  CarryHeld(*layout, state.time, state);
+  MoveDevices(*layout, state.time, state);
   // A robot starts where there was room for it, also after a reset; one that was put elsewhere in
   // mid-run, where it did.
   std::vector<world::Body> settled = layout->bodies;
@@ -204,8 +204,7 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
 
 base::Status SteppingSimulation::SetEngineLayout(const std::shared_ptr<const world::Layout>& layout,
                                                  const world::State& state) {
-  engine_holds_ = HoldsIn(state);
-  return engine_->SetLayout(WithHeld(layout, state));
+  return attachments_.SetLayout(layout, state, *engine_);
 }
 
 world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {
@@ -227,18 +226,7 @@ world::State SteppingSimulation::CarryOver(const world::Layout& layout) const {
     std::copy_n(state_.joint_commands.begin() + old_body.first_joint, body.model->joints.size(),
                 state.joint_commands.begin() + body.first_joint);
   }
-  if (state_.radios != nullptr) {
-    auto radios = std::make_shared<world::Radios>();
-    std::copy_if(state_.radios->begin(), state_.radios->end(), std::back_inserter(*radios),
-                 [&](const auto& radio) { return layout.Find(radio->robot) >= 0; });
-    state.radios = std::move(radios);
-  }
-  if (state_.actuators != nullptr) {
-    auto actuators = std::make_shared<world::Actuators>();
-    std::copy_if(state_.actuators->begin(), state_.actuators->end(), std::back_inserter(*actuators),
-                 [&](const auto& actuator) { return layout.Find(actuator->robot) >= 0; });
-    state.actuators = std::move(actuators);
-  }
+  state.devices = state_.devices;
   return state;
 }
 

@@ -148,7 +148,7 @@ TEST(Radio, HearsOnlyWhileItIsOpen) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(at_first, Inbox());
   EXPECT_EQ(after_all, Inbox());
-  EXPECT_EQ(simulation->snapshot()->state.radios->size(), 2u);
+  EXPECT_EQ(simulation->snapshot()->state.devices->size(), 2u);
 }
 
 TEST(Radio, RefusesWhatIsTooLongTooMuchOrNoRadio) {
@@ -176,12 +176,12 @@ TEST(Radio, ForgetsAllOnResetAndWhoLeaves) {
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   const std::string first = simulation->state_hash();
   ASSERT_TRUE(simulation->Reset());
-  EXPECT_EQ(simulation->snapshot()->state.radios, nullptr);
+  EXPECT_EQ(simulation->snapshot()->state.devices, nullptr);
   ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
   EXPECT_EQ(simulation->state_hash(), first);
   ASSERT_TRUE(simulation->RemoveRobot("b"));
-  ASSERT_EQ(simulation->snapshot()->state.radios->size(), 1u);
-  EXPECT_EQ(simulation->snapshot()->state.radios->front()->robot, "a");
+  ASSERT_EQ(simulation->snapshot()->state.devices->size(), 1u);
+  EXPECT_EQ(simulation->snapshot()->state.devices->front()->robot(), "a");
 }
 
 // Everybody says how often it was spoken to, and drives accordingly.
@@ -209,7 +209,7 @@ TEST(Radio, LeavesTheSameStateWhoeverIsSlow) {
                                                       {{"range", 2.2}, {"inbox", 3.0}})));
     }
     ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-    EXPECT_GT(simulation->snapshot()->state.radios->front()->heard, 10u);
+    EXPECT_GT(simulation->Watch("robot0", "radio")->values[6], 10);  // the newest one's number
     hashes.insert(simulation->state_hash());
   }
   EXPECT_EQ(hashes.size(), 1u);

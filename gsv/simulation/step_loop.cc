@@ -159,6 +159,35 @@ bool SteppingSimulation::IsDue(Lock& lock) {
   return false;
 }
 
+void SteppingSimulation::ApplyCommands() {
+  for (RobotAgent* agent : shared_->commanded) {
+    RobotCommands commands = agent->TakeCommands();
+    if (const auto& drive = commands.drive()) {
+      state_.bodies[agent->body()].drive.command = drive->command;
+      state_.bodies[agent->body()].drive.command_time = state_.time;
+    }
+    for (const auto& [joint, command] : commands.joints()) {
+      world::CommandJoint(*layout_, agent->body(), joint, command, state_);
+    }
+    if (!commands.devices().empty()) {
+      device_actions_.emplace_back(agent->robot(), std::move(commands.devices()));
+    }
+  }
+  shared_->commanded.clear();
+}
+
+// One step from t to t+h, under world_mutex_:
+//
+//   unless the simulation has been halted, or some agent still runs (lockstep):
+//     apply what agents commanded: drives, joints                      ApplyCommands()
+//     apply what agents commanded of devices, by robot and name;
+//       each device does its part: hears, grasps                       StepDevices()
+//     the engine learns of what devices hold now                       Attachments::Follow()
+//     the engine moves bodies and joints by h; devices move what they
+//       hold; odometry, contacts and accelerations follow              MoveWorld()
+//     publish the snapshot, count the step, pause or finish if that
+//       was the last one                                               AfterStep()
+//   observers queue the snapshot, without any lock
 void SteppingSimulation::TakeStep() {
   std::shared_ptr<const world::Snapshot> snapshot;
   {
@@ -173,35 +202,15 @@ void SteppingSimulation::TakeStep() {
           (shared_->running > 0 || shared_->has_reported_deaths)) {
         return;
       }
-      for (RobotAgent* agent : shared_->commanded) {
-        if (const auto command = agent->TakeCommand()) {
-          world::DriveState& drive = state_.bodies[agent->body()].drive;
-          drive.command = agent->has_motor() ? *command : world::DriveCommand();
-          drive.command_time = state_.time;
-        }
-        for (const auto& [joint, command] : agent->TakeJointCommands()) {
-          if (!agent->MayMoveJoint(joint)) continue;
-          world::CommandJoint(*layout_, agent->body(), joint, command, state_);
-        }
-        if (RadioActs acts = agent->TakeRadioActs(); !acts.empty()) {
-          radio_acts_.emplace_back(agent->robot(), std::move(acts));
-        }
-        if (ActuatorActs acts = agent->TakeActuatorActs(); !acts.empty()) {
-          actuator_acts_.emplace_back(agent->robot(), std::move(acts));
-        }
-      }
-      shared_->commanded.clear();
+      ApplyCommands();
       stepped_run_ = run_;
       if (shared_->mode == Mode::kRealTime) pacer_.StepStarts(start);
     }
-    if (!radio_acts_.empty()) {
-      transmissions_ = Communicate(shared_->history.latest(), std::exchange(radio_acts_, {}),
-                                   shared_->rays, team_.get(), state_);
-    }
-    if (!actuator_acts_.empty()) Obey(std::exchange(actuator_acts_, {}), state_);
-    CloseJaws(shared_->history.latest(), step_, shared_->rays, team_.get(), state_);
-    if (state_.actuators != nullptr && HoldsIn(state_) != engine_holds_) {
-      GSV_CHECK(SetEngineLayout(layout_, state_));  // it took the same bodies before
+    if (state_.devices != nullptr || !device_actions_.empty()) {
+      transmissions_ =
+          StepDevices(shared_->history.latest(), step_, std::exchange(device_actions_, {}),
+                      shared_->rays, team_.get(), state_);
+      attachments_.Follow(layout_, state_, *engine_);
     }
     snapshot = MoveWorld();
     AfterStep(snapshot, start);
@@ -221,7 +230,7 @@ std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
   world::KeepVelocities(state_, snapshot->accelerations);
   wheel_odometry_.KeepWheels(state_);
   engine_->Step(step_, state_, snapshot->contacts);
-  CarryHeld(*layout_, state_.time + step_, state_);
+  MoveDevices(*layout_, state_.time + step_, state_);
   wheel_odometry_.Advance(step_seconds, state_);
   world::FinishContacts(state_, snapshot->accelerations, snapshot->contacts);
   world::FinishAccelerations(state_, step_seconds, snapshot->accelerations);

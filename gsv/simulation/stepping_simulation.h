@@ -14,7 +14,8 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/motion/engine.h"
-#include "gsv/simulation/gripping.h"
+#include "gsv/simulation/attachments.h"
+#include "gsv/simulation/device_loop.h"
 #include "gsv/simulation/pace/pacer.h"
 #include "gsv/simulation/pace/run_statistics.h"
 #include "gsv/simulation/robots/behaviour_caller.h"
@@ -131,7 +132,7 @@ class SteppingSimulation final : public Simulation {
   base::Result<world::Body> BodyOf(const ObjectSpecification& object) const;
   base::Result<std::string> NameOf(const ObjectSpecification& object,
                                    const model::Model& model) const;
-  // Has the engine move what stands in `layout`, with what `state` says is held.
+  // Has the engine move the bodies of `layout`, with what is held in `state`.
   base::Status SetEngineLayout(const std::shared_ptr<const world::Layout>& layout,
                                const world::State& state);
 
@@ -167,6 +168,7 @@ class SteppingSimulation final : public Simulation {
   bool AllWait(Lock& lock);
   bool IsDue(Lock& lock);
   void TakeStep();
+  void ApplyCommands();  // under both locks
   std::shared_ptr<const world::Snapshot> MoveWorld();
   void AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start);
   void Finish();
@@ -185,10 +187,9 @@ class SteppingSimulation final : public Simulation {
   std::unique_ptr<dynamics::Engine> engine_;
   std::shared_ptr<const world::Layout> layout_;
   world::State state_;
-  std::vector<Hold> engine_holds_;  // as the engine knows them
+  Attachments attachments_;
   // Since the last step; stepping thread only.
-  std::vector<std::pair<std::string, RadioActs>> radio_acts_;
-  std::vector<std::pair<std::string, ActuatorActs>> actuator_acts_;
+  DeviceActions device_actions_;
   std::vector<world::Transmission> transmissions_;
   SnapshotPool snapshots_;
   world::WheelOdometry wheel_odometry_;

@@ -1,7 +1,6 @@
-// What robots have said and heard by radio. It is part of the state: a behaviour can read it.
+// Messages that robots send each other by radio.
 //
-// Sharing  messages, setups and what a radio has heard are immutable; a state that nobody adds to
-//          is copied as one pointer.
+// Sharing  messages and setups are immutable.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "gsv/base/hash.h"
 #include "gsv/base/sim_time.h"
 #include "gsv/geometry/pose.h"
 
@@ -18,8 +16,6 @@ namespace gsv::world {
 
 // What a radio is able to; docs/sensors.md names the parameters.
 struct RadioSetup {
-  int link = 0;  // of its robot's model
-  geometry::Pose link_from_antenna;
   std::string network;              // only radios of one network hear each other
   double frequency = 2.442e9;       // Hz
   double power = 14.5, gain = 2.5;  // dBm, dBi
@@ -44,33 +40,17 @@ using RadioMessagePtr = std::shared_ptr<const RadioMessage>;
 
 RadioMessagePtr Sealed(RadioMessage message);
 
-struct HeardMessage {
-  RadioMessagePtr message;
-  std::uint64_t number = 0;  // counts what this radio has heard, from 1
-  double strength = 0;       // dBm
-};
-
-// A radio that is switched on.
-struct RadioState {
-  std::string robot, sensor;
+struct Antenna {
   RadioSetupPtr setup;
-  std::uint64_t heard = 0;          // since it was switched on
-  std::vector<HeardMessage> inbox;  // the last of them, the oldest first
+  geometry::Vector3 position;  // world
+  int body = -1;               // that carries it; -1: none in the world
 };
-using RadioStatePtr = std::shared_ptr<const RadioState>;
 
-using Radios = std::vector<RadioStatePtr>;  // by robot, then sensor
-
-// Null if that radio is not switched on. `radios` may be null.
-const RadioState* FindRadio(const Radios* radios, const std::string& robot,
-                            const std::string& sensor);
-
-// A message that went out, and who has heard it, in the order of their names.
+// A message that went out.
 struct Transmission {
   RadioMessagePtr message;
-  std::vector<std::string> heard_by;
+  Antenna from;
+  std::vector<std::string> heard_by;  // robots, by name
 };
-
-void AddToHash(const Radios& radios, base::Hash& hash);
 
 }  // namespace gsv::world

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "gsv/world/radio.h"
 #include "gsv/world/state.h"
 
 namespace gsv::world {
@@ -32,8 +33,7 @@ struct Snapshot {
   State state;
   std::vector<Contact> contacts;            // of the step that led here, by (first, second)
   std::vector<Acceleration> accelerations;  // as Layout::bodies; empty where no step led here
-  std::vector<Transmission>
-      transmissions;  // that were heard with this step, in the order of sender
+  std::vector<Transmission> transmissions;  // of the step that led here, in the order of senders
 };
 
 // Around a step: keeps the velocities before it, and after it makes closing speeds and

@@ -119,8 +119,7 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
     hash.Add(static_cast<std::uint64_t>(command.kind));
     hash.Add(command.value);
   }
-  if (state.radios != nullptr) AddToHash(*state.radios, hash);
-  if (state.actuators != nullptr) AddToHash(*state.actuators, hash);
+  if (state.devices != nullptr) AddToHash(*state.devices, hash);
 }
 
 }  // namespace gsv::world

@@ -1,4 +1,4 @@
-// All that the next step depends on, as plain data.
+// All that the next step depends on: plain data, and the states of devices, which are immutable.
 //
 // Frames  poses are world_from_model; velocities are those of the model's origin, in world axes.
 // Units   metres, radians, seconds.
@@ -12,9 +12,8 @@
 #include "gsv/base/sim_time.h"
 #include "gsv/geometry/planar_motion.h"
 #include "gsv/geometry/pose.h"
-#include "gsv/world/actuators.h"
+#include "gsv/world/device_state.h"
 #include "gsv/world/layout.h"
-#include "gsv/world/radio.h"
 
 namespace gsv::world {
 
@@ -74,9 +73,8 @@ struct State {
   std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
   // Those of a ball joint are its angular velocity about its three axes, as the child carries them.
   std::vector<double> joint_velocities;
-  std::vector<JointCommand> joint_commands;    // as joint_positions; empty: none was ever given
-  std::shared_ptr<const Radios> radios;        // null: none was ever switched on
-  std::shared_ptr<const Actuators> actuators;  // null: none was ever told anything
+  std::vector<JointCommand> joint_commands;     // as joint_positions; empty: none was ever given
+  std::shared_ptr<const DeviceStates> devices;  // null: none has ever had a state
 };
 
 // Everything where it starts and at rest; joints have their models' targets.

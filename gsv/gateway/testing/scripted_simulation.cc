@@ -76,7 +76,7 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
   base::Status Send(const std::string&, const std::string&, std::string) override {
     return Refused();
   }
-  base::Status Act(const std::string&, world::ActuatorOrder) override { return Refused(); }
+  base::Status Act(const std::string&, world::DeviceCommand) override { return Refused(); }
   base::Result<std::shared_ptr<simulation::MountedSensor>> Mounted(
       const std::string&) const override {
     return base::Fail(Refused().error());

@@ -44,7 +44,7 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
     pose_list_ = presentation::PoseListOf(*layout_);
   }
   if (commands_.is_wanted()) WriteNewCommands(*snapshot);
-  if (actuators_.is_wanted()) WriteNewOrders(*snapshot);
+  if (actuators_.is_wanted()) WriteNewDeviceCommands(*snapshot);
   if (contacts_.is_wanted()) WriteNewContacts(*snapshot);
   if (radio_.is_wanted()) WriteTransmissions(*snapshot);
   if (poses_instants_.Pass(time) || is_new) WritePoses(*snapshot);
@@ -89,13 +89,15 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
 }
 
 // As with commands.
-void StateTopics::WriteNewOrders(const world::Snapshot& snapshot) {
+void StateTopics::WriteNewDeviceCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
-  const auto before = std::exchange(told_actuators_, state.actuators);
-  if (state.actuators == nullptr || state.actuators == before) return;
-  for (const world::ActuatorStatePtr& now : *state.actuators) {
-    const auto* last = world::FindActuator(before.get(), now->robot, now->actuator);
-    if (last != nullptr && last->since == now->since && last->order == now->order) continue;
+  const auto before = std::exchange(devices_, state.devices);
+  if (state.devices == nullptr || state.devices == before) return;
+  for (const world::DeviceStatePtr& now : *state.devices) {
+    if (now->followed() == nullptr) continue;
+    const auto* last = world::FindDevice(before.get(), now->robot(), now->device());
+    const bool is_known = last != nullptr && last->followed() != nullptr;
+    if (is_known && *last->followed() == *now->followed()) continue;
     actuators_.Write(state.time, presentation::ActuatorMessage(*now, state));
   }
 }

@@ -35,7 +35,7 @@ class StateTopics {
   void WritePoses(const world::Snapshot& snapshot);
   void WriteHash(const world::Snapshot& snapshot);
   void WriteNewCommands(const world::Snapshot& snapshot);
-  void WriteNewOrders(const world::Snapshot& snapshot);
+  void WriteNewDeviceCommands(const world::Snapshot& snapshot);
   void WriteNewContacts(const world::Snapshot& snapshot);
   void WriteTransmissions(const world::Snapshot& snapshot);
 
@@ -47,7 +47,7 @@ class StateTopics {
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_
   std::map<std::string, world::DriveState> told_;   // by robot: what it was told last
 
-  std::shared_ptr<const world::Actuators> told_actuators_;  // those of the last snapshot
+  std::shared_ptr<const world::DeviceStates> devices_;  // those of the last snapshot
 
   TopicWriter<messages::rosgraph_msgs::Clock> clock_;
   TopicWriter<messages::gsv_msgs::Poses> poses_;

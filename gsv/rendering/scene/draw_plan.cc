@@ -173,7 +173,7 @@ void DrawPlan::Pose(const world::Snapshot& snapshot, Glow glow) {
   }
   if (glow == Glow::kHidden) return;
   for (const LitLamp& lit : LitLamps(snapshot)) {
-    AddGlow(lit, world::LinkPose(snapshot, lit.body, lit.setup->link));
+    AddGlow(lit, world::LinkPose(snapshot, lit.body, lit.mount->link));
   }
 }
 
@@ -191,14 +191,14 @@ void DrawPlan::MakeGlow() {
 
 void DrawPlan::AddGlow(const LitLamp& lit, const geometry::Pose& world_from_link) {
   if (glow_.empty()) MakeGlow();
-  const double radius = lit.lamp().radius;
+  const double radius = lit.glow.radius;
   const auto emitted = [&](double part) {
     return static_cast<float>(lit.glow.brightness * model::LinearFromSrgb(part));
   };
   for (DrawItem item : glow_) {
     item.body = lit.body;
-    item.link = lit.setup->link;
-    item.link_from_visual = lit.setup->link_from_actuator;
+    item.link = lit.mount->link;
+    item.link_from_visual = lit.mount->link_from_device;
     item.scale = radius * item.scale;
     item.centre_in_visual = radius * item.centre_in_visual;
     item.radius *= radius;

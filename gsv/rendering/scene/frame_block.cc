@@ -94,7 +94,7 @@ Lighting::Lighting(const model::WorldDescription& description) {
 void Lighting::TakeLamps(const world::Snapshot& snapshot) {
   lamps_.resize(own_lamp_count_);
   for (const LitLamp& lit : LitLamps(snapshot)) {
-    if (lit.lamp().range > 0) AddLamp(LightOf(lit, snapshot));
+    if (lit.glow.range > 0) AddLamp(LightOf(lit, snapshot));
   }
 }
 

@@ -8,35 +8,32 @@ namespace gsv::rendering {
 
 std::vector<LitLamp> LitLamps(const world::Snapshot& snapshot) {
   std::vector<LitLamp> lit;
-  if (snapshot.state.actuators == nullptr) return lit;
-  for (const world::ActuatorStatePtr& state : *snapshot.state.actuators) {
-    const auto* lamp = std::get_if<world::LampSetup>(&state->setup->kind);
-    if (lamp == nullptr) continue;
-    const int body = snapshot.layout->Find(state->robot);
-    const world::Glow glow = world::GlowOf(state->order, *lamp);
-    if (body >= 0 && glow.brightness > 0) lit.push_back({body, state->setup.get(), glow});
+  if (snapshot.state.devices == nullptr) return lit;
+  for (const world::DeviceStatePtr& state : *snapshot.state.devices) {
+    const auto glow = state->glow();
+    const int body = glow ? snapshot.layout->Find(state->robot()) : -1;
+    if (body >= 0) lit.push_back({body, &state->mount(), *glow});
   }
   return lit;
 }
 
 model::Light LightOf(const LitLamp& lit, const world::Snapshot& snapshot) {
   constexpr double kInner = 0.8;  // of the cone: there it is as bright as in the middle
-  const world::LampSetup& lamp = lit.lamp();
+  const world::Glow& glow = lit.glow;
   model::Light light;
   light.kind =
-      lamp.angle < 2 * std::numbers::pi ? model::Light::Kind::kSpot : model::Light::Kind::kPoint;
+      glow.angle < 2 * std::numbers::pi ? model::Light::Kind::kSpot : model::Light::Kind::kPoint;
   light.world_from_light =
-      world::LinkPose(snapshot, lit.body, lit.setup->link) * lit.setup->link_from_actuator;
+      world::LinkPose(snapshot, lit.body, lit.mount->link) * lit.mount->link_from_device;
   light.direction = {1, 0, 0};
-  light.diffuse = {model::LinearFromSrgb(lit.glow.colour.r),
-                   model::LinearFromSrgb(lit.glow.colour.g),
-                   model::LinearFromSrgb(lit.glow.colour.b), 1};
-  light.intensity = lamp.intensity * lit.glow.brightness;
-  light.range = lamp.range;
+  light.diffuse = {model::LinearFromSrgb(glow.colour.r), model::LinearFromSrgb(glow.colour.g),
+                   model::LinearFromSrgb(glow.colour.b), 1};
+  light.intensity = glow.intensity * glow.brightness;
+  light.range = glow.range;
   light.constant_attenuation = light.linear_attenuation = 0;
   light.quadratic_attenuation = 1;
-  light.outer_angle = lamp.angle;
-  light.inner_angle = kInner * lamp.angle;
+  light.outer_angle = glow.angle;
+  light.inner_angle = kInner * glow.angle;
   light.cast_shadows = false;
   return light;
 }

@@ -10,10 +10,8 @@ namespace gsv::rendering {
 
 struct LitLamp {
   int body = 0;
-  const world::ActuatorSetup* setup = nullptr;  // the snapshot's
-  world::Glow glow;                             // brighter than nothing
-
-  const world::LampSetup& lamp() const { return std::get<world::LampSetup>(setup->kind); }
+  const world::DeviceMount* mount = nullptr;  // the snapshot's
+  world::Glow glow;
 };
 
 // By robot, then lamp.

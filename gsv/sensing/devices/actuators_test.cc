@@ -6,7 +6,9 @@
 
 #include "gsv/base/test_within.h"
 #include "gsv/messages/gsv_msgs.h"
-#include "gsv/sensing/actuator.h"
+#include "gsv/sensing/device.h"
+#include "gsv/sensing/devices/gripper.h"
+#include "gsv/sensing/devices/gripper_state.h"
 #include "gsv/sensing/devices/lamp.h"
 #include "gsv/sensing/devices/microphone.h"
 #include "gsv/sensing/devices/speaker.h"
@@ -31,12 +33,18 @@ std::unique_ptr<Sensor> MakeDevice(const SensorType& type, model::Parameters par
   return made ? *std::move(made) : nullptr;
 }
 
-world::ActuatorStatePtr Told(const Sensor& actuator, const std::string& robot,
-                             world::ActuatorOrder order) {
-  EXPECT_TRUE(actuator.actuator()->Check(order));
-  return std::make_shared<const world::ActuatorState>(
-      world::ActuatorState{robot, actuator.description().name, actuator.actuator()->setup(),
-                           std::move(order), base::SimTime(0)});
+// The device's state from `since` on.
+world::DeviceStatePtr Commanded(const Sensor& device, const std::string& robot,
+                                const world::DeviceCommand& command,
+                                const world::DeviceStatePtr& before = nullptr,
+                                base::SimTime since = base::SimTime(0)) {
+  EXPECT_TRUE(device.device()->Check(command));
+  auto now = testing::MakeSnapshot({});
+  now->state.time = since;
+  RaySceneCache rays;
+  std::vector<world::Transmission> transmissions;
+  world::DeviceStep step{now, base::SimTime(0), *rays.At(now), now->state, transmissions};
+  return device.device()->Apply(robot, before, command, step);
 }
 
 class ActuatorReadings : public ::testing::Test {
@@ -47,8 +55,8 @@ class ActuatorReadings : public ::testing::Test {
                                        {"far", body, PlanarPose(0, -10, 0, 0), false},
                                        {"near", body, PlanarPose(2, 0, 0, 0), false}});
   }
-  void Tell(world::Actuators told) {
-    snapshot_->state.actuators = std::make_shared<const world::Actuators>(std::move(told));
+  void Tell(world::DeviceStates states) {
+    snapshot_->state.devices = std::make_shared<const world::DeviceStates>(std::move(states));
   }
   Reading Sampled(const Sensor& sensor, const std::string& robot) {
     return *sensor.Sample(Sampling(snapshot_, snapshot_->layout->Find(robot), 1, rays_));
@@ -70,8 +78,8 @@ TEST_F(ActuatorReadings, ALampShowsWhatItWasTold) {
                                         {"radius", 0.05}};
   const auto lamp = MakeDevice(LampType(), parameters);
   EXPECT_EQ(Values(Sampled(*lamp, "ear")), (std::vector<double>{0.25, 1, 0.5, 0}));
-  EXPECT_EQ(lamp->actuator()->first()->values, (std::vector<double>{0.25, 1, 0.5, 0}));
-  Tell({Told(*lamp, "ear", {{1, 0, 0, 1}, ""})});
+  EXPECT_EQ(lamp->device()->first()->values, (std::vector<double>{0.25, 1, 0.5, 0}));
+  Tell({Commanded(*lamp, "ear", {{1, 0, 0, 1}, ""})});
   const Reading reading = Sampled(*lamp, "ear");
   EXPECT_EQ(Values(reading), (std::vector<double>{1, 0, 0, 1}));
 
@@ -88,7 +96,7 @@ TEST_F(ActuatorReadings, ALampShowsWhatItWasTold) {
 
 TEST_F(ActuatorReadings, ALampIsOffUntilItIsToldUnlessItsFileSaysSo) {
   const auto lamp = MakeDevice(LampType());
-  EXPECT_FALSE(lamp->actuator()->first());
+  EXPECT_FALSE(lamp->device()->first());
   EXPECT_EQ(Values(Sampled(*lamp, "ear")), (std::vector<double>{0, 1, 1, 1}));
 }
 
@@ -106,8 +114,8 @@ TEST_F(ActuatorReadings, WhatCannotBeIsRefused) {
     ASSERT_FALSE(lamp) << name;
     EXPECT_NE(lamp.error().message.find(name), std::string::npos) << lamp.error().message;
   }
-  const auto refused = [](const SensorType& type, world::ActuatorOrder order) {
-    return !MakeDevice(type)->actuator()->Check(order);
+  const auto refused = [](const SensorType& type, const world::DeviceCommand& command) {
+    return !MakeDevice(type)->device()->Check(command);
   };
   EXPECT_TRUE(refused(LampType(), {{}, ""}));
   EXPECT_TRUE(refused(LampType(), {{1.5, 1, 1, 1}, ""}));
@@ -121,13 +129,84 @@ TEST_F(ActuatorReadings, WhatCannotBeIsRefused) {
 TEST_F(ActuatorReadings, ASpeakerSaysWhatItPlaysAndHowLong) {
   const auto speaker = MakeDevice(SpeakerType());
   EXPECT_EQ(Values(Sampled(*speaker, "ear")), (std::vector<double>{0, 0, 0, 0}));
-  Tell({Told(*speaker, "ear", {{440, 2, 0.5}, "buzz"})});
+  Tell({Commanded(*speaker, "ear", {{440, 2, 0.5}, "buzz"})});
   snapshot_->state.time = 500ms;
   const Reading reading = Sampled(*speaker, "ear");
   EXPECT_EQ(Values(reading), (std::vector<double>{440, 0.5, 0.5, 1.5}));
   EXPECT_EQ(reading.labels->front(), "buzz");
   snapshot_->state.time = 2s;
   EXPECT_EQ(Sampled(*speaker, "ear").labels->front(), "");
+}
+
+TEST_F(ActuatorReadings, ASoundLastsForItsDuration) {
+  const auto speaker = MakeDevice(SpeakerType(), {{"loudness", 70.0}});
+  const auto state = Commanded(*speaker, "ear", {{440, 0.5, 0.8}, "tone"}, nullptr, 2s);
+  const auto begun = state->SoundAt(2s);
+  ASSERT_TRUE(begun);
+  EXPECT_EQ(begun->elapsed, 0);
+  EXPECT_EQ(begun->loudness, 70);
+  const auto sound = state->SoundAt(2400ms);
+  ASSERT_TRUE(sound);
+  EXPECT_EQ(sound->name, "tone");
+  EXPECT_EQ(sound->frequency, 440);
+  EXPECT_EQ(sound->volume, 0.8);
+  EXPECT_NEAR(sound->elapsed, 0.4, 1e-12);
+  EXPECT_NEAR(sound->left, 0.1, 1e-12);
+  EXPECT_FALSE(state->SoundAt(2500ms));
+  EXPECT_FALSE(Commanded(*speaker, "ear", {{440, 0.5, 0}, "tone"}, nullptr, 2s)->SoundAt(2s));
+}
+
+TEST_F(ActuatorReadings, JawsMoveFromWhereTheyWereWhenTheCommandCame) {
+  const auto gripper = MakeDevice(GripperType(), {{"opening", 0.1}, {"closing_time", 0.5}});
+  const auto opening = [](const world::DeviceStatePtr& state, base::SimTime now) {
+    return dynamic_cast<const GripperState&>(*state).OpeningAt(now);
+  };
+  const auto closing = Commanded(*gripper, "ear", {{0}, ""}, nullptr, 1s);
+  EXPECT_EQ(opening(closing, 1s), 0.1);
+  EXPECT_NEAR(opening(closing, 1200ms), 0.06, 1e-12);
+  EXPECT_EQ(opening(closing, 2s), 0);
+  const auto opens = Commanded(*gripper, "ear", {{1}, ""}, closing, 1200ms);
+  EXPECT_NEAR(opening(opens, 1300ms), 0.08, 1e-12);
+  EXPECT_EQ(opening(opens, 2s), 0.1);
+}
+
+TEST_F(ActuatorReadings, AGripperHoldsUntilItOpens) {
+  const auto gripper = MakeDevice(GripperType());
+  const auto setup = std::make_shared<const GripperSetup>();
+  const GripperState::Hold hold{{"post", PlanarPose(0.1, 0, 0, 0)}, 0.03};
+  const world::DeviceStatePtr holding = std::make_shared<const GripperState>(
+      world::DeviceMount{"ear", "gripper", 0, {}}, world::FollowedCommand{{{0}, ""}, 1s}, setup,
+      setup->opening, hold);
+  Tell({holding});
+  snapshot_->state.time = 2s;
+  const Reading reading = Sampled(*gripper, "ear");
+  EXPECT_EQ(Values(reading), (std::vector<double>{0.03, 0}));
+  EXPECT_EQ(reading.labels->front(), "post");
+  const auto again = Commanded(*gripper, "ear", {{0}, ""}, holding, 3s);
+  ASSERT_NE(again->grasp(), nullptr);
+  EXPECT_EQ(*again->grasp(), hold.grasp);
+  EXPECT_EQ(Commanded(*gripper, "ear", {{1}, ""}, holding, 3s)->grasp(), nullptr);
+}
+
+// Recordings hold hashes: the order of fields is part of their format.
+TEST_F(ActuatorReadings, WhatAGripperHoldsIsInItsHash) {
+  const auto setup = std::make_shared<const GripperSetup>();
+  const geometry::Pose link_from_held{{1, 2, 3}, geometry::FromRollPitchYaw({0, 0, 0.5})};
+  base::Hash hash, expected;
+  GripperState({"ear", "gripper", 0, {}}, {{{0}, ""}, 7ns}, setup, 0.08,
+               GripperState::Hold{{"post", link_from_held}, 0.03})
+      .AddToHash(hash);
+  expected.Add(std::string_view("ear"));
+  expected.Add(std::string_view("gripper"));
+  expected.Add(std::int64_t{7});
+  expected.Add(std::uint64_t{1});
+  expected.Add(0.0);
+  expected.Add(std::string_view());
+  expected.Add(0.08);
+  expected.Add(std::string_view("post"));
+  const geometry::Quaternion& q = link_from_held.orientation;
+  for (const double value : {1.0, 2.0, 3.0, q.w, q.x, q.y, q.z, 0.03}) expected.Add(value);
+  EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
 // L = L1 + 20 lg(volume) - 20 lg(r / 1 m), and levels add up as powers.
@@ -138,8 +217,8 @@ TEST_F(ActuatorReadings, AMicrophoneHearsByTheInverseSquareLaw) {
   EXPECT_EQ(Sampled(*microphone, "ear").values[1], 0);
   EXPECT_EQ(Sampled(*microphone, "ear").labels->front(), "");
 
-  const auto near = Told(*speaker, "near", {{440, 2, 0.5}, "tone"});
-  const auto far = Told(*speaker, "far", {{1000, 2, 1}, "tone"});
+  const auto near = Commanded(*speaker, "near", {{440, 2, 0.5}, "tone"});
+  const auto far = Commanded(*speaker, "far", {{1000, 2, 1}, "tone"});
   const double near_level = 85 + 20 * std::log10(0.5) - 20 * std::log10(2.0);
   const double far_level = 85 - 20;
   Tell({near});
@@ -154,14 +233,14 @@ TEST_F(ActuatorReadings, AMicrophoneHearsByTheInverseSquareLaw) {
   EXPECT_EQ(both.values[1], 440);
   EXPECT_EQ(both.labels->front(), "near/speaker");
   // Its own robot's speaker is no nearer than 0.1 m.
-  Tell({Told(*speaker, "ear", {{440, 2, 1}, "tone"})});
+  Tell({Commanded(*speaker, "ear", {{440, 2, 1}, "tone"})});
   EXPECT_WITHIN(Sampled(*microphone, "ear").values[0], 85 + 20, 1e-9, "dB");
 }
 
 TEST_F(ActuatorReadings, WhatIsQuieterThanThePlaceIsNotTold) {
   const auto microphone = MakeDevice(MicrophoneType(), {{"ambient", 80.0}});
   const auto speaker = MakeDevice(SpeakerType());
-  Tell({Told(*speaker, "far", {{440, 2, 1}, "tone"})});
+  Tell({Commanded(*speaker, "far", {{440, 2, 1}, "tone"})});
   const Reading reading = Sampled(*microphone, "ear");
   EXPECT_NEAR(reading.values[0], 10 * std::log10(1e8 + std::pow(10, 6.5)), 1e-9);
   EXPECT_EQ(reading.values[1], 0);

@@ -2,13 +2,14 @@
 
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/sensing/actuator.h"
+#include "gsv/sensing/devices/gripper_state.h"
 #include "gsv/sensing/sensor_type.h"
 
 namespace gsv::sensing {
 namespace {
 
-world::GripperSetup ReadGripper(ParameterReader& reader) {
-  world::GripperSetup gripper;
+GripperSetup ReadGripper(ParameterReader& reader) {
+  GripperSetup gripper;
   gripper.opening = reader.Number("opening", gripper.opening, 1e-3, 10);
   gripper.reach = reader.Number("reach", gripper.reach, 1e-3, 10);
   gripper.height = reader.Number("height", gripper.height, 1e-3, 10);
@@ -21,25 +22,26 @@ world::GripperSetup ReadGripper(ParameterReader& reader) {
 class Gripper final : public Actuator {
  public:
   Gripper(const model::SensorDescription& description, ParameterReader& reader)
-      : Actuator(description, ReadGripper(reader)) {}
+      : Actuator(description), setup_(std::make_shared<const GripperSetup>(ReadGripper(reader))) {}
 
-  base::Status Check(const world::ActuatorOrder& order) const override {
-    if (auto ok = CheckShape(order, 1); !ok) return ok;
-    if (order.values[0] == 0 || order.values[0] == 1) return {};
+  base::Status Check(const world::DeviceCommand& command) const override {
+    if (auto ok = CheckShape(command, 1); !ok) return ok;
+    if (command.values[0] == 0 || command.values[0] == 1) return {};
     return Refuse("a gripper is told 1, to open, or 0, to close");
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
-    const world::ActuatorState* const state = StateIn(sampling);
+    const auto* const state = dynamic_cast<const GripperState*>(StateIn(sampling));
     Reading reading = sampling.Stamped();
     if (state == nullptr) {
-      reading.values = {std::get<world::GripperSetup>(setup()->kind).opening, 1};
+      reading.values = {setup_->opening, 1};
     } else {
-      reading.values = {world::OpeningOf(*state, sampling.snapshot()->state.time),
-                        world::IsToldToOpen(*state) ? 1.0 : 0.0};
+      reading.values = {state->OpeningAt(sampling.snapshot()->state.time),
+                        state->opens() ? 1.0 : 0.0};
     }
+    const world::Grasp* const grasp = state != nullptr ? state->grasp() : nullptr;
     reading.labels = std::make_shared<const std::vector<std::string>>(
-        1, state != nullptr ? state->grip.held : std::string());
+        1, grasp != nullptr ? grasp->held : std::string());
     return reading;
   }
 
@@ -48,7 +50,7 @@ class Gripper final : public Actuator {
     messages::gsv_msgs::Gripper message;
     if (reading.values.size() != 2) return message;
     ParameterReader reader(description);
-    const world::GripperSetup gripper = ReadGripper(reader);
+    const GripperSetup gripper = ReadGripper(reader);
     message.opening_m = reading.values[0];
     message.told_to_open = reading.values[1] != 0;
     message.held = reading.labels->front();
@@ -56,6 +58,14 @@ class Gripper final : public Actuator {
     message.height_m = gripper.height;
     return message;
   }
+
+ private:
+  world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
+                               const world::DeviceState* before) const override {
+    return GripperState::After(before, std::move(mount), std::move(followed), setup_);
+  }
+
+  const GripperSetupPtr setup_;
 };
 
 }  // namespace

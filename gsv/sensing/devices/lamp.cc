@@ -10,8 +10,9 @@
 namespace gsv::sensing {
 namespace {
 
-world::LampSetup ReadLamp(ParameterReader& reader) {
-  world::LampSetup lamp;
+// A lamp as its parameters describe it, switched off; its colour is that of a command without one.
+world::Glow ReadLamp(ParameterReader& reader) {
+  world::Glow lamp;
   const geometry::Vector3 colour = reader.Triple("colour", {1, 1, 1}, 0, 1);
   lamp.colour = {colour.x, colour.y, colour.z, 1};
   lamp.radius = reader.Number("radius", lamp.radius, 1e-4, 10);
@@ -21,29 +22,48 @@ world::LampSetup ReadLamp(ParameterReader& reader) {
   return lamp;
 }
 
+class LampState final : public world::ActuatorState {
+ public:
+  LampState(world::DeviceMount mount, world::FollowedCommand followed, const world::Glow& lamp)
+      : ActuatorState(std::move(mount), std::move(followed)), lamp_(lamp) {}
+
+  std::optional<world::Glow> glow() const override {
+    const std::vector<double>& v = values();
+    if (v.size() != 4 || v[0] <= 0) return std::nullopt;
+    world::Glow glow = lamp_;
+    glow.brightness = v[0];
+    glow.colour = {v[1], v[2], v[3], 1};
+    return glow;
+  }
+
+ private:
+  const world::Glow lamp_;
+};
+
 class Lamp final : public Actuator {
  public:
   Lamp(const model::SensorDescription& description, ParameterReader& reader)
-      : Lamp(description, reader, ReadLamp(reader)) {}
+      : Actuator(description),
+        lamp_(ReadLamp(reader)),
+        brightness_(reader.Number("brightness", 0, 0, 1)) {}
 
-  std::optional<world::ActuatorOrder> first() const override {
+  std::optional<world::DeviceCommand> first() const override {
     if (brightness_ == 0) return std::nullopt;
-    return OrderOf({brightness_, lamp_.colour});
+    return AtTheStart();
   }
 
-  base::Status Check(const world::ActuatorOrder& order) const override {
-    if (auto ok = CheckShape(order, 4); !ok) return ok;
-    if (auto ok = CheckRange("brightness", order.values[0], 0, 1); !ok) return ok;
+  base::Status Check(const world::DeviceCommand& command) const override {
+    if (auto ok = CheckShape(command, 4); !ok) return ok;
+    if (auto ok = CheckRange("brightness", command.values[0], 0, 1); !ok) return ok;
     for (std::size_t i = 1; i < 4; ++i) {
-      if (auto ok = CheckRange("colour's part", order.values[i], 0, 1); !ok) return ok;
+      if (auto ok = CheckRange("colour's part", command.values[i], 0, 1); !ok) return ok;
     }
     return {};
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
-    const world::ActuatorState* const state = StateIn(sampling);
-    const world::ActuatorOrder now =
-        state != nullptr ? state->order : OrderOf({brightness_, lamp_.colour});
+    const world::DeviceState* const state = StateIn(sampling);
+    const world::DeviceCommand now = state != nullptr ? state->followed()->command : AtTheStart();
     Reading reading = sampling.Stamped();
     reading.values.assign(now.values.begin(), now.values.end());
     return reading;
@@ -54,7 +74,7 @@ class Lamp final : public Actuator {
     messages::gsv_msgs::Lamp message;
     if (reading.values.size() != 4) return message;
     ParameterReader reader(description);
-    const world::LampSetup lamp = ReadLamp(reader);
+    const world::Glow lamp = ReadLamp(reader);
     const auto part = [&](std::size_t i) { return static_cast<float>(reading.values[i]); };
     message.brightness = reading.values[0];
     message.color.r = part(1), message.color.g = part(2), message.color.b = part(3);
@@ -67,17 +87,16 @@ class Lamp final : public Actuator {
   }
 
  private:
-  Lamp(const model::SensorDescription& description, ParameterReader& reader,
-       const world::LampSetup& lamp)
-      : Actuator(description, lamp),
-        lamp_(lamp),
-        brightness_(reader.Number("brightness", 0, 0, 1)) {}
-
-  static world::ActuatorOrder OrderOf(const world::Glow& glow) {
-    return {{glow.brightness, glow.colour.r, glow.colour.g, glow.colour.b}, {}};
+  world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
+                               const world::DeviceState*) const override {
+    return std::make_shared<const LampState>(std::move(mount), std::move(followed), lamp_);
   }
 
-  const world::LampSetup lamp_;
+  world::DeviceCommand AtTheStart() const {
+    return {{brightness_, lamp_.colour.r, lamp_.colour.g, lamp_.colour.b}, {}};
+  }
+
+  const world::Glow lamp_;
   const double brightness_;  // at the start
 };
 

@@ -10,20 +10,19 @@
 namespace gsv::sensing {
 namespace {
 
-constexpr double kNearestSpeaker = 0.1;  // m
+constexpr double kNearestSource = 0.1;  // m
 
 double Power(double level) { return std::pow(10, level / 10); }
 
-// dB at `point`; nothing of what is silent, or whose robot is not there.
-std::optional<double> LevelAt(const geometry::Vector3& point, const world::ActuatorState& source,
+// dB at `point`; nothing where the source's robot is not there.
+std::optional<double> LevelAt(const geometry::Vector3& point, const world::DeviceMount& source,
                               const world::Sound& sound, const world::Snapshot& snapshot) {
   const int body = snapshot.layout->Find(source.robot);
   if (body < 0) return std::nullopt;
-  const auto& speaker = std::get<world::SpeakerSetup>(source.setup->kind);
-  const geometry::Pose world_from_speaker =
-      world::LinkPose(snapshot, body, source.setup->link) * source.setup->link_from_actuator;
-  const double distance = std::max(kNearestSpeaker, Norm(world_from_speaker.position - point));
-  return speaker.loudness + 20 * std::log10(sound.volume / distance);
+  const geometry::Pose world_from_source =
+      world::LinkPose(snapshot, body, source.link) * source.link_from_device;
+  const double distance = std::max(kNearestSource, Norm(world_from_source.position - point));
+  return sound.loudness + 20 * std::log10(sound.volume / distance);
 }
 
 class Microphone final : public Sensor {
@@ -38,19 +37,18 @@ class Microphone final : public Sensor {
     const geometry::Vector3 here = sampling.WorldFromSensor(description()).position;
     double power = Power(ambient_), loudest = ambient_, frequency = 0;
     std::string source;
-    static const world::Actuators kNone;
-    const auto& actuators = snapshot.state.actuators;
-    for (const world::ActuatorStatePtr& each : actuators != nullptr ? *actuators : kNone) {
-      if (!std::holds_alternative<world::SpeakerSetup>(each->setup->kind)) continue;
-      const auto sound = world::SoundOf(*each, snapshot.state.time);
+    static const world::DeviceStates kNone;
+    const auto& devices = snapshot.state.devices;
+    for (const world::DeviceStatePtr& each : devices != nullptr ? *devices : kNone) {
+      const auto sound = each->SoundAt(snapshot.state.time);
       if (!sound) continue;
-      const auto level = LevelAt(here, *each, *sound, snapshot);
+      const auto level = LevelAt(here, each->mount(), *sound, snapshot);
       if (!level) continue;
       power += Power(*level);
       if (*level <= loudest) continue;
       loudest = *level;
       frequency = sound->frequency;
-      source = each->robot + "/" + each->actuator;
+      source = each->robot() + "/" + each->device();
     }
     const NoisyReading noisy(sampling, description());
     Reading reading = sampling.Stamped();

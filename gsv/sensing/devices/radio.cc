@@ -2,6 +2,8 @@
 
 #include "gsv/base/base64.h"
 #include "gsv/messages/gsv_msgs.h"
+#include "gsv/sensing/device.h"
+#include "gsv/sensing/devices/radio_state.h"
 #include "gsv/sensing/sensor_type.h"
 
 namespace gsv::sensing {
@@ -9,13 +11,11 @@ namespace {
 
 constexpr std::size_t kValuesOfMessage = 3;  // of one message
 constexpr double kHertzAMegahertz = 1e6;
+constexpr std::size_t kLongestName = 128;
 
-world::RadioSetupPtr ReadSetup(const model::SensorDescription& description,
-                               ParameterReader& reader) {
+world::RadioSetupPtr ReadSetup(ParameterReader& reader) {
   const world::RadioSetup usual;
   auto setup = std::make_shared<world::RadioSetup>();
-  setup->link = description.link;
-  setup->link_from_antenna = description.link_from_sensor;
   setup->network = reader.Text("essid", "");
   setup->frequency =
       kHertzAMegahertz * reader.Number("frequency", usual.frequency / kHertzAMegahertz, 1e-3, 1e6);
@@ -32,18 +32,51 @@ world::RadioSetupPtr ReadSetup(const model::SensorDescription& description,
   return setup;
 }
 
-class Radio final : public Sensor {
+class Radio final : public Device {
  public:
   Radio(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description), setup_(ReadSetup(description, reader)) {}
+      : Device(description), setup_(ReadSetup(reader)) {}
+
+  bool IsOnWhileOpen() const override { return true; }
+  bool SendsMessages() const override { return true; }
+
+  base::Status Check(const world::DeviceCommand& message) const override {
+    if (message.content.size() > setup_->max_size) {
+      return Refuse("a message of " + std::to_string(message.content.size()) +
+                    " bytes is longer than the radio's max_size, " +
+                    std::to_string(setup_->max_size));
+    }
+    if (message.word.size() > kLongestName) {
+      return Refuse("a robot's name has at most 128 characters");
+    }
+    return {};
+  }
+
+  world::DeviceStatePtr SwitchedOn(const std::string& robot) const override {
+    return std::make_shared<const RadioState>(MountOn(robot), setup_);
+  }
+
+  // A radio that is not on sends as well.
+  world::DeviceStatePtr Apply(const std::string& robot, const world::DeviceStatePtr& before,
+                              const world::DeviceCommand& command,
+                              world::DeviceStep& step) const override {
+    world::RadioMessage message;
+    message.sender = robot;
+    message.radio = description().name;
+    message.receiver = command.word;
+    message.sent = step.now->state.time;
+    message.content = command.content;
+    step.transmissions.push_back(
+        {world::Sealed(std::move(message)), AntennaOf(*step.now, MountOn(robot), setup_), {}});
+    return before;
+  }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     Reading reading = sampling.Stamped();
     auto labels = std::make_shared<std::vector<std::string>>();
-    const world::RadioState* radio = world::FindRadio(sampling.snapshot()->state.radios.get(),
-                                                      sampling.robot().name, description().name);
-    for (std::size_t i = 0; radio != nullptr && i < radio->inbox.size(); ++i) {
-      const auto& [message, number, strength] = radio->inbox[i];
+    const auto* const radio = dynamic_cast<const RadioState*>(StateIn(sampling));
+    for (std::size_t i = 0; radio != nullptr && i < radio->inbox().size(); ++i) {
+      const auto& [message, number, strength] = radio->inbox()[i];
       reading.values.push_back(static_cast<double>(number));
       reading.values.push_back(base::ToSeconds(message->sent));
       reading.values.push_back(strength);
@@ -53,8 +86,6 @@ class Radio final : public Sensor {
     reading.labels = std::move(labels);
     return reading;
   }
-
-  world::RadioSetupPtr radio() const override { return setup_; }
 
   static messages::gsv_msgs::Radio ToMessage(const model::SensorDescription&,
                                              const Reading& reading, const std::string&) {

@@ -9,7 +9,7 @@
 
 #include "gsv/base/test_within.h"
 #include "gsv/messages/gsv_msgs.h"
-#include "gsv/sensing/radio_link.h"
+#include "gsv/sensing/devices/radio_state.h"
 #include "gsv/sensing/testing/test_snapshot.h"
 
 namespace gsv::sensing {
@@ -30,13 +30,13 @@ class RadioLink : public ::testing::Test {
   }
   Antenna AntennaOf(const std::string& robot, const world::RadioSetup& setup) const {
     const int body = snapshot_->layout->Find(robot);
-    return {&setup, snapshot_->state.bodies[body].world_from_model.position, body};
+    return {std::make_shared<const world::RadioSetup>(setup),
+            snapshot_->state.bodies[body].world_from_model.position, body};
   }
   std::optional<double> Heard() {
     if (snapshot_ == nullptr) Stand();
     const auto scene = rays_.At(snapshot_);
-    return HeardAt(AntennaOf("a", from_), AntennaOf("b", to_),
-                   [&]() -> const RayScene& { return *scene; });
+    return HeardAt(AntennaOf("a", from_), AntennaOf("b", to_), *scene);
   }
   static testing::Placed Wall(const std::string& name, double x, double thickness = 0.1) {
     return {name, testing::ModelOf(Box{{thickness, 4, 4}}), PlanarPose(x, 0, 1, 0), true};
@@ -129,6 +129,10 @@ base::Result<std::unique_ptr<Sensor>> MakeRadio(model::Parameters parameters = {
   return RadioType().create(RadioOf(std::move(parameters)));
 }
 
+RadioState SwitchedOn(const Sensor& radio) {
+  return dynamic_cast<const RadioState&>(*radio.device()->SwitchedOn("robot"));
+}
+
 TEST(Radio, TakesItsParametersAsSdformatNamesThem) {
   const auto radio = MakeRadio({{"essid", std::string("net")},
                                 {"frequency", 5000.0},
@@ -140,7 +144,8 @@ TEST(Radio, TakesItsParametersAsSdformatNamesThem) {
                                 {"inbox", 4.0},
                                 {"max_size", 100.0}});
   ASSERT_TRUE(radio);
-  const world::RadioSetupPtr setup = (*radio)->radio();
+  const RadioState state = SwitchedOn(**radio);
+  const world::RadioSetup* const setup = &state.setup();
   EXPECT_EQ(setup->network, "net");
   EXPECT_EQ(setup->frequency, 5e9);
   EXPECT_EQ(setup->power, 10);
@@ -150,7 +155,7 @@ TEST(Radio, TakesItsParametersAsSdformatNamesThem) {
   EXPECT_EQ(setup->wall_loss, 3);
   EXPECT_EQ(setup->inbox, 4u);
   EXPECT_EQ(setup->max_size, 100u);
-  EXPECT_EQ(setup->link_from_antenna.position.z, 0.5);
+  EXPECT_EQ(state.mount().link_from_device.position.z, 0.5);
 }
 
 TEST(Radio, RefusesWhatCannotBe) {
@@ -171,31 +176,48 @@ TEST(Radio, RefusesWhatCannotBe) {
 TEST(Radio, ShowsWhatItHasHeard) {
   const auto snapshot =
       testing::MakeSnapshot({{"robot", testing::ModelOf(geometry::Sphere{0.2}), {}, false}});
-  const auto radio = MakeRadio();
+  const auto radio = MakeRadio({{"inbox", 1.0}});
   ASSERT_TRUE(radio);
   RaySceneCache rays;
   EXPECT_TRUE((*radio)->Sample(Sampling(snapshot, 0, 1, rays))->values.empty());
 
-  auto state = std::make_shared<world::RadioState>();
-  state->robot = "robot", state->sensor = "radio";
+  auto state = std::make_shared<RadioState>(SwitchedOn(**radio));
   const std::string content("a\0b\xff", 4);
-  state->inbox.push_back(
-      {world::Sealed({"other", "r", "", base::SimTime(1'500'000'000), content}), 7, -41.5});
-  snapshot->state.radios = std::make_shared<world::Radios>(world::Radios{state});
+  const auto message = world::Sealed({"other", "r", "", base::SimTime(1'500'000'000), content});
+  for (int i = 0; i < 7; ++i) state->Hear(message, -41.5);
+  snapshot->state.devices = std::make_shared<const world::DeviceStates>(world::DeviceStates{state});
   const auto reading = (*radio)->Sample(Sampling(snapshot, 0, 1, rays));
   EXPECT_EQ(std::vector<double>(reading->values.begin(), reading->values.end()),
             (std::vector<double>{7, 1.5, -41.5}));
   EXPECT_EQ(*reading->labels, (std::vector<std::string>{"other", "YQBi/w=="}));
 
   const auto bytes = RadioType().encode(RadioOf(), *reading, "robot/radio");
-  const auto message = messages::Decode<messages::gsv_msgs::Radio>(std::as_bytes(std::span(bytes)));
-  ASSERT_TRUE(message);
-  ASSERT_EQ(message->messages.size(), 1u);
-  EXPECT_EQ(message->messages[0].sender, "other");
-  EXPECT_EQ(message->messages[0].number, 7u);
-  EXPECT_EQ(message->messages[0].sent.sec, 1);
-  EXPECT_EQ(message->messages[0].sent.nanosec, 500'000'000u);
-  EXPECT_EQ(message->messages[0].content, (std::vector<std::uint8_t>{'a', 0, 'b', 0xff}));
+  const auto decoded = messages::Decode<messages::gsv_msgs::Radio>(std::as_bytes(std::span(bytes)));
+  ASSERT_TRUE(decoded);
+  ASSERT_EQ(decoded->messages.size(), 1u);
+  EXPECT_EQ(decoded->messages[0].sender, "other");
+  EXPECT_EQ(decoded->messages[0].number, 7u);
+  EXPECT_EQ(decoded->messages[0].sent.sec, 1);
+  EXPECT_EQ(decoded->messages[0].sent.nanosec, 500'000'000u);
+  EXPECT_EQ(decoded->messages[0].content, (std::vector<std::uint8_t>{'a', 0, 'b', 0xff}));
+}
+
+// Recordings hold hashes: the order of fields is part of their format.
+TEST(Radio, HasWhatItHeardInItsHash) {
+  const auto radio = MakeRadio();
+  ASSERT_TRUE(radio);
+  RadioState state = SwitchedOn(**radio);
+  const auto message = world::Sealed({"other", "r", "", base::SimTime(5), "hello"});
+  state.Hear(message, -41.5);
+  base::Hash hash, expected;
+  state.AddToHash(hash);
+  expected.Add(std::string_view("robot"));
+  expected.Add(std::string_view("radio"));
+  expected.Add(std::uint64_t{1});  // messages heard
+  expected.Add(std::uint64_t{1});  // the number of the one in its inbox
+  expected.Add(-41.5);
+  expected.Add(message->digest);
+  EXPECT_EQ(hash.Digest(), expected.Digest());
 }
 
 }  // namespace

@@ -14,33 +14,46 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kSounds = {"tone", "buzz", "chirp", "noise"};
 
-world::SpeakerSetup ReadSpeaker(ParameterReader& reader) {
-  world::SpeakerSetup speaker;
-  speaker.loudness = reader.Number("loudness", speaker.loudness, 0, 200);
-  return speaker;
-}
+double ReadLoudness(ParameterReader& reader) { return reader.Number("loudness", 85, 0, 200); }
+
+// The command: frequency (Hz), duration (s), volume in [0, 1]; the word names the sound.
+class SpeakerState final : public world::ActuatorState {
+ public:
+  SpeakerState(world::DeviceMount mount, world::FollowedCommand followed, double loudness)
+      : ActuatorState(std::move(mount), std::move(followed)), loudness_(loudness) {}
+
+  std::optional<world::Sound> SoundAt(base::SimTime now) const override {
+    const std::vector<double>& v = values();
+    const double elapsed = base::ToSeconds(now - since());
+    if (elapsed >= v[1] || v[2] <= 0) return std::nullopt;
+    return world::Sound{word(), v[0], v[2], elapsed, v[1] - elapsed, loudness_};
+  }
+
+ private:
+  const double loudness_;  // dB
+};
 
 class Speaker final : public Actuator {
  public:
   Speaker(const model::SensorDescription& description, ParameterReader& reader)
-      : Actuator(description, ReadSpeaker(reader)) {}
+      : Actuator(description), loudness_(ReadLoudness(reader)) {}
 
-  base::Status Check(const world::ActuatorOrder& order) const override {
-    if (auto ok = CheckShape(order, 3); !ok) return ok;
-    if (auto ok = CheckRange("frequency", order.values[0], 20, 20'000); !ok) return ok;
-    if (auto ok = CheckRange("duration", order.values[1], 0, 3600); !ok) return ok;
-    if (auto ok = CheckRange("volume", order.values[2], 0, 1); !ok) return ok;
-    if (std::find(kSounds.begin(), kSounds.end(), order.word) == kSounds.end()) {
-      return Refuse(fmt::format("there is no sound \"{}\"; there are {}", order.word.substr(0, 64),
-                                fmt::join(kSounds, ", ")));
+  base::Status Check(const world::DeviceCommand& command) const override {
+    if (auto ok = CheckShape(command, 3); !ok) return ok;
+    if (auto ok = CheckRange("frequency", command.values[0], 20, 20'000); !ok) return ok;
+    if (auto ok = CheckRange("duration", command.values[1], 0, 3600); !ok) return ok;
+    if (auto ok = CheckRange("volume", command.values[2], 0, 1); !ok) return ok;
+    if (std::find(kSounds.begin(), kSounds.end(), command.word) == kSounds.end()) {
+      return Refuse(fmt::format("there is no sound \"{}\"; there are {}",
+                                command.word.substr(0, 64), fmt::join(kSounds, ", ")));
     }
     return {};
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
-    const world::ActuatorState* const state = StateIn(sampling);
+    const world::DeviceState* const state = StateIn(sampling);
     const auto sound =
-        state != nullptr ? world::SoundOf(*state, sampling.snapshot()->state.time) : std::nullopt;
+        state != nullptr ? state->SoundAt(sampling.snapshot()->state.time) : std::nullopt;
     const world::Sound now = sound.value_or(world::Sound());
     Reading reading = sampling.Stamped();
     reading.values = {now.frequency, now.volume, now.elapsed, now.left};
@@ -58,9 +71,17 @@ class Speaker final : public Actuator {
     message.volume = reading.values[1];
     message.elapsed_s = reading.values[2];
     message.left_s = reading.values[3];
-    message.loudness_db = ReadSpeaker(reader).loudness;
+    message.loudness_db = ReadLoudness(reader);
     return message;
   }
+
+ private:
+  world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
+                               const world::DeviceState*) const override {
+    return std::make_shared<const SpeakerState>(std::move(mount), std::move(followed), loudness_);
+  }
+
+  const double loudness_;  // dB
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ using geometry::Vector3;
 
 // One for the process: it holds no scenes, only settings. It lives until the process ends, since
 // trees may be destroyed after main().
-RTCDevice Device() {
+RTCDevice EmbreeDevice() {
   static const RTCDevice device = [] {
     RTCDevice made = rtcNewDevice("threads=1,set_affinity=0,isa=avx2");
     if (made == nullptr) made = rtcNewDevice("threads=1,set_affinity=0");
@@ -96,12 +96,12 @@ void BoxTree::Build(std::span<const Bounds> boxes, bool often) {
   self.boxes.assign(boxes.begin(), boxes.end());
   self.padding = PaddingFor(self.boxes);
   if (self.scene == nullptr) {
-    self.scene = rtcNewScene(Device());
+    self.scene = rtcNewScene(EmbreeDevice());
     rtcSetSceneFlags(self.scene, often
                                      ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC)
                                      : RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(self.scene, often ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH);
-    self.geometry = rtcNewGeometry(Device(), RTC_GEOMETRY_TYPE_USER);
+    self.geometry = rtcNewGeometry(EmbreeDevice(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserData(self.geometry, &self);
     rtcSetGeometryBoundsFunction(self.geometry, Impl::BoundsFunction, nullptr);
     rtcSetGeometryIntersectFunction(self.geometry, Impl::IntersectFunction);
@@ -112,7 +112,7 @@ void BoxTree::Build(std::span<const Bounds> boxes, bool often) {
   }
   rtcCommitGeometry(self.geometry);
   rtcCommitScene(self.scene);
-  GSV_CHECK(rtcGetDeviceError(Device()) == RTC_ERROR_NONE);
+  GSV_CHECK(rtcGetDeviceError(EmbreeDevice()) == RTC_ERROR_NONE);
 }
 
 void BoxTree::Cast(const Ray& ray, Visitor& visitor) const {

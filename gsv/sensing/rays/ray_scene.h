@@ -13,36 +13,24 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/sensing/rays/fan.h"
+#include "gsv/world/ray_caster.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::sensing {
 
-struct Ray {
-  geometry::Vector3 origin;     // world
-  geometry::Vector3 direction;  // world, unit length
-  double max_distance = 0;      // m
-};
+using world::Hit;
+using world::Ray;
 
 // A pose turns directions and moves origins: the same ray in another frame, for so many metres.
 inline Ray Moved(const geometry::Pose& to_from, const Ray& ray, double length) {
   return {to_from * ray.origin, to_from.orientation * ray.direction, length};
 }
 
-struct Hit {
-  double distance = 0;       // m along the ray, in [0, max_distance]
-  geometry::Vector3 normal;  // world, unit length, against the ray
-  int body = -1;             // index in the layout
-};
-
 class Surroundings;
 
-class RayScene {
+class RayScene : public world::RayCaster {
  public:
-  virtual ~RayScene() = default;
-
-  // The nearest collision surface, entered or left, that is not of the body `ignored_body` (-1: of
-  // any). A ray that starts inside a solid hits the far side.
-  virtual std::optional<Hit> Cast(const Ray& ray, int ignored_body) const = 0;
+  using world::RayCaster::Cast;
 
   // The same for many rays; hits[i] is rays[i]'s.
   virtual void Cast(std::span<const Ray> rays, int ignored_body,

@@ -101,8 +101,8 @@ class Agent {
   // the next step.
   virtual base::Status Send(const std::string& radio, const std::string& receiver,
                             std::string content) = 0;
-  // Tells an actuator, of the sensors, what to do from this instant on.
-  virtual base::Status Act(const std::string& actuator, world::ActuatorOrder order) = 0;
+  // Commands an actuator, of the sensors, from this instant on.
+  virtual base::Status Act(const std::string& actuator, world::DeviceCommand command) = 0;
   // For the turns of a local behaviour.
   virtual base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const = 0;
 };

@@ -25,22 +25,19 @@ base::Result<sensing::Reading> Turn::Read(MountedSensor& sensor) const {
 
 base::Status Turn::CommandJoint(int joint, const world::JointCommand& command) {
   if (auto ok = world::CheckJointCommand(sampling_->robot(), joint, command); !ok) return ok;
-  joint_commands_.emplace_back(joint, command);
+  commands_.CommandJoint(joint, command);
   return {};
 }
 
 base::Status Turn::Send(const MountedSensor& radio, const std::string& receiver,
                         std::string content) {
-  auto sending = MakeSending(radio, receiver, std::move(content), radio_, sampling_->robot().name);
-  if (!sending) return base::Fail(sending.error());
-  radio_.sendings.push_back(*std::move(sending));
-  return {};
+  return commands_.Send(radio, receiver, std::move(content), sampling_->robot().name);
 }
 
-base::Status Turn::Act(const MountedSensor& actuator, world::ActuatorOrder order) {
-  auto act = MakeAct(actuator, std::move(order), sampling_->robot().name);
-  if (!act) return base::Fail(act.error());
-  Add(*std::move(act), actuator_acts_);
+base::Status Turn::Act(const MountedSensor& actuator, world::DeviceCommand command) {
+  auto action = CommandOf(actuator, std::move(command), sampling_->robot().name);
+  if (!action) return base::Fail(action.error());
+  commands_.Add(*std::move(action));
   return {};
 }
 

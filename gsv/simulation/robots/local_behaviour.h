@@ -14,11 +14,10 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/sensing/sensor.h"
-#include "gsv/simulation/robots/actuator_acts.h"
 #include "gsv/simulation/robots/agent.h"
 #include "gsv/simulation/robots/behaviour_port.h"
 #include "gsv/simulation/robots/mounted_sensor.h"
-#include "gsv/simulation/robots/radio_channel.h"
+#include "gsv/simulation/robots/robot_commands.h"
 #include "gsv/simulation/robots/snapshot_history.h"
 
 namespace gsv::simulation {
@@ -55,14 +54,14 @@ class Turn {
   void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
 
   // Acts from this step on; a later command replaces it.
-  void Command(const world::DriveCommand& command) { command_ = command; }
+  void Command(const world::DriveCommand& command) { commands_.SetDrive({0, command}); }
   // The same for a joint of the robot's model.
   base::Status CommandJoint(int joint, const world::JointCommand& command);
   JointReading ReadJoint(int joint) const;  // at this instant
   // By a radio, to the robot `receiver`; empty: to all.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content);
-  // Tells an actuator what to do from this instant on.
-  base::Status Act(const MountedSensor& actuator, world::ActuatorOrder order);
+  // Commands an actuator from this instant on.
+  base::Status Act(const MountedSensor& actuator, world::DeviceCommand command);
   // The command belongs to an exchange on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 
@@ -91,10 +90,7 @@ class Turn {
 
   const Instant* instant_ = nullptr;
   const sensing::Sampling* sampling_ = nullptr;
-  std::optional<world::DriveCommand> command_;
-  std::vector<std::pair<int, world::JointCommand>> joint_commands_;
-  RadioActs radio_;
-  ActuatorActs actuator_acts_;
+  RobotCommands commands_;
   std::uint64_t exchanges_ = 0;
   std::variant<Finished, Failed, Waiting, Blocked> end_;
 };

@@ -59,13 +59,10 @@ class MountedSensor {
   bool casts_rays() const { return design_->sensor != nullptr && design_->sensor->CastsRays(); }
   bool takes_long() const { return design_->sensor != nullptr && design_->sensor->TakesLong(); }
 
-  // See sensing::Sensor.
-  world::RadioSetupPtr radio() const {
-    return design_->sensor != nullptr ? design_->sensor->radio() : nullptr;
-  }
-
-  const sensing::Actuator* actuator() const {
-    return design_->sensor != nullptr ? design_->sensor->actuator() : nullptr;
+  // Null for a sensor that is no device.
+  std::shared_ptr<const sensing::Device> device() const {
+    const auto* const device = design_->sensor != nullptr ? design_->sensor->device() : nullptr;
+    return device != nullptr ? std::shared_ptr<const sensing::Device>(design_, device) : nullptr;
   }
 
   // The sample of `sampling`'s instant: taken now if nobody has asked for it before.

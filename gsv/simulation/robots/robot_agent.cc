@@ -1,11 +1,9 @@
 #include "gsv/simulation/robots/robot_agent.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "gsv/base/log_text.h"
-#include "gsv/sensing/actuator.h"
 
 namespace gsv::simulation {
 namespace {
@@ -48,14 +46,9 @@ void RobotAgent::Recount() {
   if (shared_->running == 0 && is_waited_for) shared_->changed.notify_all();
 }
 
-void RobotAgent::Pend(const PendingCommand& command) {
-  pending_ = command;
-  Announce();
-}
-
-void RobotAgent::Announce() {
-  if (std::exchange(is_commanded_, true)) return;
-  shared_->commanded.push_back(this);
+RobotCommands& RobotAgent::Commands() {
+  if (!std::exchange(is_commanded_, true)) shared_->commanded.push_back(this);
+  return commands_;
 }
 
 base::Status RobotAgent::CheckAlive(const std::unique_lock<std::mutex>&) const {
@@ -164,7 +157,7 @@ base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
         return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
       }
       clocks_.set_last_cycle(clock, cycle);
-      if (command && (!pending_ || clock >= pending_->clock)) Pend({clock, *command});
+      if (command) Commands().OfferDrive({clock, *command});
     } else if (cycle != last || cycle == 0) {
       return base::Fail(
           base::ErrorCode::kInvalidArgument,
@@ -201,7 +194,7 @@ base::Status RobotAgent::Command(const world::DriveCommand& command) {
   }
   std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
-  if (!pending_ || pending_->clock == 0) Pend({0, command});
+  Commands().OfferDrive({0, command});
   return {};
 }
 
@@ -216,8 +209,7 @@ base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& comm
   if (auto ok = world::CheckJointCommand(robot, joint, command); !ok) return ok;
   std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
-  pending_joints_.emplace_back(joint, command);
-  Announce();
+  Commands().CommandJoint(joint, command);
   return {};
 }
 
@@ -245,14 +237,22 @@ base::Status RobotAgent::OpenSensor(const std::string& name) {
 }
 
 void RobotAgent::SwitchOn(const MountedSensor& sensor) {
-  const world::RadioSetupPtr setup = sensor.radio();
-  if (setup == nullptr) return;
-  // What a radio that is on already would not notice is left out, so that the list stays short.
-  const auto last = std::find_if(radio_acts_.switches.rbegin(), radio_acts_.switches.rend(),
-                                 [&](const RadioSwitch& s) { return s.sensor == sensor.name(); });
-  if (last != radio_acts_.switches.rend() && last->setup != nullptr) return;
-  radio_acts_.switches.push_back({sensor.name(), setup});
-  Announce();
+  auto device = sensor.device();
+  if (device == nullptr || !device->IsOnWhileOpen()) return;
+  Commands().Add({DeviceAction::Kind::kSwitchOn, std::move(device)});
+}
+
+void RobotAgent::StartDevice(const MountedSensor& sensor) {
+  auto device = sensor.device();
+  auto command = device != nullptr ? device->first() : std::nullopt;
+  if (!command) return;
+  Commands().Add({DeviceAction::Kind::kCommand, std::move(device), *std::move(command)});
+}
+
+void RobotAgent::StartDevices() {
+  for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
+    StartDevice(MountedSensor(design));
+  }
 }
 
 base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
@@ -264,7 +264,7 @@ base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
   const MountedSensorPtr sensor = *rack_.Find(name);
   shared_->history.Use(sensor->design().cadence);
   SwitchOn(*sensor);
-  StartActuator(*sensor);
+  StartDevice(*sensor);
   return {};
 }
 
@@ -272,44 +272,24 @@ base::Status RobotAgent::CloseSensor(const std::string& name) {
   std::unique_lock lock = shared_->LockForAgent();
   const auto sensor = rack_.Find(name);
   if (auto ok = rack_.Close(name); !ok) return ok;
-  if ((*sensor)->radio() != nullptr && CheckAlive(lock)) {
-    std::erase_if(radio_acts_.switches, [&](const RadioSwitch& s) { return s.sensor == name; });
-    radio_acts_.switches.push_back({name, nullptr});
-    Announce();
-  }
-  const sensing::Actuator* const actuator = (*sensor)->actuator();
-  // One of the model goes on with what it does.
-  if (actuator != nullptr && !rack_.Find(name) && CheckAlive(lock)) {
-    Add({name, actuator->setup(), std::nullopt}, actuator_acts_);
-    Announce();
+  auto device = (*sensor)->device();
+  // An actuator of the model continues with its command.
+  const bool ends = device != nullptr && (device->IsOnWhileOpen() || !rack_.Find(name));
+  if (ends && CheckAlive(lock)) {
+    Commands().Add({DeviceAction::Kind::kSwitchOff, std::move(device)});
   }
   return {};
 }
 
-base::Status RobotAgent::Act(const std::string& actuator, world::ActuatorOrder order) {
+base::Status RobotAgent::Act(const std::string& actuator, world::DeviceCommand command) {
   const auto mounted = rack_.Find(actuator);
   if (!mounted) return base::Fail(mounted.error());
-  auto act = MakeAct(**mounted, std::move(order), robot_);
-  if (!act) return base::Fail(act.error());
+  auto action = CommandOf(**mounted, std::move(command), robot_);
+  if (!action) return base::Fail(action.error());
   std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
-  Add(*std::move(act), actuator_acts_);
-  Announce();
+  Commands().Add(*std::move(action));
   return {};
-}
-
-void RobotAgent::StartActuator(const MountedSensor& sensor) {
-  const sensing::Actuator* const actuator = sensor.actuator();
-  const auto order = actuator != nullptr ? actuator->first() : std::nullopt;
-  if (!order) return;
-  Add({sensor.name(), actuator->setup(), *order}, actuator_acts_);
-  Announce();
-}
-
-void RobotAgent::StartActuators() {
-  for (const SensorDesignPtr& design : *shared_->designs.Of(model_)) {
-    StartActuator(MountedSensor(design));
-  }
 }
 
 base::Status RobotAgent::Send(const std::string& radio, const std::string& receiver,
@@ -318,11 +298,7 @@ base::Status RobotAgent::Send(const std::string& radio, const std::string& recei
   if (!mounted) return base::Fail(mounted.error());
   std::unique_lock lock = shared_->LockForAgent();
   if (auto ok = CheckMayAct(lock); !ok) return ok;
-  auto sending = MakeSending(**mounted, receiver, std::move(content), radio_acts_, robot_);
-  if (!sending) return base::Fail(sending.error());
-  radio_acts_.sendings.push_back(*std::move(sending));
-  Announce();
-  return {};
+  return Commands().Send(**mounted, receiver, std::move(content), robot_);
 }
 
 base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
@@ -425,21 +401,9 @@ std::function<void()> RobotAgent::Settle() {
   const ClockId clock = behaviour_->local()->clock();
   if (is_gone_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
   clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
-  if (turn_.command_) Pend({turn_.exchanges_ > 0 ? clock : 0, *turn_.command_});
-  if (!turn_.joint_commands_.empty()) {
-    pending_joints_.insert(pending_joints_.end(), turn_.joint_commands_.begin(),
-                           turn_.joint_commands_.end());
-    Announce();
-  }
-  if (!turn_.radio_.sendings.empty()) {
-    auto& sendings = turn_.radio_.sendings;
-    std::move(sendings.begin(), sendings.end(), std::back_inserter(radio_acts_.sendings));
-    Announce();
-  }
-  for (ActuatorAct& act : turn_.actuator_acts_) {
-    Add(std::move(act), actuator_acts_);
-    Announce();
-  }
+  RobotCommands& commands = turn_.commands_;
+  if (commands.drive() && turn_.exchanges_ > 0) commands.drive()->clock = clock;
+  if (!commands.empty()) Commands().Merge(commands.Take());
   if (auto* blocked = std::get_if<Turn::Blocked>(&turn_.end_)) {
     is_blocked_ = true;
     return std::move(blocked->work);
@@ -455,16 +419,12 @@ std::function<void()> RobotAgent::Settle() {
   return {};
 }
 
-std::optional<world::DriveCommand> RobotAgent::TakeCommand() {
+RobotCommands RobotAgent::TakeCommands() {
   is_commanded_ = false;
-  if (!pending_) return std::nullopt;
-  const world::DriveCommand command = pending_->command;
-  pending_.reset();
-  return command;
-}
-
-std::vector<std::pair<int, world::JointCommand>> RobotAgent::TakeJointCommands() {
-  return std::exchange(pending_joints_, {});
+  RobotCommands commands = commands_.Take();
+  if (commands.drive() && !has_motor_) commands.SetDrive({});
+  for (const int joint : lost_joints_) commands.ForgetJoint(joint);
+  return commands;
 }
 
 void RobotAgent::LoseMotor() {
@@ -474,7 +434,7 @@ void RobotAgent::LoseMotor() {
 
 void RobotAgent::LoseJoint(int joint) {
   lost_joints_.insert(joint);
-  std::erase_if(pending_joints_, [&](const auto& command) { return command.first == joint; });
+  commands_.ForgetJoint(joint);
 }
 
 void RobotAgent::MarkGone() {
@@ -485,10 +445,7 @@ void RobotAgent::MarkGone() {
 
 void RobotAgent::ResetClocks() {
   clocks_ = AgentClocks();
-  pending_.reset();
-  pending_joints_.clear();
-  radio_acts_ = {};
-  actuator_acts_.clear();
+  commands_ = {};
   is_commanded_ = false;
   started_ = false;
   has_motor_ = true;

@@ -7,11 +7,10 @@
 #include <set>
 
 #include "gsv/simulation/pace/wall_clock.h"
-#include "gsv/simulation/robots/actuator_acts.h"
 #include "gsv/simulation/robots/agent.h"
 #include "gsv/simulation/robots/agent_clocks.h"
 #include "gsv/simulation/robots/local_behaviour.h"
-#include "gsv/simulation/robots/radio_channel.h"
+#include "gsv/simulation/robots/robot_commands.h"
 #include "gsv/simulation/robots/shared_state.h"
 #include "gsv/simulation/robots/wait_gate.h"
 
@@ -53,7 +52,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Result<sensing::Reading> Read(const std::string& sensor) override;
   base::Status Send(const std::string& radio, const std::string& receiver,
                     std::string content) override;
-  base::Status Act(const std::string& actuator, world::ActuatorOrder order) override;
+  base::Status Act(const std::string& actuator, world::DeviceCommand command) override;
 
   // A reading for somebody who watches.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
@@ -86,21 +85,14 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void ReportDeath(std::string detail);
   bool is_alive() const { return fate_ == Fate::kAlive && !death_reported_; }
   bool is_watched() const { return behaviour_ != nullptr && is_alive() && !is_gone_; }
-  // What is to act from this step on, once.
-  std::optional<world::DriveCommand> TakeCommand();
-  // The same for its joints, each with its index in the robot's model; the last of a joint holds.
-  std::vector<std::pair<int, world::JointCommand>> TakeJointCommands();
-  // What it has done with its radios.
-  RadioActs TakeRadioActs() { return std::exchange(radio_acts_, {}); }
-  // What its actuators were told.
-  ActuatorActs TakeActuatorActs() { return std::exchange(actuator_acts_, {}); }
-  // Has its actuators do what they do from the start.
-  void StartActuators();
+  // Returns the commands that act from this step on, as far as its motor and joints can follow
+  // them, and clears them.
+  RobotCommands TakeCommands();
+  // Has its devices follow the commands that they follow from the start.
+  void StartDevices();
   // Faults: from the next step on its drive stands still, or nothing moves that joint.
   void LoseMotor();
   void LoseJoint(int joint);
-  bool has_motor() const { return has_motor_; }
-  bool MayMoveJoint(int joint) const { return !lost_joints_.contains(joint); }
   void MarkGone();
   bool is_gone() const { return is_gone_; }
   void ResetClocks();
@@ -134,17 +126,13 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Tells the simulation whether it has to wait for this agent; after whatever may change that.
   void Recount();
 
-  struct PendingCommand {
-    ClockId clock = 0;  // 0: given directly
-    world::DriveCommand command;
-  };
-  void Pend(const PendingCommand& command);
-  void Announce();  // that there are commands to take
-  void StopDriving() { Pend({}); }
-  // From the next step on it hears, if it is a radio.
+  // The commands that the next step takes, which it does not forget then.
+  RobotCommands& Commands();
+  void StopDriving() { Commands().SetDrive({}); }
+  // A device that is on while it is open is on from the next step on.
   void SwitchOn(const MountedSensor& sensor);
-  // It does what it does from the start, if it is an actuator.
-  void StartActuator(const MountedSensor& sensor);
+  // A device follows the command that it follows from the start.
+  void StartDevice(const MountedSensor& sensor);
 
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;
@@ -157,10 +145,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Guarded by shared_->mutex.
   std::shared_ptr<BehaviourPort> behaviour_;
   AgentClocks clocks_;
-  std::optional<PendingCommand> pending_;
-  std::vector<std::pair<int, world::JointCommand>> pending_joints_;
-  RadioActs radio_acts_;
-  ActuatorActs actuator_acts_;
+  RobotCommands commands_;
   int body_ = -1;
   bool has_motor_ = true;
   std::set<int> lost_joints_;
