@@ -1,0 +1,40 @@
+// Marks which mutex guards what, so that clang checks it (-Wthread-safety; tools/tidy runs it with
+// every finding an error). Other compilers see nothing.
+//
+// Source  https://clang.llvm.org/docs/ThreadSafetyAnalysis.html
+#pragma once
+
+#if defined(__clang__)
+#define GSV_THREAD_ATTRIBUTE(x) __attribute__((x))
+#else
+#define GSV_THREAD_ATTRIBUTE(x)
+#endif
+
+// A class whose objects are locks, and one that holds such a lock as long as it lives.
+#define GSV_CAPABILITY(name) GSV_THREAD_ATTRIBUTE(capability(name))
+#define GSV_SCOPED_CAPABILITY GSV_THREAD_ATTRIBUTE(scoped_lockable)
+
+// Members: to be read and written with the mutex held; a pointer whose target is.
+#define GSV_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(guarded_by(mutex))
+#define GSV_PT_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(pt_guarded_by(mutex))
+
+// Mutexes: the order in which a thread takes them.
+#define GSV_ACQUIRED_AFTER(...) GSV_THREAD_ATTRIBUTE(acquired_after(__VA_ARGS__))
+
+// Functions: the caller holds the mutex; must not hold it; holds it afterwards; no longer does.
+#define GSV_REQUIRES(...) GSV_THREAD_ATTRIBUTE(requires_capability(__VA_ARGS__))
+#define GSV_REQUIRES_SHARED(...) GSV_THREAD_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
+#define GSV_EXCLUDES(...) GSV_THREAD_ATTRIBUTE(locks_excluded(__VA_ARGS__))
+#define GSV_ACQUIRE(...) GSV_THREAD_ATTRIBUTE(acquire_capability(__VA_ARGS__))
+#define GSV_ACQUIRE_SHARED(...) GSV_THREAD_ATTRIBUTE(acquire_shared_capability(__VA_ARGS__))
+#define GSV_RELEASE(...) GSV_THREAD_ATTRIBUTE(release_capability(__VA_ARGS__))
+#define GSV_RELEASE_SHARED(...) GSV_THREAD_ATTRIBUTE(release_shared_capability(__VA_ARGS__))
+#define GSV_RELEASE_GENERIC(...) GSV_THREAD_ATTRIBUTE(release_generic_capability(__VA_ARGS__))
+#define GSV_TRY_ACQUIRE(...) GSV_THREAD_ATTRIBUTE(try_acquire_capability(__VA_ARGS__))
+
+// States, without a check at run time, that the mutex is held here: at the head of a lambda that is
+// called under it.
+#define GSV_ASSERT_HELD(...) GSV_THREAD_ATTRIBUTE(assert_capability(__VA_ARGS__))
+
+// Functions that the analysis cannot follow. The comment beside it says why they are right.
+#define GSV_NO_THREAD_SAFETY_ANALYSIS GSV_THREAD_ATTRIBUTE(no_thread_safety_analysis)
