@@ -8,6 +8,7 @@
 
 #include "gsv/base/hash.h"
 #include "gsv/base/random.h"
+#include "gsv/campaign/engine.h"
 #include "gsv/scenario/scenario_file.h"
 #include "gsv/scenario/yaml_mapping.h"
 
@@ -133,22 +134,6 @@ class ParameterReader {
   const YamlPlace& place_;
 };
 
-Engine EngineIn(YamlMapping& mapping, const YamlPlace& place) {
-  Engine engine;
-  engine.name = mapping.Text("engine").value_or(engine.name);
-  if (engine.name != "local" && engine.name != "slurm")
-    mapping.Complain("engine", "there is no engine \"" + engine.name + "\"; take local or slurm");
-  if (const auto node = mapping.Any("slurm")) {
-    YamlMapping slurm(*node, "slurm", place);
-    engine.slurm.partition = slurm.Text("partition").value_or("");
-    engine.slurm.time_limit = slurm.Text("time_limit").value_or("");
-    engine.slurm.options = slurm.Texts("options");
-    engine.slurm.runs_a_task =
-        static_cast<std::size_t>(slurm.Number("runs_a_task", 1, kMostRuns).value_or(0));
-  }
-  return engine;
-}
-
 std::string Drawn(std::uint64_t seed, const Parameter& parameter, std::size_t run) {
   base::Noise noise(seed, base::StableId(parameter.path), run);
   const double value = parameter.kind == Parameter::Kind::kUniform
@@ -238,8 +223,13 @@ std::string Campaign::Identity() const {
   return hash.Hex();
 }
 
+base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems) {
+  Engine ignored;
+  return ReadCampaign(file, problems, {}, ignored);
+}
+
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
-                                    Engine* engine) {
+                                    const EngineRequest& request, Engine& engine) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
     return base::Fail(base::ErrorCode::kNotFound, "the campaign's file cannot be opened", file);
@@ -261,8 +251,7 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
       campaign.parameters = ParameterReader(place).Read(*node);
     campaign.draws = static_cast<std::size_t>(mapping.Number("draws", 1, kMostRuns).value_or(1));
     campaign.draw_seed = mapping.Count("draw_seed").value_or(0);
-    Engine read = EngineIn(mapping, place);
-    if (engine != nullptr) *engine = std::move(read);
+    engine = ReadEngine(mapping, request);
   } catch (const YAML::Exception& error) {
     return base::Fail(base::ErrorCode::kBadModel, "it is no YAML: " + error.msg,
                       place.Of(error.mark, ""));

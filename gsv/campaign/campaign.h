@@ -16,6 +16,9 @@ namespace gsv::campaign {
 
 inline constexpr std::size_t kMostRuns = 1'000'000;
 
+struct Engine;
+struct EngineRequest;
+
 struct Parameter {
   enum class Kind { kList, kUniform, kNormal };
   std::string path;  // into the scenario, as in robots[0].x
@@ -41,22 +44,11 @@ struct Campaign {
   std::string Identity() const;  // of the definition: sixteen hexadecimal digits
 };
 
-// How a queue is asked for machines, which has no bearing on the runs.
-struct SlurmOptions {
-  std::string partition, time_limit;  // of a task, as sbatch has it; empty: the queue's own
-  std::vector<std::string> options;   // more of sbatch's
-  std::size_t runs_a_task = 0;        // 0: so many that 1,000 tasks take all
-};
-
-struct Engine {
-  std::string name = "local";  // or "slurm"
-  SlurmOptions slurm;
-};
-
 // Each value is tried in the scenario by itself; what is wrong with any is added to `problems`.
-// `engine`: what the file says about where to run it.
+base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
+// The same, with the engine that the file and `request` name (engine.h).
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
-                                    Engine* engine = nullptr);
+                                    const EngineRequest& request, Engine& engine);
 
 // A campaign as a text that holds all of it, for machines that take part.
 std::string ToJson(const Campaign& campaign);

@@ -74,10 +74,7 @@ TEST_F(CampaignTest, MistakesAreToldBeforeAnythingRuns) {
       {"scenario: s.yaml\nparameters: {seed: {gauss: [1, 2]}}", "a parameter is a list"},
       {"scenario: s.yaml\nparameters: {'robots[3].x': [1]}", "the scenario has no such place"},
       {"scenario: s.yaml\nparameters: {seed: [1, -1]}", "seed = -1: seed must be a whole number"},
-      {"scenario: s.yaml\nengine: pbs",
-       "c.yaml:2:9: there is no engine \"pbs\"; take local or slurm"},
-      {"scenario: s.yaml\nslurm: {queue: short}", "there is no key \"queue\" here"},
-      {"scenario: s.yaml\nslurm: {runs_a_task: 0}", "runs_a_task must be"},
+      {"scenario: s.yaml\nengine: pbs", "c.yaml:2:9: there is no engine \"pbs\""},
       {"scenario: s.yaml\nruns: 3", "there is no key \"runs\" here"}};
   for (const auto& [text, sentence] : bad) {
     const auto campaign = Read(text);
@@ -88,7 +85,7 @@ TEST_F(CampaignTest, MistakesAreToldBeforeAnythingRuns) {
   EXPECT_FALSE(Read("scenario: none.yaml"));
 }
 
-LocalEngine Engine(std::vector<std::atomic<int>>& taken, std::size_t most) {
+LocalEngine EngineThatTakes(std::vector<std::atomic<int>>& taken, std::size_t most) {
   LocalEngine engine;
   engine.jobs = 3;
   auto begun = std::make_shared<std::atomic<std::size_t>>(0);
@@ -108,7 +105,7 @@ TEST_F(CampaignTest, WhatADriverLeftIsDoneByTheNextAndEachRunCountsOnce) {
   {
     const auto results = Results::OpenToAdd(file(), *campaign);
     ASSERT_TRUE(results) << results.error().Sentence();
-    ASSERT_TRUE(Engine(taken, 120).Run(**results));
+    ASSERT_TRUE(EngineThatTakes(taken, 120).Run(**results));
     EXPECT_EQ((*results)->DoneRuns()->size(), 120u);
     const auto second = Results::OpenToAdd(file(), *campaign);
     ASSERT_FALSE(second);
@@ -116,7 +113,7 @@ TEST_F(CampaignTest, WhatADriverLeftIsDoneByTheNextAndEachRunCountsOnce) {
   }
   const auto results = Results::OpenToAdd(file(), *campaign);
   ASSERT_TRUE(results);
-  ASSERT_TRUE(Engine(taken, 1000).Run(**results));
+  ASSERT_TRUE(EngineThatTakes(taken, 1000).Run(**results));
   for (const auto& times : taken) EXPECT_EQ(times, 1);
   ASSERT_TRUE((*results)->Add({RunResult{5, "error"}}));
   const auto all = (*results)->All();

@@ -71,7 +71,7 @@ base::Result<Batch> ReadBatch(const fs::path& file) {
     return base::Fail(
         base::ErrorCode::kCorrupt,
         "it does not say what was handed to the queue; remove it once the queue holds "
-        "no job of this campaign (squeue)",
+        "no job of this campaign",
         file);
   }
   return batch;
@@ -115,6 +115,10 @@ base::Result<Spool> Spool::Open(const fs::path& folder) {
 
 fs::path Spool::FileOf(const Batch& batch) const {
   return folder_ / fmt::format("batch-{:04}.json", batch.number);
+}
+
+fs::path Spool::LogOf(const Batch& batch, const std::string& task) const {
+  return logs() / (batch.name + "-" + task + ".log");
 }
 
 base::Result<std::vector<Batch>> Spool::Batches() const {

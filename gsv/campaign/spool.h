@@ -52,6 +52,8 @@ class Spool {
   std::filesystem::path journals() const { return folder_ / "journals"; }
   std::filesystem::path logs() const { return folder_ / "logs"; }
   std::filesystem::path FileOf(const Batch& batch) const;
+  // Of a task's output; `task`: its number, or what the queue puts in its place.
+  std::filesystem::path LogOf(const Batch& batch, const std::string& task) const;
 
   base::Result<std::vector<Batch>> Batches() const;  // by number
   base::Status Put(const Batch& batch) const;

@@ -23,11 +23,13 @@ using campaign::RunResult;
 constexpr std::chrono::seconds kLockPatience{5};  // with a `status` that gathers
 
 struct CampaignArguments {
-  std::string file, results, csv, svg, html, shard, engine;
+  std::string file, results, csv, svg, html, shard;
   std::vector<std::string> by, metrics;
+  campaign::EngineRequest engine;
   std::int64_t run = 0;
   bool json = false;
   EngineOptions options;
+  TaskArguments task;
 };
 
 // FILE.yaml has its results in FILE.sqlite.
@@ -39,9 +41,9 @@ std::string ResultsFile(const CampaignArguments& arguments) {
 
 // kOk, or what to exit with after having told why.
 int ReadCampaignFile(const std::string& file, Campaign& campaign,
-                     campaign::Engine* engine = nullptr) {
+                     const campaign::EngineRequest& request, campaign::Engine& engine) {
   base::Problems problems;
-  auto read = campaign::ReadCampaign(file, problems, engine);
+  auto read = campaign::ReadCampaign(file, problems, request, engine);
   for (const base::Problem& problem : problems) {
     std::fprintf(stderr, "gsv: error: %s\n", problem.Sentence().c_str());
   }
@@ -80,15 +82,10 @@ int TellStatus(campaign::Results& results, bool json) {
 int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   Campaign campaign;
   EngineOptions options = arguments.options;
-  campaign::Engine engine;
-  if (const int code = ReadCampaignFile(arguments.file, campaign, &engine); code != kOk)
+  if (const int code = ReadCampaignFile(arguments.file, campaign, arguments.engine, options.engine);
+      code != kOk) {
     return code;
-  const campaign::SlurmOptions asked = std::exchange(options.engine.slurm, engine.slurm);
-  if (!asked.partition.empty()) options.engine.slurm.partition = asked.partition;
-  if (!asked.time_limit.empty()) options.engine.slurm.time_limit = asked.time_limit;
-  if (asked.runs_a_task > 0) options.engine.slurm.runs_a_task = asked.runs_a_task;
-  auto& more = options.engine.slurm.options;
-  more.insert(more.end(), asked.options.begin(), asked.options.end());
+  }
   const std::string file = ResultsFile(arguments);
   if (!arguments.shard.empty()) {
     const auto shard = ParseShard(arguments.shard);
@@ -97,10 +94,9 @@ int RunCampaign(const CampaignArguments& arguments, Signals& signals) {
   if (const int code = GatherSpool(file); code != kOk) return code;
   auto results = campaign::Results::OpenToAdd(file, campaign, kLockPatience);
   if (!results) return Complain(results.error());
-  const bool is_slurm = options.broker.empty() &&
-                        (arguments.engine.empty() ? engine.name : arguments.engine) == "slurm";
-  const int code = is_slurm ? RunBySlurm(campaign, **results, file, options, signals)
-                            : RunHere(campaign, **results, options, signals);
+  const bool is_queued = options.broker.empty() && options.engine.make_queue;
+  const int code = is_queued ? RunByQueue(campaign, **results, file, options, signals)
+                             : RunHere(campaign, **results, options, signals);
   if (code != kOk && code != kInterrupted) return code;
   const int verdict = TellStatus(**results, arguments.json);
   return code == kOk ? verdict : code;
@@ -155,7 +151,9 @@ int ReportCampaign(const CampaignArguments& arguments) {
 
 int ShowRun(const CampaignArguments& arguments) {
   Campaign campaign;
-  if (const int code = ReadCampaignFile(arguments.file, campaign); code != kOk) return code;
+  campaign::Engine ignored;
+  if (const int code = ReadCampaignFile(arguments.file, campaign, {}, ignored); code != kOk)
+    return code;
   if (arguments.run < 0 || arguments.run >= static_cast<std::int64_t>(campaign.runs())) {
     return Complain({base::ErrorCode::kInvalidArgument,
                      fmt::format("its runs are 0 to {}", campaign.runs() - 1), arguments.file});
@@ -168,6 +166,38 @@ int ShowRun(const CampaignArguments& arguments) {
 }
 
 using Arguments = std::shared_ptr<CampaignArguments>;
+
+// The options of `--engine`, of job queues in general and of each engine. Returns --engine.
+CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
+  EngineOptions& options = arguments->options;
+  campaign::EngineRequest& engine = arguments->engine;
+  std::vector<std::string> names;
+  std::string help;
+  for (const campaign::EngineType& type : campaign::EngineTypes()) {
+    names.push_back(type.name);
+    help += (help.empty() ? "" : "; ") + type.name + ": " + type.help;
+    for (const campaign::EngineOption& option : type.options) {
+      if (engine.options.contains(option.flag)) continue;  // two engines may share it
+      CLI::Option* added = run->add_option(option.flag, engine.options[option.flag], option.help)
+                               ->allow_extra_args(false)
+                               ->group(type.title);
+      if (!option.is_list) added->take_last();
+    }
+  }
+  run->add_option("--runs-a-task", engine.runs_a_task,
+                  "runs of a task, one after another (default: so many that 1,000 tasks take all)")
+      ->check(CLI::Range(0, static_cast<int>(campaign::kMostRuns)))
+      ->group("Job queues");
+  run->add_option("--poll", options.poll,
+                  "seconds between questions to the queue (default: 10; ssh: 0.5)")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->group("Job queues");
+  run->add_flag("!--no-wait", options.waits, "hand the runs to the queue and end")
+      ->group("Job queues");
+  return run
+      ->add_option("--engine", engine.name, help + " (default: the campaign's engine, else local)")
+      ->check(CLI::IsMember(names));
+}
 
 void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine& line) {
   EngineOptions& options = arguments->options;
@@ -190,24 +220,7 @@ void AddRunOptions(CLI::App* run, const Arguments& arguments, const CommandLine&
                   "with --broker: which servers, as a constraint over docs/services.md's "
                   "properties; without it: all")
       ->needs(broker);
-  run->add_option("--engine", arguments->engine,
-                  "local: on this machine; slurm: by job arrays (the campaign's engine)")
-      ->check(CLI::IsMember({"local", "slurm"}))
-      ->excludes(broker);
-  campaign::SlurmOptions& slurm = options.engine.slurm;
-  run->add_option("--partition", slurm.partition, "Slurm's, for the tasks")->group("Slurm");
-  run->add_option("--time-limit", slurm.time_limit, "of a task, as sbatch has it: 30, 2:00:00")
-      ->group("Slurm");
-  run->add_option("--sbatch", slurm.options, "one more option for sbatch, as --sbatch=--mem=2G")
-      ->group("Slurm");
-  run->add_option("--runs-a-task", slurm.runs_a_task, "0: so many that 1,000 tasks take all")
-      ->check(CLI::Range(0, static_cast<int>(campaign::kMostRuns)))
-      ->group("Slurm");
-  run->add_option("--poll", options.poll, "seconds between questions to Slurm")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->capture_default_str()
-      ->group("Slurm");
-  run->add_flag("!--no-wait", options.waits, "hand the runs to Slurm and end")->group("Slurm");
+  AddEngineOptions(run, arguments)->excludes(broker);
   run->add_option(
       "--shard", arguments->shard,
       "I/N: only the I-th of N shares, for tasks of another queue; status gathers them");
@@ -241,9 +254,16 @@ void AddCampaignCommand(const CommandLine& line) {
   CLI::App* show = add("show", "Print one run's scenario, for `gsv run`");
   show->add_option("run", arguments->run, "its number, from 0")->required();
   show->callback([=] { line.exit_code = ShowRun(*arguments); });
-  CLI::App* task = add("task", "A task of a batch, for Slurm to start");
+  CLI::App* task = command->add_subcommand("task", "a task of a batch, for a job queue to start");
   task->group("");
-  task->callback([=] { line.exit_code = RunTask(arguments->file, line.signals); });
+  TaskArguments& its = arguments->task;
+  task->add_option("file", its.batch_file, "the batch's file")->required();
+  task->add_option("--task", its.task, "its number, from 0")->required();
+  task->add_option("--job", its.job, "the queue's name for it");
+  task->add_option("--node", its.node, "the machine's name");
+  task->add_option("--jobs", its.jobs, "runs at once")->check(CLI::Range(1, 256));
+  task->add_flag("--until-stdin-closes", its.until_stdin_closes, "end when stdin is closed");
+  task->callback([=] { line.exit_code = RunTask(arguments->task, line.signals); });
   CLI::App* run = command->get_subcommand("run");
   for (CLI::App* sub : {run, status, report}) {
     sub->add_option("--results", arguments->results,

@@ -18,11 +18,12 @@ constexpr std::size_t kMaxLine = 64 * 1024;
 
 // In the child: never returns. Another thread may have held malloc's locks as the process forked,
 // so nothing here allocates. `arguments` ends with null.
-[[noreturn]] void Execute(char* const* arguments, int output, bool quiet, pid_t parent) {
+// `input`: -1 for none.
+[[noreturn]] void Execute(char* const* arguments, int input, int output, bool quiet, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(0);  // the parent ended before that took hold
   const int nothing = open("/dev/null", O_RDWR);
-  dup2(nothing, STDIN_FILENO);
+  dup2(input >= 0 ? input : nothing, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   if (quiet) dup2(nothing, STDERR_FILENO);
   // A terminal's Ctrl-C is for the parent, which ends its children in order.
@@ -37,11 +38,18 @@ constexpr std::size_t kMaxLine = 64 * 1024;
 }  // namespace
 
 base::Result<std::unique_ptr<ChildProcess>> ChildProcess::Start(std::vector<std::string> arguments,
-                                                                bool quiet) {
-  int ends[2];
-  if (access(arguments.front().c_str(), X_OK) != 0 || pipe2(ends, O_CLOEXEC) != 0) {
+                                                                bool quiet, Input input) {
+  const auto fail = [&](int error) {
     return base::Fail(base::ErrorCode::kUnavailable,
-                      std::string("cannot be started: ") + std::strerror(errno), arguments.front());
+                      std::string("cannot be started: ") + std::strerror(error), arguments.front());
+  };
+  int output_ends[2], input_ends[2] = {-1, -1};
+  if (access(arguments.front().c_str(), X_OK) != 0 || pipe2(output_ends, O_CLOEXEC) != 0)
+    return fail(errno);
+  if (input == Input::kOpen && pipe2(input_ends, O_CLOEXEC) != 0) {
+    const int error = errno;
+    for (const int end : output_ends) close(end);
+    return fail(error);
   }
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
@@ -49,20 +57,21 @@ base::Result<std::unique_ptr<ChildProcess>> ChildProcess::Start(std::vector<std:
   argv.push_back(nullptr);
   const pid_t parent = getpid();
   const pid_t pid = fork();
-  if (pid == 0) Execute(argv.data(), ends[1], quiet, parent);
+  if (pid == 0) Execute(argv.data(), input_ends[0], output_ends[1], quiet, parent);
   const int fork_error = errno;
-  close(ends[1]);
+  close(output_ends[1]);
+  if (input_ends[0] >= 0) close(input_ends[0]);
   if (pid < 0) {
-    close(ends[0]);
-    return base::Fail(base::ErrorCode::kUnavailable,
-                      std::string("cannot be started: ") + std::strerror(fork_error),
-                      arguments.front());
+    close(output_ends[0]);
+    if (input_ends[1] >= 0) close(input_ends[1]);
+    return fail(fork_error);
   }
-  return std::unique_ptr<ChildProcess>(new ChildProcess(pid, ends[0]));
+  return std::unique_ptr<ChildProcess>(new ChildProcess(pid, input_ends[1], output_ends[0]));
 }
 
-ChildProcess::ChildProcess(pid_t pid, int output)
+ChildProcess::ChildProcess(pid_t pid, int input, int output)
     : pid_(pid),
+      input_(input),
       output_(output),
       pid_descriptor_(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))) {}
 
@@ -74,6 +83,7 @@ ChildProcess::~ChildProcess() {
       waitpid(pid_, nullptr, 0);
     }
   }
+  if (input_ >= 0) close(input_);
   close(output_);
   close(pid_descriptor_);
 }

@@ -18,10 +18,13 @@ namespace gsv::app {
 
 class ChildProcess {
  public:
-  // `arguments[0]` is the program's path. Its stdout can be read here; stdin is empty; stderr is
-  // ours, or nobody's when `quiet`.
+  // What the child reads: the end of the file at once, or nothing until this object is destroyed.
+  enum class Input { kEmpty, kOpen };
+
+  // `arguments[0]` is the program's path. Its stdout can be read here; stderr is ours, or nobody's
+  // when `quiet`.
   static base::Result<std::unique_ptr<ChildProcess>> Start(std::vector<std::string> arguments,
-                                                           bool quiet);
+                                                           bool quiet, Input input = Input::kEmpty);
   // SIGTERM, and SIGKILL for one that is still there two seconds later.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -37,9 +40,10 @@ class ChildProcess {
   void Signal(int signal);
 
  private:
-  ChildProcess(pid_t pid, int output);
+  ChildProcess(pid_t pid, int input, int output);
 
   const pid_t pid_;
+  const int input_;  // -1: none
   const int output_;
   int pid_descriptor_ = -1;  // becomes readable when it ends
   std::string buffer_;

@@ -1,20 +1,20 @@
 #include "apps/gsv/trials/campaign_engines.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "apps/gsv/exit_code.h"
-#include "apps/gsv/machine/child_process.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/trials/campaign_commands.h"
 #include "apps/gsv/trials/campaign_runs.h"
 #include "gsv/base/host_name.h"
 #include "gsv/base/temporary_folder.h"
-#include "gsv/campaign/slurm_engine.h"
+#include "gsv/campaign/queue_driver.h"
 
 namespace gsv::app {
 namespace {
@@ -24,13 +24,7 @@ using campaign::Attempt;
 using campaign::RunResult;
 using campaign::Spool;
 
-constexpr std::chrono::seconds kCommandPatience{60};
 constexpr int kRunsWithServers = 64;  // at once, waiting for room included
-
-std::string Environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
 
 int Processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
@@ -49,32 +43,19 @@ void Say(const std::string& sentence) {
                sentence.c_str());
 }
 
-base::Result<campaign::CommandOutcome> RunCommand(const std::vector<std::string>& command) {
-  std::vector<std::string> line{"/bin/sh", "-c", "exec \"$@\" 2>&1", "sh"};
-  line.insert(line.end(), command.begin(), command.end());
-  auto child = ChildProcess::Start(std::move(line), false);
-  if (!child) return base::Fail(child.error());
-  const auto give_up = std::chrono::steady_clock::now() + kCommandPatience;
-  const auto left = [&] {
-    return std::max(std::chrono::milliseconds(0),
-                    std::chrono::duration_cast<std::chrono::milliseconds>(
-                        give_up - std::chrono::steady_clock::now()));
-  };
-  campaign::CommandOutcome outcome;
-  while (const auto text = (*child)->ReadLine(left())) outcome.output += *text + "\n";
-  outcome.ending = (*child)->AwaitEnd(left());
-  if (!outcome.ending.empty()) return outcome;
-  return base::Fail(base::ErrorCode::kTimeout,
-                    fmt::format("did not answer within {} s; is Slurm up? The same command goes on",
-                                kCommandPatience.count()),
-                    command.front());
+bool IsStdinClosed() {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  char bytes[256];
+  return poll(&input, 1, 0) > 0 && read(STDIN_FILENO, bytes, sizeof bytes) <= 0;
 }
 
-campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted) {
+campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted,
+                                bool until_stdin_closes = false) {
   campaign::LocalEngine engine;
   engine.jobs = jobs;
-  engine.is_interrupted = [&] {
-    is_interrupted = is_interrupted || signals.WaitFor(0) != 0;
+  engine.is_interrupted = [&signals, &is_interrupted, until_stdin_closes] {
+    is_interrupted =
+        is_interrupted || signals.WaitFor(0) != 0 || (until_stdin_closes && IsStdinClosed());
     return is_interrupted;
   };
   return engine;
@@ -82,7 +63,7 @@ campaign::LocalEngine EngineFor(int jobs, Signals& signals, bool& is_interrupted
 
 // Takes those of the runs that no earlier attempt at the share has done, and writes a journal.
 int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& runs,
-              const EngineOptions& options, Signals& signals) {
+              const EngineOptions& options, Signals& signals, bool until_stdin_closes = false) {
   const auto earlier = spool.Collect(attempt.share);
   if (!earlier) return Complain(earlier.error());
   std::set<std::int64_t> done;
@@ -97,9 +78,14 @@ int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& ru
   attempt.at_once = options.jobs;
   auto journal = campaign::JournalWriter::Create(spool.journals(), attempt);
   if (!journal) return Complain(journal.error());
+  if (!attempt.job.empty()) {
+    std::fprintf(stderr, "%s%s\n", std::string(campaign::kTaskBegins).c_str(),
+                 attempt.share.c_str());
+  }
   const RunTaker taker(spool.campaign(), folder->path(), options.failures, options.timeout);
   bool is_interrupted = false;
-  campaign::LocalEngine engine = EngineFor(options.jobs, signals, is_interrupted);
+  campaign::LocalEngine engine =
+      EngineFor(options.jobs, signals, is_interrupted, until_stdin_closes);
   std::mutex mutex;
   base::Status written;  // guarded by mutex
   engine.take = [&](std::int64_t run,
@@ -122,11 +108,6 @@ int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& ru
   if (is_interrupted) return kInterrupted;
   if (auto ok = (*journal)->End(); !ok) return Complain(ok.error());
   return kOk;
-}
-
-std::string NodeName() {
-  const std::string node = Environment("SLURMD_NODENAME");
-  return node.empty() ? base::HostName() : node;
 }
 
 }  // namespace
@@ -180,27 +161,38 @@ int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
   return kInterrupted;
 }
 
-int RunBySlurm(const campaign::Campaign& campaign, campaign::Results& results,
+int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals) {
+  const campaign::EngineType& type = *options.engine.type;
+  if (!options.waits && !type.outlives_driver) {
+    return Complain({base::ErrorCode::kInvalidArgument,
+                     "the engine " + type.name + " ends its tasks with this command; leave it out",
+                     "--no-wait"});
+  }
   auto spool = Spool::Make(SpoolOf(results_file), campaign);
   if (!spool) return Complain(spool.error());
   bool is_interrupted = false;
-  campaign::SlurmEngine engine{
-      campaign::SlurmQueue(&RunCommand, options.engine.slurm, ProgramPath().string())};
-  engine.runs_a_task = options.engine.slurm.runs_a_task;
-  engine.timeout = options.timeout;
-  if (!options.failures.empty()) engine.failures = fs::absolute(options.failures);
-  engine.waits = options.waits;
-  engine.look_period = std::chrono::milliseconds(static_cast<int>(1e3 * options.poll));
-  engine.tell = &TellProgress;
-  engine.say = &Say;
-  engine.is_interrupted = [&](std::chrono::milliseconds patience) {
+  ChildCommands commands;
+  const auto queue = options.engine.make_queue({commands, ProgramPath().string(), &Say});
+  campaign::QueueDriver driver{*queue, type.title};
+  driver.runs_a_task = options.engine.runs_a_task;
+  driver.timeout = options.timeout;
+  if (!options.failures.empty()) driver.failures = fs::absolute(options.failures);
+  driver.waits = options.waits;
+  driver.look_period = options.poll > 0
+                           ? std::chrono::milliseconds(static_cast<int>(1e3 * options.poll))
+                           : type.look_period;
+  driver.tell = &TellProgress;
+  driver.say = &Say;
+  driver.is_interrupted = [&](std::chrono::milliseconds patience) {
     is_interrupted = signals.WaitFor(static_cast<int>(patience.count())) != 0;
     return is_interrupted;
   };
-  if (auto ok = engine.Run(*spool, results); !ok) return Complain(ok.error());
+  if (auto ok = driver.Run(*spool, results); !ok) return Complain(ok.error());
   if (!is_interrupted) return kOk;
-  Say("interrupted; what Slurm has goes on (scancel --name ends it), and so does the same command");
+  Say("interrupted; " + type.after_interrupt +
+      (type.outlives_driver ? ", and so does the same command"
+                            : ", and the same command goes on where this stopped"));
   return kInterrupted;
 }
 
@@ -213,40 +205,36 @@ int RunShard(const campaign::Campaign& campaign, const std::string& results_file
     runs.push_back(static_cast<std::int64_t>(run));
   Attempt attempt;
   attempt.share = campaign::ShardName(shard.index, shard.count);
-  attempt.node = NodeName();
+  attempt.node = base::HostName();
   attempt.submitted = attempt.started = campaign::WallSeconds();
   EngineOptions here = options;
   if (here.jobs == 0) here.jobs = Processors();
   return TakeShare(*spool, attempt, runs, here, signals);
 }
 
-int RunTask(const std::string& batch_file, Signals& signals) {
+int RunTask(const TaskArguments& arguments, Signals& signals) {
   Attempt attempt;
   attempt.started = campaign::WallSeconds();
-  const auto batch = campaign::ReadBatch(batch_file);
+  const auto batch = campaign::ReadBatch(arguments.batch_file);
   if (!batch) return Complain(batch.error());
-  auto spool = Spool::Open(fs::path(batch_file).parent_path());
+  auto spool = Spool::Open(fs::path(arguments.batch_file).parent_path());
   if (!spool) return Complain(spool.error());
-  const std::string index = Environment("SLURM_ARRAY_TASK_ID");
-  char* end = nullptr;
-  const unsigned long task = std::strtoul(index.c_str(), &end, 10);
-  if (index.empty() || *end != '\0' || task >= batch->tasks()) {
-    return Complain({base::ErrorCode::kInvalidArgument,
-                     fmt::format("Slurm starts this, with SLURM_ARRAY_TASK_ID from 0 to {}; it is "
-                                 "\"{}\"",
-                                 batch->tasks() - 1, index),
-                     batch_file});
+  if (arguments.task >= batch->tasks()) {
+    return Complain(
+        {base::ErrorCode::kInvalidArgument,
+         fmt::format("its tasks are 0 to {}, --task is {}", batch->tasks() - 1, arguments.task),
+         arguments.batch_file});
   }
-  attempt.share = batch->ShareOf(task);
-  attempt.job = Environment("SLURM_ARRAY_JOB_ID");
-  if (attempt.job.empty()) attempt.job = "none";
-  attempt.node = NodeName();
+  attempt.share = batch->ShareOf(arguments.task);
+  attempt.job = arguments.job;
+  attempt.node = arguments.node.empty() ? base::HostName() : arguments.node;
   attempt.submitted = batch->submitted;
   EngineOptions options;
   options.timeout = batch->timeout;
   options.failures = batch->failures;
-  options.jobs = std::max(1, std::atoi(Environment("SLURM_CPUS_PER_TASK").c_str()));
-  return TakeShare(*spool, attempt, batch->RunsOf(task), options, signals);
+  options.jobs = arguments.jobs;
+  return TakeShare(*spool, attempt, batch->RunsOf(arguments.task), options, signals,
+                   arguments.until_stdin_closes);
 }
 
 }  // namespace gsv::app

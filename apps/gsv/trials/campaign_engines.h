@@ -1,5 +1,5 @@
-// How `gsv campaign run` has a campaign's runs done: here, by servers, by Slurm, or a share of them
-// for another queue. Each gives the exit code, after having told what went wrong.
+// How `gsv campaign run` has a campaign's runs done: here, by servers, by a job queue, or a share
+// of them for another queue. Each gives the exit code, after having told what went wrong.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 
 #include "apps/gsv/signals.h"
 #include "apps/gsv/trials/test_cases.h"
+#include "gsv/campaign/engine.h"
 #include "gsv/campaign/results.h"
 
 namespace gsv::app {
@@ -15,7 +16,7 @@ struct EngineOptions {
   campaign::Engine engine;
   int jobs = 0;          // runs at once; 0: one a processor, or as many as the servers take
   double timeout = 300;  // wall seconds a run
-  double poll = 10;      // seconds between questions to the queue
+  double poll = 0;       // seconds between questions to the queue; 0: as the engine has it
   bool waits = true;     // for what was handed to the queue
   std::string failures;  // a folder; empty: nothing is recorded
   std::string broker;    // whose servers do the runs; empty: this machine
@@ -32,13 +33,21 @@ int GatherSpool(const std::string& results_file);
 // Until all runs are done, a signal comes, or there is no server any more.
 int RunHere(const campaign::Campaign& campaign, campaign::Results& results,
             const EngineOptions& options, Signals& signals);
-int RunBySlurm(const campaign::Campaign& campaign, campaign::Results& results,
+int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
                const std::string& results_file, const EngineOptions& options, Signals& signals);
 
 // The share's runs, into the spool. What an earlier attempt at it has done is left out.
 int RunShard(const campaign::Campaign& campaign, const std::string& results_file,
              const Shard& shard, const EngineOptions& options, Signals& signals);
-// A task of a batch that Slurm started: its number is in the environment.
-int RunTask(const std::string& batch_file, Signals& signals);
+
+// A task of a batch, which a job queue starts.
+struct TaskArguments {
+  std::string batch_file;
+  std::size_t task = 0;
+  std::string job = "none", node;   // for the journal; node: empty: this machine's name
+  int jobs = 1;                     // runs at once
+  bool until_stdin_closes = false;  // it ends then as by a signal
+};
+int RunTask(const TaskArguments& arguments, Signals& signals);
 
 }  // namespace gsv::app

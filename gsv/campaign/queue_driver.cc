@@ -1,4 +1,4 @@
-#include "gsv/campaign/slurm_engine.h"
+#include "gsv/campaign/queue_driver.h"
 
 #include <algorithm>
 #include <fstream>
@@ -28,10 +28,10 @@ std::string EndOf(const std::filesystem::path& file) {
   return end;
 }
 
-class SlurmDriver {
+class Drive {
  public:
-  SlurmDriver(const SlurmEngine& engine, Spool& spool, Results& results)
-      : engine_(engine), spool_(spool), results_(results) {}
+  Drive(const QueueDriver& settings, Spool& spool, Results& results)
+      : settings_(settings), spool_(spool), results_(results) {}
 
   base::Status Run() {
     auto batches = spool_.Batches();
@@ -44,10 +44,10 @@ class SlurmDriver {
     while (done_.size() < progress_.planned) {
       if (DriverClock::now() >= next_look) {
         if (auto ok = LookAndHandOut(); !ok) return ok;
-        if (!engine_.waits && IsAllHandedOut()) return {};
-        next_look = DriverClock::now() + engine_.look_period;
+        if (!settings_.waits && IsAllHandedOut()) return {};
+        next_look = DriverClock::now() + settings_.look_period;
       }
-      if (engine_.is_interrupted(std::min(kGatherPeriod, engine_.look_period))) return {};
+      if (settings_.is_interrupted(std::min(kGatherPeriod, settings_.look_period))) return {};
       if (auto ok = TakeIn(); !ok) return ok;
     }
     return {};
@@ -73,18 +73,19 @@ class SlurmDriver {
       progress_.seconds_left = seconds / static_cast<double>(done_.size() - done_before_) *
                                static_cast<double>(progress_.planned - done_.size());
     }
-    if (engine_.tell) engine_.tell(progress_);
+    if (settings_.tell) settings_.tell(progress_);
     return {};
   }
 
   base::Status LookAndHandOut() {
     const std::vector<Batch> open = OpenBatches();
-    auto tasks = engine_.queue.TasksOf(open);
+    auto tasks = settings_.queue.TasksOf(open);
     if (!tasks) {
       // What it holds is not known, so that nothing can be handed out; what runs goes on.
-      if (!has_looked_) return base::Fail(tasks.error());
+      if (!has_looked_ || tasks.error().code == base::ErrorCode::kNotFound)
+        return base::Fail(tasks.error());
       if (!std::exchange(is_silent_, true))
-        engine_.say(tasks.error().Sentence() + "; it is asked again, what runs goes on");
+        settings_.say(tasks.error().Sentence() + "; it is asked again, what runs goes on");
       return {};
     }
     has_looked_ = true;
@@ -140,12 +141,12 @@ class SlurmDriver {
       spool_.Remove(batch);
       std::erase_if(batches_, [&](const Batch& one) { return one.number == batch.number; });
       if (!ours_.contains(batch.number)) continue;
-      const auto log = spool_.logs() / (batch.name + "-0.log");
+      const auto log = spool_.LogOf(batch, "0");
       const std::string said = EndOf(log);
       return base::Fail(
           base::ErrorCode::kUnavailable,
           fmt::format(
-              "Slurm's job {} ended before any of its runs had begun{}", batch.job,
+              "{}'s job {} ended before any of its runs had begun{}", settings_.title, batch.job,
               said.empty() ? "; was it cancelled, or can the nodes not write there?" : ": " + said),
           log);
     }
@@ -208,24 +209,24 @@ class SlurmDriver {
   }
 
   base::Status HandOut(std::vector<std::int64_t> runs, std::size_t tasks_in_queue) {
-    const auto most = engine_.queue.MostTasks();
+    const auto most = settings_.queue.MaxTasks();
     if (!most) return base::Fail(most.error());
     const std::size_t tasks = std::min(*most, kFewTasks);
     const std::size_t runs_a_task =
-        engine_.runs_a_task > 0 ? engine_.runs_a_task : (runs.size() + tasks - 1) / tasks;
+        settings_.runs_a_task > 0 ? settings_.runs_a_task : (runs.size() + tasks - 1) / tasks;
     for (std::size_t first = 0; first < runs.size(); first += *most * runs_a_task) {
       const std::size_t end = std::min(runs.size(), first + *most * runs_a_task);
       Batch batch = NewBatch(runs_a_task);
       batch.runs.assign(runs.begin() + static_cast<std::ptrdiff_t>(first),
                         runs.begin() + static_cast<std::ptrdiff_t>(end));
       if (auto ok = spool_.Put(batch); !ok) return ok;
-      auto job = engine_.queue.Submit(spool_, batch);
+      auto job = settings_.queue.Submit(spool_, batch);
       if (!job && job.error().code == base::ErrorCode::kNotRunning) {
         spool_.Remove(batch);
         if (tasks_in_queue == 0) return base::Fail(job.error());
         if (!std::exchange(is_waiting_to_hand_out_, true)) {
-          engine_.say(fmt::format("{}; {} runs wait here until the queue is shorter",
-                                  job.error().Sentence(), runs.size() - first));
+          settings_.say(fmt::format("{}; {} runs wait here until the queue is shorter",
+                                    job.error().Sentence(), runs.size() - first));
         }
         tasks_at_refusal_ = tasks_in_queue;
         return {};
@@ -233,8 +234,9 @@ class SlurmDriver {
       if (!job) return base::Fail(job.error());
       batch.job = *std::move(job);
       if (auto ok = spool_.Put(batch); !ok) return ok;
-      engine_.say(fmt::format("Slurm has {} runs in {} tasks: job {}, {}", batch.runs.size(),
-                              batch.tasks(), batch.job, batch.name));
+      settings_.say(fmt::format("{} has {} runs in {} tasks: job {}{}", settings_.title,
+                                batch.runs.size(), batch.tasks(), batch.job,
+                                batch.job == batch.name ? "" : ", " + batch.name));
       tasks_in_queue += batch.tasks();
       ours_.insert(batch.number);
       batches_.push_back(std::move(batch));
@@ -251,8 +253,8 @@ class SlurmDriver {
     batch.name = fmt::format("gsv-{}-{}-{:x}", spool_.campaign().Identity().substr(0, 8),
                              batch.number, static_cast<std::int64_t>(1e3 * batch.submitted));
     batch.runs_a_task = runs_a_task;
-    batch.timeout = engine_.timeout;
-    batch.failures = engine_.failures;
+    batch.timeout = settings_.timeout;
+    batch.failures = settings_.failures;
     return batch;
   }
 
@@ -267,10 +269,10 @@ class SlurmDriver {
     for (const auto& [reason, count] : reasons)
       sentence += fmt::format(" {} for {},", count, reason);
     sentence.pop_back();
-    if (sentence != std::exchange(last_said_, sentence)) engine_.say(sentence);
+    if (sentence != std::exchange(last_said_, sentence)) settings_.say(sentence);
   }
 
-  const SlurmEngine& engine_;
+  const QueueDriver& settings_;
   Spool& spool_;
   Results& results_;
   const DriverClock::time_point start_ = DriverClock::now();
@@ -288,8 +290,8 @@ class SlurmDriver {
 
 }  // namespace
 
-base::Status SlurmEngine::Run(Spool& spool, Results& results) const {
-  return SlurmDriver(*this, spool, results).Run();
+base::Status QueueDriver::Run(Spool& spool, Results& results) const {
+  return Drive(*this, spool, results).Run();
 }
 
 }  // namespace gsv::campaign

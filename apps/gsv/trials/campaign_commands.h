@@ -1,0 +1,16 @@
+// A job queue's commands, as child processes of this one.
+#pragma once
+
+#include "gsv/campaign/commands.h"
+
+namespace gsv::app {
+
+// Threads  one, which lives as long as the programs that it starts.
+class ChildCommands final : public campaign::CommandRunner {
+ public:
+  base::Result<campaign::CommandOutcome> Run(const std::vector<std::string>& command) override;
+  base::Result<std::unique_ptr<campaign::StartedProgram>> Start(
+      const std::vector<std::string>& command) override;
+};
+
+}  // namespace gsv::app

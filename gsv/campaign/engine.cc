@@ -1,0 +1,79 @@
+#include "gsv/campaign/engine.h"
+
+#include <algorithm>
+
+#include "gsv/scenario/yaml_mapping.h"
+
+namespace gsv::campaign {
+
+EngineType SlurmEngine();
+
+namespace {
+
+EngineType InProcessEngine() {
+  EngineType type;
+  type.name = "local";
+  type.title = "this machine";
+  type.help = "on this machine";
+  return type;
+}
+
+std::string Names() {
+  std::string names;
+  const auto& types = EngineTypes();
+  for (std::size_t i = 0; i < types.size(); ++i)
+    names += (i == 0 ? "" : i + 1 == types.size() ? " or " : ", ") + types[i].name;
+  return names;
+}
+
+// The engine's mapping in the file, with the command line's options in it.
+YAML::Node WithOptions(YAML::Node node, const EngineType& type, const EngineRequest& request) {
+  if (!node.IsMap()) return node;
+  for (const EngineOption& option : type.options) {
+    const auto found = request.options.find(option.flag);
+    if (found == request.options.end()) continue;
+    for (const std::string& value : found->second) {
+      if (!option.is_list) {
+        node[option.key] = value;
+      } else if (!node[option.key] || node[option.key].IsSequence()) {
+        node[option.key].push_back(value);
+      }
+    }
+  }
+  return node;
+}
+
+}  // namespace
+
+const std::vector<EngineType>& EngineTypes() {
+  static const std::vector<EngineType> types{InProcessEngine(), SlurmEngine()};
+  return types;
+}
+
+Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request) {
+  const auto& types = EngineTypes();
+  const std::string in_file = campaign.Text("engine").value_or(types.front().name);
+  const std::string& name = request.name.empty() ? in_file : request.name;
+  Engine engine;
+  for (const EngineType& type : types) {
+    const bool is_chosen = type.name == name;
+    if (is_chosen) engine.type = &type;
+    if (!type.read) continue;
+    auto node = campaign.Any(type.name);
+    if (!node && !is_chosen) continue;
+    if (!node) node = YAML::Node(YAML::NodeType::Map);
+    if (is_chosen) node = WithOptions(*node, type, request);
+    scenario::YamlMapping mapping(*node, type.name, campaign.place());
+    MakeQueue make_queue = type.read(mapping);
+    const auto runs_a_task = static_cast<std::size_t>(
+        mapping.Number("runs_a_task", 1, static_cast<double>(kMostRuns)).value_or(0));
+    if (!is_chosen) continue;
+    engine.make_queue = std::move(make_queue);
+    engine.runs_a_task = request.runs_a_task > 0 ? request.runs_a_task : runs_a_task;
+  }
+  if (engine.type == nullptr)
+    campaign.Complain("engine", "there is no engine \"" + name + "\"; take " + Names());
+  return engine;
+}
+
+}  // namespace gsv::campaign
