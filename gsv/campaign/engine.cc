@@ -7,6 +7,7 @@
 namespace gsv::campaign {
 
 EngineType SlurmEngine();
+EngineType SshEngine();
 
 namespace {
 
@@ -46,7 +47,7 @@ YAML::Node WithOptions(YAML::Node node, const EngineType& type, const EngineRequ
 }  // namespace
 
 const std::vector<EngineType>& EngineTypes() {
-  static const std::vector<EngineType> types{InProcessEngine(), SlurmEngine()};
+  static const std::vector<EngineType> types{InProcessEngine(), SlurmEngine(), SshEngine()};
   return types;
 }
 
