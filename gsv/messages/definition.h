@@ -1,8 +1,7 @@
 // Messages whose types are only known from a schema's text: those of a recording, whoever wrote it.
 //
 // Input    hostile: text and data come from a file. Nesting, lengths and the size of what is
-// decoded
-//          are bounded.
+//          decoded are bounded.
 // Sources  ROS 2 interface definition (design.ros2.org/articles/legacy_interface_definition.html);
 //          CDR as in OMG DDSI-RTPS, little and big endian, plain (XCDR1).
 #pragma once

@@ -11,8 +11,7 @@
 //             standard deviation dynamic_bias_stddev sqrt(correlation time / 2) that Gazebo's tends
 //             to.
 // Determinism keyed by (seed, robot, sensor, step) and the channel: what one value draws hangs on
-// no
-//             other value, and not on who read before.
+//             no other value, and not on who read before.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,7 @@
 // The mover of wheeled bases on level ground: kinematics, limits and contacts, no forces.
 //
 // Who moves   bodies that are neither static nor rigid and have a drive, and avatars (which without
-// a
-//             drive take any velocity). All others stand where the state has them.
+//             a drive take any velocity). All others stand where the state has them.
 // How         a base follows its command within its drive's limits (DriveKinematics) along an exact
 //             arc; its z, roll and pitch stay as the caller placed it. Joints that are no wheels
 //             and no steering are not its own (planar_joints.h), and footprints are those at zero

@@ -2,8 +2,7 @@
 //
 // Frame   the model's, with its z axis up.
 // Rule    each collision (at zero joint positions) is a prism over its silhouette, from its lowest
-// to
-//         its highest point; one that lies within another is left out. More than kMaxPieces are
+//         to its highest point; one that lies within another is left out. More than kMaxPieces are
 //         replaced by kMaxPieces layers, each the hull of all that reaches into it.
 #pragma once
 

@@ -1,8 +1,8 @@
 // What waits to be written to one client.
 //
 // Bounded  Control messages (what there is to subscribe to, answers) must all arrive: when too much
-// of
-//          them waits, the client is beyond help. Of the data the oldest makes room for the newest.
+//          of them waits, the client is beyond help. Of the data the oldest makes room for the
+//          newest.
 // Threads  any.
 #pragma once
 

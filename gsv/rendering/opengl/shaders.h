@@ -4,8 +4,7 @@
 //           the height-correlated Smith term (2017), Schlick's Fresnel term; ambient reflections by
 //           Karis' fit of the environment BRDF (2014).
 // Tones     the compression of the Khronos PBR Neutral tone mapper (2024): colours up to 0.8 stay
-// as
-//           they are, highlights are compressed and lose colour.
+//           as they are, highlights are compressed and lose colour.
 #pragma once
 
 #include <string>

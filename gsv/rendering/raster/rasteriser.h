@@ -1,8 +1,7 @@
 // Which pixels the triangles of an item cover, and how near they are there.
 //
 // Method   edge functions divided by depth (Olano and Greer, 1997): each corner i of a triangle has
-// a
-//          plane q_i over the picture with q_i = (weight of the corner) / w, w being the distance
+//          a plane q_i over the picture with q_i = (weight of the corner) / w, w being the distance
 //          along the view; a pixel is covered where no q_i is negative, and 1/w is their sum.
 //          Triangles that reach behind the camera need no clipping.
 // Threads  one thread at a time.

@@ -3,8 +3,7 @@
 // Frame       sensor frame. What is felt is the specific force, acceleration less gravity: at rest
 //             +9.8 m/s² along the world's z, in free fall nothing.
 // Parameters  angular_velocity.{x,y,z}.noise (rad/s) and linear_acceleration.{x,y,z}.noise (m/s²),
-// see
-//             noise.h; enable_orientation (true).
+//             see noise.h; enable_orientation (true).
 // Readings    values {angular velocity x, y, z (rad/s), specific force x, y, z (m/s²)}, then, if
 //             enabled, {orientation w, x, y, z}, world_from_sensor. As a message: sensor_msgs/Imu.
 #pragma once

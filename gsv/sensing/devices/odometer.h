@@ -2,8 +2,7 @@
 // world/wheel_odometry.h.
 //
 // Frame       the base's reference point (halfway between the wheels) in the frame of its start;
-// where
-//             the sensor is mounted does not matter.
+//             where the sensor is mounted does not matter.
 // Parameters  linear.noise (m/s) and angular.noise (rad/s) of the velocities, see noise.h.
 // Readings    values {x, y (m), yaw (rad), linear (m/s), angular (rad/s)}. As a message:
 //             nav_msgs/Odometry from ROBOT/odom to ROBOT/base_link.

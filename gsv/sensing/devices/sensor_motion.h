@@ -2,9 +2,8 @@
 //
 // Frames  world axes.
 // Exactness  velocities are those of the state, joints included. The acceleration is the body's
-// mean
-//            over the last step, carried to the sensor's place with the centripetal terms of body
-//            and joints; how joints speed up is not felt.
+//            mean over the last step, carried to the sensor's place with the centripetal terms of
+//            body and joints; how joints speed up is not felt.
 #pragma once
 
 #include "gsv/sensing/sensor.h"

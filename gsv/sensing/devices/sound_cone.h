@@ -1,21 +1,17 @@
 // The beam of an ultrasonic transducer: a piston that sends a short tone and hears what comes back.
 //
 // Directivity  of a circular piston of radius a at the wave number k: 2 J1(k a sin t) / (k a sin t)
-// at
-//              the angle t off its axis, taken twice, there and back. A Polaroid transducer (a = 19
-//              mm, 49.4 kHz) is down by 6 dB at 7.4 degrees and has its first null at 12.9:
+//              at the angle t off its axis, taken twice, there and back. A Polaroid transducer (a =
+//              19 mm, 49.4 kHz) is down by 6 dB at 7.4 degrees and has its first null at 12.9:
 //              SensComp's data sheet of the 600 series has a beam of 15 degrees at -6 dB.
 // Surfaces     smooth ones are mirrors for waves of 7 mm: an echo comes back from where the surface
-// is
-//              at right angles to the sound, so that a wall is heard at its perpendicular distance,
-//              and beyond a critical angle not at all. Rough ones send some of the sound back from
-//              everywhere.
+//              is at right angles to the sound, so that a wall is heard at its perpendicular
+//              distance, and beyond a critical angle not at all. Rough ones send some of the sound
+//              back from everywhere.
 // Source       R. Kuc and M. W. Siegel, "Physically based simulation model for acoustic sensor
-// robot
-//              navigation", IEEE PAMI 9(6), 1987.
+//              robot navigation", IEEE PAMI 9(6), 1987.
 // Left out     second reflections (corners), diffraction at edges, and what weakens with distance:
-// the
-//              amplifiers of such sonars make up for it.
+//              the amplifiers of such sonars make up for it.
 // Threads      const members may run concurrently.
 #pragma once
 
