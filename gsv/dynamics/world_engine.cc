@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gsv/base/check.h"
+#include "gsv/dynamics/motion/attached_layout.h"
 #include "gsv/dynamics/planar/planar_joints.h"
 #include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/rigid/rigid_engine.h"
@@ -16,23 +18,31 @@ class WorldEngine final : public Engine {
       : planar_(MakePlanarMover(std::move(team))) {}
 
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {
-    if (auto ok = planar_->SetLayout(layout); !ok) return ok;
-    layout_ = layout;
-    return rigid_.SetLayout(std::move(layout));
+    attached_.Reset(layout);
+    return UseLayout(std::move(layout));
   }
+
+  base::Status Attach(const Attachment& attachment, const world::State& state) override {
+    return attached_.Attach(attachment, state);
+  }
+
+  void Detach(int held_body) override { attached_.Detach(held_body); }
 
   void Step(base::SimTime step, world::State& state,
             std::vector<world::Contact>& contacts) override {
+    UseAttachments();
     MoveBodies(step, state, contacts);
     MovePlanarJoints(*layout_, base::ToSeconds(step), state);
   }
 
   std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) override {
+    UseAttachments();
     return planar_->Overlaps(state, tolerance);
   }
 
   std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
                                          double tolerance) override {
+    UseAttachments();
     std::vector<world::Contact> contacts = planar_->OverlapsOf(state, body, tolerance);
     if (layout_->bodies[body].is_robot) return contacts;
     const std::vector<world::Contact> further = rigid_.OverlapsOf(state, body, tolerance);
@@ -41,6 +51,17 @@ class WorldEngine final : public Engine {
   }
 
  private:
+  base::Status UseLayout(std::shared_ptr<const world::Layout> layout) {
+    if (auto ok = planar_->SetLayout(layout); !ok) return ok;
+    layout_ = layout;
+    return rigid_.SetLayout(std::move(layout));
+  }
+
+  void UseAttachments() {
+    // Both took the same bodies before.
+    if (auto layout = attached_.TakeChanged()) GSV_CHECK(UseLayout(std::move(layout)));
+  }
+
   void MoveBodies(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     if (!rigid_.has_bodies()) {
       planar_->Step(step, state, contacts);
@@ -70,8 +91,9 @@ class WorldEngine final : public Engine {
     }
   }
 
-  std::shared_ptr<const world::Layout> layout_;
-  std::unique_ptr<Engine> planar_;
+  AttachedLayout attached_;
+  std::shared_ptr<const world::Layout> layout_;  // with what is attached
+  std::unique_ptr<PlanarMover> planar_;
   RigidEngine rigid_;
   world::State before_;
 };

@@ -1,8 +1,9 @@
 // What moves the bodies of a world by one step.
 //
 // Threads      one thread at a time (the stepping thread).
-// Determinism  Step() is a function of the layout, the state and the step size alone; nothing that
-//              it keeps between calls may change the outcome.
+// Determinism  Step() is a function of the layout, the attachments (in whatever order they were
+//              made), the state and the step size alone; nothing that it keeps between calls may
+//              change the outcome.
 #pragma once
 
 #include <memory>
@@ -13,12 +14,34 @@
 
 namespace gsv::dynamics {
 
+// A body that a link of another body carries, as a gripper carries what it has grasped. Bodies are
+// indices in the layout.
+struct Attachment {
+  int holder_body = 0;
+  int holder_link = 0;  // of the holder's model
+  int held_body = 0;
+  geometry::Pose link_from_held;  // of the held model's frame
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
 
-  // Prepares for another set of bodies. Called before the first Step() and after each change.
+  // Prepares for another set of bodies, of which none is attached to another. Called before the
+  // first Step() and after each change. If it fails, another layout must be set before anything
+  // else is called.
   virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
+
+  // From the next call on, the collision shapes of the held body are part of the holder's link, and
+  // the engine does not move it: whoever attached it writes its pose into the state. It adds no
+  // mass. Its joints stay where `state` has them. Costs as much as SetLayout(), once for all that
+  // was attached and detached since the last Step(), Overlaps() or OverlapsOf().
+  //
+  // Refuses (kInvalidArgument) a body or link that does not exist, a held body that rigid-body
+  // dynamics does not move or that already holds or is held, and a holder that is static or held.
+  virtual base::Status Attach(const Attachment& attachment, const world::State& state) = 0;
+  // The body moves by itself again, from where the state has it. Ignored if it is not attached.
+  virtual void Detach(int held_body) = 0;
 
   // Takes `state`, which fits the layout, from its time t to t + step: drives follow their
   // commands within their limits, bodies do not enter each other, joints of wheels turn.

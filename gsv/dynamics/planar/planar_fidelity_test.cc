@@ -4,8 +4,8 @@
 
 #include "gsv/base/test_table.h"
 #include "gsv/base/test_within.h"
-#include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/testing/test_world.h"
+#include "gsv/dynamics/world_engine.h"
 #include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
@@ -42,7 +42,7 @@ std::shared_ptr<model::Model> TwoWheeled(double left_scale, double right_scale) 
 // Borenstein and Feng's UMBmark: once around a square of 10 m, stopping at each corner; counter-
 // clockwise for turn = 1, clockwise for -1.
 TestWorld AroundTheSquare(std::shared_ptr<model::Model> robot, double turn) {
-  TestWorld world(MakePlanarMover());
+  TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", std::move(robot), {});
   EXPECT_TRUE(world.Start());
   for (int side = 0; side < 4; ++side) {
@@ -91,7 +91,7 @@ TEST(PlanarFidelity, UnequalWheelsMissItByTheTextbooksError) {
 TEST(PlanarFidelity, AnAccelerationLimitIsKept) {
   auto robot = TwoWheeled(1, 1);
   robot->drive->linear_acceleration = {-2, 0.5};
-  TestWorld world(MakePlanarMover());
+  TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", robot, {});
   ASSERT_TRUE(world.Start());
   world.Command("robot", {1, 0, 0});

@@ -20,9 +20,9 @@ constexpr std::size_t kChunksAtOnce = 4;
 
 // A step has up to three legs: the commanded arc; for what ran into something, a slide along it;
 // then a turn on the spot.
-class PlanarMover final : public Engine {
+class TeamMover final : public PlanarMover {
  public:
-  explicit PlanarMover(std::shared_ptr<base::ThreadTeam> team)
+  explicit TeamMover(std::shared_ptr<base::ThreadTeam> team)
       : team_(std::move(team)), motions_(scene_), obstacles_(scene_), pairs_(scene_, *team_) {}
 
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override;
@@ -75,7 +75,7 @@ class PlanarMover final : public Engine {
   std::vector<std::uint32_t> neighbours_;  // for OverlapsOf()
 };
 
-base::Status PlanarMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
+base::Status TeamMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
   if (auto ok = scene_.SetLayout(std::move(layout)); !ok) return ok;
   chunks_.resize((count() + kChunk - 1) / kChunk);
   motions_.Resize();
@@ -83,25 +83,25 @@ base::Status PlanarMover::SetLayout(std::shared_ptr<const world::Layout> layout)
 }
 
 template <typename Work>
-void PlanarMover::ForEachChunk(const Work& work) {
+void TeamMover::ForEachChunk(const Work& work) {
   team_->Share(chunks_.size(), kChunksAtOnce, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
 }
 
-void PlanarMover::Slice(const world::State& state) {
+void TeamMover::Slice(const world::State& state) {
   scene_.Slice(state);
   obstacles_.Reset(chunks_.size());
   pairs_.Reset();
 }
 
-void PlanarMover::AddSight(std::uint32_t mover) {
+void TeamMover::AddSight(std::uint32_t mover) {
   const geometry::PlanarPosition& at = motions_.positions[mover];
   sights_.push_back(
       {{at.x, at.y}, scene_.footprint(mover).radius + motions_.reaches[mover] + kLookAround});
 }
 
-void PlanarMover::LookForLoose(const world::State& state, double seconds) {
+void TeamMover::LookForLoose(const world::State& state, double seconds) {
   if (!scene_.has_loose()) return;
   sights_.clear();
   for (std::uint32_t m = 0; m < count(); ++m) {
@@ -113,7 +113,7 @@ void PlanarMover::LookForLoose(const world::State& state, double seconds) {
 }
 
 // For a step of 0 s everybody stays.
-void PlanarMover::Begin(const world::State& state, double seconds) {
+void TeamMover::Begin(const world::State& state, double seconds) {
   if (!scene_.StandsAsSliced(state)) Slice(state);
   LookForLoose(state, seconds);
   const auto all = [&](bool Chunk::*is) {
@@ -131,7 +131,7 @@ void PlanarMover::Begin(const world::State& state, double seconds) {
   ListTouching();
 }
 
-void PlanarMover::BeginChunk(std::size_t index, const world::State& state, double seconds) {
+void TeamMover::BeginChunk(std::size_t index, const world::State& state, double seconds) {
   Chunk& chunk = chunks_[index];
   chunk.is_as_sliced = chunk.has_room = true;
   chunk.in_contact.clear();
@@ -150,14 +150,14 @@ void PlanarMover::BeginChunk(std::size_t index, const world::State& state, doubl
   obstacles_.Stop(index, motions_.positions, motions_.twists, motions_.times, motions_.normals);
 }
 
-void PlanarMover::ListTouching() {
+void TeamMover::ListTouching() {
   touching_.clear();
   obstacles_.AddTouching(touching_);
   pairs_.AddTouching(touching_);
   std::sort(touching_.begin(), touching_.end());
 }
 
-void PlanarMover::EndChunk(std::size_t index, double seconds, world::State& state) {
+void TeamMover::EndChunk(std::size_t index, double seconds, world::State& state) {
   const std::size_t end = std::min(count(), (index + 1) * kChunk);
   for (auto m = static_cast<std::uint32_t>(index * kChunk); m < end; ++m) {
     Journey journey;
@@ -171,7 +171,7 @@ void PlanarMover::EndChunk(std::size_t index, double seconds, world::State& stat
   }
 }
 
-void PlanarMover::RunStopped() {
+void TeamMover::RunStopped() {
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     obstacles_.Stop(i, motions_.positions, motions_.twists, motions_.times, motions_.normals);
   }
@@ -179,7 +179,7 @@ void PlanarMover::RunStopped() {
   for (Stopped& stopped : stopped_) motions_.RunLeg(stopped.mover, stopped.journey);
 }
 
-void PlanarMover::SlideAlong(double seconds) {
+void TeamMover::SlideAlong(double seconds) {
   bool any = false;
   for (const Stopped& stopped : stopped_) {
     const std::uint32_t m = stopped.mover;
@@ -207,7 +207,7 @@ void PlanarMover::SlideAlong(double seconds) {
   }
 }
 
-void PlanarMover::TurnOnTheSpot() {
+void TeamMover::TurnOnTheSpot() {
   for (const Stopped& stopped : stopped_) {
     const std::uint32_t m = stopped.mover;
     if (!motions_.kinematics(m).can_turn_on_the_spot()) motions_.drives[m].angular = 0;
@@ -226,14 +226,14 @@ void PlanarMover::TurnOnTheSpot() {
   }
 }
 
-void PlanarMover::CollectContacts(double gap, std::vector<world::Contact>& contacts) {
+void TeamMover::CollectContacts(double gap, std::vector<world::Contact>& contacts) {
   ContactCollector collector(contacts, gap);
   obstacles_.Collect(motions_.positions, collector);
   pairs_.Collect(motions_.positions, collector);
   collector.Finish(touching_);
 }
 
-void PlanarMover::CountContacts(std::vector<world::Contact>& contacts, world::State& state) const {
+void TeamMover::CountContacts(std::vector<world::Contact>& contacts, world::State& state) const {
   for (world::Contact& contact : contacts) {
     world::BodyState& first = state.bodies[contact.first];
     world::BodyState& second = state.bodies[contact.second];
@@ -257,8 +257,8 @@ void PlanarMover::CountContacts(std::vector<world::Contact>& contacts, world::St
   }
 }
 
-void PlanarMover::Step(base::SimTime step, world::State& state,
-                       std::vector<world::Contact>& contacts) {
+void TeamMover::Step(base::SimTime step, world::State& state,
+                     std::vector<world::Contact>& contacts) {
   GSV_CHECK(step > base::SimTime(0));
   const double seconds = base::ToSeconds(step);
   Begin(state, seconds);
@@ -278,7 +278,7 @@ void PlanarMover::Step(base::SimTime step, world::State& state,
   CountContacts(contacts, state);
 }
 
-std::vector<world::Contact> PlanarMover::Overlaps(const world::State& state, double tolerance) {
+std::vector<world::Contact> TeamMover::Overlaps(const world::State& state, double tolerance) {
   std::vector<world::Contact> contacts;
   Begin(state, 0);
   CollectContacts(-tolerance, contacts);
@@ -286,7 +286,7 @@ std::vector<world::Contact> PlanarMover::Overlaps(const world::State& state, dou
 }
 
 // Lists the movers whose discs overlap that of one; false if not all stand as they were sliced.
-bool PlanarMover::FindNeighbours(std::uint32_t mover, const world::State& state) {
+bool TeamMover::FindNeighbours(std::uint32_t mover, const world::State& state) {
   neighbours_.clear();
   const auto& movers = scene_.movers();
   const geometry::Vector3& at = state.bodies[movers[mover].body].world_from_model.position;
@@ -304,8 +304,8 @@ bool PlanarMover::FindNeighbours(std::uint32_t mover, const world::State& state)
   return is_as_sliced;
 }
 
-std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, int body,
-                                                    double tolerance) {
+std::vector<world::Contact> TeamMover::OverlapsOf(const world::State& state, int body,
+                                                  double tolerance) {
   const auto& movers = scene_.movers();
   const auto found =
       std::lower_bound(movers.begin(), movers.end(), body,
@@ -336,9 +336,9 @@ std::vector<world::Contact> PlanarMover::OverlapsOf(const world::State& state, i
 
 }  // namespace
 
-std::unique_ptr<Engine> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team) {
+std::unique_ptr<PlanarMover> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team) {
   if (team == nullptr) team = std::make_shared<base::ThreadTeam>(1);
-  return std::make_unique<PlanarMover>(std::move(team));
+  return std::make_unique<TeamMover>(std::move(team));
 }
 
 }  // namespace gsv::dynamics

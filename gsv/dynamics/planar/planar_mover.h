@@ -24,13 +24,27 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "gsv/base/error.h"
 #include "gsv/base/thread_team.h"
-#include "gsv/dynamics/motion/engine.h"
+#include "gsv/world/snapshot.h"
 
 namespace gsv::dynamics {
 
+// All of it as Engine has it.
+class PlanarMover {
+ public:
+  virtual ~PlanarMover() = default;
+  virtual base::Status SetLayout(std::shared_ptr<const world::Layout> layout) = 0;
+  virtual void Step(base::SimTime step, world::State& state,
+                    std::vector<world::Contact>& contacts) = 0;
+  virtual std::vector<world::Contact> Overlaps(const world::State& state, double tolerance) = 0;
+  virtual std::vector<world::Contact> OverlapsOf(const world::State& state, int body,
+                                                 double tolerance) = 0;
+};
+
 // Without a team, the caller works alone.
-std::unique_ptr<Engine> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team = nullptr);
+std::unique_ptr<PlanarMover> MakePlanarMover(std::shared_ptr<base::ThreadTeam> team = nullptr);
 
 }  // namespace gsv::dynamics

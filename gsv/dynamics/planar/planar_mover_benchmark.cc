@@ -8,9 +8,9 @@
 
 #include "gsv/base/check.h"
 #include "gsv/base/random.h"
-#include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/testing/test_crowd.h"
 #include "gsv/dynamics/testing/test_world.h"
+#include "gsv/dynamics/world_engine.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -41,7 +41,7 @@ void Step(benchmark::State& bench) {
   const auto uniform = [&](double low, double high) {
     return low + (high - low) * noise.Uniform();
   };
-  testing::TestWorld world(MakePlanarMover());
+  testing::TestWorld world(MakeWorldEngine());
   const auto disc = testing::DiscRobot(0.2);
   const auto box = WheeledBox();
   const int columns = static_cast<int>(std::ceil(std::sqrt(robots)));
@@ -75,7 +75,7 @@ BENCHMARK(Step)->Arg(5)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicro
 // The crowd of test_crowd.h, its decisions included.
 void Run(benchmark::State& bench, std::shared_ptr<const model::Model> robot) {
   const auto team = std::make_shared<base::ThreadTeam>(static_cast<int>(bench.range(1)));
-  testing::Crowd crowd(static_cast<int>(bench.range(0)), std::move(robot), MakePlanarMover(team));
+  testing::Crowd crowd(static_cast<int>(bench.range(0)), std::move(robot), MakeWorldEngine(team));
   GSV_CHECK(crowd.Start());
   for (int i = 0; i < 500; ++i) crowd.Step();
   double in_contact = 0;

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/testing/test_crowd.h"
+#include "gsv/dynamics/world_engine.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -29,7 +29,7 @@ void AddContacts(const std::vector<world::Contact>& contacts, base::Hash& hash) 
 constexpr int kInterval = 100;
 std::vector<std::uint64_t> DigestsOfRun(const std::shared_ptr<const model::Model>& robot, int steps,
                                         std::shared_ptr<base::ThreadTeam> team) {
-  Crowd crowd(700, robot, MakePlanarMover(std::move(team)), kDense);
+  Crowd crowd(700, robot, MakeWorldEngine(std::move(team)), kDense);
   EXPECT_TRUE(crowd.Start());
   std::vector<std::uint64_t> digests;
   base::Hash hash;
@@ -64,12 +64,12 @@ TEST(PlanarMoverCrowd, IsTheSameToTheBitForAnyNumberOfThreads) {
 // What is remembered from step to step spares searches, but a mover that remembers nothing, or
 // something else, takes the same step.
 TEST(PlanarMoverCrowd, RemembersNothingThatChangesTheOutcome) {
-  Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakePlanarMover(), kDense);
+  Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakeWorldEngine(), kDense);
   ASSERT_TRUE(crowd.Start());
   for (int i = 0; i < 400; ++i) {
     crowd.Decide();
     world::State copy = crowd.world().state();
-    const auto fresh = MakePlanarMover();
+    const auto fresh = MakeWorldEngine();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(crowd.world().layout())));
     // Everybody is somewhere else, far or near, before each third step.
     if (i % 3 == 0) {
@@ -95,7 +95,7 @@ TEST(PlanarMoverCrowd, RemembersNothingThatChangesTheOutcome) {
 }
 
 TEST(PlanarMoverCrowd, OverlapsOfABodyAreThoseOfAllThatConcernIt) {
-  Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakePlanarMover(), kDense);
+  Crowd crowd(150, testing::BoxRobot(0.3, 0.2), MakeWorldEngine(), kDense);
   ASSERT_TRUE(crowd.Start());
   for (int i = 0; i < 300; ++i) crowd.Step();
   world::State state = crowd.world().state();

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "gsv/base/random.h"
-#include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/testing/test_world.h"
+#include "gsv/dynamics/world_engine.h"
 #include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
@@ -233,7 +233,7 @@ struct RandomWorld {
   };
 
   static TestWorld Make(const std::vector<Placed>& placed) {
-    TestWorld world(MakePlanarMover());
+    TestWorld world(MakeWorldEngine());
     for (const Placed& p : placed) {
       p.is_static ? world.AddStatic(p.name, p.model, p.pose)
                   : world.AddRobot(p.name, p.model, p.pose);
@@ -255,7 +255,7 @@ void CommandAll(TestWorld& world, Random& random) {
 }
 
 TEST(PlanarMoverProperty, TheJudgeSeesOverlaps) {
-  TestWorld world(MakePlanarMover());
+  TestWorld world(MakeWorldEngine());
   world.AddRobot("robot", testing::DiscRobot(0.25), geometry::PlanarPose(0, 0, 0, 0));
   world.AddBox("wall", {0.1, 4, 1}, 0.299, 0);  // a millimetre deep
   ASSERT_TRUE(world.Start());
@@ -310,7 +310,7 @@ TEST(PlanarMoverProperty, KeepsNothingThatChangesTheOutcome) {
     if (i % 5 == 0) CommandAll(world, commands);
     // An engine that knows nothing of what came before takes the same step.
     world::State copy = world.state();
-    const auto fresh = MakePlanarMover();
+    const auto fresh = MakeWorldEngine();
     ASSERT_TRUE(fresh->SetLayout(std::make_shared<world::Layout>(world.layout())));
     std::vector<world::Contact> expected;
     fresh->Step(base::FromSeconds(0.05), copy, expected);
@@ -332,7 +332,7 @@ TEST(PlanarMoverProperty, KeepsNothingThatChangesTheOutcome) {
 }
 
 TEST(PlanarMoverProperty, ACrowdInACorridorNeverOverlapsAndGetsThrough) {
-  TestWorld world(MakePlanarMover());
+  TestWorld world(MakeWorldEngine());
   world.AddBox("left", {40, 0.1, 1}, 0, 1.05);
   world.AddBox("right", {40, 0.1, 1}, 0, -1.05);
   for (int i = 0; i < 20; ++i) {

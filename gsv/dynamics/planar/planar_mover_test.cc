@@ -1,9 +1,9 @@
-#include "gsv/dynamics/planar/planar_mover.h"
 
 #include <gtest/gtest.h>
 
 #include "gsv/base/test_within.h"
 #include "gsv/dynamics/testing/test_world.h"
+#include "gsv/dynamics/world_engine.h"
 #include "gsv/geometry/constants.h"
 
 namespace gsv::dynamics {
@@ -17,7 +17,7 @@ using testing::TestWorld;
 using geometry::kPi;
 constexpr double kGap = 1e-6;  // between what touches
 
-TestWorld Empty() { return TestWorld(MakePlanarMover()); }
+TestWorld Empty() { return TestWorld(MakeWorldEngine()); }
 
 TEST(PlanarMover, DrivesAHalfCircleExactly) {
   TestWorld world = Empty();
