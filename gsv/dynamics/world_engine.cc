@@ -7,7 +7,6 @@
 #include "gsv/dynamics/planar/planar_joints.h"
 #include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/rigid/rigid_engine.h"
-#include "gsv/dynamics/shapes/obstacles.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -44,7 +43,7 @@ class WorldEngine final : public Engine {
                                          double tolerance) override {
     UseAttachments();
     std::vector<world::Contact> contacts = planar_->OverlapsOf(state, body, tolerance);
-    if (layout_->bodies[body].is_robot) return contacts;
+    if (layout_->bodies[body].is_robot()) return contacts;
     const std::vector<world::Contact> further = rigid_.OverlapsOf(state, body, tolerance);
     contacts.insert(contacts.end(), further.begin(), further.end());
     return contacts;
@@ -80,7 +79,7 @@ class WorldEngine final : public Engine {
   void PutPlanarBack(world::State& state) const {
     for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
       const world::Body& body = layout_->bodies[i];
-      if (!IsDriven(body)) continue;
+      if (!body.is_planar()) continue;
       state.bodies[i] = before_.bodies[i];
       const auto joints = static_cast<std::ptrdiff_t>(body.model->joints.size());
       const auto put_back = [&](const std::vector<double>& from, std::vector<double>& to) {
@@ -102,14 +101,6 @@ class WorldEngine final : public Engine {
 
 std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team) {
   return std::make_unique<WorldEngine>(std::move(team));
-}
-
-bool MovesByForces(const model::Model& model, model::Movement movement) {
-  const bool asks = movement == model::Movement::kRigid;
-  const bool collides =
-      std::any_of(model.links.begin(), model.links.end(),
-                  [](const model::Link& link) { return !link.collisions.empty(); });
-  return (asks || !model.drive) && collides;
 }
 
 }  // namespace gsv::dynamics

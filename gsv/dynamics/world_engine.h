@@ -18,8 +18,4 @@ namespace gsv::dynamics {
 // The team helps the planar mover; without one, the caller works alone.
 std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team = nullptr);
 
-// Whether a body of this model moves by forces where it is not static: one that is asked to, or has
-// no drive to move it otherwise. What collides with nothing has nothing to stand on and stays.
-bool MovesByForces(const model::Model& model, model::Movement movement);
-
 }  // namespace gsv::dynamics

@@ -5,7 +5,7 @@ namespace gsv::presentation {
 std::vector<PoseEntry> PoseListOf(const world::Layout& layout) {
   std::vector<PoseEntry> list;
   for (int body = 0; body < static_cast<int>(layout.bodies.size()); ++body) {
-    if (layout.bodies[body].is_static) continue;
+    if (layout.bodies[body].is_static()) continue;
     list.push_back({body, -1});
     for (const int link : world::MovingLinks(*layout.bodies[body].model)) {
       list.push_back({body, link});

@@ -89,7 +89,7 @@ void AddView(const model::SensorDescription& sensor, Json& json) {
 
 Json SensorsJson(const SceneSource& source, const world::Body& body) {
   Json sensors = Json::array();
-  if (!body.is_robot && !body.is_avatar) return sensors;
+  if (!body.is_robot()) return sensors;
   for (const model::SensorDescription& sensor : source.sensors(body.name)) {
     const sensing::SensorType* type = source.sensor_types.Find(sensor.type);
     const bool has_link =
@@ -130,9 +130,9 @@ Json JointsJson(const model::Model& model, const std::set<int>& moving) {
 // Came with the world and never moves: what nobody can take away.
 bool IsFixed(const world::Layout& layout, const world::Body& body) {
   const auto& models = layout.description->models;
-  return body.is_static &&
+  return body.is_static() &&
          std::any_of(models.begin(), models.end(), [&](const model::PlacedModel& placed) {
-           return placed.name == body.name && (placed.is_static || placed.model->is_static);
+           return placed.name == body.name && world::KindOf(placed) == world::BodyKind::kStatic;
          });
 }
 
@@ -148,12 +148,16 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
               const std::set<int>& moving) {
   Json links = Json::array();
   for (const model::Link& link : body.model->links) links.push_back(link.name);
-  Json json{{"name", body.name},           {"model", source.identify(body.model)},
-            {"is_static", body.is_static}, {"is_robot", body.is_robot},
-            {"is_avatar", body.is_avatar}, {"pose", PoseJson(pose)},
-            {"links", std::move(links)},   {"sensors", SensorsJson(source, body)}};
-  if (body.is_static && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
-  if (body.is_robot && IsOfWorld(*source.snapshot.layout, body)) json["is_of_world"] = true;
+  Json json{{"name", body.name},
+            {"model", source.identify(body.model)},
+            {"is_static", body.is_static()},
+            {"is_robot", body.is_robot()},
+            {"is_avatar", body.is_avatar()},
+            {"pose", PoseJson(pose)},
+            {"links", std::move(links)},
+            {"sensors", SensorsJson(source, body)}};
+  if (body.is_static() && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
+  if (body.is_robot() && IsOfWorld(*source.snapshot.layout, body)) json["is_of_world"] = true;
   if (const std::string id = source.identify_collisions(body.model); !id.empty()) {
     json["collisions"] = id;
   }

@@ -46,7 +46,7 @@ messages::visualization_msgs::Marker Marker(const std::string& robot, base::SimT
 }
 
 std::string BodyFrame(const world::Body& body) {
-  return body.is_robot || body.is_avatar ? FrameOf(body.name, sensing::kBaseFrame) : body.name;
+  return body.is_robot() ? FrameOf(body.name, sensing::kBaseFrame) : body.name;
 }
 
 // Of a link that moves against its body, whose own frame may have taken its name.

@@ -67,8 +67,7 @@ std::shared_ptr<const world::Layout> Attachments::WithHeld(
     AddCollisions(held, state, hold.grasp.link_from_held,
                   change(robot)->links[static_cast<std::size_t>(hold.link)]);
     for (model::Link& link : change(held)->links) link.collisions.clear();
-    held.is_rigid = false;
-    held.is_static = true;
+    held.kind = world::BodyKind::kStatic;
   }
   return world::MakeLayout(layout->version, std::move(bodies), layout->description);
 }

@@ -44,10 +44,7 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
     body.name = placed.name;
     body.model = placed.model;
     body.initial_pose = placed.world_from_model;
-    body.is_static = placed.is_static || placed.model->is_static;
-    body.is_robot = !body.is_static && placed.model->drive.has_value();
-    body.is_rigid =
-        !body.is_static && dynamics::MovesByForces(*placed.model, placed.model->movement);
+    body.kind = world::KindOf(placed);
     bodies.push_back(std::move(body));
   }
   auto layout = world::MakeLayout(1, std::move(bodies), specification.world);
@@ -93,7 +90,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
   std::stable_sort(faults_.begin(), faults_.end(),
                    [](const auto& a, const auto& b) { return a.at < b.at; });
   for (const world::Body& body : layout_->bodies) {
-    if (!body.is_robot) continue;
+    if (!body.is_robot()) continue;
     const auto agent = std::make_shared<RobotAgent>(body.name, body.model, false, shared_);
     agent->StartDevices();
     agents_.emplace(body.name, agent);

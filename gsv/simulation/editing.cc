@@ -2,7 +2,6 @@
 // repeated.
 #include <algorithm>
 
-#include "gsv/dynamics/world_engine.h"
 #include "gsv/simulation/stepping_simulation.h"
 
 namespace gsv::simulation {
@@ -62,8 +61,8 @@ base::Result<int> SteppingSimulation::FindLoose(const std::string& name) const {
     return base::Fail(base::ErrorCode::kNotFound, "there is nothing of that name", name);
   }
   const model::PlacedModel* const placed = FindInWorld(*layout_, name);
-  if (layout_->bodies[body].is_static && placed != nullptr &&
-      (placed->is_static || placed->model->is_static)) {
+  if (layout_->bodies[body].is_static() && placed != nullptr &&
+      world::KindOf(*placed) == world::BodyKind::kStatic) {
     return base::Fail(base::ErrorCode::kNotFound, "it is fixed to the world", name);
   }
   return body;
@@ -73,19 +72,19 @@ base::Result<world::Body> SteppingSimulation::BodyOf(const ObjectSpecification& 
   world::Body body;
   if (object.model != nullptr) {
     body.model = object.model;
-    body.is_static = object.model->is_static;
+    body.kind = world::KindOf(*body.model, body.model->is_static, body.model->movement);
   } else if (const int index = layout_->Find(object.copy_of); index >= 0) {
     body.model = layout_->bodies[index].model;
-    body.is_static = layout_->bodies[index].is_static;
+    body.kind = layout_->bodies[index].kind;
   } else if (const auto removed =
                  std::find_if(removed_.rbegin(), removed_.rend(),
                               [&](const world::Body& each) { return each.name == object.copy_of; });
              removed != removed_.rend()) {
     body.model = removed->model;
-    body.is_static = removed->is_static;
+    body.kind = removed->kind;
   } else if (const auto* placed = FindInWorld(*layout_, object.copy_of)) {
     body.model = placed->model;
-    body.is_static = placed->is_static || placed->model->is_static;
+    body.kind = world::KindOf(*placed);
   } else {
     return base::Fail(base::ErrorCode::kNotFound, "there is nothing of that name to make a copy of",
                       object.copy_of);
@@ -94,7 +93,6 @@ base::Result<world::Body> SteppingSimulation::BodyOf(const ObjectSpecification& 
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "it has a drive, so it is to be added as a robot", body.model->name);
   }
-  body.is_rigid = !body.is_static && dynamics::MovesByForces(*body.model, model::Movement::kPlanar);
   return body;
 }
 
@@ -156,7 +154,7 @@ base::Status SteppingSimulation::RemoveObject(const std::string& name) {
   if (auto ok = CheckMayEdit(); !ok) return ok;
   const auto body = FindLoose(name);
   if (!body) return base::Fail(body.error());
-  if (layout_->bodies[*body].is_robot) {
+  if (layout_->bodies[*body].is_robot()) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "it is a robot, so it is to be removed as one", name);
   }

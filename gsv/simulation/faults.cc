@@ -1,8 +1,6 @@
 // What goes wrong because a scenario says so (scenario/fault.h). A fault happens between two steps,
 // at the first instant at or after its time, before anybody is woken or reads there: its place in a
 // run depends on nothing else.
-#include <algorithm>
-
 #include "gsv/simulation/stepping_simulation.h"
 
 namespace gsv::simulation {
@@ -34,12 +32,6 @@ const char* WhatHappens(FaultKind kind) {
   return "";
 }
 
-int JointOf(const model::Model& model, const std::string& name) {
-  const auto found = std::find_if(model.joints.begin(), model.joints.end(),
-                                  [&](const model::Joint& joint) { return joint.name == name; });
-  return found == model.joints.end() ? -1 : static_cast<int>(found - model.joints.begin());
-}
-
 }  // namespace
 
 // Under shared_->mutex.
@@ -56,7 +48,8 @@ base::Status SteppingSimulation::CheckFaults() const {
       const world::Body& known = layout->bodies[body];
       const bool is_sensor =
           fault.kind == FaultKind::kSensorSilent || fault.kind == FaultKind::kSensorError;
-      if (!is_sensor && (JointOf(*known.model, fault.part) < 0 || !known.is_rigid)) {
+      if (!is_sensor &&
+          (model::FindJoint(known.model->joints, fault.part) < 0 || !known.is_rigid())) {
         return refuse("\"" + fault.body + "\" has no joint \"" + fault.part +
                       "\" that forces move");
       }
@@ -117,7 +110,7 @@ base::Status SteppingSimulation::Apply(const Fault& fault) {
   } else if (fault.part.empty()) {
     agent->LoseMotor();
   } else {
-    const int joint = JointOf(*layout_->bodies[agent->body()].model, fault.part);
+    const int joint = model::FindJoint(layout_->bodies[agent->body()].model->joints, fault.part);
     agent->LoseJoint(joint);
     world::CommandJoint(*layout_, agent->body(), joint, {}, state_);
   }
@@ -133,7 +126,7 @@ base::Status SteppingSimulation::MoveBody(const Fault& fault) {
   const geometry::Pose before = moved.initial_pose;
   moved.initial_pose =
       fault.place.z ? fault.place.pose() : StandingPose(*moved.model, fault.place.pose(), body);
-  const bool is_static = moved.is_static;
+  const bool is_static = moved.is_static();
   if (auto ok = ChangeLayout(std::move(bodies), {fault.body}); !ok) {
     return RefuseFault(ok.error().code, fault, ok.error().Sentence());
   }
@@ -145,7 +138,8 @@ base::Status SteppingSimulation::MoveBody(const Fault& fault) {
 
 base::Status SteppingSimulation::MoveJoint(const Fault& fault) {
   const int body = layout_->Find(fault.body);
-  const int joint = body < 0 ? -1 : JointOf(*layout_->bodies[body].model, fault.part);
+  const int joint =
+      body < 0 ? -1 : model::FindJoint(layout_->bodies[body].model->joints, fault.part);
   if (joint < 0) return RefuseFault(base::ErrorCode::kNotFound, fault, "it is gone: " + fault.body);
   constexpr world::JointCommand::Kind kKinds[]{world::JointCommand::Kind::kPosition,
                                                world::JointCommand::Kind::kVelocity,

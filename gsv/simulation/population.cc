@@ -5,7 +5,6 @@
 #include <iterator>
 #include <numbers>
 
-#include "gsv/dynamics/world_engine.h"
 #include "gsv/sensing/rays/ground.h"
 #include "gsv/simulation/limits.h"
 #include "gsv/simulation/stepping_simulation.h"
@@ -110,7 +109,7 @@ base::Status SteppingSimulation::NameRobots(std::vector<RobotSpecification>& rob
 geometry::Pose SteppingSimulation::StandingPose(const model::Model& model, geometry::Pose pose,
                                                 int own) const {
   const auto may_carry = [this, own](int body) {
-    return body != own && !layout_->bodies[body].is_robot;
+    return body != own && !layout_->bodies[body].is_robot();
   };
   const auto solids = shared_->rays.At(shared_->history.latest());
   const double floor = sensing::FloorHeight(*solids, pose.position.x, pose.position.y, may_carry);
@@ -123,7 +122,7 @@ namespace {
 base::Status CheckRoomFor(std::size_t more, const std::vector<world::Body>& bodies) {
   const std::size_t most = ProcessLimits().robots;
   const auto there = static_cast<std::size_t>(std::count_if(
-      bodies.begin(), bodies.end(), [](const world::Body& body) { return body.is_robot; }));
+      bodies.begin(), bodies.end(), [](const world::Body& body) { return body.is_robot(); }));
   if (there <= most && more <= most - there) return {};
   return base::Fail(base::ErrorCode::kInvalidArgument,
                     "a simulation holds at most " + std::to_string(most) +
@@ -145,11 +144,9 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
     body.model = robot.model;
     body.initial_pose = robot.on_ground ? StandingPose(*robot.model, robot.world_from_robot)
                                         : robot.world_from_robot;
-    body.is_robot = true;
-    body.is_avatar = robot.is_avatar;
-    body.is_rigid =
-        !robot.is_avatar &&
-        dynamics::MovesByForces(*robot.model, robot.movement.value_or(robot.model->movement));
+    body.kind = robot.is_avatar ? world::BodyKind::kAvatar
+                                : world::KindOf(*robot.model, false,
+                                                robot.movement.value_or(robot.model->movement));
     bodies.push_back(std::move(body));
     added.push_back(robot.name);
   }
@@ -188,7 +185,7 @@ base::Status SteppingSimulation::ChangeLayout(std::vector<world::Body> bodies,
   std::vector<world::Body> settled = layout->bodies;
   for (const std::string& name : placed) {
     const int body = layout->Find(name);
-    const bool starts_here = state.step == 0 || settled[body].is_static;
+    const bool starts_here = state.step == 0 || settled[body].is_static();
     const int old = starts_here ? -1 : layout_->Find(name);
     settled[body].initial_pose =
         old >= 0 ? layout_->bodies[old].initial_pose : state.bodies[body].world_from_model;
@@ -234,7 +231,7 @@ int SteppingSimulation::Intruded(const world::Layout& layout, const world::State
   int found = -1;
   for (const world::Contact& overlap : engine_->OverlapsOf(state, body, kPlacingTolerance)) {
     found = overlap.first == body ? overlap.second : overlap.first;
-    if (layout.bodies[found].is_robot) return found;  // that is the harder case: say it first
+    if (layout.bodies[found].is_robot()) return found;  // that is the harder case: say it first
   }
   return found;
 }
@@ -250,7 +247,7 @@ base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const std::string& name = placed[i];
     const int body = layout.Find(name);
-    const bool is_robot = layout.bodies[body].is_robot;
+    const bool is_robot = layout.bodies[body].is_robot();
     if (is_robot && stands_free[body]) continue;
     const geometry::Pose wanted = layout.bodies[body].initial_pose;
     const int intruded = Intruded(layout, state, body);
@@ -259,7 +256,7 @@ base::Status SteppingSimulation::MakeRoom(const world::Layout& layout,
     const auto rest = placed.begin() + static_cast<std::ptrdiff_t>(i) + 1;
     if (std::find(rest, placed.end(), layout.bodies[intruded].name) != placed.end()) continue;
     // What stands more outside of a wall than in it is put before it.
-    if (is_robot && !layout.bodies[intruded].is_robot && StepAside(layout, body, state)) {
+    if (is_robot && !layout.bodies[intruded].is_robot() && StepAside(layout, body, state)) {
       AddEvent("robot_moved", name,
                "starts at " + PlaceText(state.bodies[body].world_from_model) + ", since at " +
                    PlaceText(wanted) + " it would stand in \"" + layout.bodies[intruded].name +
@@ -379,7 +376,7 @@ base::Status SteppingSimulation::CommandJoint(const std::string& body, const std
   const auto world_lock = LockWorld();
   if (!world_lock) return RefuseStuck();
   const int index = layout_->Find(body);
-  if (index < 0 || !(layout_->bodies[index].is_rigid || layout_->bodies[index].is_robot)) {
+  if (index < 0 || !(layout_->bodies[index].is_rigid() || layout_->bodies[index].is_robot())) {
     return base::Fail(base::ErrorCode::kNotFound, "nothing moves a body \"" + body + "\"",
                       specification_.name);
   }

@@ -6,6 +6,21 @@
 
 namespace gsv::world {
 
+BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement) {
+  if (is_static) return BodyKind::kStatic;
+  const bool collides =
+      std::any_of(model.links.begin(), model.links.end(),
+                  [](const model::Link& link) { return !link.collisions.empty(); });
+  // What collides with nothing has nothing to stand on.
+  const bool is_planar = model.drive && (movement == model::Movement::kPlanar || !collides);
+  if (is_planar) return BodyKind::kPlanarBase;
+  return collides ? BodyKind::kRigidBody : BodyKind::kUnmoved;
+}
+
+BodyKind KindOf(const model::PlacedModel& placed) {
+  return KindOf(*placed.model, placed.is_static || placed.model->is_static, placed.model->movement);
+}
+
 int Layout::Find(std::string_view name) const {
   const auto it =
       std::lower_bound(bodies.begin(), bodies.end(), name,

@@ -15,16 +15,37 @@
 
 namespace gsv::world {
 
+// Who moves a body.
+enum class BodyKind : std::uint8_t {
+  kStatic,      // nobody: it is part of the world
+  kUnmoved,     // nobody, though it is not static: it has no drive and collides with nothing
+  kPlanarBase,  // its drive, by planar kinematics
+  kAvatar,      // a person, by planar kinematics
+  kRigidBody,   // rigid-body dynamics: it falls, tips, is pushed, its joints move
+};
+
+// Who moves a body of this model, unless a person does. `movement` is that of a model with a drive;
+// without one a body can only be moved by rigid-body dynamics.
+BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement);
+// The same of a model as its world's file has it.
+BodyKind KindOf(const model::PlacedModel& placed);
+
 // One placed model. `first_joint` and `first_link` place its joints and links in the arrays that
 // hold those of all bodies.
 struct Body {
   std::string name;
   std::shared_ptr<const model::Model> model;
   geometry::Pose initial_pose;  // world_from_model when the simulation starts
-  bool is_static = false;
-  bool is_robot = false;   // has a drive and may be given a behaviour
-  bool is_avatar = false;  // steered by a person
-  bool is_rigid = false;   // moved by forces: falls, tips, is pushed, has joints
+  BodyKind kind = BodyKind::kUnmoved;
+
+  bool is_static() const { return kind == BodyKind::kStatic; }
+  bool is_avatar() const { return kind == BodyKind::kAvatar; }
+  bool is_rigid() const { return kind == BodyKind::kRigidBody; }
+  // Moved by planar kinematics.
+  bool is_planar() const { return kind == BodyKind::kPlanarBase || is_avatar(); }
+  // May be given a behaviour, or is steered by a person.
+  bool is_robot() const { return is_planar() || (is_rigid() && model->drive.has_value()); }
+
   int first_joint = 0;
   int first_link = 0;
 };

@@ -45,7 +45,7 @@ State InitialState(const Layout& layout) {
   state.joint_positions.assign(layout.joint_count, 0.0);
   state.joint_velocities.assign(layout.joint_count, 0.0);
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
-    if (!layout.bodies[i].is_rigid) continue;
+    if (!layout.bodies[i].is_rigid()) continue;
     for (const model::JointTarget& target : layout.bodies[i].model->joint_targets) {
       const bool is_position = target.kind == model::JointTarget::Kind::kPosition;
       const auto kind = is_position ? JointCommand::Kind::kPosition : JointCommand::Kind::kVelocity;
@@ -78,8 +78,8 @@ base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& 
   if (!model::TakesCommands(which.kind)) {
     return base::Fail(ErrorCode::kInvalidArgument, "fixed and ball joints take no commands", place);
   }
-  if (body.is_rigid) return {};
-  if (!body.is_robot) {
+  if (body.is_rigid()) return {};
+  if (!body.is_robot()) {
     return base::Fail(ErrorCode::kInvalidArgument, "nothing moves this body's joints", place);
   }
   if (IsOfDrive(*body.model, joint)) {

@@ -6,7 +6,7 @@ void WheelOdometry::SetLayout(const Layout& layout) {
   bases_.clear();
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
     const Body& body = layout.bodies[i];
-    if (!body.is_robot || !body.model->drive) continue;
+    if (!body.is_robot() || !body.model->drive) continue;
     const model::Drive& drive = *body.model->drive;
     Base base;
     base.body = static_cast<int>(i);

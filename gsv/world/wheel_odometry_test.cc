@@ -34,7 +34,7 @@ std::shared_ptr<const Layout> Robot(model::DriveKind kind) {
   Body body;
   body.name = "robot";
   body.model = model;
-  body.is_robot = true;
+  body.kind = BodyKind::kPlanarBase;
   return MakeLayout(1, {body}, std::make_shared<model::WorldDescription>());
 }
 

@@ -86,7 +86,7 @@ double NearestByBruteForce(const world::Snapshot& snapshot, std::size_t robot, P
     const world::Body& body = snapshot.layout->bodies[i];
     if (i == robot) continue;
     const double distance =
-        body.is_static
+        body.is_static()
             ? RayToBox(from, along, snapshot.state.bodies[i].world_from_model, BoxSize(body))
             : RayToDisc(from, along, PlaceOf(snapshot, i), kCrowdRobotRadius);
     nearest = std::min(nearest, distance);
@@ -119,14 +119,14 @@ void CrowdCheck::OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapsh
   const std::vector<world::Body>& bodies = snapshot->layout->bodies;
   std::uint64_t pairs = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].is_static) continue;
+    if (bodies[i].is_static()) continue;
     const Point here = PlaceOf(*snapshot, i);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-      if (k == i || (!bodies[k].is_static && k < i)) continue;
+      if (k == i || (!bodies[k].is_static() && k < i)) continue;
       ++pairs;
       const Point there = PlaceOf(*snapshot, k);
       const double depth =
-          bodies[k].is_static
+          bodies[k].is_static()
               ? DepthInBox(here, snapshot->state.bodies[k].world_from_model, BoxSize(bodies[k]))
               : 2 * kCrowdRobotRadius - std::hypot(there.x - here.x, there.y - here.y);
       if (depth <= kOverlapTolerance) continue;

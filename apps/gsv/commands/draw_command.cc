@@ -39,7 +39,6 @@ std::shared_ptr<const world::Snapshot> FirstInstant(model::WorldDescription desc
     body.name = placed.name;
     body.model = placed.model;
     body.initial_pose = placed.world_from_model;
-    body.is_static = placed.is_static;
     bodies.push_back(std::move(body));
   }
   auto snapshot = std::make_shared<world::Snapshot>();

@@ -57,11 +57,11 @@ base::Status AttachedLayout::Check(const Attachment& attachment) const {
       attachment.holder_link >= static_cast<int>(holder.model->links.size())) {
     return refuse("cannot attach: the holder has no link of that index", holder.name);
   }
-  if (holder.is_static || IsHeld(attachment.holder_body) ||
+  if (holder.is_static() || IsHeld(attachment.holder_body) ||
       attachment.holder_body == attachment.held_body) {
     return refuse("cannot attach: the holder is static or attached itself", holder.name);
   }
-  if (!held.is_rigid || IsHeld(attachment.held_body) || IsHolder(attachment.held_body)) {
+  if (!held.is_rigid() || IsHeld(attachment.held_body) || IsHolder(attachment.held_body)) {
     return refuse("cannot attach: only a rigid body that neither holds nor is held can be held",
                   held.name);
   }
@@ -107,8 +107,7 @@ std::shared_ptr<const world::Layout> AttachedLayout::Derive() const {
     AddCollisions(*held.model, held_from_links, attachment.link_from_held,
                   OwnModel(bodies[attachment.holder_body]).links[attachment.holder_link]);
     for (model::Link& link : OwnModel(held).links) link.collisions.clear();
-    held.is_rigid = false;
-    held.is_static = true;
+    held.kind = world::BodyKind::kStatic;
   }
   return world::MakeLayout(layout_->version, std::move(bodies), layout_->description);
 }

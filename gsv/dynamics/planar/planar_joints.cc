@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "gsv/dynamics/shapes/obstacles.h"
-
 namespace gsv::dynamics {
 namespace {
 
@@ -25,7 +23,7 @@ double Next(const model::Joint& joint, const world::JointCommand& command, doubl
 void MovePlanarJoints(const world::Layout& layout, double seconds, world::State& state) {
   if (state.joint_commands.empty()) return;
   for (const world::Body& body : layout.bodies) {
-    if (!IsDriven(body)) continue;
+    if (!body.is_planar()) continue;
     for (std::size_t j = 0; j < body.model->joints.size(); ++j) {
       const auto at = static_cast<std::size_t>(body.first_joint) + j;
       const world::JointCommand& command = state.joint_commands[at];

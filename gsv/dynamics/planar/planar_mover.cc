@@ -8,7 +8,6 @@
 #include "gsv/dynamics/planar/near_obstacles.h"
 #include "gsv/dynamics/planar/near_pairs.h"
 #include "gsv/dynamics/planar/planar_scene.h"
-#include "gsv/dynamics/shapes/obstacles.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -237,7 +236,7 @@ void TeamMover::CountContacts(std::vector<world::Contact>& contacts, world::Stat
   for (world::Contact& contact : contacts) {
     world::BodyState& first = state.bodies[contact.first];
     world::BodyState& second = state.bodies[contact.second];
-    const bool both_driven = IsDriven(scene_.layout().bodies[contact.second]);
+    const bool both_driven = scene_.layout().bodies[contact.second].is_planar();
     // Where the caller says that a base touched nothing, the contact begins.
     contact.began = contact.began || !first.in_contact || (both_driven && !second.in_contact);
     if (!contact.began) continue;
@@ -251,7 +250,7 @@ void TeamMover::CountContacts(std::vector<world::Contact>& contacts, world::Stat
   }
   for (const world::Contact& contact : contacts) {
     state.bodies[contact.first].in_contact = true;
-    if (IsDriven(scene_.layout().bodies[contact.second])) {
+    if (scene_.layout().bodies[contact.second].is_planar()) {
       state.bodies[contact.second].in_contact = true;
     }
   }

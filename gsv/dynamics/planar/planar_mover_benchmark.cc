@@ -62,7 +62,7 @@ void Step(benchmark::State& bench) {
     if (steps++ % 100 == 0) {
       bench.PauseTiming();
       for (const world::Body& body : world.layout().bodies) {
-        if (!body.is_static) world.Command(body.name, {uniform(-0.2, 1), 0, uniform(-1, 1)});
+        if (!body.is_static()) world.Command(body.name, {uniform(-0.2, 1), 0, uniform(-1, 1)});
       }
       bench.ResumeTiming();
     }

@@ -106,7 +106,7 @@ std::vector<Solid> SolidsOf(const world::Layout& layout, const world::State& sta
       for (const model::Collision& collision : link.collisions) {
         solids.push_back({static_cast<int>(b), collision.shape,
                           pose * link.model_from_link * collision.link_from_collision,
-                          !layout.bodies[b].is_static, pose.position.z + kClimb,
+                          !layout.bodies[b].is_static(), pose.position.z + kClimb,
                           SurfacePoints(collision.shape), 0});
         for (const Vector3& p : solids.back().surface) {
           solids.back().radius = std::max(solids.back().radius, Norm(p));
@@ -248,7 +248,7 @@ struct RandomWorld {
 
 void CommandAll(TestWorld& world, Random& random) {
   for (const world::Body& body : world.layout().bodies) {
-    if (body.is_static || random.Uniform(0, 1) < 0.3) continue;
+    if (body.is_static() || random.Uniform(0, 1) < 0.3) continue;
     world.Command(body.name, {random.Uniform(-3, 6), random.Uniform(-3, 3),
                               random.Uniform(0, 1) < 0.3 ? 0 : random.Uniform(-4, 4)});
   }

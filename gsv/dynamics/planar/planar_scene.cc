@@ -76,8 +76,8 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
       return base::Fail(base::ErrorCode::kInvalidArgument,
                         "the pose holds a number that is not finite", body.name);
     }
-    if (!IsDriven(body)) {
-      (IsRigid(body) ? loose : standing).push_back(static_cast<int>(i));
+    if (!body.is_planar()) {
+      (body.is_rigid() ? loose : standing).push_back(static_cast<int>(i));
       continue;
     }
     const Quaternion tilt = TiltOf(body.initial_pose.orientation);

@@ -6,7 +6,6 @@
 
 #include "gsv/dynamics/rigid/resting_state.h"
 #include "gsv/dynamics/rigid/rigid_world.h"
-#include "gsv/dynamics/shapes/obstacles.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -52,7 +51,7 @@ void RigidEngine::FindPushes(base::SimTime step, const world::State& before,
   const RigidScene& scene = parts_->scene;
   parts_->pushes.clear();
   for (const world::Contact& contact : contacts) {
-    if (!IsRigid(scene.layout().bodies[contact.second])) continue;
+    if (!scene.layout().bodies[contact.second].is_rigid()) continue;
     const PlanarBody& planar = scene.PlanarOf(contact.first);
     const world::BodyState& robot = before.bodies[contact.first];
     const world::DriveCommand wanted =
@@ -118,7 +117,7 @@ void RigidEngine::AddContacts(const world::State& before, world::State& state,
   for (const RigidBody& body : parts_->scene.bodies()) state.bodies[body.body].in_contact = false;
   for (world::Contact& contact : contacts) {
     for (const int index : {contact.first, contact.second}) {
-      if (!IsRigid(layout.bodies[index])) continue;
+      if (!layout.bodies[index].is_rigid()) continue;
       world::BodyState& body = state.bodies[index];
       contact.began = contact.began || !before.bodies[index].in_contact;
       if (contact.began) ++body.collisions;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "gsv/dynamics/shapes/obstacles.h"
-
 namespace gsv::dynamics {
 namespace {
 
@@ -152,12 +150,13 @@ base::Status RigidScene::SetLayout(std::shared_ptr<const world::Layout> layout) 
   shapes_.NextLayout();
   const auto& bodies = layout_->bodies;
   // Where nothing moves by forces, nothing is to be made.
-  if (std::none_of(bodies.begin(), bodies.end(), IsRigid)) return {};
+  if (std::none_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.is_rigid(); }))
+    return {};
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     base::Status status;
-    if (IsRigid(bodies[i])) {
+    if (bodies[i].is_rigid()) {
       status = AddRigid(i);
-    } else if (IsDriven(bodies[i])) {
+    } else if (bodies[i].is_planar()) {
       status = AddPlanar(i);
     } else {
       AddStanding(i);

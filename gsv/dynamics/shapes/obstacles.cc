@@ -55,18 +55,12 @@ void AddObstacles(const std::vector<ConvexPiece>& pieces, int body,
 
 }  // namespace
 
-bool IsRigid(const world::Body& body) { return body.is_rigid && !body.is_static; }
-
-bool IsDriven(const world::Body& body) {
-  return !body.is_static && !body.is_rigid && (body.model->drive.has_value() || body.is_avatar);
-}
-
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
                                        Interval heights) {
   std::vector<Obstacle> obstacles;
   std::vector<ConvexPiece> pieces;
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
-    if (IsDriven(layout.bodies[i]) || IsRigid(layout.bodies[i])) continue;
+    if (layout.bodies[i].is_planar() || layout.bodies[i].is_rigid()) continue;
     pieces.clear();
     SliceBody(layout.bodies[i], state.bodies[i].world_from_model, heights, pieces);
     AddObstacles(pieces, static_cast<int>(i), obstacles);

@@ -10,13 +10,6 @@
 
 namespace gsv::dynamics {
 
-// Whether the body moves by forces: the rigid engine has it.
-bool IsRigid(const world::Body& body);
-
-// Whether the body moves by commands alone: the planar mover has it. All that is neither rigid nor
-// driven stands still where the state has it.
-bool IsDriven(const world::Body& body);
-
 // Slices, between the heights, of the collisions of all bodies that stand still, in the order of
 // the bodies, with joints at zero. A plane whose normal is within 45° of the vertical is ground and
 // left out; a steeper one is a wall without end.

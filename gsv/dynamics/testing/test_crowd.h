@@ -46,7 +46,7 @@ class Crowd {
   base::Status Start() {
     if (auto ok = world_.Start(); !ok) return ok;
     for (std::size_t i = 0; i < world_.layout().bodies.size(); ++i) {
-      if (!world_.layout().bodies[i].is_static) robots_.push_back(i);
+      if (!world_.layout().bodies[i].is_static()) robots_.push_back(i);
     }
     for (const std::size_t robot : robots_) Drive(world_.state().bodies[robot], {0.5, 0, 0});
     return {};

@@ -50,7 +50,7 @@ inline double EnergyOf(const TestWorld& world) {
   double energy = 0;
   for (std::size_t i = 0; i < world.layout().bodies.size(); ++i) {
     const world::Body& body = world.layout().bodies[i];
-    if (!body.is_rigid) continue;
+    if (!body.is_rigid()) continue;
     const world::BodyState& state = world.state().bodies[i];
     const model::Inertial& inertial = body.model->links[0].inertial;
     const auto w = Inverse(state.world_from_model.orientation) * state.angular_velocity;

@@ -54,15 +54,17 @@ class TestWorld {
 
   void AddStatic(const std::string& name, std::shared_ptr<const model::Model> model,
                  const geometry::Pose& pose) {
-    Add(name, std::move(model), pose, true, false);
+    Add(name, std::move(model), pose, world::BodyKind::kStatic);
   }
   void AddRigid(const std::string& name, std::shared_ptr<const model::Model> model,
                 const geometry::Pose& pose) {
-    Add(name, std::move(model), pose, false, true);
+    Add(name, std::move(model), pose, world::BodyKind::kRigidBody);
   }
   void AddRobot(const std::string& name, std::shared_ptr<const model::Model> model,
                 const geometry::Pose& pose) {
-    Add(name, std::move(model), pose, false, false);
+    const bool has_drive = model->drive.has_value();
+    Add(name, std::move(model), pose,
+        has_drive ? world::BodyKind::kPlanarBase : world::BodyKind::kUnmoved);
   }
   // A box standing at (x, y) with its foot at height z.
   void AddBox(const std::string& name, const geometry::Vector3& size, double x, double y,
@@ -128,14 +130,12 @@ class TestWorld {
 
  private:
   void Add(const std::string& name, std::shared_ptr<const model::Model> model,
-           const geometry::Pose& pose, bool is_static, bool is_rigid) {
+           const geometry::Pose& pose, world::BodyKind kind) {
     world::Body body;
     body.name = name;
-    body.is_robot = model->drive.has_value();
     body.model = std::move(model);
     body.initial_pose = pose;
-    body.is_static = is_static;
-    body.is_rigid = is_rigid;
+    body.kind = kind;
     bodies_.push_back(std::move(body));
   }
 

@@ -40,7 +40,7 @@ Response Drive(const Simulation& simulation, const std::string& robot, const std
   if (!agent) return ErrorResponse(404, "there is no robot '" + robot + "'");
   const std::shared_ptr<const world::Snapshot> snapshot = simulation.snapshot();
   const int index = snapshot->layout->Find(robot);
-  if (index < 0 || !snapshot->layout->bodies[index].is_avatar) {
+  if (index < 0 || !snapshot->layout->bodies[index].is_avatar()) {
     return ErrorResponse(409, "'" + robot + "' is not an avatar: only its behaviour steers it");
   }
   const base::Result<world::DriveCommand> command = ParseDriveCommand(body);

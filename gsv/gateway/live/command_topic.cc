@@ -31,7 +31,7 @@ void CommandTopic::Publish(const world::Snapshot& snapshot) {
     const world::DriveState& drive = snapshot.state.bodies[body].drive;
     world::DriveState& told = told_[body];
     const bool is_news = drive.command != told.command || drive.command_time != told.command_time;
-    if (!layout_->bodies[body].is_robot || !is_news) continue;
+    if (!layout_->bodies[body].is_robot() || !is_news) continue;
     told = drive;
     ++sent;
     hub_->Publish(
@@ -47,7 +47,7 @@ void CommandTopic::FollowLayout(const world::Snapshot& snapshot) {
   next_ = 0;
   std::set<std::string> robots;
   for (const world::Body& body : layout_->bodies) {
-    if (body.is_robot) robots.insert(body.name);
+    if (body.is_robot()) robots.insert(body.name);
   }
   hub_->SetPublishers(channel_, std::move(robots));
 }

@@ -112,7 +112,7 @@ SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
                                           const world::Layout& layout) const {
   Sensors found;
   for (const world::Body& body : layout.bodies) {
-    if (!body.is_robot && !body.is_avatar) continue;
+    if (!body.is_robot()) continue;
     for (model::SensorDescription& description : simulation.sensors(body.name)) {
       const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
       if (type == nullptr) continue;

@@ -113,8 +113,7 @@ void ScriptedSimulation::PlaceAll() {
                        const geometry::Pose& pose) -> world::Body& {
     world::Body body;
     body.name = std::move(name);
-    body.is_static = model->is_static;
-    body.is_robot = model->drive.has_value();
+    body.kind = world::KindOf(*model, model->is_static, model::Movement::kPlanar);
     body.model = std::move(model);
     body.initial_pose = pose;
     return bodies.emplace_back(std::move(body));
@@ -125,7 +124,7 @@ void ScriptedSimulation::PlaceAll() {
         geometry::PlanarPose(i & 1 ? 4 : -4, i & 2 ? 4 : -4, 0, 0));
   }
   for (int i = 0; i < robots_; ++i) add(RobotName(i), robot_model_, PoseOf(i, 0));
-  add(kAvatar, robot_model_, geometry::PlanarPose(0, 0, 0, 0)).is_avatar = true;
+  add(kAvatar, robot_model_, geometry::PlanarPose(0, 0, 0, 0)).kind = world::BodyKind::kAvatar;
   layout_ = world::MakeLayout(layout_ ? layout_->version + 1 : 1, std::move(bodies),
                               specification_.world);
   PublishSnapshot();
@@ -301,13 +300,14 @@ simulation::SimulationStatus ScriptedSimulation::status() const {
   status.events = events_.size();
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
     const world::Body& body = layout_->bodies[i];
-    if (!body.is_robot) continue;
+    if (!body.is_robot()) continue;
     simulation::RobotStatus robot;
     robot.name = body.name;
     robot.model = body.model->name;
-    robot.behaviour = body.is_avatar ? "" : "circle";
-    robot.is_avatar = body.is_avatar;
-    robot.phase = body.is_avatar ? simulation::AgentPhase::kNone : simulation::AgentPhase::kRunning;
+    robot.behaviour = body.is_avatar() ? "" : "circle";
+    robot.is_avatar = body.is_avatar();
+    robot.phase =
+        body.is_avatar() ? simulation::AgentPhase::kNone : simulation::AgentPhase::kRunning;
     robot.world_from_robot = snapshot_->state.bodies[i].world_from_model;
     robot.distance = snapshot_->state.bodies[i].distance;
     status.robots.push_back(std::move(robot));
@@ -340,7 +340,7 @@ std::shared_ptr<simulation::Agent> ScriptedSimulation::agent(const std::string& 
   const std::lock_guard lock(mutex_);
   const int body = layout_->Find(robot);
   // One agent for all: what it is told shows in avatar_command().
-  return body >= 0 && layout_->bodies[body].is_robot ? avatar_ : nullptr;
+  return body >= 0 && layout_->bodies[body].is_robot() ? avatar_ : nullptr;
 }
 
 base::Result<sensing::Reading> ScriptedSimulation::Watch(const std::string& robot,

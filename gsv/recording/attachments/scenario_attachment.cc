@@ -42,7 +42,7 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
   std::map<std::string, std::string> behaviours;  // by robot
   for (const auto& robot : simulation.status().robots) behaviours[robot.name] = robot.behaviour;
   for (const world::Body& body : simulation.snapshot()->layout->bodies) {
-    if (!body.is_robot && !body.is_avatar) continue;
+    if (!body.is_robot()) continue;
     scenario::RobotEntry entry;
     entry.name = body.name;
     entry.behaviour = behaviours[body.name];
@@ -52,11 +52,11 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
     } else if (entry.behaviour.empty()) {
       continue;
     }
-    const bool is_told = !entry.model.empty() && !body.is_avatar;
-    if (is_told && body.is_rigid != (body.model->movement == model::Movement::kRigid)) {
-      entry.movement = body.is_rigid ? model::Movement::kRigid : model::Movement::kPlanar;
+    const bool is_told = !entry.model.empty() && !body.is_avatar();
+    if (is_told && body.is_rigid() != (body.model->movement == model::Movement::kRigid)) {
+      entry.movement = body.is_rigid() ? model::Movement::kRigid : model::Movement::kPlanar;
     }
-    (body.is_avatar ? scenario.avatars : scenario.robots).push_back(std::move(entry));
+    (body.is_avatar() ? scenario.avatars : scenario.robots).push_back(std::move(entry));
   }
   return scenario;
 }

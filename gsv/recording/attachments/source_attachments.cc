@@ -35,7 +35,7 @@ void SourceAttachments::AttachWorld(const model::WorldDescription& world) {
 
 void SourceAttachments::AttachRobots(const world::Snapshot& snapshot) {
   for (const world::Body& body : snapshot.layout->bodies) {
-    if (!body.is_robot && !body.is_avatar) continue;
+    if (!body.is_robot()) continue;
     const std::filesystem::path path = body.model->source;
     const std::string folder = path.parent_path().filename().string();
     Attach(body.model->source, "robots/",

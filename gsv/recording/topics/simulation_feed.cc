@@ -12,7 +12,7 @@ constexpr std::size_t kMostEvents = 10'000;
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout) {
   SensorLists lists;
   for (const world::Body& body : layout.bodies) {
-    if (body.is_robot || body.is_avatar) lists.emplace(body.name, simulation.sensors(body.name));
+    if (body.is_robot()) lists.emplace(body.name, simulation.sensors(body.name));
   }
   return lists;
 }

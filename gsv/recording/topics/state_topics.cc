@@ -80,7 +80,7 @@ void StateTopics::WriteNewCommands(const world::Snapshot& snapshot) {
   const world::State& state = snapshot.state;
   for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
     const world::Body& body = layout_->bodies[i];
-    if (!body.is_robot) continue;
+    if (!body.is_robot()) continue;
     const world::DriveState& drive = state.bodies[i].drive;
     if (IsSameOrder(drive, std::exchange(told_[body.name], drive))) continue;
     if (IsSameOrder(drive, {})) continue;  // it was removed, and came again

@@ -127,7 +127,7 @@ DrawPlan::DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore&
   bodies_.resize(layout.bodies.size());
   for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
     const world::Body& body = layout.bodies[b];
-    const bool of_robot = body.is_robot || body.is_avatar;
+    const bool of_robot = body.is_robot();
     bodies_[b].moved = of_robot;
     bodies_[b].first_item = builder.items.size();
     for (std::size_t l = 0; l < body.model->links.size(); ++l) {

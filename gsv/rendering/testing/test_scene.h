@@ -30,7 +30,7 @@ class TestScene {
     body.name = name;
     body.model = std::move(model);
     body.initial_pose = pose;
-    body.is_static = is_static;
+    body.kind = is_static ? world::BodyKind::kStatic : world::BodyKind::kUnmoved;
     bodies_.push_back(std::move(body));
   }
 

@@ -63,7 +63,7 @@ class Crowd {
     }
     snapshot_ = testing::MakeSnapshot(bodies);
     for (int i = 0; i < static_cast<int>(snapshot_->layout->bodies.size()); ++i) {
-      if (!snapshot_->layout->bodies[i].is_static) robots_.push_back(i);
+      if (!snapshot_->layout->bodies[i].is_static()) robots_.push_back(i);
     }
   }
 

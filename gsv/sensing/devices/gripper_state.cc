@@ -15,9 +15,7 @@ bool Opens(const world::DeviceCommand& command) {
   return command.values.empty() || command.values[0] > 0.5;
 }
 
-bool IsLoose(const world::Body& body) {
-  return !body.is_static && !body.is_robot && !body.is_avatar && body.is_rigid;
-}
+bool IsLoose(const world::Body& body) { return body.is_rigid() && !body.is_robot(); }
 
 std::set<std::string> HeldBodies(const world::State& state) {
   std::set<std::string> names;
@@ -134,7 +132,7 @@ void GripperState::AfterMove(const world::Layout& layout, base::SimTime time,
 
 void GripperState::MoveJaws(const world::Body& robot, base::SimTime time,
                             world::State& state) const {
-  if (robot.is_rigid) return;
+  if (robot.is_rigid()) return;
   for (const std::string* jaw : {&setup_->left_jaw, &setup_->right_jaw}) {
     const int joint = jaw->empty() ? -1 : model::FindJoint(robot.model->joints, *jaw);
     if (joint < 0) continue;

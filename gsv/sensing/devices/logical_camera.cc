@@ -62,7 +62,7 @@ class LogicalCamera final : public Sensor {
     auto labels = std::make_shared<std::vector<std::string>>();
     for (int b = 0; b < static_cast<int>(snapshot.layout->bodies.size()); ++b) {
       const world::Body& body = snapshot.layout->bodies[b];
-      if (b == sampling.body() || (robots_only_ && !body.is_robot)) continue;
+      if (b == sampling.body() || (robots_only_ && !body.is_robot())) continue;
       const auto centre = CentreOf(*body.model);
       if (!centre) continue;
       const Pose& world_from_model = snapshot.state.bodies[b].world_from_model;

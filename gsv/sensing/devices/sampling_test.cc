@@ -69,7 +69,7 @@ class SamplingTest : public ::testing::Test {
   static std::vector<int> Robots(const world::Snapshot& snapshot) {
     std::vector<int> robots;
     for (int body = 0; body < static_cast<int>(snapshot.layout->bodies.size()); ++body) {
-      if (!snapshot.layout->bodies[body].is_static) robots.push_back(body);
+      if (!snapshot.layout->bodies[body].is_static()) robots.push_back(body);
     }
     return robots;
   }

@@ -44,7 +44,7 @@ LayoutSolids::LayoutSolids(std::shared_ptr<const world::Layout> of) : layout(std
   std::vector<std::pair<int, int>> bodies;  // that move, and their model
   for (std::size_t i = 0; i < layout->bodies.size(); ++i) {
     const world::Body& body = layout->bodies[i];
-    if (body.is_static) {
+    if (body.is_static()) {
       for (const model::Link& link : body.model->links) {
         AddLink(link, body.initial_pose * link.model_from_link, static_cast<int>(i), standing);
       }

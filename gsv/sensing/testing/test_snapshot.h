@@ -33,7 +33,7 @@ inline std::shared_ptr<world::Snapshot> MakeSnapshot(const std::vector<Placed>& 
     body.name = p.name;
     body.model = p.model;
     body.initial_pose = p.pose;
-    body.is_static = p.is_static;
+    body.kind = p.is_static ? world::BodyKind::kStatic : world::BodyKind::kUnmoved;
     bodies.push_back(body);
   }
   auto snapshot = std::make_shared<world::Snapshot>();
