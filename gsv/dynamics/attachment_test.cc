@@ -10,127 +10,127 @@ using geometry::Vector3;
 using testing::At;
 using testing::TestWorld;
 
-constexpr double kStep = 0.01;
-constexpr double kSide = 0.2;  // m, of the crate
+constexpr double kAttachedStep = 0.01;
+constexpr double kCrateSide = 0.2;  // m, of the crate
 
 const Pose kLinkFromCrate = At(0.35, 0, 0.25);
 
-std::shared_ptr<model::Model> Crate() {
-  return testing::SolidOf(geometry::Box{{kSide, kSide, kSide}}, 1);
+std::shared_ptr<model::Model> GraspedCrate() {
+  return testing::SolidOf(geometry::Box{{kCrateSide, kCrateSide, kCrateSide}}, 1);
 }
 
 // A disc of 0.2 m radius before a wall whose near side is at x = 1, and a crate in front of it.
-TestWorld Scene() {
+TestWorld GraspScene() {
   TestWorld world = testing::WorldOnGround();
   world.AddBox("wall", {0.2, 4, 1}, 1.1, 0);
   world.AddRobot("robot", testing::DiscRobot(), {});
-  world.AddRigid("crate", Crate(), kLinkFromCrate);
-  world.AddRigid("other", Crate(), At(0.6, 0.5, kSide / 2));
+  world.AddRigid("crate", GraspedCrate(), kLinkFromCrate);
+  world.AddRigid("other", GraspedCrate(), At(0.6, 0.5, kCrateSide / 2));
   return world;
 }
 
-Attachment Hold(const TestWorld& world, const Pose& link_from_held = kLinkFromCrate) {
+Attachment HoldCrate(const TestWorld& world, const Pose& link_from_held = kLinkFromCrate) {
   return {world.layout().Find("robot"), 0, world.layout().Find("crate"), link_from_held};
 }
 
 // Puts the crate where the robot holds it, as whoever attached it does.
-void Carry(TestWorld& world) {
+void CarryCrate(TestWorld& world) {
   world.body("crate").world_from_model = world.body("robot").world_from_model * kLinkFromCrate;
 }
 
 TEST(Attachment, IsStoppedByWhatItsHolderRunsInto) {
-  TestWorld world = Scene();
+  TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
-  ASSERT_TRUE(world.engine().Attach(Hold(world), world.state()));
+  ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
   world.Command("robot", {0.5, 0, 0});
-  world.Run(3, kStep);
-  EXPECT_NEAR(world.position("robot").x, 1 - 0.35 - kSide / 2, 1e-4);
+  world.Run(3, kAttachedStep);
+  EXPECT_NEAR(world.position("robot").x, 1 - 0.35 - kCrateSide / 2, 1e-4);
 }
 
 TEST(Attachment, EqualsAModelThatHasTheShapesFromTheStart) {
-  TestWorld attached = Scene();
+  TestWorld attached = GraspScene();
   ASSERT_TRUE(attached.Start());
-  ASSERT_TRUE(attached.engine().Attach(Hold(attached), attached.state()));
+  ASSERT_TRUE(attached.engine().Attach(HoldCrate(attached), attached.state()));
 
   auto robot = testing::DiscRobot();
-  model::Collision held = Crate()->links[0].collisions[0];
+  model::Collision held = GraspedCrate()->links[0].collisions[0];
   held.link_from_collision = kLinkFromCrate;
   robot->links[0].collisions.push_back(held);
-  auto nothing = Crate();
+  auto nothing = GraspedCrate();
   nothing->links[0].collisions.clear();
   TestWorld built = testing::WorldOnGround();
   built.AddBox("wall", {0.2, 4, 1}, 1.1, 0);
   built.AddRobot("robot", robot, {});
   built.AddStatic("crate", nothing, kLinkFromCrate);
-  built.AddRigid("other", Crate(), At(0.6, 0.5, kSide / 2));
+  built.AddRigid("other", GraspedCrate(), At(0.6, 0.5, kCrateSide / 2));
   ASSERT_TRUE(built.Start());
 
   for (TestWorld* world : {&attached, &built}) world->Command("robot", {0.4, 0, 0.6});
   for (int i = 0; i < 300; ++i) {
     for (TestWorld* world : {&attached, &built}) {
-      world->Step(kStep);
-      Carry(*world);
+      world->Step(kAttachedStep);
+      CarryCrate(*world);
     }
     ASSERT_EQ(attached.Digest(), built.Digest()) << "after step " << i;
   }
 }
 
 TEST(Attachment, LeavesTheHeldBodyWhereTheStateHasIt) {
-  TestWorld world = Scene();
+  TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
-  ASSERT_TRUE(world.engine().Attach(Hold(world), world.state()));
-  world.Run(1, kStep);
+  ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
+  world.Run(1, kAttachedStep);
   EXPECT_EQ(world.body("crate").world_from_model, kLinkFromCrate);
 }
 
 TEST(Attachment, FallsOnceItIsDetached) {
-  TestWorld world = Scene();
+  TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
-  ASSERT_TRUE(world.engine().Attach(Hold(world), world.state()));
+  ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
   world.engine().Detach(world.layout().Find("crate"));
-  world.Run(1, kStep);
-  EXPECT_NEAR(world.position("crate").z, kSide / 2, 1e-3);
+  world.Run(1, kAttachedStep);
+  EXPECT_NEAR(world.position("crate").z, kCrateSide / 2, 1e-3);
 }
 
 TEST(Attachment, IsForgottenWithTheNextLayout) {
-  TestWorld world = Scene();
+  TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
-  ASSERT_TRUE(world.engine().Attach(Hold(world), world.state()));
+  ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
   ASSERT_TRUE(world.Start());
-  world.Run(1, kStep);
-  EXPECT_NEAR(world.position("crate").z, kSide / 2, 1e-3);
+  world.Run(1, kAttachedStep);
+  EXPECT_NEAR(world.position("crate").z, kCrateSide / 2, 1e-3);
 }
 
 TEST(Attachment, DoesNotDependOnTheOrderInWhichBodiesWereAttached) {
   const auto digest_after = [](bool crate_first) {
-    TestWorld world = Scene();
+    TestWorld world = GraspScene();
     EXPECT_TRUE(world.Start());
-    Attachment crate = Hold(world), other = Hold(world, At(-0.35, 0, 0.25));
+    Attachment crate = HoldCrate(world), other = HoldCrate(world, At(-0.35, 0, 0.25));
     other.held_body = world.layout().Find("other");
     if (!crate_first) std::swap(crate, other);
     EXPECT_TRUE(world.engine().Attach(crate, world.state()));
     EXPECT_TRUE(world.engine().Attach(other, world.state()));
     world.Command("robot", {0.4, 0, 0.6});
-    world.Run(2, kStep);
+    world.Run(2, kAttachedStep);
     return world.Digest();
   };
   EXPECT_EQ(digest_after(true), digest_after(false));
 }
 
 TEST(Attachment, ShowsInOverlapsAtOnce) {
-  TestWorld world = Scene();
+  TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   const int robot = world.layout().Find("robot");
   world.body("robot").world_from_model.position = {0.6, -0.6, 0};
   EXPECT_TRUE(world.engine().OverlapsOf(world.state(), robot, 1e-3).empty());
-  ASSERT_TRUE(world.engine().Attach(Hold(world), world.state()));
+  ASSERT_TRUE(world.engine().Attach(HoldCrate(world), world.state()));
   const auto overlaps = world.engine().OverlapsOf(world.state(), robot, 1e-3);
   ASSERT_EQ(overlaps.size(), 1);
   EXPECT_EQ(overlaps[0].second, world.layout().Find("wall"));
 }
 
 TEST(Attachment, IsRefusedWhereItMakesNoSense) {
-  TestWorld world = Scene();
+  TestWorld world = GraspScene();
   ASSERT_TRUE(world.Start());
   const auto refuses = [&](int holder, int link, int held) {
     const auto status = world.engine().Attach({holder, link, held, {}}, world.state());

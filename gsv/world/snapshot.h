@@ -1,6 +1,7 @@
 // The world at one instant: immutable, shared, read by any number of threads.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,6 +21,9 @@ struct Contact {
   double depth = 0;          // m
   bool began = false;        // was not there one step earlier
   double closing_speed = 0;  // m/s at which the two met, along the normal; 0 unless it began
+  // N s over the step, along the normal, of all points at which the two touched; NaN where no
+  // engine computes it. Planar kinematics knows the impulse of a push, and no other.
+  double impulse = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Of a model's origin, in world axes: the mean over the step that led here.

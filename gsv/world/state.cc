@@ -120,6 +120,7 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
     hash.Add(command.value);
   }
   if (state.devices != nullptr) AddToHash(*state.devices, hash);
+  if (state.engine != nullptr) state.engine->AddToHash(hash);
 }
 
 }  // namespace gsv::world

@@ -66,6 +66,14 @@ struct JointCommand {
   friend bool operator==(const JointCommand&, const JointCommand&) = default;
 };
 
+// What an engine of rigid-body dynamics keeps from one step to the next because the outcome depends
+// on it, such as the impulses from which its solver starts. Immutable, so that states can share it.
+class EngineState {
+ public:
+  virtual ~EngineState() = default;
+  virtual void AddToHash(base::Hash& hash) const = 0;
+};
+
 struct State {
   std::int64_t step = 0;
   base::SimTime time{0};
@@ -75,6 +83,7 @@ struct State {
   std::vector<double> joint_velocities;
   std::vector<JointCommand> joint_commands;     // as joint_positions; empty: none was ever given
   std::shared_ptr<const DeviceStates> devices;  // null: none has ever had a state
+  std::shared_ptr<const EngineState> engine;    // null: the engine keeps nothing
 };
 
 // Everything where it starts and at rest; joints have their models' targets.

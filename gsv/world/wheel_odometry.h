@@ -1,13 +1,16 @@
 // Dead reckoning of driven bases: from how far their wheels have turned, as a robot's own encoders
-// see it. Slip, wheels that are not what the drive takes them for, and being carried away do not
-// show in it.
+// see it.
 //
-// Model    the wheels of one side roll by their mean angle times Drive::wheel_radius; the base
-//          follows the arc that both sides make with Drive::wheel_separation between them
-//          (Siegwart, Nourbakhsh, Scaramuzza, "Introduction to Autonomous Mobile Robots",
-//          chapter 5.2.4). What has no two rows of wheels integrates the motion that its drive
-//          commands its wheels to.
-// Threads  one at a time.
+// Differential  drives with two rows of wheels: the wheels of one side roll by their mean angle
+//               times Drive::wheel_radius; the base follows the arc that both sides make with
+//               Drive::wheel_separation between them (Siegwart, Nourbakhsh, Scaramuzza,
+//               "Introduction to Autonomous Mobile Robots", chapter 5.2.4). Slip, wheels that are
+//               not what the drive takes them for, and being carried away do not show in it.
+// Others        all other drives: the integral of DriveState::actual. Of a planar base that is the
+//               motion which its surroundings allow, so that what stops it or slows it down shows
+//               in the odometry, as if a sensor saw the slip. Of a rigid body it is the motion that
+//               its wheels are driven at, as above.
+// Threads       one at a time.
 #pragma once
 
 #include <memory>
