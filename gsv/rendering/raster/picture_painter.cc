@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gsv/rendering/raster/raster_texture.h"
+#include "gsv/rendering/raster/scan.h"
 #include "gsv/rendering/scene/edge_smoothing.h"
 
 namespace gsv::rendering::raster {

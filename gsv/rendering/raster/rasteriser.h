@@ -11,6 +11,7 @@
 
 #include "gsv/rendering/raster/raster_mesh.h"
 #include "gsv/rendering/raster/simd.h"
+#include "gsv/rendering/raster/triangle.h"
 #include "gsv/rendering/scene/draw_plan.h"
 #include "gsv/rendering/scene/frame_block.h"
 
@@ -28,18 +29,6 @@ struct Drawn {
 
 Drawn DrawnItem(const DrawPlan& plan, std::size_t item, const Level& level,
                 const geometry::Vector3& origin);
-
-// q_i = c[i] + a[i] (x - x0) + b[i] (y - y0) at the middle of pixel (x, y).
-struct Triangle {
-  float a[3], b[3], c[3];
-  float x0, y0;
-  std::uint32_t corner[3];  // vertices of the mesh
-  std::uint32_t drawn;
-};
-
-struct Box {
-  int x0, y0, x1, y1;  // pixels, [x0, x1] by [y0, y1]
-};
 
 class Rasteriser {
  public:
@@ -93,11 +82,4 @@ struct RasterTexture;
 I8 Solid(const Triangle& triangle, const RasterMesh& mesh, const RasterTexture& holes, float level,
          F8 dx, float dy);
 
-// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y, wherever one is covered.
-// Rows have room for seven pixels past the last.
-template <class Block>
-void Scan(const Triangle& triangle, const Box& box, Block&& block);
-
 }  // namespace gsv::rendering::raster
-
-#include "gsv/rendering/raster/scan.h"

@@ -1,10 +1,11 @@
-// The definition of Scan(), see rasteriser.h.
+// Which pixels of a box a triangle covers.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
-#include "gsv/rendering/raster/rasteriser.h"
+#include "gsv/rendering/raster/simd.h"
+#include "gsv/rendering/raster/triangle.h"
 
 namespace gsv::rendering::raster {
 
@@ -24,6 +25,8 @@ inline void Narrow(const Triangle& t, const float (&row)[3], float& left, float&
   }
 }
 
+// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y, wherever one is covered.
+// Rows have room for seven pixels past the last.
 template <class Block>
 void Scan(const Triangle& t, const Box& box, Block&& block) {
   // In pixels: neighbours overlap by this much, so that rounding leaves no gap between them.

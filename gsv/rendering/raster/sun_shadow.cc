@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gsv/rendering/raster/raster_texture.h"
+#include "gsv/rendering/raster/scan.h"
 
 namespace gsv::rendering::raster {
 namespace {

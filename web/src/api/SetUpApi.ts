@@ -1,8 +1,8 @@
 // What there is to put a simulation together from, and doing it.
-import type { RobotSetUp, Scenario } from "../state/scenario";
-import { robotJson, scenarioJson } from "../state/scenario";
+import type { RobotSetUp, Scenario } from "./scenario";
+import { robotJson, scenarioJson } from "./scenario";
 import type { JsonServer } from "./JsonServer";
-import type { DroppedFile } from "../setup/DroppedFile";
+import type { DroppedFile } from "./DroppedFile";
 import { simulationPath } from "./JsonServer";
 import { listAt, numbersAt, objectAt, textAt, textOr } from "./json";
 import type { SceneDescription } from "./scene";

@@ -5,8 +5,8 @@ import type { World3D } from "../scene/World3D";
 import { isAllowed, mainAction } from "../state/actions";
 import type { CameraChoice } from "../api/scene";
 import type { BodyPlace } from "../api/SetUpApi";
-import type { Placed } from "../state/scenario";
-import { findRobot } from "../state/scenario";
+import type { Placed } from "../api/scenario";
+import { findRobot } from "../api/scenario";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
 import type { Log } from "../state/log";
@@ -52,7 +52,12 @@ export class App {
     private readonly world: () => World3D | null, // null: the browser cannot draw in 3D, or not yet
   ) {
     this.replay = new ReplayControl(store, api, (action) => this.act(action));
-    this.link = new LinkControl(this, world);
+    const linked = {
+      select: (robot: string) => this.select(robot),
+      pause: () => this.act("pause"),
+      seek: (time: number) => this.replay.seek(time),
+    };
+    this.link = new LinkControl(store, linked, world);
     this.plots = new PlotFeed(store, session, () => this.onPlotData());
     this.wholeCurves = new WholeCurves(store, api, (id, curve) => this.plots.takeWhole(id, curve));
     this.logFeed = new LogFeed(store, session, api);
@@ -206,11 +211,11 @@ export class App {
   // Draws a value against simulated time from now on.
   plot(source: Source, key: string, unit?: string): void {
     const known = [...ROBOT_VALUES, ...SIMULATION_VALUES].find((value) => value.key === key)?.unit ?? "";
-    this.store.set((state) => ({ plots: withCurve(state, source, key, unit ?? known) }));
+    this.store.set(({ plots }) => ({ plots: withCurve(plots, source, key, unit ?? known) }));
   }
 
   unplot(curve: string): void {
-    this.store.set((state) => ({ plots: withoutCurve(state, curve) }));
+    this.store.set(({ plots }) => ({ plots: withoutCurve(plots, curve) }));
   }
 
   async savePicture(): Promise<void> {

@@ -2,7 +2,7 @@ import { expect, test, vi } from "vitest";
 import type { BodyPlace } from "../api/SetUpApi";
 import { ApiError } from "../api/JsonServer";
 import { robotStatus, simulationStatus } from "../panels/testApp";
-import { newRobot, EMPTY_SCENARIO } from "../state/scenario";
+import { newRobot, EMPTY_SCENARIO } from "../api/scenario";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";

@@ -1,9 +1,10 @@
 // Changes who stands in a simulation that stands still, with undo and redo. The server knows of no
 // history: an edit is taken back by doing its opposite.
 import type { BodyPlace, NewObject, SetUpApi } from "../api/SetUpApi";
-import type { Placed, RobotSetUp } from "../state/scenario";
+import type { Placed, RobotSetUp } from "../api/scenario";
 import type { Editing } from "../state/editing";
-import { FIRST_EDITING, canEdit } from "../state/editing";
+import { canEdit } from "../state/actions";
+import { FIRST_EDITING } from "../state/editing";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { notify } from "./notices";

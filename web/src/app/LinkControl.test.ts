@@ -2,8 +2,9 @@
 import { beforeEach, expect, test, vi } from "vitest";
 import { robotStatus, simulationStatus, testApp } from "../panels/testApp";
 import { body, scene } from "../scene/testScene";
-import type { Viewpoint } from "../scene/World3D";
+import type { Viewpoint } from "../state/link";
 import type { State } from "../state/State";
+import type { LinkedPage } from "./LinkControl";
 import { LinkControl } from "./LinkControl";
 
 const REPLAY = { start: 0, end: 20, speed: 1, loop: false };
@@ -21,7 +22,12 @@ function page(state: Partial<State> = {}) {
   const place = { viewpoint: [9, 9, 9, 0, 0, 0] as Viewpoint };
   const seek = vi.spyOn(app.replay, "seek").mockResolvedValue();
   const act = vi.spyOn(app, "act").mockResolvedValue();
-  return { app, store, place, seek, act, control: new LinkControl(app, () => place) };
+  const page: LinkedPage = {
+    select: (robot) => app.select(robot),
+    pause: () => app.act("pause"),
+    seek: (time) => app.replay.seek(time),
+  };
+  return { app, store, place, seek, act, control: new LinkControl(store, page, () => place) };
 }
 
 test("a link shows the same instant from the same place with the same robot", async () => {

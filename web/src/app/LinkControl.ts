@@ -1,13 +1,18 @@
 // Links to what is seen: makes them, and shows what the page's address asks for.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
-import type { LinkedView } from "../state/link";
+import type { LinkedView, Viewpoint } from "../state/link";
 import { hashOf, linkedView } from "../state/link";
-import type { Viewpoint } from "../scene/World3D";
-import type { App } from "./App";
 
 export interface Place {
   viewpoint: Viewpoint;
+}
+
+// What a link asks of the page.
+export interface LinkedPage {
+  select(robot: string): void;
+  pause(): Promise<void>;
+  seek(time: number): Promise<void>; // s, simulated: of a recording
 }
 
 export class LinkControl {
@@ -15,7 +20,8 @@ export class LinkControl {
   private instant: number | null = null; // s, simulated: to go to when it can be done
 
   constructor(
-    private readonly app: App,
+    private readonly store: Store<State>,
+    private readonly page: LinkedPage,
     private readonly place: () => Place | null, // null where there is no 3D view
   ) {}
 
@@ -23,14 +29,14 @@ export class LinkControl {
   start(window: Window): void {
     const read = () => {
       this.wanted = linkedView(window.location.hash);
-      this.show(this.app.store);
+      this.show();
     };
     window.addEventListener("hashchange", read);
-    this.app.store.watch(
+    this.store.watch(
       ({ scene, status, view }) => scene !== null && status !== null && view !== "starting",
-      () => this.show(this.app.store),
+      () => this.show(),
     );
-    this.app.store.watch(
+    this.store.watch(
       ({ replay }) => replay !== null,
       () => void this.goToInstant(),
     );
@@ -39,8 +45,7 @@ export class LinkControl {
 
   // The address that shows this; `page` is the page's own.
   linkTo(page: string): string {
-    const { simulations, simulation, replay, time, selection, viewMode, shown, abilities } =
-      this.app.store.get();
+    const { simulations, simulation, replay, time, selection, viewMode, shown, abilities } = this.store.get();
     const url = new URL(page);
     if (simulation !== null && (simulations?.length ?? 0) > 1) url.searchParams.set("simulation", simulation);
     // Who opens a recording's link has a replay of their own.
@@ -50,14 +55,15 @@ export class LinkControl {
     return url.href;
   }
 
-  private show(store: Store<State>): void {
+  private show(): void {
+    const { store } = this;
     const { scene, status, view } = store.get();
     if (!this.wanted || !scene || !status || view === "starting") return;
     const { time, viewpoint, selection, viewMode, shown } = this.wanted;
     this.wanted = null;
     this.instant = time;
     if (shown) store.set({ shown });
-    if (selection !== null && scene.bodies.some(({ name }) => name === selection)) this.app.select(selection);
+    if (selection !== null && scene.bodies.some(({ name }) => name === selection)) this.page.select(selection);
     if (viewMode && store.get().selection !== null) store.set({ viewMode });
     const place = this.place();
     if (viewpoint && place) place.viewpoint = viewpoint;
@@ -67,11 +73,11 @@ export class LinkControl {
   // That it is a recording may be known later than what stands in it. An instant is looked at standing
   // still.
   private async goToInstant(): Promise<void> {
-    const { replay, status } = this.app.store.get();
+    const { replay, status } = this.store.get();
     const time = this.instant;
     if (!replay || time === null) return;
     this.instant = null;
-    if (status?.phase === "running") await this.app.act("pause");
-    await this.app.replay.seek(time);
+    if (status?.phase === "running") await this.page.pause();
+    await this.page.seek(time);
   }
 }

@@ -4,7 +4,7 @@ import { beforeEach, expect, test, vi } from "vitest";
 import { ApiError } from "../api/JsonServer";
 import { testApp } from "../panels/testApp";
 import { body, scene } from "../scene/testScene";
-import type { DroppedFile } from "../setup/DroppedFile";
+import type { DroppedFile } from "../api/DroppedFile";
 import { createSetUpPanel } from "../setup/SetUpPanel";
 
 function dropped(path: string, size = 1): DroppedFile {

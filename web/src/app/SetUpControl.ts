@@ -4,13 +4,13 @@
 // The server is asked for one preview at a time; of the changes meanwhile the last counts.
 import { ApiError } from "../api/JsonServer";
 import type { SetUpApi } from "../api/SetUpApi";
-import type { Placed, RobotList, RobotSetUp, Scenario } from "../state/scenario";
-import { EMPTY_SCENARIO, findRobot, newRobot } from "../state/scenario";
-import { withChangedRobot, withRobot, withoutRobot } from "../state/scenario";
+import type { Placed, RobotList, RobotSetUp, Scenario } from "../api/scenario";
+import { EMPTY_SCENARIO, findRobot, newRobot } from "../api/scenario";
+import { withChangedRobot, withRobot, withoutRobot } from "../api/scenario";
 import type { SetUp } from "../state/setUp";
 import { changed, inTheirWords, redone, undone } from "../state/setUp";
-import type { DroppedFile } from "../setup/DroppedFile";
-import { unpacked, worldsFirst } from "../setup/dropped";
+import type { DroppedFile } from "../api/DroppedFile";
+import { unpacked, worldsFirst } from "../upload/dropped";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { download } from "./files";

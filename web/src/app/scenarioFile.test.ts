@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { EMPTY_SCENARIO } from "../state/scenario";
+import { EMPTY_SCENARIO } from "../api/scenario";
 import { readScenario, scenarioFile, scenarioFileName } from "./scenarioFile";
 
 const HOUSE = { ...EMPTY_SCENARIO, name: "two rooms", world: "office", record: true };

@@ -1,7 +1,7 @@
 // Scenario files: what is saved is JSON, which every reader of YAML takes; what is loaded may be any
 // YAML. The reader of YAML is fetched when it is needed first.
-import type { Scenario } from "../state/scenario";
-import { parseScenario, scenarioJson } from "../state/scenario";
+import type { Scenario } from "../api/scenario";
+import { parseScenario, scenarioJson } from "../api/scenario";
 
 export type TextFile = Pick<File, "name" | "size" | "text">;
 

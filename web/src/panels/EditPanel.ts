@@ -4,7 +4,7 @@ import type { Behaviours } from "../api/SetUpApi";
 import type { State } from "../state/State";
 import { shallowEqual } from "../state/Store";
 import { chosenOf, copiesOf } from "../state/editing";
-import { EMPTY_SCENARIO, newRobot } from "../state/scenario";
+import { EMPTY_SCENARIO, newRobot } from "../api/scenario";
 import type { Option } from "../ui/fields";
 import { choiceField } from "../ui/fields";
 import { element, setText } from "../ui/element";

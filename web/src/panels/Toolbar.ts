@@ -2,8 +2,7 @@
 import type { App } from "../app/App";
 import type { Action } from "../api/SimulationApi";
 import type { ViewMode } from "../state/State";
-import { canAct, isAllowed, mainAction } from "../state/actions";
-import { canEdit } from "../state/editing";
+import { canAct, canEdit, isAllowed, mainAction } from "../state/actions";
 import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 import type { IconName } from "../ui/icons";

@@ -4,7 +4,7 @@
 import type { Camera } from "three";
 import { Matrix4, Plane, Vector3 } from "three";
 import type { SceneBody } from "../api/scene";
-import type { Placed } from "../state/scenario";
+import type { Placed } from "../api/scenario";
 import type { BodyLayer } from "./BodyLayer";
 import type { ScreenPlace } from "./picking";
 import { rayThrough, screenPlaceOf } from "./picking";

@@ -4,6 +4,7 @@ import type { Box3 } from "three";
 import { MathUtils, Matrix4, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { CameraView } from "../api/scene";
+import type { Viewpoint as ViewNumbers } from "../state/link";
 import type { Eye } from "./eye";
 import { cameraRotation, fieldOfViewDeg } from "./eye";
 import { fittingDistance } from "./framing";
@@ -39,9 +40,6 @@ export interface Viewpoint {
   position: Vector3;
   target: Vector3;
 }
-
-// x y z of where one stands and of what one looks at.
-export type ViewNumbers = [number, number, number, number, number, number];
 
 interface Flight {
   from: Viewpoint;

@@ -6,11 +6,11 @@ import type { SceneDescription } from "../api/scene";
 import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
 import type { Shown } from "../state/overlays";
 import { FIRST_SHOWN } from "../state/overlays";
+import type { Viewpoint } from "../state/link";
 import type { ViewMode } from "../state/State";
 import type { ArrangerEvents } from "./Arranger";
 import { Arranger } from "./Arranger";
 import type { BodyLayer } from "./BodyLayer";
-import type { ViewNumbers } from "./CameraRig";
 import { CollisionLayer } from "./CollisionLayer";
 import { CameraRig } from "./CameraRig";
 import { fenceOf } from "./fence";
@@ -48,8 +48,6 @@ export interface WorldOptions {
   inSoftware: boolean; // no graphics card draws
   fixedQuality: boolean;
 }
-
-export type Viewpoint = ViewNumbers;
 
 export class World3D {
   private readonly renderer: WebGLRenderer;

@@ -1,6 +1,6 @@
 // One robot (or avatar) of a set-up: what it is, where it starts, what drives it.
 import type { App } from "../app/App";
-import type { RobotList, RobotSetUp } from "../state/scenario";
+import type { RobotList, RobotSetUp } from "../api/scenario";
 import type { SetUp } from "../state/setUp";
 import { element, setText } from "../ui/element";
 import { icon } from "../ui/icons";

@@ -1,13 +1,13 @@
 // The form with which a simulation is put together, beside the picture of what would stand there.
 import type { App } from "../app/App";
-import type { RobotList, Scenario } from "../state/scenario";
+import type { RobotList, Scenario } from "../api/scenario";
 import type { SetUp } from "../state/setUp";
 import { robotOfField } from "../state/setUp";
 import { element, setText } from "../ui/element";
 import type { IconName } from "../ui/icons";
 import { icon } from "../ui/icons";
 import { checkField, choiceField, choiceOrText, numberField, textField } from "../ui/fields";
-import { chosenFiles, droppedFiles } from "./dropped";
+import { chosenFiles, droppedFiles } from "../upload/dropped";
 import { RobotRow } from "./RobotRow";
 
 const BY_PATH = { choice: "A file or folder…", placeholder: "path/to/world.sdf" };

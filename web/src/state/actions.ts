@@ -23,6 +23,18 @@ export function canAct({ connection, pending, people }: State): boolean {
   return connection.phase === "open" && pending === null && mayAct(people);
 }
 
+// Whether the simulation can be edited; one that runs is paused first.
+export function canEdit({ abilities, replay, status, setUp, people }: State): boolean {
+  const phase = status?.phase;
+  return (
+    abilities.creates &&
+    mayAct(people) &&
+    replay === null &&
+    setUp === null &&
+    (phase === "created" || phase === "paused" || phase === "running")
+  );
+}
+
 // The one action that the main button stands for: what makes it run, or stand still.
 export function mainAction(phase: Phase | undefined): "start" | "pause" | "resume" {
   if (phase === "running" || phase === "starting") return "pause";

@@ -1,8 +1,6 @@
 // Editing a simulation that stands still: what can be added, done again and taken back.
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
 import type { SceneDescription } from "../api/scene";
-import { mayAct } from "./people";
-import type { State } from "./State";
 
 export interface Editing {
   models: ModelChoice[];
@@ -34,18 +32,6 @@ export function copiesOf(scene: SceneDescription | null): string[] {
 }
 
 // What edits are about: the chosen object, or else the selected robot.
-export function chosenOf({ editing, selection }: State): string | null {
+export function chosenOf({ editing, selection }: { editing: Editing | null; selection: string | null }): string | null {
   return editing?.chosen ?? selection;
-}
-
-// What runs is paused first.
-export function canEdit({ abilities, replay, status, setUp, people }: State): boolean {
-  const phase = status?.phase;
-  return (
-    abilities.creates &&
-    mayAct(people) &&
-    replay === null &&
-    setUp === null &&
-    (phase === "created" || phase === "paused" || phase === "running")
-  );
 }

@@ -1,9 +1,11 @@
 // A view as the end of an address: #t=12.5&view=X,Y,Z,X,Y,Z&select=NAME&mode=chase&show=beams,grid.
 // Any part may be missing, and is then as it would be without a link.
-import type { Viewpoint } from "../scene/World3D";
 import type { OverlayName, Shown } from "./overlays";
 import { OVERLAY_NAMES } from "./overlays";
 import type { ViewMode } from "./State";
+
+// Where the eye is and what it looks at: x y z of each, in metres.
+export type Viewpoint = [number, number, number, number, number, number];
 
 export interface LinkedView {
   time: number | null; // s, simulated: of a recording

@@ -5,20 +5,20 @@ import { MOST_CURVES, NO_PLOTS, curveName, withCurve, withoutCurve } from "./plo
 const ROBOT: Source = { kind: "robot", robot: "a" };
 
 test("a curve is added once, and opens the panel", () => {
-  const once = withCurve({ plots: NO_PLOTS }, ROBOT, "x", "m");
-  const twice = withCurve({ plots: once }, ROBOT, "x", "m");
+  const once = withCurve(NO_PLOTS, ROBOT, "x", "m");
+  const twice = withCurve(once, ROBOT, "x", "m");
   expect(once.open).toBe(true);
   expect(twice.curves).toEqual(once.curves);
-  expect(withoutCurve({ plots: twice }, once.curves[0]!.id).curves).toEqual([]);
+  expect(withoutCurve(twice, once.curves[0]!.id).curves).toEqual([]);
 });
 
 test("each curve has a colour of its own, and there are only so many", () => {
   let plots: Plots = NO_PLOTS;
-  for (let i = 0; i < MOST_CURVES + 3; i++) plots = withCurve({ plots }, ROBOT, `v${i}`, "");
+  for (let i = 0; i < MOST_CURVES + 3; i++) plots = withCurve(plots, ROBOT, `v${i}`, "");
   expect(plots.curves).toHaveLength(MOST_CURVES);
   expect(new Set(plots.curves.map(({ colour }) => colour)).size).toBe(MOST_CURVES);
   const freed = plots.curves[3]!.colour;
-  const again = withCurve({ plots: withoutCurve({ plots }, plots.curves[3]!.id) }, ROBOT, "new", "");
+  const again = withCurve(withoutCurve(plots, plots.curves[3]!.id), ROBOT, "new", "");
   expect(again.curves.at(-1)!.colour).toBe(freed);
 });
 

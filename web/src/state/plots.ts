@@ -1,5 +1,4 @@
 // Which values are drawn against simulated time.
-import type { State } from "./State";
 
 export type Source =
   { kind: "simulation" } | { kind: "robot"; robot: string } | { kind: "sensor"; topic: string };
@@ -55,7 +54,7 @@ export function curveName({ source, key }: Pick<Curve, "source" | "key">): strin
 }
 
 // With the curve, unless it is there or there are too many; the panel opens.
-export function withCurve({ plots }: Pick<State, "plots">, source: Source, key: string, unit: string): Plots {
+export function withCurve(plots: Plots, source: Source, key: string, unit: string): Plots {
   const id = curveId(source, key);
   const isThere = plots.curves.some((curve) => curve.id === id);
   if (isThere || plots.curves.length >= MOST_CURVES) return { ...plots, open: true };
@@ -64,6 +63,6 @@ export function withCurve({ plots }: Pick<State, "plots">, source: Source, key: 
   return { ...plots, open: true, curves: [...plots.curves, { id, source, key, unit, colour }] };
 }
 
-export function withoutCurve({ plots }: Pick<State, "plots">, id: string): Plots {
+export function withoutCurve(plots: Plots, id: string): Plots {
   return { ...plots, curves: plots.curves.filter((curve) => curve.id !== id) };
 }

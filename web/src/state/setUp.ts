@@ -1,6 +1,6 @@
 // The state of a set-up: the scenario being put together, what it was before, what is wrong with it.
 import type { Behaviours, ModelChoice } from "../api/SetUpApi";
-import type { RobotList, Scenario } from "./scenario";
+import type { RobotList, Scenario } from "../api/scenario";
 
 export interface Wrong {
   field: string; // as the server names it, "robots[1].model"; empty: none in particular

@@ -6,8 +6,8 @@
 // Bounded  MOST_FILES, LARGEST_FILE, LARGEST_TOTAL; one file is in memory at a time.
 import type { Entry } from "@zip.js/zip.js";
 import { BlobReader, ZipReader } from "@zip.js/zip.js/lib/zip-no-worker-inflate.js";
-import type { DroppedFile } from "./DroppedFile";
-import { isHidden, LARGEST_FILE, MOST_FILES } from "./DroppedFile";
+import type { DroppedFile } from "../api/DroppedFile";
+import { isHidden, LARGEST_FILE, MOST_FILES } from "../api/DroppedFile";
 
 const LARGEST_TOTAL = 512 * 2 ** 20; // bytes, unpacked
 const MOST_ENTRIES = 4 * MOST_FILES; // folders and hidden files among them

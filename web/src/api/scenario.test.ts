@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import { EMPTY_SCENARIO, findRobot, freeName, newRobot, parseScenario, scenarioJson } from "./scenario";
 import { withChangedRobot, withRobot, withoutRobot } from "./scenario";
-import { changed, redone, robotOfField, undone } from "./setUp";
-import type { SetUp } from "./setUp";
+import { changed, redone, robotOfField, undone } from "../state/setUp";
+import type { SetUp } from "../state/setUp";
 
 const pebble = newRobot(EMPTY_SCENARIO, "pebble");
 const placed = { ...pebble, place: { x: 1, y: -2, yaw: 0.5 }, behaviour: "wander" };

@@ -1,8 +1,8 @@
 // A simulation to be put together: the world, who stands in it, and how it runs. Metres, radians,
 // seconds. As JSON it is what the server takes and what a scenario file holds
 // (docs/formats/scenario.md); JSON is YAML too.
-import type { JsonObject } from "../api/json";
-import { listAt, numberOr, objectAt, textOr } from "../api/json";
+import type { JsonObject } from "./json";
+import { listAt, numberOr, objectAt, textOr } from "./json";
 
 export interface Placed {
   x: number;

@@ -1,6 +1,6 @@
 // Files that were dropped onto the page, or chosen: a world, or a folder or a zip archive that holds one.
-import type { DroppedFile } from "./DroppedFile";
-import { droppedFile, isHidden, LARGEST_FILE, MOST_FILES } from "./DroppedFile";
+import type { DroppedFile } from "../api/DroppedFile";
+import { droppedFile, isHidden, LARGEST_FILE, MOST_FILES } from "../api/DroppedFile";
 import { filesInZip, isZip } from "./zip";
 
 // What is sent: the worlds first, the likeliest of them at the front.

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { DroppedFile } from "./DroppedFile";
+import type { DroppedFile } from "../api/DroppedFile";
 import { unpacked, worldsFirst } from "./dropped";
 
 function file(path: string, size = 10): DroppedFile {

@@ -1,0 +1,22 @@
+// A triangle as the rasteriser scans it: one plane for each corner over the pixels of the image.
+//
+// Units  pixels.
+#pragma once
+
+#include <cstdint>
+
+namespace gsv::rendering::raster {
+
+// q_i = c[i] + a[i] (x - x0) + b[i] (y - y0) at the middle of pixel (x, y).
+struct Triangle {
+  float a[3], b[3], c[3];
+  float x0, y0;
+  std::uint32_t corner[3];  // vertices of the mesh
+  std::uint32_t drawn;
+};
+
+struct Box {
+  int x0, y0, x1, y1;  // pixels, [x0, x1] by [y0, y1]
+};
+
+}  // namespace gsv::rendering::raster

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Refuses circles among the includes of our C++ sources and among the imports of web/src.
+
+usage: check_circles.py [ROOT]    ROOT: the repository (default: the one this script lies in)
+
+C++         no file may reach itself by #include "…". docs/layers.txt keeps folders free of circles.
+TypeScript  no file may reach itself by import, export … from or import(…), types included, and no folder
+            of web/src may reach itself by what its files import (tests apart).
+
+Prints each circle as FILE:LINE: SENTENCE, the place being one of its edges, and exits 1 if there is any.
+"""
+
+import posixpath
+import re
+import sys
+from pathlib import Path
+
+CPP_TOPS = ("gsv", "sdk", "apps", "behaviours", "examples", "tests")
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+WEB = "web/src"
+IMPORT = re.compile(r"""(?:^|[^\w.])(?:from|import)\s*\(?\s*["'](\.[^"']*)["']""")
+BLOCK_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+LINE_COMMENT = re.compile(r"^\s*//.*$", re.MULTILINE)
+# Tests, and what only tests use, may import from any folder.
+WEB_TEST = re.compile(r"\.test\.ts$|/test[A-Z]\w*\.ts$")
+
+
+def blanked(text, *patterns):
+    """The text with the patterns' matches emptied, every line where it was."""
+    for pattern in patterns:
+        text = pattern.sub(lambda match: "\n" * match.group(0).count("\n"), text)
+    return text
+
+
+def line_of(text, offset):
+    return text.count("\n", 0, offset) + 1
+
+
+def cpp_edges(root):
+    """{file: {included file: line}} of our own C++ sources."""
+    files = {
+        path.relative_to(root).as_posix(): path
+        for top in CPP_TOPS
+        for path in sorted((root / top).rglob("*"))
+        if path.suffix in (".h", ".cc") and "node_modules" not in path.parts
+    }
+    edges = {}
+    for name, path in files.items():
+        text = blanked(path.read_text(encoding="utf-8", errors="replace"), BLOCK_COMMENT)
+        edges[name] = {
+            match.group(1): line_of(text, match.start(1))
+            for match in INCLUDE.finditer(text)
+            if match.group(1) in files
+        }
+    return edges
+
+
+def web_edges(root):
+    """{file: {imported file: line}} of the viewer's TypeScript sources."""
+    files = {path.relative_to(root).as_posix(): path for path in sorted((root / WEB).rglob("*.ts"))}
+    edges = {}
+    for name, path in files.items():
+        text = blanked(path.read_text(encoding="utf-8"), BLOCK_COMMENT, LINE_COMMENT)
+        edges[name] = {}
+        for match in IMPORT.finditer(text):
+            target = posixpath.normpath(posixpath.join(posixpath.dirname(name), match.group(1)))
+            for candidate in (target, f"{target}.ts", f"{target}/index.ts"):
+                if candidate in files:
+                    edges[name].setdefault(candidate, line_of(text, match.start(1)))
+    return edges
+
+
+def folder_edges(edges):
+    """{folder: {folder: (file, line)}} of files that are no tests, each edge with the first import that makes it."""
+    folders = {}
+    for name, targets in edges.items():
+        if WEB_TEST.search(name):
+            continue
+        folder = posixpath.dirname(name)
+        for target, line in targets.items():
+            if posixpath.dirname(target) != folder:
+                folders.setdefault(folder, {}).setdefault(posixpath.dirname(target), (name, line))
+    return folders
+
+
+def circles(edges):
+    """One shortest circle through each node that no circle found before passes through."""
+    found, passed = [], set()
+    for start in sorted(edges):
+        if start in passed:
+            continue
+        circle = shortest_way_back(edges, start)
+        if circle:
+            found.append(circle)
+            passed.update(circle)
+    return found
+
+
+def shortest_way_back(edges, start):
+    """[start, …, start] by as few edges as possible; None where no way leads back."""
+    came_from, front = {}, [start]
+    while front:
+        behind = []
+        for node in front:
+            for target in edges.get(node, ()):
+                if target == start:
+                    way = [start, node]
+                    while way[-1] != start:
+                        way.append(came_from[way[-1]])
+                    return way[::-1]
+                if target not in came_from:
+                    came_from[target] = node
+                    behind.append(target)
+        front = behind
+    return None
+
+
+def problems(root):
+    for verb, edges in (("includes", cpp_edges(root)), ("imports", web_edges(root))):
+        for circle in circles(edges):
+            yield f"{circle[0]}:{edges[circle[0]][circle[1]]}: the file {verb} itself: {' -> '.join(circle)}"
+        if verb == "includes":
+            continue
+        folders = folder_edges(edges)
+        for circle in circles(folders):
+            file, line = folders[circle[0]][circle[1]]
+            yield f"{file}:{line}: the folder imports itself: {' -> '.join(circle)}"
+
+
+def main(arguments):
+    root = Path(arguments[0] if arguments else Path(__file__).parent.parent).resolve()
+    found = list(problems(root))
+    for problem in found:
+        print(problem)
+    print(f"{len(found)} circles" if found else "no circles")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
