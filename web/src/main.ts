@@ -6,27 +6,28 @@ import { SimulationApi } from "./api/SimulationApi";
 import { pageCredentials } from "./api/credentials";
 import { robotsOf } from "./api/scene";
 import { App } from "./app/App";
+import { panelPorts } from "./app/panelPorts";
 import { OverlayFeed } from "./app/OverlayFeed";
 import { SHORTEST_UPDATE_MS, SelectedPose } from "./app/SelectedPose";
 import { Session } from "./app/Session";
 import { notify } from "./app/notices";
 import { AvatarSteering } from "./input/AvatarSteering";
 import { listenForKeys } from "./input/Keyboard";
-import { createCameraPane } from "./panels/CameraPane";
-import { createDiagnosticsPanel } from "./panels/DiagnosticsPanel";
-import { createHelpSheet } from "./panels/HelpSheet";
-import { createInspector } from "./panels/Inspector";
-import { createLogPanel } from "./panels/LogPanel";
-import { createNotices } from "./panels/Notices";
-import { createOverlay } from "./panels/Overlay";
-import { createControlQuestion } from "./panels/PeopleMenu";
-import { createPlotPanel } from "./panels/PlotPanel";
-import { createSceneTree } from "./panels/SceneTree";
-import { createStatusBar } from "./panels/StatusBar";
-import { createTimeline } from "./panels/Timeline";
-import { createToolbar } from "./panels/Toolbar";
-import { createEditPanel } from "./panels/EditPanel";
-import type { PosesMessage } from "./protocol/messages";
+import { createCameraPane } from "./panels/camera/CameraPane";
+import { createHelpSheet } from "./page/HelpSheet";
+import { createInspector } from "./panels/inspector/Inspector";
+import { createNotices } from "./page/Notices";
+import { createOverlay } from "./page/Overlay";
+import { createControlQuestion } from "./page/PeopleMenu";
+import { createSceneTree } from "./panels/tree/SceneTree";
+import { createStatusBar } from "./page/StatusBar";
+import { createTimeline } from "./page/Timeline";
+import { createToolbar } from "./page/Toolbar";
+import { createEditPanel } from "./page/EditPanel";
+import { pageNames } from "./page/pageLinks";
+import { createPanelDock } from "./panels/PanelDock";
+import { PANELS } from "./panels/registry";
+import type { MarkerArrayMessage, PosesMessage } from "./protocol/messages";
 import { startGraphics } from "./scene/graphics";
 import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
@@ -79,17 +80,10 @@ const selected = new SelectedPose();
 const session = new Session(
   api,
   store,
-  {
-    onPoses: (message) => {
-      world?.setPoses(message);
-      app.plots.takePoses(message);
-      showSelectedPose();
-    },
-    onBeams: (message) => world?.setBeams(message),
-  },
   { simulation: parameters.get("simulation"), recording: parameters.get("recording") },
 );
 const app = new App(store, session, api, () => world);
+const ports = panelPorts(app, api);
 
 let nextPose: ReturnType<typeof setTimeout> | undefined;
 
@@ -117,6 +111,11 @@ async function openWorld(): Promise<void> {
 }
 
 function connectWorld(world: World3D): void {
+  session.subscribe<PosesMessage>("/gsv/poses", (message) => {
+    world.setPoses(message);
+    showSelectedPose();
+  });
+  session.subscribe<MarkerArrayMessage>("/gsv/beams", (message) => world.setBeams(message), { newestOnly: true });
   store.watch(
     ({ scene }) => scene,
     (scene) => {
@@ -175,7 +174,7 @@ async function drive(avatar: string, wish: Parameters<SimulationApi["drive"]>[2]
 const page = document.getElementById("app")!;
 const toggleSidebar = () => page.classList.toggle("sidebar-open");
 view.append(
-  element("div", { class: "cards" }, createInspector(app), createCameraPane(app)),
+  element("div", { class: "cards" }, createInspector(ports), createCameraPane(ports)),
   createEditPanel(app),
   createOverlay(app),
   createControlQuestion(app),
@@ -183,12 +182,10 @@ view.append(
 );
 page.append(
   createToolbar(app, toggleSidebar),
-  createSceneTree(app),
+  createSceneTree(ports, pageNames(app)),
   createSetUpPanel(app),
   view,
-  createPlotPanel(app),
-  createLogPanel(app),
-  createDiagnosticsPanel(app),
+  createPanelDock(PANELS, ports, (id) => app.panels.close(id)),
   createTimeline(app),
   createStatusBar(app),
   createHelpSheet(app),
@@ -208,10 +205,6 @@ store.watch(
 listenForKeys(app);
 new AvatarSteering(avatarToDrive, drive).listen(window);
 exposeForTests(store, () => world);
-app.plots.start();
-app.wholeCurves.start();
-app.logFeed.start();
-app.diagnosticsFeed.start();
 app.records.start();
 app.link.start(window);
 // A replay of one's own is nobody else's to watch or to move.

@@ -42,7 +42,7 @@ function appIn(phase: Phase, act: SimulationApi["act"]) {
     status: status(phase),
   });
   const api = { act } as unknown as SimulationApi;
-  const session = new Session(api, store, { onPoses: () => {}, onBeams: () => {} }, NOTHING_WANTED);
+  const session = new Session(api, store, NOTHING_WANTED);
   return { store, app: new App(store, session, api, () => null) };
 }
 
@@ -112,4 +112,18 @@ test("without robots there is nobody to look at", () => {
   store.set({ status: { ...store.get().status!, robots: [] } });
   app.toggleViewMode("chase");
   expect(store.get()).toMatchObject({ selection: null, viewMode: "orbit" });
+});
+
+test("a value that is plotted opens the plots, as closed as they were", () => {
+  const { store, app } = appIn("running", vi.fn());
+  app.panels.open("log");
+  app.plot({ kind: "robot", robot: "robbie" }, "speed");
+  app.plot({ kind: "robot", robot: "robbie" }, "x");
+  expect(store.get().openPanels).toEqual(["log", "plots"]);
+  expect(store.get().plots.curves.map(({ key, unit }) => [key, unit])).toEqual([
+    ["speed", "m/s"],
+    ["x", "m"],
+  ]);
+  app.panels.toggle("log");
+  expect(store.get().openPanels).toEqual(["plots"]);
 });

@@ -9,40 +9,34 @@ import type { Placed } from "../api/scenario";
 import { findRobot } from "../api/scenario";
 import type { Source } from "../state/plots";
 import { ROBOT_VALUES, SIMULATION_VALUES, withCurve, withoutCurve } from "../state/plots";
-import type { Log } from "../state/log";
 import type { OverlayName } from "../state/overlays";
 import { browserStorage } from "../state/overlays";
 import { chosenOf } from "../state/editing";
 import type { State, ViewMode } from "../state/State";
 import type { Store } from "../state/Store";
-import { download, fileName } from "./files";
-import { DiagnosticsFeed } from "./DiagnosticsFeed";
+import { download, fileName } from "../ui/files";
 import { EditControl } from "./EditControl";
 import { Filming } from "./Filming";
 import { LinkControl } from "./LinkControl";
-import { LogFeed } from "./LogFeed";
 import { dismiss, notify } from "./notices";
-import { PlotFeed } from "./PlotFeed";
+import { PanelControl } from "./PanelControl";
 import { PeopleControl } from "./PeopleControl";
 import { RecordControl } from "./RecordControl";
 import { ReplayControl } from "./ReplayControl";
 import { rotationOf } from "./SelectedPose";
 import type { Session } from "./Session";
-import { WholeCurves } from "./WholeCurves";
 import { SetUpControl } from "./SetUpControl";
+
+const PLOTS_PANEL = "plots";
 
 export class App {
   readonly replay: ReplayControl;
   readonly link: LinkControl;
-  readonly plots: PlotFeed;
-  readonly wholeCurves: WholeCurves;
-  readonly logFeed: LogFeed;
-  readonly diagnosticsFeed: DiagnosticsFeed;
   readonly setUp: SetUpControl;
   readonly edits: EditControl;
   readonly records: RecordControl;
   readonly people: PeopleControl;
-  onPlotData: () => void = () => {};
+  readonly panels: PanelControl;
   private readonly filming: Filming;
 
   constructor(
@@ -58,16 +52,13 @@ export class App {
       seek: (time: number) => this.replay.seek(time),
     };
     this.link = new LinkControl(store, linked, world);
-    this.plots = new PlotFeed(store, session, () => this.onPlotData());
-    this.wholeCurves = new WholeCurves(store, api, (id, curve) => this.plots.takeWhole(id, curve));
-    this.logFeed = new LogFeed(store, session, api);
-    this.diagnosticsFeed = new DiagnosticsFeed(store, session, api.metrics);
     this.setUp = new SetUpControl(store, session, api.setUp);
     this.edits = new EditControl(store, api.setUp, { placeOf: (body) => placeIn(world(), body) }, () =>
       this.act("pause"),
     );
     this.records = new RecordControl(store, api);
     this.people = new PeopleControl(store, session, api.viewers, browserStorage());
+    this.panels = new PanelControl(store);
     this.filming = new Filming(store, () => world()?.video() ?? null);
   }
 
@@ -195,23 +186,11 @@ export class App {
     this.store.set({ camera, cameraOpen: true });
   }
 
-  openPlots(open: boolean): void {
-    this.store.set(({ plots }) => ({ plots: { ...plots, open } }));
-  }
-
-  // Opens or closes the log, or chooses among its lines.
-  changeLog(change: Partial<Omit<Log, "lines">>): void {
-    this.store.set(({ log }) => ({ log: { ...log, ...change } }));
-  }
-
-  openDiagnostics(open: boolean): void {
-    this.store.set(({ diagnostics }) => ({ diagnostics: { ...diagnostics, open } }));
-  }
-
   // Draws a value against simulated time from now on.
   plot(source: Source, key: string, unit?: string): void {
     const known = [...ROBOT_VALUES, ...SIMULATION_VALUES].find((value) => value.key === key)?.unit ?? "";
     this.store.set(({ plots }) => ({ plots: withCurve(plots, source, key, unit ?? known) }));
+    this.panels.open(PLOTS_PANEL);
   }
 
   unplot(curve: string): void {

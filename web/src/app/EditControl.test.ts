@@ -1,7 +1,7 @@
 import { expect, test, vi } from "vitest";
 import type { BodyPlace } from "../api/SetUpApi";
 import { ApiError } from "../api/JsonServer";
-import { robotStatus, simulationStatus } from "../panels/testApp";
+import { robotStatus, simulationStatus } from "../page/testApp";
 import { newRobot, EMPTY_SCENARIO } from "../api/scenario";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";

@@ -1,7 +1,7 @@
 // A video of the view, as WebM: from one press to the next, or until it is large enough.
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
-import { download, fileName } from "./files";
+import { download, fileName } from "../ui/files";
 import { notify } from "./notices";
 
 const FORMATS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];

@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { beforeEach, expect, test, vi } from "vitest";
-import { robotStatus, simulationStatus, testApp } from "../panels/testApp";
+import { robotStatus, simulationStatus, testApp } from "../page/testApp";
 import { body, scene } from "../scene/testScene";
 import type { Viewpoint } from "../state/link";
 import type { State } from "../state/State";

@@ -3,10 +3,10 @@
 import { robotsOf } from "../api/scene";
 import type { SceneDescription, SceneSensor } from "../api/scene";
 import type { TransformsMessage } from "../protocol/messages";
+import type { TopicSource } from "../protocol/SharedTopics";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
-import type { Session } from "./Session";
 
 const MOST_READINGS = 16; // sensors at once
 const FRAMES_TOPIC = "/tf_static";
@@ -57,7 +57,7 @@ export class OverlayFeed {
 
   constructor(
     private readonly store: Store<State>,
-    private readonly session: Session,
+    private readonly topics: TopicSource,
     private readonly view: OverlayView,
   ) {}
 
@@ -84,10 +84,10 @@ export class OverlayFeed {
 
   private subscribe(topic: string): () => void {
     if (topic === FRAMES_TOPIC) {
-      return this.session.subscribe<TransformsMessage>(topic, (message) =>
+      return this.topics.subscribe<TransformsMessage>(topic, (message) =>
         this.view.setSensorFrames(message),
       );
     }
-    return this.session.subscribe<unknown>(topic, (message) => this.view.setReading(topic, message));
+    return this.topics.subscribe<unknown>(topic, (message) => this.view.setReading(topic, message));
   }
 }

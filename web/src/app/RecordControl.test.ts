@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { createRecordButton } from "../panels/RecordButton";
-import { testApp } from "../panels/testApp";
+import { createRecordButton } from "../page/RecordButton";
+import { testApp } from "../page/testApp";
 import { initialState } from "../state/State";
 
 const OFF = { isOn: false, path: "", bytes: 0, droppedMessages: 0 };

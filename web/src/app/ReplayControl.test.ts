@@ -1,7 +1,7 @@
 import { afterEach, expect, test, vi } from "vitest";
 import type { Action, SimulationApi } from "../api/SimulationApi";
 import { ApiError } from "../api/SimulationApi";
-import { simulationStatus } from "../panels/testApp";
+import { simulationStatus } from "../page/testApp";
 import type { State } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";

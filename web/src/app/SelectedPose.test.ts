@@ -1,6 +1,7 @@
 import { Matrix4 } from "three";
 import { expect, test } from "vitest";
-import { SelectedPose, rotationOf, shortWay } from "./SelectedPose";
+import { shortWay } from "../live/angle";
+import { SelectedPose, rotationOf } from "./SelectedPose";
 
 function at(x: number, stamp: number) {
   return { pose: new Matrix4().makeRotationZ(0.5).setPosition(x, 2, 0), stamp };

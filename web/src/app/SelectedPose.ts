@@ -1,6 +1,7 @@
 // Follows the pose of the selected robot for the inspector, at a pace that can be read.
 import { Quaternion, Vector3 } from "three";
 import type { Matrix4 } from "three";
+import { shortWay } from "../live/angle";
 import { anglesOf } from "../live/values";
 import type { RobotPose } from "../state/State";
 
@@ -54,9 +55,4 @@ export class SelectedPose {
 export function rotationOf(pose: Matrix4): { roll: number; pitch: number; yaw: number } {
   const { x, y, z, w } = new Quaternion().setFromRotationMatrix(pose);
   return anglesOf({ x, y, z, w });
-}
-
-// The same turn, at most half a one.
-export function shortWay(angle: number): number {
-  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 }

@@ -5,7 +5,7 @@ import type { Replay } from "../api/replay";
 import type { Phase, SimulationStatus } from "../api/status";
 import type { ClientEvents } from "../protocol/FoxgloveClient";
 import { body, scene } from "../scene/testScene";
-import type { State } from "../state/State";
+import type { State, View } from "../state/State";
 import { initialState } from "../state/State";
 import { Store } from "../state/Store";
 import type { LiveClient } from "./Session";
@@ -13,7 +13,7 @@ import { Session } from "./Session";
 
 // A server that can be told what to answer, and the stream to it.
 class Fixture {
-  readonly store = new Store<State>({ ...initialState, view: "open" });
+  readonly store: Store<State>;
   readonly handlers = new Map<string, (message: never) => void>();
   readonly clients: { url: string; events: ClientEvents; closed: boolean }[] = [];
   readonly onPoses = vi.fn();
@@ -26,7 +26,8 @@ class Fixture {
   readonly seek = vi.fn(async () => {});
   readonly session: Session;
 
-  constructor(wanted: string | null = null, recording: string | null = null) {
+  constructor(wanted: string | null = null, recording: string | null = null, view: View = "open") {
+    this.store = new Store<State>({ ...initialState, view });
     const api = {
       openRecording: this.openRecording,
       seek: this.seek,
@@ -56,9 +57,12 @@ class Fixture {
     this.session = new Session(
       api,
       this.store,
-      { onPoses: this.onPoses, onBeams: () => {} },
       { simulation: wanted, recording },
       (url, events) => this.makeClient(url, events),
+    );
+    this.store.watch(
+      ({ view }) => view !== "starting",
+      (isThere) => isThere && this.session.subscribe("/gsv/poses", this.onPoses),
     );
   }
 
@@ -84,6 +88,7 @@ class Fixture {
       parameter: async () => null,
       missingTopics: [],
       subscribe: (topic, handler) => {
+        if (this.handlers.has(topic)) throw new Error(`a second subscription of ${topic}`);
         this.handlers.set(topic, handler as (message: never) => void);
         return () => this.handlers.delete(topic);
       },
@@ -148,8 +153,7 @@ test("it takes up the scene and turns to a robot's camera rather than a visitor'
 });
 
 test("what changes all the time is heard once there is a view for it, the scene and its state before", async () => {
-  const fixture = new Fixture();
-  fixture.store.set({ view: "starting" });
+  const fixture = new Fixture(null, null, "starting");
   await joined(fixture);
   expect(fixture.state.scene?.name).toBe("house");
   expect([...fixture.handlers.keys()]).toEqual([]);
@@ -266,4 +270,21 @@ test("after a restart of its server a replay of one's own is opened anew, and go
   fixture.openRecording.mockImplementation(async () => void (fixture.names = ["house"]));
   await vi.waitFor(() => expect(fixture.seek).toHaveBeenCalledWith("house", 7.5));
   expect(fixture.openRecording).toHaveBeenCalledTimes(2);
+});
+
+test("a panel reads what the session reads itself, and goes on when another simulation is joined", async () => {
+  const fixture = await joined(new Fixture());
+  const panel = vi.fn();
+  const end = fixture.session.subscribe("/gsv/status", panel);
+  fixture.send("/gsv/status", statusMessage("running"));
+  expect(panel).toHaveBeenCalledTimes(1);
+  fixture.names = ["house", "yard"];
+  fixture.session.join("yard");
+  await vi.waitFor(() => expect(fixture.state.scene?.name).toBe("yard"));
+  fixture.send("/gsv/status", statusMessage("paused"));
+  expect(panel).toHaveBeenCalledTimes(2);
+  end();
+  fixture.send("/gsv/status", statusMessage("running"));
+  expect(panel).toHaveBeenCalledTimes(2);
+  expect(fixture.state.status?.phase).toBe("running");
 });

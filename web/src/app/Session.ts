@@ -9,16 +9,16 @@ import { statusFromMessage } from "../api/status";
 import { backoffMs } from "../protocol/Backoff";
 import type { ClientEvents, ParameterValue } from "../protocol/FoxgloveClient";
 import { FoxgloveClient } from "../protocol/FoxgloveClient";
+import type { TopicOptions, TopicSource } from "../protocol/SharedTopics";
 import { SharedTopics } from "../protocol/SharedTopics";
 import type {
   ClockMessage,
   LifecycleEventMessage,
-  MarkerArrayMessage,
   PosesMessage,
   SimulationStatusMessage,
 } from "../protocol/messages";
 import { seconds } from "../protocol/messages";
-import { NO_DIAGNOSTICS, withComplaint } from "../state/diagnostics";
+import { withComplaint } from "../state/complaints";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
 import { shallowEqual } from "../state/Store";
@@ -39,6 +39,7 @@ const NOTHING_WATCHED: Partial<State> = {
   selectedPose: null,
   viewMode: "orbit",
   camera: null,
+  complaints: [],
 };
 
 // What the page's address asks for, if it does.
@@ -49,19 +50,13 @@ export interface Wanted {
 
 export const NOTHING_WANTED: Wanted = { simulation: null, recording: null };
 
-// Where the stream's many small messages go without passing through the store.
-export interface LiveListener {
-  onPoses(message: PosesMessage): void;
-  onBeams(message: MarkerArrayMessage): void;
-}
-
 // The live stream, as far as the session needs it.
 export type LiveClient = Pick<FoxgloveClient, "connect" | "close" | "retryNow" | "subscribe" | "parameter" | "missingTopics">;
 export type ClientFactory = (url: string, events: ClientEvents) => LiveClient;
 
-export class Session {
+export class Session implements TopicSource {
   private client: LiveClient | null = null;
-  private topics: SharedTopics | null = null; // of the client
+  private readonly topics = new SharedTopics(); // of the client
   private timer: ReturnType<typeof setTimeout> | undefined;
   private attempt = 0;
   private sceneText = "";
@@ -76,12 +71,14 @@ export class Session {
   constructor(
     private readonly api: SimulationApi,
     private readonly store: Store<State>,
-    private readonly live: LiveListener,
     private readonly wanted: Wanted,
     private readonly makeClient: ClientFactory = (url, events) => new FoxgloveClient(url, events),
   ) {
     this.wishes = new TopicWishes(api, store, () => this.client?.missingTopics ?? []);
-    store.watch(({ view }) => view, () => this.hear());
+    store.watch(
+      ({ view }) => view !== "starting",
+      (isThere) => isThere && this.hear(),
+    );
   }
 
   start(): void {
@@ -98,8 +95,7 @@ export class Session {
     this.leave();
     this.wasOpen = false;
     this.sceneText = "";
-    const { open } = this.store.get().diagnostics;
-    this.store.set({ ...NOTHING_WATCHED, simulation: name, diagnostics: { ...NO_DIAGNOSTICS, open } });
+    this.store.set({ ...NOTHING_WATCHED, simulation: name });
     this.connect(name);
   }
 
@@ -120,14 +116,13 @@ export class Session {
     clearTimeout(this.timer);
     this.client?.close();
     this.client = null;
-    this.topics = null;
+    this.topics.attach(null);
   }
 
-  // Hears a topic of the present simulation; gives the function that ends it.
-  // Who asks for one that others hear already is handed its newest message at once.
-  subscribe<Message>(topic: string, handler: (message: Message) => void): () => void {
+  // Reads a topic of the simulation that is watched, and then of the next one.
+  subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void {
     this.wishes.lookSoon();
-    return this.topics?.subscribe(topic, handler) ?? (() => {});
+    return this.topics.subscribe(topic, handler, options);
   }
 
   // What the stream's server says of a parameter; null when it says nothing.
@@ -219,33 +214,28 @@ export class Session {
       },
       onProblem: (sentence) => {
         notify(this.store, "error", sentence);
-        this.store.set(({ diagnostics }) => ({ diagnostics: withComplaint(diagnostics, sentence) }));
+        this.store.set(({ complaints }) => ({ complaints: withComplaint(complaints, sentence) }));
       },
     });
     this.client = client;
-    this.topics = new SharedTopics(client);
-    this.hear();
+    this.topics.attach(client);
     client.connect();
   }
 
   // Listens to what changes all the time, once there is a view for it: until then each update would
   // be another picture of the page, which take long where no graphics card makes them.
   private hear(): void {
-    const { client } = this;
-    const { simulation: name, view } = this.store.get();
-    if (!client || name === null || view === "starting") return;
-    client.subscribe<PosesMessage>("/gsv/poses", (message) => this.takePoses(name, message));
-    client.subscribe<MarkerArrayMessage>("/gsv/beams", (message) => this.live.onBeams(message), {
-      newestOnly: true,
-    });
-    client.subscribe<ClockMessage>("/clock", ({ clock }) => this.store.set({ time: seconds(clock) }));
-    client.subscribe<SimulationStatusMessage>("/gsv/status", (message) => {
-      const hadFailed = this.store.get().status?.phase === "failed";
+    const { topics } = this;
+    topics.subscribe<PosesMessage>("/gsv/poses", (message) => this.takePoses(message));
+    topics.subscribe<ClockMessage>("/clock", ({ clock }) => this.store.set({ time: seconds(clock) }));
+    topics.subscribe<SimulationStatusMessage>("/gsv/status", (message) => {
+      const { status, simulation } = this.store.get();
+      const hadFailed = status?.phase === "failed";
       this.takeStatus(statusFromMessage(message));
       // The stream says that it failed, the API says why.
-      if (message.state === "failed" && !hadFailed) void this.fetchStatus(name);
+      if (message.state === "failed" && !hadFailed && simulation !== null) void this.fetchStatus(simulation);
     });
-    client.subscribe<LifecycleEventMessage>("/gsv/events", (message) => this.takeEvent(message));
+    topics.subscribe<LifecycleEventMessage>("/gsv/events", (message) => this.takeEvent(message));
   }
 
   private async opened(name: string): Promise<void> {
@@ -277,11 +267,10 @@ export class Session {
     }
   }
 
-  private takePoses(name: string, message: PosesMessage): void {
-    const { scene } = this.store.get();
-    const isStale = scene?.layoutVersion !== message.layout_version;
-    if (isStale && Date.now() - this.sceneFailedAtMs > SCENE_RETRY_MS) void this.fetchScene(name);
-    this.live.onPoses(message);
+  private takePoses({ layout_version }: PosesMessage): void {
+    const { scene, simulation } = this.store.get();
+    if (simulation === null || scene?.layoutVersion === layout_version) return;
+    if (Date.now() - this.sceneFailedAtMs > SCENE_RETRY_MS) void this.fetchScene(simulation);
   }
 
   private async fetchScene(name: string): Promise<void> {

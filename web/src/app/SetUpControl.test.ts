@@ -2,7 +2,7 @@
 import { Blob } from "node:buffer"; // jsdom's cannot be read
 import { beforeEach, expect, test, vi } from "vitest";
 import { ApiError } from "../api/JsonServer";
-import { testApp } from "../panels/testApp";
+import { testApp } from "../page/testApp";
 import { body, scene } from "../scene/testScene";
 import type { DroppedFile } from "../api/DroppedFile";
 import { createSetUpPanel } from "../setup/SetUpPanel";

@@ -13,7 +13,7 @@ import type { DroppedFile } from "../api/DroppedFile";
 import { unpacked, worldsFirst } from "../upload/dropped";
 import type { State } from "../state/State";
 import type { Store } from "../state/Store";
-import { download } from "./files";
+import { download } from "../ui/files";
 import { notify } from "./notices";
 import type { TextFile } from "./scenarioFile";
 import { readScenario, scenarioFile, scenarioFileName } from "./scenarioFile";

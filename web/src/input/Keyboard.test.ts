@@ -2,6 +2,7 @@
 import { expect, test, vi } from "vitest";
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
+import { initialState } from "../state/State";
 import { commandOf, isTyping, listenForKeys, replayCommandOf } from "./Keyboard";
 
 const plain = { ctrlKey: false, altKey: false, metaKey: false };
@@ -84,4 +85,11 @@ test("keys are left alone where somebody types or chooses", () => {
   expect(isTyping(document.querySelector("dialog button"))).toBe(true);
   expect(isTyping(document.querySelector("p"))).toBe(false);
   expect(isTyping(window)).toBe(false);
+});
+
+test("a panel's key opens and closes it", () => {
+  const toggle = vi.fn();
+  const app = { panels: { toggle }, store: { get: () => initialState } } as unknown as App;
+  commandOf({ ...plain, key: "G" })?.(app);
+  expect(toggle.mock.calls).toEqual([["log"]]);
 });

@@ -2,6 +2,7 @@
 // open; a focused button keeps Space and Enter for itself.
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
+import { PANELS } from "../panels/registry";
 import { OVERLAYS } from "../state/overlays";
 
 const MANY_POSES = 10; // of a step with Shift
@@ -15,7 +16,7 @@ export interface Key {
 }
 
 // Each in lower case, with what it asks for.
-const COMMANDS: Record<string, (app: App) => void> = {
+const COMMANDS: Record<string, (app: App) => unknown> = {
   " ": (app) => app.startPauseOrResume(),
   n: (app) => app.stepOnce(),
   t: (app) => app.topView(),
@@ -24,9 +25,6 @@ const COMMANDS: Record<string, (app: App) => void> = {
   c: (app) => app.toggleViewMode("chase"),
   v: (app) => app.toggleViewMode("eye"),
   o: (app) => app.orbit(),
-  p: (app) => app.openPlots(!app.store.get().plots.open),
-  g: (app) => app.changeLog({ open: !app.store.get().log.open }),
-  h: (app) => app.openDiagnostics(!app.store.get().diagnostics.open),
   l: (app) => app.copyLink(),
   x: (app) => void app.savePicture(),
   m: (app) => app.film(),
@@ -34,8 +32,11 @@ const COMMANDS: Record<string, (app: App) => void> = {
   "?": (app) => app.openHelp(true),
 };
 for (const { key, name } of OVERLAYS) COMMANDS[key] = (app) => app.toggle(name);
+for (const { id, key, isAvailable } of PANELS) {
+  if (key) COMMANDS[key.toLowerCase()] = (app) => isAvailable(app.store.get()) && app.panels.toggle(id);
+}
 
-export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) => void) | null {
+export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) => unknown) | null {
   if (ctrlKey || altKey || metaKey) return null;
   return Object.hasOwn(COMMANDS, key.toLowerCase()) ? COMMANDS[key.toLowerCase()]! : null;
 }
@@ -43,7 +44,7 @@ export function commandOf({ key, ctrlKey, altKey, metaKey }: Key): ((app: App) =
 const TURN = Math.PI / 12;
 
 // Taking back what was changed, turning it, and taking it away.
-export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): ((app: App) => void) | null {
+export function editCommandOf({ key, ctrlKey, metaKey, altKey, shiftKey }: Key): ((app: App) => unknown) | null {
   if (altKey) return null;
   if (!ctrlKey && !metaKey) {
     if (key === "[") return (app) => app.turnSelected(TURN);
@@ -83,8 +84,8 @@ export function isTyping(target: EventTarget | null): boolean {
   return target.closest("input:not([type=range]), textarea, select, [contenteditable], dialog") !== null;
 }
 
-export function listenForKeys(app: App): void {
-  addEventListener("keydown", (event) => {
+export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> = window): void {
+  page.addEventListener("keydown", (event) => {
     if (isTyping(event.target)) return;
     const move = app.store.get().replay && replayCommandOf(event);
     if (move) {
@@ -102,7 +103,7 @@ export function listenForKeys(app: App): void {
     command(app);
   });
   // A button that was pressed with the pointer does not keep Space for itself.
-  addEventListener("click", ({ detail, target }) => {
+  page.addEventListener("click", ({ detail, target }) => {
     if (detail > 0 && target instanceof Element) target.closest("button")?.blur();
   });
 }

@@ -4,6 +4,7 @@
 import { backoffMs } from "./Backoff";
 import type { Channel } from "./MessageDecoder";
 import { MessageDecoders } from "./MessageDecoder";
+import type { TopicOptions, TopicSource } from "./SharedTopics";
 
 export const SUBPROTOCOLS = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 
@@ -26,12 +27,6 @@ export interface ClientEvents {
 
 type Handler = (message: unknown) => void;
 
-export interface SubscribeOptions {
-  // Of messages that arrive faster than the page can take them only the newest is decoded, and none
-  // while the last one has cost more than a fifth of the time since.
-  newestOnly?: boolean;
-}
-
 export type ParameterValue = string | number | boolean;
 
 interface Subscription {
@@ -43,7 +38,7 @@ interface Subscription {
   id: number | null; // null: not subscribed at the server
 }
 
-export class FoxgloveClient {
+export class FoxgloveClient implements TopicSource {
   private socket: WebSocket | null = null;
   private attempt = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -91,11 +86,12 @@ export class FoxgloveClient {
     return [...this.subscriptions].filter(({ id }) => id === null).map(({ topic }) => topic);
   }
 
-  // Hears the messages of a topic from now on; gives the function that ends it.
+  // Hears the messages of a topic from now on; gives the function that ends it. With `newestOnly` none is
+  // decoded while the last one has cost more than a fifth of the time since.
   subscribe<Message>(
     topic: string,
     handler: (message: Message) => void,
-    { newestOnly = false }: SubscribeOptions = {},
+    { newestOnly = false }: TopicOptions = {},
   ): () => void {
     const subscription: Subscription = {
       topic,

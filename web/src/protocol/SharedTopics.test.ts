@@ -8,7 +8,9 @@ function source() {
     sent.push(handler as (message: unknown) => void);
     return ended;
   });
-  return { topics: new SharedTopics({ subscribe }), subscribe, ended, send: (m: unknown) => sent.at(-1)!(m) };
+  const topics = new SharedTopics();
+  topics.attach({ subscribe });
+  return { topics, subscribe, ended, send: (m: unknown) => sent.at(-1)!(m) };
 }
 
 test("listeners of a topic share one subscription, which ends with the last of them", () => {
@@ -58,4 +60,50 @@ test("a listener that leaves while a message is handed round hears no more of it
   leaveSecond = topics.subscribe("/a", second);
   send(1);
   expect(second).not.toHaveBeenCalled();
+});
+
+test("readers outlive a source, and hear nothing of it once there is another", () => {
+  const first = source();
+  const { topics } = first;
+  const reader = vi.fn();
+  topics.subscribe("/a", reader);
+  first.send(1);
+  topics.attach(null);
+  expect(first.ended).toHaveBeenCalledOnce();
+  const later = vi.fn();
+  topics.subscribe("/a", later);
+  expect(later).not.toHaveBeenCalled(); // what the one before sent is forgotten
+  const second = source();
+  topics.attach({ subscribe: second.subscribe });
+  expect(second.subscribe).toHaveBeenCalledOnce();
+  second.send(2);
+  expect(reader.mock.calls).toEqual([[1], [2]]);
+  expect(later.mock.calls).toEqual([[2]]);
+});
+
+test("what is read before there is a source is subscribed when there is one", () => {
+  const topics = new SharedTopics();
+  const reader = vi.fn();
+  const end = topics.subscribe("/a", reader);
+  topics.subscribe("/b", () => {})();
+  const { subscribe, send, ended } = source();
+  topics.attach({ subscribe });
+  expect(subscribe.mock.calls.map(([topic]) => topic)).toEqual(["/a"]);
+  send(1);
+  expect(reader).toHaveBeenCalledWith(1);
+  end();
+  expect(ended).toHaveBeenCalledOnce();
+});
+
+test("messages are left out only while every reader of the topic asks for the newest one only", () => {
+  const { topics, subscribe, ended } = source();
+  const asked = () => subscribe.mock.calls.map((call) => (call as unknown[])[2]);
+  topics.subscribe("/a", () => {}, { newestOnly: true });
+  topics.subscribe("/a", () => {}, { newestOnly: true });
+  expect(asked()).toEqual([{ newestOnly: true }]);
+  const end = topics.subscribe("/a", () => {});
+  expect(asked()).toEqual([{ newestOnly: true }, { newestOnly: false }]);
+  expect(ended).toHaveBeenCalledOnce();
+  end();
+  expect(asked().at(-1)).toEqual({ newestOnly: true });
 });

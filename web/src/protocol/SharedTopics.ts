@@ -1,45 +1,84 @@
-// Lets several listeners share one subscription of a topic, so that the server sends and the page
-// decodes each message once: a server refuses a second one of the same channel. The subscription
-// lasts as long as somebody listens; who comes later is handed the newest message at once.
+// The topics that the page reads. However many read one, it is subscribed once, so that the server sends
+// and the page decodes each message once: a server refuses a second subscription of a channel. It ends
+// with its last reader, and outlives the source: whoever reads goes on reading from the next one.
 
 type Handler = (message: unknown) => void;
 
-interface SharedTopic {
-  handlers: Set<Handler>;
-  newest: { message: unknown } | null;
-  end(): void;
+export interface TopicOptions {
+  // Of messages that arrive faster than the page can take them only the newest is decoded. A topic is read
+  // so only while all its readers ask for it.
+  newestOnly?: boolean;
 }
 
 export interface TopicSource {
-  subscribe<Message>(topic: string, handler: (message: Message) => void): () => void;
+  // Calls the handler with each message of the topic from now on, and at once with the newest one where
+  // others read it already. Gives the function that ends it. A topic that nobody offers has no messages.
+  subscribe<Message>(topic: string, handler: (message: Message) => void, options?: TopicOptions): () => void;
+}
+
+interface SharedTopic {
+  handlers: Map<Handler, Required<TopicOptions>>;
+  newest: { message: unknown } | null;
+  newestOnly: boolean; // how it is subscribed
+  end(): void;
 }
 
 export class SharedTopics implements TopicSource {
+  private source: TopicSource | null = null;
   private readonly topics = new Map<string, SharedTopic>();
 
-  constructor(private readonly source: TopicSource) {}
+  // Reads from this source from now on; null: from none. What the one before sent is forgotten.
+  attach(source: TopicSource | null): void {
+    for (const shared of this.topics.values()) shared.end();
+    this.source = source;
+    for (const [topic, shared] of this.topics) {
+      shared.newest = null;
+      this.open(topic, shared);
+    }
+  }
 
-  subscribe<Message>(topic: string, handler: (message: Message) => void): () => void {
-    const shared = this.topics.get(topic) ?? this.open(topic);
+  subscribe<Message>(
+    topic: string,
+    handler: (message: Message) => void,
+    { newestOnly = false }: TopicOptions = {},
+  ): () => void {
+    const known = this.topics.get(topic);
+    const shared = known ?? { handlers: new Map(), newest: null, newestOnly, end: () => {} };
     // Of its own, as one function may listen twice.
     const own: Handler = (message) => handler(message as Message);
-    shared.handlers.add(own);
-    if (shared.newest) own(shared.newest.message);
+    shared.handlers.set(own, { newestOnly });
+    if (!known) {
+      this.topics.set(topic, shared);
+      this.open(topic, shared);
+    } else {
+      this.adapt(topic, shared);
+      if (shared.newest) own(shared.newest.message);
+    }
     return () => {
-      shared.handlers.delete(own);
-      if (shared.handlers.size > 0 || this.topics.get(topic) !== shared) return;
+      if (!shared.handlers.delete(own)) return;
+      if (shared.handlers.size > 0) return this.adapt(topic, shared);
       this.topics.delete(topic);
       shared.end();
     };
   }
 
-  private open(topic: string): SharedTopic {
-    const shared: SharedTopic = { handlers: new Set(), newest: null, end: () => {} };
-    this.topics.set(topic, shared);
-    shared.end = this.source.subscribe<unknown>(topic, (message) => {
-      shared.newest = { message };
-      for (const handler of [...shared.handlers]) if (shared.handlers.has(handler)) handler(message);
-    });
-    return shared;
+  // Subscribes it in the other way where its readers now ask for that.
+  private adapt(topic: string, shared: SharedTopic): void {
+    if (shared.newestOnly === asksForNewestOnly(shared)) return;
+    shared.end();
+    this.open(topic, shared);
   }
+
+  private open(topic: string, shared: SharedTopic): void {
+    shared.newestOnly = asksForNewestOnly(shared);
+    const take = (message: unknown) => {
+      shared.newest = { message };
+      for (const handler of [...shared.handlers.keys()]) if (shared.handlers.has(handler)) handler(message);
+    };
+    shared.end = this.source?.subscribe<unknown>(topic, take, { newestOnly: shared.newestOnly }) ?? (() => {});
+  }
+}
+
+function asksForNewestOnly({ handlers }: SharedTopic): boolean {
+  return [...handlers.values()].every(({ newestOnly }) => newestOnly);
 }

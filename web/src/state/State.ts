@@ -8,11 +8,7 @@ import type { Abilities } from "../api/SetUpApi";
 import type { SimulationStatus, SimulationSummary } from "../api/status";
 import type { ConnectionState } from "../protocol/FoxgloveClient";
 import type { People } from "../api/ViewersApi";
-import type { Diagnostics } from "./diagnostics";
-import { NO_DIAGNOSTICS } from "./diagnostics";
 import type { Editing } from "./editing";
-import type { Log } from "./log";
-import { NO_LOG } from "./log";
 import { NO_PEOPLE } from "./people";
 import type { Shown } from "./overlays";
 import { FIRST_SHOWN } from "./overlays";
@@ -38,10 +34,10 @@ export interface RobotPose {
   turnRate: number; // rad/s about the world's z
 }
 
-// How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
 // Whether the browser draws in 3D.
 export type View = "starting" | "open" | "none";
 
+// How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
 export type ViewMode = "orbit" | "follow" | "chase" | "eye";
 
 export interface State {
@@ -71,8 +67,8 @@ export interface State {
   camera: CameraChoice | null;
   cameraOpen: boolean; // whether its picture is shown
   plots: Plots;
-  log: Log;
-  diagnostics: Diagnostics;
+  openPanels: readonly string[]; // by id, as panels/registry.ts has them
+  complaints: readonly string[]; // of the server
   pending: Action | "factor" | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
@@ -106,8 +102,8 @@ export const initialState: State = {
   camera: null,
   cameraOpen: true,
   plots: NO_PLOTS,
-  log: NO_LOG,
-  diagnostics: NO_DIAGNOSTICS,
+  openPanels: [],
+  complaints: [],
   pending: null,
   notices: [],
   helpOpen: false,

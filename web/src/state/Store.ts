@@ -43,6 +43,9 @@ export class Store<State extends object> {
   }
 }
 
+// For who may see the state and not change it.
+export type StateReader<State extends object> = Pick<Store<State>, "get" | "watch">;
+
 // Equal when both have the same members: for selectors that build an object or a list.
 export function shallowEqual(a: unknown, b: unknown): boolean {
   if (Object.is(a, b)) return true;

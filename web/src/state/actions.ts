@@ -1,6 +1,6 @@
 // What a person may do in each phase of a simulation. The server has the last word.
 import type { Action } from "../api/SimulationApi";
-import type { Phase } from "../api/status";
+import type { Phase, RobotStatus } from "../api/status";
 import type { State } from "./State";
 import { mayAct } from "./people";
 
@@ -53,4 +53,10 @@ const SENTENCES: Record<Phase, string> = {
 
 export function phaseLabel(phase: Phase): string {
   return SENTENCES[phase];
+}
+
+// What a robot's agent does, in words.
+export function agentLabel({ agentPhase, behaviour }: Pick<RobotStatus, "agentPhase" | "behaviour">): string {
+  if (agentPhase === "none") return behaviour ? "not started" : "idle";
+  return agentPhase;
 }

@@ -4,10 +4,9 @@ import { MOST_CURVES, NO_PLOTS, curveName, withCurve, withoutCurve } from "./plo
 
 const ROBOT: Source = { kind: "robot", robot: "a" };
 
-test("a curve is added once, and opens the panel", () => {
+test("a curve is added once, and taken away again", () => {
   const once = withCurve(NO_PLOTS, ROBOT, "x", "m");
   const twice = withCurve(once, ROBOT, "x", "m");
-  expect(once.open).toBe(true);
   expect(twice.curves).toEqual(once.curves);
   expect(withoutCurve(twice, once.curves[0]!.id).curves).toEqual([]);
 });

@@ -12,12 +12,11 @@ export interface Curve {
 }
 
 export interface Plots {
-  open: boolean;
   curves: Curve[];
   span: number | null; // s, the newest so many; null: all
 }
 
-export const NO_PLOTS: Plots = { open: false, curves: [], span: 30 };
+export const NO_PLOTS: Plots = { curves: [], span: 30 };
 export const SPANS: readonly (number | null)[] = [10, 30, 120, 600, null];
 export const MOST_CURVES = 8;
 
@@ -53,14 +52,14 @@ export function curveName({ source, key }: Pick<Curve, "source" | "key">): strin
   return source.kind === "robot" ? `${source.robot} ${label}` : label;
 }
 
-// With the curve, unless it is there or there are too many; the panel opens.
+// With the curve, unless it is there or there are too many.
 export function withCurve(plots: Plots, source: Source, key: string, unit: string): Plots {
   const id = curveId(source, key);
   const isThere = plots.curves.some((curve) => curve.id === id);
-  if (isThere || plots.curves.length >= MOST_CURVES) return { ...plots, open: true };
+  if (isThere || plots.curves.length >= MOST_CURVES) return plots;
   const used = plots.curves.map(({ colour }) => colour);
   const colour = COLOURS.find((each) => !used.includes(each)) ?? COLOURS[0]!;
-  return { ...plots, open: true, curves: [...plots.curves, { id, source, key, unit, colour }] };
+  return { ...plots, curves: [...plots.curves, { id, source, key, unit, colour }] };
 }
 
 export function withoutCurve(plots: Plots, id: string): Plots {

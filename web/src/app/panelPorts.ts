@@ -1,0 +1,38 @@
+// The ports through which panels see this page.
+import type { SimulationApi } from "../api/SimulationApi";
+import type { PanelPorts } from "../panels/contract/ports";
+import type { App } from "./App";
+import { notify } from "./notices";
+
+export function panelPorts(app: App, api: SimulationApi): PanelPorts {
+  const { store, session } = app;
+  return {
+    state: store,
+    topics: session,
+    server: {
+      figures: () => api.metrics.figures(),
+      parameter: (name) => session.parameter(name),
+      log: (simulation) => api.log(simulation),
+      curve: (simulation, of, most) => api.curve(simulation, of, most),
+    },
+    replay: { seek: (time) => app.replay.seek(time) },
+    robots: {
+      select: (robot) => app.select(robot),
+      pick: (body) => app.pick(body),
+      follow: () => app.toggleViewMode("follow"),
+    },
+    cameras: {
+      show: (camera) => app.showCamera(camera),
+      open: (cameraOpen) => store.set({ cameraOpen }),
+    },
+    plots: {
+      add: (source, key, unit) => app.plot(source, key, unit),
+      remove: (curve) => app.unplot(curve),
+      setSpan: (span) => store.set(({ plots }) => ({ plots: { ...plots, span } })),
+    },
+    notices: {
+      notify: (kind, sentence) => notify(store, kind, sentence),
+      copy: (text, done) => app.copy(text, done),
+    },
+  };
+}

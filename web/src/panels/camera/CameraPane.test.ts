@@ -1,0 +1,36 @@
+// @vitest-environment jsdom
+import { beforeEach, expect, test, vi } from "vitest";
+import type { SceneSensor } from "../../api/scene";
+import { camerasOf } from "../../api/scene";
+import type { State } from "../../state/State";
+import { body, scene } from "../../scene/testScene";
+import { createCameraPane } from "./CameraPane";
+import { testPorts } from "../contract/testPorts";
+
+const EYE: SceneSensor = { name: "eye", type: "camera", overlay: "picture", link: "base", topic: "/a/eye", view: null };
+const SCENE = scene({ bodies: [body("a", { sensors: [EYE] })] });
+
+// jsdom draws nothing.
+beforeEach(() => void vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(null));
+
+function opened(state: Partial<State>) {
+  const { ports, store, topics } = testPorts({ scene: SCENE, camera: camerasOf(SCENE)[0]!, cameraOpen: true, ...state });
+  const pane = createCameraPane(ports);
+  return { store, topics, waiting: () => pane.querySelector(".picture-waiting")!.textContent };
+}
+
+test("a camera is listened to once there is a view, and its picture waited for", () => {
+  const { store, topics, waiting } = opened({ view: "starting" });
+  expect(waiting()).toBe("Waiting for a picture…");
+  expect(topics.read).toEqual([]);
+  store.set({ view: "open" });
+  expect(topics.read).toEqual(["/a/eye"]);
+});
+
+test("a recording that has no picture yet is not waited for", () => {
+  const { store, waiting } = opened({});
+  store.set({ replay: { start: 0, end: 10, speed: 1, loop: false } });
+  expect(waiting()).toBe("No picture of it is recorded up to here.");
+  store.set({ replay: null });
+  expect(waiting()).toBe("Waiting for a picture…");
+});

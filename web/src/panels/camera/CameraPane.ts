@@ -1,0 +1,173 @@
+// The pictures of one robot's camera, as they arrive. It listens only while it is open.
+import type { CameraChoice } from "../../api/scene";
+import { camerasOf } from "../../api/scene";
+import type { CompressedImageMessage } from "../../protocol/messages";
+import { seconds } from "../../protocol/messages";
+import { shallowEqual } from "../../state/Store";
+import { element, setText } from "../../ui/element";
+import { formatTime } from "../../ui/format";
+import { icon } from "../../ui/icons";
+import type { PanelPorts } from "../contract/ports";
+
+type Ports = Pick<PanelPorts, "state" | "topics" | "cameras">;
+
+const SEPARATOR = " · ";
+const SAME_INSTANT_S = 1e-6;
+
+export function createCameraPane({ state, topics, cameras }: Ports): HTMLElement {
+  const choice = element("select", { "aria-label": "Camera" });
+  const picture = element("canvas", { class: "picture", role: "img", "aria-label": "Camera picture" });
+  picture.width = picture.height = 1;
+  const caption = element("span", { class: "picture-time number" });
+  const waiting = element("p", { class: "picture-waiting" });
+  const body = element("div", { class: "picture-frame" }, picture, waiting, caption);
+  const enlarge = headButton("enlarge", "Enlarge camera picture");
+  const fold = headButton("close", "Close camera picture");
+  const reopen = element(
+    "button",
+    { class: "button camera-reopen", type: "button", "aria-label": "Open camera picture", title: "Camera" },
+    icon("camera"),
+  );
+  const card = element(
+    "section",
+    { class: "card camera-pane", "aria-label": "Camera" },
+    element("div", { class: "card-head" }, choice, enlarge, fold),
+    body,
+  );
+  const pane = element("div", { class: "camera-place" }, card, reopen);
+
+  let unsubscribe = () => {};
+  let shownTime = -Infinity; // s, of the picture
+  // A recording may have been moved to before its first picture.
+  const judgeAge = () => {
+    const { replay, time } = state.get();
+    picture.classList.toggle("of-later", replay !== null && shownTime > time + SAME_INSTANT_S);
+  };
+  const painter = new PicturePainter(picture, (time) => {
+    waiting.hidden = true;
+    setText(caption, formatTime(time));
+    shownTime = time;
+    judgeAge();
+  });
+  state.watch(({ time }) => time, judgeAge);
+  const listen = (camera: CameraChoice | null) => {
+    unsubscribe();
+    unsubscribe = () => {};
+    painter.clear();
+    setText(caption, "");
+    waiting.hidden = false;
+    const { cameraOpen, view, replay } = state.get();
+    // A recording holds those that somebody asked for; what it has, it gives at once.
+    setText(waiting, replay ? "No picture of it is recorded up to here." : "Waiting for a picture…");
+    card.hidden = !camera || !cameraOpen;
+    reopen.hidden = !camera || cameraOpen;
+    if (camera && cameraOpen) choice.value = camera.topic;
+    // A canvas takes its first picture only when the browser has started what draws.
+    if (camera && cameraOpen && view !== "starting") {
+      unsubscribe = topics.subscribe<CompressedImageMessage>(camera.topic, (image) => painter.take(image));
+    }
+  };
+  
+  choice.addEventListener("change", () => {
+    const camera = camerasOf(state.get().scene).find(({ topic }) => topic === choice.value);
+    if (camera) cameras.show(camera);
+  });
+  enlarge.addEventListener("click", () => {
+    const large = card.classList.toggle("large");
+    enlarge.setAttribute("aria-pressed", String(large));
+  });
+  fold.addEventListener("click", () => cameras.open(false));
+  reopen.addEventListener("click", () => cameras.open(true));
+  state.watch(
+    ({ scene }) => camerasOf(scene).map(({ topic }) => topic),
+    () => fillChoice(choice, camerasOf(state.get().scene), state.get().camera),
+    shallowEqual,
+  );
+  state.watch(
+    ({ camera }) => camera,
+    listen,
+    (a, b) => a?.topic === b?.topic,
+  );
+  // Another simulation has another stream, even under the same topic's name.
+  state.watch(
+    ({ simulation, cameraOpen, view, replay }) => ({
+      simulation,
+      cameraOpen,
+      isStarting: view === "starting",
+      isRecorded: replay !== null,
+    }),
+    () => listen(state.get().camera),
+    shallowEqual,
+  );
+  return pane;
+}
+
+function headButton(picture: "enlarge" | "close", label: string): HTMLButtonElement {
+  return element(
+    "button",
+    { class: "button plain small", type: "button", "aria-label": label, title: label },
+    icon(picture),
+  );
+}
+
+function fillChoice(choice: HTMLSelectElement, cameras: CameraChoice[], chosen: CameraChoice | null): void {
+  choice.replaceChildren(
+    ...cameras.map(({ robot, sensor, topic }) => new Option(robot + SEPARATOR + sensor, topic)),
+  );
+  if (chosen) choice.value = chosen.topic;
+}
+
+// Decodes one picture at a time; of those that arrive meanwhile only the newest is kept.
+class PicturePainter {
+  private next: CompressedImageMessage | null = null;
+  private busy = false;
+  private isPainted = false;
+  private generation = 0;
+  // Kept by the processor, not the graphics card: where none is, the page would wait for the 3D picture
+  // that is being drawn.
+  private readonly context: CanvasRenderingContext2D | null;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly onPainted: (time: number) => void,
+  ) {
+    this.context = canvas.getContext("2d", { willReadFrequently: true });
+  }
+
+  clear(): void {
+    this.generation += 1;
+    this.next = null;
+    // The first call on a canvas waits until the browser has started to draw.
+    if (this.isPainted) this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.isPainted = false;
+  }
+
+  take(image: CompressedImageMessage): void {
+    this.next = image;
+    if (!this.busy) void this.paintAll();
+  }
+
+  private async paintAll(): Promise<void> {
+    this.busy = true;
+    while (this.next) {
+      const image = this.next;
+      this.next = null;
+      await this.paint(image, this.generation);
+    }
+    this.busy = false;
+  }
+
+  private async paint(image: CompressedImageMessage, generation: number): Promise<void> {
+    const type = image.format.includes("png") ? "image/png" : "image/jpeg";
+    // A copy: the message may be a view on memory that the connection uses again.
+    const blob = new Blob([image.data.slice()], { type });
+    const bitmap = await createImageBitmap(blob).catch(() => null);
+    if (!bitmap || generation !== this.generation) return;
+    this.canvas.width = bitmap.width;
+    this.canvas.height = bitmap.height;
+    this.context?.drawImage(bitmap, 0, 0);
+    this.isPainted = true;
+    bitmap.close();
+    this.onPainted(seconds(image.header.stamp));
+  }
+}

@@ -1,0 +1,66 @@
+// What a panel can ask of the page around it.
+//
+// A panel names in its mount function only the ports that it uses, and knows nothing else of the page: a
+// test, or another page, mounts it with ports of its own. app/panelPorts.ts makes them for the viewer.
+import type { ServerFigures } from "../../api/MetricsApi";
+import type { CurveOf, WholeCurve } from "../../api/curve";
+import type { RecordedLine } from "../../api/replay";
+import type { CameraChoice } from "../../api/scene";
+import type { ParameterValue } from "../../protocol/FoxgloveClient";
+import type { TopicSource } from "../../protocol/SharedTopics";
+import type { Source } from "../../state/plots";
+import type { State } from "../../state/State";
+import type { StateReader } from "../../state/Store";
+
+export interface PanelPorts {
+  state: StateReader<State>; // what the page knows; it is changed through the other ports
+  topics: TopicSource; // of the simulation that is watched, and then of the next one
+  server: ServerPort;
+  replay: ReplayPort;
+  robots: RobotsPort;
+  cameras: CamerasPort;
+  plots: PlotsPort;
+  notices: NoticesPort;
+}
+
+// Questions that the live stream does not answer. Promises reject with the server's sentence.
+export interface ServerPort {
+  // The figures of /metrics (docs/monitoring.md).
+  figures(): Promise<ServerFigures>;
+  // A parameter of the live stream; null where the server has none of that name.
+  parameter(name: string): Promise<ParameterValue | null>;
+  // The lines of a recording's log.
+  log(simulation: string): Promise<RecordedLine[]>;
+  // What is read so far of one value over a whole recording, in at most `most` samples.
+  curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
+}
+
+export interface ReplayPort {
+  // Goes to an instant of the recording, in simulated seconds. Resolves when the page is there.
+  seek(time: number): Promise<void>;
+}
+
+export interface RobotsPort {
+  select(robot: string | null): void;
+  // What a click on the body does: selects a robot, and while one edits chooses an object.
+  pick(body: string): void;
+  follow(): void; // the selected robot, with the view; a second time ends it
+}
+
+export interface CamerasPort {
+  show(camera: CameraChoice): void; // and opens its pane
+  open(isOpen: boolean): void;
+}
+
+export interface PlotsPort {
+  // Draws a value against simulated time from now on, and opens the plots.
+  add(source: Source, key: string, unit?: string): void;
+  remove(curve: string): void;
+  setSpan(seconds: number | null): void; // the newest so many; null: all
+}
+
+export interface NoticesPort {
+  notify(kind: "error" | "note", sentence: string): void;
+  // To the clipboard; `done` says that it is there.
+  copy(text: string, done: string): Promise<void>;
+}

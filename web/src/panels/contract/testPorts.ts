@@ -1,0 +1,62 @@
+// Ports on a store of the test's own, with nothing behind them but what the test sends.
+import { vi } from "vitest";
+import type { TopicSource } from "../../protocol/SharedTopics";
+import type { State } from "../../state/State";
+import { initialState } from "../../state/State";
+import { Store } from "../../state/Store";
+import type { PanelPorts } from "./ports";
+
+export class TestTopics implements TopicSource {
+  private readonly handlers = new Map<string, Set<(message: never) => void>>();
+
+  // Those that somebody reads.
+  get read(): string[] {
+    return [...this.handlers.keys()];
+  }
+
+  subscribe<Message>(topic: string, handler: (message: Message) => void): () => void {
+    const handlers = this.handlers.get(topic) ?? new Set();
+    const own = (message: Message) => handler(message);
+    this.handlers.set(topic, handlers.add(own));
+    return () => {
+      handlers.delete(own);
+      if (handlers.size === 0) this.handlers.delete(topic);
+    };
+  }
+
+  send(topic: string, message: unknown): void {
+    for (const handler of this.handlers.get(topic) ?? []) handler(message as never);
+  }
+}
+
+export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts["server"]> = {}) {
+  const store = new Store<State>({
+    ...initialState,
+    connection: { phase: "open" },
+    view: "open",
+    simulation: "house",
+    ...state,
+  });
+  const topics = new TestTopics();
+  const ports = {
+    state: store,
+    topics,
+    server: {
+      figures: vi.fn(async () => new Map()),
+      parameter: vi.fn(async () => null),
+      log: vi.fn(async () => []),
+      curve: vi.fn(async () => Promise.reject(new Error("no curve"))),
+      ...server,
+    },
+    replay: { seek: vi.fn(async () => {}) },
+    robots: { select: vi.fn(), pick: vi.fn(), follow: vi.fn() },
+    cameras: { show: vi.fn(), open: vi.fn() },
+    plots: {
+      add: vi.fn(),
+      remove: vi.fn(),
+      setSpan: vi.fn((span: number | null) => store.set(({ plots }) => ({ plots: { ...plots, span } }))),
+    },
+    notices: { notify: vi.fn(), copy: vi.fn(async () => {}) },
+  } satisfies PanelPorts;
+  return { store, topics, ports };
+}

@@ -1,0 +1,150 @@
+// The selected robot: where it is, what it does, what it senses.
+import type { RobotStatus } from "../../api/status";
+import type { RobotPose } from "../../state/State";
+import { agentLabel } from "../../state/actions";
+import { element, setText } from "../../ui/element";
+import { formatDistance, formatNumber } from "../../ui/format";
+import { icon } from "../../ui/icons";
+import type { PanelPorts } from "../contract/ports";
+import { plotButton } from "./plotButton";
+import { createSensorList } from "./SensorList";
+
+type Ports = Pick<PanelPorts, "state" | "topics" | "robots" | "cameras" | "plots" | "notices">;
+
+const ROWS = [
+  "Position",
+  "Heading",
+  "Speed",
+  "Turning",
+  "Behaviour",
+  "Agent",
+  "Driven",
+  "Collisions",
+  "Model",
+] as const;
+type Row = (typeof ROWS)[number];
+
+// What is plotted of a row.
+const PLOTTED: Partial<Record<Row, string[]>> = {
+  Position: ["x", "y"],
+  Heading: ["yaw"],
+  Speed: ["speed"],
+  Turning: ["turn_rate"],
+  Driven: ["distance"],
+  Collisions: ["collisions"],
+};
+
+const DEGREES = 180 / Math.PI;
+
+export function createInspector(ports: Ports): HTMLElement {
+  const title = element("h2", {});
+  const values = new Map<Row, HTMLElement>(ROWS.map((row) => [row, element("span", {})]));
+  const list = element("dl", { class: "inspector-rows" });
+  for (const [row, value] of values) {
+    list.append(element("dt", {}, row), element("dd", {}, value, plotOf(ports, row)));
+  }
+  const detail = element("p", { class: "detail" });
+  const panel = element(
+    "section",
+    { class: "card inspector", "aria-label": "Selected robot" },
+    element("div", { class: "card-head" }, title, closeButton(ports)),
+    list,
+    copyButtons(ports),
+    detail,
+    createSensorList(ports),
+  );
+  const set = (row: Row, text: string) => setText(values.get(row)!, text);
+
+  ports.state.watch(
+    ({ selection, setUp }) => (setUp ? null : selection),
+    (selection) => {
+      panel.hidden = selection === null;
+      setText(title, selection ?? "");
+    },
+  );
+  ports.state.watch(
+    ({ selectedPose }) => selectedPose,
+    (pose) => showPose(pose, set),
+  );
+  ports.state.watch(
+    ({ selection, status }) => status?.robots.find(({ name }) => name === selection) ?? null,
+    (robot) => {
+      if (robot) showStatus(robot, set);
+      setText(detail, robot?.detail ?? "");
+    },
+  );
+  return panel;
+}
+
+function plotOf({ state, plots }: Ports, row: Row): HTMLElement | null {
+  const keys = PLOTTED[row];
+  if (!keys) return null;
+  return plotButton(`Plot ${row.toLowerCase()}`, () => {
+    const { selection } = state.get();
+    if (selection !== null) for (const key of keys) plots.add({ kind: "robot", robot: selection }, key);
+  });
+}
+
+function showPose(pose: RobotPose | null, set: (row: Row, text: string) => void): void {
+  const metres = (value: number) => formatNumber(value, 2);
+  set("Position", pose ? `${metres(pose.x)}, ${metres(pose.y)}, ${metres(pose.z)} m` : "…");
+  set("Heading", pose ? `${formatNumber(pose.yaw * DEGREES, 1)}°` : "…");
+  set("Speed", pose ? `${formatNumber(pose.speed, 2)} m/s` : "…");
+  set("Turning", pose ? `${formatNumber(pose.turnRate * DEGREES, 1)}°/s` : "…");
+}
+
+function showStatus(robot: RobotStatus, set: (row: Row, text: string) => void): void {
+  set("Behaviour", robot.behaviour || "none");
+  set("Agent", agentLabel(robot));
+  set("Driven", formatDistance(robot.distance));
+  set("Collisions", String(robot.collisions));
+  set("Model", robot.model || "…");
+}
+
+// As a <pose> of SDFormat: metres and radians.
+export function poseText({ x, y, z, roll, pitch, yaw }: RobotPose): string {
+  return [x, y, z, roll, pitch, yaw].map((value) => formatNumber(value, 4)).join(" ");
+}
+
+// As gsv's --robot option takes it.
+export function startText({ x, y, yaw }: RobotPose): string {
+  return [x, y, yaw].map((value) => formatNumber(value, 4)).join(",");
+}
+
+function copyButtons({ state, notices }: Ports): HTMLElement {
+  const button = (label: string, title: string, textOf: (pose: RobotPose) => string) =>
+    element(
+      "button",
+      {
+        class: "button small",
+        type: "button",
+        title,
+        onclick: () => {
+          const pose = state.get().selectedPose;
+          if (pose) void notices.copy(textOf(pose), "The pose is copied.");
+        },
+      },
+      icon("copy"),
+      label,
+    );
+  return element(
+    "div",
+    { class: "inspector-actions" },
+    button("Copy pose", "x y z roll pitch yaw, in metres and radians, as in a <pose>", poseText),
+    button("As --robot", "x,y,yaw, as gsv run --robot MODEL@x,y,yaw takes it", startText),
+  );
+}
+
+function closeButton({ robots }: Ports): HTMLElement {
+  return element(
+    "button",
+    {
+      class: "button plain small",
+      type: "button",
+      "aria-label": "Deselect",
+      title: "Deselect (Esc)",
+      onclick: () => robots.select(null),
+    },
+    icon("close"),
+  );
+}

@@ -1,0 +1,52 @@
+// The lines of /rosout: what happens to a simulation, and what its behaviours say.
+
+export interface LogLine {
+  time: number; // s, simulated
+  level: number; // as rcl_interfaces/msg/Log has it: 10 debug to 50 fatal
+  name: string; // who says it: a robot, or gsv
+  text: string;
+}
+
+export interface Log {
+  lines: readonly LogLine[]; // the newest last
+  lowest: number; // of the levels that are shown
+  filter: string; // what a line's name or text must hold
+}
+
+export const NO_LOG: Log = { lines: [], lowest: 0, filter: "" };
+export const MOST_LINES = 5000;
+
+export const LEVELS: readonly { level: number; label: string; word: string }[] = [
+  { level: 0, label: "All levels", word: "debug" },
+  { level: 20, label: "From info", word: "info" },
+  { level: 30, label: "From warnings", word: "warning" },
+  { level: 40, label: "Only errors", word: "error" },
+];
+
+const LIKELY_AGAIN = 200; // a stream that is joined anew tells its last hundred lines again
+
+// "info", "warning", "error", "debug".
+export function levelWord(level: number): string {
+  return LEVELS.findLast((each) => level >= each.level)?.word ?? "debug";
+}
+
+export function withLine(lines: readonly LogLine[], line: LogLine): readonly LogLine[] {
+  const isSame = (other: LogLine) =>
+    other.time === line.time && other.text === line.text && other.name === line.name;
+  if (lines.slice(-LIKELY_AGAIN).some(isSame)) return lines;
+  return [...lines.slice(lines.length >= MOST_LINES ? 1 : 0), line];
+}
+
+export function shownLines({ lines, lowest, filter }: Log): LogLine[] {
+  const wanted = filter.trim().toLowerCase();
+  return lines.filter(
+    ({ level, name, text }) =>
+      level >= lowest && (wanted === "" || `${name} ${text}`.toLowerCase().includes(wanted)),
+  );
+}
+
+// How many of the lines are not after an instant; they stand by time.
+export function countUntil(lines: readonly LogLine[], time: number): number {
+  const after = lines.findIndex((line) => line.time > time + 1e-9);
+  return after < 0 ? lines.length : after;
+}

@@ -1,0 +1,159 @@
+import { expect, test, vi } from "vitest";
+import { robotStatus, simulationStatus } from "../../page/testApp";
+import { body, scene } from "../../scene/testScene";
+import type { Curve, Source } from "../../state/plots";
+import { NO_PLOTS, curveId } from "../../state/plots";
+import type { State } from "../../state/State";
+import { initialState } from "../../state/State";
+import { Store } from "../../state/Store";
+import { TestTopics } from "../contract/testPorts";
+import { PlotFeed } from "./PlotFeed";
+
+const SONAR = {
+  name: "sonar",
+  type: "sonar",
+  overlay: "lines",
+  link: "",
+  topic: "/a/sonar",
+  view: null,
+} as const;
+const SCENE = scene({
+  bodies: [body("wall", { isRobot: false }), body("a", { sensors: [SONAR] })],
+  poses: [{ body: 1, link: null }],
+});
+const A: Source = { kind: "robot", robot: "a" };
+
+function curve(source: Source, key: string): Curve {
+  return { id: curveId(source, key), source, key, unit: "", colour: "" };
+}
+
+function feeding(curves: Curve[], more: Partial<State> = {}) {
+  const store = new Store<State>({
+    ...initialState,
+    simulation: "house",
+    scene: SCENE,
+    plots: { ...NO_PLOTS, curves },
+    ...more,
+  });
+  const topics = new TestTopics();
+  const onData = vi.fn();
+  const feed = new PlotFeed(store, topics, onData);
+  feed.start();
+  onData.mockClear();
+  const takePoses = (message: object) => topics.send("/gsv/poses", message);
+  return { store, feed, topics, onData, takePoses };
+}
+
+function poses(time: number, x: number, yaw = 0) {
+  const quarter = [0, 0, Math.sin(yaw / 2), Math.cos(yaw / 2)];
+  return {
+    stamp: { sec: Math.floor(time), nsec: Math.round((time % 1) * 1e9) },
+    step: 0n,
+    layout_version: 1,
+    poses: new Float64Array([x, 2, 0, ...quarter]),
+  };
+}
+
+function samples(feed: PlotFeed, source: Source, key: string): number[][] {
+  const series = feed.seriesOf(curveId(source, key))!;
+  return Array.from({ length: series.length }, (_, i) => [series.timeAt(i), series.valueAt(i)]);
+}
+
+test("a robot's pose and speed are taken from the poses, by simulated time", () => {
+  const { feed, onData, takePoses } = feeding([curve(A, "x"), curve(A, "speed"), curve(A, "turn_rate")]);
+  takePoses(poses(1, 5, 3.1));
+  takePoses(poses(1.5, 6, -3.1));
+  expect(samples(feed, A, "x")).toEqual([
+    [1, 5],
+    [1.5, 6],
+  ]);
+  expect(samples(feed, A, "speed")).toEqual([[1.5, 2]]);
+  expect(samples(feed, A, "turn_rate")[0]![1]).toBeCloseTo((2 * Math.PI - 6.2) / 0.5);
+  expect(onData).toHaveBeenCalledTimes(2);
+});
+
+test("poses of another layout are nobody's", () => {
+  const { feed, takePoses } = feeding([curve(A, "x")]);
+  takePoses({ ...poses(1, 5), layout_version: 2 });
+  expect(samples(feed, A, "x")).toEqual([]);
+});
+
+test("a pause adds nothing, a reset begins anew", () => {
+  const { feed, takePoses } = feeding([curve(A, "x"), curve(A, "speed")]);
+  for (const [time, x] of [
+    [7, 1],
+    [7, 1],
+    [7.5, 1],
+  ] as const)
+    takePoses(poses(time, x));
+  expect(samples(feed, A, "x")).toHaveLength(2);
+  takePoses(poses(0, 9));
+  expect(samples(feed, A, "x")).toEqual([[0, 9]]);
+  expect(samples(feed, A, "speed")).toEqual([]);
+});
+
+test("of a recording, what was seen stays, whichever way one goes", () => {
+  const replay = { start: 0, end: 20, speed: 1, loop: false };
+  const { feed, takePoses } = feeding([curve(A, "x"), curve(A, "speed")], { replay });
+  for (const [time, x] of [
+    [10, 1],
+    [2, 5],
+    [6, 3],
+  ] as const)
+    takePoses(poses(time, x));
+  expect(samples(feed, A, "x")).toEqual([
+    [2, 5],
+    [6, 3],
+    [10, 1],
+  ]);
+  expect(samples(feed, A, "speed")).toEqual([]);
+});
+
+test("a sensor is heard only while it is plotted", () => {
+  const sonar: Source = { kind: "sensor", topic: "/a/sonar" };
+  const { store, feed, topics } = feeding([curve(sonar, "range")]);
+  topics.send("/a/sonar", { header: { stamp: { sec: 3, nsec: 0 } }, range: 1.25 });
+  expect(samples(feed, sonar, "range")).toEqual([[3, 1.25]]);
+  store.set({ plots: NO_PLOTS });
+  expect(topics.read).toEqual([]);
+  expect(feed.seriesOf(curveId(sonar, "range"))).toBeNull();
+});
+
+test("the real-time factor and what a robot has driven come with the status", () => {
+  const { store, feed } = feeding([curve({ kind: "simulation" }, "real_time_factor"), curve(A, "distance")]);
+  const status = simulationStatus("running", {
+    time: 4,
+    realTimeFactor: 0.75,
+    robots: [robotStatus("a", { distance: 3 })],
+  });
+  store.set({ status });
+  expect(samples(feed, { kind: "simulation" }, "real_time_factor")).toEqual([[4, 0.75]]);
+  expect(samples(feed, A, "distance")).toEqual([[4, 3]]);
+});
+
+test("another simulation's curves begin anew", () => {
+  const { store, feed, takePoses } = feeding([curve(A, "x")]);
+  takePoses(poses(1, 5));
+  store.set({ simulation: "yard" });
+  expect(samples(feed, A, "x")).toEqual([]);
+});
+
+test("of a recording the whole curve stands for what is played", () => {
+  const replay = { start: 0, end: 20, speed: 1, loop: false };
+  const { feed, onData, takePoses } = feeding([curve(A, "x")], { replay });
+  takePoses(poses(10, 1));
+  const id = curveId(A, "x");
+  const whole = { isWhole: true, done: true, problem: "" };
+  feed.takeWhole(id, { ...whole, times: Float64Array.of(0, 5, 20), values: Float64Array.of(7, NaN, 9) });
+  expect(onData).toHaveBeenCalled();
+  takePoses(poses(12, 3));
+  expect(samples(feed, A, "x")).toEqual([
+    [0, 7],
+    [5, NaN],
+    [20, 9],
+  ]);
+  expect(feed.isThinned(id)).toBe(false);
+  feed.takeWhole(id, { ...whole, isWhole: false, times: Float64Array.of(1), values: Float64Array.of(2) });
+  expect(samples(feed, A, "x")).toEqual([[1, 2]]);
+  expect(feed.isThinned(id)).toBe(true);
+});

@@ -1,0 +1,77 @@
+// @vitest-environment jsdom
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { body, scene } from "../../scene/testScene";
+import type { State } from "../../state/State";
+import { withCurve, withoutCurve } from "../../state/plots";
+import { element } from "../../ui/element";
+import { simulationStatus } from "../../page/testApp";
+import { testPorts } from "../contract/testPorts";
+import { mount } from "./PlotPanel";
+
+const SCENE = scene({ bodies: [body("a")], poses: [{ body: 0, link: null }] });
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(null);
+});
+afterEach(() => {
+  vi.useRealTimers();
+  vi.restoreAllMocks();
+});
+
+function panelIn(state: Partial<State> = {}) {
+  const { store, topics, ports } = testPorts({ scene: SCENE, selection: "a", ...state });
+  ports.plots.add.mockImplementation((source, key, unit = "m") =>
+    store.set(({ plots }) => ({ plots: withCurve(plots, source, key, unit) })),
+  );
+  ports.plots.remove.mockImplementation((id) =>
+    store.set(({ plots }) => ({ plots: withoutCurve(plots, id) })),
+  );
+  const { body, tools = [], whileOpen } = mount(ports);
+  const panel = element("section", {}, ...tools, body);
+  whileOpen!();
+  const choose = (name: string, value: string) => {
+    const choice = panel.querySelector<HTMLSelectElement>(`select[aria-label="${name}"]`)!;
+    choice.value = value;
+    choice.dispatchEvent(new Event("change"));
+  };
+  const names = () => [...panel.querySelectorAll(".plot-name")].map(({ textContent }) => textContent);
+  return { store, topics, panel, choose, names };
+}
+
+test("a value is chosen, its curve is in the legend with its present value, and goes again", () => {
+  const { store, topics, panel, choose, names } = panelIn();
+  expect(panel.querySelector<HTMLElement>(".plot-empty")!.hidden).toBe(false);
+  choose("Add a curve", "robot x");
+  choose("Add a curve", "simulation real_time_factor");
+  expect(names()).toEqual(["a x", "real-time factor"]);
+  expect(panel.querySelector<HTMLElement>(".plot-empty")!.hidden).toBe(true);
+  topics.send("/gsv/poses", {
+    stamp: { sec: 2, nsec: 0 },
+    step: 0n,
+    layout_version: 1,
+    poses: new Float64Array([1.5, 0, 0, 0, 0, 0, 1]),
+  });
+  store.set({ status: simulationStatus("running", { time: 2, realTimeFactor: 0.5 }), time: 2 });
+  vi.advanceTimersByTime(100);
+  const values = [...panel.querySelectorAll(".plot-legend .number")].map(({ textContent }) => textContent);
+  expect(values).toEqual(["at 0:02.00", "1.500 m", "0.500 m"]);
+  panel.querySelector<HTMLButtonElement>('[aria-label="Remove a x"]')!.click();
+  expect(names()).toEqual(["real-time factor"]);
+});
+
+test("without a selection only the simulation's values are offered", () => {
+  const { panel, store } = panelIn();
+  const groups = () => [...panel.querySelectorAll("optgroup")].map(({ label }) => label);
+  expect(groups()).toEqual(["a", "Simulation"]);
+  store.set({ selection: null });
+  expect(groups()).toEqual(["Simulation"]);
+});
+
+test("what the selected span is, the choice says", () => {
+  const { store, choose } = panelIn();
+  choose("Time shown", "null");
+  expect(store.get().plots.span).toBeNull();
+  choose("Time shown", "120");
+  expect(store.get().plots.span).toBe(120);
+});

@@ -1,0 +1,74 @@
+// Of a recording, has the server read each plotted value from end to end, and hands on what it has
+// read so far until it is done.
+import type { CurveOf, WholeCurve } from "../../api/curve";
+import { MOST_SAMPLES } from "../../live/Series";
+import type { Curve } from "../../state/plots";
+import { shallowEqual } from "../../state/Store";
+import type { PanelPorts } from "../contract/ports";
+
+const POLL_MS = 300;
+
+export type WholeCurvePorts = Pick<PanelPorts, "state" | "notices"> & {
+  server: Pick<PanelPorts["server"], "curve">;
+  plots: Pick<PanelPorts["plots"], "setSpan">;
+};
+
+export class WholeCurves {
+  private readonly known = new Set<string>(); // curves that are read, or were
+  private simulation: string | null = null;
+
+  constructor(
+    private readonly ports: WholeCurvePorts,
+    private readonly onCurve: (id: string, curve: WholeCurve) => void,
+  ) {}
+
+  start(): void {
+    this.ports.state.watch(
+      ({ replay }) => replay !== null,
+      // A recording is looked at from end to end; what runs, as it comes.
+      (isReplay) => isReplay && this.ports.plots.setSpan(null),
+    );
+    this.ports.state.watch(
+      ({ simulation, replay, plots }) => ({ simulation, isReplay: replay !== null, curves: plots.curves }),
+      () => this.ask(),
+      shallowEqual,
+    );
+  }
+
+  private ask(): void {
+    const { simulation, replay, plots } = this.ports.state.get();
+    if (simulation !== this.simulation) this.known.clear();
+    this.simulation = simulation;
+    const ids = new Set(plots.curves.map(({ id }) => id));
+    for (const id of this.known) if (!ids.has(id)) this.known.delete(id);
+    if (!replay || simulation === null) return;
+    for (const curve of plots.curves) {
+      if (this.known.has(curve.id)) continue;
+      this.known.add(curve.id);
+      void this.read(simulation, curve);
+    }
+  }
+
+  private async read(simulation: string, { id, source, key }: Curve): Promise<void> {
+    const { kind, ...of } = source;
+    const wish: CurveOf = { ...of, key };
+    const isWanted = () => this.simulation === simulation && this.known.has(id);
+    try {
+      for (;;) {
+        const curve = await this.ports.server.curve(simulation, wish, MOST_SAMPLES);
+        if (!isWanted()) return;
+        this.onCurve(id, curve);
+        if (curve.done) return this.tell(curve.problem);
+        await new Promise((resolve) => setTimeout(resolve, POLL_MS));
+        if (!isWanted()) return;
+      }
+    } catch (error) {
+      // What is played is plotted all the same.
+      if (isWanted()) this.tell((error as Error).message);
+    }
+  }
+
+  private tell(problem: string): void {
+    if (problem) this.ports.notices.notify("error", `Not all of the recording is plotted: ${problem}`);
+  }
+}

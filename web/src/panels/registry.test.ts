@@ -1,0 +1,23 @@
+// @vitest-environment jsdom
+import { expect, test, vi } from "vitest";
+import { OVERLAYS } from "../state/overlays";
+import { PANELS } from "./registry";
+import { testPorts } from "./contract/testPorts";
+
+test("ids, titles and keys are each one's own", () => {
+  const keys = PANELS.flatMap(({ key }) => (key ? [key] : []));
+  for (const list of [PANELS.map(({ id }) => id), PANELS.map(({ title }) => title), keys]) {
+    expect(new Set(list).size).toBe(list.length);
+  }
+  expect(keys.filter((key) => OVERLAYS.some((overlay) => overlay.key === key))).toEqual([]);
+  expect(keys.every((key) => /^[A-Z]$/.test(key))).toBe(true);
+});
+
+test.each(PANELS)("the panel $id is mounted, opened, closed and opened again", async ({ load }) => {
+  vi.spyOn(HTMLCanvasElement.prototype, "getContext").mockReturnValue(null); // jsdom draws nothing
+  const { mount } = await load();
+  const { body, whileOpen } = mount(testPorts().ports);
+  for (let i = 0; i < 2; ++i) whileOpen?.()();
+  expect(body).toBeInstanceOf(HTMLElement);
+  vi.restoreAllMocks();
+});

@@ -1,0 +1,32 @@
+// The panels, in the order of their buttons.
+import type { Panel } from "./contract/Panel";
+
+export const PANELS: readonly Panel[] = [
+  {
+    id: "plots",
+    title: "Plots",
+    hint: "Plots against simulated time",
+    picture: "plot",
+    key: "P",
+    isAvailable: () => true,
+    load: () => import("./plots/PlotPanel"),
+  },
+  {
+    id: "log",
+    title: "Log",
+    hint: "The log",
+    picture: "log",
+    key: "G",
+    isAvailable: () => true,
+    load: () => import("./log/LogPanel"),
+  },
+  {
+    id: "diagnostics",
+    title: "Diagnostics",
+    hint: "Diagnostics: failed robots and server health",
+    picture: "pulse",
+    key: "H",
+    isAvailable: () => true,
+    load: () => import("./diagnostics/DiagnosticsPanel"),
+  },
+];
