@@ -75,6 +75,8 @@ test("the viewer, with all its panels, and the sheet of keys", async () => {
   const page = await openFilled(live.url);
   await page.getByRole("button", { name: "Diagnostics" }).click();
   await page.getByText("open files").waitFor();
+  await page.getByRole("button", { name: "Status", exact: true }).click();
+  await page.locator(".status tbody tr").first().waitFor();
   await page.getByRole("button", { name: "Overlays", exact: true }).click();
   await judge(page);
   await page.keyboard.press("Escape");

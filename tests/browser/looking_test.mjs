@@ -295,4 +295,17 @@ test("the sheet of keys knows them all", async () => {
   await page.keyboard.press("Escape");
 });
 
+test("the status of the simulation, its robots and the server is in a panel", async () => {
+  await page.keyboard.press("i");
+  const panel = page.getByRole("region", { name: "Status", exact: true });
+  await panel.getByRole("button", { name: "surveyor" }).click();
+  await page.getByRole("heading", { name: "surveyor" }).waitFor();
+  await panel.getByText("real-time factor, target").waitFor();
+  await panel.getByText(new URL(server.url).host).waitFor();
+  await settled(page);
+  await keepPicture(page, "status");
+  await panel.getByRole("button", { name: "Close status" }).click();
+  assert.equal(await panel.isVisible(), false);
+});
+
 test("all this needed no other host and raised no error", () => assert.deepEqual(faults, []));

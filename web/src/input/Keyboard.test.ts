@@ -90,6 +90,7 @@ test("keys are left alone where somebody types or chooses", () => {
 test("a panel's key opens and closes it", () => {
   const toggle = vi.fn();
   const app = { panels: { toggle }, store: { get: () => initialState } } as unknown as App;
+  commandOf({ ...plain, key: "i" })?.(app);
   commandOf({ ...plain, key: "G" })?.(app);
-  expect(toggle.mock.calls).toEqual([["log"]]);
+  expect(toggle.mock.calls).toEqual([["status"], ["log"]]);
 });

@@ -211,10 +211,10 @@ test("a notice can be dismissed", () => {
 
 test("panels are opened and closed by their buttons, whoever opened them", () => {
   const { app, store } = testApp();
-  const button = createToolbar(app, () => {}).querySelector('[aria-label="Log"]')!;
+  const button = createToolbar(app, () => {}).querySelector('[aria-label="Status"]')!;
   expect(button.getAttribute("aria-pressed")).toBe("false");
   (button as HTMLButtonElement).click();
-  expect(store.get().openPanels).toEqual(["log"]);
-  app.panels.close("log");
+  expect(store.get().openPanels).toEqual(["status"]);
+  app.panels.close("status");
   expect(button.getAttribute("aria-pressed")).toBe("false");
 });

@@ -29,4 +29,13 @@ export const PANELS: readonly Panel[] = [
     isAvailable: () => true,
     load: () => import("./diagnostics/DiagnosticsPanel"),
   },
+  {
+    id: "status",
+    title: "Status",
+    hint: "Status of the simulation, its robots and the server",
+    picture: "status",
+    key: "I",
+    isAvailable: () => true,
+    load: () => import("./status/StatusPanel"),
+  },
 ];

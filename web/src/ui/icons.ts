@@ -51,6 +51,7 @@ const PATHS = {
   record: "M12 5a7 7 0 1 1 0 14 7 7 0 0 1 0-14z",
   log: "M5 3h14v18H5zm3 4v1.800h8V7zm0 4v1.800h8V11zm0 4v1.800h5V15z",
   pulse: "M2 11h5l2.500-6.500 5 14L17 11h5v2h-3.600l-4 8-5-13.800L8.400 13H2z",
+  status: "M12 2a10 10 0 1 1 0 20 10 10 0 0 1 0-20zm0 2a8 8 0 1 0 0 16 8 8 0 0 0 0-16zm-1 6h2v7h-2zm0-3.500h2v2h-2z",
   copy: "M8 3h12v13H8zM4 7h2v11h11v2H4z",
 } as const;
 
