@@ -308,4 +308,26 @@ test("the status of the simulation, its robots and the server is in a panel", as
   assert.equal(await panel.isVisible(), false);
 });
 
+test("single keys are turned off by keys alone, and the page remembers it", async () => {
+  const panel = page.getByRole("region", { name: "Status", exact: true });
+  await page.keyboard.press("?");
+  const setting = page.getByRole("checkbox", { name: "Single-key shortcuts" });
+  await page.keyboard.press("Tab");
+  assert.equal(await setting.evaluate((box) => box === document.activeElement), true);
+  await page.keyboard.press("Space");
+  assert.equal(await setting.isChecked(), false);
+  await page.keyboard.press("Escape");
+  await page.reload();
+  await waitUntilDrawn(page);
+  for (const key of ["i", "?", "t"]) await page.keyboard.press(key);
+  assert.equal(await page.getByRole("dialog").isVisible(), false);
+  await page.getByRole("button", { name: "Help" }).focus();
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Space");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("i");
+  await panel.waitFor();
+});
+
 test("all this needed no other host and raised no error", () => assert.deepEqual(faults, []));

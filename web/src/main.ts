@@ -33,6 +33,7 @@ import { ModelLibrary } from "./scene/ModelLibrary";
 import { World3D } from "./scene/World3D";
 import { createSetUpPanel } from "./setup/SetUpPanel";
 import { browserStorage, keepShown, loadShown } from "./state/overlays";
+import { keepSingleKeys, loadSingleKeys } from "./state/shortcuts";
 import type { State } from "./state/State";
 import { initialState } from "./state/State";
 import { Store } from "./state/Store";
@@ -45,7 +46,11 @@ import { element } from "./ui/element";
 const graphics = startGraphics();
 const parameters = new URLSearchParams(location.search);
 const storage = browserStorage();
-const store = new Store<State>({ ...initialState, shown: loadShown(storage) });
+const store = new Store<State>({
+  ...initialState,
+  shown: loadShown(storage),
+  singleKeys: loadSingleKeys(storage),
+});
 const credentials = pageCredentials(window);
 const api = new SimulationApi(document.baseURI, credentials.fetch, credentials);
 
@@ -202,8 +207,15 @@ store.watch(
   ({ shown }) => shown,
   (shown) => keepShown(storage, shown),
 );
+store.watch(
+  ({ singleKeys }) => singleKeys,
+  (isOn) => {
+    page.classList.toggle("no-single-keys", !isOn);
+    keepSingleKeys(storage, isOn);
+  },
+);
 listenForKeys(app);
-new AvatarSteering(avatarToDrive, drive).listen(window);
+new AvatarSteering(avatarToDrive, drive, () => store.get().singleKeys).listen(window);
 exposeForTests(store, () => world);
 app.records.start();
 app.link.start(window);

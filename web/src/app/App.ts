@@ -223,6 +223,10 @@ export class App {
     this.store.set({ helpOpen: open });
   }
 
+  useSingleKeys(singleKeys: boolean): void {
+    this.store.set({ singleKeys });
+  }
+
   // To the clipboard; says that it is there, or what to copy where the browser does not allow it.
   async copy(text: string, done: string): Promise<void> {
     try {

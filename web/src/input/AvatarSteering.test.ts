@@ -55,3 +55,17 @@ test("without an avatar the keys do nothing", () => {
   press(steering, "w");
   expect(send).not.toHaveBeenCalled();
 });
+
+test("with single keys turned off only the arrow keys drive", async () => {
+  const sent: Drive[] = [];
+  const steering = new AvatarSteering(
+    () => "me",
+    async (_, drive) => void sent.push(drive),
+    () => false,
+  );
+  press(steering, "w");
+  press(steering, "ArrowUp");
+  await vi.waitFor(() => expect(sent).toHaveLength(1));
+  expect(sent).toEqual([{ ...STANDING, linear_m_s: 0.8 }]);
+  steering.keyUp("ArrowUp");
+});

@@ -1,7 +1,7 @@
 // Drives an avatar while keys are held: tells the server whenever the wish changes, repeats it while
 // it lasts, and says "stand still" when the keys are let go.
 import type { Drive } from "../api/SimulationApi";
-import { isTyping } from "./Keyboard";
+import { isSingleKey, isTyping } from "./Keyboard";
 
 const SPEED_M_S = 0.8;
 const TURN_RAD_S = 1.4;
@@ -37,9 +37,11 @@ export class AvatarSteering {
   private told: Drive = STANDING;
 
   // `avatar` names the one to drive, null when there is none. `send` may fail; it reports that itself.
+  // `hearsSingleKeys`: whether letters drive, too, and not the arrow keys alone.
   constructor(
     private readonly avatar: () => string | null,
     private readonly send: (avatar: string, drive: Drive) => Promise<void>,
+    private readonly hearsSingleKeys: () => boolean = () => true,
   ) {}
 
   listen(target: Window): void {
@@ -51,6 +53,7 @@ export class AvatarSteering {
   keyDown(event: KeyboardEvent): void {
     const key = event.key.toLowerCase();
     if (event.ctrlKey || event.altKey || event.metaKey || isTyping(event.target)) return;
+    if (isSingleKey(event) && !this.hearsSingleKeys()) return;
     if (key === "shift") this.held.add(key);
     if (!DRIVING_KEYS.includes(key) || this.avatar() === null) return;
     event.preventDefault();

@@ -3,7 +3,7 @@ import { expect, test, vi } from "vitest";
 import type { App } from "../app/App";
 import type { ReplayControl } from "../app/ReplayControl";
 import { initialState } from "../state/State";
-import { commandOf, isTyping, listenForKeys, replayCommandOf } from "./Keyboard";
+import { commandOf, isSingleKey, isTyping, listenForKeys, replayCommandOf } from "./Keyboard";
 
 const plain = { ctrlKey: false, altKey: false, metaKey: false };
 
@@ -57,7 +57,7 @@ test("a recording's keys step, jump and find events", () => {
 
 test("Space runs and pauses after a button was pressed with the pointer, and is its own where it was reached by keys", () => {
   const startPauseOrResume = vi.fn();
-  const state = { replay: null, setUp: null, editing: null };
+  const state = { replay: null, setUp: null, editing: null, singleKeys: true };
   listenForKeys({ startPauseOrResume, store: { get: () => state } } as unknown as App);
   document.body.innerHTML = "<button>Top view</button>";
   const button = document.querySelector("button")!;
@@ -93,4 +93,23 @@ test("a panel's key opens and closes it", () => {
   commandOf({ ...plain, key: "i" })?.(app);
   commandOf({ ...plain, key: "G" })?.(app);
   expect(toggle.mock.calls).toEqual([["status"], ["log"]]);
+});
+
+test("characters are single keys, and named keys and those with Ctrl are none", () => {
+  for (const key of ["a", "A", "?", " ", "5", "é"]) expect(isSingleKey({ ...plain, key })).toBe(true);
+  for (const key of ["Escape", "ArrowLeft", "Delete", "F1"]) expect(isSingleKey({ ...plain, key })).toBe(false);
+  expect(isSingleKey({ ...plain, key: "z", ctrlKey: true })).toBe(false);
+});
+
+test("with single keys turned off letters do nothing, and Esc does", () => {
+  const app = {
+    topView: vi.fn(),
+    select: vi.fn(),
+    store: { get: () => ({ ...initialState, singleKeys: false }) },
+  };
+  const page = document.createElement("div");
+  listenForKeys(app as unknown as App, page as unknown as Window);
+  for (const key of ["t", "Escape"]) page.dispatchEvent(new KeyboardEvent("keydown", { key }));
+  expect(app.topView).not.toHaveBeenCalled();
+  expect(app.select).toHaveBeenCalledWith(null);
 });

@@ -78,6 +78,11 @@ export function replayCommandOf(event: Key): ((replay: ReplayControl) => void) |
   }
 }
 
+// A letter, a digit, punctuation or Space, pressed by itself or with Shift.
+export function isSingleKey({ key, ctrlKey, altKey, metaKey }: Key): boolean {
+  return [...key].length === 1 && !ctrlKey && !altKey && !metaKey;
+}
+
 // Whether keys belong to the element that has the focus. The timeline's slider leaves them to the page.
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof Element)) return false;
@@ -87,6 +92,7 @@ export function isTyping(target: EventTarget | null): boolean {
 export function listenForKeys(app: App, page: Pick<Window, "addEventListener"> = window): void {
   page.addEventListener("keydown", (event) => {
     if (isTyping(event.target)) return;
+    if (isSingleKey(event) && !app.store.get().singleKeys) return;
     const move = app.store.get().replay && replayCommandOf(event);
     if (move) {
       event.preventDefault();

@@ -3,6 +3,7 @@ import type { App } from "../app/App";
 import { PANELS } from "../panels/registry";
 import { OVERLAYS } from "../state/overlays";
 import { element } from "../ui/element";
+import { checkField } from "../ui/fields";
 import { icon } from "../ui/icons";
 
 type Line = [keys: string[], meaning: string];
@@ -83,6 +84,7 @@ export function createHelpSheet(app: App): HTMLElement {
     "dialog",
     { class: "card help", "aria-label": "Help" },
     element("div", { class: "card-head" }, element("h2", {}, "Keys and gestures"), close),
+    singleKeysSetting(app),
     element("div", { class: "help-sections" }, ...keys, section("Mouse and touch", gestures)),
   );
   close.addEventListener("click", () => sheet.close());
@@ -96,6 +98,26 @@ export function createHelpSheet(app: App): HTMLElement {
     },
   );
   return sheet;
+}
+
+// Keys with Ctrl are the browser's kind of shortcut, and nobody says an arrow: they stay.
+function singleKeysSetting(app: App): HTMLElement {
+  const field = checkField("Single-key shortcuts", (isOn) => app.useSingleKeys(isOn));
+  app.store.watch(
+    ({ singleKeys }) => singleKeys,
+    (isOn) => field.show(isOn),
+  );
+  return element(
+    "div",
+    { class: "help-setting" },
+    field.element,
+    element(
+      "p",
+      { class: "dim" },
+      "Turn them off if keys act by accident, for example with speech input. Arrow keys, Esc, Delete, Home, End " +
+        "and keys with Ctrl still work. This browser remembers the choice.",
+    ),
+  );
 }
 
 function lowered(text: string): string {

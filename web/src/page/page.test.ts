@@ -2,6 +2,7 @@
 import { beforeAll, expect, test, vi } from "vitest";
 import { body, scene } from "../scene/testScene";
 import { createInspector, poseText, startText } from "../panels/inspector/Inspector";
+import { createHelpSheet } from "./HelpSheet";
 import { createNotices } from "./Notices";
 import { createSceneTree } from "../panels/tree/SceneTree";
 import { createStatusBar } from "./StatusBar";
@@ -217,4 +218,16 @@ test("panels are opened and closed by their buttons, whoever opened them", () =>
   expect(store.get().openPanels).toEqual(["status"]);
   app.panels.close("status");
   expect(button.getAttribute("aria-pressed")).toBe("false");
+});
+
+test("single keys are turned off in the help sheet", () => {
+  const { app, store } = testApp();
+  document.body.replaceChildren(createHelpSheet(app));
+  const setting = document.querySelector<HTMLInputElement>('input[type="checkbox"]')!;
+  expect(setting.checked).toBe(true);
+  setting.click();
+  expect(store.get().singleKeys).toBe(false);
+  app.useSingleKeys(true);
+  expect(setting.checked).toBe(true);
+  document.body.replaceChildren();
 });

@@ -32,12 +32,13 @@ export function pageLinks(app: App): HTMLElement[] {
   });
 }
 
-// By name, where the toolbar has no room for them.
+// By name, where the toolbar has no room for them, and the help sheet.
 export function pageNames(app: App): HTMLElement {
   const links = LINKS.map(({ href, name, isOffered }) =>
     whileOffered(app, element("a", { class: "button plain", href }, name), isOffered),
   );
-  return element("div", { class: "sidebar-pages" }, ...links);
+  const help = element("button", { class: "button plain", type: "button", onclick: () => app.openHelp(true) }, "Help");
+  return element("div", { class: "sidebar-pages" }, ...links, help);
 }
 
 function whileOffered(app: App, link: HTMLElement, isOffered: (state: State) => boolean): HTMLElement {

@@ -72,6 +72,7 @@ export interface State {
   pending: Action | "factor" | null; // sent to the server, not answered yet
   notices: Notice[];
   helpOpen: boolean;
+  singleKeys: boolean; // whether single keys are commands
   filming: boolean;
   framesPerSecond: number;
 }
@@ -107,6 +108,7 @@ export const initialState: State = {
   pending: null,
   notices: [],
   helpOpen: false,
+  singleKeys: true,
   filming: false,
   framesPerSecond: 0,
 };
