@@ -23,12 +23,12 @@ BehaviourServant::BehaviourServant(PortableServer::POA_ptr poa, BehaviourFactory
     : poa_(PortableServer::POA::_duplicate(poa)), factory_(std::move(factory)) {}
 
 BehaviourServant::~BehaviourServant() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   EndRun();
 }
 
 void BehaviourServant::init(const char* agent_name, sba::Hardware_ptr hardware) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   EndRun();
   robot_ = orb::ValueOrThrow(RemoteRobot::Connect(agent_name, hardware));
   try {
@@ -41,15 +41,17 @@ void BehaviourServant::init(const char* agent_name, sba::Hardware_ptr hardware) 
 }
 
 void BehaviourServant::start() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (behaviour_ == nullptr) throw sba::Refused("start comes after init");
   if (running_.joinable()) throw sba::Refused("the behaviour has been started already");
   orb::ValueOrThrow(robot_->OpenClock());
-  running_ = std::jthread([this] { RunOnClock(*behaviour_, *robot_); });
+  // Both outlive the thread: EndRun() joins it before either is replaced.
+  running_ =
+      std::jthread([&behaviour = *behaviour_, &robot = *robot_] { RunOnClock(behaviour, robot); });
 }
 
 void BehaviourServant::stop() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   EndRun();
 }
 
@@ -60,18 +62,18 @@ void BehaviourServant::EndRun() {
 }
 
 void BehaviourServant::pause() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (behaviour_ != nullptr) behaviour_->Paused();
 }
 
 void BehaviourServant::resume() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (behaviour_ != nullptr) behaviour_->Resumed();
 }
 
 void BehaviourServant::destroy() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     EndRun();
   }
   const PortableServer::ObjectId_var id = poa_->servant_to_id(this);

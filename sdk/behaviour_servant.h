@@ -4,8 +4,9 @@
 // Threads  calls come on ORB threads; the behaviour runs on a thread of its own.
 #pragma once
 
-#include <mutex>
 #include <thread>
+
+#include "gsv/base/mutex.h"
 
 #include "idl/behaviour.hh"
 #include "sdk/behaviour/behaviour.h"
@@ -26,13 +27,13 @@ class BehaviourServant final : public POA_sba::AgentBehaviour {
   void destroy() override;
 
  private:
-  void EndRun();  // under the lock
+  void EndRun() GSV_REQUIRES(mutex_);
 
   PortableServer::POA_var poa_;
   const BehaviourFactory factory_;
-  std::mutex mutex_;
-  std::shared_ptr<RemoteRobot> robot_;
-  std::unique_ptr<Behaviour> behaviour_;
+  base::Mutex mutex_;
+  std::shared_ptr<RemoteRobot> robot_ GSV_GUARDED_BY(mutex_);
+  std::unique_ptr<Behaviour> behaviour_ GSV_GUARDED_BY(mutex_);
   std::jthread running_;
 };
 

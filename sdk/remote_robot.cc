@@ -161,13 +161,13 @@ base::Result<std::shared_ptr<RemoteRobot>> RemoteRobot::Connect(const std::strin
 }
 
 void RemoteRobot::Note(const base::Error& error) {
-  const std::lock_guard lock(error_mutex_);
+  const base::MutexLock lock(error_mutex_);
   // The end of a run is no error.
   if (running_.exchange(false) && error.code != base::ErrorCode::kEnded) error_ = error.Sentence();
 }
 
 std::string RemoteRobot::error() const {
-  const std::lock_guard lock(error_mutex_);
+  const base::MutexLock lock(error_mutex_);
   return error_;
 }
 

@@ -6,8 +6,8 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
-#include <mutex>
 
+#include "gsv/base/mutex.h"
 #include "gsv/orb/errors.h"
 #include "idl/hardware.hh"
 #include "sdk/behaviour/robot.h"
@@ -81,8 +81,8 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   double footprint_radius_ = 0;
   std::uint64_t cycle_ = 0;
   std::atomic<bool> running_{true};
-  mutable std::mutex error_mutex_;
-  std::string error_;
+  mutable base::Mutex error_mutex_;
+  std::string error_ GSV_GUARDED_BY(error_mutex_);
 };
 
 }  // namespace gsv::sdk

@@ -1,7 +1,6 @@
 #include "sdk/shared_orb.h"
 
-#include <mutex>
-
+#include "gsv/base/mutex.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/orb/orb.h"
 #include "sdk/fault_delay.h"
@@ -10,7 +9,7 @@ namespace gsv::sdk {
 namespace {
 
 // An ORB is the process's, so who shares it finds it here. Held while one starts or ends.
-std::mutex shared_orb_mutex;
+base::Mutex shared_orb_mutex;
 std::weak_ptr<SharedOrb> shared_orb;
 
 base::Result<CORBA::ORB_var> StartOrbTowards(const std::string& broker) {
@@ -30,7 +29,7 @@ base::Result<CORBA::ORB_var> StartOrbTowards(const std::string& broker) {
 
 base::Result<std::shared_ptr<SharedOrb>> SharedOrb::Towards(const std::string& broker) {
   std::shared_ptr<SharedOrb> shared;  // outlives the lock, which its end takes
-  const std::lock_guard lock(shared_orb_mutex);
+  const base::MutexLock lock(shared_orb_mutex);
   shared = shared_orb.lock();
   if (shared != nullptr) return shared;
   auto orb = StartOrbTowards(broker);
@@ -43,7 +42,7 @@ base::Result<std::shared_ptr<SharedOrb>> SharedOrb::Towards(const std::string& b
 }
 
 SharedOrb::~SharedOrb() {
-  const std::lock_guard lock(shared_orb_mutex);
+  const base::MutexLock lock(shared_orb_mutex);
   orb_->shutdown(true);
   orb_->destroy();
 }

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include <spdlog/sinks/base_sink.h>
@@ -15,6 +14,7 @@
 
 #include "gsv/base/line_budget.h"
 #include "gsv/base/log_text.h"
+#include "gsv/base/mutex.h"
 
 namespace gsv::base {
 namespace {
@@ -22,8 +22,8 @@ namespace {
 constexpr std::chrono::seconds kBetweenTellings{1};
 
 struct Shared {
-  std::mutex mutex;
-  std::vector<std::string> secrets;
+  Mutex mutex;
+  std::vector<std::string> secrets GSV_GUARDED_BY(mutex);
   std::atomic<std::uint64_t> written{0}, suppressed{0};
 };
 
@@ -34,7 +34,7 @@ Shared& TheLog() {
 }
 
 std::vector<std::string> Secrets() {
-  const std::lock_guard lock(TheLog().mutex);
+  const MutexLock lock(TheLog().mutex);
   return TheLog().secrets;
 }
 
@@ -157,7 +157,7 @@ void InitLogging(const LogOptions& options) {
 
 void HideInLog(const std::string& secret) {
   if (secret.empty()) return;
-  const std::lock_guard lock(TheLog().mutex);
+  const MutexLock lock(TheLog().mutex);
   TheLog().secrets.push_back(secret);
 }
 

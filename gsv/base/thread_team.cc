@@ -26,7 +26,7 @@ ThreadTeam::ThreadTeam(int threads) : parts_(static_cast<std::size_t>(std::max(t
 
 ThreadTeam::~ThreadTeam() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     is_stopping_ = true;
   }
   called_.notify_all();
@@ -42,7 +42,7 @@ void ThreadTeam::Run(const Job& job) {
     parts_[i].end = std::min(pieces * (i + 1) / parts_.size() * job.grain, job.count);
   }
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     state_.store(kOpen, std::memory_order_release);
   }
   called_.notify_all();
@@ -89,8 +89,9 @@ bool ThreadTeam::Join() {
     _mm_pause();
   }
   bool has_joined = false;
-  std::unique_lock lock(mutex_);
-  called_.wait(lock, [&] { return is_stopping_ || (has_joined = TryJoin()); });
+  MutexLock lock(mutex_);
+  called_.wait(lock,
+               [&]() GSV_REQUIRES(mutex_) { return is_stopping_ || (has_joined = TryJoin()); });
   return has_joined;
 }
 

@@ -6,12 +6,12 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::base {
 
@@ -71,8 +71,8 @@ class ThreadTeam {
   std::vector<Part> parts_;         // of each thread, the caller's first
   std::atomic<unsigned> state_{0};  // kOpen, and how many workers have joined
   std::atomic<bool> is_stopping_{false};
-  std::mutex mutex_;
-  std::condition_variable called_;
+  Mutex mutex_;
+  ConditionVariable called_;
   std::vector<std::thread> workers_;
 };
 

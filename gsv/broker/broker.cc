@@ -1,9 +1,7 @@
 #include "gsv/broker/broker.h"
 
 #include <cerrno>
-#include <condition_variable>
 #include <cstring>
-#include <mutex>
 #include <optional>
 #include <random>
 #include <thread>
@@ -16,6 +14,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/service/admin_servant.h"
 #include "gsv/broker/service/link_servant.h"
 #include "gsv/broker/service/lookup_servant.h"
@@ -147,7 +146,7 @@ class Broker::Impl {
 
   ~Impl() {
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       ending_ = true;
     }
     changed_.notify_all();
@@ -207,8 +206,8 @@ class Broker::Impl {
  private:
   // Lets go of iterators that nobody uses, though nobody asks for others either.
   void Reap(std::chrono::seconds period) {
-    std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, period, [this] { return ending_; })) {
+    base::MutexLock lock(mutex_);
+    while (!changed_.wait_for(lock, period, [this]() GSV_REQUIRES(mutex_) { return ending_; })) {
       objects_.offer_cursors.Expire();
       objects_.id_cursors.Expire();
     }
@@ -217,9 +216,9 @@ class Broker::Impl {
   TradingObjects objects_;
   std::string reference_;
   std::uint16_t port_ = 0;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool ending_ = false;
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  bool ending_ GSV_GUARDED_BY(mutex_) = false;
   std::thread reaper_;
   std::optional<LivenessMonitor> liveness_;
 };

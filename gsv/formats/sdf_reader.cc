@@ -1,10 +1,10 @@
 #include "gsv/formats/sdf_reader.h"
 
 #include <algorithm>
-#include <mutex>
 #include <system_error>
 #include <variant>
 
+#include "gsv/base/mutex.h"
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/model_store.h"
 #include "gsv/formats/sdf/world_reader.h"
@@ -39,7 +39,7 @@ class ModelLibrary::Reader {
   explicit Reader(const ReadOptions& options) : store_(options) {}
 
   base::Result<WorldDescription> ReadWorldAt(const fs::path& path, base::Problems& problems) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     auto file = FileAt(path);
     if (!file) return Fail(file.error());
     auto xml = ReadXml(*file, store_.limits(), problems);
@@ -53,14 +53,15 @@ class ModelLibrary::Reader {
   base::Result<std::shared_ptr<const Model>> ReadModelNamed(const std::string& name,
                                                             const fs::path& named_in,
                                                             base::Problems& problems) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     auto file = FileOf(name, named_in);
     if (!file) return Fail(file.error());
     return ReadStored(*file, problems);
   }
 
  private:
-  base::Result<fs::path> FileOf(const std::string& name, const fs::path& named_in) const {
+  base::Result<fs::path> FileOf(const std::string& name, const fs::path& named_in) const
+      GSV_REQUIRES(mutex_) {
     std::error_code ignored;
     if (name.empty()) return Fail(ErrorCode::kBadModel, "the name of a model is empty");
     if (fs::exists(name, ignored)) return FileAt(name);
@@ -75,7 +76,8 @@ class ModelLibrary::Reader {
   }
 
   base::Result<std::shared_ptr<const Model>> ReadStored(const fs::path& file,
-                                                        base::Problems& problems) {
+                                                        base::Problems& problems)
+      GSV_REQUIRES(mutex_) {
     auto stored = store_.Read(file);
     if (!stored) return Fail(stored.error());
     problems.insert(problems.end(), (*stored)->problems.begin(), (*stored)->problems.end());
@@ -86,7 +88,8 @@ class ModelLibrary::Reader {
     return (*stored)->framed.model;
   }
 
-  base::Result<WorldDescription> ReadEnvironment(const fs::path& file, base::Problems& problems) {
+  base::Result<WorldDescription> ReadEnvironment(const fs::path& file, base::Problems& problems)
+      GSV_REQUIRES(mutex_) {
     auto model = ReadStored(file, problems);
     if (!model) return Fail(model.error());
     XmlFile surroundings;
@@ -107,8 +110,8 @@ class ModelLibrary::Reader {
     return world;
   }
 
-  std::mutex mutex_;
-  ModelStore store_;
+  base::Mutex mutex_;
+  ModelStore store_ GSV_GUARDED_BY(mutex_);
 };
 
 ModelLibrary::ModelLibrary(ReadOptions options) : reader_(std::make_unique<Reader>(options)) {}

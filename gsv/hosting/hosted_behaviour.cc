@@ -11,7 +11,7 @@ HostedBehaviour::HostedBehaviour(std::string name, BehaviourFactory factory)
     : name_(std::move(name)), place_("this process"), factory_(std::move(factory)) {}
 
 HostedBehaviour::~HostedBehaviour() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   EndRun();
 }
 
@@ -26,12 +26,12 @@ base::Status HostedBehaviour::Guarded(const char* what, const std::function<base
 }
 
 base::Status HostedBehaviour::Init(const std::shared_ptr<simulation::Agent>& agent) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   EndRun();
   behaviour_.reset();
   agent_ = agent;
   robot_ = std::make_unique<LocalRobot>(agent);
-  return Guarded("Init", [this] {
+  return Guarded("Init", [this]() GSV_REQUIRES(mutex_) {
     behaviour_ = factory_();
     auto ok = behaviour_->Init(*robot_);
     if (!ok) behaviour_.reset();
@@ -40,7 +40,7 @@ base::Status HostedBehaviour::Init(const std::shared_ptr<simulation::Agent>& age
 }
 
 base::Status HostedBehaviour::Start() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (behaviour_ == nullptr) {
     return base::Fail(base::ErrorCode::kBehaviour, "start comes after init", name_);
   }
@@ -52,8 +52,8 @@ base::Status HostedBehaviour::Start() {
   next_.reset();
   failure_.clear();
   if (controller_ != nullptr) return {};
-  fibre_ = std::make_unique<Fibre>([this] { Run(); });
-  robot_->SetSuspend([this] { fibre_->Suspend(); });
+  fibre_ = std::make_unique<Fibre>([this]() GSV_REQUIRES(mutex_) { Run(); });
+  robot_->SetSuspend([this]() GSV_REQUIRES(mutex_) { fibre_->Suspend(); });
   return {};
 }
 
@@ -68,7 +68,7 @@ void HostedBehaviour::EndTurn(simulation::Turn& turn) {
 }
 
 void HostedBehaviour::TakeTurn(simulation::Turn& turn) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (robot_ == nullptr || !robot_->IsRunning()) return EndTurn(turn);
   robot_->SetTurn(&turn);
   if (controller_ != nullptr) {
@@ -91,7 +91,7 @@ void HostedBehaviour::Control(simulation::Turn& turn) {
     next_ = turn.now() + controller_->period();
   } else {
     robot_->ReadOpenSensors(readings_);
-    const auto status = Guarded("Control", [&]() -> base::Status {
+    const auto status = Guarded("Control", [&]() GSV_REQUIRES(mutex_) -> base::Status {
       if (robot_->IsRunning()) command = controller_->Control(readings_);
       return {};
     });
@@ -112,29 +112,29 @@ void HostedBehaviour::EndRun() {
 }
 
 base::Status HostedBehaviour::Stop() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   EndRun();
   return {};
 }
 
 base::Status HostedBehaviour::Pause() {
-  const std::lock_guard lock(mutex_);
-  return Guarded("Paused", [this]() -> base::Status {
+  const base::MutexLock lock(mutex_);
+  return Guarded("Paused", [this]() GSV_REQUIRES(mutex_) -> base::Status {
     if (behaviour_ != nullptr) behaviour_->Paused();
     return {};
   });
 }
 
 base::Status HostedBehaviour::Resume() {
-  const std::lock_guard lock(mutex_);
-  return Guarded("Resumed", [this]() -> base::Status {
+  const base::MutexLock lock(mutex_);
+  return Guarded("Resumed", [this]() GSV_REQUIRES(mutex_) -> base::Status {
     if (behaviour_ != nullptr) behaviour_->Resumed();
     return {};
   });
 }
 
 void HostedBehaviour::Destroy() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   EndRun();
   behaviour_.reset();
   robot_.reset();

@@ -5,11 +5,12 @@
 // wait.
 #pragma once
 
+#include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
+#include "gsv/base/mutex.h"
 #include "gsv/hosting/fibre.h"
 #include "gsv/hosting/local_robot.h"
 #include "sdk/behaviour/behaviour.h"
@@ -34,26 +35,27 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   void TakeTurn(simulation::Turn& turn) override;
 
  private:
-  void Run();
-  void Control(simulation::Turn& turn);
-  void EndTurn(simulation::Turn& turn);  // as the last
+  void Run() GSV_REQUIRES(mutex_);
+  void Control(simulation::Turn& turn) GSV_REQUIRES(mutex_);
+  void EndTurn(simulation::Turn& turn) GSV_REQUIRES(mutex_);  // as the last
   // The behaviour finds that its run is over and returns.
-  void EndRun();
+  void EndRun() GSV_REQUIRES(mutex_);
   base::Status Guarded(const char* what, const std::function<base::Status()>& call);
 
   const std::string name_, place_;
   const BehaviourFactory factory_;
 
-  std::mutex mutex_;  // guards what follows; held during a turn
-  std::shared_ptr<simulation::Agent> agent_;
-  std::unique_ptr<Behaviour> behaviour_;
-  std::unique_ptr<LocalRobot> robot_;
-  simulation::ClockId clock_ = 0;
-  std::unique_ptr<Fibre> fibre_;      // of a started behaviour that needs one
-  Controller* controller_ = nullptr;  // of a started behaviour that needs none
-  std::optional<SimTime> next_;       // a controller's next instant
-  std::vector<Reading> readings_;
-  std::string failure_;  // what ended the run, if it was an error
+  base::Mutex mutex_;  // held during a turn
+  std::shared_ptr<simulation::Agent> agent_ GSV_GUARDED_BY(mutex_);
+  std::unique_ptr<Behaviour> behaviour_ GSV_GUARDED_BY(mutex_);
+  std::unique_ptr<LocalRobot> robot_ GSV_GUARDED_BY(mutex_);
+  std::atomic<simulation::ClockId> clock_ = 0;
+  std::unique_ptr<Fibre> fibre_ GSV_GUARDED_BY(mutex_);  // of a started behaviour that needs one
+  // Of a started behaviour that needs no fibre.
+  Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
+  std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // a controller's next instant
+  std::vector<Reading> readings_ GSV_GUARDED_BY(mutex_);
+  std::string failure_ GSV_GUARDED_BY(mutex_);  // what ended the run, if it was an error
 };
 
 }  // namespace gsv::hosting

@@ -17,7 +17,7 @@ RecordedCommands::RecordedCommands(std::string name, TimedCommands commands, boo
       uses_radio_(uses_radio) {}
 
 base::Status RecordedCommands::Init(const std::shared_ptr<simulation::Agent>& agent) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   agent_ = agent;
   if (!uses_radio_) return {};
   for (const model::SensorDescription& sensor : agent->Sensors()) {
@@ -28,7 +28,7 @@ base::Status RecordedCommands::Init(const std::shared_ptr<simulation::Agent>& ag
 }
 
 base::Status RecordedCommands::Start() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (agent_ == nullptr) {
     return base::Fail(base::ErrorCode::kBehaviour, "start comes after init", name_);
   }
@@ -40,7 +40,7 @@ base::Status RecordedCommands::Start() {
 }
 
 void RecordedCommands::TakeTurn(simulation::Turn& turn) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (; next_ < commands_.size() && commands_[next_].time <= turn.now(); ++next_) {
     Give(commands_[next_], turn);
   }
@@ -63,7 +63,7 @@ void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn)
 }
 
 void RecordedCommands::Destroy() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   agent_.reset();
 }
 

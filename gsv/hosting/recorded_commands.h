@@ -1,12 +1,13 @@
 // A behaviour that does what another did: tells its robot what was recorded, each at its instant.
 #pragma once
 
+#include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/simulation/robots/local_behaviour.h"
 
 namespace gsv::hosting {
@@ -45,16 +46,16 @@ class RecordedCommands final : public simulation::LocalBehaviour {
   void TakeTurn(simulation::Turn& turn) override;
 
  private:
-  void Give(const TimedCommand& command, simulation::Turn& turn) const;
+  void Give(const TimedCommand& command, simulation::Turn& turn) const GSV_REQUIRES(mutex_);
 
   const std::string name_, place_;
   const TimedCommands commands_;
   const bool uses_radio_;
 
-  std::mutex mutex_;  // guards what follows; held during a turn
-  std::shared_ptr<simulation::Agent> agent_;
-  simulation::ClockId clock_ = 0;
-  std::size_t next_ = 0;
+  base::Mutex mutex_;  // held during a turn
+  std::shared_ptr<simulation::Agent> agent_ GSV_GUARDED_BY(mutex_);
+  std::atomic<simulation::ClockId> clock_ = 0;
+  std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace gsv::hosting

@@ -104,7 +104,7 @@ void SimulationRecorder::RecordFirst(const Simulation& simulation) {
 }
 
 base::Status SimulationRecorder::Stop() {
-  const std::lock_guard lock(stopping_);
+  const base::MutexLock lock(stopping_);
   if (!std::exchange(is_stopped_, true)) {
     const std::shared_ptr<Simulation> simulation = simulation_.lock();
     if (simulation) {

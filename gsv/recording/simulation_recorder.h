@@ -10,11 +10,11 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "gsv/base/mutex.h"
 #include "gsv/recording/attachments/scenario_attachment.h"
 #include "gsv/recording/attachments/scene_attachments.h"
 #include "gsv/recording/attachments/source_attachments.h"
@@ -76,9 +76,9 @@ class SimulationRecorder {
   std::shared_ptr<const world::Snapshot> latest_;  // that was recorded
   std::atomic<bool> has_ended_ = false;
 
-  std::mutex stopping_;
-  bool is_stopped_ = false;
-  StringMap result_;  // set before the feed is closed
+  base::Mutex stopping_;
+  bool is_stopped_ GSV_GUARDED_BY(stopping_) = false;
+  StringMap result_;  // written before the feed is closed, read after its end
   std::thread thread_;
 };
 

@@ -1,14 +1,13 @@
 #include "gsv/rendering/renderer.h"
 
 #include <algorithm>
-#include <condition_variable>
 #include <deque>
 #include <future>
-#include <mutex>
 #include <span>
 #include <thread>
 
 #include "gsv/base/check.h"
+#include "gsv/base/mutex.h"
 #include "gsv/rendering/opengl/gl_batch_painter.h"
 #include "gsv/rendering/raster/raster_batch_painter.h"
 
@@ -52,7 +51,7 @@ class Renderer::RenderThread {
 
   ~RenderThread() {
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       stopping_ = true;
     }
     work_.notify_all();
@@ -87,7 +86,7 @@ class Renderer::RenderThread {
   DrawCopies Count() {
     std::future<DrawCopies> count;
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       count = counts_.emplace_back().get_future();
     }
     work_.notify_one();
@@ -101,7 +100,7 @@ class Renderer::RenderThread {
   Result<Product> Await(const std::shared_ptr<Request>& request,
                         std::future<Result<Product>> product, std::chrono::milliseconds timeout) {
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       if (queue_.size() >= options_.queue_capacity) {
         return Fail(ErrorCode::kUnavailable,
                     std::to_string(queue_.size()) +
@@ -111,7 +110,7 @@ class Renderer::RenderThread {
     }
     work_.notify_one();
     if (product.wait_for(timeout) == std::future_status::ready) return product.get();
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     request->abandoned = true;
     return Fail(ErrorCode::kTimeout,
                 "no picture within " + std::to_string(timeout.count()) +
@@ -150,13 +149,14 @@ class Renderer::RenderThread {
   }
 
   void Serve(BatchPainter& painter) {
-    std::unique_lock lock(mutex_);
+    base::MutexLock lock(mutex_);
     while (!stopping_) {
       Batch batch = TakeBatch();
       std::vector<std::promise<DrawCopies>> counts = std::exchange(counts_, {});
       if (batch.empty() && counts.empty()) {
-        const bool woken = work_.wait_for(
-            lock, kIdleSweep, [&] { return stopping_ || !queue_.empty() || !counts_.empty(); });
+        const bool woken = work_.wait_for(lock, kIdleSweep, [&]() GSV_REQUIRES(mutex_) {
+          return stopping_ || !queue_.empty() || !counts_.empty();
+        });
         if (!woken) painter.Sweep();
         continue;
       }
@@ -169,7 +169,7 @@ class Renderer::RenderThread {
   }
 
   // Those that wait for the same snapshot as the one that has waited longest.
-  Batch TakeBatch() {
+  Batch TakeBatch() GSV_REQUIRES(mutex_) {
     std::erase_if(queue_, [](const auto& request) { return request->abandoned; });
     Batch batch;
     if (queue_.empty()) return batch;
@@ -227,7 +227,7 @@ class Renderer::RenderThread {
   }
 
   void EndAll() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     for (const auto& request : queue_) {
       request->Fail({ErrorCode::kEnded, "the renderer has been shut down", {}});
     }
@@ -237,11 +237,11 @@ class Renderer::RenderThread {
   }
 
   const RendererOptions options_;
-  std::mutex mutex_;
-  std::condition_variable work_;
-  std::deque<std::shared_ptr<Request>> queue_;
-  std::vector<std::promise<DrawCopies>> counts_;
-  bool stopping_ = false;
+  base::Mutex mutex_;
+  base::ConditionVariable work_;
+  std::deque<std::shared_ptr<Request>> queue_ GSV_GUARDED_BY(mutex_);
+  std::vector<std::promise<DrawCopies>> counts_ GSV_GUARDED_BY(mutex_);
+  bool stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -48,7 +48,7 @@ bool SharedReadings::IsOf(const Entry& entry, const Sensor& sensor,
 base::Result<Reading> SharedReadings::Take(const Sensor& sensor, const Sampling& sampling) {
   std::promise<base::Result<Reading>> promise;
   {
-    std::unique_lock lock(mutex_);
+    base::MutexLock lock(mutex_);
     const auto found = std::find_if(entries_.rbegin(), entries_.rend(), [&](const Entry& entry) {
       return IsOf(entry, sensor, sampling);
     });
@@ -68,8 +68,8 @@ base::Result<Reading> SharedReadings::Take(const Sensor& sensor, const Sampling&
 
 void SharedReadings::Account(const Sensor& sensor, const Sampling& sampling,
                              const base::Result<Reading>& taken) {
-  const std::lock_guard lock(mutex_);
-  std::erase_if(entries_, [&](Entry& entry) {
+  const base::MutexLock lock(mutex_);
+  std::erase_if(entries_, [&](Entry& entry) GSV_REQUIRES(mutex_) {
     if (entry.bytes == 0) {  // being taken
       if (!IsOf(entry, sensor, sampling)) return false;
       if (!taken) return true;
@@ -88,7 +88,7 @@ void SharedReadings::Account(const Sensor& sensor, const Sampling& sampling,
 }
 
 std::size_t SharedReadings::bytes() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return bytes_;
 }
 

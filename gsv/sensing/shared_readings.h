@@ -11,8 +11,8 @@
 #include <deque>
 #include <future>
 #include <memory>
-#include <mutex>
 
+#include "gsv/base/mutex.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/sensing/sensor.h"
 
@@ -42,9 +42,9 @@ class SharedReadings {
   void Account(const Sensor& sensor, const Sampling& sampling, const base::Result<Reading>& taken);
 
   const std::size_t capacity_;
-  mutable std::mutex mutex_;
-  std::size_t bytes_ = 0;
-  std::deque<Entry> entries_;  // the oldest first
+  mutable base::Mutex mutex_;
+  std::size_t bytes_ GSV_GUARDED_BY(mutex_) = 0;
+  std::deque<Entry> entries_ GSV_GUARDED_BY(mutex_);  // the oldest first
 };
 
 // From here on all sensors of the type share their readings.

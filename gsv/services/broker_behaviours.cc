@@ -33,29 +33,36 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
                         " (see `gsv offers`; start the behaviour program with --broker " +
                         broker_.reference() + ")",
                     broker_.reference()};
-  const std::lock_guard lock(mutex_);
-  std::stable_sort(offers->begin(), offers->end(), [this](const auto& a, const auto& b) {
-    return robots_of_[PlaceOf(broker::BehaviourOfferFrom(a.properties))] <
-           robots_of_[PlaceOf(broker::BehaviourOfferFrom(b.properties))];
-  });
+  {
+    const base::MutexLock lock(mutex_);
+    std::stable_sort(offers->begin(), offers->end(),
+                     [this](const auto& a, const auto& b) GSV_REQUIRES(mutex_) {
+                       return robots_of_[PlaceOf(broker::BehaviourOfferFrom(a.properties))] <
+                              robots_of_[PlaceOf(broker::BehaviourOfferFrom(b.properties))];
+                     });
+  }
   for (const broker::FoundOffer& offer : *offers) {
     const broker::BehaviourOffer described = broker::BehaviourOfferFrom(offer.properties);
     const BehaviourIdentity identity{described.name, PlaceOf(described), described.time_managed};
     orb::LimitCalls(offer.object, kCreateTimeout);
+    CountRobot(identity.place, +1);  // before the call, so that others who ask meanwhile see it
     auto behaviour = orb::Call(identity.name + " on " + identity.place, [&] {
       const sba::AgentBehaviourFactory_var factory =
           sba::AgentBehaviourFactory::_narrow(offer.object);
       if (CORBA::is_nil(factory)) throw sba::Failed("the offer is no AgentBehaviourFactory");
       return sba::AgentBehaviour_var(factory->create());
     });
-    if (behaviour) {
-      ++robots_of_[identity.place];
-      return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_);
-    }
+    if (behaviour) return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_);
+    CountRobot(identity.place, -1);
     error = behaviour.error();
     error.code = base::ErrorCode::kBehaviour;
   }
   return base::Fail(std::move(error));
+}
+
+void BrokerBehaviours::CountRobot(const std::string& place, int change) {
+  const base::MutexLock lock(mutex_);
+  robots_of_[place] += change;
 }
 
 }  // namespace gsv::services

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <map>
-#include <mutex>
 #include <string>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/services/behaviour_source.h"
 
@@ -21,10 +21,12 @@ class BrokerBehaviours final : public BehaviourSource {
       const std::string& constraint) override;
 
  private:
+  void CountRobot(const std::string& place, int change);
+
   broker::BrokerClient& broker_;
   PortableServer::POA_var poa_;
-  std::mutex mutex_;
-  std::map<std::string, int> robots_of_;  // by "host:pid" of the program
+  base::Mutex mutex_;
+  std::map<std::string, int> robots_of_ GSV_GUARDED_BY(mutex_);  // by "host:pid" of the program
 };
 
 }  // namespace gsv::services

@@ -38,7 +38,7 @@ RemoteBehaviour::~RemoteBehaviour() { ReplaceHardware(nullptr); }
 
 void RemoteBehaviour::ReplaceHardware(std::shared_ptr<ServantGroup> hardware) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     hardware_.swap(hardware);
   }
   if (hardware != nullptr) hardware->DeactivateAll();

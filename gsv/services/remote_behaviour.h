@@ -4,9 +4,9 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <string>
 
+#include "gsv/base/mutex.h"
 #include "gsv/services/hardware_servants.h"
 #include "gsv/simulation/robots/behaviour_port.h"
 #include "idl/behaviour.hh"
@@ -46,8 +46,8 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
   const BehaviourIdentity identity_;
   sba::AgentBehaviour_var behaviour_;
   PortableServer::POA_var poa_;
-  std::mutex mutex_;
-  std::shared_ptr<ServantGroup> hardware_;
+  base::Mutex mutex_;
+  std::shared_ptr<ServantGroup> hardware_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::services

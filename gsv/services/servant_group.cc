@@ -17,7 +17,7 @@ ServantGroup::ServantGroup(PortableServer::POA_ptr poa)
 void ServantGroup::DeactivateAll() {
   std::set<std::string> ids;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closed_ = true;
     ids.swap(ids_);
   }
@@ -37,7 +37,7 @@ void ServantGroup::DeactivateId(const std::string& id) {
 
 CORBA::Object_ptr ServantGroup::Adopt(PortableServer::ServantBase* servant, const char* type) {
   const PortableServer::ServantBase_var owned(servant);  // the POA holds on to it
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (closed_) throw sba::Ended("the robot is gone");
   const PortableServer::ObjectId_var id = poa_->activate_object(servant);
   ids_.insert(Key(id));
@@ -48,7 +48,7 @@ void ServantGroup::Deactivate(PortableServer::ServantBase* servant) {
   try {
     const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       ids_.erase(Key(id));
     }
     DeactivateId(Key(id));

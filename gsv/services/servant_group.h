@@ -3,9 +3,10 @@
 // Threads  any.
 #pragma once
 
-#include <mutex>
 #include <set>
 #include <string>
+
+#include "gsv/base/mutex.h"
 
 #include "idl/hardware.hh"
 
@@ -39,9 +40,9 @@ class ServantGroup {
   void DeactivateId(const std::string& id);
 
   PortableServer::POA_var poa_;
-  std::mutex mutex_;
-  std::set<std::string> ids_;  // object ids, as bytes
-  bool closed_ = false;
+  base::Mutex mutex_;
+  std::set<std::string> ids_ GSV_GUARDED_BY(mutex_);  // object ids, as bytes
+  bool closed_ GSV_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace gsv::services

@@ -7,7 +7,7 @@ namespace gsv::services {
 using simulation::Simulation;
 
 base::Result<std::string> SimulationHost::FreeName(std::string wanted) const {
-  const auto is_taken = [this](const std::string& name) {
+  const auto is_taken = [this](const std::string& name) GSV_REQUIRES(mutex_) {
     return std::any_of(simulations_.begin(), simulations_.end(),
                        [&](const auto& s) { return s->specification().name == name; });
   };
@@ -41,7 +41,7 @@ base::Result<std::shared_ptr<Simulation>> SimulationHost::Create(
     if (!read) return base::Fail(read.error());
     specification.world = std::make_shared<const model::WorldDescription>(*std::move(read));
   }
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   auto name = FreeName(specification.name);
   if (!name) return base::Fail(name.error());
   specification.name = *std::move(name);
@@ -52,7 +52,7 @@ base::Result<std::shared_ptr<Simulation>> SimulationHost::Create(
 
 base::Status SimulationHost::Remove(const std::string& name) {
   std::shared_ptr<Simulation> removed;  // ends after the lock: that may take long
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto it = std::find_if(simulations_.begin(), simulations_.end(),
                                [&](const auto& s) { return s->specification().name == name; });
   if (it == simulations_.end()) {
@@ -64,7 +64,7 @@ base::Status SimulationHost::Remove(const std::string& name) {
 }
 
 std::shared_ptr<Simulation> SimulationHost::Find(const std::string& name) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (const auto& simulation : simulations_) {
     if (simulation->specification().name == name) return simulation;
   }
@@ -72,7 +72,7 @@ std::shared_ptr<Simulation> SimulationHost::Find(const std::string& name) const 
 }
 
 std::vector<std::shared_ptr<Simulation>> SimulationHost::List() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return simulations_;
 }
 

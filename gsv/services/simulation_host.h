@@ -5,10 +5,10 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/simulation/simulation.h"
@@ -46,13 +46,13 @@ class SimulationHost {
   formats::ModelLibrary& library() { return *library_; }
 
  private:
-  base::Result<std::string> FreeName(std::string wanted) const;  // under the lock
+  base::Result<std::string> FreeName(std::string wanted) const GSV_REQUIRES(mutex_);
 
   const std::shared_ptr<const sensing::SensorRegistry> sensors_;
   const std::shared_ptr<formats::ModelLibrary> library_;
   const std::size_t most_simulations_;
-  mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<simulation::Simulation>> simulations_;
+  mutable base::Mutex mutex_;
+  std::vector<std::shared_ptr<simulation::Simulation>> simulations_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::services

@@ -222,7 +222,7 @@ SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
 
 SimulationServiceServant::~SimulationServiceServant() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closing_ = true;
   }
   closing_changed_.notify_all();
@@ -253,14 +253,14 @@ sba::Simulation_ptr SimulationServiceServant::Activate(
   auto* servant = new SimulationServant(std::move(simulation), *this, std::move(specification));
   const PortableServer::ServantBase_var owned(servant);
   const PortableServer::ObjectId_var id = poa_->activate_object(servant);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   servants_[name] = servant;
   return servant->_this();
 }
 
 void SimulationServiceServant::Publish(std::shared_ptr<simulation::Simulation> simulation) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (servants_.contains(simulation->specification().name)) return;
   }
   auto specification = SpecificationOf(simulation->specification());
@@ -270,7 +270,7 @@ void SimulationServiceServant::Publish(std::shared_ptr<simulation::Simulation> s
 void SimulationServiceServant::Close() {
   std::map<std::string, SimulationServant*> servants;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     servants.swap(servants_);
   }
   for (const auto& [name, servant] : servants) {
@@ -280,7 +280,7 @@ void SimulationServiceServant::Close() {
 }
 
 sba::Simulations* SimulationServiceServant::list() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   auto* simulations = new sba::Simulations;
   simulations->length(static_cast<CORBA::ULong>(servants_.size()));
   CORBA::ULong i = 0;
@@ -291,7 +291,7 @@ sba::Simulations* SimulationServiceServant::list() {
 base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
   SimulationServant* servant = nullptr;  // whoever takes it from the list lets go of it
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const auto found = servants_.extract(simulation);
     if (found.empty()) {
       return base::Fail(base::ErrorCode::kNotFound, "there is no simulation of that name",
@@ -303,7 +303,7 @@ base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
   (void)host_.Remove(simulation);
   const PortableServer::ObjectId_var id = poa_->servant_to_id(servant);
   poa_->deactivate_object(id);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   has_destroyed_ = true;
   return {};
 }
@@ -311,9 +311,10 @@ base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
 void SimulationServiceServant::KeepHouse() {
   constexpr int kTrimmingRounds = 30;
   int round = 0;
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (!closing_) {
-    closing_changed_.wait_for(lock, std::chrono::seconds(1), [this] { return closing_; });
+    closing_changed_.wait_for(lock, std::chrono::seconds(1),
+                              [this]() GSV_REQUIRES(mutex_) { return closing_; });
     std::vector<std::shared_ptr<simulation::Simulation>> abandoned;
     for (const auto& [name, servant] : servants_) {
       if (servant->IsAbandoned()) abandoned.push_back(servant->simulation());

@@ -4,12 +4,11 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <thread>
 
+#include "gsv/base/mutex.h"
 #include "gsv/services/behaviour_source.h"
 #include "gsv/services/simulation_host.h"
 #include "idl/simulation.hh"
@@ -100,11 +99,12 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   SimulationHost& host_;
   BehaviourSource* const behaviours_;
   const ServiceHooks hooks_;
-  std::mutex mutex_;
-  std::condition_variable closing_changed_;
-  bool closing_ = false;
-  bool has_destroyed_ = false;                          // since the janitor's last round
-  std::map<std::string, SimulationServant*> servants_;  // by simulation; the POA holds them
+  base::Mutex mutex_;
+  base::ConditionVariable closing_changed_;
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;
+  bool has_destroyed_ GSV_GUARDED_BY(mutex_) = false;  // since the janitor's last round
+  std::map<std::string, SimulationServant*> servants_
+      GSV_GUARDED_BY(mutex_);  // by simulation; the POA holds them
   std::jthread janitor_;
 };
 

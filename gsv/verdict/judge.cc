@@ -86,6 +86,7 @@ base::Result<std::shared_ptr<Judge>> Judge::Attach(
     });
     if (auto ok = CheckAtoms(finding.atoms, judge->measure_, finding.where); !ok)
       return base::Fail(ok.error());
+    const base::MutexLock lock(judge->mutex_);
     judge->pending_.push_back({std::move(finding), std::move(monitor)});
   }
   judge->JudgeState(simulation.snapshot());
@@ -99,7 +100,7 @@ void Judge::OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) {
 }
 
 void Judge::JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   latest_ = snapshot;
   measure_.MoveTo(snapshot);
   const double now = base::ToSeconds(snapshot->state.time);
@@ -126,8 +127,8 @@ void Judge::Settle(Pending& pending, const std::shared_ptr<const world::Snapshot
 
 std::vector<Finding> Judge::Finish() {
   const std::int64_t last = simulation_.snapshot()->state.step;
-  std::unique_lock lock(mutex_);
-  judged_.wait(lock, [&] { return latest_->state.step >= last; });
+  base::MutexLock lock(mutex_);
+  judged_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return latest_->state.step >= last; });
   std::vector<Finding> findings;
   for (Pending& pending : pending_) {
     if (!pending.monitor.verdict()) {
@@ -140,7 +141,7 @@ std::vector<Finding> Judge::Finish() {
 }
 
 std::shared_ptr<const world::Snapshot> Judge::first_violation() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return first_violation_;
 }
 

@@ -5,12 +5,11 @@
 //          when the run is over.
 #pragma once
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/scenario/scenario.h"
 #include "gsv/simulation/simulation.h"
 #include "gsv/verdict/measure.h"
@@ -60,14 +59,16 @@ class Judge final : public simulation::Observer {
   explicit Judge(simulation::Simulation& simulation)
       : simulation_(simulation), measure_(simulation) {}
   void JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot);
-  void Settle(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot);
+  void Settle(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot)
+      GSV_REQUIRES(mutex_);
 
   simulation::Simulation& simulation_;
   Measure measure_;
-  mutable std::mutex mutex_;
-  std::condition_variable judged_;
-  std::vector<Pending> pending_;
-  std::shared_ptr<const world::Snapshot> latest_, first_violation_;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable judged_;
+  std::vector<Pending> pending_ GSV_GUARDED_BY(mutex_);
+  std::shared_ptr<const world::Snapshot> latest_ GSV_GUARDED_BY(mutex_);
+  std::shared_ptr<const world::Snapshot> first_violation_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::verdict

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <bitset>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <fstream>
-#include <mutex>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +11,7 @@
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/bench/moving_scene.h"
 #include "apps/gsv/exit_code.h"
+#include "gsv/base/mutex.h"
 #include "gsv/rendering/images/jpeg.h"
 #include "gsv/rendering/renderer.h"
 
@@ -38,7 +37,7 @@ class SnapshotWatch final : public simulation::Observer {
  public:
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override {
     const auto now = Clock::now();
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (snapshot_ != nullptr) intervals_.push_back(Milliseconds(now - last_));
     last_ = now;
     snapshot_ = snapshot;
@@ -48,26 +47,28 @@ class SnapshotWatch final : public simulation::Observer {
 
   // The latest, once there is one that was not handed over before; null when none comes.
   std::shared_ptr<const world::Snapshot> Next() {
-    std::unique_lock lock(mutex_);
-    const bool came =
-        is_new_.wait_for(lock, std::chrono::seconds(10), [&] { return snapshot_ != handed_over_; });
+    base::MutexLock lock(mutex_);
+    const bool came = is_new_.wait_for(lock, std::chrono::seconds(10), [&]() GSV_REQUIRES(mutex_) {
+      return snapshot_ != handed_over_;
+    });
     return came ? handed_over_ = snapshot_ : nullptr;
   }
   std::vector<double> intervals() {  // ms
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return intervals_;
   }
   void Forget() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     intervals_.clear();
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable is_new_;
-  std::shared_ptr<const world::Snapshot> snapshot_, handed_over_;
-  Clock::time_point last_;
-  std::vector<double> intervals_;
+  base::Mutex mutex_;
+  base::ConditionVariable is_new_;
+  std::shared_ptr<const world::Snapshot> snapshot_ GSV_GUARDED_BY(mutex_);
+  std::shared_ptr<const world::Snapshot> handed_over_ GSV_GUARDED_BY(mutex_);
+  Clock::time_point last_ GSV_GUARDED_BY(mutex_);
+  std::vector<double> intervals_ GSV_GUARDED_BY(mutex_);
 };
 
 // Refuses pictures of nothing and pictures that were there before.

@@ -139,12 +139,12 @@ void CrowdCheck::OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapsh
 
 void CrowdCheck::Report(std::string sentence) {
   ++mismatches_;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (first_mismatch_.empty()) first_mismatch_ = std::move(sentence);
 }
 
 std::string CrowdCheck::first_mismatch() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return first_mismatch_;
 }
 

@@ -6,9 +6,9 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 
+#include "gsv/base/mutex.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::app {
@@ -32,8 +32,8 @@ class CrowdCheck final : public simulation::Observer {
   void Report(std::string sentence);
 
   std::atomic<std::uint64_t> readings_checked_{0}, pairs_checked_{0}, mismatches_{0};
-  mutable std::mutex mutex_;
-  std::string first_mismatch_;
+  mutable base::Mutex mutex_;
+  std::string first_mismatch_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::app

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <mutex>
 #include <numeric>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/running/run_population.h"
+#include "gsv/base/mutex.h"
 
 namespace gsv::app {
 namespace {
@@ -26,22 +26,22 @@ constexpr int kMostInTheOffice = 20;  // robots
 class Durations {
  public:
   void Add(Clock::duration duration) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     values_.push_back(Milliseconds(duration));
   }
   std::size_t count() const {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return values_.size();
   }
   double mean() const {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return values_.empty() ? 0
                            : std::accumulate(values_.begin(), values_.end(), 0.0) /
                                  static_cast<double>(values_.size());
   }
   // The value that the fraction `q` of all do not exceed (nearest rank).
   double quantile(double q) const {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (values_.empty()) return 0;
     std::vector<double> sorted = values_;
     std::sort(sorted.begin(), sorted.end());
@@ -50,8 +50,8 @@ class Durations {
   }
 
  private:
-  mutable std::mutex mutex_;
-  std::vector<double> values_;
+  mutable base::Mutex mutex_;
+  std::vector<double> values_ GSV_GUARDED_BY(mutex_);
 };
 
 // Times the intervals between state updates.

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <fstream>
-#include <mutex>
 #include <thread>
 
 #include <fmt/format.h>
@@ -15,6 +13,7 @@
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "apps/gsv/trials/test_report.h"
+#include "gsv/base/mutex.h"
 
 namespace gsv::app {
 namespace {
@@ -47,27 +46,28 @@ class TestSession {
     threads.reserve(static_cast<std::size_t>(jobs));
     for (int i = 0; i < jobs; ++i) threads.emplace_back([this] { Work(); });
     while (!IsDone() && signals.WaitFor(0) == 0) {
-      std::unique_lock lock(mutex_);
+      base::MutexLock lock(mutex_);
       done_.wait_for(lock, std::chrono::milliseconds(200),
-                     [this] { return finished_ == cases_.size(); });
+                     [this]() GSV_REQUIRES(mutex_) { return finished_ == cases_.size(); });
       ShowProgress();
     }
     is_cancelled_ = !IsDone();
     threads.clear();
     ClearProgress();
+    const base::MutexLock lock(mutex_);
     return std::move(results_);
   }
   bool is_cancelled() const { return is_cancelled_; }
 
  private:
   bool IsDone() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return finished_ == cases_.size();
   }
 
   void Work() {
     for (;;) {
-      std::unique_lock lock(mutex_);
+      base::MutexLock lock(mutex_);
       if (next_ == cases_.size() || is_cancelled_) return;
       const std::size_t index = next_++;
       running_.push_back(index);
@@ -87,8 +87,8 @@ class TestSession {
     }
   }
 
-  // Under the lock, on the terminal.
-  void ShowProgress() {
+  // On the terminal.
+  void ShowProgress() GSV_REQUIRES(mutex_) {
     if (!shows_progress_) return;
     std::string names;
     for (const std::size_t index : running_)
@@ -105,11 +105,13 @@ class TestSession {
   const bool is_talkative_, shows_progress_;
   std::atomic<bool> is_cancelled_{false};
 
-  std::mutex mutex_;  // guards what follows
-  std::condition_variable done_;
-  std::size_t next_ = 0, finished_ = 0, failed_ = 0;
-  std::vector<std::size_t> running_;
-  std::vector<TestResult> results_;
+  base::Mutex mutex_;
+  base::ConditionVariable done_;
+  std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
+  std::size_t finished_ GSV_GUARDED_BY(mutex_) = 0;
+  std::size_t failed_ GSV_GUARDED_BY(mutex_) = 0;
+  std::vector<std::size_t> running_ GSV_GUARDED_BY(mutex_);
+  std::vector<TestResult> results_ GSV_GUARDED_BY(mutex_);
 };
 
 int JobsFor(const TestArguments& arguments, std::size_t cases) {

@@ -76,7 +76,7 @@ void LostSimulations::Keep(std::vector<LostSimulation> lost) {
   std::stable_sort(lost.begin(), lost.end(),
                    [](const auto& a, const auto& b) { return a.noted < b.noted; });
   if (lost.size() > kMostKept) lost.erase(lost.begin(), lost.end() - kMostKept);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (LostSimulation& each : lost) lost_[next_++] = std::move(each);
 }
 
@@ -87,7 +87,7 @@ void LostSimulations::Examine(const std::stop_token& stop) {
       simulation.whole_until_s = WholeUntil(simulation.recording);
     }
     spdlog::warn("{}", Sentence(simulation));
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const auto kept = lost_.find(number);
     if (kept != lost_.end()) kept->second.whole_until_s = simulation.whole_until_s;
   }
@@ -96,7 +96,7 @@ void LostSimulations::Examine(const std::stop_token& stop) {
 void LostSimulations::WatchOver(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     Write();
-    std::unique_lock lock(mutex_);
+    base::MutexLock lock(mutex_);
     changed_.wait_for(lock, stop, kPeriod, [] { return false; });
   }
 }
@@ -138,7 +138,7 @@ std::vector<LostSimulation> LostSimulations::Running() const {
 }
 
 std::map<int, LostSimulation> LostSimulations::List() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return lost_;
 }
 
@@ -148,7 +148,7 @@ std::string LostSimulations::NameInFolder(const LostSimulation& lost) const {
 }
 
 bool LostSimulations::Dismiss(int number) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return lost_.erase(number) > 0;
 }
 

@@ -7,16 +7,15 @@
 // Bounded  kMostKept, the newest.
 #pragma once
 
-#include <condition_variable>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "apps/gsv/lost/server_note.h"
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/program/ports.h"
 #include "gsv/services/simulation_host.h"
 
@@ -59,10 +58,10 @@ class LostSimulations {
   std::filesystem::path file_;  // this server's note; empty: it cannot be kept
   ServerNote note_;             // as it was written last; the watching thread's
   bool could_write_ = true;
-  mutable std::mutex mutex_;  // guards lost_ and next_
+  mutable base::Mutex mutex_;  // guards lost_ and next_
   std::condition_variable_any changed_;
-  std::map<int, LostSimulation> lost_;
-  int next_ = 1;
+  std::map<int, LostSimulation> lost_ GSV_GUARDED_BY(mutex_);
+  int next_ GSV_GUARDED_BY(mutex_) = 1;
   std::jthread examiner_, watcher_;  // the last members: they use all others
 };
 

@@ -50,7 +50,7 @@ bool IsWorldOfOurs(const fs::path& file) {
 }  // namespace
 
 void SimulationBuilder::OfferThrough(services::SimulationServiceServant* service) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   service_ = service;
 }
 
@@ -104,7 +104,7 @@ FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const st
   std::error_code ignored;
   read.changed = fs::last_write_time(read.file, ignored);
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     for (const KnownWorld& known : known_) {
       if (known.file == read.file && known.changed == read.changed) return known;
     }
@@ -119,7 +119,7 @@ FieldResult<SimulationBuilder::KnownWorld> SimulationBuilder::ReadWorld(const st
   if (!description) return WrongField("world", description.error());
   read.world = std::make_shared<const model::WorldDescription>(*std::move(description));
   AddSentences(problems, read.warnings);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   known_.push_back(read);
   if (known_.size() > kWorldsKept) known_.erase(known_.begin());
   return read;
@@ -175,14 +175,14 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
   if (request.record) {
     if (auto ok = recordings_.Record(*created); !ok) return give_up({ok.error(), "record"});
   }
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (service_ != nullptr) service_->Publish(*created);
   return *created;
 }
 
 base::Status SimulationBuilder::Destroy(const std::string& simulation) {
   (void)recordings_.Stop(simulation);  // most are not recorded
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (service_ != nullptr && service_->Destroy(simulation)) return {};
   if (const auto found = host_.Find(simulation)) (void)found->Stop();
   return host_.Remove(simulation);

@@ -6,13 +6,13 @@
 
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "apps/gsv/machine/trial_reading.h"
 #include "apps/gsv/running/population.h"
 #include "apps/gsv/serving/recordings.h"
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/program/simulation_factory.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/simulation_host.h"
@@ -76,9 +76,9 @@ class SimulationBuilder final : public gateway::SimulationFactory {
   Recordings& recordings_;
   const std::vector<std::filesystem::path> model_path_;
   const TrialLimits reading_;
-  std::mutex mutex_;
-  std::vector<KnownWorld> known_;  // the newest last
-  services::SimulationServiceServant* service_ = nullptr;
+  base::Mutex mutex_;
+  std::vector<KnownWorld> known_ GSV_GUARDED_BY(mutex_);  // the newest last
+  services::SimulationServiceServant* service_ GSV_GUARDED_BY(mutex_) = nullptr;
 };
 
 }  // namespace gsv::app

@@ -76,6 +76,7 @@ base::Result<std::unique_ptr<ScenarioServers>> ScenarioServers::Find(
   std::unique_ptr<ScenarioServers> servers(
       new ScenarioServers(*orb, *std::move(client), constraint));
   if (auto ok = servers->Refresh(); !ok) return base::Fail(ok.error());
+  const base::MutexLock lock(servers->mutex_);
   if (servers->servers_.empty()) return base::Fail(NoServers(*reference, constraint));
   return servers;
 }
@@ -90,7 +91,7 @@ base::Status ScenarioServers::Refresh() {
       broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load", kMostServers);
   // A broker that no such server has ever registered with does not know the type.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   is_refreshing_ = false;
   refreshed_ = Clock::now();
   if (!offers) return base::Fail(offers.error());
@@ -132,7 +133,7 @@ std::shared_ptr<ScenarioServers::Server> ScenarioServers::Roomiest() {
 
 std::shared_ptr<ScenarioServers::Server> ScenarioServers::Acquire(
     const std::atomic<bool>& is_cancelled) {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   if (served_ == Clock::time_point{}) served_ = Clock::now();
   while (!is_cancelled && failure_.empty()) {
     if (!is_refreshing_ && Clock::now() - refreshed_ >= kRefreshPeriod) {
@@ -160,7 +161,7 @@ std::shared_ptr<ScenarioServers::Server> ScenarioServers::Acquire(
 }
 
 void ScenarioServers::Release(Server& server, Ending ending) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   --server.given;
   served_ = Clock::now();
   if (ending == Ending::kNoRoom) server.avoided_until = Clock::now() + kRefreshPeriod;
@@ -234,7 +235,7 @@ ScenarioServers::Ending ScenarioServers::RunAt(Server& server, const std::string
 }
 
 std::string ScenarioServers::failure() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return failure_;
 }
 

@@ -10,13 +10,12 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "apps/gsv/trials/test_cases.h"
+#include "gsv/base/mutex.h"
 #include "gsv/broker/client/broker_client.h"
 #include "idl/scenario.hh"
 
@@ -53,9 +52,9 @@ class ScenarioServers {
       : orb_(orb), broker_(std::move(broker)), constraint_(std::move(constraint)) {}
 
   base::Status Refresh();
-  void Merge(const std::vector<broker::FoundOffer>& offers);
+  void Merge(const std::vector<broker::FoundOffer>& offers) GSV_REQUIRES(mutex_);
   std::shared_ptr<Server> Acquire(const std::atomic<bool>& is_cancelled);
-  std::shared_ptr<Server> Roomiest();  // under the lock; null: none has room
+  std::shared_ptr<Server> Roomiest() GSV_REQUIRES(mutex_);  // null: none has room
   void Release(Server& server, Ending ending);
   Ending RunAt(Server& server, const std::string& scenario, double timeout,
                const std::atomic<bool>& is_cancelled, TestResult& result);
@@ -63,12 +62,14 @@ class ScenarioServers {
   CORBA::ORB_var orb_;
   broker::BrokerClient broker_;
   const std::string constraint_;
-  mutable std::mutex mutex_;  // guards what follows
-  std::condition_variable room_;
-  std::vector<std::shared_ptr<Server>> servers_;  // as the broker orders them
-  bool is_refreshing_ = false;
-  Clock::time_point refreshed_{}, served_{};  // served_: when there last was a server
-  std::string failure_;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable room_;
+  std::vector<std::shared_ptr<Server>> servers_
+      GSV_GUARDED_BY(mutex_);  // as the broker orders them
+  bool is_refreshing_ GSV_GUARDED_BY(mutex_) = false;
+  Clock::time_point refreshed_ GSV_GUARDED_BY(mutex_){},
+      served_{};  // served_: when there last was a server
+  std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::app

@@ -75,15 +75,16 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
 
   CORBA::Boolean await_end() override {
     NoteQuestion();
-    std::unique_lock lock(mutex_);
-    const bool is_over = ended_.wait_for(lock, kRunLease, [this] { return result_.has_value(); });
+    base::MutexLock lock(mutex_);
+    const bool is_over = ended_.wait_for(
+        lock, kRunLease, [this]() GSV_REQUIRES(mutex_) { return result_.has_value(); });
     if (is_over) RaiseIfGivenUp();
     return is_over;
   }
 
   sba::ScenarioOutcome* outcome() override {
     NoteQuestion();
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (!result_) throw sba::NotRunning("the scenario is still under way");
     RaiseIfGivenUp();
     auto* outcome = new sba::ScenarioOutcome;
@@ -103,7 +104,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
 
   void Cancel() { is_cancelled_ = true; }
   bool is_under_way() const {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return !result_;
   }
   bool IsAbandoned() const {
@@ -111,8 +112,8 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   }
 
  private:
-  // Under the lock: what the server has given up has no outcome.
-  void RaiseIfGivenUp() const {
+  // What the server has given up has no outcome.
+  void RaiseIfGivenUp() const GSV_REQUIRES(mutex_) {
     if (result_->status == TestResult::Status::kInterrupted)
       throw sba::Ended("the server gave the scenario up");
   }
@@ -131,7 +132,7 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
       options.threads = 1;
       result = RunTestCase({file, "scenario"}, options, is_cancelled_);
     }
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     result_ = std::move(result);
     ended_.notify_all();
   }
@@ -141,9 +142,9 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
   const double timeout_, abandoned_after_;
   std::atomic<RunClock::duration> asked_{RunClock::now().time_since_epoch()};
   std::atomic<bool> is_cancelled_{false};
-  mutable std::mutex mutex_;  // guards what follows
-  std::condition_variable ended_;
-  std::optional<TestResult> result_;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable ended_;
+  std::optional<TestResult> result_ GSV_GUARDED_BY(mutex_);
   std::jthread thread_;  // the last member: it uses all others
 };
 
@@ -172,7 +173,7 @@ sba::ScenarioRun_ptr ScenarioServiceServant::run(const char* scenario,
   const double timeout = SecondsOption(values, "timeout_s", kDefaultTimeout);
   const double abandoned = SecondsOption(values, "abandoned_after_s", kDefaultAbandoned);
   RefuseUnlessRunnable(scenario);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (closing_) throw sba::Failed("the server is ending");
   const auto busy = std::count_if(runs_.begin(), runs_.end(),
                                   [](const auto* run) { return run->is_under_way(); });
@@ -185,14 +186,14 @@ sba::ScenarioRun_ptr ScenarioServiceServant::run(const char* scenario,
 }
 
 int ScenarioServiceServant::under_way() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return static_cast<int>(std::count_if(runs_.begin(), runs_.end(),
                                         [](const auto* run) { return run->is_under_way(); }));
 }
 
 void ScenarioServiceServant::Forget(ScenarioRunServant* run) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (runs_.erase(run) == 0) return;  // somebody else has
   }
   const PortableServer::ObjectId_var id = poa_->servant_to_id(run);
@@ -200,9 +201,10 @@ void ScenarioServiceServant::Forget(ScenarioRunServant* run) {
 }
 
 void ScenarioServiceServant::EndAbandoned() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (!closing_) {
-    closing_changed_.wait_for(lock, std::chrono::seconds(1), [this] { return closing_; });
+    closing_changed_.wait_for(lock, std::chrono::seconds(1),
+                              [this]() GSV_REQUIRES(mutex_) { return closing_; });
     std::vector<HeldRun> abandoned;
     for (ScenarioRunServant* run : runs_) {
       if (run->IsAbandoned()) abandoned.push_back(Hold(run));
@@ -221,7 +223,7 @@ void ScenarioServiceServant::EndAbandoned() {
 void ScenarioServiceServant::Close() {
   std::vector<HeldRun> runs;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closing_ = true;
     for (ScenarioRunServant* run : runs_) {
       run->Cancel();

@@ -3,10 +3,10 @@
 // Threads  ORB threads; one more a run, and one that ends those that nobody asks about.
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
 #include <set>
 #include <thread>
+
+#include "gsv/base/mutex.h"
 
 #include "idl/scenario.hh"
 
@@ -34,10 +34,10 @@ class ScenarioServiceServant final : public POA_sba::ScenarioService {
 
   const PortableServer::POA_var poa_;
   const int capacity_;
-  mutable std::mutex mutex_;
-  std::condition_variable closing_changed_;
-  bool closing_ = false;
-  std::set<ScenarioRunServant*> runs_;  // the POA holds them
+  mutable base::Mutex mutex_;
+  base::ConditionVariable closing_changed_;
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;
+  std::set<ScenarioRunServant*> runs_ GSV_GUARDED_BY(mutex_);  // the POA holds them
   std::jthread janitor_;
 };
 

@@ -32,14 +32,14 @@ gateway::Response InstancesPage::Handle(const gateway::Request& request) {
   if (request.target.segments.size() != 2) {
     return gateway::ErrorResponse(404, "there is nothing below /api/instances");
   }
-  const std::unique_lock asking(asking_, std::try_to_lock);
-  if (!asking) {
-    const std::lock_guard lock(mutex_);
+  if (!asking_.try_lock()) {
+    const base::MutexLock lock(mutex_);
     if (has_asked_) return last_;
     return gateway::ErrorResponse(503, "the others are being asked; try again in a moment");
   }
+  const base::MutexLock asking(asking_, std::adopt_lock);
   gateway::Response answer = Ask();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   has_asked_ = true;
   last_ = answer;
   return answer;

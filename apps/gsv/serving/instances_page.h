@@ -5,12 +5,12 @@
 //          answer.
 #pragma once
 
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include <omniORB4/CORBA.h>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/http/http.h"
 
 namespace gsv::app {
@@ -28,10 +28,10 @@ class InstancesPage {
 
   const CORBA::ORB_var orb_;
   const std::string broker_, place_;
-  std::mutex asking_;
-  std::mutex mutex_;
-  gateway::Response last_;
-  bool has_asked_ = false;
+  base::Mutex asking_;
+  base::Mutex mutex_;
+  gateway::Response last_ GSV_GUARDED_BY(mutex_);
+  bool has_asked_ GSV_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace gsv::app

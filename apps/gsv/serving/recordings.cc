@@ -141,7 +141,7 @@ Recordings::~Recordings() = default;
 base::Status Recordings::FinishThatWhichIsOver(
     const std::shared_ptr<simulation::Simulation>& simulation) {
   const std::string& name = simulation->specification().name;
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   const auto found = recordings_.find(name);
   if (found == recordings_.end()) return {};
   // A recording is over when its simulation is gone, was reset, or the disk failed.
@@ -158,7 +158,7 @@ base::Status Recordings::FinishThatWhichIsOver(
 
 base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulation,
                                const std::string& path, const RecordingChoice& choice) {
-  const std::lock_guard starting(starting_);
+  const base::MutexLock starting(starting_);
   if (auto ok = FinishThatWhichIsOver(simulation); !ok) return ok;
   std::string bag;
   if (!NamesAFile(path)) {
@@ -169,7 +169,7 @@ base::Status Recordings::Start(std::shared_ptr<simulation::Simulation> simulatio
   auto recorder =
       recording::SimulationRecorder::Start(simulation, bag.empty() ? path : bag, Options(choice));
   if (!recorder) return base::Fail(recorder.error());
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   recordings_.emplace(simulation->specification().name,
                       Recording{simulation, path, std::move(bag), *std::move(recorder)});
   return {};
@@ -189,7 +189,7 @@ base::Status Recordings::Record(const std::shared_ptr<simulation::Simulation>& s
 }
 
 Recordings::State Recordings::RecordingOf(const std::string& simulation) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = recordings_.find(simulation);
   if (found != recordings_.end()) return StateOf(found->second);
   const auto last = last_.find(simulation);
@@ -204,13 +204,13 @@ void Recordings::Add(const State& state, Totals& totals) {
 }
 
 void Recordings::CountEnded(const Recording& recording) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Add(StateOf(recording), ended_);
   ended_.under_way = 0;
 }
 
 Recordings::Totals Recordings::totals() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Totals totals = ended_;
   for (const auto& [name, recording] : recordings_) Add(StateOf(recording), totals);
   // One that is being finished counts among neither for a moment; what was told is not taken back.
@@ -231,7 +231,7 @@ base::Status Recordings::Finish(Recording& recording) {
 }
 
 base::Status Recordings::Stop(const std::string& simulation) {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   auto node = recordings_.extract(simulation);
   lock.unlock();
   if (node.empty()) {
@@ -247,7 +247,7 @@ base::Status Recordings::Stop(const std::string& simulation) {
 }
 
 base::Status Recordings::StopAll() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   auto recordings = std::exchange(recordings_, {});
   lock.unlock();
   base::Status first;

@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/program/ports.h"
 #include "gsv/scenario/scenario.h"
 
@@ -88,12 +88,13 @@ class Recordings final : public gateway::RecordingSwitch {
   void CountEnded(const Recording& recording);
 
   const std::filesystem::path folder_;
-  std::mutex starting_;                          // one at a time; taken before mutex_
-  std::mutex mutex_;                             // never held while the disk is waited for
-  std::map<std::string, Recording> recordings_;  // by the simulation's name
-  std::map<std::string, State> last_;            // that ended, by the simulation's name
-  Totals ended_;                                 // of those that ended
-  Totals told_;                                  // last
+  base::Mutex starting_;  // one at a time; taken before mutex_
+  base::Mutex mutex_;     // never held while the disk is waited for
+  std::map<std::string, Recording> recordings_ GSV_GUARDED_BY(mutex_);  // by the simulation's name
+  std::map<std::string, State> last_
+      GSV_GUARDED_BY(mutex_);            // that ended, by the simulation's name
+  Totals ended_ GSV_GUARDED_BY(mutex_);  // of those that ended
+  Totals told_ GSV_GUARDED_BY(mutex_);   // last
 };
 
 }  // namespace gsv::app

@@ -86,7 +86,7 @@ void NumberColumn::Narrow(const NumberTerm& term, std::vector<Choice>& choices) 
 
 std::shared_ptr<const NumberColumn> NumberColumns::Of(const Offers& offers,
                                                       const std::string& property) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = columns_.find(property);
   if (found == columns_.end()) {
     if (columns_.size() < kColumns) columns_.emplace(property, nullptr);

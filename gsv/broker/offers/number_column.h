@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/language/offer.h"
 #include "gsv/broker/offers/number_terms.h"
 
@@ -49,11 +49,15 @@ class NumberColumns {
   // Null when there is none (yet). `offers` are the same each time, until Clear().
   std::shared_ptr<const NumberColumn> Of(const Offers& offers, const std::string& property);
   // While nobody asks.
-  void Clear() { columns_.clear(); }
+  void Clear() {
+    const base::MutexLock lock(mutex_);
+    columns_.clear();
+  }
 
  private:
-  std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const NumberColumn>> columns_;  // null: asked for once
+  base::Mutex mutex_;
+  std::map<std::string, std::shared_ptr<const NumberColumn>> columns_
+      GSV_GUARDED_BY(mutex_);  // null: asked for once
 };
 
 }  // namespace gsv::broker

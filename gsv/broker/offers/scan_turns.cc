@@ -13,14 +13,14 @@ std::size_t ScanTurns::ForThisMachine() {
 }
 
 void ScanTurns::Take() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   const std::uint64_t mine = asked_++;
-  changed_.wait(lock, [&] { return mine < ended_ + at_once_; });
+  changed_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return mine < ended_ + at_once_; });
 }
 
 void ScanTurns::Give() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     ++ended_;
   }
   changed_.notify_all();

@@ -4,10 +4,10 @@
 // Threads  any.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::broker {
 
@@ -23,10 +23,10 @@ class ScanTurns {
 
  private:
   const std::uint64_t at_once_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::uint64_t asked_ = 0;
-  std::uint64_t ended_ = 0;
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::uint64_t asked_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t ended_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 // A turn as long as this lives; null: none is needed.

@@ -38,7 +38,7 @@ std::optional<Value> DynamicPropertyEvaluator::Evaluate(const std::string& name,
                                                         Clock::time_point deadline) {
   Question question(name, property.encoded);
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const auto known = answers_.find(question);
     if (known != answers_.end() && known->second.expires > Clock::now()) {
       return known->second.value;
@@ -54,7 +54,7 @@ std::optional<Value> DynamicPropertyEvaluator::Evaluate(const std::string& name,
 }
 
 void DynamicPropertyEvaluator::Remember(Question question, Answer answer) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (answers_.size() >= limits_.answers) {
     const auto now = Clock::now();
     std::erase_if(answers_, [&](const auto& entry) { return entry.second.expires <= now; });

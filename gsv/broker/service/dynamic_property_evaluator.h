@@ -7,11 +7,11 @@
 
 #include <chrono>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/language/limits.h"
 #include "gsv/broker/offers/dynamic_values.h"
 
@@ -35,8 +35,8 @@ class DynamicPropertyEvaluator : public DynamicEvaluator {
   void Remember(Question question, Answer answer);
 
   const DynamicLimits limits_;
-  std::mutex mutex_;  // guards all that follows
-  std::map<Question, Answer> answers_;
+  base::Mutex mutex_;
+  std::map<Question, Answer> answers_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::broker

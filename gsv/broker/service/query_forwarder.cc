@@ -153,7 +153,7 @@ ForwardedAnswer QueryForwarder::AskOne(CORBA::ORB_ptr orb, const ForwardedQuery&
 }
 
 bool QueryForwarder::Enter(const std::string& target) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (underway_ >= limits_.calls) return false;
   const auto silent = silent_.find(target);
   if (silent != silent_.end()) {
@@ -167,7 +167,7 @@ bool QueryForwarder::Enter(const std::string& target) {
 void QueryForwarder::Leave(const QueryDestination& destination, bool answered) {
   bool was_silent = false;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     --underway_;
     was_silent = silent_.contains(destination.target);
     if (answered) {

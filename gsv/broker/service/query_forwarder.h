@@ -9,12 +9,12 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include <COS/CosTrading.hh>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/language/limits.h"
 #include "gsv/broker/language/offer.h"
 
@@ -64,9 +64,10 @@ class QueryForwarder {
   void Leave(const QueryDestination& destination, bool answered);
 
   const FederationLimits limits_;
-  std::mutex mutex_;  // guards all that follows
-  std::size_t underway_ = 0;
-  std::map<std::string, bool> silent_;  // by target: whether a query is asking it
+  base::Mutex mutex_;
+  std::size_t underway_ GSV_GUARDED_BY(mutex_) = 0;
+  std::map<std::string, bool> silent_
+      GSV_GUARDED_BY(mutex_);  // by target: whether a query is asking it
 };
 
 }  // namespace gsv::broker

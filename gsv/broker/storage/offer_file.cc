@@ -58,13 +58,13 @@ OfferFile::OfferFile(std::string path, Database database, Statements statements)
 
 void OfferFile::Close() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     ending_ = true;
   }
   appended_.notify_one();
   if (!writer_.joinable()) return;
   writer_.join();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   works_ = false;
   waiting_.clear();
   written_.notify_all();
@@ -181,14 +181,14 @@ base::Status OfferFile::LimitPages(int pages) {
 }
 
 bool OfferFile::works() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return works_;
 }
 
 Journal::Ticket OfferFile::Append(StateChange change) {
   Ticket ticket = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (works_) waiting_.push_back(std::move(change));
     ticket = ++last_appended_;
   }
@@ -197,15 +197,15 @@ Journal::Ticket OfferFile::Append(StateChange change) {
 }
 
 bool OfferFile::Wait(Ticket ticket) {
-  std::unique_lock lock(mutex_);
-  written_.wait(lock, [&] { return last_written_ >= ticket || !works_; });
+  base::MutexLock lock(mutex_);
+  written_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return last_written_ >= ticket || !works_; });
   return last_written_ >= ticket;
 }
 
 void OfferFile::Write() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (true) {
-    appended_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+    appended_.wait(lock, [this]() GSV_REQUIRES(mutex_) { return ending_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
     const std::vector<StateChange> changes = std::exchange(waiting_, {});
     const Ticket last = last_appended_;

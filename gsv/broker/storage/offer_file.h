@@ -6,15 +6,14 @@
 // Threads  a thread of its own writes; all changes that wait become one transaction.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 #include "gsv/broker/storage/database.h"
 #include "gsv/broker/trader/journal.h"
 
@@ -74,14 +73,14 @@ class OfferFile : public Journal {
   Database database_;
   Statements statements_;
 
-  mutable std::mutex mutex_;  // guards all that follows
-  std::condition_variable appended_;
-  std::condition_variable written_;
-  std::vector<StateChange> waiting_;
-  Ticket last_appended_ = 0;
-  Ticket last_written_ = 0;
-  bool works_ = true;
-  bool ending_ = false;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable appended_;
+  base::ConditionVariable written_;
+  std::vector<StateChange> waiting_ GSV_GUARDED_BY(mutex_);
+  Ticket last_appended_ GSV_GUARDED_BY(mutex_) = 0;
+  Ticket last_written_ GSV_GUARDED_BY(mutex_) = 0;
+  bool works_ GSV_GUARDED_BY(mutex_) = true;
+  bool ending_ GSV_GUARDED_BY(mutex_) = false;
   std::thread writer_;  // last: it uses the others
 };
 

@@ -12,9 +12,10 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <vector>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::broker {
 
@@ -55,7 +56,7 @@ class CursorTable {
 
   // `entries` holds at most limits.entries.
   std::uint64_t Open(std::vector<Entry> entries, Context context) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     RemoveExpired();
     while (!cursors_.empty() &&
            (cursors_.size() >= limits_.cursors || held_ + entries.size() > limits_.entries)) {
@@ -70,7 +71,7 @@ class CursorTable {
   // Takes the next entries, see CountFitting. Nothing when there is no such cursor.
   std::optional<Batch> Take(std::uint64_t key, std::size_t count, std::size_t bytes,
                             const SizeOf& size_of) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     Cursor* cursor = Use(key);
     if (cursor == nullptr) return std::nullopt;
     const std::size_t taken =
@@ -85,7 +86,7 @@ class CursorTable {
   }
 
   std::optional<std::size_t> Left(std::uint64_t key) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const Cursor* cursor = Use(key);
     if (cursor == nullptr) return std::nullopt;
     return cursor->entries.size() - cursor->next;
@@ -93,7 +94,7 @@ class CursorTable {
 
   // False when there is no such cursor.
   bool Close(std::uint64_t key) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     const auto found = cursors_.find(key);
     if (found == cursors_.end()) return false;
     Remove(found);
@@ -102,12 +103,12 @@ class CursorTable {
 
   // Lets go of what nobody has used for the lifetime.
   void Expire() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     RemoveExpired();
   }
 
   std::size_t size() const {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return cursors_.size();
   }
 
@@ -120,7 +121,7 @@ class CursorTable {
   };
   using Cursors = std::map<std::uint64_t, Cursor>;
 
-  Cursor* Use(std::uint64_t key) {
+  Cursor* Use(std::uint64_t key) GSV_REQUIRES(mutex_) {
     RemoveExpired();
     const auto found = cursors_.find(key);
     if (found == cursors_.end()) return nullptr;
@@ -128,7 +129,7 @@ class CursorTable {
     return &found->second;
   }
 
-  void RemoveExpired() {
+  void RemoveExpired() GSV_REQUIRES(mutex_) {
     const auto now = clock_();
     for (auto cursor = cursors_.begin(); cursor != cursors_.end();) {
       const auto next = std::next(cursor);
@@ -137,23 +138,23 @@ class CursorTable {
     }
   }
 
-  typename Cursors::iterator LeastRecentlyUsed() {
+  typename Cursors::iterator LeastRecentlyUsed() GSV_REQUIRES(mutex_) {
     return std::min_element(cursors_.begin(), cursors_.end(), [](const auto& a, const auto& b) {
       return a.second.used < b.second.used;
     });
   }
 
-  void Remove(typename Cursors::iterator cursor) {
+  void Remove(typename Cursors::iterator cursor) GSV_REQUIRES(mutex_) {
     held_ -= cursor->second.entries.size();
     cursors_.erase(cursor);
   }
 
   const CursorLimits limits_;
   const Clock clock_;
-  mutable std::mutex mutex_;
-  Cursors cursors_;
-  std::size_t held_ = 0;
-  std::uint64_t next_key_ = 1;
+  mutable base::Mutex mutex_;
+  Cursors cursors_ GSV_GUARDED_BY(mutex_);
+  std::size_t held_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t next_key_ GSV_GUARDED_BY(mutex_) = 1;
 };
 
 }  // namespace gsv::broker

@@ -16,7 +16,7 @@ LivenessMonitor::LivenessMonitor(const LivenessOptions& options, Trader& trader,
 
 LivenessMonitor::~LivenessMonitor() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     ending_ = true;
   }
   ending_changed_.notify_all();
@@ -30,14 +30,15 @@ void LivenessMonitor::Work() {
       return;
     } catch (const std::bad_alloc&) {
       // The address space is limited, and others may need it for a moment.
-      std::unique_lock lock(mutex_);
-      ending_changed_.wait_for(lock, options_.timeout, [this] { return ending_; });
+      base::MutexLock lock(mutex_);
+      ending_changed_.wait_for(lock, options_.timeout,
+                               [this]() GSV_REQUIRES(mutex_) { return ending_; });
     }
   }
 }
 
 void LivenessMonitor::AskThoseDue() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (const auto service = Next(lock)) {
     Pulse pulse = Pulse::kSilent;
     if (!silent_addresses_.contains(service->address)) {
@@ -53,8 +54,7 @@ void LivenessMonitor::AskThoseDue() {
   }
 }
 
-std::shared_ptr<const LivenessMonitor::Service> LivenessMonitor::Next(
-    std::unique_lock<std::mutex>& lock) {
+std::shared_ptr<const LivenessMonitor::Service> LivenessMonitor::Next(base::MutexLock& lock) {
   while (!ending_) {
     const bool is_over = next_ == round_.size();
     Clock::duration share = options_.period;
@@ -62,7 +62,7 @@ std::shared_ptr<const LivenessMonitor::Service> LivenessMonitor::Next(
     const auto due = round_start_ + share;
     if (Clock::now() < due) {
       // Another may have taken the service, or begun a round, meanwhile: look again.
-      ending_changed_.wait_until(lock, due, [this] { return ending_; });
+      ending_changed_.wait_until(lock, due, [this]() GSV_REQUIRES(mutex_) { return ending_; });
     } else if (is_over) {
       StartRound();
     } else {

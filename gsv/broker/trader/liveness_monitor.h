@@ -13,16 +13,15 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/trader/trader.h"
 
 namespace gsv::broker {
@@ -64,25 +63,25 @@ class LivenessMonitor {
   void Work();
   void AskThoseDue();
   // The next service that is due, or null at the end. Waits for it.
-  std::shared_ptr<const Service> Next(std::unique_lock<std::mutex>& lock);
-  void StartRound();
+  std::shared_ptr<const Service> Next(base::MutexLock& lock) GSV_REQUIRES(mutex_);
+  void StartRound() GSV_REQUIRES(mutex_);
   // True when it is dead.
-  bool Judge(const Service& service, Pulse pulse);
+  bool Judge(const Service& service, Pulse pulse) GSV_REQUIRES(mutex_);
   void Withdraw(const Service& service, Pulse pulse);
 
   const LivenessOptions options_;
   Trader& trader_;
   const Ask ask_;
 
-  std::mutex mutex_;  // guards all that follows
-  std::condition_variable ending_changed_;
-  bool ending_ = false;
-  std::vector<std::shared_ptr<const Service>> round_;
-  std::size_t next_ = 0;
-  Clock::time_point round_start_;
-  std::set<std::string> silent_addresses_;                 // in this round
-  std::map<std::string, Clock::time_point> silent_since_;  // by reference
-  std::vector<std::thread> workers_;                       // last: they use the others
+  base::Mutex mutex_;
+  base::ConditionVariable ending_changed_;
+  bool ending_ GSV_GUARDED_BY(mutex_) = false;
+  std::vector<std::shared_ptr<const Service>> round_ GSV_GUARDED_BY(mutex_);
+  std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
+  Clock::time_point round_start_ GSV_GUARDED_BY(mutex_);
+  std::set<std::string> silent_addresses_ GSV_GUARDED_BY(mutex_);                 // in this round
+  std::map<std::string, Clock::time_point> silent_since_ GSV_GUARDED_BY(mutex_);  // by reference
+  std::vector<std::thread> workers_;  // last: they use the others
 };
 
 }  // namespace gsv::broker

@@ -6,7 +6,7 @@ RequestHistory::RequestHistory(std::size_t requests, std::chrono::nanoseconds li
     : requests_(requests), lifetime_(lifetime), clock_(std::move(clock)) {}
 
 bool RequestHistory::Remember(const std::string& id) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto now = clock_();
   while (!by_age_.empty() && now - by_age_.front().first > lifetime_) ForgetOldest();
   const auto [place, is_new] = ids_.insert(id);

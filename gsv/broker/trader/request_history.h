@@ -10,10 +10,11 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <set>
 #include <string>
 #include <utility>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::broker {
 
@@ -30,14 +31,15 @@ class RequestHistory {
  private:
   using Remembered = std::set<std::string>;
 
-  void ForgetOldest();
+  void ForgetOldest() GSV_REQUIRES(mutex_);
 
   const std::size_t requests_;
   const std::chrono::nanoseconds lifetime_;
   const Clock clock_;
-  std::mutex mutex_;  // guards all that follows
-  Remembered ids_;
-  std::deque<std::pair<std::chrono::steady_clock::time_point, Remembered::iterator>> by_age_;
+  base::Mutex mutex_;
+  Remembered ids_ GSV_GUARDED_BY(mutex_);
+  std::deque<std::pair<std::chrono::steady_clock::time_point, Remembered::iterator>> by_age_
+      GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::broker

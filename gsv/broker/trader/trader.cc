@@ -10,9 +10,6 @@
 namespace gsv::broker {
 namespace {
 
-using ReadLock = std::shared_lock<std::shared_mutex>;
-using WriteLock = std::unique_lock<std::shared_mutex>;
-
 constexpr std::size_t kIdLength = 8 + 1 + 16;  // stem-number, in hexadecimal
 
 std::string StemText(std::uint32_t stem) { return fmt::format("{:08x}", stem); }
@@ -33,7 +30,7 @@ Trader::Trader(const TraderLimits& limits, std::uint32_t stem, std::uint64_t see
 }
 
 base::Status Trader::Restore(TraderState state, std::unique_ptr<Journal> journal) {
-  const WriteLock lock(mutex_);
+  const base::WriterLock lock(mutex_);
   if (auto restored = types_.Restore(std::move(state.types), state.next_incarnation); !restored) {
     return restored;
   }
@@ -52,12 +49,12 @@ void Trader::RecordType(const std::string& name) {
 }
 
 TraderAttributes Trader::attributes() const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return attributes_;
 }
 
 Traded<void> Trader::ChangeAttributes(const std::function<void(TraderAttributes&)>& change) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     change(attributes_);
     Record(AttributesStored{attributes_});
     return {};
@@ -65,12 +62,12 @@ Traded<void> Trader::ChangeAttributes(const std::function<void(TraderAttributes&
 }
 
 std::uint64_t Trader::NextIncarnation() const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return types_.next_incarnation();
 }
 
 Traded<std::uint64_t> Trader::AddType(ServiceType type) {
-  return Change([&]() -> Traded<std::uint64_t> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::uint64_t> {
     const std::string name = type.name;
     auto incarnation = types_.Add(std::move(type));
     if (incarnation) RecordType(name);
@@ -79,7 +76,7 @@ Traded<std::uint64_t> Trader::AddType(ServiceType type) {
 }
 
 Traded<void> Trader::RemoveType(const std::string& name) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     auto removed = types_.Remove(name);
     if (removed) Record(TypeRemoved{name});
     return removed;
@@ -87,22 +84,22 @@ Traded<void> Trader::RemoveType(const std::string& name) {
 }
 
 std::vector<std::string> Trader::ListTypes(std::optional<std::uint64_t> since) const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return types_.List(since);
 }
 
 Traded<ServiceType> Trader::DescribeType(const std::string& name) const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return types_.Describe(name);
 }
 
 Traded<ServiceType> Trader::FullyDescribeType(const std::string& name) const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return types_.FullyDescribe(name);
 }
 
 Traded<void> Trader::MaskType(const std::string& name) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     auto changed = types_.Mask(name);
     if (changed) RecordType(name);
     return changed;
@@ -110,7 +107,7 @@ Traded<void> Trader::MaskType(const std::string& name) {
 }
 
 Traded<void> Trader::UnmaskType(const std::string& name) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     auto changed = types_.Unmask(name);
     if (changed) RecordType(name);
     return changed;
@@ -142,7 +139,7 @@ Traded<std::string> Trader::Export(const ServiceType& type, std::string referenc
 
 Traded<std::string> Trader::Store(Offer offer) {
   if (auto fits = CheckSize(offer.properties, offer.reference); !fits) return Refuse(fits.error());
-  return Change([&]() -> Traded<std::string> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::string> {
     if (offers_.size() >= limits_.offers) {
       return Refuse({.refusal = Refusal::kLimit,
                      .detail = fmt::format("there are {} offers already", limits_.offers)});
@@ -154,7 +151,7 @@ Traded<std::string> Trader::Store(Offer offer) {
 }
 
 Traded<void> Trader::Withdraw(const std::string& id) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     const auto offer = FindOffer(id);
     if (!offer) return Refuse(offer.error());
     Remove({(*offer)->number});
@@ -168,12 +165,12 @@ void Trader::Remove(std::vector<std::uint64_t> numbers) {
 }
 
 Traded<OfferPtr> Trader::Describe(const std::string& id) const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return FindOffer(id);
 }
 
 Traded<void> Trader::Modify(const std::string& id, Modification modification) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     if (!attributes_.supports_modifiable_properties) {
       return Refuse({.refusal = Refusal::kNotImplemented});
     }
@@ -197,7 +194,7 @@ Traded<void> Trader::Modify(const std::string& id, Modification modification) {
 }
 
 std::size_t Trader::WithdrawAll(const std::vector<std::uint64_t>& numbers) {
-  const auto count = Change([&]() -> Traded<std::size_t> {
+  const auto count = Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::size_t> {
     OffersRemoved removed;
     for (const std::uint64_t number : numbers) {
       if (offers_.Remove(number)) removed.numbers.push_back(number);
@@ -210,7 +207,7 @@ std::size_t Trader::WithdrawAll(const std::vector<std::uint64_t>& numbers) {
 }
 
 std::vector<std::string> Trader::OfferIds() const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   std::vector<std::string> ids;
   for (const OfferPtr& offer : offers_.All()) {
     if (!IsProxy(offer)) ids.push_back(IdOf(offer->number));
@@ -219,7 +216,7 @@ std::vector<std::string> Trader::OfferIds() const {
 }
 
 Offers Trader::AllOffers() const {
-  const ReadLock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   Offers all = offers_.All();
   std::erase_if(all, IsProxy);
   return all;

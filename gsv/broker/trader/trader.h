@@ -10,14 +10,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <shared_mutex>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 #include "gsv/broker/language/expression.h"
 #include "gsv/broker/language/limits.h"
 #include "gsv/broker/language/offer.h"
@@ -145,10 +144,10 @@ class Trader {
   // cannot become so: nothing is changed then, but for the very change that failed.
   template <typename Apply>
   std::invoke_result_t<Apply> Change(const Apply& apply);
-  void Record(StateChange change) {
+  void Record(StateChange change) GSV_REQUIRES(mutex_) {
     if (journal_ != nullptr) last_ticket_ = journal_->Append(std::move(change));
   }
-  void RecordType(const std::string& name);
+  void RecordType(const std::string& name) GSV_REQUIRES(mutex_);
 
   struct Candidates;
   class Search;
@@ -159,12 +158,12 @@ class Trader {
   Traded<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
   // An offer or a proxy.
-  Traded<OfferPtr> FindAny(const std::string& id) const;
-  Traded<OfferPtr> FindOffer(const std::string& id) const;
-  Traded<OfferPtr> FindProxy(const std::string& id) const;
+  Traded<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
+  Traded<OfferPtr> FindOffer(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
+  Traded<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   // Checks the size, and gives the offer its number.
   Traded<std::string> Store(Offer offer);
-  void Remove(std::vector<std::uint64_t> numbers);
+  void Remove(std::vector<std::uint64_t> numbers) GSV_REQUIRES(mutex_);
   Traded<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
 
   const TraderLimits limits_;
@@ -172,12 +171,12 @@ class Trader {
   std::unique_ptr<Journal> journal_;  // null: everything is in memory
   mutable std::atomic<std::uint64_t> seed_;
   mutable ScanTurns scan_turns_{ScanTurns::ForThisMachine()};
-  mutable std::shared_mutex mutex_;  // guards all that follows
-  TraderAttributes attributes_;
-  TypeRepository types_;
-  mutable OfferStore offers_;  // a query may make it an index
-  LinkTable links_;
-  Journal::Ticket last_ticket_ = 0;
+  mutable base::SharedMutex mutex_;
+  TraderAttributes attributes_ GSV_GUARDED_BY(mutex_);
+  TypeRepository types_ GSV_GUARDED_BY(mutex_);
+  mutable OfferStore offers_ GSV_GUARDED_BY(mutex_);  // a query may make it an index
+  LinkTable links_ GSV_GUARDED_BY(mutex_);
+  Journal::Ticket last_ticket_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 // What is changed under the lock is durable when it is answered, yet nobody waits for the disk
@@ -188,7 +187,7 @@ std::invoke_result_t<Apply> Trader::Change(const Apply& apply) {
   if (journal_ != nullptr && !journal_->works()) return Refuse(not_stored);
   Journal::Ticket ticket = 0;
   auto result = [&] {
-    const std::unique_lock lock(mutex_);
+    const base::WriterLock lock(mutex_);
     auto applied = apply();
     ticket = last_ticket_;
     return applied;

@@ -1,11 +1,11 @@
-#include <shared_mutex>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/trader/trader.h"
 
 namespace gsv::broker {
 
 Traded<void> Trader::AddLink(TraderLink link) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     auto added = links_.Add(link, attributes_.max_link_follow_policy);
     if (added) Record(LinkStored{link});
     return added;
@@ -13,7 +13,7 @@ Traded<void> Trader::AddLink(TraderLink link) {
 }
 
 Traded<void> Trader::RemoveLink(const std::string& name) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     auto removed = links_.Remove(name);
     if (removed) Record(LinkRemoved{name});
     return removed;
@@ -22,7 +22,7 @@ Traded<void> Trader::RemoveLink(const std::string& name) {
 
 Traded<void> Trader::ModifyLink(const std::string& name, FollowOption def_pass_on,
                                 FollowOption limiting) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     auto modified = links_.Modify(name, def_pass_on, limiting, attributes_.max_link_follow_policy);
     if (modified) Record(LinkStored{*links_.Describe(name)});
     return modified;
@@ -30,12 +30,12 @@ Traded<void> Trader::ModifyLink(const std::string& name, FollowOption def_pass_o
 }
 
 Traded<TraderLink> Trader::DescribeLink(const std::string& name) const {
-  const std::shared_lock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return links_.Describe(name);
 }
 
 std::vector<TraderLink> Trader::links() const {
-  const std::shared_lock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return links_.All();
 }
 

@@ -1,7 +1,7 @@
-#include <shared_mutex>
 
 #include <fmt/format.h>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/offers/recipe.h"
 #include "gsv/broker/trader/offer_rules.h"
 #include "gsv/broker/trader/trader.h"
@@ -32,7 +32,7 @@ Traded<std::string> Trader::ExportProxy(const std::string& type, std::string tar
 }
 
 Traded<void> Trader::WithdrawProxy(const std::string& id) {
-  return Change([&]() -> Traded<void> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
     const auto proxy = FindProxy(id);
     if (!proxy) return Refuse(proxy.error());
     Remove({(*proxy)->number});
@@ -41,12 +41,12 @@ Traded<void> Trader::WithdrawProxy(const std::string& id) {
 }
 
 Traded<OfferPtr> Trader::DescribeProxy(const std::string& id) const {
-  const std::shared_lock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   return FindProxy(id);
 }
 
 std::vector<std::string> Trader::ProxyIds() const {
-  const std::shared_lock lock(mutex_);
+  const base::ReaderLock lock(mutex_);
   std::vector<std::string> ids;
   for (const OfferPtr& offer : offers_.All()) {
     if (offer->proxy != nullptr) ids.push_back(IdOf(offer->number));

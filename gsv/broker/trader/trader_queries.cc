@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <shared_mutex>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/language/equality_terms.h"
 #include "gsv/broker/language/evaluation.h"
 #include "gsv/broker/offers/number_terms.h"
@@ -12,8 +12,6 @@
 
 namespace gsv::broker {
 namespace {
-
-using ReadLock = std::shared_lock<std::shared_mutex>;
 
 // As many steps of an evaluation are over soon.
 constexpr std::size_t kWorthATurn = 20'000;
@@ -173,7 +171,7 @@ QueryResult Trader::Rank(MatchingOffers matches, DynamicValues& values) const {
 
 Trader::Candidates Trader::SelectCandidates(const Query& query,
                                             const std::vector<EqualityTerm>& terms) const {
-  ReadLock lock(mutex_);
+  base::ReaderLock lock(mutex_);
   const ImportPolicies& policies = query.policies;
   Candidates candidates{
       .cardinalities = EffectiveCardinalities(policies, attributes_),
@@ -211,7 +209,7 @@ Trader::Candidates Trader::SelectCandidates(const Query& query,
 
 void Trader::MakeIndex(const std::vector<std::string>& types,
                        const std::vector<EqualityTerm>& terms) const {
-  const std::unique_lock lock(mutex_);
+  const base::WriterLock lock(mutex_);
   offers_.Index(types, terms);
 }
 
@@ -224,7 +222,7 @@ Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std:
 
   // Services are asked for dynamic properties without the lock.
   const std::vector<OfferView> views = [&] {
-    const ReadLock lock(mutex_);
+    const base::ReaderLock lock(mutex_);
     return offers_.OfTypes(types_.WithSubTypes(type).value_or(std::vector<std::string>{}));
   }();
   DynamicValues values(evaluator, limits_.dynamic.query_budget);
@@ -238,7 +236,7 @@ Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std:
     }
   }
 
-  return Change([&]() -> Traded<std::size_t> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::size_t> {
     OffersRemoved removed;
     for (const OfferPtr& offer : matching) {
       // One that was modified meanwhile may not match any more.

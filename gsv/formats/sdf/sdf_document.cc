@@ -1,12 +1,12 @@
 #include "gsv/formats/sdf/sdf_document.h"
 
-#include <mutex>
-
 #include <console_bridge/console.h>
 #include <sdf/Console.hh>
 #include <sdf/Element.hh>
 #include <sdf/Error.hh>
 #include <sdf/ParserConfig.hh>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::formats {
 namespace {
@@ -71,8 +71,8 @@ void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
 base::Result<SdfDocument> ParseSdf(const std::string& text, const std::filesystem::path& source,
                                    const std::map<std::string, std::filesystem::path>& includes,
                                    base::Problems& problems) {
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
+  static base::Mutex one_at_a_time;
+  const base::MutexLock lock(one_at_a_time);
   SilenceConsoles();
   SdfDocument document{std::make_unique<sdf::Root>(), source};
   sdf::Errors errors;

@@ -8,7 +8,7 @@ BackgroundSync::BackgroundSync(ByteSink& sink) : sink_(sink), thread_([this] { R
 
 BackgroundSync::~BackgroundSync() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_ending_ = true;
   }
   work_.notify_one();
@@ -17,21 +17,21 @@ BackgroundSync::~BackgroundSync() {
 
 void BackgroundSync::Ask() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_asked_ = true;
   }
   work_.notify_one();
 }
 
 base::Status BackgroundSync::status() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return status_;
 }
 
 void BackgroundSync::Run() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   for (;;) {
-    work_.wait(lock, [this] { return is_asked_ || is_ending_; });
+    work_.wait(lock, [this]() GSV_REQUIRES(mutex_) { return is_asked_ || is_ending_; });
     if (!std::exchange(is_asked_, false)) return;
     lock.unlock();
     base::Status synced = sink_.Sync();

@@ -4,10 +4,9 @@
 // Threads  any.
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
+#include "gsv/base/mutex.h"
 #include "gsv/recording/mcap/file_io.h"
 
 namespace gsv::recording {
@@ -28,11 +27,11 @@ class BackgroundSync {
   void Run();
 
   ByteSink& sink_;
-  mutable std::mutex mutex_;
-  std::condition_variable work_;
-  bool is_asked_ = false;
-  bool is_ending_ = false;
-  base::Status status_;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable work_;
+  bool is_asked_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_ending_ GSV_GUARDED_BY(mutex_) = false;
+  base::Status status_ GSV_GUARDED_BY(mutex_);
   std::thread thread_;
 };
 

@@ -69,7 +69,7 @@ McapWriter::~McapWriter() {
 base::Result<ChannelId> McapWriter::AddChannel(const std::string& topic,
                                                const messages::Schema& schema,
                                                const ChannelOptions& options) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto same_type = [&](const SchemaRecord& each) { return SameType(each, schema); };
   auto type = std::find_if(schemas_.begin(), schemas_.end(), same_type);
   if (const auto known = channels_.find(topic); known != channels_.end()) {
@@ -100,7 +100,7 @@ base::Result<ChannelId> McapWriter::AddChannel(const std::string& topic,
 
 void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data) {
   if (failed_) return;
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   GSV_CHECK(channel < sequences_.size());
   if (queued() >= options_.queue_size && options_.when_full == WhenFull::kDrop) {
     ++sequences_[channel];  // so that the gap shows
@@ -127,7 +127,7 @@ void McapWriter::AddMetadata(const MetadataRecord& metadata) {
 }
 
 void McapWriter::EnqueueWhole(Bytes record) {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   if (!WaitForRoom(lock)) return;
   const std::size_t before = queued();
   whole_size_ += record.size();
@@ -136,8 +136,10 @@ void McapWriter::EnqueueWhole(Bytes record) {
 }
 
 // False if the recording has ended.
-bool McapWriter::WaitForRoom(std::unique_lock<std::mutex>& lock) {
-  const auto has_room = [&] { return queued() < options_.queue_size || closing_ || !status_; };
+bool McapWriter::WaitForRoom(base::MutexLock& lock) {
+  const auto has_room = [&]() GSV_REQUIRES(mutex_) {
+    return queued() < options_.queue_size || closing_ || !status_;
+  };
   if (!room_.wait_for(lock, options_.wait_limit, has_room)) {
     EndWith({base::ErrorCode::kTimeout,
              "the recording's disk does not keep up; record fewer topics or to a faster disk",
@@ -146,7 +148,7 @@ bool McapWriter::WaitForRoom(std::unique_lock<std::mutex>& lock) {
   return status_.has_value() && !closing_;
 }
 
-// After the queue has grown from `before`. The lock is held.
+// After the queue has grown from `before`.
 void McapWriter::Queued(std::size_t before) {
   if (oldest_ == std::chrono::steady_clock::time_point{}) {
     oldest_ = std::chrono::steady_clock::now();
@@ -154,7 +156,6 @@ void McapWriter::Queued(std::size_t before) {
   if (before < wake_at_ && queued() >= wake_at_) work_.notify_one();
 }
 
-// The lock is held.
 void McapWriter::EndWith(base::Error error) {
   if (status_) status_ = base::Fail(std::move(error));
   failed_ = true;
@@ -165,7 +166,7 @@ void McapWriter::EndWith(base::Error error) {
 }
 
 void McapWriter::FlushIfOlderThan(std::chrono::steady_clock::duration age) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const bool has_any = oldest_ != std::chrono::steady_clock::time_point{};
   if (!has_any || std::chrono::steady_clock::now() - oldest_ < age) return;
   flush_ = true;
@@ -175,7 +176,7 @@ void McapWriter::FlushIfOlderThan(std::chrono::steady_clock::duration age) {
 
 base::Status McapWriter::Close() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closing_ = true;
   }
   work_.notify_one();
@@ -185,12 +186,12 @@ base::Status McapWriter::Close() {
 }
 
 base::Status McapWriter::status() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return status_;
 }
 
 McapWriter::Progress McapWriter::progress() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return progress_;
 }
 
@@ -203,11 +204,12 @@ void McapWriter::Run() {
     bool flush = false;
     std::uint64_t dropped = 0;
     {
-      std::unique_lock lock(mutex_);
+      base::MutexLock lock(mutex_);
       progress_.bytes = file.bytes_written();
       if (!file.status() && status_) EndWith(file.status().error());
       if (const base::Status synced = disk->status(); !synced && status_) EndWith(synced.error());
-      work_.wait(lock, [&] { return flush_ || closing_ || queued() >= wake_at_; });
+      work_.wait(lock,
+                 [&]() GSV_REQUIRES(mutex_) { return flush_ || closing_ || queued() >= wake_at_; });
       batch.clear();
       std::swap(batch, queue_);
       whole = std::exchange(whole_, {});
@@ -226,7 +228,7 @@ void McapWriter::Run() {
   }
   disk.reset();
   const base::Status status = file.Close();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   progress_.bytes = file.bytes_written();
   if (!status) EndWith(status.error());
 }

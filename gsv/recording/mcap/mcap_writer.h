@@ -10,13 +10,13 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 #include "gsv/base/sim_time.h"
 #include "gsv/messages/schema.h"
 #include "gsv/recording/mcap/mcap_file_writer.h"
@@ -91,30 +91,32 @@ class McapWriter {
 
  private:
   void EnqueueWhole(Bytes record);
-  std::size_t queued() const { return queue_.size() + whole_size_; }
-  void Queued(std::size_t before);
-  bool WaitForRoom(std::unique_lock<std::mutex>& lock);
-  void EndWith(base::Error error);
+  std::size_t queued() const GSV_REQUIRES(mutex_) { return queue_.size() + whole_size_; }
+  void Queued(std::size_t before) GSV_REQUIRES(mutex_);
+  bool WaitForRoom(base::MutexLock& lock) GSV_REQUIRES(mutex_);
+  void EndWith(base::Error error) GSV_REQUIRES(mutex_);
   void Run();
 
   const WriterOptions options_;
   const std::size_t wake_at_;  // queued bytes
   const std::unique_ptr<ByteSink> sink_;
 
-  mutable std::mutex mutex_;
-  std::condition_variable work_;  // there is something for the writer's thread to do
-  std::condition_variable room_;  // the queue has been emptied
-  Bytes queue_;                   // records, as they would stand in a file
-  std::vector<Bytes> whole_;      // further ones, one in each, which may be large
-  std::size_t whole_size_ = 0;
-  bool flush_ = false;
-  bool closing_ = false;
-  std::chrono::steady_clock::time_point oldest_{};  // of what is not flushed; {}: nothing is
-  base::Status status_;
-  Progress progress_;
-  std::map<std::string, ChannelRecord> channels_;  // by topic
-  std::vector<SchemaRecord> schemas_;
-  std::vector<std::uint32_t> sequences_;  // the next number, by channel
+  mutable base::Mutex mutex_;
+  base::ConditionVariable work_;        // there is something for the writer's thread to do
+  base::ConditionVariable room_;        // the queue has been emptied
+  Bytes queue_ GSV_GUARDED_BY(mutex_);  // records, as they would stand in a file
+  std::vector<Bytes> whole_
+      GSV_GUARDED_BY(mutex_);  // further ones, one in each, which may be large
+  std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;
+  bool flush_ GSV_GUARDED_BY(mutex_) = false;
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;
+  std::chrono::steady_clock::time_point oldest_
+      GSV_GUARDED_BY(mutex_){};  // of what is not flushed; {}: nothing is
+  base::Status status_ GSV_GUARDED_BY(mutex_);
+  Progress progress_ GSV_GUARDED_BY(mutex_);
+  std::map<std::string, ChannelRecord> channels_ GSV_GUARDED_BY(mutex_);  // by topic
+  std::vector<SchemaRecord> schemas_ GSV_GUARDED_BY(mutex_);
+  std::vector<std::uint32_t> sequences_ GSV_GUARDED_BY(mutex_);  // the next number, by channel
 
   std::atomic<bool> failed_ = false;
   std::once_flag joined_;

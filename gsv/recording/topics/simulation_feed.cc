@@ -36,8 +36,10 @@ Observation SimulationFeed::Observe(const std::shared_ptr<const world::Snapshot>
 
 void SimulationFeed::OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) {
   {
-    std::unique_lock lock(mutex_);
-    const auto has_room = [this] { return closed_ || snapshots_ < options_.capacity; };
+    base::MutexLock lock(mutex_);
+    const auto has_room = [this]() GSV_REQUIRES(mutex_) {
+      return closed_ || snapshots_ < options_.capacity;
+    };
     if (options_.when_full == WhenFull::kWait) room_.wait(lock, has_room);
     if (closed_) return;
     if (!has_room()) {
@@ -47,7 +49,7 @@ void SimulationFeed::OnSnapshot(const std::shared_ptr<const world::Snapshot>& sn
   }
   Observation observation = Observe(snapshot);
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (closed_) return;
     queue_.emplace_back(std::move(observation));
     ++snapshots_;
@@ -58,7 +60,7 @@ void SimulationFeed::OnSnapshot(const std::shared_ptr<const world::Snapshot>& sn
 void SimulationFeed::OnEvent(const simulation::Event& event) {
   const bool is_reset = event.kind == "reset";  // it has the time of the next run
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (closed_) return;
     was_reset_ = is_reset;
     closed_ = is_reset;
@@ -69,8 +71,9 @@ void SimulationFeed::OnEvent(const simulation::Event& event) {
 }
 
 std::optional<Occurrence> SimulationFeed::Next(std::chrono::milliseconds patience) {
-  std::unique_lock lock(mutex_);
-  news_.wait_for(lock, patience, [this] { return closed_ || !queue_.empty(); });
+  base::MutexLock lock(mutex_);
+  news_.wait_for(lock, patience,
+                 [this]() GSV_REQUIRES(mutex_) { return closed_ || !queue_.empty(); });
   if (queue_.empty()) return std::nullopt;
   Occurrence next = std::move(queue_.front());
   queue_.pop_front();
@@ -83,7 +86,7 @@ std::optional<Occurrence> SimulationFeed::Next(std::chrono::milliseconds patienc
 void SimulationFeed::CloseAtLatest() {
   const simulation::SimulationStatus status = simulation_.status();
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (!closed_) {
       // Taken last of all: the simulation may be running.
       queue_.emplace_back(Observation{simulation_.snapshot(), nullptr, status});
@@ -96,7 +99,7 @@ void SimulationFeed::CloseAtLatest() {
 
 void SimulationFeed::Close() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closed_ = true;
   }
   news_.notify_all();
@@ -104,17 +107,17 @@ void SimulationFeed::Close() {
 }
 
 bool SimulationFeed::is_over() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return closed_ && queue_.empty();
 }
 
 bool SimulationFeed::was_reset() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return was_reset_;
 }
 
 std::uint64_t SimulationFeed::dropped() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return dropped_;
 }
 

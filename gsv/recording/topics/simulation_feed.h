@@ -8,16 +8,15 @@
 //              thread, while all agents wait.
 #pragma once
 
-#include <condition_variable>
 #include <deque>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/recording/mcap/mcap_writer.h"
 #include "gsv/recording/topics/instants.h"
 #include "gsv/simulation/simulation.h"
@@ -74,14 +73,14 @@ class SimulationFeed final : public simulation::Observer {
   Instants sensor_instants_;
   std::shared_ptr<const world::Layout> layout_;  // whose sensors were looked at
 
-  mutable std::mutex mutex_;
-  std::condition_variable news_;
-  std::condition_variable room_;
-  std::deque<Occurrence> queue_;
-  std::size_t snapshots_ = 0;  // in queue_
-  bool closed_ = false;
-  bool was_reset_ = false;
-  std::uint64_t dropped_ = 0;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable news_;
+  base::ConditionVariable room_;
+  std::deque<Occurrence> queue_ GSV_GUARDED_BY(mutex_);
+  std::size_t snapshots_ GSV_GUARDED_BY(mutex_) = 0;  // in queue_
+  bool closed_ GSV_GUARDED_BY(mutex_) = false;
+  bool was_reset_ GSV_GUARDED_BY(mutex_) = false;
+  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace gsv::recording

@@ -1,7 +1,10 @@
 #include "gsv/rendering/cameras/optics.h"
 
+#include <mutex>
 #include <numbers>
 #include <utility>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::rendering {
 namespace {
@@ -62,10 +65,10 @@ std::shared_ptr<Optics::Joining> Optics::JoiningOf(const CameraParameters& camer
     Lens lens;
     std::weak_ptr<Joining> joining;
   };
-  static std::mutex mutex;
-  static std::vector<Known> all;
+  static base::Mutex mutex;
+  static std::vector<Known> all GSV_GUARDED_BY(mutex);
   if (lens.is_plain()) return nullptr;
-  const std::lock_guard lock(mutex);
+  const base::MutexLock lock(mutex);
   std::erase_if(all, [](const Known& known) { return known.joining.expired(); });
   for (const Known& known : all) {
     if (!(known.camera == camera && known.lens == lens)) continue;

@@ -60,7 +60,7 @@ base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchPainter
 }
 
 std::unique_ptr<PicturePainter> RasterBatchPainter::TakePainter() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (idle_.empty()) return std::make_unique<PicturePainter>();
   auto painter = std::move(idle_.back());
   idle_.pop_back();
@@ -71,7 +71,7 @@ void RasterBatchPainter::GiveBack(std::unique_ptr<PicturePainter> painter) {
   // What a picture as large as a wall took is not kept for the next small one.
   constexpr std::size_t kMostPixels = 2 << 20;
   if (painter->pixels() > kMostPixels) return;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   idle_.push_back(std::move(painter));
 }
 

@@ -7,9 +7,9 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/base/thread_team.h"
 #include "gsv/rendering/raster/sun_shadow.h"
 #include "gsv/rendering/scene/batch_painter.h"
@@ -40,8 +40,8 @@ class RasterBatchPainter final : public BatchPainter {
 
   base::ThreadTeam team_;
   SunShadow shadow_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<PicturePainter>> idle_;  // guarded by mutex_
+  base::Mutex mutex_;
+  std::vector<std::unique_ptr<PicturePainter>> idle_ GSV_GUARDED_BY(mutex_);  // guarded by mutex_
 };
 
 }  // namespace gsv::rendering::raster

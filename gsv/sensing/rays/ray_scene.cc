@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gsv/base/check.h"
+#include "gsv/base/mutex.h"
 #include "gsv/sensing/rays/placed_solids.h"
 
 namespace gsv::sensing {
@@ -14,60 +15,84 @@ namespace {
 // Scenes that nobody looks at. It outlives the cache as long as a scene is out.
 struct Pool {
   static constexpr std::size_t kMostIdle = 4;
-  std::mutex mutex;
-  std::vector<std::unique_ptr<PlacedSolids>> idle;
+  base::Mutex mutex;
+  std::vector<std::unique_ptr<PlacedSolids>> idle GSV_GUARDED_BY(mutex);
 
   std::unique_ptr<PlacedSolids> Take() {
-    const std::lock_guard lock(mutex);
+    const base::MutexLock lock(mutex);
     if (idle.empty()) return std::make_unique<PlacedSolids>();
     std::unique_ptr<PlacedSolids> scene = std::move(idle.back());
     idle.pop_back();
     return scene;
   }
   void Return(std::unique_ptr<PlacedSolids> scene) {
-    const std::lock_guard lock(mutex);
+    const base::MutexLock lock(mutex);
     if (idle.size() < kMostIdle) idle.push_back(std::move(scene));
   }
 };
 
 }  // namespace
 
+// The mutex guards only which scenes there are: they are built outside of it, each by the first who
+// asks for it.
 class RaySceneCache::Impl {
  public:
   std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
                                      base::ThreadTeam* team) {
     GSV_CHECK(snapshot != nullptr);
-    const std::lock_guard lock(mutex_);
-    for (const Entry& entry : recent_) {
-      if (entry.snapshot == snapshot) return entry.scene;
-    }
-    if (solids_ == nullptr || solids_->layout != snapshot->layout) {
-      solids_ = std::make_shared<const LayoutSolids>(snapshot->layout);
-    }
-    if (recent_.size() == kRecent) recent_.pop_front();  // may return its scene to the pool
-    std::unique_ptr<PlacedSolids> scene = pool_->Take();
-    scene->MoveTo(solids_, *snapshot, team);
-    std::shared_ptr<const RayScene> shared(
-        scene.release(), [pool = pool_](const PlacedSolids* done) {
-          pool->Return(std::unique_ptr<PlacedSolids>(const_cast<PlacedSolids*>(done)));
-        });
-    recent_.push_back({snapshot, shared});
-    return shared;
+    const std::shared_ptr<Entry> entry = FindOrAdd(snapshot);
+    std::call_once(entry->is_built, [&] { entry->scene = Build(*entry, team); });
+    return entry->scene;
   }
 
  private:
   // Readers a few steps behind still find their scene.
   static constexpr std::size_t kRecent = 4;
 
+  struct Solids {
+    std::shared_ptr<const world::Layout> layout;
+    std::once_flag is_built;
+    std::shared_ptr<const LayoutSolids> solids;  // null until then
+  };
   struct Entry {
     std::shared_ptr<const world::Snapshot> snapshot;
-    std::shared_ptr<const RayScene> scene;
+    std::shared_ptr<Solids> solids;  // of the snapshot's layout
+    std::once_flag is_built;
+    std::shared_ptr<const RayScene> scene;  // null until then
   };
 
-  std::mutex mutex_;
-  std::shared_ptr<const LayoutSolids> solids_;
-  std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
-  std::deque<Entry> recent_;  // the newest last
+  std::shared_ptr<Entry> FindOrAdd(const std::shared_ptr<const world::Snapshot>& snapshot) {
+    const base::MutexLock lock(mutex_);
+    for (const auto& entry : recent_) {
+      if (entry->snapshot == snapshot) return entry;
+    }
+    if (solids_ == nullptr || solids_->layout != snapshot->layout) {
+      solids_ = std::make_shared<Solids>();
+      solids_->layout = snapshot->layout;
+    }
+    if (recent_.size() == kRecent) recent_.pop_front();  // may return its scene to the pool
+    auto entry = std::make_shared<Entry>();
+    entry->snapshot = snapshot;
+    entry->solids = solids_;
+    recent_.push_back(entry);
+    return entry;
+  }
+
+  std::shared_ptr<const RayScene> Build(const Entry& entry, base::ThreadTeam* team) const {
+    Solids& solids = *entry.solids;
+    std::call_once(solids.is_built,
+                   [&] { solids.solids = std::make_shared<const LayoutSolids>(solids.layout); });
+    std::unique_ptr<PlacedSolids> scene = pool_->Take();
+    scene->MoveTo(solids.solids, *entry.snapshot, team);
+    return {scene.release(), [pool = pool_](const PlacedSolids* done) {
+              pool->Return(std::unique_ptr<PlacedSolids>(const_cast<PlacedSolids*>(done)));
+            }};
+  }
+
+  const std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
+  base::Mutex mutex_;
+  std::shared_ptr<Solids> solids_ GSV_GUARDED_BY(mutex_);             // of the newest layout
+  std::deque<std::shared_ptr<Entry>> recent_ GSV_GUARDED_BY(mutex_);  // the newest last
 };
 
 RaySceneCache::RaySceneCache() : impl_(std::make_unique<Impl>()) {}
