@@ -62,7 +62,7 @@ test("one that cannot be fetched is told of, closed, and tried again", async () 
   const { store, ports, open } = dockOf({ load });
   open("news");
   await vi.waitFor(() => expect(store.get().openPanels).toEqual([]));
-  expect(ports.notices.notify).toHaveBeenCalledWith("error", "The panel News cannot be opened: no such file");
+  expect(ports.notices.notify).toHaveBeenCalledWith("error", "The panel News cannot be opened: no such file. Reload the page and try again.");
   open("news");
   expect(load).toHaveBeenCalledTimes(2);
 });

@@ -65,7 +65,8 @@ class Frame {
       this.mounted = mounted;
       return true;
     } catch (error) {
-      this.ports.notices.notify("error", `The panel ${title} cannot be opened: ${(error as Error).message}`);
+      const reason = (error as Error).message;
+      this.ports.notices.notify("error", `The panel ${title} cannot be opened: ${reason}. Reload the page and try again.`);
       this.close(id);
       return false;
     } finally {

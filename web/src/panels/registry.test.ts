@@ -1,4 +1,6 @@
 // @vitest-environment jsdom
+import fs from "node:fs";
+import path from "node:path";
 import { expect, test, vi } from "vitest";
 import { OVERLAYS } from "../state/overlays";
 import { PANELS } from "./registry";
@@ -20,4 +22,18 @@ test.each(PANELS)("the panel $id is mounted, opened, closed and opened again", a
   for (let i = 0; i < 2; ++i) whileOpen?.()();
   expect(body).toBeInstanceOf(HTMLElement);
   vi.restoreAllMocks();
+});
+
+test("panels know nothing of the page but their ports", () => {
+  const folder = path.join(process.cwd(), "src/panels");
+  const sources = (fs.readdirSync(folder, { recursive: true }) as string[]).filter(
+    (file) => file.endsWith(".ts") && !file.endsWith(".test.ts"),
+  );
+  expect(sources).toContain(path.join("status", "StatusPanel.ts"));
+  const importsOf = (file: string) =>
+    [...fs.readFileSync(path.join(folder, file), "utf8").matchAll(/"((?:\.\.\/)+)(\w+)/g)]
+      .filter(([, up]) => path.normalize(path.join("panels", path.dirname(file), up!)) === "./")
+      .map(([, , top]) => top!);
+  const allowed = ["api", "live", "plot", "protocol", "state", "ui"];
+  for (const file of sources) expect([file, importsOf(file).filter((top) => !allowed.includes(top))]).toEqual([file, []]);
 });
