@@ -1,20 +1,22 @@
 #include "gsv/dynamics/world_engine.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "gsv/base/check.h"
 #include "gsv/dynamics/motion/attached_layout.h"
 #include "gsv/dynamics/planar/planar_joints.h"
 #include "gsv/dynamics/planar/planar_mover.h"
-#include "gsv/dynamics/rigid/rigid_engine.h"
+#include "gsv/dynamics/planar/planar_pushes.h"
+#include "gsv/dynamics/rigid/bullet_engine.h"
 
 namespace gsv::dynamics {
 namespace {
 
 class WorldEngine final : public Engine {
  public:
-  explicit WorldEngine(std::shared_ptr<base::ThreadTeam> team)
-      : planar_(MakePlanarMover(std::move(team))) {}
+  WorldEngine(std::shared_ptr<base::ThreadTeam> team, std::unique_ptr<RigidEngine> rigid)
+      : planar_(MakePlanarMover(std::move(team))), rigid_(std::move(rigid)) {}
 
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {
     attached_.Reset(layout);
@@ -30,7 +32,11 @@ class WorldEngine final : public Engine {
   void Step(base::SimTime step, world::State& state,
             std::vector<world::Contact>& contacts) override {
     UseAttachments();
-    MoveBodies(step, state, contacts);
+    if (rigid_->has_bodies()) {
+      MoveAll(step, state, contacts);
+    } else {
+      planar_->Step(step, state, contacts);
+    }
     MovePlanarJoints(*layout_, base::ToSeconds(step), state);
   }
 
@@ -43,8 +49,8 @@ class WorldEngine final : public Engine {
                                          double tolerance) override {
     UseAttachments();
     std::vector<world::Contact> contacts = planar_->OverlapsOf(state, body, tolerance);
-    if (layout_->bodies[body].is_robot()) return contacts;
-    const std::vector<world::Contact> further = rigid_.OverlapsOf(state, body, tolerance);
+    if (layout_->bodies[body].is_robot() || !rigid_->has_bodies()) return contacts;
+    const std::vector<world::Contact> further = rigid_->OverlapsOf(state, body, tolerance);
     contacts.insert(contacts.end(), further.begin(), further.end());
     return contacts;
   }
@@ -53,27 +59,29 @@ class WorldEngine final : public Engine {
   base::Status UseLayout(std::shared_ptr<const world::Layout> layout) {
     if (auto ok = planar_->SetLayout(layout); !ok) return ok;
     layout_ = layout;
-    return rigid_.SetLayout(std::move(layout));
+    if (auto ok = pushes_.SetLayout(layout); !ok) return ok;
+    return rigid_->SetLayout(std::move(layout));
   }
 
   void UseAttachments() {
-    // Both took the same bodies before.
+    // All took the same bodies before.
     if (auto layout = attached_.TakeChanged()) GSV_CHECK(UseLayout(std::move(layout)));
   }
 
-  void MoveBodies(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
-    if (!rigid_.has_bodies()) {
-      planar_->Step(step, state, contacts);
-      return;
-    }
+  // Planar bodies move first, past rigid ones that stand still. Where that stopped any, they push,
+  // and are moved once more past the rigid bodies as they are then.
+  void MoveAll(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     before_ = state;
     planar_->Step(step, state, contacts);
-    if (rigid_.Move(step, before_, contacts, state)) {
+    const std::span<Push> pushes = pushes_.Find(step, before_, state, contacts);
+    rigid_->Step(step, before_, pushes, state, rigid_contacts_);
+    if (!pushes.empty()) {
       PutPlanarBack(state);
       planar_->Step(step, state, contacts);
-      rigid_.GoOn(step, before_, state);
+      pushes_.LimitSpeeds(step, before_, state);
+      pushes_.SetImpulses(contacts);
     }
-    rigid_.AddContacts(before_, state, contacts);
+    AddRigidContacts(state, contacts);
   }
 
   void PutPlanarBack(world::State& state) const {
@@ -90,17 +98,42 @@ class WorldEngine final : public Engine {
     }
   }
 
+  // Adds the contacts of the rigid bodies to those of the planar ones, and counts both for the rigid
+  // bodies.
+  void AddRigidContacts(world::State& state, std::vector<world::Contact>& contacts) const {
+    contacts.insert(contacts.end(), rigid_contacts_.begin(), rigid_contacts_.end());
+    for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
+      if (layout_->bodies[i].is_rigid()) state.bodies[i].in_contact = false;
+    }
+    for (world::Contact& contact : contacts) {
+      for (const int index : {contact.first, contact.second}) {
+        if (!layout_->bodies[index].is_rigid()) continue;
+        world::BodyState& body = state.bodies[index];
+        contact.began = contact.began || !before_.bodies[index].in_contact;
+        if (contact.began) ++body.collisions;
+        body.in_contact = true;
+      }
+    }
+    std::sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+    });
+  }
+
   AttachedLayout attached_;
   std::shared_ptr<const world::Layout> layout_;  // with what is attached
   std::unique_ptr<PlanarMover> planar_;
-  RigidEngine rigid_;
+  std::unique_ptr<RigidEngine> rigid_;
+  PlanarPushes pushes_;
   world::State before_;
+  std::vector<world::Contact> rigid_contacts_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team) {
-  return std::make_unique<WorldEngine>(std::move(team));
+std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team,
+                                        std::unique_ptr<RigidEngine> rigid) {
+  if (rigid == nullptr) rigid = MakeBulletEngine();
+  return std::make_unique<WorldEngine>(std::move(team), std::move(rigid));
 }
 
 }  // namespace gsv::dynamics

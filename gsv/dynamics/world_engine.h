@@ -1,5 +1,5 @@
-// The engine of a whole world: the planar mover for wheeled bases and people, Bullet for all that
-// is rigid.
+// The engine of a whole world: planar kinematics for wheeled bases and people, an engine of
+// rigid-body dynamics for all that falls, tips or has joints that forces move.
 //
 // Together    rigid bodies stop planar ones, which push them: with the speed that they want, and a
 //             force of at most their own weight (traction 1). A planar robot gives way to nothing:
@@ -12,10 +12,13 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/dynamics/motion/engine.h"
+#include "gsv/dynamics/motion/rigid_engine.h"
 
 namespace gsv::dynamics {
 
-// The team helps the planar mover; without one, the caller works alone.
-std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team = nullptr);
+// The team helps the planar mover; without one, the caller works alone. `rigid` moves the rigid
+// bodies (default: Bullet).
+std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team = nullptr,
+                                        std::unique_ptr<RigidEngine> rigid = nullptr);
 
 }  // namespace gsv::dynamics

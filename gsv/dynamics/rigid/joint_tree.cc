@@ -7,8 +7,8 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include "gsv/dynamics/motion/ball_angles.h"
 #include "gsv/dynamics/motion/drive_servo.h"
-#include "gsv/dynamics/rigid/ball_angles.h"
 #include "gsv/dynamics/rigid/moving_body.h"
 
 namespace gsv::dynamics {

@@ -25,9 +25,8 @@ std::vector<double> ValuesOf(const RigidScene& scene, const world::State& state)
 
 bool AnyNear(const RigidScene& scene, const world::State& before, const world::State& after,
              const std::vector<Area>& areas) {
-  return std::any_of(scene.planar().begin(), scene.planar().end(), [&](const PlanarBody& planar) {
-    return IsNear(planar, before, after, areas);
-  });
+  return std::any_of(scene.planar().begin(), scene.planar().end(),
+                     [&](const Solid& planar) { return IsNear(planar, before, after, areas); });
 }
 
 }  // namespace

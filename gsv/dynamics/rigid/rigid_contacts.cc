@@ -89,8 +89,15 @@ void RigidContacts::Add(const Owner& first, const Owner& second,
     if (!swapped) normal = -normal;
     if (!second.moves_by_forces && normal.z < -kCarries) continue;
     const btVector3 middle = (point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2;
-    found_.push_back({pair.first, pair.second, FromBullet(middle), normal,
-                      std::max(0.0, -point.getDistance()), false});
+    world::Contact& contact = found_.emplace_back();
+    contact.first = pair.first;
+    contact.second = pair.second;
+    contact.point = FromBullet(middle);
+    contact.normal = normal;
+    contact.depth = std::max(0.0, -point.getDistance());
+    // The solver leaves out points beyond the threshold: they keep the impulse of a substep before.
+    const bool is_solved = point.getDistance() <= manifold.getContactProcessingThreshold();
+    contact.impulse = is_solved ? point.getAppliedImpulse() : 0;
   }
 }
 
@@ -108,7 +115,8 @@ void RigidContacts::Read(btDispatcher& dispatcher) {
   is_first_ = false;
 }
 
-void RigidContacts::AddTo(std::vector<world::Contact>& contacts) {
+void RigidContacts::Store(std::vector<world::Contact>& contacts) {
+  contacts.clear();
   const auto pair_of = [](const world::Contact& c) { return BodyPair{c.first, c.second}; };
   std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
     return std::make_tuple(a.first, a.second, -a.depth) <
@@ -116,9 +124,13 @@ void RigidContacts::AddTo(std::vector<world::Contact>& contacts) {
   });
   std::sort(at_start_.begin(), at_start_.end());
   for (std::size_t i = 0; i < found_.size(); ++i) {
-    if (i > 0 && pair_of(found_[i]) == pair_of(found_[i - 1])) continue;
-    found_[i].began = !std::binary_search(at_start_.begin(), at_start_.end(), pair_of(found_[i]));
+    if (i > 0 && pair_of(found_[i]) == pair_of(found_[i - 1])) {
+      contacts.back().impulse += found_[i].impulse;
+      continue;
+    }
     contacts.push_back(found_[i]);
+    contacts.back().began =
+        !std::binary_search(at_start_.begin(), at_start_.end(), pair_of(found_[i]));
   }
 }
 

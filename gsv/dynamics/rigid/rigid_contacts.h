@@ -30,8 +30,9 @@ class RigidContacts {
   // Reads what touches after a substep: marks owners, and adds the contacts between what moves by
   // forces and others that do not just carry it.
   void Read(btDispatcher& dispatcher);
-  // Appends the contacts of the step to `contacts`, one for each pair of bodies.
-  void AddTo(std::vector<world::Contact>& contacts);
+  // `contacts` becomes those of the step, one for each pair of bodies: of the points at which they
+  // touched the deepest, with the impulse of all.
+  void Store(std::vector<world::Contact>& contacts);
 
  private:
   void Add(const Owner& first, const Owner& second, const btPersistentManifold& manifold);

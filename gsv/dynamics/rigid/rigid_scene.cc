@@ -59,23 +59,18 @@ bool Solid::bounces() const {
                      [](const model::Surface& surface) { return surface.restitution > 0; });
 }
 
-bool IsNear(const PlanarBody& planar, const world::State& before, const world::State& after,
+bool IsNear(const Solid& planar, const world::State& before, const world::State& after,
             const std::vector<Area>& areas) {
-  if (planar.solid.surfaces.empty()) return false;
-  const geometry::Vector3& at = before.bodies[planar.solid.body].world_from_model.position;
-  const geometry::Vector3& to = after.bodies[planar.solid.body].world_from_model.position;
-  const double reach = planar.solid.radius;
+  if (planar.surfaces.empty()) return false;
+  const geometry::Vector3& at = before.bodies[planar.body].world_from_model.position;
+  const geometry::Vector3& to = after.bodies[planar.body].world_from_model.position;
+  const double reach = planar.radius;
   return std::any_of(areas.begin(), areas.end(), [&](const Area& area) {
     return std::max(at.x, to.x) + reach > area.low.x() &&
            std::min(at.x, to.x) - reach < area.high.x() &&
            std::max(at.y, to.y) + reach > area.low.y() &&
            std::min(at.y, to.y) - reach < area.high.y();
   });
-}
-
-const PlanarBody& RigidScene::PlanarOf(int body) const {
-  return *std::lower_bound(planar_.begin(), planar_.end(), body,
-                           [](const PlanarBody& p, int b) { return p.solid.body < b; });
 }
 
 base::Status RigidScene::AddRigid(int index) {
@@ -118,12 +113,10 @@ void RigidScene::AddStanding(int index) {
   }
 }
 
-base::Status RigidScene::AddPlanar(int index) {
+void RigidScene::AddPlanar(int index) {
   const world::Body& body = layout_->bodies[index];
-  PlanarBody planar;
   const Footprint footprint = MakeFootprint(*body.model, {});
   const double climb = footprint.heights.low + ClimbHeight(*body.model, footprint);
-  planar.low = climb;
   SolidBuilder builder(index, shapes_.Compound());
   for (const Footprint::Piece& piece : footprint.pieces) {
     const double low = std::max(piece.heights.low, climb);
@@ -132,14 +125,7 @@ base::Status RigidScene::AddPlanar(int index) {
     btCollisionShape* shape = shapes_.Prism(piece, low, model_from_shape);
     if (shape != nullptr) builder.Add(model_from_shape, shape, {});
   }
-  planar.solid = builder.Finish();
-  planar.mass = MakeArticulation(*body.model).mass;
-  auto kinematics = body.model->drive ? DriveKinematics::Create(*body.model)
-                                      : base::Result<DriveKinematics>(DriveKinematics::Free());
-  if (!kinematics) return base::Fail(kinematics.error());
-  planar.kinematics = *std::move(kinematics);
-  planar_.push_back(std::move(planar));
-  return {};
+  planar_.push_back(builder.Finish());
 }
 
 base::Status RigidScene::SetLayout(std::shared_ptr<const world::Layout> layout) {
@@ -153,15 +139,13 @@ base::Status RigidScene::SetLayout(std::shared_ptr<const world::Layout> layout) 
   if (std::none_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.is_rigid(); }))
     return {};
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
-    base::Status status;
     if (bodies[i].is_rigid()) {
-      status = AddRigid(i);
+      if (auto ok = AddRigid(i); !ok) return ok;
     } else if (bodies[i].is_planar()) {
-      status = AddPlanar(i);
+      AddPlanar(i);
     } else {
       AddStanding(i);
     }
-    if (!status) return status;
   }
   return {};
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/dynamics/motion/articulation.h"
 #include "gsv/dynamics/motion/drive_kinematics.h"
-#include "gsv/dynamics/rigid/articulation.h"
 #include "gsv/dynamics/rigid/rigid_shapes.h"
 #include "gsv/world/state.h"
 
@@ -42,19 +42,12 @@ struct StandingBody {
   geometry::Pose model_from_shape;
 };
 
-// What the planar mover moves: an obstacle to others, in the shape of its footprint.
-struct PlanarBody {
-  Solid solid;
-  double low = 0;  // height of its lowest point that is not ground to it, above the model's origin
-  double mass = 0;
-  std::optional<DriveKinematics> kinematics;
-};
-
 // Where a rigid body may get to within a step.
 struct Area {
   btVector3 low, high;
 };
-bool IsNear(const PlanarBody& planar, const world::State& before, const world::State& after,
+// Whether a planar body comes near one of the areas while it moves from `before` to `after`.
+bool IsNear(const Solid& planar, const world::State& before, const world::State& after,
             const std::vector<Area>& areas);
 
 class RigidScene {
@@ -66,20 +59,19 @@ class RigidScene {
   const world::Layout& layout() const { return *layout_; }
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   const std::vector<StandingBody>& standing() const { return standing_; }
-  const std::vector<PlanarBody>& planar() const { return planar_; }
-  // The one with that index in the layout, which must be planar.
-  const PlanarBody& PlanarOf(int body) const;
+  // What planar kinematics moves: obstacles to others, in the shapes of their footprints.
+  const std::vector<Solid>& planar() const { return planar_; }
 
  private:
   base::Status AddRigid(int index);
   void AddStanding(int index);
-  base::Status AddPlanar(int index);
+  void AddPlanar(int index);
 
   std::shared_ptr<const world::Layout> layout_;
   RigidShapes shapes_;
   std::vector<RigidBody> bodies_;
   std::vector<StandingBody> standing_;
-  std::vector<PlanarBody> planar_;
+  std::vector<Solid> planar_;
 };
 
 }  // namespace gsv::dynamics

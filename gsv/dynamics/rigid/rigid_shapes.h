@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "gsv/dynamics/shapes/bullet_types.h"
+#include "gsv/dynamics/rigid/bullet_types.h"
 #include "gsv/dynamics/shapes/footprint.h"
 #include "gsv/geometry/shape.h"
 

@@ -18,8 +18,8 @@ constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
 // nothing.
 constexpr double kPassable = 0.4;
 
-// Rounds of the solver: a few bodies have time for many.
-constexpr int kMostRounds = 250, kFewestRounds = 50, kRoundsOfAll = 5000;
+// Iterations of the solver: a few bodies have time for many.
+constexpr int kMaxIterations = 250, kMinIterations = 50, kIterationsOfAll = 5000;
 // (N s)²: until no impulse changes by more.
 constexpr double kConverged = 1e-16;
 // m: how deep bodies rest in each other, so that what touches goes on touching.
@@ -56,8 +56,8 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
   world_.setGravity(ToBullet(scene.layout().description->gravity));
   world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
   btContactSolverInfo& settings = world_.getSolverInfo();
-  settings.m_numIterations = std::clamp(kRoundsOfAll / static_cast<int>(scene.bodies().size()),
-                                        kFewestRounds, kMostRounds);
+  settings.m_numIterations = std::clamp(kIterationsOfAll / static_cast<int>(scene.bodies().size()),
+                                        kMinIterations, kMaxIterations);
   settings.m_leastSquaresResidualThreshold = kConverged;
   settings.m_linearSlop = kSlop;
   settings.m_restitutionVelocityThreshold = kBounces;
@@ -113,24 +113,24 @@ std::vector<Area> RigidWorld::MakeAreas() const {
 void RigidWorld::AddPlanarNear() {
   if (scene_.planar().empty()) return;
   const std::vector<Area> areas = MakeAreas();
-  for (const PlanarBody& planar : scene_.planar()) {
+  for (const Solid& planar : scene_.planar()) {
     if (IsNear(planar, before_, after_, areas)) AddPlanar(planar);
   }
 }
 
-void RigidWorld::AddPlanar(const PlanarBody& planar) {
-  const Pose& start = before_.bodies[planar.solid.body].world_from_model;
-  const Pose& end = after_.bodies[planar.solid.body].world_from_model;
-  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, planar.solid.shape);
+void RigidWorld::AddPlanar(const Solid& planar) {
+  const Pose& start = before_.bodies[planar.body].world_from_model;
+  const Pose& end = after_.bodies[planar.body].world_from_model;
+  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, planar.shape);
   auto object = std::make_unique<btRigidBody>(info);
   object->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT |
                             btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
   object->setActivationState(DISABLE_DEACTIVATION);
-  object->setUserPointer(&NewOwner(planar.solid, false));
+  object->setUserPointer(&NewOwner(planar, false));
   object->setWorldTransform(ToBullet(start));
   const double turn =
       geometry::WrapAngle(geometry::Yaw(end.orientation) - geometry::Yaw(start.orientation));
-  planar_.push_back({&planar, start, end.position - start.position, turn, object.get()});
+  planar_.push_back({start, end.position - start.position, turn, object.get()});
   world_.addRigidBody(object.get(), kPlanar, kRigid);
   objects_.push_back(std::move(object));
 }
@@ -195,6 +195,9 @@ void RigidWorld::TakeSubstep(double time, double substep, RigidContacts& contact
   world_.stepSimulation(substep, 0);
   contacts.Read(kit_.dispatcher);
   for (const auto& body : bodies_) body->AfterSubstep(substep);
+  for (const auto& push : pushes_) {
+    if (push != nullptr && push->has_started()) push->AfterSubstep();
+  }
 }
 
 void RigidWorld::Run(std::span<Push> pushes, RigidContacts& contacts) {
@@ -206,7 +209,9 @@ void RigidWorld::Run(std::span<Push> pushes, RigidContacts& contacts) {
     time += substep;
   }
   for (std::size_t i = 0; i < pushes.size(); ++i) {
-    if (pushes_[i] != nullptr) pushes[i].achieved = pushes_[i]->Achieved();
+    if (pushes_[i] == nullptr) continue;
+    pushes[i].achieved = pushes_[i]->Achieved();
+    pushes[i].impulse = pushes_[i]->impulse();
   }
 }
 

@@ -13,8 +13,9 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include "gsv/dynamics/motion/rigid_engine.h"
 #include "gsv/dynamics/rigid/moving_body.h"
-#include "gsv/dynamics/rigid/push.h"
+#include "gsv/dynamics/rigid/push_constraint.h"
 #include "gsv/dynamics/rigid/rigid_contacts.h"
 #include "gsv/dynamics/rigid/rigid_scene.h"
 
@@ -47,7 +48,6 @@ class RigidWorld {
 
  private:
   struct Planar {
-    const PlanarBody* body;
     geometry::Pose start;
     geometry::Vector3 travel;
     double turn;
@@ -57,7 +57,7 @@ class RigidWorld {
   void AddRigid(const RigidBody& body);
   void AddStanding(const StandingBody& standing);
   void AddPlanarNear();
-  void AddPlanar(const PlanarBody& planar);
+  void AddPlanar(const Solid& planar);
   void MovePlanar(double time, double substep);
   void AddPushes(std::span<const Push> pushes);
   void StartPushes(std::span<const Push> pushes, double time);

@@ -1,4 +1,4 @@
-#include "gsv/dynamics/rigid/ball_angles.h"
+#include "gsv/dynamics/motion/ball_angles.h"
 
 namespace gsv::dynamics {
 

@@ -1,4 +1,4 @@
-#include "gsv/dynamics/rigid/push.h"
+#include "gsv/dynamics/rigid/push_constraint.h"
 
 namespace gsv::dynamics {
 

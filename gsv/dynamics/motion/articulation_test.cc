@@ -1,4 +1,4 @@
-#include "gsv/dynamics/rigid/articulation.h"
+#include "gsv/dynamics/motion/articulation.h"
 
 #include <numbers>
 

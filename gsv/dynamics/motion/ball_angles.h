@@ -1,12 +1,12 @@
 // A ball joint's orientation and rate, as the three angles and rates of the joints it is made of.
 //
 // Frames  the child turns by Rot(a1, q1) Rot(a2, q2) Rot(a3, q3) in the joint's frame, the a being
-//         its axes. In the child's part frame that is the one rotation which Bullet knows.
+//         its axes. In the child's part frame that is one rotation, as solvers know it.
 #pragma once
 
 #include <array>
 
-#include "gsv/dynamics/rigid/articulation.h"
+#include "gsv/dynamics/motion/articulation.h"
 
 namespace gsv::dynamics {
 
