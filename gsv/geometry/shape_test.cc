@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/geometry/box_corners.h"
 #include "gsv/geometry/constants.h"
 
 namespace gsv::geometry {
@@ -197,6 +198,18 @@ TEST(BoundsOf, OfAMirroredMeshIsOrdered) {
   const Bounds bounds = BoundsOf(Shape(Mesh{triangles, {-1, 1, 2}}));
   EXPECT_EQ(bounds.min, (Vector3{-1, 0, 0}));
   EXPECT_EQ(bounds.max, (Vector3{0, 2, 6}));
+}
+
+TEST(CornersOf, AreAllChoicesOfTwoEndsAlongEachAxis) {
+  const Bounds box{{1, 2, 3}, {4, 5, 6}};
+  std::set<std::tuple<double, double, double>> expected, found;
+  for (const double x : {1, 4}) {
+    for (const double y : {2, 5}) {
+      for (const double z : {3, 6}) expected.emplace(x, y, z);
+    }
+  }
+  for (const Vector3& corner : CornersOf(box)) found.emplace(corner.x, corner.y, corner.z);
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace

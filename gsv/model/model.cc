@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "gsv/geometry/box_corners.h"
+
 namespace gsv::model {
 namespace {
 
-using geometry::Bounds;
 using geometry::Pose;
 using geometry::Vector3;
 
@@ -15,12 +16,9 @@ void ForEachCorner(const Model& model, Visit visit) {
   for (const Link& link : model.links) {
     for (const Collision& collision : link.collisions) {
       if (std::holds_alternative<geometry::Plane>(collision.shape)) continue;
-      const Bounds bounds = geometry::BoundsOf(collision.shape);
       const Pose model_from_collision = link.model_from_link * collision.link_from_collision;
-      for (int corner = 0; corner < 8; ++corner) {
-        visit(model_from_collision * Vector3{corner & 1 ? bounds.max.x : bounds.min.x,
-                                             corner & 2 ? bounds.max.y : bounds.min.y,
-                                             corner & 4 ? bounds.max.z : bounds.min.z});
+      for (const Vector3& corner : geometry::CornersOf(geometry::BoundsOf(collision.shape))) {
+        visit(model_from_collision * corner);
       }
     }
   }

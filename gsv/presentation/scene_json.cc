@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/geometry/box_corners.h"
 #include "gsv/presentation/pose_list.h"
 #include "gsv/presentation/state_messages.h"
 
@@ -188,11 +189,7 @@ void Grow(std::optional<Bounds>& bounds, const Vector3& point) {
 
 // Grows `bounds` by the corners of `box`.
 void Grow(std::optional<Bounds>& bounds, const Pose& target_from_box, const Bounds& box) {
-  for (int corner = 0; corner < 8; ++corner) {
-    Grow(bounds, target_from_box * Vector3{corner & 1 ? box.max.x : box.min.x,
-                                           corner & 2 ? box.max.y : box.min.y,
-                                           corner & 4 ? box.max.z : box.min.z});
-  }
+  for (const Vector3& corner : geometry::CornersOf(box)) Grow(bounds, target_from_box * corner);
 }
 
 bool HasEnd(const model::Collision& collision) {

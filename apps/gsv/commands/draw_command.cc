@@ -16,6 +16,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/running/picture.h"
 #include "gsv/formats/sdf_reader.h"
+#include "gsv/geometry/box_corners.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::app {
@@ -59,13 +60,8 @@ std::vector<Vector3> CornersIn(const world::Snapshot& snapshot) {
       for (const model::Visual& visual : model.links[l].visuals) {
         if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
         const Pose world_from_visual = world_from_link[l] * visual.link_from_visual;
-        const auto [low, high] = geometry::BoundsOf(visual.shape);
-        for (const double x : {low.x, high.x}) {
-          for (const double y : {low.y, high.y}) {
-            for (const double z : {low.z, high.z}) {
-              corners.push_back(world_from_visual * Vector3{x, y, z});
-            }
-          }
+        for (const Vector3& corner : geometry::CornersOf(geometry::BoundsOf(visual.shape))) {
+          corners.push_back(world_from_visual * corner);
         }
       }
     }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "gsv/base/check.h"
+#include "gsv/geometry/box_corners.h"
 
 namespace gsv::dynamics {
 namespace {
@@ -72,11 +73,9 @@ std::vector<Vector2> Corners(const Shape& shape, const Pose& pose) {
       corners.push_back(Flat(pose * Scaled(p, mesh->scale)));
     }
     if (corners.empty()) corners.push_back(Flat(pose.position));
-  } else if (const auto* box = std::get_if<geometry::Box>(&shape)) {
-    for (int i = 0; i < 8; ++i) {
-      const Vector3 half = 0.5 * box->size;
-      corners.push_back(Flat(pose * Vector3{i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y,
-                                            i & 4 ? half.z : -half.z}));
+  } else if (std::holds_alternative<geometry::Box>(shape)) {
+    for (const Vector3& corner : geometry::CornersOf(geometry::BoundsOf(shape))) {
+      corners.push_back(Flat(pose * corner));
     }
   }
   return corners;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gsv/geometry/box_corners.h"
 #include "gsv/geometry/constants.h"
 #include "gsv/sensing/rays/ray_axis.h"
 #include "gsv/sensing/rays/ray_shape.h"
@@ -30,13 +31,10 @@ Bounds BoundsOfTriangle(const Vector3& a, const Vector3& b, const Vector3& c) {
 
 // Around the shape's own box, turned.
 Bounds BoundsOfShape(const Shape& shape, const Pose& set_from_shape) {
-  const Bounds own = geometry::BoundsOf(shape);
-  Bounds bounds;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 p = set_from_shape * Vector3{corner & 1 ? own.max.x : own.min.x,
-                                               corner & 2 ? own.max.y : own.min.y,
-                                               corner & 4 ? own.max.z : own.min.z};
-    if (corner == 0) bounds = {p, p};
+  const std::array<Vector3, 8> corners = geometry::CornersOf(geometry::BoundsOf(shape));
+  Bounds bounds{set_from_shape * corners[0], set_from_shape * corners[0]};
+  for (const Vector3& corner : corners) {
+    const Vector3 p = set_from_shape * corner;
     bounds.min = {std::min(bounds.min.x, p.x), std::min(bounds.min.y, p.y),
                   std::min(bounds.min.z, p.z)};
     bounds.max = {std::max(bounds.max.x, p.x), std::max(bounds.max.y, p.y),

@@ -1,0 +1,20 @@
+// The corners of a box whose edges run along the axes.
+#pragma once
+
+#include <array>
+
+#include "gsv/geometry/triangle_mesh.h"
+
+namespace gsv::geometry {
+
+// In the order of binary numbers: x changes fastest, z slowest.
+inline std::array<Vector3, 8> CornersOf(const Bounds& box) {
+  std::array<Vector3, 8> corners;
+  for (unsigned i = 0; i < corners.size(); ++i) {
+    corners[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                  i & 4 ? box.max.z : box.min.z};
+  }
+  return corners;
+}
+
+}  // namespace gsv::geometry
