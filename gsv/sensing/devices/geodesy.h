@@ -3,10 +3,9 @@
 // Model    the world's z points up at its origin; its x and y lie in the plane that touches the
 //          ellipsoid (WGS84) there.
 // Sources  National Imagery and Mapping Agency, TR8350.2, "Department of Defense World Geodetic
-// System
-//          1984", chapter 3, for the ellipsoid; B. R. Bowring, "Transformation from spatial to
-//          geographical coordinates", Survey Review 23 (1976), for the way back, iterated until it
-//          stands (below 1e-9 m within 1,000 km of the ground).
+//          System 1984", chapter 3, for the ellipsoid; B. R. Bowring, "Transformation from spatial
+//          to geographical coordinates", Survey Review 23 (1976), for the way back, iterated until
+//          it stands (below 1e-9 m within 1,000 km of the ground).
 #pragma once
 
 #include "gsv/geometry/vector3.h"

@@ -5,9 +5,8 @@
 //             height, 1.333), occlusion (true: what hides behind something else is left out),
 //             robots_only (false).
 // Readings    for each model whose centre is in view, by name, the values {x, y, z (m), roll,
-// pitch, yaw
-//             (rad)} of its frame and the label of its name. The centre is that of the box around
-//             its collisions; a model of planes alone is never in view. As a message:
+//             pitch, yaw (rad)} of its frame and the label of its name. The centre is that of the
+//             box around its collisions; a model of planes alone is never in view. As a message:
 //             vision_msgs/Detection3DArray.
 #pragma once
 

@@ -4,8 +4,8 @@
 // Parameters  position_sensing.{horizontal,vertical}.noise (m) and
 //             velocity_sensing.{horizontal,vertical}.noise (m/s), see noise.h.
 // Readings    values {latitude (degrees), longitude (degrees), altitude (m above WGS84's
-// ellipsoid),
-//             velocity to the east, to the north, up (m/s)}. As a message: sensor_msgs/NavSatFix.
+//             ellipsoid), velocity to the east, to the north, up (m/s)}. As a message:
+//             sensor_msgs/NavSatFix.
 // Errors      Sample(): kUnavailable in a world that does not say where it lies.
 #pragma once
 
