@@ -98,8 +98,8 @@ class WorldEngine final : public Engine {
     }
   }
 
-  // Adds the contacts of the rigid bodies to those of the planar ones, and counts both for the rigid
-  // bodies.
+  // Adds the contacts of the rigid bodies to those of the planar ones, and counts both for the
+  // rigid bodies.
   void AddRigidContacts(world::State& state, std::vector<world::Contact>& contacts) const {
     contacts.insert(contacts.end(), rigid_contacts_.begin(), rigid_contacts_.end());
     for (std::size_t i = 0; i < layout_->bodies.size(); ++i) {
