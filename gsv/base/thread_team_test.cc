@@ -1,13 +1,18 @@
 #include "gsv/base/thread_team.h"
 
-#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
-#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <latch>
 #include <set>
+#include <string>
 #include <thread>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace gsv::base {
 namespace {
@@ -55,14 +60,40 @@ TEST(ThreadTeam, ManyJobsInARowAreAllDone) {
   EXPECT_EQ(sum, 20'000u * 6);
 }
 
+// Which of this process's threads sleep, by the kernel's states; the caller does not count.
+bool AllOthersSleep() {
+  const std::string self = std::to_string(gettid());
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    if (task.path().filename() == self) continue;
+    std::string stat;
+    std::getline(std::ifstream(task.path() / "stat"), stat);
+    const std::size_t name_end = stat.rfind(')');  // "TID (NAME) STATE …"
+    if (name_end != std::string::npos && stat.substr(name_end + 2, 1) != "S") return false;
+  }
+  return true;
+}
+
 // Sixteen threads once drew four cameras' pictures with all sixteen processors busy.
-TEST(ThreadTeam, AThreadWithoutAPieceCostsNoProcessor) {
-  constexpr auto kPiece = std::chrono::milliseconds(200);  // asleep: what is used, others use
-  ThreadTeam team(4);
-  const std::clock_t before = std::clock();
-  team.Share(2, 1, [&](std::size_t, std::size_t) { std::this_thread::sleep_for(kPiece); });
-  const double used = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-  EXPECT_LT(used, 0.05) << "s of processor time while two pieces lasted 0.2 s each";
+TEST(ThreadTeam, AThreadWithoutAPieceSleeps) {
+  constexpr int kLooks =
+      200;  // in a row: a thread that looks for work again and again may rest once
+  constexpr auto kPatience = std::chrono::seconds(30);
+  std::latch begun(2), end(1);
+  std::thread job([&] {
+    ThreadTeam team(4);
+    team.Share(2, 1, [&](std::size_t, std::size_t) {
+      begun.count_down();
+      end.wait();
+    });
+  });
+  begun.wait();
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  int looks = 0;
+  while (looks < kLooks && std::chrono::steady_clock::now() < give_up)
+    looks = AllOthersSleep() ? looks + 1 : 0;
+  EXPECT_EQ(looks, kLooks) << "a thread is busy though two pieces are all there is";
+  end.count_down();
+  job.join();
 }
 
 }  // namespace

@@ -15,6 +15,26 @@ namespace {
 
 using ::testing::HasSubstr;
 
+// A simulation that is destroyed with this object, however its test ends.
+class OwnSimulation {
+ public:
+  explicit OwnSimulation(sba::Simulation_ptr simulation) : simulation_(simulation) {}
+  ~OwnSimulation() {
+    try {
+      simulation_->destroy();
+    } catch (const CORBA::Exception&) {  // it has ended already
+    }
+  }
+  OwnSimulation(const OwnSimulation&) = delete;
+  OwnSimulation& operator=(const OwnSimulation&) = delete;
+
+  sba::Simulation_ptr operator->() const { return simulation_.in(); }
+  operator sba::Simulation_ptr() const { return simulation_.in(); }
+
+ private:
+  const sba::Simulation_var simulation_;
+};
+
 // One broker, one server and one behaviour program for all tests here.
 class Services : public ::testing::Test {
  protected:
@@ -101,7 +121,7 @@ std::string ReasonOf(Call call) {
 }
 
 TEST_F(SimulationService, CreatesASimulationOfAWorld) {
-  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const OwnSimulation simulation(service_->create_simulation(Playground()));
   const sba::SimulationState_var state = simulation->state();
   EXPECT_EQ(state->phase, sba::PHASE_CREATED);
   EXPECT_EQ(state->time_ns, 0);
@@ -110,7 +130,6 @@ TEST_F(SimulationService, CreatesASimulationOfAWorld) {
   EXPECT_THAT(std::string(url), HasSubstr("http://127.0.0.1:"));
   const sba::Simulations_var all = service_->list();
   EXPECT_EQ(all->length(), 1u);
-  simulation->destroy();
 }
 
 TEST_F(SimulationService, ParametersTakeEffect) {
@@ -119,7 +138,7 @@ TEST_F(SimulationService, ParametersTakeEffect) {
   specification.step_ns = 20'000'000;
   specification.duration_ns = 100'000'000;
   specification.seed = 42;
-  sba::Simulation_var simulation = service_->create_simulation(specification);
+  const OwnSimulation simulation(service_->create_simulation(specification));
   simulation->start();
   ASSERT_EQ(Await(simulation, sba::PHASE_FINISHED), sba::PHASE_FINISHED);
   const sba::SimulationState_var state = simulation->state();
@@ -127,11 +146,10 @@ TEST_F(SimulationService, ParametersTakeEffect) {
   EXPECT_EQ(state->step, 5u);
   EXPECT_EQ(state->pacing, sba::LOCKSTEP);
   EXPECT_EQ(sba::SimulationSpecification_var(simulation->specification())->seed, 42u);
-  simulation->destroy();
 }
 
 TEST_F(SimulationService, AddsAndRemovesRobots) {
-  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const OwnSimulation simulation(service_->create_simulation(Playground()));
   const sba::AgentBehaviour_var behaviour = factory_->create();
   sba::RobotSpecification by_reference = Pebble(-1, 0);
   by_reference.name = "mine";
@@ -145,7 +163,6 @@ TEST_F(SimulationService, AddsAndRemovesRobots) {
   ASSERT_EQ(RunTo(simulation, 2.0), sba::PHASE_PAUSED);
   const sba::SimulationState_var state = simulation->state();
   for (CORBA::ULong i = 0; i < 2; ++i) EXPECT_GT(state->robots[i].distance_m, 0.1);
-  simulation->destroy();
 }
 
 TEST_F(SimulationService, RefusesABadWorldWithItsPlace) {
@@ -156,37 +173,41 @@ TEST_F(SimulationService, RefusesABadWorldWithItsPlace) {
 }
 
 TEST_F(SimulationService, SimulationsAreIndependent) {
-  sba::Simulation_var first = service_->create_simulation(Playground());
-  sba::Simulation_var second = service_->create_simulation(Playground());
+  const OwnSimulation first(service_->create_simulation(Playground()));
+  const OwnSimulation second(service_->create_simulation(Playground()));
   ASSERT_EQ(RunTo(first, 0.5), sba::PHASE_PAUSED);
   EXPECT_EQ(sba::SimulationState_var(second->state())->time_ns, 0);
   ASSERT_EQ(RunTo(second, 0.25), sba::PHASE_PAUSED);
   EXPECT_EQ(sba::SimulationState_var(first->state())->time_ns, 500'000'000);
   first->destroy();
   EXPECT_EQ(sba::SimulationState_var(second->state())->time_ns, 250'000'000);
-  second->destroy();
 }
 
 TEST_F(SimulationService, LifecycleFollowsTheCalls) {
-  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const OwnSimulation simulation(service_->create_simulation(Playground()));
   const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   simulation->start();
   ASSERT_EQ(Await(simulation, sba::PHASE_RUNNING), sba::PHASE_RUNNING);
   simulation->pause();
   ASSERT_EQ(Await(simulation, sba::PHASE_PAUSED), sba::PHASE_PAUSED);
+  const auto paused_at = sba::SimulationState_var(simulation->state())->step;
   simulation->step(5);
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (sba::SimulationState_var(simulation->state())->step < paused_at + 5 &&
+         std::chrono::steady_clock::now() < give_up) {
+  }
   ASSERT_EQ(Await(simulation, sba::PHASE_PAUSED), sba::PHASE_PAUSED);
+  EXPECT_EQ(sba::SimulationState_var(simulation->state())->step, paused_at + 5);
   simulation->resume();
   simulation->stop();
   ASSERT_EQ(Await(simulation, sba::PHASE_STOPPED), sba::PHASE_STOPPED);
   EXPECT_THAT(ReasonOf<sba::NotRunning>([&] { simulation->start(); }), HasSubstr("stopped"));
   simulation->reset();
   EXPECT_EQ(sba::SimulationState_var(simulation->state())->time_ns, 0);
-  simulation->destroy();
 }
 
 TEST_F(SimulationService, DestroyEndsTheSimulation) {
-  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const OwnSimulation simulation(service_->create_simulation(Playground()));
   simulation->destroy();
   EXPECT_THROW(sba::SimulationState_var(simulation->state()), CORBA::OBJECT_NOT_EXIST);
   EXPECT_EQ(sba::Simulations_var(service_->list())->length(), 0u);
@@ -195,7 +216,7 @@ TEST_F(SimulationService, DestroyEndsTheSimulation) {
 TEST_F(SimulationService, ReportsStateTimeAndResults) {
   std::vector<std::string> hashes;
   for (int run = 0; run < 2; ++run) {
-    sba::Simulation_var simulation = service_->create_simulation(Playground());
+    const OwnSimulation simulation(service_->create_simulation(Playground()));
     const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
     ASSERT_EQ(RunTo(simulation, 1.0), sba::PHASE_PAUSED);
     const sba::SimulationState_var state = simulation->state();
@@ -203,7 +224,6 @@ TEST_F(SimulationService, ReportsStateTimeAndResults) {
     EXPECT_EQ(state->robots[0].phase, sba::AGENT_WAITING);
     EXPECT_STREQ(state->robots[0].behaviour, "wander");
     hashes.emplace_back(CORBA::String_var(simulation->state_hash()));
-    simulation->destroy();
   }
   EXPECT_EQ(hashes[0], hashes[1]);
 }
@@ -213,7 +233,7 @@ TEST_F(SimulationService, BadArgumentsRaiseDeclaredExceptions) {
   bad_step.step_ns = -1;
   EXPECT_THAT(ReasonOf<sba::Refused>([&] { service_->create_simulation(bad_step); }),
               HasSubstr("step_ns"));
-  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const OwnSimulation simulation(service_->create_simulation(Playground()));
   sba::RobotSpecification unknown = Pebble(0, 0);
   unknown.model = "unicorn";
   EXPECT_THAT(ReasonOf<sba::Refused>([&] { simulation->add_robot(unknown); }),
@@ -227,29 +247,26 @@ TEST_F(SimulationService, BadArgumentsRaiseDeclaredExceptions) {
               HasSubstr("nobody"));
   EXPECT_THAT(ReasonOf<sba::Refused>([&] { simulation->step(0); }), HasSubstr("steps"));
   EXPECT_THAT(ReasonOf<sba::NotRunning>([&] { simulation->resume(); }), HasSubstr("paused"));
-  simulation->destroy();
 }
 
 TEST_F(AgentBehaviour, OneProgramServesSeveralRobots) {
-  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const OwnSimulation simulation(service_->create_simulation(Playground()));
   for (const double x : {-1.2, 0.0, 1.2})
     CORBA::String_var(simulation->add_robot(Pebble(x, 0, "name == 'wander'")));
   ASSERT_EQ(RunTo(simulation, 1.0), sba::PHASE_PAUSED);
   const sba::SimulationState_var state = simulation->state();
   ASSERT_EQ(state->robots.length(), 3u);
   for (CORBA::ULong i = 0; i < 3; ++i) EXPECT_EQ(state->robots[i].phase, sba::AGENT_WAITING);
-  simulation->destroy();
 }
 
 TEST_F(AgentBehaviour, StopWakesAWaitingBehaviour) {
-  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const OwnSimulation simulation(service_->create_simulation(Playground()));
   const CORBA::String_var robot = simulation->add_robot(Pebble(0, 0, "name == 'wander'"));
   ASSERT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
   simulation->stop();
   // The same behaviour runs again: its thread has come back from its wait.
   simulation->reset();
   EXPECT_EQ(RunTo(simulation, 0.5), sba::PHASE_PAUSED);
-  simulation->destroy();
 }
 
 // The SDK's side of the same services.
@@ -285,7 +302,7 @@ TEST_F(SimulationService, EndsWhenItsCreatorIsGone) {
   specification.options.length(1);
   specification.options[0].name = "abandoned_after_s";
   specification.options[0].value = "1";
-  sba::Simulation_var simulation = service_->create_simulation(specification);
+  const OwnSimulation simulation(service_->create_simulation(specification));
   simulation->start();
   // Watched from outside, which is no sign of life from its creator.
   const CORBA::String_var viewer(simulation->viewer_url());
@@ -298,7 +315,6 @@ TEST_F(SimulationService, EndsWhenItsCreatorIsGone) {
     seen = HttpGet(url);
   }
   EXPECT_THAT(seen, HasSubstr("\"stopped\""));
-  simulation->destroy();
 }
 
 TEST_F(Services, BehaviourDrivesHardwareThatIsNoSimulation) {

@@ -1,4 +1,5 @@
 // Offers of real services that die, hang and come back.
+#include <chrono>
 #include <csignal>
 #include <thread>
 
@@ -6,6 +7,8 @@
 
 namespace gsv::broker {
 namespace {
+
+constexpr std::chrono::seconds kPatience{40};  // shorter than the test's own time limit
 
 class LivenessTest : public BrokerFixture {
  protected:
@@ -21,7 +24,11 @@ class LivenessTest : public BrokerFixture {
     }
   }
   void AwaitWithdrawal(const std::string& id) {
-    while (IsOffered(id)) std::this_thread::yield();
+    const auto give_up = std::chrono::steady_clock::now() + kPatience;
+    while (IsOffered(id)) {
+      ASSERT_LT(std::chrono::steady_clock::now(), give_up) << id << " is still offered";
+      std::this_thread::yield();
+    }
   }
 };
 
@@ -36,7 +43,7 @@ TEST_F(LivenessTest, TheOfferOfAKilledProgramGoesAwayAndNoOther) {
   ASSERT_TRUE(IsOffered(killed.offer_id()));
   killed.Send(SIGKILL);
   killed.Wait();
-  AwaitWithdrawal(killed.offer_id());
+  ASSERT_NO_FATAL_FAILURE(AwaitWithdrawal(killed.offer_id()));
   EXPECT_TRUE(IsOffered(living.offer_id()));
   EXPECT_EQ(Query("Service").offers->length(), 1u);
 }
@@ -47,7 +54,7 @@ TEST_F(LivenessTest, TheOfferOfAnObjectThatIsGoneGoesAway) {
   const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
   const CORBA::Object_var object = poa->create_reference(kServiceInterface);
   const CORBA::String_var id = register_->_cxx_export(object, "Service", {});
-  AwaitWithdrawal(id.in());
+  ASSERT_NO_FATAL_FAILURE(AwaitWithdrawal(id.in()));
   EXPECT_TRUE(IsOffered(living.offer_id()));
 }
 
@@ -59,7 +66,7 @@ TEST_F(LivenessTest, TheOfferOfAProgramThatStandsStillStaysForAWhile) {
     ServiceProcess killed(broker_.reference());
     killed.Send(SIGKILL);
     killed.Wait();
-    AwaitWithdrawal(killed.offer_id());
+    ASSERT_NO_FATAL_FAILURE(AwaitWithdrawal(killed.offer_id()));
   }
   EXPECT_TRUE(IsOffered(still.offer_id()));
   still.Send(SIGCONT);
