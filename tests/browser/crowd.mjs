@@ -32,8 +32,8 @@ export function crowd(folder, robots) {
 }
 
 // From now on the page notes for each press how long it took until a robot was shown as selected, in
-// the list and the inspector, and that picture was drawn. `robot` is null where a press missed them all,
-// and so none is selected any more.
+// the list and the inspector, and that picture was drawn; and how many rows of the list were written
+// anew for it. `robot` is null where a press missed them all, and so none is selected any more.
 export async function noteClicks(page) {
   await page.evaluate(() => {
     const noted = (window.testClicks = []);
@@ -44,11 +44,12 @@ export async function noteClicks(page) {
       if (pressed === null) return;
       const from = pressed;
       pressed = null;
+      const rows = new Set(changes.map(({ target }) => target)).size;
       // After the next frame: what was changed now is painted.
       requestAnimationFrame(() =>
         setTimeout(() => {
           const inspected = document.querySelector("section.inspector h2")?.textContent ?? "";
-          noted.push({ robot: chosen, inspected, took: performance.now() - from });
+          noted.push({ robot: chosen, inspected, rows, took: performance.now() - from });
         }),
       );
     }).observe(document.querySelector("nav.sidebar"), { attributeFilter: ["aria-pressed"], subtree: true });
@@ -63,15 +64,31 @@ export async function clickNoted(page, click) {
   return page.evaluate(() => window.testClicks.at(-1));
 }
 
-// How long each of `count` clicks took, in ms: on robots in the list, spread over all.
-export async function timeListClicks(page, count) {
-  const took = [];
-  for (let i = 0; i < count; i++) took.push(await clickInList(page, i / count));
-  return took;
+// How many rows of the list are written while the robots move, until the distances of some have changed
+// `times` times.
+export async function rowsWritten(page, times = 3) {
+  return page.evaluate(
+    (wanted) =>
+      new Promise((resolve) => {
+        const rows = new Set();
+        let seen = 0;
+        const observer = new MutationObserver((changes) => {
+          for (const { target } of changes) rows.add((target.closest ? target : target.parentElement)?.closest("li") ?? null);
+          rows.delete(null);
+          if (++seen < wanted) return;
+          observer.disconnect();
+          resolve(rows.size);
+        });
+        const list = document.querySelector("nav.sidebar .robots");
+        observer.observe(list, { subtree: true, childList: true, characterData: true, attributes: true });
+      }),
+    times,
+  );
 }
 
-// By turns on robots in the list and in the picture. Left out are those that something else hides in the
-// picture, and those that had moved away when the click came.
+// How long each of `count` clicks took, in ms: by turns on robots in the list and in the picture. Left
+// out are those that something else hides in the picture, and those that had moved away when the click
+// came.
 export async function timeClicks(page, count) {
   const [list, picture] = [[], []];
   for (let i = 0; i < count; i++) {
@@ -93,7 +110,7 @@ async function clickInList(page, share) {
 }
 
 // The robot at this share of the list, or the one behind it: a click on who is selected changes nothing.
-async function unselectedAt(page, share) {
+export async function unselectedAt(page, share) {
   const names = await page.evaluate(() => window.gsv.robots);
   const selected = await page.evaluate(() => document.querySelector('[data-robot][aria-pressed="true"]')?.dataset.robot);
   const at = Math.floor(share * names.length);
