@@ -315,7 +315,7 @@ base::Status SteppingSimulation::Reset() {
     if (auto ok = UndoFaults(); !ok) return ok;
     const std::lock_guard lock(shared_->mutex);
     state_ = world::InitialState(*layout_);
-    attachments_.Follow(layout_, state_, *engine_);
+    attachments_.Follow(*layout_, state_, *engine_);
     shared_->sleepers.Clear();
     shared_->commanded.clear();
     shared_->given_up.clear();

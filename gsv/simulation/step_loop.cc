@@ -210,7 +210,7 @@ void SteppingSimulation::TakeStep() {
       transmissions_ =
           StepDevices(shared_->history.latest(), step_, std::exchange(device_actions_, {}),
                       shared_->rays, team_.get(), state_);
-      attachments_.Follow(layout_, state_, *engine_);
+      attachments_.Follow(*layout_, state_, *engine_);
     }
     snapshot = MoveWorld();
     AfterStep(snapshot, start);
