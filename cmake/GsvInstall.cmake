@@ -55,9 +55,10 @@ install(FILES ${CMAKE_BINARY_DIR}/package/gsv.pc DESTINATION lib/pkgconfig COMPO
 install(FILES sdk/behaviour_main.cc DESTINATION share/gsv COMPONENT libgsv-dev)
 install(FILES examples/first_behaviour.cc examples/real_robot.cc examples/test_wandering.cc
   DESTINATION share/gsv/examples COMPONENT libgsv-dev)
-install(DIRECTORY examples/infrared examples/out_of_tree examples/python examples/tcl examples/tutorial
+install(DIRECTORY examples/horn examples/infrared examples/out_of_tree examples/python examples/tcl
+    examples/tutorial
   DESTINATION share/gsv/examples COMPONENT libgsv-dev USE_SOURCE_PERMISSIONS
-  PATTERN __pycache__ EXCLUDE)
+  PATTERN __pycache__ EXCLUDE PATTERN horn_test.cc EXCLUDE)
 file(GLOB IDL_FILES CONFIGURE_DEPENDS idl/*.idl)
 install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
 # Behaviours and applications need sdk/ and gsv/base; what implements hardware, gsv/orb, the broker's

@@ -6,6 +6,7 @@
 #include "gsv/services/conversions.h"
 #include "gsv/services/joint_servants.h"
 #include "gsv/services/sensor_servants.h"
+#include "gsv/simulation/robots/robot_commands.h"
 
 namespace gsv::services {
 namespace {
@@ -89,7 +90,9 @@ class SensorFactoryServant final : public POA_sba::SensorFactory {
   typename Interface::_ptr_type Serve(const std::string& name) {
     for (model::SensorDescription& description : agent_->Sensors()) {
       if (description.name != name) continue;
-      const SensorServantMaker make = SensorServants::For(description.type);
+      const auto mounted = agent_->Mounted(name);
+      const bool takes_commands = mounted && simulation::TakesCommands(**mounted);
+      const SensorServantMaker make = SensorServants::For(description.type, takes_commands);
       return group_->Activate<Interface>(make(agent_, std::move(description), group_));
     }
     throw sba::Ended("the sensor has just been closed");
@@ -99,9 +102,9 @@ class SensorFactoryServant final : public POA_sba::SensorFactory {
   const GroupPtr group_;
 };
 
-class ActuatorServant final : public POA_sba::ActuatorProxy {
+class BaseServant final : public POA_sba::ActuatorProxy {
  public:
-  explicit ActuatorServant(AgentPtr agent) : agent_(std::move(agent)) {}
+  explicit BaseServant(AgentPtr agent) : agent_(std::move(agent)) {}
 
   void drive(CORBA::Double linear_m_s, CORBA::Double angular_rad_s) override {
     orb::ValueOrThrow(agent_->Command({linear_m_s, 0, angular_rad_s}));
@@ -176,7 +179,7 @@ class HardwareServant final : public POA_sba::JointedHardware {
     return group_->Activate<sba::SensorFactory>(new SensorFactoryServant(agent_, group_));
   }
   sba::ActuatorProxy_ptr base() override {
-    return group_->Activate<sba::ActuatorProxy>(new ActuatorServant(agent_));
+    return group_->Activate<sba::ActuatorProxy>(new BaseServant(agent_));
   }
   sba::Clock_ptr open_clock() override {
     const auto clock =

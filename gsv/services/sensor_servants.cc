@@ -295,9 +295,11 @@ void SensorServants::Register(const std::string& type, SensorServantMaker maker)
   Makers()[type] = maker;
 }
 
-SensorServantMaker SensorServants::For(const std::string& type) {
+SensorServantMaker SensorServants::For(const std::string& type, bool takes_commands) {
   const auto it = Makers().find(type);
-  return it == Makers().end() ? MakeSensorServant<SensorServant<POA_sba::Sensor>> : it->second;
+  if (it != Makers().end()) return it->second;
+  return takes_commands ? MakeSensorServant<ActuatorServant<POA_sba::Actuator>>
+                        : MakeSensorServant<SensorServant<POA_sba::Sensor>>;
 }
 
 }  // namespace gsv::services

@@ -63,11 +63,12 @@ PortableServer::ServantBase* MakeSensorServant(std::shared_ptr<simulation::Agent
   return new Servant(std::move(agent), std::move(description), std::move(group));
 }
 
-// Types with an interface of their own; a type that is not listed is served as a plain sba::Sensor.
+// Types with an interface of their own. A type that is not listed is served as a plain
+// sba::Sensor, or as an sba::Actuator if it takes commands.
 class SensorServants {
  public:
   static void Register(const std::string& type, SensorServantMaker maker);
-  static SensorServantMaker For(const std::string& type);
+  static SensorServantMaker For(const std::string& type, bool takes_commands);
 };
 
 }  // namespace gsv::services

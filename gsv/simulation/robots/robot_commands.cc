@@ -21,12 +21,17 @@ tl::unexpected<base::Error> RefuseCommand(const MountedSensor& sensor, const std
 
 }  // namespace
 
+bool TakesCommands(const MountedSensor& sensor) {
+  const auto device = sensor.device();
+  return device != nullptr && !device->SendsMessages();
+}
+
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot) {
-  auto device = sensor.device();
-  if (device == nullptr || device->SendsMessages()) {
+  if (!TakesCommands(sensor)) {
     return RefuseCommand(sensor, robot, "a sensor cannot be told anything");
   }
+  auto device = sensor.device();
   if (auto ok = device->Check(command); !ok) {
     return RefuseCommand(sensor, robot, ok.error().message);
   }

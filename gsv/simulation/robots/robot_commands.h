@@ -27,7 +27,10 @@ struct DeviceAction {
   const std::string& name() const { return device->description().name; }
 };
 
-// Refuses what takes no commands, and what it cannot follow. `robot` is for the error's place.
+// Whether behaviours command it by Agent::Act().
+bool TakesCommands(const MountedSensor& sensor);
+// Refuses a sensor that takes no commands, and a command that it cannot follow. `robot` is for the
+// error's place.
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot);
 

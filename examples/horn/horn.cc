@@ -1,0 +1,95 @@
+// An actuator type from outside the tree: a horn, which honks for a time. Microphones hear it.
+//
+//   cmake -S examples/horn -B /tmp/horn -D GSV_SOURCE_DIR=$PWD -D GSV_BUILD_DIR=$PWD/build/release
+//   cmake --build /tmp/horn
+//   gsv run WORLD --robot MODEL --sensor-plugin /tmp/horn/gsv-sensor-horn.so
+//
+// Command     how long it honks (s, at most 60); 0: it falls silent.
+// Reading     how long it will still honk (s); 0 while it is silent.
+// Parameters  loudness (105 dB re 20 µPa, 1 m away), frequency (420 Hz)
+// Message     gsv_msgs/Speaker
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/sensing/actuator.h"
+#include "gsv/sensing/module.h"
+#include "gsv/sensing/sensor_type.h"
+
+namespace {
+
+using namespace gsv;
+
+world::Sound ReadHorn(sensing::ParameterReader& reader) {
+  world::Sound sound;
+  sound.name = "horn";
+  sound.frequency = reader.Number("frequency", 420, 20, 20'000);
+  sound.volume = 1;
+  sound.loudness = reader.Number("loudness", 105, 0, 200);
+  return sound;
+}
+
+// What others hear of a horn that follows a command.
+class HornState final : public world::ActuatorState {
+ public:
+  HornState(world::DeviceMount mount, world::FollowedCommand followed, world::Sound sound)
+      : ActuatorState(std::move(mount), std::move(followed)), sound_(std::move(sound)) {}
+
+  std::optional<world::Sound> SoundAt(base::SimTime now) const override {
+    world::Sound sound = sound_;
+    sound.elapsed = base::ToSeconds(now - since());
+    sound.left = values()[0] - sound.elapsed;
+    return sound.left > 0 ? std::optional(sound) : std::nullopt;
+  }
+
+ private:
+  const world::Sound sound_;
+};
+
+class Horn final : public sensing::Actuator {
+ public:
+  Horn(const model::SensorDescription& description, sensing::ParameterReader& reader)
+      : Actuator(description), sound_(ReadHorn(reader)) {}
+
+  base::Status Check(const world::DeviceCommand& command) const override {
+    if (auto ok = CheckShape(command, 1); !ok) return ok;
+    return CheckRange("duration", command.values[0], 0, 60);
+  }
+
+  base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
+    const world::DeviceState* const state = StateIn(sampling);
+    const auto sound =
+        state != nullptr ? state->SoundAt(sampling.snapshot()->state.time) : std::nullopt;
+    sensing::Reading reading = sampling.Stamped();
+    reading.values = {sound ? sound->left : 0};
+    return reading;
+  }
+
+  static messages::gsv_msgs::Speaker ToMessage(const model::SensorDescription& description,
+                                               const sensing::Reading& reading,
+                                               const std::string&) {
+    messages::gsv_msgs::Speaker message;
+    if (reading.values.empty() || reading.values[0] == 0) return message;
+    sensing::ParameterReader reader(description);
+    const world::Sound sound = ReadHorn(reader);
+    message.sound = sound.name;
+    message.frequency_hz = sound.frequency;
+    message.volume = sound.volume;
+    message.left_s = reading.values[0];
+    message.loudness_db = sound.loudness;
+    return message;
+  }
+
+ private:
+  world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
+                               const world::DeviceState*) const override {
+    return std::make_shared<const HornState>(std::move(mount), std::move(followed), sound_);
+  }
+
+  const world::Sound sound_;
+};
+
+base::Status Add(sensing::SensorRegistry& registry) {
+  return registry.Add(sensing::MakeSensorType<Horn, messages::gsv_msgs::Speaker>("horn"));
+}
+
+}  // namespace
+
+GSV_SENSOR_MODULE(Add)
