@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/selection_options.h"
 #include "apps/gsv/exit_code.h"
 #include "apps/gsv/lost/server_note.h"
-#include "apps/gsv/serving/remote_simulations.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/orb/errors.h"
 
@@ -20,7 +20,7 @@ namespace {
 using simulation::Phase;
 
 // The object that the viewer gets too, with the server in front and the state's hash at the end.
-std::string Json(const RemoteSimulation& simulation) {
+std::string Json(const FoundSimulation& simulation) {
   const RemoteServer& server = simulation.server;
   nlohmann::ordered_json json = {{"server",
                                   {{"name", server.name},
@@ -41,7 +41,7 @@ void PrintRobot(const simulation::RobotStatus& robot) {
               ToString(robot.phase), robot.detail.empty() ? "" : ": ", robot.detail.c_str());
 }
 
-void Print(const RemoteSimulation& simulation) {
+void Print(const FoundSimulation& simulation) {
   const simulation::SimulationStatus& status = simulation.status;
   const std::string target = status.mode == simulation::Mode::kLockstep
                                  ? std::string("as fast as possible")
@@ -86,7 +86,7 @@ int List(const Arguments& arguments) {
   if (!simulations) return Complain(simulations.error());
   for (const std::string& sentence : silent)
     std::fprintf(stderr, "gsv: warning: %s\n", sentence.c_str());
-  for (const RemoteSimulation& simulation : *simulations) {
+  for (const FoundSimulation& simulation : *simulations) {
     if (arguments.json) {
       std::puts(Json(simulation).c_str());
     } else {
@@ -102,7 +102,7 @@ int List(const Arguments& arguments) {
 using Call = std::function<void(sba::Simulation_ptr, const Arguments&)>;
 
 // Until the steps are taken; a behaviour may make that as long as it likes. False: interrupted.
-base::Result<bool> AwaitRest(const RemoteSimulation& simulation, Signals& signals) {
+base::Result<bool> AwaitRest(const FoundSimulation& simulation, Signals& signals) {
   auto phase = sba::PHASE_STARTING;
   while (phase == sba::PHASE_STARTING || phase == sba::PHASE_RUNNING) {
     if (signals.WaitFor(0) != 0) return false;
@@ -142,14 +142,7 @@ int Steer(const Arguments& arguments, const Call& call, bool awaits_rest, Signal
 
 std::shared_ptr<Arguments> AddSelection(CLI::App& command) {
   auto arguments = std::make_shared<Arguments>();
-  command
-      .add_option(
-          "--broker", arguments->selection.broker,
-          "the broker to look at, corbaloc::1.2@HOST:PORT/TradingService; without it: those "
-          "of your own running gsv")
-      ->envname("GSV_BROKER");
-  command.add_option("--server", arguments->selection.server,
-                     "only on this server: its name, its process number or HOST:PID");
+  AddInstanceOptions(command, arguments->selection);
   command.add_flag("--json", arguments->json, "one JSON object a simulation and line");
   return arguments;
 }
@@ -161,8 +154,7 @@ void AddSteering(const CommandLine& line, const char* name, const char* descript
   CLI::App* command = line.app.add_subcommand(name, description);
   auto arguments = AddSelection(*command);
   if (add_value) add_value(*command, *arguments);
-  command->add_option("simulation", arguments->selection.simulation,
-                      "its name; without it: the newest run's, or the only one there is");
+  AddSimulationName(*command, arguments->selection);
   command->callback([arguments, line, call = std::move(call), awaits_rest] {
     line.exit_code = Steer(*arguments, call, awaits_rest, line.signals);
   });

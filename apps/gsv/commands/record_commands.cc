@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
+#include "apps/gsv/commands/selection_options.h"
 #include "apps/gsv/exit_code.h"
-#include "apps/gsv/serving/remote_simulations.h"
 #include "gsv/orb/errors.h"
 
 namespace gsv::app {
@@ -21,7 +21,7 @@ struct RecordArguments {
 int StartRecording(const RecordArguments& arguments) {
   const auto simulation = FindOneSimulation(arguments.selection);
   if (!simulation) return Complain(simulation.error());
-  // The other process may stand in another folder.
+  // The other process may stand in another folder, and on another machine.
   std::error_code error;
   const std::string path = std::filesystem::absolute(arguments.file, error).string();
   const auto done = orb::Call(simulation->server.Describe(),
@@ -41,16 +41,9 @@ int StopRecording(const RecordArguments& arguments) {
   return kOk;
 }
 
-void AddSimulation(CLI::App& command, RecordArguments& arguments) {
-  command.add_option("simulation", arguments.selection.simulation,
-                     "its name; without it: the newest run's, or the only one there is");
-  command
-      .add_option("--broker", arguments.selection.broker,
-                  "the broker to look at, corbaloc::1.2@HOST:PORT/TradingService; without it: "
-                  "those of your own running gsv")
-      ->envname("GSV_BROKER");
-  command.add_option("--server", arguments.selection.server,
-                     "only on this server: its name, its process number or HOST:PID");
+void AddRecordedSimulation(CLI::App& command, Selection& selection) {
+  AddSimulationName(command, selection);
+  AddInstanceOptions(command, selection);
 }
 
 }  // namespace
@@ -62,15 +55,15 @@ void AddRecordCommands(const CommandLine& line) {
   auto start_arguments = std::make_shared<RecordArguments>();
   start
       ->add_option("file", start_arguments->file,
-                   "where, on the simulation's machine: NAME.mcap is a bare file, NAME a folder "
-                   "that rosbag2 opens")
+                   "path on the simulation's machine: NAME.mcap is a bare file, NAME a folder for "
+                   "rosbag2")
       ->required();
-  AddSimulation(*start, *start_arguments);
+  AddRecordedSimulation(*start, start_arguments->selection);
   start->callback([start_arguments, line] { line.exit_code = StartRecording(*start_arguments); });
 
   CLI::App* stop = rec->add_subcommand("stop", "End the recording of a simulation that runs on");
   auto stop_arguments = std::make_shared<RecordArguments>();
-  AddSimulation(*stop, *stop_arguments);
+  AddRecordedSimulation(*stop, stop_arguments->selection);
   stop->callback([stop_arguments, line] { line.exit_code = StopRecording(*stop_arguments); });
 }
 

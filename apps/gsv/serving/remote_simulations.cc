@@ -46,7 +46,7 @@ bool IsMeant(const Selection& selection, const RemoteServer& server) {
 }
 
 base::Status AddSimulationsOf(const RemoteServer& server, CORBA::Object_ptr object,
-                              const Selection& selection, std::vector<RemoteSimulation>& found,
+                              const Selection& selection, std::vector<FoundSimulation>& found,
                               std::chrono::milliseconds call_timeout = kCallTimeout) {
   orb::LimitCalls(object, kBrokerTimeout);
   return orb::Call(server.Describe(), [&] {
@@ -54,7 +54,7 @@ base::Status AddSimulationsOf(const RemoteServer& server, CORBA::Object_ptr obje
     if (CORBA::is_nil(service)) throw sba::Failed("the offer is no SimulationService");
     const sba::Simulations_var simulations = service->list();
     for (CORBA::ULong i = 0; i < simulations->length(); ++i) {
-      RemoteSimulation simulation;
+      FoundSimulation simulation;
       simulation.server = server;
       simulation.reference = sba::Simulation::_duplicate(simulations.in()[i]);
       orb::LimitCalls(simulation.reference, call_timeout);
@@ -67,7 +67,7 @@ base::Status AddSimulationsOf(const RemoteServer& server, CORBA::Object_ptr obje
 }
 
 base::Status AddSimulationsAt(CORBA::ORB_ptr orb, const std::string& reference,
-                              const Selection& selection, std::vector<RemoteSimulation>& found,
+                              const Selection& selection, std::vector<FoundSimulation>& found,
                               std::vector<std::string>& silent) {
   auto client = broker::BrokerClient::Connect(orb, reference, kBrokerTimeout);
   if (!client) return base::Fail(client.error());
@@ -96,19 +96,19 @@ std::vector<std::string> BrokersOfInstances() {
   return brokers;
 }
 
-void KeepThoseOfTheNewestInstance(std::vector<RemoteSimulation>& simulations) {
+void KeepThoseOfTheNewestInstance(std::vector<FoundSimulation>& simulations) {
   for (const Instance& instance : RunningInstances()) {
     const std::string pid = std::to_string(instance.pid);
-    const auto is_elsewhere = [&](const RemoteSimulation& one) { return one.server.pid != pid; };
+    const auto is_elsewhere = [&](const FoundSimulation& one) { return one.server.pid != pid; };
     if (std::all_of(simulations.begin(), simulations.end(), is_elsewhere)) continue;
     std::erase_if(simulations, is_elsewhere);
     return;
   }
 }
 
-std::string NamesOf(const std::vector<RemoteSimulation>& simulations) {
+std::string NamesOf(const std::vector<FoundSimulation>& simulations) {
   std::string names;
-  for (const RemoteSimulation& simulation : simulations) {
+  for (const FoundSimulation& simulation : simulations) {
     names += (names.empty() ? "" : ", ") + simulation.status.name + " on " +
              simulation.server.Describe();
   }
@@ -151,10 +151,10 @@ base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
   for (std::size_t i = 0; i < offers->size(); ++i) {
     askers.emplace_back([&instance = instances[i], &offer = (*offers)[i], &broker] {
       instance.server = ServerFrom(offer.properties, broker);
-      std::vector<RemoteSimulation> found;
+      std::vector<FoundSimulation> found;
       const auto ok = AddSimulationsOf(instance.server, offer.object, {}, found, kBrokerTimeout);
       if (!ok) instance.problem = ok.error().Sentence();
-      for (RemoteSimulation& simulation : found)
+      for (FoundSimulation& simulation : found)
         instance.simulations.push_back(std::move(simulation.status));
     });
   }
@@ -162,9 +162,9 @@ base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
   return instances;
 }
 
-base::Result<std::vector<RemoteSimulation>> FindSimulations(const Selection& selection,
-                                                            std::vector<std::string>& silent) {
-  std::vector<RemoteSimulation> found;
+base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& selection,
+                                                           std::vector<std::string>& silent) {
+  std::vector<FoundSimulation> found;
   const bool is_named = !selection.broker.empty();
   const auto brokers = is_named ? std::vector<std::string>{selection.broker} : BrokersOfInstances();
   if (brokers.empty()) return found;
@@ -180,7 +180,7 @@ base::Result<std::vector<RemoteSimulation>> FindSimulations(const Selection& sel
   return found;
 }
 
-base::Result<RemoteSimulation> FindOneSimulation(const Selection& selection) {
+base::Result<FoundSimulation> FindOneSimulation(const Selection& selection) {
   std::vector<std::string> silent;
   auto found = FindSimulations(selection, silent);
   if (!found) return base::Fail(found.error());
@@ -227,7 +227,7 @@ base::Result<RemoteServer> FindOneInstance(const Selection& selection) {
   return std::move(found.front());
 }
 
-base::Result<simulation::SimulationStatus> StatusOf(const RemoteSimulation& simulation) {
+base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simulation) {
   return orb::Call(simulation.server.Describe(), [&] {
     const sba::SimulationState_var state = simulation.reference->state();
     return services::FromIdl(state.in());

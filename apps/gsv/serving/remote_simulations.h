@@ -23,7 +23,7 @@ struct RemoteServer {
   std::string Describe() const { return name + " (" + place + ")"; }
 };
 
-struct RemoteSimulation {
+struct FoundSimulation {
   RemoteServer server;
   sba::Simulation_var reference;
   simulation::SimulationStatus status;  // as it was when it was found
@@ -38,11 +38,11 @@ struct Selection {
 
 // Servers that do not answer are told in `silent`, a sentence each. A broker that does not answer
 // is an error when it was named.
-base::Result<std::vector<RemoteSimulation>> FindSimulations(const Selection& selection,
-                                                            std::vector<std::string>& silent);
+base::Result<std::vector<FoundSimulation>> FindSimulations(const Selection& selection,
+                                                           std::vector<std::string>& silent);
 
 // The one that is meant. When nothing narrows the choice: that of the newest instance.
-base::Result<RemoteSimulation> FindOneSimulation(const Selection& selection);
+base::Result<FoundSimulation> FindOneSimulation(const Selection& selection);
 
 // The instance that is meant, whether or not it runs a simulation. When nothing narrows the choice:
 // the newest of this user's.
@@ -60,6 +60,6 @@ struct RemoteInstance {
 base::Result<std::vector<RemoteInstance>> ListInstances(CORBA::ORB_ptr orb,
                                                         const std::string& broker);
 
-base::Result<simulation::SimulationStatus> StatusOf(const RemoteSimulation& simulation);
+base::Result<simulation::SimulationStatus> StatusOf(const FoundSimulation& simulation);
 
 }  // namespace gsv::app
