@@ -1,0 +1,134 @@
+#include "apps/gsv/commands/run_options.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
+
+#include "gsv/base/test_folder.h"
+
+namespace gsv::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
+using Words = std::vector<std::string>;
+
+base::Result<RunOptions> Parse(Words words) {
+  CLI::App app;
+  RunArguments arguments;
+  AddRunOptions(app, arguments);
+  std::reverse(words.begin(), words.end());  // as CLI11 wants them
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, error.what(), "usage");
+  }
+  return Understand(arguments);
+}
+
+std::string Refusal(const Words& words) {
+  const auto options = Parse(words);
+  return options ? "taken" : options.error().Sentence();
+}
+
+TEST(RunOptions, WithoutAnyItIsTheDefaultScenarioInRealTime) {
+  const auto options = Parse({});
+  ASSERT_TRUE(options) << options.error().Sentence();
+  EXPECT_EQ(options->scenario, scenario::DefaultScenario());
+  EXPECT_EQ(options->specification.name, "simulation");
+  EXPECT_EQ(options->specification.mode, simulation::Mode::kRealTime);
+  EXPECT_EQ(options->specification.factor, 1);
+  EXPECT_EQ(options->specification.seed, 0u);
+  EXPECT_EQ(options->specification.duration, base::SimTime(0));
+  EXPECT_EQ(options->specification.deadline, std::chrono::seconds(10));
+  EXPECT_TRUE(options->runtime.viewer);
+  EXPECT_EQ(options->record, "");
+}
+
+TEST(RunOptions, OneBehaviourIsForAllRobotsOrForOne) {
+  const auto options =
+      Parse({"maze", "--robot", "pebble@1,2,90deg", "--robot", "b21r", "--behaviour", "wander",
+             "--behaviour", "pebble=goto --goal-x=3", "--movement", "pebble=rigid"});
+  ASSERT_TRUE(options) << options.error().Sentence();
+  EXPECT_EQ(options->scenario.world, "maze");
+  ASSERT_THAT(options->scenario.robots, SizeIs(2));
+  EXPECT_EQ(options->scenario.robots[0].start->y, 2);
+  EXPECT_NEAR(options->scenario.robots[0].start->yaw, 1.5707963267948966, 1e-15);
+  EXPECT_FALSE(options->scenario.robots[1].start);
+  EXPECT_EQ(options->behaviour, "wander");
+  EXPECT_THAT(options->behaviour_of, ElementsAre(Pair("pebble", "goto --goal-x=3")));
+  EXPECT_THAT(options->movement_of, ElementsAre(Pair("pebble", model::Movement::kRigid)));
+}
+
+TEST(RunOptions, TheCommandLineGoesBeforeTheScenarioFile) {
+  const base::testing::TestFolder folder;
+  const std::string file = folder.Write(
+      "s.yaml", "world: maze\nname: s\nseed: 1\nstep: 0.02\nduration: 3\nmode: lockstep\n");
+  const auto as_it_is = Parse({file});
+  ASSERT_TRUE(as_it_is) << as_it_is.error().Sentence();
+  ASSERT_THAT(as_it_is->problems, IsEmpty());
+  EXPECT_EQ(as_it_is->specification.mode, simulation::Mode::kLockstep);
+  const auto options = Parse({file, "--seed", "7", "--duration", "5", "--real-time", "--factor",
+                              "2", "--on-failure", "fail", "--name", "n"});
+  ASSERT_TRUE(options) << options.error().Sentence();
+  EXPECT_EQ(options->specification.seed, 7u);
+  EXPECT_EQ(options->specification.duration, std::chrono::seconds(5));
+  EXPECT_EQ(options->specification.step, std::chrono::milliseconds(20));
+  EXPECT_EQ(options->specification.mode, simulation::Mode::kRealTime);
+  EXPECT_EQ(options->specification.factor, 2);
+  EXPECT_EQ(options->specification.on_failure, simulation::FailurePolicy::kFail);
+  EXPECT_EQ(options->specification.name, "n");
+}
+
+TEST(RunOptions, RecordingIsChosenByTopicsRatesAndFormat) {
+  const auto options = Parse({"maze", "--record", "x.mcap", "--record-topics", "/gsv/poses,/scout/",
+                              "--record-rate", "poses=10,beams=0.5", "--record-pictures", "png"});
+  ASSERT_TRUE(options) << options.error().Sentence();
+  EXPECT_EQ(options->record, "x.mcap");
+  EXPECT_THAT(options->recording.topics, UnorderedElementsAre("/gsv/poses", "/scout/"));
+  EXPECT_EQ(options->recording.poses_rate, 10);
+  EXPECT_EQ(options->recording.beams_rate, 0.5);
+  EXPECT_EQ(options->recording.readings_rate, 20);  // as --help says
+  EXPECT_TRUE(options->recording.png);
+}
+
+TEST(RunOptions, EachMistakeNamesItsOption) {
+  const std::pair<Words, const char*> bad[]{
+      {{"--behaviour", "=wander"}, "--behaviour =wander: expected NAME or ROBOT=NAME"},
+      {{"--behaviour", "r="}, "--behaviour r=: expected NAME or ROBOT=NAME"},
+      {{"--movement", "rigid"}, "--movement rigid: expected ROBOT=rigid or ROBOT=planar"},
+      {{"--movement", "=rigid"}, "--movement =rigid: expected"},
+      {{"--movement", "r=flying"}, "--movement r=flying: expected"},
+      {{"--robot", "pebble@1"}, "pebble@1"},
+      {{"--avatar", "person@x,y"}, "person@x,y"},
+      {{"--duration", "-1"}, "--duration: must be a number of seconds from 0 to 1e9"},
+      {{"--duration", "2e9"}, "--duration: must be a number of seconds"},
+      {{"--step", "nan"}, "--step: must be a number of seconds"},
+      {{"--record-topics", "/gsv/poses"}, "--record-topics: goes with --record NAME"},
+      {{"--record-rate", "poses=1"}, "--record-rate: goes with --record NAME"},
+      {{"--record-pictures", "png"}, "--record-pictures: goes with --record NAME"},
+      {{"--record", "x", "--record-topics", "poses"}, "a topic begins with a slash"},
+      {{"--record", "x", "--record-rate", "poses=0"}, "--record-rate poses=0: expected poses=HZ"},
+      {{"--record", "x", "--record-rate", "sounds=1"}, "--record-rate sounds=1: expected"},
+      {{"--record", "true"}, "it is a file, NAME.mcap, or a folder"},
+      {{"--record-pictures", "gif"}, "usage: "},
+      {{"--on-failure", "panic"}, "usage: "},
+      {{"--lockstep", "--real-time"}, "usage: "},
+      {{"--threads", "-1"}, "usage: "},
+      {{"--limit", "robots=0"}, "robots must be a whole number above zero"},
+      {{"none.yaml"}, "none.yaml"}};
+  for (const auto& [words, sentence] : bad) {
+    Words with_world = words;
+    if (words.front().front() == '-') with_world.insert(with_world.begin(), "maze");
+    EXPECT_THAT(Refusal(with_world), HasSubstr(sentence)) << words.front();
+  }
+}
+
+}  // namespace
+}  // namespace gsv::app

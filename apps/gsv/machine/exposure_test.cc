@@ -1,0 +1,44 @@
+#include "apps/gsv/machine/exposure.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gsv::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Listener kOpen{"0.0.0.0", 8080}, kLocal{"127.0.0.1", 8080};
+
+TEST(Exposure, OnThisMachineOnlyIsNeverComplainedOf) {
+  for (const Speaks speaks :
+       {Speaks::kHttp, Speaks::kHttps, Speaks::kCorba, Speaks::kCorbaTls, Speaks::kUnknown}) {
+    EXPECT_EQ(Complaint(kLocal, {speaks}), "");
+  }
+}
+
+TEST(Exposure, AViewerBeyondThisMachineNeedsTokensAndTls) {
+  Exposure exposure{Speaks::kHttp};
+  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("whoever reaches it may act"));
+  exposure.acting_takes_token = true;
+  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("can be read on the way"));
+  exposure.speaks = Speaks::kHttps;
+  EXPECT_EQ(Complaint(kOpen, exposure), "") << "watching may be free";
+  exposure.acting_takes_token = false;
+  EXPECT_THAT(Complaint(kOpen, exposure), HasSubstr("--control-token"));
+}
+
+TEST(Exposure, CorbaBeyondThisMachineNeedsCertificates) {
+  EXPECT_THAT(Complaint(kOpen, {Speaks::kCorba}), HasSubstr("--insecure-corba"));
+  Exposure exposure{Speaks::kCorbaTls};
+  EXPECT_EQ(Complaint(kOpen, exposure), "whoever reaches it may call it");
+  exposure.takes_certificate = true;
+  EXPECT_EQ(Complaint(kOpen, exposure), "");
+}
+
+TEST(Exposure, WhatDoesNotAnswerIsSuspect) {
+  EXPECT_THAT(Complaint(kOpen, {Speaks::kUnknown}), HasSubstr("it does not answer"));
+}
+
+}  // namespace
+}  // namespace gsv::app

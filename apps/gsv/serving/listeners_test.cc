@@ -1,0 +1,52 @@
+#include "apps/gsv/serving/listeners.h"
+
+#include <gtest/gtest.h>
+
+namespace gsv::app {
+namespace {
+
+// The columns are those of proc(5); addresses are in the byte order of this machine.
+constexpr const char* kTable =
+    "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout "
+    "inode\n"
+    "   0: 0100007F:1F90 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 "
+    "4711 1 0000000000000000 100 0 0 10 0\n"
+    "   1: 00000000:0016 00000000:0000 0A 00000000:00000000 00:00000000 00000000     0        0 "
+    "12 1 0000000000000000 100 0 0 10 0\n"
+    "   2: 0100007F:1F90 0100007F:C350 01 00000000:00000000 00:00000000 00000000  1000        0 "
+    "4712 1 0000000000000000 20 4 30 10 -1\n"
+    "   3: nonsense\n"
+    "   4: 0100007:1F90 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 "
+    "13 1 0000000000000000 100 0 0 10 0\n";
+
+TEST(SocketTable, HoldsThoseThatListen) {
+  const auto sockets = ParseSocketTable(kTable);
+  ASSERT_EQ(sockets.size(), 2u);
+  EXPECT_EQ(sockets[0].first, 4711u);
+  EXPECT_EQ(sockets[0].second.address, "127.0.0.1");
+  EXPECT_EQ(sockets[0].second.port, 8080);
+  EXPECT_EQ(sockets[1].first, 12u);
+  EXPECT_EQ(sockets[1].second.address, "0.0.0.0");
+  EXPECT_EQ(sockets[1].second.port, 22);
+}
+
+TEST(SocketTable, HoldsAddressesOfIpv6) {
+  const auto sockets = ParseSocketTable(
+      "heading\n   0: 00000000000000000000000001000000:1F90 "
+      "00000000000000000000000000000000:0000 0A 00000000:00000000 00:00000000 00000000  1000 0 "
+      "99 1 0000000000000000 100 0 0 10 0\n");
+  ASSERT_EQ(sockets.size(), 1u);
+  EXPECT_EQ(sockets[0].second.address, "::1");
+  EXPECT_TRUE(ParseSocketTable("").empty());
+}
+
+TEST(Listener, IsLocalOnLoopbackAndInTheFileSystem) {
+  for (const char* local : {"127.0.0.1", "127.1.2.3", "::1", "::ffff:127.0.0.1"})
+    EXPECT_TRUE((Listener{local, 80}.IsLocal())) << local;
+  for (const char* open : {"0.0.0.0", "::", "10.0.0.1", "1.127.0.0", "fe80::1"})
+    EXPECT_FALSE((Listener{open, 80}.IsLocal())) << open;
+  EXPECT_TRUE((Listener{"/run/socket", 0}.IsLocal()));
+}
+
+}  // namespace
+}  // namespace gsv::app
