@@ -1,20 +1,26 @@
-// The simulations of this program on the web: the viewer's files, an HTTP API, and live data over
-// the Foxglove WebSocket protocol at /ws. See docs/formats/live.md and docs/api.yaml.
+// Simulations, a recording or another instance on the web: the viewer's files, an HTTP API, and
+// live data over the Foxglove WebSocket protocol at /ws. See docs/formats/live.md and
+// docs/api.yaml.
+//
+// There is one gateway, with one of three sets of routes: of the simulations of this program, of a
+// recording that is replayed (the same addresses and messages, so that the same viewer shows it),
+// or of another instance whose simulations are relayed.
 //
 // Threads  its own; the stepping threads of simulations are never waited for, nor do they wait.
 #pragma once
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/router.h"
 #include "gsv/gateway/metrics/metrics_page.h"
 #include "gsv/gateway/program/ports.h"
 #include "gsv/gateway/program/simulation_factory.h"
 #include "gsv/gateway/recordings/replay_sessions.h"
+#include "gsv/gateway/replay/replay_player.h"
 #include "gsv/gateway/server/server.h"
 #include "gsv/gateway/uploads/upload_folder.h"
 
@@ -34,17 +40,32 @@ struct GatewayOptions : ServerOptions {
   std::string only_recording{};  // of those in the folder; empty: all
   uploads::UploadLimits uploads{};
   recordings::SessionLimits replays{};
-  // By NAME: who answers what is at and below /api/NAME.
-  std::map<std::string, std::function<Response(const Request&)>> pages{};
+  std::vector<Route> routes{};  // further ones, beside those of the simulations of this program
+};
+
+// An instance whose simulations are relayed.
+struct RelayedInstance {
+  std::string url;          // as it printed it: "http://192.168.1.7:8080/"
+  std::string token{};      // shown there on behalf of all clients of the relay; empty: none
+  std::string authority{};  // a PEM file with the certificates to trust; empty: the system's
 };
 
 class Gateway {
  public:
-  // Fails when the port cannot be had.
+  // Of the simulations of this program. All three fail when the port cannot be had.
   static base::Result<std::unique_ptr<Gateway>> Start(
       const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory);
+  // Of a recording. `player` outlives the gateway.
+  static base::Result<std::unique_ptr<Gateway>> StartReplay(const GatewayOptions& options,
+                                                            ReplayPlayer& player);
+  // Of another instance: the viewer's files are our own, requests are forwarded, and of each
+  // simulation that is watched there is one stream, however many viewers watch here. Asks there
+  // once, and fails when no gsv answers. If the instance goes away later, it is waited for.
+  static base::Result<std::unique_ptr<Gateway>> StartRelay(const GatewayOptions& options,
+                                                           const RelayedInstance& there);
   virtual ~Gateway() = default;
 
+  virtual const Router& router() const = 0;
   virtual std::uint16_t port() const = 0;
   virtual std::string url() const = 0;  // "http://127.0.0.1:8080/"
 

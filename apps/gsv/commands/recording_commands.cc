@@ -19,7 +19,6 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/running/resimulation.h"
 #include "apps/gsv/running/video_export.h"
-#include "gsv/gateway/replay_gateway.h"
 #include "gsv/recording/attachments/scene_attachments.h"
 #include "gsv/recording/reading/decoded_messages.h"
 #include "gsv/recording/reading/recording_info.h"
@@ -211,8 +210,8 @@ int CheckReplay(const ReplayArguments& arguments) {
   return is_whole ? kOk : kInfrastructure;
 }
 
-base::Result<std::unique_ptr<gateway::ReplayGateway>> StartGateway(const ReplayArguments& arguments,
-                                                                   gateway::ReplayPlayer& player) {
+base::Result<std::unique_ptr<gateway::Gateway>> StartGateway(const ReplayArguments& arguments,
+                                                             gateway::ReplayPlayer& player) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
   std::error_code error;
@@ -220,8 +219,8 @@ base::Result<std::unique_ptr<gateway::ReplayGateway>> StartGateway(const ReplayA
   const std::filesystem::path file = std::filesystem::canonical(arguments.file, error);
   options.recordings_folder = file.parent_path();
   options.only_recording = file.filename();
-  return StartViewer<gateway::ReplayGateway>(arguments.web, options, [&](const auto& there) {
-    return gateway::ReplayGateway::Start(there, player);
+  return StartViewer(arguments.web, options, [&](const auto& there) {
+    return gateway::Gateway::StartReplay(there, player);
   });
 }
 

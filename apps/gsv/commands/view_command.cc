@@ -8,7 +8,6 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/serving/remote_simulations.h"
 #include "gsv/base/log.h"
-#include "gsv/gateway/relay.h"
 
 namespace gsv::app {
 namespace {
@@ -28,11 +27,11 @@ base::Result<std::string> ViewerOf(const std::string& instance, const std::strin
                     found->Describe());
 }
 
-int View(const gateway::Relay::Instance& there, const ViewerOptions& web, Signals& signals) {
+int View(const gateway::RelayedInstance& there, const ViewerOptions& web, Signals& signals) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
-  auto relay = StartViewer<gateway::Relay>(
-      web, options, [&](const auto& here) { return gateway::Relay::Start(here, there); });
+  auto relay = StartViewer(
+      web, options, [&](const auto& here) { return gateway::Gateway::StartRelay(here, there); });
   if (!relay) return Complain(relay.error());
   std::printf("viewer: %s\n", (*relay)->url().c_str());
   std::fflush(stdout);

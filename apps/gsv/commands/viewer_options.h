@@ -29,24 +29,10 @@ void AddViewerOptions(CLI::App& command, ViewerOptions& options);
 // Adds --recordings, where simulations run.
 void AddRecordingsOption(CLI::App& command, ViewerOptions& options);
 
-// Starts something by `start` where it was asked for; `gateway` holds the rest.
-template <typename Started>
-base::Result<std::unique_ptr<Started>> StartViewer(
+// Starts a gateway where it was asked for; `gateway` holds the rest.
+base::Result<std::unique_ptr<gateway::Gateway>> StartViewer(
     const ViewerOptions& options, gateway::GatewayOptions gateway,
-    const std::function<base::Result<std::unique_ptr<Started>>(const gateway::GatewayOptions&)>&
-        start) {
-  constexpr std::uint16_t kUsualPort = 8080;
-  const bool is_given = options.port >= 0;
-  gateway.version = GSV_VERSION;
-  gateway.host = options.listen;
-  gateway.allowed_hosts = options.names;
-  gateway.tokens = options.tokens;
-  gateway.tls = options.tls;
-  gateway.port = is_given ? static_cast<std::uint16_t>(options.port) : kUsualPort;
-  auto started = start(gateway);
-  if (started || is_given) return started;
-  gateway.port = 0;
-  return start(gateway);
-}
+    const std::function<
+        base::Result<std::unique_ptr<gateway::Gateway>>(const gateway::GatewayOptions&)>& start);
 
 }  // namespace gsv::app

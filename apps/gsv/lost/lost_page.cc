@@ -17,16 +17,7 @@ gateway::Response Dismiss(LostSimulations& lost, const std::string& text) {
   return gateway::JsonResponse(200, "{}");
 }
 
-}  // namespace
-
-gateway::Response AnswerOfLost(LostSimulations& lost, const gateway::Request& request) {
-  const std::vector<std::string>& path = request.target.segments;
-  if (path.size() == 3) {
-    if (request.method != "DELETE") return gateway::MethodNotAllowed("DELETE");
-    return Dismiss(lost, path[2]);
-  }
-  if (path.size() != 2) return gateway::ErrorResponse(404, "there is nothing there");
-  if (request.method != "GET") return gateway::MethodNotAllowed("GET");
+gateway::Response List(const LostSimulations& lost) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& [number, each] : lost.List()) {
     list.push_back({{"number", number}});
@@ -36,6 +27,23 @@ gateway::Response AnswerOfLost(LostSimulations& lost, const gateway::Request& re
   return gateway::JsonResponse(
       200, nlohmann::ordered_json{{"lost", std::move(list)}}.dump(
                -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+}  // namespace
+
+std::vector<gateway::Route> LostRoutes(LostSimulations& lost) {
+  using enum gateway::Permission;
+  using enum gateway::Pool;
+  return {
+      {"GET", "/api/lost", kWatch, false, kReaders,
+       [&lost](const gateway::Request&) { return List(lost); },
+       "What servers with this folder of recordings were running when they were killed"},
+      {"DELETE", "/api/lost/{number}", kControl, false, kCommanders,
+       [&lost](const gateway::Request& request) {
+         return Dismiss(lost, request.Parameter("number"));
+       },
+       "It was noticed, and is told no more"},
+  };
 }
 
 }  // namespace gsv::app

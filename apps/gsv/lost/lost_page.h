@@ -5,11 +5,14 @@
 // Threads  any.
 #pragma once
 
+#include <vector>
+
 #include "apps/gsv/lost/lost_simulations.h"
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 
 namespace gsv::app {
 
-gateway::Response AnswerOfLost(LostSimulations& lost, const gateway::Request& request);
+// `lost` outlives the handlers.
+std::vector<gateway::Route> LostRoutes(LostSimulations& lost);
 
 }  // namespace gsv::app

@@ -20,7 +20,7 @@ namespace gsv::app {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using NoteJson = nlohmann::json;
 
 constexpr std::streamsize kMostBytes = 8 << 20;  // of a note: 10,000 simulations with long names
 constexpr std::size_t kMostNotes = 1000;
@@ -34,17 +34,17 @@ std::string LineOf(const fs::path& file) {
   return line;
 }
 
-json ToJson(const LostSimulation& simulation) {
-  json told = {{"name", simulation.name},    {"world", simulation.world},
-               {"phase", simulation.phase},  {"time_s", simulation.time_s},
-               {"noted", simulation.noted},  {"recording", simulation.recording},
-               {"server", simulation.server}};
+NoteJson ToJson(const LostSimulation& simulation) {
+  NoteJson told = {{"name", simulation.name},    {"world", simulation.world},
+                   {"phase", simulation.phase},  {"time_s", simulation.time_s},
+                   {"noted", simulation.noted},  {"recording", simulation.recording},
+                   {"server", simulation.server}};
   if (simulation.whole_until_s) told["whole_until_s"] = *simulation.whole_until_s;
   return told;
 }
 
-json ToJson(const std::vector<LostSimulation>& simulations) {
-  json list = json::array();
+NoteJson ToJson(const std::vector<LostSimulation>& simulations) {
+  NoteJson list = NoteJson::array();
   for (const LostSimulation& each : simulations) list.push_back(ToJson(each));
   return list;
 }
@@ -52,16 +52,18 @@ json ToJson(const std::vector<LostSimulation>& simulations) {
 // Reads what is there; Ok() says whether all was of its kind.
 class Fields {
  public:
-  explicit Fields(const json& object) : object_(object), ok_(object.is_object()) {}
+  explicit Fields(const NoteJson& object) : object_(object), ok_(object.is_object()) {}
 
   bool ok() const { return ok_; }
-  std::string Text(const char* key) { return Take<std::string>(key, &json::is_string); }
+  std::string Text(const char* key) { return Take<std::string>(key, &NoteJson::is_string); }
   std::uint64_t Count(const char* key) {
-    return Take<std::uint64_t>(key, &json::is_number_unsigned);
+    return Take<std::uint64_t>(key, &NoteJson::is_number_unsigned);
   }
-  std::int64_t Whole(const char* key) { return Take<std::int64_t>(key, &json::is_number_integer); }
+  std::int64_t Whole(const char* key) {
+    return Take<std::int64_t>(key, &NoteJson::is_number_integer);
+  }
   double Time(const char* key) {
-    const double time = Take<double>(key, &json::is_number);
+    const double time = Take<double>(key, &NoteJson::is_number);
     if (!(std::abs(time) <= kLongest)) ok_ = false;
     return time;
   }
@@ -70,12 +72,12 @@ class Fields {
 
  private:
   template <typename T>
-  T Take(const char* key, bool (json::*is_kind)() const noexcept) {
+  T Take(const char* key, bool (NoteJson::*is_kind)() const noexcept) {
     ok_ = ok_ && object_.contains(key) && (object_[key].*is_kind)();
     return ok_ ? object_[key].get<T>() : T{};
   }
 
-  const json& object_;
+  const NoteJson& object_;
   bool ok_;
 };
 
@@ -84,7 +86,7 @@ std::vector<LostSimulation> Fields::List(const char* key) {
   ok_ = ok_ && object_.contains(key) && object_[key].is_array() &&
         object_[key].size() <= kMostSimulations;
   if (!ok_) return list;
-  for (const json& each : object_[key]) {
+  for (const NoteJson& each : object_[key]) {
     Fields fields(each);
     LostSimulation simulation{fields.Text("name"), fields.Text("world"), fields.Text("phase")};
     simulation.time_s = fields.Time("time_s");
@@ -101,7 +103,7 @@ std::vector<LostSimulation> Fields::List(const char* key) {
 std::optional<ServerNote> ReadNote(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream.rdbuf()), {});
-  const json told = json::parse(text, nullptr, false);
+  const NoteJson told = NoteJson::parse(text, nullptr, false);
   Fields fields(told);
   ServerNote note;
   note.pid = static_cast<pid_t>(fields.Count("pid"));
@@ -178,16 +180,17 @@ fs::path NoteFile(const fs::path& folder, const ServerNote& note) {
 }
 
 base::Status WriteNote(const fs::path& file, const ServerNote& note) {
-  const json told = {{"pid", note.pid},
-                     {"started", note.started},
-                     {"boot", note.boot},
-                     {"host", note.host},
-                     {"server", note.server},
-                     {"broker", note.broker},
-                     {"recordings", note.recordings},
-                     {"simulations", ToJson(note.simulations)},
-                     {"lost", ToJson(note.lost)}};
-  return base::WriteWhole(file, told.dump(-1, ' ', false, json::error_handler_t::replace) + "\n",
+  const NoteJson told = {{"pid", note.pid},
+                         {"started", note.started},
+                         {"boot", note.boot},
+                         {"host", note.host},
+                         {"server", note.server},
+                         {"broker", note.broker},
+                         {"recordings", note.recordings},
+                         {"simulations", ToJson(note.simulations)},
+                         {"lost", ToJson(note.lost)}};
+  return base::WriteWhole(file,
+                          told.dump(-1, ' ', false, NoteJson::error_handler_t::replace) + "\n",
                           base::Outlives::kProcess);
 }
 

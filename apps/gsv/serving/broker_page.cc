@@ -1,6 +1,7 @@
 #include "apps/gsv/serving/broker_page.h"
 
 #include <algorithm>
+#include <memory>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -73,16 +74,19 @@ std::string Argument(const gateway::Target& target, const std::string& name) {
   return found != target.query.end() ? found->second : std::string();
 }
 
-}  // namespace
+class BrokerPage {
+ public:
+  BrokerPage(CORBA::ORB_ptr orb, std::string broker)
+      : orb_(CORBA::ORB::_duplicate(orb)), broker_(std::move(broker)) {}
 
-Response BrokerPage::Handle(const gateway::Request& request) const {
-  if (request.method != "GET") return gateway::MethodNotAllowed("GET");
-  const std::vector<std::string>& path = request.target.segments;
-  if (path.size() == 3 && path[2] == "types") return Types();
-  if (path.size() == 3 && path[2] == "offers") return Offers(request.target);
-  if (path.size() == 3 && path[2] == "links") return Links();
-  return ErrorResponse(404, "a broker has types, offers and links");
-}
+  Response Types() const;
+  Response Offers(const gateway::Target& target) const;
+  Response Links() const;
+
+ private:
+  const CORBA::ORB_var orb_;
+  const std::string broker_;
+};
 
 Response BrokerPage::Types() const {
   const auto types = broker::ListServiceTypes(broker_, kTimeout);
@@ -122,6 +126,25 @@ Response BrokerPage::Links() const {
   // Not every trader has them.
   if (!links) return Answer({{"links", ordered_json::array()}});
   return Answer({{"links", Values([&](std::ostream& out) { PrintLinksJson(*links, out); })}});
+}
+
+}  // namespace
+
+std::vector<gateway::Route> BrokerRoutes(CORBA::ORB_ptr orb, const std::string& broker) {
+  using enum gateway::Permission;
+  using enum gateway::Pool;
+  const auto page = std::make_shared<const BrokerPage>(orb, broker);
+  return {
+      {"GET", "/api/broker/types", kWatch, false, kReaders,
+       [page](const gateway::Request&) { return page->Types(); },
+       "The service types that the broker knows, each with all its properties"},
+      {"GET", "/api/broker/offers", kWatch, false, kReaders,
+       [page](const gateway::Request& request) { return page->Offers(request.target); },
+       "Offers of a type, and which of them a constraint finds"},
+      {"GET", "/api/broker/links", kWatch, false, kReaders,
+       [page](const gateway::Request&) { return page->Links(); },
+       "The broker's links, and whether the other traders answer"},
+  };
 }
 
 }  // namespace gsv::app

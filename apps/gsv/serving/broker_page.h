@@ -8,29 +8,14 @@
 #pragma once
 
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <omniORB4/CORBA.h>
 
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 
 namespace gsv::app {
 
-class BrokerPage {
- public:
-  BrokerPage(CORBA::ORB_ptr orb, std::string broker)
-      : orb_(CORBA::ORB::_duplicate(orb)), broker_(std::move(broker)) {}
-
-  // `request.target` begins with "api/broker".
-  gateway::Response Handle(const gateway::Request& request) const;
-
- private:
-  gateway::Response Types() const;
-  gateway::Response Offers(const gateway::Target& target) const;
-  gateway::Response Links() const;
-
-  const CORBA::ORB_var orb_;
-  const std::string broker_;
-};
+std::vector<gateway::Route> BrokerRoutes(CORBA::ORB_ptr orb, const std::string& broker);
 
 }  // namespace gsv::app

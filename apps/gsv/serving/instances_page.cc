@@ -1,8 +1,13 @@
 #include "apps/gsv/serving/instances_page.h"
 
+#include <memory>
+#include <mutex>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/serving/remote_simulations.h"
+#include "gsv/base/mutex.h"
 
 namespace gsv::app {
 namespace {
@@ -25,13 +30,25 @@ nlohmann::ordered_json ToJson(const RemoteInstance& instance, const std::string&
           {"simulations", std::move(simulations)}};
 }
 
-}  // namespace
+class InstancesPage {
+ public:
+  InstancesPage(CORBA::ORB_ptr orb, std::string broker, std::string place)
+      : orb_(CORBA::ORB::_duplicate(orb)), broker_(std::move(broker)), place_(std::move(place)) {}
 
-gateway::Response InstancesPage::Handle(const gateway::Request& request) {
-  if (request.method != "GET") return gateway::MethodNotAllowed("GET");
-  if (request.target.segments.size() != 2) {
-    return gateway::ErrorResponse(404, "there is nothing below /api/instances");
-  }
+  gateway::Response Get();
+
+ private:
+  gateway::Response Ask() const;
+
+  const CORBA::ORB_var orb_;
+  const std::string broker_, place_;
+  base::Mutex asking_;
+  base::Mutex mutex_;
+  gateway::Response last_ GSV_GUARDED_BY(mutex_);
+  bool has_asked_ GSV_GUARDED_BY(mutex_) = false;
+};
+
+gateway::Response InstancesPage::Get() {
   if (!asking_.try_lock()) {
     const base::MutexLock lock(mutex_);
     if (has_asked_) return last_;
@@ -53,6 +70,16 @@ gateway::Response InstancesPage::Ask() const {
   const nlohmann::ordered_json json{{"broker", broker_}, {"instances", std::move(list)}};
   return gateway::JsonResponse(
       200, json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+}  // namespace
+
+std::vector<gateway::Route> InstancesRoutes(CORBA::ORB_ptr orb, const std::string& broker,
+                                            const std::string& place) {
+  const auto page = std::make_shared<InstancesPage>(orb, broker, place);
+  return {{"GET", "/api/instances", gateway::Permission::kWatch, false, gateway::Pool::kReaders,
+           [page](const gateway::Request&) { return page->Get(); },
+           "Every gsv that the broker knows, and its simulations"}};
 }
 
 }  // namespace gsv::app

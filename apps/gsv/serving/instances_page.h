@@ -6,32 +6,16 @@
 #pragma once
 
 #include <string>
-#include <utility>
+#include <vector>
 
 #include <omniORB4/CORBA.h>
 
-#include "gsv/base/mutex.h"
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 
 namespace gsv::app {
 
-class InstancesPage {
- public:
-  // `place` is this program's own "host:pid".
-  InstancesPage(CORBA::ORB_ptr orb, std::string broker, std::string place)
-      : orb_(CORBA::ORB::_duplicate(orb)), broker_(std::move(broker)), place_(std::move(place)) {}
-
-  gateway::Response Handle(const gateway::Request& request);
-
- private:
-  gateway::Response Ask() const;
-
-  const CORBA::ORB_var orb_;
-  const std::string broker_, place_;
-  base::Mutex asking_;
-  base::Mutex mutex_;
-  gateway::Response last_ GSV_GUARDED_BY(mutex_);
-  bool has_asked_ GSV_GUARDED_BY(mutex_) = false;
-};
+// `place` is this program's own "host:pid".
+std::vector<gateway::Route> InstancesRoutes(CORBA::ORB_ptr orb, const std::string& broker,
+                                            const std::string& place);
 
 }  // namespace gsv::app

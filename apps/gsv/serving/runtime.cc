@@ -131,17 +131,10 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
     const broker::CallCounts& counts = broker::ProcessCallCounts();
     return gateway::metrics::BrokerCalls{counts.made, counts.failed};
   };
-  gateway.pages["broker"] = [page = std::make_shared<const BrokerPage>(orb_, broker_->reference())](
-                                const gateway::Request& request) { return page->Handle(request); };
-  gateway.pages["instances"] =
-      [page = std::make_shared<InstancesPage>(orb_, broker_->reference(),
-                                              base::HostName() + ":" + std::to_string(getpid()))](
-          const gateway::Request& request) { return page->Handle(request); };
-  if (lost_ != nullptr) {
-    gateway.pages["lost"] = [this](const gateway::Request& request) {
-      return AnswerOfLost(*lost_, request);
-    };
-  }
+  gateway.routes = BrokerRoutes(orb_, broker_->reference());
+  Append(gateway.routes, InstancesRoutes(orb_, broker_->reference(),
+                                         base::HostName() + ":" + std::to_string(getpid())));
+  if (lost_ != nullptr) Append(gateway.routes, LostRoutes(*lost_));
   gateway.limits = options.server_limits.web;
   gateway.uploads = options.server_limits.uploads;
   gateway.replays = options.server_limits.replays;
@@ -149,7 +142,7 @@ base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway.recordings_folder = recordings_->folder();
   gateway.factory = builder_.get();
   auto directory = std::make_shared<HostDirectory>(host_);
-  auto started = StartViewer<gateway::Gateway>(options.web, gateway, [&](const auto& there) {
+  auto started = StartViewer(options.web, gateway, [&](const auto& there) {
     return gateway::Gateway::Start(there, directory);
   });
   if (!started) return base::Fail(started.error());

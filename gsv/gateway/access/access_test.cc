@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "gsv/gateway/access/need.h"
 #include "gsv/gateway/access/viewers_api.h"
 #include "gsv/gateway/gateway.h"
-#include "gsv/gateway/relay.h"
+#include "gsv/gateway/testing/fake_factory.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 #include "gsv/gateway/testing/simulation_list.h"
 #include "gsv/gateway/testing/web_client.h"
@@ -39,41 +38,64 @@ TEST(Tokens, ThatCouldBeGuessedOrStandInNoHeaderAreRefused) {
   }
 }
 
-TEST(Tokens, GiveRights) {
-  const auto rights = [](const TokenRule& rule) {
-    return std::vector{rule.RightOf(""), rule.RightOf("wrong"), rule.RightOf(kWatch),
-                       rule.RightOf(kControl)};
+TEST(Tokens, GivePermissions) {
+  const auto permissions = [](const TokenAuthenticator& tokens) {
+    return std::vector{tokens.PermissionOf(""), tokens.PermissionOf("wrong"),
+                       tokens.PermissionOf(kWatch), tokens.PermissionOf(kControl)};
   };
-  const Right none = Right::kNone, watch = Right::kWatch, control = Right::kControl;
-  EXPECT_EQ(rights({{}, false}), (std::vector{control, control, control, control}));
-  EXPECT_EQ(rights({{}, true}), (std::vector{none, none, none, none}));
-  EXPECT_EQ(rights({{kControl, ""}, false}), (std::vector{watch, none, none, control}));
-  EXPECT_EQ(rights({{kControl, ""}, true}), (std::vector{none, none, none, control}));
-  EXPECT_EQ(rights({{kControl, kWatch}, false}), (std::vector{none, none, watch, control}));
-  EXPECT_EQ(rights({{"", kWatch}, true}), (std::vector{none, none, watch, none}));
+  const Permission none = Permission::kNone, watch = Permission::kWatch,
+                   control = Permission::kControl;
+  EXPECT_EQ(permissions({{}, false}), (std::vector{control, control, control, control}));
+  EXPECT_EQ(permissions({{}, true}), (std::vector{none, none, none, none}));
+  EXPECT_EQ(permissions({{kControl, ""}, false}), (std::vector{watch, none, none, control}));
+  EXPECT_EQ(permissions({{kControl, ""}, true}), (std::vector{none, none, none, control}));
+  EXPECT_EQ(permissions({{kControl, kWatch}, false}), (std::vector{none, none, watch, control}));
+  EXPECT_EQ(permissions({{"", kWatch}, true}), (std::vector{none, none, watch, none}));
 }
 
-TEST(Needs, FollowTheAddress) {
-  using Named = std::pair<Right, std::string>;
-  const auto need = [](const char* method, const char* target) {
-    const Need found = NeedOf(method, ParseTarget(target).value());
-    return Named(found.right, found.acts_on);
+TEST(Permissions, FollowTheRoute) {
+  const auto directory = std::make_shared<testing::SimulationList>();
+  testing::FakeFactory factory(*directory);
+  GatewayOptions options;
+  options.factory = &factory;
+  options.recordings_folder = ::testing::TempDir();
+  const auto gateway = Gateway::Start(options, directory).value();
+  // With the simulation of which nobody else may hold control, or "".
+  using Taken = std::pair<Permission, std::string>;
+  const auto taken = [&](const char* method, const char* target) {
+    const Router::Match match = gateway->router().Find(method, ParseTarget(target).value());
+    const bool needs_control = match.route != nullptr && match.route->needs_control;
+    return Taken(match.permission, needs_control ? match.parameters.at("name") : "");
   };
-  EXPECT_EQ(need("GET", "/"), Named(Right::kNone, ""));
-  EXPECT_EQ(need("GET", "/healthz"), Named(Right::kNone, ""));
-  EXPECT_EQ(need("GET", "/ws?simulation=a"), Named(Right::kWatch, ""));
-  EXPECT_EQ(need("GET", "/api/simulations/a"), Named(Right::kWatch, ""));
-  EXPECT_EQ(need("POST", "/replays/1/api/simulations/a/seek"), Named(Right::kWatch, ""));
-  EXPECT_EQ(need("POST", "/api/recordings/a/replay"), Named(Right::kWatch, ""));
-  EXPECT_EQ(need("POST", "/api/viewers"), Named(Right::kWatch, ""));
-  EXPECT_EQ(need("POST", "/api/viewers/me/control"), Named(Right::kControl, ""));
-  EXPECT_EQ(need("POST", "/api/preview"), Named(Right::kControl, ""));
-  EXPECT_EQ(need("POST", "/api/simulations"), Named(Right::kControl, ""));
-  EXPECT_EQ(need("PUT", "/api/uploads/1/a.sdf"), Named(Right::kControl, ""));
-  for (const char* method : {"POST", "PUT", "DELETE", "PATCH", "NONSENSE"}) {
-    EXPECT_EQ(need(method, "/api/simulations/a%20b"), Named(Right::kControl, "a b")) << method;
-    EXPECT_EQ(need(method, "/api/simulations/a/pause"), Named(Right::kControl, "a")) << method;
-    EXPECT_EQ(need(method, "/%61pi/simulations/a/b/c"), Named(Right::kControl, "a")) << method;
+  const auto none = Permission::kNone, watch = Permission::kWatch, control = Permission::kControl;
+  EXPECT_EQ(taken("GET", "/"), Taken(none, ""));
+  EXPECT_EQ(taken("GET", "/healthz"), Taken(none, ""));
+  EXPECT_EQ(taken("GET", "/metrics"), Taken(watch, ""));
+  EXPECT_EQ(taken("GET", "/api/simulations/a"), Taken(watch, ""));
+  EXPECT_EQ(taken("POST", "/replays/1/api/simulations/a/seek"), Taken(watch, ""));
+  EXPECT_EQ(taken("POST", "/api/recordings/a/replay"), Taken(watch, ""));
+  EXPECT_EQ(taken("POST", "/api/viewers"), Taken(watch, ""));
+  EXPECT_EQ(taken("POST", "/api/viewers/me/control"), Taken(control, ""));
+  EXPECT_EQ(taken("POST", "/api/preview"), Taken(control, ""));
+  EXPECT_EQ(taken("POST", "/api/simulations"), Taken(control, ""));
+  EXPECT_EQ(taken("PUT", "/api/uploads/1/a.sdf"), Taken(control, ""));
+  EXPECT_EQ(taken("DELETE", "/api/simulations/a%20b"), Taken(control, "a b"));
+  EXPECT_EQ(taken("POST", "/%61pi/simulations/a/pause"), Taken(control, "a"));
+  EXPECT_EQ(taken("POST", "/api/simulations/a/bodies/b/place"), Taken(control, "a"));
+  // What there is not is as secret as what there is.
+  for (const char* method : {"GET", "POST", "PATCH", "NONSENSE"}) {
+    EXPECT_EQ(taken(method, "/api/simulations/a/b/c"), Taken(watch, "")) << method;
+    EXPECT_EQ(taken(method, "/replays/1"), Taken(watch, "")) << method;
+  }
+  // Everything that changes something for others takes control.
+  for (const Route& route : gateway->router().routes()) {
+    const bool is_private = route.pattern.starts_with("/replays/") ||
+                            route.pattern.starts_with("/api/recordings") ||
+                            route.pattern.starts_with("/api/viewers");
+    if (route.method == "GET" || is_private) continue;
+    EXPECT_EQ(route.permission, control) << route.pattern;
+    EXPECT_EQ(route.needs_control, route.pattern.find("{name}") != std::string::npos)
+        << route.pattern;
   }
 }
 
@@ -247,8 +269,8 @@ TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
 
 TEST_F(AccessTest, ARelayShowsItsTokenForThoseWhoComeToIt) {
   Start({kControl, kWatch});
-  EXPECT_FALSE(Relay::Start({}, {gateway_->url()}));
-  const auto relay = Relay::Start({}, {gateway_->url(), kControl});
+  EXPECT_FALSE(Gateway::StartRelay({}, {gateway_->url()}));
+  const auto relay = Gateway::StartRelay({}, {gateway_->url(), kControl});
   ASSERT_TRUE(relay) << relay.error().Sentence();
   const std::uint16_t port = (*relay)->port();
   EXPECT_EQ(testing::Fetch(port, "GET", "/api/simulations").status, 200);

@@ -26,30 +26,45 @@ std::optional<T> MemberOf(const std::string& body, const char* name) {
   return fits ? std::optional<T>(member.get<T>()) : std::nullopt;
 }
 
-Response Expected(const char* body) {
-  return ErrorResponse(400, std::string("this address takes ") + body);
+base::Error Expected(const std::string& body) {
+  return {base::ErrorCode::kInvalidArgument, "this address takes " + body};
 }
 
 }  // namespace
 
-Response ViewersApi::Handle(const Request& request) {
-  const std::vector<std::string>& path = request.target.segments;
-  if (path.size() == 2) {
-    if (request.method == "GET") return Standing(request.viewer);
-    return request.method == "POST" ? Enter(request) : MethodNotAllowed("GET, POST");
-  }
-  if (path[2] != "me" || path.size() > 4) {
-    return ErrorResponse(404,
-                         "there is nothing at this address; docs/api.yaml lists what there is");
-  }
-  return OfMe(request);
+std::vector<Route> ViewersApi::Routes() {
+  using enum Permission;
+  using enum Pool;
+  // Changes something of the viewer that asks, and answers how things stand then.
+  const auto changing = [this](base::Status (ViewersApi::*change)(const Request&)) {
+    return [this, change](const Request& request) {
+      const base::Status done = (this->*change)(request);
+      return done ? Standing(request.viewer) : ErrorResponse(done.error());
+    };
+  };
+  return {
+      {"GET", "/api/viewers", kWatch, false, kReaders,
+       [this](const Request& request) { return Standing(request.viewer); },
+       "Who is watching what, who holds control of it, who asks for it"},
+      {"POST", "/api/viewers", kWatch, false, kReaders,
+       [this](const Request& request) { return Enter(request); }, "Enter, under a name"},
+      {"POST", "/api/viewers/me", kWatch, false, kReaders, changing(&ViewersApi::Change),
+       "Be called otherwise, or look at another simulation, which lets go of control"},
+      {"DELETE", "/api/viewers/me", kWatch, false, kReaders, changing(&ViewersApi::Leave),
+       "Leave; control passes on"},
+      {"POST", "/api/viewers/me/control", kControl, false, kReaders,
+       changing(&ViewersApi::WantControl),
+       "Ask for control of the simulation that one looks at, or let go of it (or of the question)"},
+      {"POST", "/api/viewers/me/answer", kControl, false, kReaders,
+       changing(&ViewersApi::AnswerFirst), "The holder's answer to the first who asks"},
+  };
 }
 
 Response ViewersApi::Enter(const Request& request) {
   const auto name = MemberOf<std::string>(request.body, "name");
   const std::string simulation = MemberOf<std::string>(request.body, "simulation").value_or("");
   if (!name || simulation.size() > kLongestSimulation) {
-    return Expected(R"({"name": text, "simulation": its name})");
+    return ErrorResponse(Expected(R"({"name": text, "simulation": its name})"));
   }
   const auto admission = desk_.Enter(*name, simulation, Clock::now());
   if (!admission) return ErrorResponse(admission.error());
@@ -60,9 +75,7 @@ base::Status ViewersApi::Change(const Request& request) {
   const auto name = MemberOf<std::string>(request.body, "name");
   const auto simulation = MemberOf<std::string>(request.body, "simulation");
   if ((!name && !simulation) || (simulation && simulation->size() > kLongestSimulation)) {
-    return base::Fail(
-        base::ErrorCode::kInvalidArgument,
-        R"(this address takes {"name": text, "simulation": its name}, or one of both)");
+    return base::Fail(Expected(R"({"name": text, "simulation": its name}, or one of both)"));
   }
   const auto now = Clock::now();
   if (name) {
@@ -71,29 +84,21 @@ base::Status ViewersApi::Change(const Request& request) {
   return simulation ? desk_.Turn(request.viewer, *simulation, now) : base::Status();
 }
 
-Response ViewersApi::OfMe(const Request& request) {
-  const std::vector<std::string>& path = request.target.segments;
-  const std::string what = path.size() == 4 ? path[3] : "";
-  const auto now = Clock::now();
-  base::Status done;
-  if (request.method == "DELETE" && what.empty()) {
-    done = desk_.Leave(request.viewer, now);
-  } else if (request.method != "POST") {
-    return MethodNotAllowed(what.empty() ? "POST, DELETE" : "POST");
-  } else if (what.empty()) {
-    done = Change(request);
-  } else if (what == "control") {
-    const auto wants = MemberOf<bool>(request.body, "wants");
-    if (!wants) return Expected(R"({"wants": true or false})");
-    done = *wants ? desk_.Ask(request.viewer, now) : desk_.Release(request.viewer, now);
-  } else if (what == "answer") {
-    const auto grants = MemberOf<bool>(request.body, "grants");
-    if (!grants) return Expected(R"({"grants": true or false})");
-    done = desk_.Answer(request.viewer, *grants, now);
-  } else {
-    return ErrorResponse(404, "there is nothing at this address");
-  }
-  return done ? Standing(request.viewer) : ErrorResponse(done.error());
+base::Status ViewersApi::Leave(const Request& request) {
+  return desk_.Leave(request.viewer, Clock::now());
+}
+
+base::Status ViewersApi::WantControl(const Request& request) {
+  const auto wants = MemberOf<bool>(request.body, "wants");
+  if (!wants) return base::Fail(Expected(R"({"wants": true or false})"));
+  return *wants ? desk_.Ask(request.viewer, Clock::now())
+                : desk_.Release(request.viewer, Clock::now());
+}
+
+base::Status ViewersApi::AnswerFirst(const Request& request) {
+  const auto grants = MemberOf<bool>(request.body, "grants");
+  if (!grants) return base::Fail(Expected(R"({"grants": true or false})"));
+  return desk_.Answer(request.viewer, *grants, Clock::now());
 }
 
 Response ViewersApi::Standing(const std::string& viewer) {

@@ -1,17 +1,13 @@
-// The part of the HTTP API about viewers and control, see docs/api.yaml:
-//   GET    /api/viewers              who is there, who holds control of what, who asks for it
-//   POST   /api/viewers              {"name", "simulation"}: enter; gives the key to send as
-//                                    Gsv-Viewer
-//   POST   /api/viewers/me           {"name", "simulation"}: be called otherwise, look at another
-//   DELETE /api/viewers/me           leave
-//   POST   /api/viewers/me/control   {"wants"}: ask for control, or let go of it
-//   POST   /api/viewers/me/answer    {"grants"}: to the first who asks
+// The part of the HTTP API about viewers and control: who watches what, and who holds control of it.
 //
 // Threads  any.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "gsv/gateway/access/control_desk.h"
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 
 namespace gsv::gateway::access {
 
@@ -20,11 +16,11 @@ std::string StandingJson(const ControlDesk::Standing& standing);
 
 class ViewersApi {
  public:
-  // `request.target` begins with "api", "viewers".
-  Response Handle(const Request& request);
+  // The handlers live as long as this.
+  std::vector<Route> Routes();
 
-  // Why this viewer may not act now on that simulation.
-  base::Status MayAct(const std::string& viewer, const std::string& simulation) {
+  // Why this viewer may not control that simulation now.
+  base::Status CheckControl(const std::string& viewer, const std::string& simulation) {
     return desk_.MayAct(viewer, simulation, std::chrono::steady_clock::now());
   }
 
@@ -32,8 +28,10 @@ class ViewersApi {
 
  private:
   Response Enter(const Request& request);
-  Response OfMe(const Request& request);
   base::Status Change(const Request& request);
+  base::Status Leave(const Request& request);
+  base::Status WantControl(const Request& request);
+  base::Status AnswerFirst(const Request& request);
   Response Standing(const std::string& viewer);
 
   ControlDesk desk_;

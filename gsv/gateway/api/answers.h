@@ -6,15 +6,13 @@
 
 #include "gsv/base/error.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 
 namespace gsv::gateway {
 
-Response NoSuchAddress();
-
-// To GET /api/models/ID.glb. `glb` tells a model's bytes by its identity; they never change, so
-// that browsers may keep them.
-Response ModelAnswer(const Request& request,
-                     const std::function<base::Result<SharedBytes>(const std::string& id)>& glb);
+// With a model's bytes, or where they are known already, without. A model's bytes never change, so
+// browsers may keep them.
+Response ModelAnswer(const Request& request, const std::string& id,
+                     const base::Result<SharedBytes>& glb);
 
 }  // namespace gsv::gateway

@@ -1,4 +1,4 @@
-// The HTTP API under /api/: what there is to see, and the buttons. Described in docs/api.yaml.
+// The HTTP API of the simulations of this program, under /api/. Described in docs/api.yaml.
 //
 // Threads  any; a request may take as long as what it asks for (a reset, a model to be written).
 #pragma once
@@ -7,10 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gsv/gateway/api/factory_api.h"
 #include "gsv/gateway/api/model_store.h"
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 #include "gsv/gateway/program/ports.h"
 
 namespace gsv::gateway {
@@ -27,18 +28,17 @@ class Api {
       RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr,
       bool has_replays = false, ListSensors list_sensors = nullptr);
 
-  // `request.target` begins with "api".
-  Response Handle(const Request& request);
+  // The handlers live as long as this.
+  std::vector<Route> Routes();
 
  private:
   Response Server() const;
-  Response OfFactory(const Request& request) const;
   Response List() const;
-  Response OfSimulation(const Request& request);
-  Response OfBody(const Request& request, const SimulationPointer& simulation) const;
+  Response Model(const Request& request);
+  Response Scene(const SimulationPointer& simulation);
   Response Topics(const SimulationPointer& simulation, const std::string& robot) const;
-  Response Scene(const simulation::Simulation& simulation);
-  Response Recording(const Request& request, const SimulationPointer& simulation) const;
+  Response Recording(const SimulationPointer& simulation) const;
+  Response SwitchRecording(const SimulationPointer& simulation, const std::string& body) const;
 
   const std::shared_ptr<SimulationDirectory> directory_;
   ModelStore models_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "gsv/gateway/testing/answer.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 #include "gsv/gateway/testing/simulation_list.h"
 #include "gsv/presentation/scene_json.h"
@@ -24,7 +25,7 @@ class ApiTest : public ::testing::Test {
     request.method = method;
     request.target = ParseTarget(target).value();
     request.body = body;
-    return api_.Handle(request);
+    return testing::Answer(router_, request);
   }
 
   json AskJson(const std::string& method, const std::string& target, int status,
@@ -42,6 +43,7 @@ class ApiTest : public ::testing::Test {
   Api api_{directory_, [](const model::Model& model) -> base::Result<std::vector<std::uint8_t>> {
              return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
            }};
+  const Router router_{api_.Routes()};
   const std::string path_ = "/api/simulations/first%20light";
 };
 
@@ -67,12 +69,13 @@ class FakeRecordings final : public RecordingSwitch {
 TEST_F(ApiTest, SwitchesTheRecordingOnAndOff) {
   FakeRecordings recordings;
   Api api(directory_, nullptr, &recordings);
+  const Router router(api.Routes());
   const auto ask = [&](const std::string& method, const std::string& body = "") {
     Request request;
     request.method = method;
     request.target = ParseTarget(path_ + "/recording").value();
     request.body = body;
-    return api.Handle(request);
+    return testing::Answer(router, request);
   };
   EXPECT_EQ(json::parse(ask("GET").body.view())["recording"], false);
   EXPECT_EQ(json::parse(ask("POST", R"({"record":true})").body.view()),
@@ -95,11 +98,12 @@ TEST_F(ApiTest, TellsARobotsTopicsAndHasThemListed) {
             EXPECT_EQ(simulation, simulation_);
             listed.push_back(robot);
           });
+  const Router router(api.Routes());
   const auto ask = [&](const std::string& method, const std::string& robot) {
     Request request;
     request.method = method;
     request.target = ParseTarget(path_ + "/robots/" + robot + "/topics").value();
-    return api.Handle(request);
+    return testing::Answer(router, request);
   };
   const json topics = json::parse(ask("GET", "robot_0").body.view())["topics"];
   const std::set<std::string> names(topics.begin(), topics.end());
@@ -242,7 +246,7 @@ TEST_F(ApiTest, ModelsAreFetchedByTheNamesInTheScene) {
   again.method = "GET";
   again.target = ParseTarget("/api/models/" + id + ".glb").value();
   again.if_none_match = glb.etag;
-  EXPECT_EQ(api_.Handle(again).status, 304);
+  EXPECT_EQ(testing::Answer(router_, again).status, 304);
 }
 
 }  // namespace

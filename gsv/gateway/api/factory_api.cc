@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/gateway/api/scenario_json.h"
+#include "gsv/gateway/api/simulation_routes.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/presentation/pose_list.h"
 #include "gsv/presentation/scene_json.h"
@@ -16,18 +17,6 @@ using FactoryJson = nlohmann::ordered_json;
 
 std::string Text(const FactoryJson& json) {
   return json.dump(-1, ' ', false, FactoryJson::error_handler_t::replace);
-}
-
-// What was understood and cannot be done is 422; else as everywhere.
-Response Refusal(const FieldError& wrong) {
-  const base::ErrorCode code = wrong.error.code;
-  const bool is_of_no_use = code == base::ErrorCode::kBadModel ||
-                            code == base::ErrorCode::kBehaviour ||
-                            code == base::ErrorCode::kNotFound;
-  Response response =
-      is_of_no_use ? ErrorResponse(422, wrong.error.Sentence()) : ErrorResponse(wrong.error);
-  response.body = SharedBytes(Text({{"error", wrong.error.Sentence()}, {"field", wrong.field}}));
-  return response;
 }
 
 // Those that the live stream would send as /gsv/poses.
@@ -42,6 +31,41 @@ FactoryJson PosesJson(const world::Snapshot& snapshot) {
 }
 
 }  // namespace
+
+std::vector<Route> FactoryApi::Routes(const std::shared_ptr<SimulationDirectory>& directory) {
+  using enum Permission;
+  using enum Pool;
+  const auto of = [&](Response (FactoryApi::*change)(const std::shared_ptr<simulation::Simulation>&,
+                                                     const std::string& body) const) {
+    return OfSimulation(directory, [this, change](const auto& simulation, const Request& request) {
+      return (this->*change)(simulation, request.body);
+    });
+  };
+  return {
+      {"GET", "/api/worlds", kWatch, false, kReaders, [this](const Request&) { return Worlds(); },
+       "The worlds that ship with gsv"},
+      {"GET", "/api/models", kWatch, false, kReaders, [this](const Request&) { return Models(); },
+       "The models that can be robots, ours and those on the server's model path"},
+      {"GET", "/api/behaviours", kWatch, false, kReaders,
+       [this](const Request& request) { return Behaviours(request.target); },
+       "The behaviours that the broker offers now"},
+      {"POST", "/api/preview", kControl, false, kReaders,
+       [this](const Request& request) { return Preview(request.body); },
+       "What a scenario looks like at its start; nothing is created"},
+      {"POST", "/api/simulations", kControl, false, kCommanders,
+       [this](const Request& request) { return Create(request.body); }, "Create a simulation"},
+      {"DELETE", "/api/simulations/{name}", kControl, true, kCommanders,
+       OfSimulation(directory,
+                    [this](const auto&, const Request& request) {
+                      return Destroy(request.Parameter("name"));
+                    }),
+       "Stop it and let go of it; a recording is closed"},
+      {"POST", "/api/simulations/{name}/robots", kControl, true, kCommanders,
+       of(&FactoryApi::AddRobot), "Add a robot, or an avatar"},
+      {"POST", "/api/simulations/{name}/objects", kControl, true, kCommanders,
+       of(&FactoryApi::AddObject), "Put a thing that is no robot into the world"},
+  };
+}
 
 Response FactoryApi::Worlds() const {
   FactoryJson worlds = FactoryJson::array();
@@ -120,23 +144,15 @@ Response FactoryApi::AddObject(const std::shared_ptr<simulation::Simulation>& si
   return JsonResponse(201, Text({{"name", *name}}));
 }
 
-Response RemoveRobot(simulation::Simulation& simulation, const std::string& robot) {
-  const base::Status removed = simulation.RemoveRobot(robot);
-  return removed ? JsonResponse(200, "{}") : ErrorResponse(removed.error());
-}
-
-Response RemoveObject(simulation::Simulation& simulation, const std::string& object) {
-  const base::Status removed = simulation.RemoveObject(object);
-  return removed ? JsonResponse(200, "{}") : ErrorResponse(removed.error());
-}
-
-Response PlaceBody(simulation::Simulation& simulation, const std::string& name,
-                   const std::string& body) {
-  const auto place = ParsePlace(body);
-  if (!place) return Refusal(place.error());
-  const base::Status placed = simulation.PlaceBody(name, place->world_from_body, place->on_ground);
-  if (!placed) return Refusal({placed.error(), ""});
-  return JsonResponse(200, "{}");
+Response Refusal(const FieldError& wrong) {
+  const base::ErrorCode code = wrong.error.code;
+  const bool is_of_no_use = code == base::ErrorCode::kBadModel ||
+                            code == base::ErrorCode::kBehaviour ||
+                            code == base::ErrorCode::kNotFound;
+  Response response =
+      is_of_no_use ? ErrorResponse(422, wrong.error.Sentence()) : ErrorResponse(wrong.error);
+  response.body = SharedBytes(Text({{"error", wrong.error.Sentence()}, {"field", wrong.field}}));
+  return response;
 }
 
 }  // namespace gsv::gateway

@@ -6,9 +6,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gsv/gateway/api/model_store.h"
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
+#include "gsv/gateway/program/ports.h"
 #include "gsv/gateway/program/simulation_factory.h"
 
 namespace gsv::gateway {
@@ -18,6 +20,10 @@ class FactoryApi {
   // Both outlive this.
   FactoryApi(SimulationFactory& factory, ModelStore& models) : factory_(factory), models_(models) {}
 
+  // The handlers live as long as this. `directory` finds the simulations that are changed.
+  std::vector<Route> Routes(const std::shared_ptr<SimulationDirectory>& directory);
+
+ private:
   // What there is to choose from.
   Response Worlds() const;
   Response Models() const;
@@ -31,15 +37,11 @@ class FactoryApi {
   Response AddObject(const std::shared_ptr<simulation::Simulation>& simulation,
                      const std::string& body) const;
 
- private:
   SimulationFactory& factory_;
   ModelStore& models_;
 };
 
-// What needs no factory.
-Response RemoveRobot(simulation::Simulation& simulation, const std::string& robot);
-Response RemoveObject(simulation::Simulation& simulation, const std::string& object);
-Response PlaceBody(simulation::Simulation& simulation, const std::string& name,
-                   const std::string& body);
+// To a request that was understood and cannot be done: 422 or as everywhere, with the field.
+Response Refusal(const FieldError& wrong);
 
 }  // namespace gsv::gateway

@@ -4,63 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/gateway/api/api.h"
-#include "gsv/gateway/testing/scripted_simulation.h"
-#include "gsv/gateway/testing/simulation_list.h"
+#include "gsv/gateway/testing/answer.h"
+#include "gsv/gateway/testing/fake_factory.h"
 
 namespace gsv::gateway {
 namespace {
 
+using testing::FakeFactory;
 using testing::ScriptedSimulation;
 using FactoryTestJson = nlohmann::json;
-
-// Remembers what it was asked for, and refuses what it is told to refuse.
-class FakeFactory final : public SimulationFactory {
- public:
-  explicit FakeFactory(testing::SimulationList& list) : list_(list) {}
-
-  std::vector<std::string> Worlds() override { return {"maze", "<b>office</b>"}; }
-  std::vector<ModelLine> Models() override { return {{"avatar", true}, {"pebble", false}}; }
-  std::vector<std::string> Objects() override { return {"crate"}; }
-  base::Result<Behaviours> FindBehaviours(const std::string& constraint) override {
-    if (constraint == "1 +") {
-      return base::Fail(base::ErrorCode::kInvalidArgument, "it ends too early", constraint);
-    }
-    return Behaviours{{{"wander", constraint, "here", 7, true}}, "corbaloc:", "gsv-wander"};
-  }
-  FieldResult<Preview> Show(const SimulationRequest& request) override {
-    if (refusal) return tl::make_unexpected(*refusal);
-    return Preview{std::make_shared<ScriptedSimulation>(request.scenario.world, 2), {"no mesh"}};
-  }
-  FieldResult<std::shared_ptr<simulation::Simulation>> Create(
-      const SimulationRequest& request) override {
-    if (refusal) return tl::make_unexpected(*refusal);
-    auto made = std::make_shared<ScriptedSimulation>(request.scenario.name, 0);
-    list_.Add(made);
-    return made;
-  }
-  base::Status Destroy(const std::string& simulation) override {
-    list_.Remove(simulation);
-    return {};
-  }
-  FieldResult<std::string> AddRobot(const std::shared_ptr<simulation::Simulation>&,
-                                    const scenario::RobotEntry& robot, bool is_avatar) override {
-    if (refusal) return tl::make_unexpected(*refusal);
-    return robot.model + (is_avatar ? "_avatar" : "_robot");
-  }
-
-  FieldResult<std::string> AddObject(const std::shared_ptr<simulation::Simulation>&,
-                                     const ObjectRequest& object) override {
-    if (refusal) return tl::make_unexpected(*refusal);
-    asked = object;
-    return object.model + object.copy_of;
-  }
-
-  std::optional<FieldError> refusal;
-  ObjectRequest asked;  // for last
-
- private:
-  testing::SimulationList& list_;
-};
 
 class FactoryApiTest : public ::testing::Test {
  protected:
@@ -70,7 +22,7 @@ class FactoryApiTest : public ::testing::Test {
     request.method = method;
     request.target = ParseTarget(target).value();
     request.body = body;
-    const Response response = api_.Handle(request);
+    const Response response = testing::Answer(router_, request);
     EXPECT_EQ(response.status, status) << target << " " << response.body.view();
     return FactoryTestJson::parse(response.body.view());
   }
@@ -81,19 +33,21 @@ class FactoryApiTest : public ::testing::Test {
     return std::vector<std::uint8_t>{1};
   }
   Api api_{list_, &FactoryApiTest::Glb, nullptr, &factory_};
+  const Router router_{api_.Routes()};
 };
 
 TEST_F(FactoryApiTest, TellsWhatTheServerCanDo) {
   EXPECT_EQ(Ask("GET", "/api/server", 200),
             (FactoryTestJson{{"creates", true}, {"records", false}, {"recordings", false}}));
   Api none(list_, &FactoryApiTest::Glb);
+  const Router routes_of_none(none.Routes());
   Request request;
   request.method = "GET";
   request.target = ParseTarget("/api/server").value();
-  EXPECT_EQ(none.Handle(request).body.view(),
+  EXPECT_EQ(testing::Answer(routes_of_none, request).body.view(),
             R"({"creates":false,"records":false,"recordings":false})");
   request.target = ParseTarget("/api/worlds").value();
-  EXPECT_EQ(none.Handle(request).status, 404);
+  EXPECT_EQ(testing::Answer(routes_of_none, request).status, 404);
 }
 
 TEST_F(FactoryApiTest, ListsWhatThereIsToChooseFrom) {

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -20,7 +19,9 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr std::size_t kUsualCurvePoints = 4000;
 constexpr double kLatest = 9e9;  // s: what nanoseconds can hold
 
-using Action = std::function<base::Status(ReplayPlayer& player, const std::string& body)>;
+std::string JsonText(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
 
 // {"poses": N} steps over recorded poses, {"count": N} over steps of the simulation.
 base::Status StepBy(ReplayPlayer& player, const std::string& body) {
@@ -46,18 +47,23 @@ base::Status Rewind(ReplayPlayer& player, const std::string&) {
   return {};
 }
 
-const std::map<std::string, Action>& Actions() {
-  static const std::map<std::string, Action> kActions{
-      {"start", [](ReplayPlayer& p, const std::string&) { return p.Start(); }},
-      {"pause", [](ReplayPlayer& p, const std::string&) { return p.Pause(); }},
-      {"resume", [](ReplayPlayer& p, const std::string&) { return p.Resume(); }},
-      {"stop", &Rewind},
-      {"reset", &Rewind},
-      {"step", &StepBy},
-      {"seek", &SeekTo},
-  };
-  return kActions;
-}
+struct ReplayCommand {
+  std::string_view name;
+  std::string_view summary;
+  base::Status (*apply)(ReplayPlayer& player, const std::string& body);
+};
+constexpr ReplayCommand kReplayCommands[]{
+    {"start", "Start a simulation, or a replay from its beginning",
+     [](ReplayPlayer& player, const std::string&) { return player.Start(); }},
+    {"pause", "Pause a simulation",
+     [](ReplayPlayer& player, const std::string&) { return player.Pause(); }},
+    {"resume", "Resume a simulation that is paused",
+     [](ReplayPlayer& player, const std::string&) { return player.Resume(); }},
+    {"stop", "End a simulation; a replay goes to its beginning", &Rewind},
+    {"reset", "Go back to the start", &Rewind},
+    {"step", "Take some steps, then pause", &StepBy},
+    {"seek", "Go to an instant of the recording (replays only)", &SeekTo},
+};
 
 Response JsonOr(const base::Result<SharedBytes>& json) {
   if (!json) return ErrorResponse(json.error());
@@ -81,7 +87,172 @@ curves::CurveWish CurveWishOf(const Target& target) {
   return wish;
 }
 
+Response StatusOf(const Replay& replay, const Request&) {
+  return JsonResponse(200, StatusJson(replay.player->status(), replay.player->clock()));
+}
+
+Response ServerOf(const Replay& replay, const Request&) {
+  return JsonResponse(200, JsonText({{"creates", false},
+                                     {"records", false},
+                                     {"recordings", !replay.recording.empty()},
+                                     {"recording", replay.recording}}));
+}
+
+Response ListOf(const Replay& replay, const Request&) {
+  return JsonResponse(200, SimulationListJson({replay.player->status()}));
+}
+
+Response ModelOf(const Replay& replay, const Request& request) {
+  const std::string& id = request.Parameter("id");
+  return ModelAnswer(request, id, replay.player->scene().Model(id));
+}
+
+Response SceneOf(const Replay& replay, const Request&) { return JsonOr(replay.player->SceneNow()); }
+
+Response PlaybackOf(const Replay& replay, const Request&) {
+  return JsonResponse(200, ReplayJson(replay.player->clock()));
+}
+
+Response ChangePlayback(const Replay& replay, const Request& request) {
+  const base::Result<ReplayChange> change = ParseReplayChange(request.body);
+  if (!change) return ErrorResponse(change.error());
+  if (change->speed) {
+    if (const base::Status done = replay.player->SetSpeed(*change->speed); !done) {
+      return ErrorResponse(done.error());
+    }
+  }
+  if (change->loop) replay.player->SetLoop(*change->loop);
+  return PlaybackOf(replay, request);
+}
+
+Response TopicsOf(const Replay& replay, const Request& request) {
+  const std::string& robot = request.Parameter("robot");
+  const std::vector<std::string> topics = replay.player->ListTopicsOf(robot);
+  if (!topics.empty()) return JsonResponse(200, TopicsJson(topics));
+  return ErrorResponse(404, "no sensors of a robot '" + robot + "' are recorded");
+}
+
+Response EventsOf(const Replay& replay, const Request&) {
+  OrderedJson list = OrderedJson::array();
+  for (const RecordedEvent& event : replay.player->timeline().Events()) {
+    list.push_back({{"time_s", base::ToSeconds(event.time)},
+                    {"event", event.event},
+                    {"robot", event.robot},
+                    {"detail", event.detail}});
+  }
+  return JsonResponse(200, JsonText(list));
+}
+
+Response LogOf(const Replay& replay, const Request&) {
+  OrderedJson list = OrderedJson::array();
+  for (const RecordedLine& line : replay.player->timeline().Log()) {
+    list.push_back({{"time_s", base::ToSeconds(line.time)},
+                    {"level", line.level},
+                    {"name", line.name},
+                    {"text", line.text}});
+  }
+  return JsonResponse(200, JsonText(list));
+}
+
+Response CurveOf(const Replay& replay, const Request& request) {
+  const base::Result<curves::Curve> curve =
+      replay.player->curves().Get(CurveWishOf(request.target));
+  if (!curve) return ErrorResponse(curve.error());
+  OrderedJson times = OrderedJson::array(), values = OrderedJson::array();
+  for (const curves::Point& point : curve->points) {
+    times.push_back(base::ToSeconds(point.time));
+    values.push_back(point.value);  // what is not finite becomes null
+  }
+  return JsonResponse(200, JsonText({{"time_s", std::move(times)},
+                                     {"values", std::move(values)},
+                                     {"samples", curve->samples},
+                                     {"is_whole", curve->is_whole},
+                                     {"done", curve->is_done},
+                                     {"read_to_s", base::ToSeconds(curve->read_to)},
+                                     {"problem", curve->problem}}));
+}
+
+Response RefuseFactor(const Replay&, const Request&) {
+  return ErrorResponse(409, "this is a replay: its speed is set by POST to .../replay");
+}
+
+Response RefuseEdit(const Replay&, const Request&) {
+  return ErrorResponse(409, "this is a replay: what the robots did cannot be changed");
+}
+
+using ReplayHandler = std::function<Response(const Replay&, const Request&)>;
+
+// Finds the replay for `handler`; 404 when there is none, or it is not of the simulation {name}.
+Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
+  return [find, handler = std::move(handler)](const Request& request) {
+    const base::Result<Replay> replay = find(request);
+    if (!replay) return ErrorResponse(replay.error());
+    const std::string& recorded = replay->player->name();
+    const auto name = request.parameters.find("name");
+    if (name == request.parameters.end() || name->second == recorded) {
+      return handler(*replay, request);
+    }
+    return ErrorResponse(404, "there is no simulation '" + name->second +
+                                  "'; this is a replay of '" + recorded + "'");
+  };
+}
+
+// What is done to simulations, and cannot be done to a recording.
+struct RefusedRequest {
+  const char* method;
+  const char* below;  // /api/simulations/{name}
+  Response (*refuse)(const Replay&, const Request&);
+};
+constexpr RefusedRequest kRefused[]{
+    {"POST", "/factor", &RefuseFactor},
+    {"DELETE", "/robots/{robot}", &RefuseEdit},
+    {"POST", "/robots/{robot}/drive", &RefuseEdit},
+    {"DELETE", "/objects/{object}", &RefuseEdit},
+    {"POST", "/bodies/{body}/place", &RefuseEdit},
+};
+
 }  // namespace
+
+std::vector<Route> ReplayRoutes(const FindReplay& find) {
+  using Reading = Response (*)(const Replay&, const Request&);
+  const std::string simulation = "/api/simulations/{name}";
+  std::vector<Route> routes;
+  const auto read = [&](std::string pattern, Reading handler, std::string summary) {
+    routes.push_back({"GET", std::move(pattern), Permission::kWatch, false, Pool::kReaders,
+                      OfReplay(find, handler), std::move(summary)});
+  };
+  // Nothing that is done to a replay takes long, so readers do it.
+  const auto change = [&](std::string method, std::string_view below, ReplayHandler handler,
+                          std::string_view summary) {
+    routes.push_back({std::move(method), simulation + std::string(below), Permission::kControl,
+                      true, Pool::kReaders, OfReplay(find, std::move(handler)),
+                      std::string(summary)});
+  };
+  read("/api/server", &ServerOf, "What can be done here");
+  read("/api/simulations", &ListOf, "The simulations");
+  read("/api/models/{id}.glb", &ModelOf, "One model as glTF");
+  read(simulation, &StatusOf, "The status of a simulation");
+  read(simulation + "/scene", &SceneOf, "What stands in a simulation and how it looks");
+  read(simulation + "/robots/{robot}/topics", &TopicsOf, "The topics of a robot's sensors");
+  read(simulation + "/replay", &PlaybackOf,
+       "Where a replay stands in its recording, and how it plays (replays only)");
+  read(simulation + "/events", &EventsOf, "What happened when in a recording (replays only)");
+  read(simulation + "/log", &LogOf, "The lines of a recording's log, /rosout (replays only)");
+  read(simulation + "/curve", &CurveOf, "A value over a whole recording (replays only)");
+  change("POST", "/replay", &ChangePlayback,
+         "Play at another speed, or over and over (replays only)");
+  for (const ReplayCommand& command : kReplayCommands) {
+    const auto handler = [apply = command.apply](const Replay& replay, const Request& request) {
+      const base::Status done = apply(*replay.player, request.body);
+      return done ? StatusOf(replay, request) : ErrorResponse(done.error());
+    };
+    change("POST", "/" + std::string(command.name), handler, command.summary);
+  }
+  for (const auto& [method, below, handler] : kRefused) {
+    change(method, below, handler, "Refused, as this is a replay");
+  }
+  return routes;
+}
 
 base::Result<ReplayChange> ParseReplayChange(std::string_view body) {
   const nlohmann::json json = nlohmann::json::parse(body, nullptr, false);
@@ -112,129 +283,6 @@ base::Result<base::SimTime> ParseSeekTime(std::string_view body) {
                       "to seek, give {\"time_s\": T} with simulated seconds since the start");
   }
   return base::FromSeconds(seconds);
-}
-
-Response ReplayApi::Handle(const Request& request) {
-  const std::vector<std::string>& path = request.target.segments;
-  if (path.size() < 2) return NoSuchAddress();
-  const bool is_get = request.method == "GET";
-  if (path[1] == "models") {
-    return ModelAnswer(request,
-                       [this](const std::string& id) { return player_.scene().Model(id); });
-  }
-  if (path[1] == "server" && path.size() == 2) {
-    return is_get ? Server() : MethodNotAllowed("GET");
-  }
-  if (path[1] != "simulations") return NoSuchAddress();
-  if (path.size() > 2) return OfSimulation(request);
-  if (!is_get) return MethodNotAllowed("GET");
-  return JsonResponse(200, SimulationListJson({player_.status()}));
-}
-
-Response ReplayApi::Server() const {
-  const OrderedJson json{{"creates", false},
-                         {"records", false},
-                         {"recordings", !recording_.empty()},
-                         {"recording", recording_}};
-  return JsonResponse(200, json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
-}
-
-Response ReplayApi::OfSimulation(const Request& request) {
-  const std::vector<std::string>& path = request.target.segments;
-  if (path[2] != player_.name()) {
-    return ErrorResponse(404, "there is no simulation '" + path[2] + "'; this is a replay of '" +
-                                  player_.name() + "'");
-  }
-  const bool is_get = request.method == "GET";
-  if (path.size() == 3) {
-    return is_get ? Status() : MethodNotAllowed("GET");
-  }
-  if (path.size() == 6 && path[3] == "robots" && path[5] == "topics") {
-    return is_get ? Topics(path[4]) : MethodNotAllowed("GET");
-  }
-  if (path.size() > 4) {
-    return ErrorResponse(409, "this is a replay: what the robots did cannot be changed");
-  }
-  if (path[3] == "scene") return is_get ? JsonOr(player_.SceneNow()) : MethodNotAllowed("GET");
-  if (path[3] == "replay") return Replay(request);
-  if (path[3] == "events") return is_get ? Events() : MethodNotAllowed("GET");
-  if (path[3] == "log") return is_get ? Log() : MethodNotAllowed("GET");
-  if (path[3] == "factor") {
-    return ErrorResponse(409, "this is a replay: its speed is set by POST to .../replay");
-  }
-  if (path[3] == "curve") return is_get ? Curve(request.target) : MethodNotAllowed("GET");
-  if (!Actions().contains(path[3])) return NoSuchAddress();
-  return is_get ? MethodNotAllowed("POST") : Act(path[3], request.body);
-}
-
-Response ReplayApi::Act(const std::string& action, const std::string& body) {
-  const base::Status done = Actions().at(action)(player_, body);
-  if (!done) return ErrorResponse(done.error());
-  return Status();
-}
-
-Response ReplayApi::Status() const {
-  return JsonResponse(200, StatusJson(player_.status(), player_.clock()));
-}
-
-Response ReplayApi::Replay(const Request& request) {
-  if (request.method == "POST") {
-    const base::Result<ReplayChange> change = ParseReplayChange(request.body);
-    if (!change) return ErrorResponse(change.error());
-    if (change->speed) {
-      if (const base::Status done = player_.SetSpeed(*change->speed); !done) {
-        return ErrorResponse(done.error());
-      }
-    }
-    if (change->loop) player_.SetLoop(*change->loop);
-  } else if (request.method != "GET") {
-    return MethodNotAllowed("GET, POST");
-  }
-  return JsonResponse(200, ReplayJson(player_.clock()));
-}
-
-Response ReplayApi::Topics(const std::string& robot) {
-  const std::vector<std::string> topics = player_.ListTopicsOf(robot);
-  if (!topics.empty()) return JsonResponse(200, TopicsJson(topics));
-  return ErrorResponse(404, "no sensors of a robot '" + robot + "' are recorded");
-}
-
-Response ReplayApi::Events() const {
-  OrderedJson list = OrderedJson::array();
-  for (const RecordedEvent& event : player_.timeline().Events()) {
-    list.push_back({{"time_s", base::ToSeconds(event.time)},
-                    {"event", event.event},
-                    {"robot", event.robot},
-                    {"detail", event.detail}});
-  }
-  return JsonResponse(200, list.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
-}
-
-Response ReplayApi::Log() const {
-  OrderedJson list = OrderedJson::array();
-  for (const RecordedLine& line : player_.timeline().Log()) {
-    list.push_back({{"time_s", base::ToSeconds(line.time)},
-                    {"level", line.level},
-                    {"name", line.name},
-                    {"text", line.text}});
-  }
-  return JsonResponse(200, list.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
-}
-
-Response ReplayApi::Curve(const Target& target) const {
-  const base::Result<curves::Curve> curve = player_.curves().Get(CurveWishOf(target));
-  if (!curve) return ErrorResponse(curve.error());
-  OrderedJson times = OrderedJson::array(), values = OrderedJson::array();
-  for (const curves::Point& point : curve->points) {
-    times.push_back(base::ToSeconds(point.time));
-    values.push_back(point.value);  // what is not finite becomes null
-  }
-  const OrderedJson json{
-      {"time_s", std::move(times)}, {"values", std::move(values)},
-      {"samples", curve->samples},  {"is_whole", curve->is_whole},
-      {"done", curve->is_done},     {"read_to_s", base::ToSeconds(curve->read_to)},
-      {"problem", curve->problem}};
-  return JsonResponse(200, json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
 }
 
 }  // namespace gsv::gateway

@@ -10,6 +10,7 @@
 #include "gsv/gateway/access/access_rule.h"
 #include "gsv/gateway/api/api.h"
 #include "gsv/gateway/api/replay_api.h"
+#include "gsv/gateway/testing/answer.h"
 #include "gsv/gateway/testing/scripted_simulation.h"
 #include "gsv/gateway/testing/simulation_list.h"
 
@@ -29,11 +30,12 @@ struct Served {
   std::shared_ptr<gateway::testing::SimulationList> directory =
       std::make_shared<gateway::testing::SimulationList>();
   Api api{directory, &NoModel};
+  Router router{api.Routes()};
 };
 
 void Ask(const Request& request) {
   Served served;
-  const Response response = served.api.Handle(request);
+  const Response response = gateway::testing::Answer(served.router, request);
   GSV_CHECK(response.status >= 200 && response.status < 600);
   if (response.content_type != "application/json") return;
   const auto json = nlohmann::json::parse(response.body.view(), nullptr, false);

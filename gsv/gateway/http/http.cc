@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/check.h"
+
 namespace gsv::gateway {
 namespace {
 
@@ -27,6 +29,12 @@ int StatusOf(base::ErrorCode code) {
 }
 
 }  // namespace
+
+const std::string& Request::Parameter(std::string_view name) const {
+  const auto found = parameters.find(name);
+  GSV_CHECK(found != parameters.end());
+  return found->second;
+}
 
 Response JsonResponse(int status, std::string json) {
   Response response;

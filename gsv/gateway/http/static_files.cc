@@ -133,6 +133,13 @@ Response StaticFiles::Get(const Request& request) const {
   return response;
 }
 
+std::vector<Route> StaticFiles::Routes() const {
+  const Route::Handler get = [this](const Request& request) { return Get(request); };
+  return {
+      {"GET", "/", Permission::kNone, false, Pool::kReaders, get, "The viewer"},
+      {"GET", "/{path...}", Permission::kNone, false, Pool::kReaders, get, "The viewer's files"}};
+}
+
 Response StaticFiles::Explain() const {
   const std::string place = given_.empty()
                                 ? "no directory was given for it"

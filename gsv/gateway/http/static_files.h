@@ -6,8 +6,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 
 namespace gsv::gateway {
 
@@ -19,6 +20,10 @@ class StaticFiles {
   // "/" is index.html. 404 for what is not there, is hidden, or leads out of the root (by "..", a
   // separator inside a segment, or a symbolic link).
   Response Get(const Request& request) const;
+
+  // They take no permission: the files hold no secret, and ask for the token. The handlers live as
+  // long as this.
+  std::vector<Route> Routes() const;
 
  private:
   Response Explain() const;

@@ -8,12 +8,17 @@ using simulation::Simulation;
 
 std::span<const SimulationCommand> SimulationCommands() {
   static constexpr SimulationCommand kCommands[]{
-      {"start", false, [](Simulation& s, std::int64_t) { return s.Start(); }},
-      {"pause", false, [](Simulation& s, std::int64_t) { return s.Pause(); }},
-      {"resume", false, [](Simulation& s, std::int64_t) { return s.Resume(); }},
-      {"stop", false, [](Simulation& s, std::int64_t) { return s.Stop(); }},
-      {"reset", false, [](Simulation& s, std::int64_t) { return s.Reset(); }},
-      {"step", true, [](Simulation& s, std::int64_t count) { return s.Step(count); }},
+      {"start", "Start a simulation, or a replay from its beginning", false,
+       [](Simulation& s, std::int64_t) { return s.Start(); }},
+      {"pause", "Pause a simulation", false, [](Simulation& s, std::int64_t) { return s.Pause(); }},
+      {"resume", "Resume a simulation that is paused", false,
+       [](Simulation& s, std::int64_t) { return s.Resume(); }},
+      {"stop", "End a simulation; a replay goes to its beginning", false,
+       [](Simulation& s, std::int64_t) { return s.Stop(); }},
+      {"reset", "Go back to the start", false,
+       [](Simulation& s, std::int64_t) { return s.Reset(); }},
+      {"step", "Take some steps, then pause", true,
+       [](Simulation& s, std::int64_t count) { return s.Step(count); }},
   };
   return kCommands;
 }

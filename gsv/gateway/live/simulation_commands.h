@@ -14,6 +14,7 @@ inline constexpr std::int64_t kMostSteps = 1'000'000'000;  // that one command m
 
 struct SimulationCommand {
   std::string_view name;
+  std::string_view summary;  // as in docs/api.yaml
   bool takes_count = false;  // of steps; else `count` is of no account
   base::Status (*run)(simulation::Simulation& simulation, std::int64_t count) = nullptr;
 };

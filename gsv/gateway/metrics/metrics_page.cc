@@ -118,12 +118,17 @@ Response MetricsPage(const MetricsSources& sources, const Traffic& traffic) {
   return response;
 }
 
-std::optional<Response> Monitor::Answer(const Request& request) const {
-  const std::vector<std::string>& path = request.target.segments;
-  if (path.size() != 1 || (path[0] != "healthz" && path[0] != "metrics")) return std::nullopt;
-  if (request.method != "GET") return MethodNotAllowed("GET");
-  return path[0] == "healthz" ? JsonResponse(200, R"({"ok":true})")
-                              : MetricsPage(sources_, *traffic_);
+std::vector<Route> Monitor::Routes() const {
+  using enum Permission;
+  using enum Pool;
+  return {
+      {"GET", "/healthz", kNone, false, kReaders,
+       [](const Request&) { return JsonResponse(200, R"({"ok":true})"); },
+       "Whether the server answers"},
+      {"GET", "/metrics", kWatch, false, kReaders,
+       [this](const Request&) { return MetricsPage(sources_, *traffic_); },
+       "How the server and its simulations are doing, for a monitoring system"},
+  };
 }
 
 }  // namespace gsv::gateway::metrics

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/http/route.h"
 #include "gsv/gateway/metrics/traffic.h"
 #include "gsv/gateway/program/ports.h"
 
@@ -34,15 +34,14 @@ struct MetricsSources {
 
 Response MetricsPage(const MetricsSources& sources, const Traffic& traffic);
 
-// What every server answers at /healthz and /metrics, whatever else it serves.
+// What every server answers at /healthz and /metrics. The handlers live as long as this.
 class Monitor {
  public:
   explicit Monitor(MetricsSources sources) : sources_(std::move(sources)) {}
 
   // To be counted in.
   const std::shared_ptr<Traffic>& traffic() const { return traffic_; }
-  // Nothing: the request is for somebody else.
-  std::optional<Response> Answer(const Request& request) const;
+  std::vector<Route> Routes() const;
 
  private:
   const MetricsSources sources_;

@@ -51,13 +51,18 @@ RecordingsJson LineJson(const RecordingLine& line) {
 
 }  // namespace
 
-Response RecordingsApi::Handle(const Request& request) {
-  const std::vector<std::string>& path = request.target.segments;
-  if (path.size() == 2) return request.method == "GET" ? List() : MethodNotAllowed("GET");
-  if (path.size() == 4 && path[3] == "replay") {
-    return request.method == "POST" ? Open(path[2]) : MethodNotAllowed("POST");
-  }
-  return ErrorResponse(404, "there is nothing at this address; docs/api.yaml lists what there is");
+std::vector<Route> RecordingsApi::Routes() {
+  using enum Permission;
+  using enum Pool;
+  std::vector<Route> routes{
+      {"GET", "/api/recordings", kWatch, false, kReaders, [this](const Request&) { return List(); },
+       "The recordings in the server's folder, the newest first"},
+      {"POST", "/api/recordings/{recording}/replay", kWatch, false, kCommanders,
+       [this](const Request& request) { return Open(request.Parameter("recording")); },
+       "Open a recording for oneself"},
+  };
+  Append(routes, sessions_.Routes());
+  return routes;
 }
 
 Response RecordingsApi::List() {

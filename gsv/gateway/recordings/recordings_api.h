@@ -1,11 +1,11 @@
-// The part of the HTTP API that tells of recordings and opens them, see docs/api.yaml:
-//   GET  /api/recordings               what there is
-//   POST /api/recordings/NAME/replay   a replay of one's own, below /replays/…/
+// The part of the HTTP API that lists recordings, and opens them as replays of a viewer's own.
 //
 // Threads  any.
 #pragma once
 
-#include "gsv/gateway/http/http.h"
+#include <vector>
+
+#include "gsv/gateway/http/route.h"
 #include "gsv/gateway/recordings/recording_folder.h"
 #include "gsv/gateway/recordings/replay_sessions.h"
 
@@ -17,8 +17,8 @@ class RecordingsApi {
                          const SessionLimits& limits = {})
       : folder_(std::move(folder), std::move(only)), sessions_(limits) {}
 
-  // `request.target` begins with "api", "recordings".
-  Response Handle(const Request& request);
+  // With those of the sessions. The handlers live as long as this.
+  std::vector<Route> Routes();
 
   ReplaySessions& sessions() { return sessions_; }
   const RecordingFolder& folder() const { return folder_; }

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/gateway/gateway.h"
-#include "gsv/gateway/relay.h"
 #include "gsv/gateway/testing/replay_fixture.h"
 
 namespace gsv::gateway::recordings {
@@ -120,7 +119,7 @@ TEST_F(RecordingsApiTest, TwoViewersOfOneRecordingStandAtDifferentInstants) {
 }
 
 TEST_F(RecordingsApiTest, ARelayPassesRecordingsOn) {
-  auto relay = Relay::Start({}, {gateway_->url()});
+  auto relay = Gateway::StartRelay({}, {gateway_->url()});
   ASSERT_TRUE(relay) << relay.error().Sentence();
   const std::uint16_t port = (*relay)->port();
   const HttpReply opened =
@@ -138,14 +137,11 @@ TEST_F(RecordingsApiTest, ARelayPassesRecordingsOn) {
 
 TEST_F(RecordingsApiTest, AReplayThatNobodyWatchesEnds) {
   ReplaySessions sessions({.sessions = 2, .unwatched = std::chrono::milliseconds(0)});
-  const auto target = [](const std::string& name, const std::string& rest) {
-    return ParseTarget("/replays/" + name + "/" + rest).value();
-  };
   const std::string file = folder_ / "run.mcap";
   const std::string watched = sessions.Open(file, "run.mcap").value();
-  auto hub = sessions.FindHub(target(watched, "ws")).value();
+  auto hub = sessions.FindHub(watched).value();
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(sessions.Open(file, "run.mcap")) << i;
-  EXPECT_TRUE(sessions.FindHub(target(watched, "ws")));
+  EXPECT_TRUE(sessions.FindHub(watched));
   sessions.Stop();
   EXPECT_FALSE(sessions.Open(file, "run.mcap"));
   hub->Remove(nullptr);  // a viewer that leaves late finds its replay still there

@@ -10,10 +10,6 @@ constexpr const char* kGone =
 
 }  // namespace
 
-bool IsOfReplaySession(const Target& target) {
-  return target.segments.size() > 2 && target.segments[0] == "replays";
-}
-
 base::Result<std::string> ReplaySessions::Open(const std::string& path,
                                                const std::string& recording) {
   auto player = ReplayPlayer::Open(path, {});
@@ -27,8 +23,7 @@ base::Result<std::string> ReplaySessions::Open(const std::string& path,
                       "page, and try again in half a minute");
   }
   const std::string name = std::to_string(next_++);
-  sessions_[name] = {std::make_shared<Session>(*std::move(player), recording),
-                     std::chrono::steady_clock::now()};
+  sessions_[name] = {{*std::move(player), recording}, std::chrono::steady_clock::now()};
   return name;
 }
 
@@ -39,7 +34,7 @@ std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
   for (auto entry = sessions_.begin(); entry != sessions_.end();) {
     const auto next = std::next(entry);
     // Who watches it, or asks it something, holds it as well.
-    if (entry->second.session.use_count() > 1) {
+    if (entry->second.replay.player.use_count() > 1) {
       entry->second.used = now;
     } else if (now - entry->second.used > limits_.unwatched) {
       unwatched.insert(sessions_.extract(entry));
@@ -49,31 +44,36 @@ std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
   return unwatched;
 }
 
-std::shared_ptr<ReplaySessions::Session> ReplaySessions::Find(const Target& target) {
+base::Result<Replay> ReplaySessions::Find(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  const auto found =
-      IsOfReplaySession(target) ? sessions_.find(target.segments[1]) : sessions_.end();
-  if (found == sessions_.end()) return nullptr;
+  const auto found = sessions_.find(name);
+  if (found == sessions_.end()) return base::Fail(base::ErrorCode::kNotFound, kGone);
   found->second.used = std::chrono::steady_clock::now();
-  return found->second.session;
+  return found->second.replay;
 }
 
-Response ReplaySessions::Handle(const Request& request) {
-  (void)TakeUnwatched();
-  const std::shared_ptr<Session> session = Find(request.target);
-  if (!session) return ErrorResponse(404, kGone);
-  Request inner = request;
-  inner.target.segments.erase(inner.target.segments.begin(), inner.target.segments.begin() + 2);
-  if (inner.target.segments.front() != "api") {
-    return ErrorResponse(404, "there is nothing at this address; a replay is at api/ and ws");
+std::vector<Route> ReplaySessions::Routes() {
+  const std::string below = "/replays/{session}";
+  std::vector<Route> routes = ReplayRoutes([this](const Request& request) {
+    (void)TakeUnwatched();
+    return Find(request.Parameter("session"));
+  });
+  for (Route& route : routes) {
+    route.pattern = below + route.pattern;
+    route.permission = Permission::kWatch;
+    route.needs_control = false;
   }
-  return session->api.Handle(inner);
+  routes.push_back(SocketRoute(
+      below + "/ws", false,
+      [this](const Request& request) { return FindHub(request.Parameter("session")); },
+      "The live stream of a replay of one's own"));
+  return routes;
 }
 
-base::Result<std::shared_ptr<Hub>> ReplaySessions::FindHub(const Target& target) {
-  const std::shared_ptr<Session> session = Find(target);
-  if (!session) return base::Fail(base::ErrorCode::kNotFound, kGone);
-  return std::shared_ptr<Hub>(session, session->player->hub().get());
+base::Result<std::shared_ptr<Hub>> ReplaySessions::FindHub(const std::string& name) {
+  const base::Result<Replay> replay = Find(name);
+  if (!replay) return base::Fail(replay.error());
+  return std::shared_ptr<Hub>(replay->player, replay->player->hub().get());
 }
 
 void ReplaySessions::Stop() {
@@ -83,7 +83,7 @@ void ReplaySessions::Stop() {
     is_stopped_ = true;
     sessions.swap(sessions_);
   }
-  for (const auto& [name, entry] : sessions) entry.session->player->Stop();
+  for (const auto& [name, entry] : sessions) entry.replay.player->Stop();
 }
 
 }  // namespace gsv::gateway::recordings

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "gsv/gateway/api/replay_api.h"
 #include "gsv/gateway/replay/replay_player.h"
@@ -33,28 +34,22 @@ class ReplaySessions {
   // kUnavailable: too many are watched.
   base::Result<std::string> Open(const std::string& path, const std::string& recording);
 
-  // A request at /replays/NAME/api/…
-  Response Handle(const Request& request);
-  // The hub of /replays/NAME/ws. What holds it keeps the session.
-  base::Result<std::shared_ptr<Hub>> FindHub(const Target& target);
+  // Below /replays/{session}/: a replay's API, and its live stream at ws. To watch is permission
+  // enough for all of it. The handlers live as long as this.
+  std::vector<Route> Routes();
+  // The hub of a session. What holds it keeps the session.
+  base::Result<std::shared_ptr<Hub>> FindHub(const std::string& name);
 
   // Ends all of them, and opens none any more.
   void Stop();
 
  private:
-  struct Session {
-    Session(std::unique_ptr<ReplayPlayer> opened, const std::string& recording)
-        : player(std::move(opened)), api(*player, recording) {}
-    const std::unique_ptr<ReplayPlayer> player;
-    ReplayApi api;
-  };
   struct Entry {
-    std::shared_ptr<Session> session;
+    Replay replay;
     std::chrono::steady_clock::time_point used;
   };
 
-  // Null: there is none.
-  std::shared_ptr<Session> Find(const Target& target);
+  base::Result<Replay> Find(const std::string& name);
   // Takes out those that nobody watches any more; they end when they are let go of.
   std::map<std::string, Entry> TakeUnwatched();
 
@@ -64,8 +59,5 @@ class ReplaySessions {
   std::uint64_t next_ = 1;
   bool is_stopped_ = false;
 };
-
-// Whether the address lies below one of theirs.
-bool IsOfReplaySession(const Target& target);
 
 }  // namespace gsv::gateway::recordings

@@ -15,7 +15,7 @@ namespace gsv::gateway {
 struct ServerContext {
   ServerOptions options;
   AccessRule access;
-  access::TokenRule tokens;
+  const std::shared_ptr<access::Authenticator> authenticator;
   Handler& handler;
   const std::shared_ptr<metrics::Traffic> traffic;
   const std::shared_ptr<boost::asio::ssl::context> tls;  // null: plain HTTP
@@ -23,12 +23,11 @@ struct ServerContext {
   std::atomic<bool> stopping{false};
 };
 
-// Who a connection belongs to.
-struct Ticket {
-  access::Right right = access::Right::kNone;
-  std::string viewer;        // a key, or empty
-  bool is_private = false;   // it acts on nothing that others see
-  bool shows_token = false;  // right or wrong
+// Whose WebSocket it is.
+struct SocketOwner {
+  access::Principal principal;
+  std::string viewer;       // a key, or empty
+  bool is_private = false;  // what is done over it changes nothing that others see
 };
 
 // Counts one connection as long as it lives.

@@ -12,10 +12,8 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "gsv/base/log.h"
-#include "gsv/gateway/access/need.h"
 #include "gsv/gateway/server/websocket_session.h"
 #include "gsv/gateway/transport/byte_stream.h"
-#include "gsv/gateway/uploads/uploads_api.h"
 
 namespace gsv::gateway {
 namespace {
@@ -58,13 +56,6 @@ constexpr std::chrono::minutes kUploadTime{5};
 constexpr std::chrono::seconds kLeaveTime{1};
 constexpr std::chrono::milliseconds kHandshakeTime{10'000};  // or a request's, if that is shorter
 
-// "/ws", and for a replay of one's own "/replays/NAME/ws".
-bool IsSocket(const Target& target) {
-  const std::vector<std::string>& path = target.segments;
-  const bool is_place = path.size() == 1 || (path.size() == 3 && path[0] == "replays");
-  return is_place && path.back() == "ws";
-}
-
 std::string PathOf(const Target& target) {
   std::string path;
   for (const std::string& segment : target.segments) path += "/" + segment;
@@ -98,6 +89,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   }
 
   void Read() {
+    is_head_ = false;
     parser_.emplace();
     parser_->header_limit(limits().header_bytes);
     // OnHeader() limits it. Boost 1.74 takes boost::none for zero.
@@ -121,30 +113,35 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   beast::tcp_stream& tcp() { return stream_.tcp(); }
   const ServerLimits& limits() const { return context_->options.limits; }
 
-  // What is too long, or not for who sends it, is refused before it is read.
+  // What is too long is refused before it is read, and a file whose sender lacks permission.
   void OnHeader(error_code error) {
     if (error) return Complain(error);
     const auto& request = parser_->get();
     version_ = request.version();
-    const base::Result<Target> target = ParseTarget(View(request.target()));
-    const bool is_upload = target && uploads::IsUpload(*target);
-    body_limit_ = is_upload ? limits().upload_bytes : limits().body_bytes;
+    is_head_ = request.method() == http::verb::head;
+    keep_alive_ = false;  // for answers before all is read
+    principal_.reset();
+    target_ = ParseTarget(View(request.target()));
+    match_ = target_ ? context_->handler.router().Find(Method(), *target_) : Router::Match();
+    const bool takes_file = match_.route != nullptr && match_.route->takes_file;
+    body_limit_ = takes_file ? limits().upload_bytes : limits().body_bytes;
     if (parser_->content_length().value_or(0) > body_limit_) {
       return Complain(make_error_code(http::error::body_limit));
     }
     parser_->body_limit(body_limit_);
-    if (is_upload) {
-      if (std::optional<Response> refusal = Refusal(*target)) {
-        keep_alive_ = false;
-        return Write(std::move(*refusal));
-      }
-      upload_ = UploadSlot::Take(context_);
-      if (!upload_) {
-        keep_alive_ = false;
-        return Write(ErrorResponse(503, "others are uploading files; try again in a moment"));
-      }
-      tcp().expires_after(kUploadTime);
+    takes_file ? Authorise([](HttpSession& self) { self.ReadFile(); }) : ReadBody();
+  }
+
+  void ReadFile() {
+    upload_ = UploadSlot::Take(context_);
+    if (!upload_) {
+      return Write(ErrorResponse(503, "others are uploading files; try again in a moment"));
     }
+    tcp().expires_after(kUploadTime);
+    ReadBody();
+  }
+
+  void ReadBody() {
     http::async_read(
         stream_, buffer_, *parser_,
         [self = shared_from_this()](error_code failed, std::size_t) { self->OnRead(failed); });
@@ -161,81 +158,105 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     if (error) return Complain(error);
     const auto& request = parser_->get();
     keep_alive_ = request.keep_alive();
-    version_ = request.version();
-    is_head_ = request.method() == http::verb::head;
     const base::Status allowed = context_->access.Check(View(request[http::field::host]),
                                                         View(request[http::field::origin]));
     if (!allowed) {
       spdlog::info("refused a request: {}", allowed.error().Sentence());
       return Write(ErrorResponse(403, allowed.error().Sentence()));
     }
-    base::Result<Target> target = ParseTarget(View(request.target()));
-    if (!target) return Write(ErrorResponse(target.error()));
-    if (std::optional<Response> refusal = Refusal(*target)) return Write(std::move(*refusal));
-    if (beast::websocket::is_upgrade(request)) return Upgrade(*target);
-    Dispatch(std::move(*target));
+    if (!target_) return Write(ErrorResponse(target_.error()));
+    Authorise([](HttpSession& self) { self.Dispatch(); });
   }
 
-  // Programs show their token in the header, as pages do; a page's WebSocket has none of its own to
-  // set.
-  Ticket TicketFor(const Target& target) const {
-    const auto& request = parser_->get();
-    const auto query = [&](const char* name) {
-      const auto found = target.query.find(name);
-      return found == target.query.end() ? std::string() : found->second;
-    };
-    const std::string authorization = Text(request, http::field::authorization);
-    const bool is_socket = IsSocket(target);
-    std::string token(access::BearerToken(authorization));
-    if (token.empty() && is_socket) token = query("token");
-    std::string viewer(View(request["Gsv-Viewer"]));
-    if (viewer.empty() && is_socket) viewer = query("viewer");
-    return {context_->tokens.RightOf(token), std::move(viewer), target.segments.size() > 1,
-            !token.empty()};
+  std::string_view Method() const {
+    return is_head_ ? std::string_view("GET") : View(parser_->get().method_string());
   }
 
-  // Why this request is not for who makes it.
-  std::optional<Response> Refusal(const Target& target) const {
-    const access::Need need = access::NeedOf(View(parser_->get().method_string()), target);
-    if (need.right == access::Right::kNone) return std::nullopt;
-    const Ticket ticket = TicketFor(target);
-    if (ticket.right < need.right) {
-      const std::string why =
-          context_->tokens.Refusal(ticket.shows_token, ticket.right, need.right);
+  // Of the query, for WebSockets: a page cannot set their headers.
+  std::string SocketQuery(const std::string& name) const {
+    const bool is_socket = match_.route != nullptr && match_.route->find_hub != nullptr;
+    const auto found = target_->query.find(name);
+    return is_socket && found != target_->query.end() ? found->second : std::string();
+  }
+
+  std::string ViewerKey() const {
+    const std::string key(View(parser_->get()["Gsv-Viewer"]));
+    return key.empty() ? SocketQuery("viewer") : key;
+  }
+
+  using Next = void (*)(HttpSession&);
+
+  // Calls `next`, now or later on this session's thread, if the client has the permission that the
+  // request takes; else answers why not.
+  void Authorise(Next next) {
+    if (match_.permission == Permission::kNone) return next(*this);
+    if (principal_) return Permit(next);
+    const std::string authorization = Text(parser_->get(), http::field::authorization);
+    access::Credentials credentials{std::string(access::BearerToken(authorization))};
+    if (credentials.token.empty()) credentials.token = SocketQuery("token");
+    tcp().expires_never();  // the authenticator has a limit of its own
+    context_->authenticator->Authenticate(
+        credentials, [self = shared_from_this(), next](const access::Principal& principal) {
+          boost::asio::dispatch(self->stream_.get_executor(), [self, next, principal] {
+            self->principal_ = principal;
+            self->Permit(next);
+          });
+        });
+  }
+
+  void Permit(Next next) {
+    tcp().expires_after(limits().request_time);
+    const access::Principal& principal = *principal_;
+    if (principal.permission < match_.permission) {
+      const std::string why = context_->authenticator->Refusal(principal, match_.permission);
       // The path alone: a query may hold a token.
-      spdlog::info("refused {} {}: {}", View(parser_->get().method_string()), PathOf(target), why);
-      return ErrorResponse(ticket.shows_token ? 403 : 401, why);
+      spdlog::info("refused {} {}: {}", View(parser_->get().method_string()), PathOf(*target_),
+                   why);
+      return Write(ErrorResponse(principal.showed_credentials ? 403 : 401, why));
     }
-    if (need.acts_on.empty()) return std::nullopt;
-    const base::Status may = context_->handler.MayAct(ticket.viewer, need.acts_on);
-    return may ? std::nullopt : std::optional<Response>(ErrorResponse(may.error()));
+    const Route* const route = match_.route;
+    if (route != nullptr && route->needs_control && route->find_hub == nullptr) {
+      const base::Status free =
+          context_->handler.CheckControl(ViewerKey(), match_.parameters.at("name"));
+      if (!free) return Write(ErrorResponse(free.error()));
+    }
+    next(*this);
   }
 
-  void Dispatch(Target target) {
-    const auto& message = parser_->get();
+  void Dispatch() {
+    const bool is_upgrade = beast::websocket::is_upgrade(parser_->get());
+    if (is_upgrade && (match_.route == nullptr || match_.route->find_hub == nullptr)) {
+      return Write(ErrorResponse(404, "WebSockets are served at /ws"));
+    }
+    if (match_.route == nullptr) return Write(NoRoute(match_));
+    if (is_upgrade) return Upgrade();
+    upload_.reset();
+    tcp().expires_never();  // handlers have limits of their own
+    context_->handler.Handle(
+        *match_.route, TakeRequest(), [self = shared_from_this()](Response response) mutable {
+          auto executor = self->stream_.get_executor();
+          boost::asio::post(executor,
+                            [self = std::move(self), answer = std::move(response)]() mutable {
+                              self->Write(std::move(answer));
+                            });
+        });
+  }
+
+  Request TakeRequest() {
+    auto& message = parser_->get();
     Request request;
-    request.method = is_head_ ? "GET" : std::string(View(message.method_string()));
+    request.method = std::string(Method());
     request.raw_target = std::string(View(message.target()));
-    request.target = std::move(target);
-    request.body = message.body();
+    request.target = *std::move(target_);
+    request.body = std::move(message.body());
     request.content_type = Text(message, http::field::content_type);
     request.if_none_match = Text(message, http::field::if_none_match);
     request.viewer = std::string(View(message["Gsv-Viewer"]));
-    upload_.reset();
-    tcp().expires_never();  // whoever answers has limits of their own
-    context_->handler.Handle(std::move(request), [self = shared_from_this()](
-                                                     Response response) mutable {
-      auto executor = self->stream_.get_executor();
-      boost::asio::post(executor, [self = std::move(self), answer = std::move(response)]() mutable {
-        self->Write(std::move(answer));
-      });
-    });
+    request.parameters = std::move(match_.parameters);
+    return request;
   }
 
-  void Upgrade(const Target& target) {
-    if (!IsSocket(target)) {
-      return Write(ErrorResponse(404, "WebSockets are served at /ws"));
-    }
+  void Upgrade() {
     const std::string offered = Text(parser_->get(), http::field::sec_websocket_protocol);
     const std::string_view subprotocol = foxglove::ChooseSubprotocol(offered);
     if (subprotocol.empty()) {
@@ -243,13 +264,14 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
                                  "a WebSocket must offer the sub-protocol foxglove.sdk.v1 or "
                                  "foxglove.websocket.v1"));
     }
-    base::Result<std::shared_ptr<Hub>> hub = context_->handler.FindHub(target);
+    SocketOwner owner{principal_.value_or(access::Principal()), ViewerKey(),
+                      !match_.route->needs_control};
+    base::Result<std::shared_ptr<Hub>> hub = match_.route->find_hub(TakeRequest());
     if (!hub) return Write(ErrorResponse(hub.error()));
     tcp().expires_never();
-    Ticket ticket = TicketFor(target);
     keep_track_(StartWebSocketSession(std::move(stream_), parser_->release(), subprotocol,
                                       std::move(*hub), context_, std::move(slot_),
-                                      std::move(ticket)));
+                                      std::move(owner)));
   }
 
   void Write(Response response) {
@@ -327,7 +349,11 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
   KeepTrack keep_track_;
-  std::unique_ptr<UploadSlot> upload_;  // while one is read
+  // Of the request that is read or answered:
+  base::Result<Target> target_{};
+  Router::Match match_;
+  std::optional<access::Principal> principal_;  // once it is known
+  std::unique_ptr<UploadSlot> upload_;          // while one is read
   std::uint64_t body_limit_ = 0;
   unsigned version_ = 11;
   bool keep_alive_ = false;

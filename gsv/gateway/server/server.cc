@@ -96,7 +96,12 @@ class BeastServer final : public Server {
     const base::Result<tcp::endpoint> endpoint = EndpointOf(options_);
     if (!endpoint) return base::Fail(endpoint.error());
     const asio::ip::address address = endpoint->address();
-    if (!address.is_loopback() && options_.tokens.empty()) return base::Fail(NeedsToken(options_));
+    const bool is_exposed = !address.is_loopback();
+    if (options_.authenticator == nullptr) {
+      if (is_exposed && options_.tokens.empty()) return base::Fail(NeedsToken(options_));
+      options_.authenticator =
+          std::make_shared<access::TokenAuthenticator>(options_.tokens, is_exposed);
+    }
     if (!options_.tls.empty()) {
       auto tls = MakeTlsContext(options_.tls);
       if (!tls) return base::Fail(tls.error());
@@ -111,8 +116,7 @@ class BeastServer final : public Server {
         new ServerContext{options_,
                           AccessRule(name_, port_, options_.allowed_hosts, options_.allowed_origins,
                                      address.is_unspecified(), tls_ != nullptr),
-                          access::TokenRule(options_.tokens, !address.is_loopback()), *handler_,
-                          options_.traffic, tls_});
+                          options_.authenticator, *handler_, options_.traffic, tls_});
     Accept();
     thread_ = std::thread([this] {
       io_.run();

@@ -15,9 +15,8 @@
 #include <vector>
 
 #include "gsv/base/error.h"
-#include "gsv/gateway/access/token_rule.h"
-#include "gsv/gateway/foxglove/hub.h"
-#include "gsv/gateway/http/http.h"
+#include "gsv/gateway/access/token_authenticator.h"
+#include "gsv/gateway/http/router.h"
 #include "gsv/gateway/metrics/traffic.h"
 #include "gsv/gateway/server/send_queue.h"
 
@@ -47,22 +46,25 @@ struct ServerOptions {
   std::uint16_t port = 0;                  // 0: the system chooses
   std::vector<std::string> allowed_hosts;  // see AccessRule
   std::vector<std::string> allowed_origins;
-  // Without one of them nobody is served who comes from another machine.
+  // Without a token, and without an authenticator, only this machine is served.
   access::Tokens tokens;
-  TlsFiles tls{};  // empty: plain HTTP
+  std::shared_ptr<access::Authenticator> authenticator{};  // in place of the tokens; null: they are
+  TlsFiles tls{};                                          // empty: plain HTTP
   ServerLimits limits;
   std::shared_ptr<metrics::Traffic> traffic{};  // where it is counted; null: nowhere that is seen
 };
 
+// What a server serves. Requests that no route is for, or that lack permission, do not get here.
 class Handler {
  public:
   virtual ~Handler() = default;
-  // `respond` must be called once, here or later, from any thread, before the server is stopped.
-  virtual void Handle(Request request, Respond respond) = 0;
-  // The hub that a WebSocket at this target is to be a client of.
-  virtual base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) = 0;
-  // Why the viewer of this key (empty: none) may not act now on that simulation; see ControlDesk.
-  virtual base::Status MayAct(const std::string& /*viewer*/, const std::string& /*simulation*/) {
+  virtual const Router& router() const = 0;
+  // Has the route's handler answer, on the threads that the route names. `respond` must be called
+  // once, here or later, from any thread, before the server is stopped.
+  virtual void Handle(const Route& route, Request request, Respond respond) = 0;
+  // Why the viewer of this key (empty: none) may not control that simulation now; see ControlDesk.
+  virtual base::Status CheckControl(const std::string& /*viewer*/,
+                                    const std::string& /*simulation*/) {
     return {};
   }
 };
@@ -70,7 +72,7 @@ class Handler {
 class Server {
  public:
   // `handler` outlives the server. Fails when the port cannot be had or the certificate cannot be
-  // used, and with kInvalidArgument when other machines could reach it and it has no token.
+  // used, and with kInvalidArgument when other machines could reach it and need no credentials.
   static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options,
                                                      Handler& handler);
   virtual ~Server() = default;

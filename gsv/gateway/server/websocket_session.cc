@@ -35,14 +35,15 @@ class WebSocketSession final : public Client,
  public:
   WebSocketSession(transport::ByteStream stream, HttpRequest request, std::shared_ptr<Hub> hub,
                    std::shared_ptr<ServerContext> context, std::unique_ptr<ConnectionSlot> slot,
-                   Ticket ticket)
+                   SocketOwner owner)
       : stream_(std::move(stream)),
         farewell_(stream_.get_executor()),
+        expiry_(stream_.get_executor()),
         request_(std::move(request)),
         hub_(std::move(hub)),
         context_(std::move(context)),
         slot_(std::move(slot)),
-        ticket_(std::move(ticket)),
+        owner_(std::move(owner)),
         queue_(limits().send) {}
 
   void Accept(std::string_view subprotocol) {
@@ -75,13 +76,12 @@ class WebSocketSession final : public Client,
   std::uint64_t dropped_updates() const override { return queue_.dropped(); }
 
   base::Status MayAct() override {
-    if (ticket_.is_private) return {};
-    if (ticket_.right == access::Right::kControl) {
-      return context_->handler.MayAct(ticket_.viewer, hub_->simulation());
+    if (owner_.is_private) return {};
+    if (owner_.principal.permission == Permission::kControl) {
+      return context_->handler.CheckControl(owner_.viewer, hub_->simulation());
     }
-    return base::Fail(
-        base::ErrorCode::kNotRunning,
-        context_->tokens.Refusal(ticket_.shows_token, ticket_.right, access::Right::kControl));
+    return base::Fail(base::ErrorCode::kNotRunning,
+                      context_->authenticator->Refusal(owner_.principal, Permission::kControl));
   }
 
   void Close(CloseCode code, std::string reason) override {
@@ -108,8 +108,19 @@ class WebSocketSession final : public Client,
     is_counted_ = true;
     ++context_->traffic->viewers;
     hub_->Add(shared_from_this(), subprotocol_);
+    CloseWhenExpired();
     if (close_reason_) return WriteNext();
     Read();
+  }
+
+  void CloseWhenExpired() {
+    if (!owner_.principal.expires) return;
+    expiry_.expires_at(*owner_.principal.expires);
+    expiry_.async_wait([weak = weak_from_this()](error_code error) {
+      const auto self = weak.lock();
+      if (error || !self) return;
+      self->BeginClose(CloseCode::kPolicyViolation, "your permission has expired; connect again");
+    });
   }
 
   void Read() {
@@ -200,6 +211,7 @@ class WebSocketSession final : public Client,
   void Leave() {
     is_open_ = false;
     farewell_.cancel();
+    expiry_.cancel();
     if (std::exchange(has_left_, true)) return;
     if (is_counted_) --context_->traffic->viewers;
     stream_.next_layer().tcp().close();  // a write that hangs ends, too
@@ -207,13 +219,13 @@ class WebSocketSession final : public Client,
   }
 
   websocket::stream<transport::ByteStream> stream_;
-  boost::asio::steady_timer farewell_;
+  boost::asio::steady_timer farewell_, expiry_;
   HttpRequest request_;
   beast::flat_buffer buffer_;
   std::shared_ptr<Hub> hub_;
   std::shared_ptr<ServerContext> context_;
   std::unique_ptr<ConnectionSlot> slot_;
-  const Ticket ticket_;
+  const SocketOwner owner_;
   std::string subprotocol_;
   SendQueue queue_;
   Outgoing in_flight_;
@@ -232,10 +244,10 @@ std::weak_ptr<Connection> StartWebSocketSession(transport::ByteStream stream, Ht
                                                 std::shared_ptr<Hub> hub,
                                                 std::shared_ptr<ServerContext> context,
                                                 std::unique_ptr<ConnectionSlot> slot,
-                                                Ticket ticket) {
+                                                SocketOwner owner) {
   const auto session =
       std::make_shared<WebSocketSession>(std::move(stream), std::move(request), std::move(hub),
-                                         std::move(context), std::move(slot), std::move(ticket));
+                                         std::move(context), std::move(slot), std::move(owner));
   session->Accept(subprotocol);
   return session;
 }

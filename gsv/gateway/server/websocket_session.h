@@ -17,6 +17,6 @@ std::weak_ptr<Connection> StartWebSocketSession(
     transport::ByteStream stream,
     boost::beast::http::request<boost::beast::http::string_body> request,
     std::string_view subprotocol, std::shared_ptr<Hub> hub, std::shared_ptr<ServerContext> context,
-    std::unique_ptr<ConnectionSlot> slot, Ticket ticket);
+    std::unique_ptr<ConnectionSlot> slot, SocketOwner owner);
 
 }  // namespace gsv::gateway

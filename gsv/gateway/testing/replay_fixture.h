@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/gateway/gateway.h"
 #include "gsv/gateway/replay/replay_player.h"
-#include "gsv/gateway/replay_gateway.h"
 #include "gsv/gateway/testing/web_client.h"
 #include "gsv/recording/simulation_recorder.h"
 #include "gsv/recording/testing/test_simulation.h"
@@ -68,7 +68,7 @@ class ReplayGatewayTest : public ::testing::Test {
     auto player = ReplayPlayer::Open(path, options);
     ASSERT_TRUE(player) << player.error().Sentence();
     player_ = *std::move(player);
-    auto gateway = ReplayGateway::Start({}, *player_);
+    auto gateway = Gateway::StartReplay({}, *player_);
     ASSERT_TRUE(gateway) << gateway.error().Sentence();
     gateway_ = *std::move(gateway);
   }
@@ -80,7 +80,7 @@ class ReplayGatewayTest : public ::testing::Test {
   }
 
   std::unique_ptr<ReplayPlayer> player_;
-  std::unique_ptr<ReplayGateway> gateway_;
+  std::unique_ptr<Gateway> gateway_;
 };
 
 }  // namespace gsv::gateway::testing

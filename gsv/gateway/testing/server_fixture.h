@@ -1,10 +1,11 @@
-// For tests of the server: one that repeats what it is asked.
+// For tests of the server: one that repeats what it is asked, whatever the address.
 #pragma once
 
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -17,16 +18,10 @@ class Echo final : public Handler {
  public:
   Echo() { channel_ = hub_->Advertise({{0, "/numbers", "json", "", "", ""}}).front(); }
 
-  void Handle(Request request, Respond respond) override {
-    Response response;
-    response.content_type = "text/plain";
-    response.body = SharedBytes(request.method + " " + request.raw_target + " " + request.body);
-    respond(std::move(response));
-  }
+  const Router& router() const override { return router_; }
 
-  base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) override {
-    if (!target.query.contains("none")) return hub_;
-    return base::Fail(base::ErrorCode::kNotFound, "there is no hub");
+  void Handle(const Route& route, Request request, Respond respond) override {
+    respond(route.handler(request));
   }
 
   Hub& hub() { return *hub_; }
@@ -40,6 +35,34 @@ class Echo final : public Handler {
   }
 
  private:
+  static Response Repeat(const Request& request) {
+    Response response;
+    response.content_type = "text/plain";
+    response.body = SharedBytes(request.method + " " + request.raw_target + " " + request.body);
+    return response;
+  }
+
+  base::Result<std::shared_ptr<Hub>> FindHub(const Target& target) const {
+    if (!target.query.contains("none")) return hub_;
+    return base::Fail(base::ErrorCode::kNotFound, "there is no hub");
+  }
+
+  std::vector<Route> Routes() const {
+    std::vector<Route> routes;
+    for (const char* method : {"GET", "POST", "PUT"}) {
+      for (const char* pattern : {"/", "/{path...}"}) {
+        routes.push_back({method, pattern, Permission::kNone, false, Pool::kReaders, &Repeat});
+      }
+    }
+    routes.push_back({"PUT", "/api/uploads/{upload}/{path...}", Permission::kControl, false,
+                      Pool::kCommanders, &Repeat, "", true});
+    routes.push_back(
+        {"PUT", "/api/simulations", Permission::kControl, false, Pool::kCommanders, &Repeat});
+    routes.push_back(SocketRoute(
+        "/ws", true, [this](const Request& request) { return FindHub(request.target); }, ""));
+    return routes;
+  }
+
   std::mutex mutex_;
   std::condition_variable changed_;
   std::shared_ptr<Hub> hub_ =
@@ -48,6 +71,7 @@ class Echo final : public Handler {
         changed_.notify_all();
       });
   foxglove::ChannelId channel_ = 0;
+  const Router router_{Routes()};
 };
 
 class ServerTest : public ::testing::Test {

@@ -1,5 +1,4 @@
-#include "gsv/gateway/replay_gateway.h"
-
+// The gateway of a recording.
 #include <filesystem>
 #include <map>
 #include <set>

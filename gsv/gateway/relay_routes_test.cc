@@ -1,4 +1,4 @@
-#include "gsv/gateway/relay.h"
+#include "gsv/gateway/gateway.h"
 
 #include <thread>
 
@@ -56,7 +56,7 @@ class RelayTest : public ::testing::Test {
   void SetUp() override {
     directory_->Add(simulation_);
     StartGateway(0);
-    auto relay = Relay::Start({}, {gateway_->url(), "", authority_});
+    auto relay = Gateway::StartRelay({}, {gateway_->url(), "", authority_});
     ASSERT_TRUE(relay) << relay.error().Sentence();
     relay_ = std::move(*relay);
   }
@@ -75,7 +75,7 @@ class RelayTest : public ::testing::Test {
       std::make_shared<ScriptedSimulation>("arena", 1);
   std::shared_ptr<testing::SimulationList> directory_ = std::make_shared<testing::SimulationList>();
   std::unique_ptr<Gateway> gateway_;
-  std::unique_ptr<Relay> relay_;
+  std::unique_ptr<Gateway> relay_;
   // Empty: HTTP.
   TlsFiles tls_;
   std::string authority_;
@@ -218,7 +218,7 @@ TEST_F(RelayTest, ViewersOfASimulationThatIsGoneAreTold) {
 }
 
 TEST_F(RelayTest, ARelayCanBeRelayed) {
-  auto second = Relay::Start({}, {relay_->url()});
+  auto second = Gateway::StartRelay({}, {relay_->url()});
   ASSERT_TRUE(second);
   Viewer viewer((*second)->port());
   viewer.Subscribe(1, "/robot_0/front_sonar");
@@ -255,7 +255,7 @@ TEST_F(SecureRelayTest, WaitsForAnInstanceThatIsRestarted) {
 TEST_F(SecureRelayTest, WhoIsNotTrustedIsASentence) {
   ASSERT_TRUE(tls::MakeAuthority(folder_.path() / "other", {}));
   const auto refusal = [&](const std::string& url, const std::string& authority) {
-    const auto relay = Relay::Start({}, {url, "", authority});
+    const auto relay = Gateway::StartRelay({}, {url, "", authority});
     return relay ? std::string() : relay.error().Sentence();
   };
   const std::string port = std::to_string(gateway_->port());
@@ -273,18 +273,18 @@ TEST_F(SecureRelayTest, WhoIsNotTrustedIsASentence) {
 }
 
 TEST_F(RelayTest, OneThatSpeaksNoTlsIsASentence) {
-  const auto relay = Relay::Start({}, {"https" + gateway_->url().substr(4)});
+  const auto relay = Gateway::StartRelay({}, {"https" + gateway_->url().substr(4)});
   ASSERT_FALSE(relay);
   EXPECT_NE(relay.error().Sentence().find("it does not speak TLS"), std::string::npos)
       << relay.error().Sentence();
 }
 
 TEST(Relay, NothingThereIsAnError) {
-  const auto silent = Relay::Start({}, {"http://127.0.0.1:1/"});
+  const auto silent = Gateway::StartRelay({}, {"http://127.0.0.1:1/"});
   ASSERT_FALSE(silent);
   EXPECT_EQ(silent.error().code, base::ErrorCode::kUnavailable);
   EXPECT_NE(silent.error().Sentence().find("http://127.0.0.1:1/"), std::string::npos);
-  EXPECT_EQ(Relay::Start({}, {"127.0.0.1"}).error().code, base::ErrorCode::kInvalidArgument);
+  EXPECT_EQ(Gateway::StartRelay({}, {"127.0.0.1"}).error().code, base::ErrorCode::kInvalidArgument);
 }
 
 }  // namespace

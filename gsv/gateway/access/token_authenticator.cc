@@ -1,4 +1,4 @@
-#include "gsv/gateway/access/token_rule.h"
+#include "gsv/gateway/access/token_authenticator.h"
 
 #include <algorithm>
 
@@ -39,28 +39,33 @@ std::string_view BearerToken(std::string_view authorization) {
                                             : std::string_view();
 }
 
-Right TokenRule::RightOf(std::string_view token) const {
-  const bool controls = EqualsSecret(token, tokens_.control);
-  const bool watches = EqualsSecret(token, tokens_.watch);
-  if (tokens_.empty()) return is_exposed_ ? Right::kNone : Right::kControl;
-  if (!tokens_.control.empty() && controls) return Right::kControl;
-  if (!tokens_.watch.empty() && watches) return Right::kWatch;
-  const bool is_free = token.empty() && !is_exposed_ && tokens_.watch.empty();
-  return is_free ? Right::kWatch : Right::kNone;
+void TokenAuthenticator::Authenticate(const Credentials& credentials, Answer answer) {
+  answer({PermissionOf(credentials.token), !credentials.token.empty()});
 }
 
-std::string TokenRule::Refusal(bool shows_token, Right has, Right needed) const {
-  if (needed == Right::kControl && tokens_.control.empty()) {
+Permission TokenAuthenticator::PermissionOf(std::string_view token) const {
+  const bool controls = EqualsSecret(token, tokens_.control);
+  const bool watches = EqualsSecret(token, tokens_.watch);
+  if (tokens_.empty()) return is_exposed_ ? Permission::kNone : Permission::kControl;
+  if (!tokens_.control.empty() && controls) return Permission::kControl;
+  if (!tokens_.watch.empty() && watches) return Permission::kWatch;
+  const bool is_free = token.empty() && !is_exposed_ && tokens_.watch.empty();
+  return is_free ? Permission::kWatch : Permission::kNone;
+}
+
+std::string TokenAuthenticator::Refusal(const Principal& principal, Permission needed) const {
+  const bool needs_control = needed == Permission::kControl;
+  if (needs_control && tokens_.control.empty()) {
     return "this server can only be watched: it was started without --control-token";
   }
-  if (shows_token && has == Right::kWatch) {
+  if (principal.showed_credentials && principal.permission == Permission::kWatch) {
     return "this token allows to watch only; acting takes the control token";
   }
-  const std::string wanted = needed == Right::kControl
+  const std::string wanted = needs_control
                                  ? "the token given with --control-token"
                                  : "the token given with --control-token or --watch-token";
-  return (!shows_token ? "this takes a token, and none was shown: "
-                       : "this token is not the right one: it takes ") +
+  return (!principal.showed_credentials ? "this takes a token, and none was shown: "
+                                        : "this token is not the right one: it takes ") +
          wanted;
 }
 

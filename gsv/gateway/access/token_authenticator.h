@@ -1,8 +1,8 @@
-// What people may do who reach the server: those who show a token, and those who show none.
+// Permissions by tokens.
 //
-// Without tokens everybody on this machine may do everything. With a control token, acting needs
-// it. Watching is free on this machine unless there is a watch token; from elsewhere it takes one
-// of the two.
+// Without tokens every client on this machine may do everything. With a control token, control
+// takes that one. Watching is free on this machine unless there is a watch token; from other
+// machines it takes one of the two.
 //
 // Threads  const members may run concurrently.
 // Secrets  tokens are compared in a time that does not depend on what is shown, and appear in no
@@ -11,12 +11,12 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "gsv/base/error.h"
+#include "gsv/gateway/access/authenticator.h"
 
 namespace gsv::gateway::access {
-
-enum class Right { kNone, kWatch, kControl };
 
 struct Tokens {
   std::string control, watch;  // empty: there is none
@@ -28,15 +28,18 @@ struct Tokens {
 // kInvalidArgument, without the token.
 base::Status CheckToken(std::string_view token);
 
-class TokenRule {
+class TokenAuthenticator final : public Authenticator {
  public:
   // `is_exposed`: the server can be reached from other machines.
-  TokenRule(Tokens tokens, bool is_exposed) : tokens_(std::move(tokens)), is_exposed_(is_exposed) {}
+  TokenAuthenticator(Tokens tokens, bool is_exposed)
+      : tokens_(std::move(tokens)), is_exposed_(is_exposed) {}
 
-  // Of who shows `token`; empty: shows none.
-  Right RightOf(std::string_view token) const;
-  // Why who has a right may not do what takes `needed`, a sentence; `shows_token`: right or wrong.
-  std::string Refusal(bool shows_token, Right has, Right needed) const;
+  // Answers before it returns. Permissions never expire.
+  void Authenticate(const Credentials& credentials, Answer answer) override;
+  std::string Refusal(const Principal& principal, Permission needed) const override;
+
+  // Of a client that shows `token`; empty: it shows none.
+  Permission PermissionOf(std::string_view token) const;
 
  private:
   const Tokens tokens_;

@@ -1,0 +1,117 @@
+#include "gsv/gateway/api/simulation_routes.h"
+
+#include <string>
+#include <utility>
+
+#include "gsv/gateway/api/command_json.h"
+#include "gsv/gateway/api/factory_api.h"
+#include "gsv/gateway/api/scenario_json.h"
+#include "gsv/gateway/api/status_json.h"
+#include "gsv/gateway/live/simulation_commands.h"
+
+namespace gsv::gateway {
+namespace {
+
+using simulation::Simulation;
+using SimulationPointer = std::shared_ptr<Simulation>;
+
+Response Done(const base::Status& done) {
+  return done ? JsonResponse(200, "{}") : ErrorResponse(done.error());
+}
+
+// A command with the arguments that its request's body holds.
+using ApplyBody = std::function<base::Status(Simulation& simulation, const std::string& body)>;
+
+ApplyBody ApplyBodyOf(const SimulationCommand& command) {
+  return [command](Simulation& simulation, const std::string& body) {
+    if (!command.takes_count) return command.run(simulation, 0);
+    const base::Result<std::int64_t> count = ParseStepCount(body);
+    return count ? command.run(simulation, *count) : base::Status(base::Fail(count.error()));
+  };
+}
+
+base::Status SetFactor(Simulation& simulation, const std::string& body) {
+  const base::Result<double> factor = ParseFactor(body);
+  return factor ? simulation.SetFactor(*factor) : base::Status(base::Fail(factor.error()));
+}
+
+// Robots with a behaviour are steered by that alone.
+Response Drive(const SimulationPointer& simulation, const Request& request) {
+  const std::string& robot = request.Parameter("robot");
+  const std::shared_ptr<simulation::Agent> agent = simulation->agent(robot);
+  if (!agent) return ErrorResponse(404, "there is no robot '" + robot + "'");
+  const std::shared_ptr<const world::Snapshot> snapshot = simulation->snapshot();
+  const int index = snapshot->layout->Find(robot);
+  if (index < 0 || !snapshot->layout->bodies[index].is_avatar()) {
+    return ErrorResponse(409, "'" + robot + "' is not an avatar: only its behaviour steers it");
+  }
+  const base::Result<world::DriveCommand> command = ParseDriveCommand(request.body);
+  return command ? Done(agent->Command(*command)) : ErrorResponse(command.error());
+}
+
+Response RemoveRobot(const SimulationPointer& simulation, const Request& request) {
+  return Done(simulation->RemoveRobot(request.Parameter("robot")));
+}
+
+Response RemoveObject(const SimulationPointer& simulation, const Request& request) {
+  return Done(simulation->RemoveObject(request.Parameter("object")));
+}
+
+Response PlaceBody(const SimulationPointer& simulation, const Request& request) {
+  const auto place = ParsePlace(request.body);
+  if (!place) return Refusal(place.error());
+  const base::Status placed =
+      simulation->PlaceBody(request.Parameter("body"), place->world_from_body, place->on_ground);
+  return placed ? JsonResponse(200, "{}") : Refusal({placed.error(), ""});
+}
+
+}  // namespace
+
+Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
+                            SimulationHandler handler) {
+  return [directory = std::move(directory), handler = std::move(handler)](const Request& request) {
+    const std::string& name = request.Parameter("name");
+    const SimulationPointer simulation = directory->Find(name);
+    if (!simulation) return ErrorResponse(404, "there is no simulation '" + name + "'");
+    return handler(simulation, request);
+  };
+}
+
+std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& directory) {
+  std::vector<Route> routes;
+  const auto add = [&](std::string_view name, std::string_view summary, ApplyBody apply) {
+    const auto handler = [apply = std::move(apply)](const SimulationPointer& simulation,
+                                                    const Request& request) {
+      const base::Status done = apply(*simulation, request.body);
+      if (!done) return ErrorResponse(done.error());
+      return JsonResponse(200, StatusJson(simulation->status()));
+    };
+    routes.push_back({"POST", "/api/simulations/{name}/" + std::string(name), Permission::kControl,
+                      true, Pool::kCommanders, OfSimulation(directory, handler),
+                      std::string(summary)});
+  };
+  for (const SimulationCommand& command : SimulationCommands()) {
+    add(command.name, command.summary, ApplyBodyOf(command));
+  }
+  add("factor", "Set how fast a simulation in real time goes", &SetFactor);
+  return routes;
+}
+
+std::vector<Route> BodyRoutes(const std::shared_ptr<SimulationDirectory>& directory) {
+  using enum Permission;
+  using enum Pool;
+  const std::string simulation = "/api/simulations/{name}";
+  return {
+      {"DELETE", simulation + "/robots/{robot}", kControl, true, kCommanders,
+       OfSimulation(directory, &RemoveRobot), "Remove a robot, or an avatar"},
+      {"POST", simulation + "/robots/{robot}/drive", kControl, true, kCommanders,
+       OfSimulation(directory, &Drive), "Steer an avatar"},
+      {"DELETE", simulation + "/objects/{object}", kControl, true, kCommanders,
+       OfSimulation(directory, &RemoveObject), "Take a thing away"},
+      {"POST", simulation + "/bodies/{body}/place", kControl, true, kCommanders,
+       OfSimulation(directory, &PlaceBody),
+       "Put a robot, an avatar or an object elsewhere, or turn it, at rest"},
+  };
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,27 @@
+// The routes that concern one simulation, /api/simulations/{name}/…, and need nothing but it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "gsv/gateway/http/route.h"
+#include "gsv/gateway/program/ports.h"
+
+namespace gsv::gateway {
+
+using SimulationHandler =
+    std::function<Response(const std::shared_ptr<simulation::Simulation>&, const Request&)>;
+
+// Finds the simulation {name} for `handler`; 404 when there is none.
+Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
+                            SimulationHandler handler);
+
+// POST /api/simulations/{name}/COMMAND for each command on a simulation (start, pause, step,
+// factor, …). The body holds its arguments; the answer is the simulation's status.
+std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& directory);
+
+// What is done to what stands in a simulation: bodies are placed and removed, avatars steered.
+std::vector<Route> BodyRoutes(const std::shared_ptr<SimulationDirectory>& directory);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,15 @@
+// The description of the HTTP API, docs/api.yaml, as it was when this program was built.
+#pragma once
+
+#include <string_view>
+
+#include "gsv/gateway/http/route.h"
+
+namespace gsv::gateway {
+
+std::string_view OpenApiText();
+
+// GET /api/openapi.yaml
+Route OpenApiRoute();
+
+}  // namespace gsv::gateway

@@ -1,0 +1,137 @@
+// The routes of another instance that is relayed. What it answers, it answers; the permissions that
+// requests take are known here as well, as the relay's own tokens give them.
+#include <map>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <boost/asio/executor_work_guard.hpp>
+
+#include "gsv/gateway/route_set.h"
+#include "gsv/gateway/upstream/fetch.h"
+#include "gsv/gateway/upstream/relayed_operations.h"
+#include "gsv/gateway/upstream/stream.h"
+
+namespace gsv::gateway {
+namespace {
+
+constexpr const char* kSocket = "/ws";
+constexpr std::size_t kMaxStreams = 64;
+constexpr std::chrono::seconds kProbeTime{5};
+// A reset waits for behaviours, a large model is written once.
+constexpr std::chrono::seconds kRequestTime{60};
+
+base::Status Probe(const upstream::Address& address) {
+  Request request;
+  request.method = "GET";
+  request.raw_target = "/api/simulations";
+  const base::Result<Response> answer = upstream::Fetch(address, request, kProbeTime);
+  if (!answer) return base::Fail(answer.error());
+  if (answer->status == 200 && answer->content_type == "application/json") return {};
+  return base::Fail(base::ErrorCode::kUnavailable,
+                    "this is not a gsv that may be watched: it answers " +
+                        std::to_string(answer->status) + " " +
+                        std::string(answer->body.view().substr(0, 200)),
+                    address.Url());
+}
+
+class RelayRoutes final : public RouteSet {
+ public:
+  RelayRoutes(upstream::Address address, WorkerPool& commanders)
+      : address_(std::move(address)), commanders_(commanders), thread_([this] { io_.run(); }) {}
+
+  ~RelayRoutes() override {
+    {
+      const std::lock_guard lock(mutex_);
+      for (const auto& [name, stream] : streams_) stream->Stop();
+    }
+    work_.reset();
+    thread_.join();
+  }
+
+  std::vector<Route> Routes() override {
+    using enum Permission;
+    using enum Pool;
+    const Route::Handler forward = [this](const Request& request) {
+      base::Result<Response> answer = upstream::Fetch(address_, request, kRequestTime);
+      return answer ? *std::move(answer) : ErrorResponse(answer.error());
+    };
+    // Whether another viewer holds control is known there.
+    std::vector<Route> routes{
+        {"GET", "/api/{path...}", kWatch, false, kReaders, forward},
+        {"POST", "/api/{path...}", kControl, false, kCommanders, forward},
+        {"PUT", "/api/{path...}", kControl, false, kCommanders, forward},
+        {"DELETE", "/api/{path...}", kControl, false, kCommanders, forward},
+        {"GET", "/api/recordings", kWatch, false, kReaders, forward},
+        {"POST", "/api/recordings/{recording}/replay", kWatch, false, kCommanders, forward},
+        {"GET", "/api/viewers", kWatch, false, kReaders, forward},
+        {"POST", "/api/viewers", kWatch, false, kCommanders, forward},
+        {"POST", "/api/viewers/me", kWatch, false, kCommanders, forward},
+        {"DELETE", "/api/viewers/me", kWatch, false, kCommanders, forward},
+        {"POST", "/api/viewers/me/{action}", kControl, false, kCommanders, forward},
+        {"POST", "/api/uploads", kControl, false, kCommanders, forward},
+        {"PUT", "/api/uploads/{upload}/{path...}", kControl, false, kCommanders, forward},
+        {"GET", "/replays/{session}/api/{path...}", kWatch, false, kReaders, forward},
+        {"POST", "/replays/{session}/api/{path...}", kWatch, false, kCommanders, forward},
+    };
+    for (Route& route : routes) {
+      route.summary = "Forwarded";
+      route.takes_file = route.pattern.starts_with("/api/uploads/");
+    }
+    routes.push_back(SocketRoute(
+        "/ws", true, [this](const Request& request) { return FindHub(request, kSocket); },
+        "The live stream of a simulation"));
+    routes.push_back(SocketRoute(
+        "/replays/{session}/ws", false,
+        [this](const Request& request) {
+          return FindHub(request, "/replays/" + Escape(request.Parameter("session")) + kSocket);
+        },
+        "The live stream of a replay of one's own"));
+    return routes;
+  }
+
+ private:
+  // `socket`: where it is streamed there.
+  base::Result<std::shared_ptr<Hub>> FindHub(const Request& request, const std::string& socket) {
+    const auto& query = request.target.query;
+    const auto found = query.find("simulation");
+    const std::string name = found == query.end() ? std::string() : found->second;
+    const std::lock_guard lock(mutex_);
+    std::erase_if(streams_, [](const auto& entry) { return entry.second->has_ended(); });
+    const auto known = streams_.find({socket, name});
+    if (known != streams_.end()) return known->second->hub();
+    if (streams_.size() >= kMaxStreams) {
+      return base::Fail(base::ErrorCode::kUnavailable,
+                        "too many simulations are watched through this relay; restart it");
+    }
+    // A replay of one's own is moved over HTTP.
+    auto operations = socket == kSocket ? std::make_shared<upstream::RelayedOperations>(
+                                              address_, name, commanders_)
+                                        : nullptr;
+    auto stream = upstream::Stream::Make(io_, address_, name, socket, std::move(operations));
+    return streams_.emplace(std::pair(socket, name), std::move(stream)).first->second->hub();
+  }
+
+  const upstream::Address address_;
+  WorkerPool& commanders_;
+  boost::asio::io_context io_{1};
+  boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
+      io_.get_executor()};
+  std::mutex mutex_;
+  // By socket and name; "": the first.
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<RouteSet>> MakeRelayRoutes(const RelayedInstance& there,
+                                                        WorkerPool& commanders) {
+  base::Result<upstream::Address> address = upstream::ParseAddress(there.url, there.authority);
+  if (!address) return base::Fail(address.error());
+  address->token = there.token;
+  if (base::Status answered = Probe(*address); !answered) return base::Fail(answered.error());
+  return std::make_unique<RelayRoutes>(*std::move(address), commanders);
+}
+
+}  // namespace gsv::gateway

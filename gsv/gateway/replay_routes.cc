@@ -1,0 +1,67 @@
+// The routes of a recording that is replayed.
+#include <optional>
+#include <utility>
+
+#include "gsv/gateway/access/viewers_api.h"
+#include "gsv/gateway/api/replay_api.h"
+#include "gsv/gateway/http/openapi.h"
+#include "gsv/gateway/recordings/recordings_api.h"
+#include "gsv/gateway/route_set.h"
+
+namespace gsv::gateway {
+namespace {
+
+class ReplayRouteSet final : public RouteSet {
+ public:
+  ReplayRouteSet(const GatewayOptions& options, ReplayPlayer& player)
+      : player_(player), only_recording_(options.only_recording) {
+    if (!options.recordings_folder.empty()) {
+      recordings_.emplace(options.recordings_folder, options.only_recording, options.replays);
+    }
+  }
+
+  std::vector<Route> Routes() override {
+    const std::shared_ptr<ReplayPlayer> player(std::shared_ptr<void>(), &player_);
+    std::vector<Route> routes =
+        ReplayRoutes([replay = Replay{player, only_recording_}](const Request&) { return replay; });
+    Append(routes, viewers_.Routes());
+    if (recordings_) Append(routes, recordings_->Routes());
+    routes.push_back(OpenApiRoute());
+    routes.push_back(SocketRoute(
+        "/ws", true, [this](const Request& request) { return FindHub(request); },
+        "The live stream of a simulation"));
+    return routes;
+  }
+
+  base::Status CheckControl(const std::string& viewer, const std::string& simulation) override {
+    return viewers_.CheckControl(viewer, simulation);
+  }
+
+  void Stop() override {
+    player_.Stop();
+    if (recordings_) recordings_->sessions().Stop();
+  }
+
+ private:
+  base::Result<std::shared_ptr<Hub>> FindHub(const Request& request) const {
+    const auto& query = request.target.query;
+    const auto name = query.find("simulation");
+    if (name == query.end() || name->second == player_.name()) return player_.hub();
+    return base::Fail(base::ErrorCode::kNotFound, "there is no simulation '" + name->second +
+                                                      "'; this is a replay of '" + player_.name() +
+                                                      "'");
+  }
+
+  ReplayPlayer& player_;
+  const std::string only_recording_;
+  access::ViewersApi viewers_;
+  std::optional<recordings::RecordingsApi> recordings_;
+};
+
+}  // namespace
+
+std::unique_ptr<RouteSet> MakeReplayRoutes(const GatewayOptions& options, ReplayPlayer& player) {
+  return std::make_unique<ReplayRouteSet>(options, player);
+}
+
+}  // namespace gsv::gateway

@@ -1,0 +1,17 @@
+// For tests: what routes answer, whatever permission that takes.
+#pragma once
+
+#include <utility>
+
+#include "gsv/gateway/http/router.h"
+
+namespace gsv::gateway::testing {
+
+inline Response Answer(const Router& router, Request request) {
+  Router::Match match = router.Find(request.method, request.target);
+  if (match.route == nullptr) return NoRoute(match);
+  request.parameters = std::move(match.parameters);
+  return match.route->handler(request);
+}
+
+}  // namespace gsv::gateway::testing
