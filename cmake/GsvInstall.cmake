@@ -63,12 +63,13 @@ file(GLOB IDL_FILES CONFIGURE_DEPENDS idl/*.idl)
 install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
 # Behaviours and applications need sdk/ and gsv/base; what implements hardware, gsv/orb, the broker's
 # client and the stubs; a sensor from outside, the rest.
-foreach(FOLDER sdk sdk/behaviour gsv/base gsv/orb gsv/broker/client gsv/broker/language gsv/broker/offers
+foreach(FOLDER sdk sdk/behaviour gsv/base gsv/broker/client gsv/broker/language gsv/broker/offers
     gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing/rays gsv/sensing gsv/simulation/pace
     gsv/simulation/robots gsv/simulation gsv/services)
   file(GLOB HEADERS CONFIGURE_DEPENDS ${FOLDER}/*.h)
   install(FILES ${HEADERS} DESTINATION include/gsv/${FOLDER} COMPONENT libgsv-dev)
 endforeach()
+install(FILES gsv/orb/errors.h gsv/orb/orb.h DESTINATION include/gsv/gsv/orb COMPONENT libgsv-dev)
 install(FILES gsv/scenario/fault.h DESTINATION include/gsv/gsv/scenario COMPONENT libgsv-dev)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/generated/ DESTINATION include/gsv COMPONENT libgsv-dev
   FILES_MATCHING PATTERN "*.h" PATTERN "*.hh")

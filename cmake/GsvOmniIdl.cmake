@@ -1,6 +1,8 @@
 # The ORB (omniORB), the COS stubs that Debian ships, and stubs for our own IDL.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4 omniDynamic4 omniCOS4 omniCOSDynamic4)
+include(GsvOmniOrbVersion)
+gsv_check_omniorb_version(${OMNIORB_omniORB4_VERSION})
 find_program(OMNIIDL omniidl REQUIRED)
 
 # gsv_idl_library(TARGET file.idl …): compiles IDL in the current folder to C++ stubs and

@@ -25,7 +25,7 @@
 #include "gsv/broker/service/type_repository_servant.h"
 #include "gsv/broker/storage/offer_file.h"
 #include "gsv/broker/trader/service_reference.h"
-#include "gsv/broker/transport/checked_transport.h"
+#include "gsv/broker/transport/broker_connections.h"
 #include "gsv/broker/transport/process_limits.h"
 #include "gsv/orb/corba_access.h"
 
@@ -35,13 +35,6 @@ namespace {
 constexpr const char* kKey = "TradingService";
 
 constexpr unsigned long kThreadStackBytes = 1ul << 20;
-
-base::Result<orb::OrbAccess> PrepareAccess(const BrokerOptions& options) {
-  return orb::PrepareAccess(options.host, options.port,
-                            [](std::shared_ptr<const orb::TlsContext> context) {
-                              return MakeCheckedTlsTransport(std::move(context), MaxConnections());
-                            });
-}
 
 CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
   // docs/broker.md gives the reasons.
@@ -71,7 +64,7 @@ CORBA::ORB_ptr StartOrb(const orb::OrbAccess& access) {
       {"traceLevel", "0"},
       {nullptr, nullptr},
   };
-  InstallCheckedTransport(MaxConnections());
+  orb::SetConnectionPolicy(BrokerConnectionPolicy(MaxConnections()));
   omni_thread::stacksize(kThreadStackBytes);
   // Those that ask other traders read what these answer.
   pthread_attr_t attributes;
@@ -224,7 +217,7 @@ class Broker::Impl {
 };
 
 base::Result<std::unique_ptr<Broker>> Broker::Start(const BrokerOptions& options) {
-  const auto access = PrepareAccess(options);
+  const auto access = orb::PrepareAccess(options.host, options.port);
   if (!access) return base::Fail(access.error());
   try {
     auto impl = std::make_unique<Impl>(options, *access);

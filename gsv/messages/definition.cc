@@ -1,15 +1,14 @@
 #include "gsv/messages/definition.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
+
+#include "gsv/base/cdr_reader.h"
 
 namespace gsv::messages {
 namespace {
@@ -149,7 +148,9 @@ base::Status Definition::Check() const {
 class Decoder {
  public:
   Decoder(const Definition& definition, std::span<const std::byte> cdr)
-      : definition_(definition), body_(cdr.subspan(4)), is_swapped_(cdr[1] == std::byte{0}) {}
+      : definition_(definition),
+        in_({reinterpret_cast<const char*>(cdr.data()) + 4, cdr.size() - 4},
+            cdr[1] == std::byte{1}) {}
 
   // False when the bytes do not fit the type.
   bool Read(const std::string& type, ordered_json& out) {
@@ -166,17 +167,13 @@ class Decoder {
 
   bool ReadField(const Definition::Field& field, ordered_json& out) {
     if (field.shape == Shape::kSingle) return ReadOne(field, out);
-    std::size_t count = field.length;
-    if (field.shape == Shape::kSequence) {
-      const auto length = ReadNumber<std::uint32_t>();
-      if (!length) return false;
-      count = *length;
-    }
+    const std::size_t count = field.shape == Shape::kSequence ? in_.ULong() : field.length;
     // Even empty structs take a value of the bound.
-    if (count > kMostValues || values_ + count > kMostValues) return false;
+    if (!in_.ok() || count > kMostValues || values_ + count > kMostValues) return false;
     if (field.kind == Kind::kUnsigned && field.size == 1) {
       out = {{"bytes", count}};
-      return Skip(count);
+      in_.Skip(count);
+      return in_.ok();
     }
     out = ordered_json::array();
     for (std::size_t i = 0; i < count; ++i) {
@@ -200,11 +197,9 @@ class Decoder {
       case Kind::kUnsigned:
         return StoreInteger<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>(field.size,
                                                                                        out);
-      case Kind::kBool: {
-        const auto value = ReadNumber<std::uint8_t>();
-        if (value) out = *value != 0;
-        return value.has_value();
-      }
+      case Kind::kBool:
+        out = in_.Octet() != 0;
+        return in_.ok();
     }
     return false;
   }
@@ -218,40 +213,19 @@ class Decoder {
 
   template <typename Value>
   bool Store(ordered_json& out) {
-    const auto value = ReadNumber<Value>();
-    if (value) out = *value;
-    return value.has_value();
+    out = in_.Number<Value>();
+    return in_.ok();
   }
 
   bool ReadString(ordered_json& out) {
-    const auto length = ReadNumber<std::uint32_t>();  // with the zero at its end
-    if (!length || *length > body_.size() - at_) return false;
-    const auto* text = reinterpret_cast<const char*>(body_.data() + at_);
-    out = std::string(text, *length > 0 ? *length - 1 : 0);
-    return Skip(*length);
-  }
-
-  bool Skip(std::size_t bytes) {
-    if (bytes > body_.size() - at_) return false;
-    at_ += bytes;
-    return true;
-  }
-
-  template <typename Value>
-  std::optional<Value> ReadNumber() {
-    const std::size_t begin = (at_ + sizeof(Value) - 1) / sizeof(Value) * sizeof(Value);
-    if (begin > body_.size() || sizeof(Value) > body_.size() - begin) return std::nullopt;
-    std::array<std::byte, sizeof(Value)> bytes;
-    std::memcpy(bytes.data(), body_.data() + begin, sizeof(Value));
-    if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
-    at_ = begin + sizeof(Value);
-    return std::bit_cast<Value>(bytes);
+    std::string_view text = in_.Octets();
+    text.remove_suffix(text.empty() ? 0 : 1);  // the zero at its end
+    out = std::string(text);
+    return in_.ok();
   }
 
   const Definition& definition_;
-  const std::span<const std::byte> body_;  // after the encapsulation header
-  const bool is_swapped_;                  // big endian
-  std::size_t at_ = 0;
+  base::CdrReader in_;  // after the encapsulation header
   std::size_t values_ = 0;
 };
 

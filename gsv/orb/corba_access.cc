@@ -3,14 +3,9 @@
 #include <arpa/inet.h>
 
 #include <cstdlib>
-#include <mutex>
-#include <vector>
+#include <filesystem>
 
-#include <omniORB4/CORBA.h>
-#include <omniORB4/giopEndpoint.h>
-
-#include "gsv/orb/tls_channel.h"
-#include "gsv/orb/tls_transport.h"
+#include "gsv/orb/transport/transports.h"
 
 namespace gsv::orb {
 namespace {
@@ -20,38 +15,6 @@ namespace fs = std::filesystem;
 std::string Variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr ? value : "";
-}
-
-// Those that were ever used stay, as connections and references of their ORB may; omniORB finds the
-// current one by its type.
-struct Transports {
-  std::mutex mutex;
-  std::vector<std::unique_ptr<omni::giopTransportImpl>> all;
-  omni::giopTransportImpl* current = nullptr;
-  std::optional<CorbaCertificate> certificate;  // of the current one
-};
-Transports& KnownTransports() {
-  static auto& transports = *new Transports;  // an ORB may outlive statics
-  return transports;
-}
-
-base::Status UseTransport(const std::optional<CorbaCertificate>& certificate,
-                          const MakeTransport& make_transport) {
-  Transports& known = KnownTransports();
-  const std::lock_guard lock(known.mutex);
-  if (known.current != nullptr && certificate == known.certificate) return {};
-  std::shared_ptr<const TlsContext> context;
-  if (certificate) {
-    auto read = TlsContext::Read(*certificate);
-    if (!read) return base::Fail(read.error());
-    context = *std::move(read);
-  }
-  if (known.current != nullptr) known.current->type = "giop:former-ssl";
-  known.all.push_back(context != nullptr ? make_transport(std::move(context))
-                                         : std::make_unique<TlsTransport>(nullptr));
-  known.current = known.all.back().get();
-  known.certificate = certificate;
-  return {};
 }
 
 constexpr const char* kAnything = "^* unix,ssl,tcp";
@@ -94,30 +57,18 @@ bool IsLoopback(std::string_view host) {
   return inet_pton(AF_INET6, text.c_str(), &v6) == 1 && IN6_IS_ADDR_LOOPBACK(&v6);
 }
 
-bool SpeaksTls() {
-  const std::lock_guard lock(KnownTransports().mutex);
-  return KnownTransports().certificate.has_value();
-}
-
-base::Result<OrbAccess> PrepareAccess(const std::string& host, int port,
-                                      const MakeTransport& make_transport) {
+base::Result<OrbAccess> PrepareAccess(const std::string& host, int port) {
   const CorbaAccess access = AccessOfEnvironment();
   if (auto allowed = CheckListening(access, host); !allowed) return base::Fail(allowed.error());
   const bool is_ipv6 = host.find(':') != std::string::npos && !host.starts_with('[');
   const std::string address =
       (is_ipv6 ? "[" + host + "]" : host) + ":" + (port > 0 ? std::to_string(port) : std::string());
-  if (auto used = UseTransport(access.certificate, make_transport); !used) {
-    return base::Fail(used.error());
+  if (auto installed = InstallTransports(access.certificate); !installed) {
+    return base::Fail(installed.error());
   }
   if (!access.certificate) return OrbAccess{"giop:tcp:" + address, {kAnything, kAnything}};
   if (access.is_insecure) return OrbAccess{"giop:ssl:" + address, {kAnything, kAnything}};
   return OrbAccess{"giop:ssl:" + address, {kPlainOnThisMachine, kTlsElsewhere}};
-}
-
-base::Result<OrbAccess> PrepareAccess(const std::string& host, int port) {
-  return PrepareAccess(host, port, [](std::shared_ptr<const TlsContext> context) {
-    return std::make_unique<TlsTransport>(std::move(context));
-  });
 }
 
 }  // namespace gsv::orb

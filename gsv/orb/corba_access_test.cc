@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gsv/orb/transport/transports.h"
+
 namespace gsv::orb {
 namespace {
 

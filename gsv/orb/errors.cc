@@ -1,7 +1,7 @@
 #include "gsv/orb/errors.h"
 
-#include "gsv/orb/corba_access.h"
-#include "gsv/orb/tls_channel.h"
+#include "gsv/orb/transport/tls_channel.h"
+#include "gsv/orb/transport/transports.h"
 
 namespace gsv::orb {
 namespace {
@@ -41,6 +41,8 @@ std::string WhyNotConnected(const CORBA::SystemException& exception) {
       is_transient || CORBA::COMM_FAILURE::_downcast(&exception) != nullptr;
   return is_about_connection ? tls_failure : std::string();
 }
+
+void ForgetConnectionFailure() { (void)TakeTlsFailure(); }
 
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where) {
   if (const std::string why = WhyNotConnected(exception); !why.empty()) {

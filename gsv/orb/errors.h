@@ -6,7 +6,6 @@
 #include <omniORB4/CORBA.h>
 
 #include "gsv/base/error.h"
-#include "gsv/orb/tls_channel.h"
 #include "idl/types.hh"
 
 namespace gsv::orb {
@@ -15,9 +14,11 @@ namespace gsv::orb {
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where);
 base::Error ToError(const CORBA::UserException& exception, const std::string& where);
 
-// What stands between this process and the peer if it is a matter of certificates, as a sentence
-// about the peer; empty: it is not. To be asked once, by the thread that has called.
+// Why this process and the peer cannot connect if certificates are the reason, as a sentence about
+// the peer; else empty. To be asked once, by the thread that has called.
 std::string WhyNotConnected(const CORBA::SystemException& exception);
+// To be called before a call, by the same thread: reasons from before are another call's.
+void ForgetConnectionFailure();
 
 // Whether the exception says that the peer is certainly gone: its port refuses connections, or the
 // object no longer exists there. A time-out does not say so.
@@ -26,7 +27,7 @@ bool MeansGone(const CORBA::SystemException& exception);
 // Calls `call` and turns what it throws into an error about `where`.
 template <typename Function>
 auto Call(const std::string& where, Function call) -> base::Result<decltype(call())> {
-  (void)TakeTlsFailure();  // of another call
+  ForgetConnectionFailure();
   try {
     if constexpr (std::is_void_v<decltype(call())>) {
       call();

@@ -12,15 +12,37 @@
 #include <string_view>
 #include <vector>
 
-#include <omniORB4/giopEndpoint.h>
-#include <omniORB4/omniIOR.h>
-#include <omniORB4/omniObjRef.h>
-
 #include "gsv/orb/corba_access.h"
 #include "gsv/orb/local_socket.h"
-#include "gsv/orb/whole_transport.h"
+#include "gsv/orb/transport/connection_policy.h"
+#include "gsv/orb/transport/object_addresses.h"
 
 namespace gsv::orb {
+namespace {
+
+class RequestCheck final : public ConnectionHooks {
+ public:
+  using Check = void (*)(std::string& message);
+  explicit RequestCheck(Check check) : check_(check) {}
+
+  void OnMessage(std::string& message) override { check_(message); }
+
+ private:
+  const Check check_;
+};
+
+ConnectionPolicy PolicyOf(const OrbOptions& options) {
+  ConnectionPolicy policy;
+  policy.limits = {options.max_message_bytes, options.message_time};
+  if (options.check_request != nullptr) {
+    policy.accepted = [check = options.check_request](ConnectionControl&) {
+      return std::make_unique<RequestCheck>(check);
+    };
+  }
+  return policy;
+}
+
+}  // namespace
 
 base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
   const auto access = PrepareAccess(options.host, options.port);
@@ -64,7 +86,7 @@ base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options) {
       {local_endpoint.empty() ? nullptr : "endPoint", local_endpoint.c_str()},  // or the end
       {nullptr, nullptr},
   };
-  InstallWholeTransports({options.max_message_bytes, options.message_time, options.check_request});
+  SetConnectionPolicy(PolicyOf(options));
   try {
     int argc = 0;
     CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr, "omniORB4", settings);
@@ -128,12 +150,9 @@ base::Result<std::string> LocalAddressTowards(const std::string& host) {
 }
 
 std::string AddressOf(CORBA::Object_ptr object) {
-  if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return {};
-  omniIOR_var ior = object->_PR_getobj()->_getIOR();
-  for (const omni::giopAddress* each : ior->getIORInfo()->addresses()) {
-    const std::string_view address = each->address();  // "giop:tcp:127.0.0.1:40123"
-    for (const std::string_view transport : {"giop:tcp:", "giop:ssl:"}) {
-      if (address.starts_with(transport)) return std::string(address.substr(transport.size()));
+  for (const std::string& address : AddressesIn(object)) {
+    for (const std::string_view scheme : {"giop:tcp:", "giop:ssl:"}) {
+      if (address.starts_with(scheme)) return address.substr(scheme.size());
     }
   }
   return {};

@@ -1,6 +1,6 @@
-// The ORB of this process, with the settings that a distributed simulator needs: loopback unless
-// told otherwise, TLS as the environment says (corba_access.h), a time limit on every call, idle
-// connections closed, large messages for pictures.
+// The ORB of this process, with the settings that a distributed simulator needs: loopback by
+// default, TLS as the environment's variables say (corba_access.h), a time limit on every call,
+// idle connections closed, messages large enough for images.
 //
 // Threads  StartOrb() once a process, before any other use of CORBA.
 #pragma once
@@ -22,7 +22,7 @@ struct OrbOptions {
   std::uint64_t max_message_bytes = 64u << 20;  // with its header
   std::chrono::seconds message_time{30};        // that a message may take to come
   std::chrono::milliseconds call_timeout{10'000};
-  // For what omniORB does not take without harm, see broker::CheckRequest(). Null: it sees all.
+  // Cuts off arguments that omniORB does not survive, see broker::CheckRequest(). Null: none.
   void (*check_request)(std::string& message) = nullptr;
   // A call in progress occupies its connection: at least as many as agents that wait at once.
   int max_connections_per_server = 4096;

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-IDL = HERE.parent.parent / "idl"
+ROOT = HERE.parent.parent
+IDL = ROOT / "idl"
 
 OF_ALL = {"_is_a": (("in", "id", "string"),), "_non_existent": ()}  # what the ORB answers for every object
 
@@ -26,7 +27,7 @@ class Operation:
 class Contracts:
     def __init__(self):
         self.by_id = {}
-        for file in [*sorted(IDL.glob("*.idl")), HERE / "trading.idl"]:
+        for file in [*sorted(IDL.glob("*.idl")), ROOT / "gsv/broker/trading.idl"]:
             told = subprocess.run(["omniidl", f"-I{IDL}", f"-p{HERE}", "-bsignatures", str(file)],
                                   capture_output=True, text=True, check=True)
             self.by_id.update(json.loads(told.stdout))
@@ -57,7 +58,7 @@ def freeze(kind):
 
 def standard_trading_operations():
     """Interface -> its operations' names, as tools/check_conformance.py has them from the standard."""
-    where = HERE.parent.parent / "tools/check_conformance.py"
+    where = ROOT / "tools/check_conformance.py"
     spec = importlib.util.spec_from_file_location("check_conformance", where)
     standard = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(standard)

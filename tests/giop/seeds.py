@@ -262,7 +262,7 @@ def missing(world):
         found = [each.name for each in world.contracts.operations(interface)]
         for name in names:
             if name not in found and f"_get_{name}" not in found:
-                return [f"{interface}::{name} is not in tests/giop/trading.idl"]
+                return [f"{interface}::{name} is not in gsv/broker/trading.idl"]
     reached = {base for interface in world.targets for base in world.contracts.ancestors(interface)}
     return [f"{interface}: tests/giop/seeds.py does not say how to reach a servant of it"
             for interface in world.contracts.interfaces if interface not in reached]

@@ -6,7 +6,6 @@
 
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/language/expression.h"
-#include "gsv/orb/errors.h"
 
 namespace gsv::broker {
 namespace {

@@ -8,7 +8,7 @@
 #include <omniORB4/CORBA.h>
 
 #include "gsv/base/error.h"
-#include "gsv/orb/tls_channel.h"
+#include "gsv/orb/errors.h"
 
 namespace gsv::broker {
 
@@ -26,7 +26,7 @@ CallCounts& ProcessCallCounts();
 template <typename Call>
 auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;
-  (void)orb::TakeTlsFailure();  // of another call
+  orb::ForgetConnectionFailure();
   try {
     return call();
   } catch (const CORBA::Exception&) {
@@ -39,7 +39,7 @@ auto Guarded(const std::string& where, const Call& call) -> decltype(call()) {
 template <typename Call>
 auto GuardedRepeatable(const std::string& where, const Call& call) -> decltype(call()) {
   ++ProcessCallCounts().made;
-  (void)orb::TakeTlsFailure();  // of another call
+  orb::ForgetConnectionFailure();
   try {
     return call();
   } catch (const CORBA::COMM_FAILURE&) {

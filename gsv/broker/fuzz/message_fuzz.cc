@@ -9,10 +9,14 @@
 #include <COS/CosTradingRepos.hh>
 
 #include "gsv/base/check.h"
-#include "gsv/broker/testing/raw_message.h"
 #include "gsv/broker/transport/message_check.h"
+#include "gsv/orb/giop/message_assembly.h"
+#include "gsv/orb/testing/raw_message.h"
 
 using namespace gsv::broker;
+using gsv::orb::MessageAssembly;
+using gsv::orb::RawReply;
+using gsv::orb::RawRequest;
 
 namespace {
 
@@ -57,8 +61,9 @@ void Unmarshal(std::string_view operation, const std::string& arguments) {
 void TakeAsReply(const std::string& body, bool of_a_service) {
   constexpr std::uint32_t kId = 7;
   const std::string request = RawRequest("k", of_a_service ? "evalDP" : "next_n", "", kId);
-  ReplyCheck replies;
-  replies.Sending(request, request.size());
+  gsv::orb::ReplyCheck replies(TradingSignatures());
+  replies.Sending(request);
+  replies.Sent(request.size());
   const std::string reply = RawReply(kId, body);
   std::string checked = reply;
   replies.Check(checked);

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "gsv/base/cdr_reader.h"
+
 namespace gsv::broker {
 namespace {
 
@@ -26,67 +28,26 @@ std::optional<std::string> FromHex(std::string_view digits) {
   return bytes;
 }
 
-// A CDR encapsulation, read from the front. Past the end everything is 0 and ok() is false.
-class Encapsulation {
- public:
-  explicit Encapsulation(std::string_view bytes) : bytes_(bytes) { little_ = Octet() != 0; }
+// A string that may lack its null.
+std::string ReadText(base::CdrReader& in) {
+  std::string_view text = in.Octets();
+  if (!text.empty() && text.back() == '\0') text.remove_suffix(1);
+  return std::string(text);
+}
 
-  bool ok() const { return ok_; }
-
-  std::uint8_t Octet() {
-    if (next_ >= bytes_.size()) {
-      ok_ = false;
-      return 0;
-    }
-    return static_cast<std::uint8_t>(bytes_[next_++]);
-  }
-
-  std::uint32_t Unsigned(std::size_t width) {
-    next_ = (next_ + width - 1) / width * width;
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < width; ++i) {
-      const std::uint32_t octet = Octet();
-      value = little_ ? value | octet << (8 * i) : value << 8 | octet;
-    }
-    return value;
-  }
-
-  std::string_view Octets() {
-    const std::uint32_t size = Unsigned(4);
-    if (!ok_ || size > bytes_.size() - next_) {
-      ok_ = false;
-      return {};
-    }
-    next_ += size;
-    return bytes_.substr(next_ - size, size);
-  }
-
-  std::string String() {
-    std::string_view text = Octets();
-    if (!text.empty() && text.back() == '\0') text.remove_suffix(1);
-    return std::string(text);
-  }
-
- private:
-  std::string_view bytes_;
-  std::size_t next_ = 0;
-  bool little_ = false;
-  bool ok_ = true;
-};
-
-// Of a profile, from its object key on; it stays as it is where there is none.
-void ReadTlsPort(Encapsulation& profile, ServiceReference& result) {
+// `profile` is at its object key. `result` stays as it is where there is no port for TLS.
+void ReadTlsPort(base::CdrReader& profile, ServiceReference& result) {
   profile.Octets();  // the key
-  const std::uint32_t components = profile.Unsigned(4);
+  const std::uint32_t components = profile.ULong();
   for (std::uint32_t i = 0; i < components && profile.ok(); ++i) {
-    const std::uint32_t tag = profile.Unsigned(4);
-    Encapsulation component(profile.Octets());
+    const std::uint32_t tag = profile.ULong();
+    base::CdrReader component = base::CdrReader::OfEncapsulation(profile.Octets());
     if (tag != kSslComponent) continue;
-    component.Unsigned(2);  // what the target supports and
-    component.Unsigned(2);  // what it requires
-    const std::uint32_t port = component.Unsigned(2);
+    component.UShort();  // what the target supports and
+    component.UShort();  // what it requires
+    const std::uint16_t port = component.UShort();
     if (!component.ok() || port == 0) return;
-    result.port = static_cast<std::uint16_t>(port);
+    result.port = port;
     result.takes_tls = true;
     return;
   }
@@ -107,22 +68,23 @@ base::Result<ServiceReference> ReadReference(std::string_view ior) {
   if (!ior.starts_with("IOR:")) return corrupt();
   const auto bytes = FromHex(ior.substr(4));
   if (!bytes) return corrupt();
-  Encapsulation reference(*bytes);
+  base::CdrReader reference = base::CdrReader::OfEncapsulation(*bytes);
   ServiceReference result;
-  result.type_id = reference.String();
-  const std::uint32_t profiles = reference.Unsigned(4);
+  result.type_id = ReadText(reference);
+  const std::uint32_t profiles = reference.ULong();
   for (std::uint32_t i = 0; i < profiles && reference.ok() && result.host.empty(); ++i) {
-    const std::uint32_t tag = reference.Unsigned(4);
-    Encapsulation profile(reference.Octets());
+    const std::uint32_t tag = reference.ULong();
+    base::CdrReader profile = base::CdrReader::OfEncapsulation(reference.Octets());
     if (tag != kIiopProfile) continue;
     profile.Octet();                             // the major and
     const std::uint8_t minor = profile.Octet();  // the minor version of IIOP
-    result.host = profile.String();
-    result.port = static_cast<std::uint16_t>(profile.Unsigned(2));
+    result.host = ReadText(profile);
+    result.port = profile.UShort();
     if (!profile.ok()) return corrupt();
     if (result.port == 0 && minor > 0) ReadTlsPort(profile, result);
   }
   if (!reference.ok()) return corrupt();
   return result;
 }
+
 }  // namespace gsv::broker

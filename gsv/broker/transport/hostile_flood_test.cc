@@ -16,10 +16,13 @@
 
 #include "gsv/broker/testing/broker_fixture.h"
 #include "gsv/broker/testing/raw_connection.h"
-#include "gsv/broker/testing/raw_message.h"
+#include "gsv/orb/testing/raw_message.h"
 
 namespace gsv::broker {
 namespace {
+
+using orb::RawCdr;
+using orb::RawRequest;
 
 using Clock = std::chrono::steady_clock;
 

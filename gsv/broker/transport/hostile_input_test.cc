@@ -12,10 +12,15 @@
 #include "gsv/base/sanitizer.h"
 #include "gsv/broker/testing/broker_fixture.h"
 #include "gsv/broker/testing/raw_connection.h"
-#include "gsv/broker/testing/raw_message.h"
+#include "gsv/orb/testing/raw_message.h"
 
 namespace gsv::broker {
 namespace {
+
+using orb::MessageType;
+using orb::RawCdr;
+using orb::RawMessage;
+using orb::RawRequest;
 
 class HostileInputTest : public BrokerFixture {
  protected:

@@ -7,10 +7,14 @@
 
 #include "gsv/broker/testing/broker_fixture.h"
 #include "gsv/broker/testing/raw_connection.h"
-#include "gsv/broker/testing/raw_message.h"
+#include "gsv/orb/testing/raw_message.h"
 
 namespace gsv::broker {
 namespace {
+
+using orb::RawCdr;
+using orb::RawReply;
+using orb::RawRequest;
 
 constexpr std::uint32_t kStruct = 15;
 constexpr std::uint32_t kUnion = 16;

@@ -1,0 +1,194 @@
+#include "gsv/broker/transport/broker_connections.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <semaphore>
+#include <thread>
+#include <utility>
+
+#include "gsv/broker/transport/message_check.h"
+#include "gsv/orb/giop/giop_header.h"
+
+namespace gsv::broker {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::size_t kMessageBytes = 65'536;  // giopMaxMsgSize, without the header
+constexpr std::chrono::seconds kMessageTime{3};
+
+// How many requests are worked on at once: about as many as there are processors. Dozens of threads
+// that wait for the ORB's one lock and the trader's would change places at each lock. A request
+// that has waited for a millisecond continues anyway, so that one that waits for another broker
+// delays nobody.
+//
+// Threads  any.
+class RequestTurns {
+ public:
+  bool Take() { return free_.try_acquire_for(std::chrono::milliseconds(1)); }
+  void Give() { free_.release(); }
+
+ private:
+  std::counting_semaphore<> free_{1 + static_cast<int>(std::thread::hardware_concurrency())};
+};
+
+class ClientConnection;
+
+// The open connections of clients. Those without a thread of their own wait here for the rest of
+// their messages.
+//
+// Threads  any.
+class ConnectionTable {
+ public:
+  explicit ConnectionTable(std::size_t limit) : limit_(limit) {}
+
+  void Add(orb::ConnectionControl* control, ClientConnection* connection);
+  void Remove(orb::ConnectionControl* control);
+  // Bytes have come: whether the ORB shall read now. If not, they were taken, and more are needed.
+  bool Readable(orb::ConnectionControl* control);
+  RequestTurns& turns() { return turns_; }
+
+ private:
+  struct Entry {
+    ClientConnection* connection = nullptr;
+    SteadyClock::time_point incomplete{};  // since when its message has been coming, or the epoch
+  };
+
+  void EndLate(SteadyClock::time_point now);
+  void EndSilent();
+
+  const std::size_t limit_;
+  RequestTurns turns_;
+  std::mutex mutex_;
+  std::map<orb::ConnectionControl*, Entry> connections_;
+};
+
+class ClientConnection final : public orb::ConnectionHooks {
+ public:
+  ClientConnection(orb::ConnectionControl& control, std::shared_ptr<ConnectionTable> table)
+      : control_(control), table_(std::move(table)) {
+    table_->Add(&control_, this);
+  }
+  ~ClientConnection() override {
+    GiveTurn();
+    table_->Remove(&control_);
+  }
+
+  void OnWait() override { GiveTurn(); }  // the request before wanted no reply
+  void OnBytes() override { Hear(); }
+  void OnMessage(std::string& message) override {
+    TakeTurn();
+    CheckRequest(message);
+  }
+  void OnSend(std::string_view /*bytes*/) override { GiveTurn(); }
+
+  // When bytes came last, or the connection.
+  SteadyClock::time_point heard() const {
+    return SteadyClock::time_point(SteadyClock::duration(heard_.load()));
+  }
+  // Ends it because it has been silent. The ORB destroys it later; the next time another one is the
+  // most silent.
+  void EndAsSilent() {
+    Hear();
+    control_.End();
+  }
+
+ private:
+  void Hear() { heard_ = SteadyClock::now().time_since_epoch().count(); }
+  void TakeTurn() {
+    if (table_->turns().Take() && has_turn_.exchange(true)) table_->turns().Give();
+  }
+  void GiveTurn() {
+    if (has_turn_.exchange(false)) table_->turns().Give();
+  }
+
+  orb::ConnectionControl& control_;
+  const std::shared_ptr<ConnectionTable> table_;
+  std::atomic<SteadyClock::rep> heard_ = SteadyClock::now().time_since_epoch().count();
+  std::atomic<bool> has_turn_ = false;  // from a request to its reply
+};
+
+void ConnectionTable::Add(orb::ConnectionControl* control, ClientConnection* connection) {
+  const std::lock_guard lock(mutex_);
+  if (connections_.size() >= limit_) EndSilent();
+  connections_[control] = {connection};
+}
+
+void ConnectionTable::Remove(orb::ConnectionControl* control) {
+  const std::lock_guard lock(mutex_);
+  connections_.erase(control);
+}
+
+bool ConnectionTable::Readable(orb::ConnectionControl* control) {
+  const std::lock_guard lock(mutex_);
+  const auto found = connections_.find(control);
+  if (found == connections_.end()) return true;
+  SteadyClock::time_point& incomplete = found->second.incomplete;
+  if (control->Gather()) {
+    incomplete = {};
+    return true;
+  }
+  const SteadyClock::time_point now = SteadyClock::now();
+  if (!control->has_begun()) {
+    incomplete = {};
+  } else if (incomplete == SteadyClock::time_point()) {
+    incomplete = now;
+  }
+  EndLate(now);
+  control->Watch();
+  return false;
+}
+
+void ConnectionTable::EndLate(SteadyClock::time_point now) {
+  for (const auto& [control, entry] : connections_) {
+    if (entry.incomplete == SteadyClock::time_point()) continue;
+    if (now - entry.incomplete > kMessageTime) control->End();
+  }
+}
+
+void ConnectionTable::EndSilent() {
+  const auto heard = [](const auto& each) { return each.second.connection->heard(); };
+  std::ranges::min_element(connections_, {}, heard)->second.connection->EndAsSilent();
+}
+
+// A connection to a service or another trader.
+class ServiceConnection final : public orb::ConnectionHooks {
+ public:
+  // The reply may come before OnSent() is called.
+  void OnSend(std::string_view bytes) override {
+    const std::lock_guard lock(mutex_);
+    replies_.Sending(bytes);
+  }
+  void OnSent(std::size_t count) override {
+    const std::lock_guard lock(mutex_);
+    replies_.Sent(count);
+  }
+  void OnMessage(std::string& message) override {
+    const std::lock_guard lock(mutex_);
+    replies_.Check(message);
+  }
+
+ private:
+  std::mutex mutex_;
+  orb::ReplyCheck replies_{TradingSignatures()};
+};
+
+}  // namespace
+
+orb::ConnectionPolicy BrokerConnectionPolicy(std::size_t connections) {
+  const auto table = std::make_shared<ConnectionTable>(connections);
+  orb::ConnectionPolicy policy;
+  policy.limits = {kMessageBytes + orb::kGiopHeaderBytes, kMessageTime};
+  policy.accepted = [table](orb::ConnectionControl& control) {
+    return std::make_unique<ClientConnection>(control, table);
+  };
+  policy.made = [](orb::ConnectionControl&) { return std::make_unique<ServiceConnection>(); };
+  policy.shall_read = [table](orb::ConnectionControl* control) { return table->Readable(control); };
+  return policy;
+}
+
+}  // namespace gsv::broker

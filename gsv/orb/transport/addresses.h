@@ -1,0 +1,58 @@
+// The addresses that the ORB connects to, by TCP, TLS or a socket in the file system.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gsv/orb/transport/connection.h"
+#include "gsv/orb/transport/tls_context.h"
+
+namespace gsv::orb {
+
+// "HOST:PORT"; nothing for other texts.
+std::optional<IIOP::Address> ReadHostAndPort(const char* text);
+
+class TcpAddress final : public omni::tcpAddress {
+ public:
+  explicit TcpAddress(const IIOP::Address& address) : tcpAddress(address), address_(address) {}
+
+  omni::giopAddress* duplicate() const override { return new TcpAddress(address_); }
+  omni::giopAddress* duplicate(const char* host) const override;
+  omni::giopActiveConnection* Connect(const omni_time_t& deadline, CORBA::ULong flags,
+                                      CORBA::Boolean& timed_out) const override;
+
+ private:
+  IIOP::Address address_;
+};
+
+class TlsAddress final : public omni::tcpAddress {
+ public:
+  // Without a context it cannot connect, and NoteTlsFailure() gets the reason.
+  TlsAddress(std::shared_ptr<const TlsContext> context, const IIOP::Address& address);
+
+  const char* type() const override { return "giop:ssl"; }
+  const char* address() const override { return text_; }
+  omni::giopAddress* duplicate() const override { return new TlsAddress(context_, address_); }
+  omni::giopAddress* duplicate(const char* host) const override;
+  omni::giopActiveConnection* Connect(const omni_time_t& deadline, CORBA::ULong flags,
+                                      CORBA::Boolean& timed_out) const override;
+
+ private:
+  const std::shared_ptr<const TlsContext> context_;
+  IIOP::Address address_;
+  CORBA::String_var text_;
+};
+
+class LocalAddress final : public omni::unixAddress {
+ public:
+  explicit LocalAddress(const char* file) : unixAddress(file), file_(file) {}
+
+  omni::giopAddress* duplicate() const override { return new LocalAddress(file_); }
+  omni::giopActiveConnection* Connect(const omni_time_t& deadline, CORBA::ULong flags,
+                                      CORBA::Boolean& timed_out) const override;
+
+ private:
+  CORBA::String_var file_;
+};
+
+}  // namespace gsv::orb

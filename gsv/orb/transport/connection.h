@@ -1,0 +1,88 @@
+// A connection of the ORB: over TCP, TLS or a local socket; made by a client or by this process.
+//
+// It joins fragments, holds messages to their limits and shows them to its hooks
+// (connection_policy.h); the ORB gets complete messages only. A connection that this process makes
+// does so only where it has hooks.
+//
+// Threads  as omniORB's connections: one reads at a time, one sends at a time.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "gsv/orb/giop/incoming_message.h"
+#include "gsv/orb/transport/channel.h"
+#include "gsv/orb/transport/connection_policy.h"
+#include "gsv/orb/transport/omniorb_internals.h"
+
+namespace gsv::orb {
+
+// As URIs: "giop:tcp:127.0.0.1:40123".
+struct ConnectionAddresses {
+  std::string own, peer;
+};
+// Those of a connected TCP socket. `scheme`: "giop:tcp" or "giop:ssl".
+ConnectionAddresses AddressesOfTcp(int socket, const char* scheme);
+// Those of a socket in the file system, where a peer has no name. `server`: "giop:unix:FILE".
+ConnectionAddresses AddressesOfAcceptedLocal(const std::string& server);
+ConnectionAddresses AddressesOfMadeLocal(const std::string& server);
+
+class Connection : public omni::giopConnection,
+                   public omni::SocketHolder,
+                   public ConnectionControl {
+ public:
+  // One that a client made. It owns the socket. `collection`: watches it.
+  Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
+             omni::SocketCollection& collection, const ConnectionPolicy& policy);
+  ~Connection() override;
+
+  int Recv(void* buffer, std::size_t size, const omni_time_t& deadline) override;
+  int Send(void* buffer, std::size_t size, const omni_time_t& deadline) override;
+  void Shutdown() override;
+  const char* myaddress() override { return addresses_.own.c_str(); }
+  const char* peeraddress() override { return addresses_.peer.c_str(); }
+  void setSelectable(int now, CORBA::Boolean data_in_buffer) override;
+  void clearSelectable() override { SocketHolder::clearSelectable(); }
+  CORBA::Boolean isSelectable() override { return pd_belong_to->isSelectable(pd_socket); }
+  CORBA::Boolean Peek() override;
+
+  bool Gather() override;
+  bool has_begun() const override { return incoming_.has_begun(); }
+  void Watch() override { setSelectable(1, false); }
+  void End() override { Shutdown(); }
+
+ protected:
+  // One that this process makes.
+  Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
+             const ConnectionPolicy& policy);
+
+ private:
+  Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
+             omni::SocketCollection& collection, const MessageLimits& limits);
+  int ReadPiece(const omni_time_t& deadline);
+
+  std::unique_ptr<Channel> channel_;
+  const ConnectionAddresses addresses_;
+  const std::chrono::seconds message_time_;
+  bool is_accepted_ = false;
+  std::unique_ptr<ConnectionHooks> hooks_;
+  std::atomic<bool> is_shut_down_ = false;
+  std::mutex mutex_;
+  IncomingMessage incoming_;
+};
+
+class ActiveConnection final : public omni::giopActiveConnection, public Connection {
+ public:
+  ActiveConnection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
+                   const ConnectionPolicy& policy)
+      : Connection(socket, std::move(channel), std::move(addresses), policy) {}
+
+  // omniORB watches connections of its own for calls that come back on them, which only
+  // bidirectional GIOP has. No ORB here offers that.
+  omni::giopActiveCollection* registerMonitor() override { return nullptr; }
+  omni::giopConnection& getConnection() override { return *this; }
+};
+
+}  // namespace gsv::orb

@@ -1,0 +1,33 @@
+#include "gsv/orb/transport/connection_policy.h"
+
+#include <mutex>
+#include <utility>
+
+namespace gsv::orb {
+namespace {
+
+struct Current {
+  std::mutex mutex;
+  std::shared_ptr<const ConnectionPolicy> policy = std::make_shared<ConnectionPolicy>();
+};
+Current& CurrentPolicy() {
+  static auto& current = *new Current;  // an ORB may outlive statics
+  return current;
+}
+
+}  // namespace
+
+void SetConnectionPolicy(ConnectionPolicy policy) {
+  auto made = std::make_shared<const ConnectionPolicy>(std::move(policy));
+  Current& current = CurrentPolicy();
+  const std::lock_guard lock(current.mutex);
+  current.policy = std::move(made);
+}
+
+std::shared_ptr<const ConnectionPolicy> CurrentConnectionPolicy() {
+  Current& current = CurrentPolicy();
+  const std::lock_guard lock(current.mutex);
+  return current.policy;
+}
+
+}  // namespace gsv::orb

@@ -1,0 +1,204 @@
+#include "gsv/orb/transport/listener.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include "gsv/base/log.h"
+#include "gsv/orb/transport/tls_channel.h"
+
+namespace gsv::orb {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kHandshakeTime{10}, kFarewellTime{1};
+constexpr std::size_t kMaxNewcomers = 256;  // beyond them the one that came first goes
+
+}  // namespace
+
+// A client that has not shown its certificate yet, or that was refused and is to read why.
+class Newcomer : public omni::SocketHolder {
+ public:
+  Newcomer(int socket, omni::SocketCollection& collection,
+           const std::shared_ptr<const TlsContext>& context, ConnectionAddresses addresses)
+      : SocketHolder(socket),
+        channel_(std::make_unique<TlsChannel>(context, socket, TlsChannel::Side::kServer)),
+        addresses_(std::move(addresses)) {
+    collection.addSocket(this);
+  }
+  ~Newcomer() override {
+    clearSelectable();
+    pd_belong_to->removeSocket(this);
+    if (channel_ != nullptr) close(pd_socket);
+  }
+
+  TlsChannel::Step Proceed() { return is_refused_ ? ReadToTheEnd() : channel_->Handshake(); }
+  const std::string& failure() const { return channel_->failure(); }
+  // The peer loses what it was sent if its socket is closed while bytes from it are unread.
+  void Refuse(const std::string& why) {
+    constexpr std::string_view kScheme = "giop:ssl:";
+    spdlog::warn("refused a CORBA connection from {}: {}", addresses_.peer.substr(kScheme.size()),
+                 why);
+    is_refused_ = true;
+    until_ = Clock::now() + kFarewellTime;
+    shutdown(pd_socket, SHUT_WR);
+  }
+  bool is_refused() const { return is_refused_; }
+  bool is_late(Clock::time_point now) const { return now > until_; }
+
+  // The socket then belongs to the caller.
+  std::unique_ptr<TlsChannel> TakeChannel() {
+    Leave();
+    return std::move(channel_);
+  }
+  void Leave() { is_gone_ = true; }
+  bool is_gone() const { return is_gone_; }
+  int socket() const { return pd_socket; }
+  const ConnectionAddresses& addresses() const { return addresses_; }
+
+ private:
+  TlsChannel::Step ReadToTheEnd() const {
+    std::array<char, 4096> ignored{};
+    const ssize_t count = recv(pd_socket, ignored.data(), ignored.size(), MSG_DONTWAIT);
+    return count > 0 || (count < 0 && errno == EAGAIN) ? TlsChannel::Step::kWantsToRead
+                                                       : TlsChannel::Step::kFailed;
+  }
+
+  std::unique_ptr<TlsChannel> channel_;
+  const ConnectionAddresses addresses_;
+  Clock::time_point until_ = Clock::now() + kHandshakeTime;
+  bool is_refused_ = false, is_gone_ = false;
+};
+
+// Becomes readable now and then as long as it is set, since Select() may sleep for ever.
+class Alarm : public omni::SocketHolder {
+ public:
+  explicit Alarm(omni::SocketCollection& collection)
+      : SocketHolder(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
+    collection.addSocket(this);
+  }
+  ~Alarm() override {
+    clearSelectable();
+    pd_belong_to->removeSocket(this);
+    close(pd_socket);
+  }
+
+  void Set(bool is_set) {
+    constexpr timespec kPeriod{0, 500'000'000};
+    const itimerspec times = is_set ? itimerspec{kPeriod, kPeriod} : itimerspec{};
+    timerfd_settime(pd_socket, 0, &times, nullptr);
+    if (is_set) setSelectable(1, false);
+  }
+  void Hear() {
+    std::uint64_t count = 0;
+    (void)!read(pd_socket, &count, sizeof count);
+    setSelectable(1, false);
+  }
+};
+
+Listener::Listener(omni::SocketCollection& collection, std::shared_ptr<const TlsContext> context)
+    : collection_(collection), context_(std::move(context)) {}
+
+Listener::~Listener() = default;
+
+omni::giopConnection* Listener::Await(omni::giopConnection::notifyReadable_t readable,
+                                      void* cookie) {
+  readable_ = readable;
+  cookie_ = cookie;
+  if (context_ != nullptr && alarm_ == nullptr) alarm_ = std::make_unique<Alarm>(collection_);
+  while (!poked_ && accepted_.empty()) {
+    if (!collection_.Select()) break;
+    if (!newcomers_.empty()) Dismiss();
+  }
+  if (!poked_ && !accepted_.empty()) {
+    Connection* const connection = accepted_.front();
+    accepted_.pop_front();
+    return connection;
+  }
+  newcomers_.clear();
+  alarm_.reset();
+  for (Connection* connection : accepted_) connection->decrRefCount(true);
+  accepted_.clear();
+  return nullptr;
+}
+
+void Listener::Notify(omni::SocketHolder* holder) {
+  if (context_ != nullptr) {
+    if (holder == alarm_.get()) {
+      alarm_->Hear();
+      return;
+    }
+    if (auto* const newcomer = dynamic_cast<Newcomer*>(holder)) {
+      Proceed(newcomer);
+      return;
+    }
+  }
+  auto* const connection = static_cast<Connection*>(holder);
+  if (!policy_->shall_read || policy_->shall_read(connection)) readable_(cookie_, connection);
+}
+
+void Listener::Accept(int socket, ConnectionAddresses addresses) {
+  if (context_ == nullptr) {
+    AddConnection(socket, std::make_unique<PlainChannel>(socket), std::move(addresses));
+    return;
+  }
+  if (newcomers_.empty()) alarm_->Set(true);
+  newcomers_.push_back(
+      std::make_unique<Newcomer>(socket, collection_, context_, std::move(addresses)));
+  newcomers_.back()->setSelectable(1, false);
+}
+
+void Listener::AddConnection(int socket, std::unique_ptr<Channel> channel,
+                             ConnectionAddresses addresses) {
+  accepted_.push_back(
+      new Connection(socket, std::move(channel), std::move(addresses), collection_, *policy_));
+}
+
+void Listener::Proceed(Newcomer* newcomer) {
+  switch (newcomer->Proceed()) {
+    case TlsChannel::Step::kDone:
+      AddConnection(newcomer->socket(), newcomer->TakeChannel(), newcomer->addresses());
+      return;
+    case TlsChannel::Step::kWantsToRead:
+      newcomer->setSelectable(1, false);
+      return;
+    case TlsChannel::Step::kWantsToWrite:
+      // The few bytes of a handshake always find room, except where the peer means harm.
+      newcomer->Refuse("it does not read");
+      break;
+    case TlsChannel::Step::kFailed:
+      if (newcomer->is_refused()) {
+        newcomer->Leave();
+        return;
+      }
+      newcomer->Refuse(newcomer->failure());
+      break;
+  }
+  newcomer->setSelectable(1, false);
+}
+
+// Called after the notifications of a round, as some of these may concern newcomers that go.
+void Listener::Dismiss() {
+  const Clock::time_point now = Clock::now();
+  std::size_t surplus = newcomers_.size() - std::min(newcomers_.size(), kMaxNewcomers);
+  std::erase_if(newcomers_, [&](const std::unique_ptr<Newcomer>& newcomer) {
+    if (newcomer->is_gone()) return true;
+    if (surplus > 0) {
+      --surplus;
+      return true;
+    }
+    if (!newcomer->is_late(now)) return false;
+    if (!newcomer->is_refused()) newcomer->Refuse("it did not finish the handshake of TLS");
+    return true;
+  });
+  if (newcomers_.empty()) alarm_->Set(false);
+}
+
+}  // namespace gsv::orb

@@ -1,0 +1,15 @@
+// The addresses in an object reference.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <omniORB4/CORBA.h>
+
+namespace gsv::orb {
+
+// As URIs, "giop:tcp:127.0.0.1:40123", in the order in which the ORB tries them; none for a nil
+// reference. Any thread.
+std::vector<std::string> AddressesIn(CORBA::Object_ptr object);
+
+}  // namespace gsv::orb

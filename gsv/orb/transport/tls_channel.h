@@ -1,0 +1,66 @@
+// TLS over one connection. Both ends show a certificate of the same authority, or it fails.
+//
+// Versions 1.2 and 1.3 (RFC 5246, RFC 8446), without resumption and renegotiation: every
+//          connection is a handshake of its own. The host's name is not compared with the
+//          certificate's: of those whom the authority has signed, each may be any.
+// Threads  any; one may read while another writes, which OpenSSL alone does not allow.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <omnithread.h>
+
+#include "gsv/orb/transport/channel.h"
+#include "gsv/orb/transport/tls_context.h"
+
+struct ssl_st;
+
+namespace gsv::orb {
+
+class TlsChannel final : public Channel {
+ public:
+  enum class Side { kServer, kClient };
+  enum class Step { kDone, kWantsToRead, kWantsToWrite, kFailed };
+
+  // The socket remains the caller's; it no longer blocks.
+  TlsChannel(std::shared_ptr<const TlsContext> context, int socket, Side side);
+  ~TlsChannel() override;
+  TlsChannel(const TlsChannel&) = delete;
+  TlsChannel& operator=(const TlsChannel&) = delete;
+
+  // As far as it goes without waiting.
+  Step Handshake();
+  // Whether it was done before `deadline`.
+  bool AwaitHandshake(const omni_time_t& deadline, bool& timed_out);
+  // Why it failed, as a sentence about the peer: "it shows no certificate".
+  const std::string& failure() const { return failure_; }
+
+  ssize_t TryReceive(void* buffer, std::size_t size) override;
+  ssize_t TrySend(const void* buffer, std::size_t size) override;
+  int Receive(void* buffer, std::size_t size, const omni_time_t& deadline) override;
+  int Send(const void* buffer, std::size_t size, const omni_time_t& deadline) override;
+  bool HasBytes() override;
+  void Close() override;
+
+ private:
+  Step StepAfter(int result);
+  template <typename Call>
+  Step Try(const Call& call, std::size_t& moved);
+  template <typename Call>
+  int Await(const Call& call, const omni_time_t& deadline);
+
+  const std::shared_ptr<const TlsContext> context_;
+  const int socket_;
+  std::mutex mutex_;
+  ssl_st* session_;
+  std::string failure_;
+};
+
+// Why the last TLS connection that this thread asked for failed, once; empty: it did not.
+std::string TakeTlsFailure();
+void NoteTlsFailure(std::string why);
+
+}  // namespace gsv::orb

@@ -1,0 +1,34 @@
+// The certificate that this process shows by TLS, and the authority whose certificates it takes.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "gsv/base/error.h"
+
+struct ssl_ctx_st;
+
+namespace gsv::orb {
+
+struct CorbaCertificate {
+  std::filesystem::path certificate, key, authority;
+
+  bool operator==(const CorbaCertificate&) const = default;
+};
+
+class TlsContext {
+ public:
+  // Fails with a sentence that names the file which cannot be used.
+  static base::Result<std::shared_ptr<const TlsContext>> Read(const CorbaCertificate& files);
+  ~TlsContext();
+  TlsContext(const TlsContext&) = delete;
+  TlsContext& operator=(const TlsContext&) = delete;
+
+  ssl_ctx_st* get() const { return context_; }
+
+ private:
+  explicit TlsContext(ssl_ctx_st* context) : context_(context) {}
+  ssl_ctx_st* context_;
+};
+
+}  // namespace gsv::orb

@@ -1,0 +1,286 @@
+// What an ORB of ours takes from those who call it, over a connection that knows nothing of CORBA.
+// Each test starts the process's one ORB.
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "gsv/orb/orb.h"
+#include "idl/behaviour.hh"
+
+namespace gsv::orb {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kRequest = 0, kCancelRequest = 2, kFragment = 7;
+
+// A factory whose calls stay as long as its door is closed.
+class Doorkeeper final : public POA_sba::AgentBehaviourFactory {
+ public:
+  sba::AgentBehaviour_ptr create() override {
+    std::unique_lock lock(mutex_);
+    ++inside_;
+    most_ = std::max(most_, inside_);
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return is_open_; });
+    --inside_;
+    return sba::AgentBehaviour::_nil();
+  }
+  void Open() {
+    const std::lock_guard lock(mutex_);
+    is_open_ = true;
+    changed_.notify_all();
+  }
+  void AwaitInside(int count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return inside_ >= count; });
+  }
+  int most() {
+    const std::lock_guard lock(mutex_);
+    return most_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_open_ = false;
+  int inside_ = 0, most_ = 0;
+};
+
+std::string Number(std::uint32_t value) {
+  std::string bytes(4, '\0');
+  std::memcpy(bytes.data(), &value, 4);  // little-endian, as the flags say
+  return bytes;
+}
+
+std::string Message(int type, const std::string& body, bool more = false) {
+  return std::string("GIOP\x01\x02", 6) + static_cast<char>(more ? 3 : 1) +
+         static_cast<char>(type) + Number(static_cast<std::uint32_t>(body.size())) + body;
+}
+
+class WholeTransportTest : public ::testing::Test {
+ public:
+  ~WholeTransportTest() override {
+    door_->Open();
+    for (const int connection : connections_) close(connection);
+    if (!CORBA::is_nil(orb_)) orb_->destroy();
+  }
+
+ protected:
+  // The ORB, with a doorkeeper in it.
+  void Start(const OrbOptions& options = {}) {
+    orb_ = *StartOrb(options);
+    const PortableServer::POA_var poa = RootPoa(orb_);
+    const PortableServer::ObjectId_var id = poa->activate_object(door_);
+    const CORBA::Object_var object = poa->id_to_reference(id);
+    address_ = AddressOf(object);
+    key_ = KeyOf(object);
+  }
+
+  static std::string KeyOf(CORBA::Object_ptr object);
+
+  int Connect() {
+    const int connection = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(std::stoi(address_.substr(10))));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(connection, reinterpret_cast<sockaddr*>(&to), sizeof to), 0) << address_;
+    connections_.push_back(connection);
+    return connection;
+  }
+  static void Send(int connection, const std::string& bytes) {
+    std::size_t sent = 0;
+    while (sent < bytes.size()) {
+      const ssize_t count =
+          send(connection, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+      if (count <= 0) return;  // hung up on
+      sent += static_cast<std::size_t>(count);
+    }
+  }
+  // Until the ORB, in this process, has begun to read the last `size` bytes.
+  static void AwaitReading(int connection, int size) {
+    sockaddr_in own{};
+    socklen_t length = sizeof own;
+    getsockname(connection, reinterpret_cast<sockaddr*>(&own), &length);
+    for (int unread = size; unread >= size; std::this_thread::yield()) {
+      unread = 0;  // it may have hung up
+      for (int each = 3; each < 200; ++each) {
+        sockaddr_in peer{};
+        length = sizeof peer;
+        if (getpeername(each, reinterpret_cast<sockaddr*>(&peer), &length) != 0) continue;
+        if (peer.sin_family == AF_INET && peer.sin_port == own.sin_port)
+          ioctl(each, FIONREAD, &unread);
+      }
+    }
+  }
+  // The number of the request that is answered; nothing: the connection ends.
+  static std::optional<std::uint32_t> Answer(int connection) {
+    char header[12];
+    if (recv(connection, header, 12, MSG_WAITALL) != 12) return std::nullopt;
+    std::uint32_t size = 0;
+    std::memcpy(&size, header + 8, 4);
+    std::string body(size, '\0');
+    if (recv(connection, body.data(), size, MSG_WAITALL) != static_cast<ssize_t>(size))
+      return std::nullopt;
+    std::uint32_t number = 0;
+    std::memcpy(&number, body.data(), 4);
+    return number;
+  }
+
+  // What follows the header of a call of create(), with `padding` bytes that mean nothing.
+  std::string Call(std::uint32_t number, std::size_t padding = 0) const {
+    std::string body = Number(number) + std::string("\x03\0\0\0\0\0\0\0", 8);
+    body += Number(static_cast<std::uint32_t>(key_.size())) + key_;
+    body.resize((body.size() + 3) / 4 * 4);
+    body += Number(7) + std::string("create\0\0", 8) + Number(padding > 0 ? 1 : 0);
+    if (padding > 0) {
+      body += Number(0x12345678) + Number(static_cast<std::uint32_t>(padding));
+      body += std::string(padding, 'x');
+    }
+    return body;
+  }
+
+  CORBA::ORB_var orb_;
+  PortableServer::Servant_var<Doorkeeper> door_ = new Doorkeeper;
+  std::string address_, key_;
+  std::vector<int> connections_;
+};
+
+std::string WholeTransportTest::KeyOf(CORBA::Object_ptr object) {
+  cdrMemoryStream stream;
+  CORBA::Object::_marshalObjRef(object, stream);
+  // Type id, profiles; in the first: version, host, port, key.
+  const auto skip_string = [&] { CORBA::String_var(stream.unmarshalRawString()); };
+  skip_string();
+  CORBA::ULong profiles = 0, tag = 0;
+  profiles <<= stream;
+  tag <<= stream;
+  _CORBA_Unbounded_Sequence_Octet profile;
+  profile <<= stream;
+  cdrEncapsulationStream inner(profile);
+  inner.unmarshalOctet();
+  inner.unmarshalOctet();
+  const CORBA::String_var host = inner.unmarshalRawString();
+  CORBA::UShort port = 0;
+  port <<= inner;
+  _CORBA_Unbounded_Sequence_Octet key;
+  key <<= inner;
+  return {reinterpret_cast<const char*>(key.get_buffer()), key.length()};
+}
+
+// omniORB 4.2.5 by itself has two threads work on one call then, and dies.
+TEST_F(WholeTransportTest, AFragmentThatComesTwiceDuringItsCallHurtsNobody) {
+  Start();
+  for (int round = 0; round < 5; ++round) {
+    const int connection = Connect();
+    const std::string call = Call(1, 100);
+    const std::string last = Message(kFragment, Number(1) + call.substr(60));
+    Send(connection, Message(kRequest, call.substr(0, 60), true) + last);
+    door_->AwaitInside(round + 1);
+    Send(connection, last);
+    AwaitReading(connection, static_cast<int>(last.size()));
+  }
+  door_->Open();
+  const int another = Connect();
+  Send(another, Message(kRequest, Call(3)));
+  EXPECT_EQ(Answer(another), 3u);
+}
+
+TEST_F(WholeTransportTest, JoinsFragmentsAndLeavesOutWhatCancels) {
+  Start();
+  const int connection = Connect();
+  const std::string call = Call(1, 100);
+  Send(connection, Message(kRequest, call.substr(0, 4), true) +
+                       Message(kFragment, Number(1) + call.substr(4, 72), true) +
+                       Message(kFragment, Number(1) + call.substr(76)));
+  door_->AwaitInside(1);
+  Send(connection, Message(kCancelRequest, Number(1)) + Message(kCancelRequest, Number(1)));
+  door_->Open();
+  EXPECT_EQ(Answer(connection), 1u);
+  Send(connection, Message(kRequest, Call(2)));
+  EXPECT_EQ(Answer(connection), 2u);
+}
+
+TEST_F(WholeTransportTest, AMessageIsTakenUpToItsLengthAndNotBeyond) {
+  OrbOptions options;
+  options.max_message_bytes = 10'000;
+  Start(options);
+  door_->Open();
+  const std::size_t around = Message(kRequest, Call(1, 4)).size() - 4;
+  const int connection = Connect();
+  Send(connection, Message(kRequest, Call(1, 10'000 - around)));
+  EXPECT_EQ(Answer(connection), 1u);
+  Send(connection, Message(kRequest, Call(2, 10'001 - around)));
+  EXPECT_EQ(Answer(connection), std::nullopt);
+  // In fragments it is no shorter.
+  const int another = Connect();
+  const std::string call = Call(3, 10'001 - around);
+  Send(another, Message(kRequest, call.substr(0, 5000), true) +
+                    Message(kFragment, Number(3) + call.substr(5000)));
+  EXPECT_EQ(Answer(another), std::nullopt);
+}
+
+TEST_F(WholeTransportTest, AMessageThatStopsHalfWayEndsItsConnection) {
+  OrbOptions options;
+  options.message_time = 1s;
+  Start(options);
+  door_->Open();
+  const int silent = Connect(), halting = Connect();
+  Send(halting, Message(kRequest, Call(1)).substr(0, 30));
+  EXPECT_EQ(Answer(halting), std::nullopt);
+  // Who says nothing between messages may.
+  Send(silent, Message(kRequest, Call(2)));
+  EXPECT_EQ(Answer(silent), 2u);
+}
+
+TEST_F(WholeTransportTest, SixteenCallsOfAConnectionAreServedAtOnceAndTheOthersWait) {
+  Start();
+  const int connection = Connect();
+  for (std::uint32_t number = 1; number <= 20; ++number) {
+    Send(connection, Message(kRequest, Call(number)));
+  }
+  door_->AwaitInside(16);
+  const int another = Connect();
+  Send(another, Message(kRequest, Call(1)));
+  door_->AwaitInside(17);  // a connection of its own is not held up
+  door_->Open();
+  for (int count = 0; count < 20; ++count) EXPECT_TRUE(Answer(connection));
+  EXPECT_EQ(door_->most(), 17);
+}
+
+TEST_F(WholeTransportTest, ACallThatIsNotAnsweredEndsInItsTime) {
+  OrbOptions options;
+  options.call_timeout = 300ms;
+  Start(options);
+  // Somebody who takes connections, and says nothing.
+  const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  connections_.push_back(listener);
+  sockaddr_in here{};
+  here.sin_family = AF_INET;
+  here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t length = sizeof here;
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&here), length), 0);
+  ASSERT_EQ(listen(listener, 4), 0);
+  getsockname(listener, reinterpret_cast<sockaddr*>(&here), &length);
+  const std::string silent =
+      "corbaloc::1.2@127.0.0.1:" + std::to_string(ntohs(here.sin_port)) + "/silent";
+  const CORBA::Object_var object = orb_->string_to_object(silent.c_str());
+  EXPECT_THROW((void)object->_non_existent(), CORBA::SystemException);
+}
+
+}  // namespace
+}  // namespace gsv::orb
