@@ -27,6 +27,13 @@ FORBIDDEN_CODE = {
         r"\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday)\b"
     ),
 }
+# What only the folders that docs/layers.txt excepts may use, in the core or not.
+WALLED_INCLUDES = {
+    "omniorb-internals": re.compile(
+        r"^(omniORB4/((giop|tcp|unix)\w+|omniIOR|omniObjRef|omniURI)\.h|tcpSocket\.h"
+        r"|SocketCollection\.h|gsv/orb/transport/omniorb_internals\.h)$"
+    ),
+}
 
 
 class Table:
@@ -102,6 +109,9 @@ def check_include(table, root, path, folder, quote, included):
             return f'"{included}" is not written from the repository\'s root'
     elif not table.may_include(path, folder, included_folder):
         return f"{folder} may not include {included_folder} ({included}); see docs/layers.txt"
+    for use, pattern in WALLED_INCLUDES.items():
+        if pattern.search(included) and not table.is_excepted(path, use):
+            return f"{folder} may not use {use} ({included}); see docs/layers.txt"
     if not table.is_core(folder):
         return None
     for use, pattern in FORBIDDEN_INCLUDES.items():

@@ -99,6 +99,14 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(self.run_on({"gsv/world/pacer.h": code})[0], 0)
         self.assertEqual(self.run_on({"gsv/world/step.h": "// never steady_clock\n"})[0], 0)
 
+    def test_internals_of_omniorb_are_open_to_the_excepted_folder_alone(self):
+        internals = "#include <omniORB4/giopEndpoint.h>\n#include <tcpSocket.h>\n"
+        layers = LAYERS + "except gsv/services omniorb-internals\n"
+        self.assertEqual(self.run_on({"gsv/services/a.cc": internals}, layers)[0], 0)
+        code, lines = self.run_on({"gsv/broker/a.cc": internals}, layers)
+        self.assertEqual((code, len(lines)), (1, 3))
+        self.assertTrue(lines[0].startswith("gsv/broker/a.cc:1: gsv/broker may not use omniorb-int"), lines[0])
+
     def test_a_folder_nobody_declared_is_refused(self):
         self.assert_violation({"gsv/extra/a.cc": "\n"}, "gsv/extra/a.cc:1: ", "does not name")
 
