@@ -1,6 +1,7 @@
 // What an ORB of ours takes from those who call it, over a connection that knows nothing of CORBA.
 // Each test starts the process's one ORB.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
@@ -15,17 +16,18 @@
 #include <netinet/in.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include "gsv/orb/orb.h"
+#include "gsv/orb/testing/raw_message.h"
+#include "gsv/orb/transport/object_addresses.h"
 #include "idl/behaviour.hh"
 
 namespace gsv::orb {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr int kRequest = 0, kCancelRequest = 2, kFragment = 7;
 
 // A factory whose calls stay as long as its door is closed.
 class Doorkeeper final : public POA_sba::AgentBehaviourFactory {
@@ -60,16 +62,7 @@ class Doorkeeper final : public POA_sba::AgentBehaviourFactory {
   int inside_ = 0, most_ = 0;
 };
 
-std::string Number(std::uint32_t value) {
-  std::string bytes(4, '\0');
-  std::memcpy(bytes.data(), &value, 4);  // little-endian, as the flags say
-  return bytes;
-}
-
-std::string Message(int type, const std::string& body, bool more = false) {
-  return std::string("GIOP\x01\x02", 6) + static_cast<char>(more ? 3 : 1) +
-         static_cast<char>(type) + Number(static_cast<std::uint32_t>(body.size())) + body;
-}
+std::string Number(std::uint32_t value) { return RawCdr().ULong(value).bytes(); }
 
 class WholeTransportTest : public ::testing::Test {
  public:
@@ -87,6 +80,10 @@ class WholeTransportTest : public ::testing::Test {
     const PortableServer::ObjectId_var id = poa->activate_object(door_);
     const CORBA::Object_var object = poa->id_to_reference(id);
     address_ = AddressOf(object);
+    for (const std::string& address : AddressesIn(object)) {
+      constexpr std::string_view kLocal = "giop:unix:";
+      if (address.starts_with(kLocal)) local_ = address.substr(kLocal.size());
+    }
     key_ = KeyOf(object);
   }
 
@@ -99,6 +96,16 @@ class WholeTransportTest : public ::testing::Test {
     to.sin_port = htons(static_cast<std::uint16_t>(std::stoi(address_.substr(10))));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     EXPECT_EQ(connect(connection, reinterpret_cast<sockaddr*>(&to), sizeof to), 0) << address_;
+    connections_.push_back(connection);
+    return connection;
+  }
+  // By the ORB's socket in the file system.
+  int ConnectLocally() {
+    const int connection = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_un to{};
+    to.sun_family = AF_UNIX;
+    local_.copy(to.sun_path, sizeof to.sun_path - 1);
+    EXPECT_EQ(connect(connection, reinterpret_cast<sockaddr*>(&to), sizeof to), 0) << local_;
     connections_.push_back(connection);
     return connection;
   }
@@ -143,20 +150,15 @@ class WholeTransportTest : public ::testing::Test {
 
   // What follows the header of a call of create(), with `padding` bytes that mean nothing.
   std::string Call(std::uint32_t number, std::size_t padding = 0) const {
-    std::string body = Number(number) + std::string("\x03\0\0\0\0\0\0\0", 8);
-    body += Number(static_cast<std::uint32_t>(key_.size())) + key_;
-    body.resize((body.size() + 3) / 4 * 4);
-    body += Number(7) + std::string("create\0\0", 8) + Number(padding > 0 ? 1 : 0);
-    if (padding > 0) {
-      body += Number(0x12345678) + Number(static_cast<std::uint32_t>(padding));
-      body += std::string(padding, 'x');
-    }
-    return body;
+    RawCdr body = RawCdr().ULong(number).Octet(3).Octet(0).Octet(0).Octet(0).ULong(0).Octets(key_);
+    body.String("create").ULong(padding > 0 ? 1 : 0);
+    if (padding > 0) body.ULong(0x12345678).Octets(std::string(padding, 'x'));
+    return body.bytes();
   }
 
   CORBA::ORB_var orb_;
   PortableServer::Servant_var<Doorkeeper> door_ = new Doorkeeper;
-  std::string address_, key_;
+  std::string address_, local_, key_;
   std::vector<int> connections_;
 };
 
@@ -188,15 +190,15 @@ TEST_F(WholeTransportTest, AFragmentThatComesTwiceDuringItsCallHurtsNobody) {
   for (int round = 0; round < 5; ++round) {
     const int connection = Connect();
     const std::string call = Call(1, 100);
-    const std::string last = Message(kFragment, Number(1) + call.substr(60));
-    Send(connection, Message(kRequest, call.substr(0, 60), true) + last);
+    const std::string last = RawMessage(MessageType::kFragment, Number(1) + call.substr(60));
+    Send(connection, RawMessage(MessageType::kRequest, call.substr(0, 60), true) + last);
     door_->AwaitInside(round + 1);
     Send(connection, last);
     AwaitReading(connection, static_cast<int>(last.size()));
   }
   door_->Open();
   const int another = Connect();
-  Send(another, Message(kRequest, Call(3)));
+  Send(another, RawMessage(MessageType::kRequest, Call(3)));
   EXPECT_EQ(Answer(another), 3u);
 }
 
@@ -204,15 +206,53 @@ TEST_F(WholeTransportTest, JoinsFragmentsAndLeavesOutWhatCancels) {
   Start();
   const int connection = Connect();
   const std::string call = Call(1, 100);
-  Send(connection, Message(kRequest, call.substr(0, 4), true) +
-                       Message(kFragment, Number(1) + call.substr(4, 72), true) +
-                       Message(kFragment, Number(1) + call.substr(76)));
+  Send(connection, RawMessage(MessageType::kRequest, call.substr(0, 4), true) +
+                       RawMessage(MessageType::kFragment, Number(1) + call.substr(4, 72), true) +
+                       RawMessage(MessageType::kFragment, Number(1) + call.substr(76)));
   door_->AwaitInside(1);
-  Send(connection, Message(kCancelRequest, Number(1)) + Message(kCancelRequest, Number(1)));
+  Send(connection, RawMessage(MessageType::kCancelRequest, Number(1)) +
+                       RawMessage(MessageType::kCancelRequest, Number(1)));
   door_->Open();
   EXPECT_EQ(Answer(connection), 1u);
-  Send(connection, Message(kRequest, Call(2)));
+  Send(connection, RawMessage(MessageType::kRequest, Call(2)));
   EXPECT_EQ(Answer(connection), 2u);
+}
+
+TEST_F(WholeTransportTest, LocalSocketsHoldToTheSameRules) {
+  OrbOptions options;
+  options.local_socket = true;
+  options.max_message_bytes = 10'000;
+  Start(options);
+  door_->Open();
+  const int connection = ConnectLocally();
+  const std::string call = Call(1, 100);
+  Send(connection, RawMessage(MessageType::kRequest, call.substr(0, 60), true) +
+                       RawMessage(MessageType::kFragment, Number(1) + call.substr(60)));
+  EXPECT_EQ(Answer(connection), 1u);
+  Send(connection, RawMessage(MessageType::kRequest, Call(2, 20'000)));
+  EXPECT_EQ(Answer(connection), std::nullopt);
+}
+
+std::atomic<int> requests_seen = 0;
+
+TEST_F(WholeTransportTest, TheCheckSeesEachRequestOnce) {
+  requests_seen = 0;
+  OrbOptions options;
+  options.check_request = [](std::string& message) {
+    EXPECT_EQ(message.substr(0, 4), "GIOP");
+    ++requests_seen;
+  };
+  Start(options);
+  door_->Open();
+  const int connection = Connect();
+  const std::string call = Call(1, 100);
+  Send(connection, RawMessage(MessageType::kRequest, call.substr(0, 60), true) +
+                       RawMessage(MessageType::kFragment, Number(1) + call.substr(60)) +
+                       RawMessage(MessageType::kCancelRequest, Number(1)));
+  EXPECT_EQ(Answer(connection), 1u);
+  Send(connection, RawMessage(MessageType::kRequest, Call(2)));
+  EXPECT_EQ(Answer(connection), 2u);
+  EXPECT_EQ(requests_seen, 2);
 }
 
 TEST_F(WholeTransportTest, AMessageIsTakenUpToItsLengthAndNotBeyond) {
@@ -220,17 +260,17 @@ TEST_F(WholeTransportTest, AMessageIsTakenUpToItsLengthAndNotBeyond) {
   options.max_message_bytes = 10'000;
   Start(options);
   door_->Open();
-  const std::size_t around = Message(kRequest, Call(1, 4)).size() - 4;
+  const std::size_t around = RawMessage(MessageType::kRequest, Call(1, 4)).size() - 4;
   const int connection = Connect();
-  Send(connection, Message(kRequest, Call(1, 10'000 - around)));
+  Send(connection, RawMessage(MessageType::kRequest, Call(1, 10'000 - around)));
   EXPECT_EQ(Answer(connection), 1u);
-  Send(connection, Message(kRequest, Call(2, 10'001 - around)));
+  Send(connection, RawMessage(MessageType::kRequest, Call(2, 10'001 - around)));
   EXPECT_EQ(Answer(connection), std::nullopt);
   // In fragments it is no shorter.
   const int another = Connect();
   const std::string call = Call(3, 10'001 - around);
-  Send(another, Message(kRequest, call.substr(0, 5000), true) +
-                    Message(kFragment, Number(3) + call.substr(5000)));
+  Send(another, RawMessage(MessageType::kRequest, call.substr(0, 5000), true) +
+                    RawMessage(MessageType::kFragment, Number(3) + call.substr(5000)));
   EXPECT_EQ(Answer(another), std::nullopt);
 }
 
@@ -240,10 +280,10 @@ TEST_F(WholeTransportTest, AMessageThatStopsHalfWayEndsItsConnection) {
   Start(options);
   door_->Open();
   const int silent = Connect(), halting = Connect();
-  Send(halting, Message(kRequest, Call(1)).substr(0, 30));
+  Send(halting, RawMessage(MessageType::kRequest, Call(1)).substr(0, 30));
   EXPECT_EQ(Answer(halting), std::nullopt);
   // Who says nothing between messages may.
-  Send(silent, Message(kRequest, Call(2)));
+  Send(silent, RawMessage(MessageType::kRequest, Call(2)));
   EXPECT_EQ(Answer(silent), 2u);
 }
 
@@ -251,11 +291,11 @@ TEST_F(WholeTransportTest, SixteenCallsOfAConnectionAreServedAtOnceAndTheOthersW
   Start();
   const int connection = Connect();
   for (std::uint32_t number = 1; number <= 20; ++number) {
-    Send(connection, Message(kRequest, Call(number)));
+    Send(connection, RawMessage(MessageType::kRequest, Call(number)));
   }
   door_->AwaitInside(16);
   const int another = Connect();
-  Send(another, Message(kRequest, Call(1)));
+  Send(another, RawMessage(MessageType::kRequest, Call(1)));
   door_->AwaitInside(17);  // a connection of its own is not held up
   door_->Open();
   for (int count = 0; count < 20; ++count) EXPECT_TRUE(Answer(connection));
