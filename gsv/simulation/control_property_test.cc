@@ -174,7 +174,7 @@ std::string PlayOneSequence(std::uint32_t seed) {
   Dice dice(seed);
   const Scene scene = RandomScene(dice);
   auto simulation = Make(scene);
-  LifeCycle model(scene.duration);
+  LifeCycleModel model(scene.duration);
   std::string story;
   for (int i = 0; i < 14; ++i) {
     const Sight before = Look(*simulation);

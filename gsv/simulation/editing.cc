@@ -1,202 +1,268 @@
-// What people change by hand of a world that stands still, and how it is told so that it can be
-// repeated.
+// Requests that change who stands in a simulated world, and the record of them.
 #include <algorithm>
+#include <utility>
 
+#include "gsv/simulation/editing/placement.h"
 #include "gsv/simulation/stepping_simulation.h"
 
 namespace gsv::simulation {
 namespace {
 
-// Wall time that behaviours elsewhere have to end the turn during which somebody paused.
+// Wall-clock time that behaviours elsewhere have to end the turn during which somebody paused.
 constexpr std::chrono::seconds kTurnPatience{2};
-// Of objects that were taken away so many can come back.
-constexpr std::size_t kMostRemoved = 1000;
 
-const model::PlacedModel* FindInWorld(const world::Layout& layout, const std::string& name) {
-  const auto& models = layout.description->models;
-  const auto found =
-      std::find_if(models.begin(), models.end(),
-                   [&](const model::PlacedModel& placed) { return placed.name == name; });
-  return found == models.end() ? nullptr : &*found;
+base::Status CheckBehaviour(const BehaviourPort& behaviour, Mode mode, const std::string& robot) {
+  if (mode != Mode::kLockstep || behaviour.time_managed()) return {};
+  return base::Fail(base::ErrorCode::kBehaviour,
+                    "the behaviour \"" + behaviour.name() +
+                        "\" tells the time by the wall clock, so lockstep would not wait for it; "
+                        "run in real time",
+                    robot);
+}
+
+base::Status CheckFinite(const geometry::Pose& pose, const std::string& body) {
+  if (geometry::IsFinite(pose)) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument, "the pose is not finite", body);
+}
+
+base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
+  const std::string where = robot.name.empty() ? robot.model->name : robot.name;
+  if (!geometry::IsFinite(robot.world_from_robot)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "the robot's pose is not finite", where);
+  }
+  if (!robot.model->drive) {
+    return base::Fail(
+        base::ErrorCode::kBadModel,
+        "the model \"" + robot.model->name +
+            "\" has no drive that gsv knows, so it cannot be a robot; add a plugin such as "
+            "gz::sim::systems::DiffDrive to it",
+        where);
+  }
+  if (robot.behaviour == nullptr || robot.allow_unmanaged) return {};
+  return CheckBehaviour(*robot.behaviour, mode, where);
+}
+
+// The file of a model, or its name if it has none.
+std::string SourceOf(const model::Model& model) {
+  return model.source.empty() ? model.name : model.source;
+}
+
+Edit EditOf(const RobotSpecification& robot) {
+  Edit edit;
+  edit.kind = robot.is_avatar ? Edit::Kind::kAddAvatar : Edit::Kind::kAddRobot;
+  edit.body = robot.name;
+  edit.model = SourceOf(*robot.model);
+  if (robot.behaviour != nullptr) edit.behaviour = robot.behaviour->name();
+  edit.movement = robot.movement;
+  edit.world_from_body = robot.world_from_robot;
+  edit.on_ground = robot.on_ground;
+  return edit;
+}
+
+Edit EditOf(const ObjectSpecification& object, const std::string& name) {
+  Edit edit;
+  edit.kind = Edit::Kind::kAddObject;
+  edit.body = name;
+  if (object.model != nullptr) {
+    edit.model = SourceOf(*object.model);
+  } else {
+    edit.copy_of = object.copy_of;
+  }
+  edit.world_from_body = object.world_from_object;
+  edit.on_ground = object.on_ground;
+  return edit;
+}
+
+Edit RemovalOf(const std::string& name) {
+  Edit edit;
+  edit.kind = Edit::Kind::kRemove;
+  edit.body = name;
+  return edit;
 }
 
 }  // namespace
 
-void SteppingSimulation::AwaitTurns() {
-  Lock lock(shared_->mutex);
-  if (shared_->mode != Mode::kLockstep || shared_->phase != Phase::kPaused) return;
+void SteppingSimulation::AwaitTurns() const {
+  std::unique_lock lock(shared_->mutex);
+  if (shared_->mode != Mode::kLockstep || run_.phase() != Phase::kPaused) return;
   shared_->changed.wait_for(lock, kTurnPatience, [this] { return shared_->running == 0; });
 }
 
-void SteppingSimulation::Tell(Edit edit, const char* event, const std::string& detail) {
-  edit.step = state_.step;
-  edit.time = state_.time;
+base::Result<WorldLock::Held> SteppingSimulation::LockForEdit() const {
+  AwaitTurns();
+  auto world_lock = world_.lock().LockUnlessStuck();
+  if (!world_lock) return base::Fail(RefuseStuck().error());
+  const std::lock_guard lock(shared_->mutex);
+  auto ok = run_.Require({Phase::kCreated, Phase::kPaused}, "change what stands in it");
+  if (!ok) return base::Fail(ok.error());
+  return world_lock;
+}
+
+void SteppingSimulation::AssignBodies() {
+  const std::lock_guard lock(shared_->mutex);
+  agents_.AssignBodies(*world_.layout());
+}
+
+void SteppingSimulation::RecordEdit(Edit edit, const char* event, const std::string& detail) {
+  edit.step = world_.state().step;
+  edit.time = world_.state().time;
   {
     const std::lock_guard lock(shared_->mutex);
-    was_edited_ = was_edited_ || was_started_;
-    edit.halt = run_;
-    const bool stands_still = shared_->phase == Phase::kCreated || shared_->phase == Phase::kPaused;
-    const bool all_wait = shared_->running == 0 && shared_->ready.empty();
-    edit.moment = stands_still && !turns_have_begun_ ? Edit::Moment::kBeforeTurns
-                  : stands_still && all_wait         ? Edit::Moment::kAfterTurns
-                                                     : Edit::Moment::kAmidTurns;
+    run_.MarkEdited();
+    edit.halt = run_.run();
+    edit.moment = run_.MomentOfEdit(shared_->running == 0 && shared_->ready.empty());
   }
   const std::string body = edit.body;
-  AddEvent(event, body, detail, std::make_shared<const Edit>(std::move(edit)));
+  events_.Emit(event, body, detail, std::make_shared<const Edit>(std::move(edit)));
 }
 
 bool SteppingSimulation::was_edited() const {
   const std::lock_guard lock(shared_->mutex);
-  return was_edited_;
+  return run_.was_edited();
 }
 
-base::Status SteppingSimulation::CheckMayEdit() const {
+base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
+    std::vector<RobotSpecification> robots) {
+  const std::lock_guard control(control_mutex_);
+  for (const RobotSpecification& robot : robots) {
+    if (auto ok = CheckRobot(robot, specification_.mode); !ok) return base::Fail(ok.error());
+  }
+  AwaitTurns();
+  if (auto ok = PlaceRobots(robots); !ok) return base::Fail(ok.error());
+  std::vector<std::string> names;
+  names.reserve(robots.size());
+  for (const RobotSpecification& robot : robots) names.push_back(robot.name);
+  std::vector<AgentPopulation::AgentPtr> with_behaviour;
+  for (const RobotSpecification& robot : robots) {
+    if (robot.behaviour == nullptr) continue;
+    auto agent = FindAgent(robot.name);
+    if (auto ok = robot.behaviour->Init(agent); !ok) {
+      (void)RemoveRobots(names);  // the first error is returned
+      return base::Fail(ok.error());
+    }
+    with_behaviour.push_back(std::move(agent));
+  }
   const std::lock_guard lock(shared_->mutex);
-  return RefuseUnless({Phase::kCreated, Phase::kPaused}, "change what stands in it");
+  if (run_.phase() == Phase::kStarting || run_.is_running())
+    life_cycle_.StartBehaviours(with_behaviour);
+  return names;
 }
 
-base::Result<int> SteppingSimulation::FindLoose(const std::string& name) const {
-  const int body = layout_->Find(name);
-  if (body < 0) {
-    return base::Fail(base::ErrorCode::kNotFound, "there is nothing of that name", name);
+base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& robots) {
+  const auto world_lock = world_.lock().LockUnlessStuck();
+  if (!world_lock) return RefuseStuck();
+  if (auto ok = editor_.AddRobots(robots); !ok) return ok;
+  for (const RobotSpecification& robot : robots) {
+    RecordEdit(EditOf(robot), robot.is_avatar ? "avatar_added" : "robot_added");
   }
-  const model::PlacedModel* const placed = FindInWorld(*layout_, name);
-  if (layout_->bodies[body].is_static() && placed != nullptr &&
-      world::KindOf(*placed) == world::BodyKind::kStatic) {
-    return base::Fail(base::ErrorCode::kNotFound, "it is fixed to the world", name);
+  const std::lock_guard lock(shared_->mutex);
+  for (const RobotSpecification& robot : robots) {
+    agents_.Add(robot.name, robot.model, robot.is_avatar, robot.behaviour);
   }
-  return body;
+  agents_.AssignBodies(*world_.layout());
+  return {};
 }
 
-base::Result<world::Body> SteppingSimulation::BodyOf(const ObjectSpecification& object) const {
-  world::Body body;
-  if (object.model != nullptr) {
-    body.model = object.model;
-    body.kind = world::KindOf(*body.model, body.model->is_static, body.model->movement);
-  } else if (const int index = layout_->Find(object.copy_of); index >= 0) {
-    body.model = layout_->bodies[index].model;
-    body.kind = layout_->bodies[index].kind;
-  } else if (const auto removed =
-                 std::find_if(removed_.rbegin(), removed_.rend(),
-                              [&](const world::Body& each) { return each.name == object.copy_of; });
-             removed != removed_.rend()) {
-    body.model = removed->model;
-    body.kind = removed->kind;
-  } else if (const auto* placed = FindInWorld(*layout_, object.copy_of)) {
-    body.model = placed->model;
-    body.kind = world::KindOf(*placed);
-  } else {
-    return base::Fail(base::ErrorCode::kNotFound, "there is nothing of that name to make a copy of",
-                      object.copy_of);
-  }
-  if (body.model->drive) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "it has a drive, so it is to be added as a robot", body.model->name);
-  }
-  return body;
+base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
+  const std::lock_guard control(control_mutex_);
+  if (const auto found = RequireAgent(name); !found) return base::Fail(found.error());
+  AwaitTurns();
+  return RemoveRobots({name});
 }
 
-base::Result<std::string> SteppingSimulation::NameOf(const ObjectSpecification& object,
-                                                     const model::Model& model) const {
-  if (!object.name.empty()) {
-    if (auto ok = CheckName(object.name); !ok) return base::Fail(ok.error());
-    if (layout_->Find(object.name) < 0) return object.name;
-    return base::Fail(base::ErrorCode::kInvalidArgument, "a body of that name is there already",
-                      object.name);
+base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& names) {
+  const auto world_lock = world_.lock().LockUnlessStuck();
+  if (!world_lock) return RefuseStuck();
+  {
+    const std::lock_guard lock(shared_->mutex);
+    for (const std::string& name : names) agents_.Remove(name);
   }
-  std::string name = model.name;
-  for (int number = 2; layout_->Find(name) >= 0; ++number) {
-    name = model.name + "_" + std::to_string(number);
-  }
-  return name;
+  // No step is taken meanwhile, and whoever calls for an agent need not wait for the engine.
+  (void)editor_.Remove(names);  // fewer bodies always fit
+  AssignBodies();
+  shared_->changed.notify_all();
+  for (const std::string& name : names) RecordEdit(RemovalOf(name), "robot_removed");
+  return {};
 }
 
 base::Result<std::string> SteppingSimulation::AddObject(ObjectSpecification object) {
   const std::lock_guard control(control_mutex_);
-  if (!geometry::IsFinite(object.world_from_object)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "the pose is not finite", object.name);
-  }
-  AwaitTurns();
-  const auto world_lock = LockWorld();
-  if (!world_lock) return base::Fail(RefuseStuck().error());
-  if (auto ok = CheckMayEdit(); !ok) return base::Fail(ok.error());
-  auto body = BodyOf(object);
-  if (!body) return base::Fail(body.error());
-  auto name = NameOf(object, *body->model);
-  if (!name) return base::Fail(name.error());
-  body->name = *name;
-  body->initial_pose = object.on_ground ? StandingPose(*body->model, object.world_from_object)
-                                        : object.world_from_object;
-  Edit edit;
-  edit.kind = Edit::Kind::kAddObject;
-  edit.body = *name;
-  edit.copy_of = object.model == nullptr ? object.copy_of : "";
-  if (object.model != nullptr) edit.model = SourceOf(*object.model);
-  edit.world_from_body = object.world_from_object;
-  edit.on_ground = object.on_ground;
-  std::vector<world::Body> bodies = layout_->bodies;
-  bodies.push_back(*std::move(body));
-  if (auto ok = ChangeLayout(std::move(bodies), {*name}); !ok) return base::Fail(ok.error());
-  {
-    const std::lock_guard lock(shared_->mutex);
-    IndexAgents();
-  }
-  Tell(std::move(edit), "object_added",
-       "at " + PlaceText(state_.bodies[layout_->Find(*name)].world_from_model));
-  return *name;
+  if (auto ok = CheckFinite(object.world_from_object, object.name); !ok)
+    return base::Fail(ok.error());
+  const auto world_lock = LockForEdit();
+  if (!world_lock) return base::Fail(world_lock.error());
+  auto name = editor_.AddObject(object);
+  if (!name) return name;
+  AssignBodies();
+  RecordEdit(EditOf(object, *name), "object_added", "at " + PlaceText(world_.PoseOf(*name)));
+  return name;
 }
 
 base::Status SteppingSimulation::RemoveObject(const std::string& name) {
   const std::lock_guard control(control_mutex_);
-  AwaitTurns();
-  const auto world_lock = LockWorld();
-  if (!world_lock) return RefuseStuck();
-  if (auto ok = CheckMayEdit(); !ok) return ok;
-  const auto body = FindLoose(name);
-  if (!body) return base::Fail(body.error());
-  if (layout_->bodies[*body].is_robot()) {
-    return base::Fail(base::ErrorCode::kInvalidArgument,
-                      "it is a robot, so it is to be removed as one", name);
-  }
-  removed_.push_back(layout_->bodies[*body]);
-  if (removed_.size() > kMostRemoved) removed_.pop_front();
-  std::vector<world::Body> bodies = layout_->bodies;
-  bodies.erase(bodies.begin() + *body);
-  if (auto ok = ChangeLayout(std::move(bodies), {}); !ok) return ok;
-  {
-    const std::lock_guard lock(shared_->mutex);
-    IndexAgents();
-  }
-  Edit edit;
-  edit.kind = Edit::Kind::kRemove;
-  edit.body = name;
-  Tell(std::move(edit), "object_removed");
+  const auto world_lock = LockForEdit();
+  if (!world_lock) return base::Fail(world_lock.error());
+  if (auto ok = editor_.RemoveObject(name); !ok) return ok;
+  AssignBodies();
+  RecordEdit(RemovalOf(name), "object_removed");
   return {};
 }
 
 base::Status SteppingSimulation::PlaceBody(const std::string& name,
                                            const geometry::Pose& world_from_body, bool on_ground) {
   const std::lock_guard control(control_mutex_);
-  if (!geometry::IsFinite(world_from_body)) {
-    return base::Fail(base::ErrorCode::kInvalidArgument, "the pose is not finite", name);
-  }
-  AwaitTurns();
-  const auto world_lock = LockWorld();
-  if (!world_lock) return RefuseStuck();
-  if (auto ok = CheckMayEdit(); !ok) return ok;
-  const auto body = FindLoose(name);
-  if (!body) return base::Fail(body.error());
-  std::vector<world::Body> bodies = layout_->bodies;
-  bodies[*body].initial_pose =
-      on_ground ? StandingPose(*bodies[*body].model, world_from_body, *body) : world_from_body;
-  if (auto ok = ChangeLayout(std::move(bodies), {name}); !ok) return ok;
+  if (auto ok = CheckFinite(world_from_body, name); !ok) return ok;
+  const auto world_lock = LockForEdit();
+  if (!world_lock) return base::Fail(world_lock.error());
+  if (auto ok = editor_.Place(name, world_from_body, on_ground); !ok) return ok;
   Edit edit;
   edit.kind = Edit::Kind::kPlace;
   edit.body = name;
   edit.world_from_body = world_from_body;
   edit.on_ground = on_ground;
-  Tell(std::move(edit), "body_placed", "at " + PlaceText(state_.bodies[*body].world_from_model));
+  RecordEdit(std::move(edit), "body_placed", "at " + PlaceText(world_.PoseOf(name)));
   return {};
+}
+
+base::Status SteppingSimulation::CommandJoint(const std::string& body, const std::string& joint,
+                                              const world::JointCommand& command) {
+  const auto world_lock = world_.lock().LockUnlessStuck();
+  if (!world_lock) return RefuseStuck();
+  const world::Layout& layout = *world_.layout();
+  const int index = layout.Find(body);
+  const world::Body* const moved =
+      index < 0 ? nullptr : &layout.bodies[static_cast<std::size_t>(index)];
+  if (moved == nullptr || !(moved->is_rigid() || moved->is_robot())) {
+    return base::Fail(base::ErrorCode::kNotFound, "nothing moves a body \"" + body + "\"",
+                      specification_.name);
+  }
+  const int number = model::FindJoint(moved->model->joints, joint);
+  if (number < 0) {
+    return base::Fail(base::ErrorCode::kNotFound, "there is no joint \"" + joint + "\"", body);
+  }
+  if (auto ok = world::CheckJointCommand(*moved, number, command); !ok) return ok;
+  world::CommandJoint(layout, index, number, command, world_.state());
+  events_.Emit("joint_commanded", body, joint);
+  return {};
+}
+
+base::Status SteppingSimulation::SetBehaviour(const std::string& robot,
+                                              std::shared_ptr<BehaviourPort> behaviour) {
+  const std::lock_guard control(control_mutex_);
+  const auto found = RequireAgent(robot);
+  if (!found) return base::Fail(found.error());
+  if (auto ok = CheckBehaviour(*behaviour, specification_.mode, robot); !ok) return ok;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    if (auto ok = run_.Require({Phase::kCreated}, "change a behaviour"); !ok) return ok;
+    agents_.SetBehaviour(**found, behaviour);
+  }
+  const base::Status status = behaviour->Init(*found);
+  if (!status) {
+    const std::lock_guard lock(shared_->mutex);
+    agents_.SetBehaviour(**found, nullptr);
+  }
+  return status;
 }
 
 }  // namespace gsv::simulation

@@ -14,22 +14,13 @@
 
 #include "gsv/base/error.h"
 #include "gsv/sensing/registry.h"
+#include "gsv/simulation/observer.h"
 #include "gsv/simulation/robots/agent.h"
 #include "gsv/simulation/robots/behaviour_port.h"
 #include "gsv/simulation/types.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::simulation {
-
-// Is told what happens; must return at once. Snapshots come from the stepping thread, which holds
-// no lock then, so that const members of the simulation may be asked; events come from any thread,
-// with locks held: nothing may be asked.
-class Observer {
- public:
-  virtual ~Observer() = default;
-  virtual void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) = 0;
-  virtual void OnEvent(const Event& event) = 0;
-};
 
 struct RobotSpecification {
   std::string name;  // empty: the model's name, numbered if taken
@@ -134,8 +125,9 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // The agent of a robot or avatar; null if there is none of that name.
   virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
 
-  // A reading for somebody who watches: the same as the robot's own behaviour gets at that
-  // snapshot, without leaving a trace. Any thread but the stepping one; may take long (a picture).
+  // A reading for a viewer: the one that the robot's own behaviour gets at that snapshot. It leaves
+  // no trace. May take long (an image): on the stepping thread, as in Observer::OnSnapshot(), it
+  // delays the next step by as much.
   virtual base::Result<sensing::Reading> Watch(const std::string& robot,
                                                const std::string& sensor) = 0;
   // The sensors of a robot: those of its model and those that were mounted since.

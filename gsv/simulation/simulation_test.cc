@@ -103,37 +103,64 @@ TEST(Simulation, ExchangeAnswersWithTheReadingsAtItsInstantAndCommandsOnce) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(ranges[i], 2.85 - 0.05 * i, 1e-9);
 }
 
-TEST(Simulation, InLockstepNothingComesFromAnAgentThatWaits) {
-  auto simulation = Make(Lockstep(100ms));
-  std::atomic<bool> go = false;
-  auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
-    go = true;
+// Waits for one instant, an hour away.
+std::shared_ptr<ThreadBehaviour> Sleeps() {
+  return std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
     while (SleepFor(agent, clock, 1h)) {
     }
   });
-  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
-  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
-  EXPECT_TRUE(go);
+}
+
+// Counts the steps that are taken.
+class StepCounter final : public Observer {
+ public:
+  void OnSnapshot(const std::shared_ptr<const world::Snapshot>&) override {
+    ++steps;
+    steps.notify_all();
+  }
+  void OnEvent(const Event&) override {}
+
+  std::atomic<int> steps = 0;
+};
+
+TEST(Simulation, InLockstepAnAgentThatWaitsMayNeitherCommandNorRead) {
+  auto simulation = Make(Lockstep(0s));
+  const auto counter = std::make_shared<StepCounter>();
+  simulation->AddObserver(counter);
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Sleeps())));
+  ASSERT_TRUE(simulation->Start());
+  counter->steps.wait(0);  // no step is taken before the agent waits
   auto agent = simulation->agent("robot");
   const auto command = agent->Command({1, 0, 0});
   ASSERT_FALSE(command);
-  EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
+  EXPECT_EQ(command.error().code, base::ErrorCode::kNotRunning);
+  const auto reading = agent->Read("front");
+  ASSERT_FALSE(reading);
+  EXPECT_EQ(reading.error().code, base::ErrorCode::kNotRunning);
+  EXPECT_EQ(simulation->status().phase, Phase::kRunning);
+  const int steps = counter->steps;
+  counter->steps.wait(steps);
+  EXPECT_EQ(StatusOf(*simulation, "robot").distance, 0.0);
 }
 
-TEST(Simulation, AWaitingAgentsCommandIsRefusedWhileItRuns) {
-  Specification specification = Lockstep(0s);
-  auto simulation = Make(specification);
-  ASSERT_TRUE(simulation->AddRobot(
-      Robot("robot", 0, 0, std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
-              while (SleepFor(agent, clock, 1h)) {
-              }
-            }))));
+TEST(Simulation, AWaitingAgentsCommandIsRefusedInAPause) {
+  auto simulation = Make(Lockstep(0s));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Sleeps())));
   ASSERT_TRUE(simulation->RunUntil(100ms));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
   EXPECT_EQ(simulation->status().time, SimTime(100ms));
   const auto command = simulation->agent("robot")->Command({1, 0, 0});
   ASSERT_FALSE(command);
   EXPECT_EQ(command.error().code, base::ErrorCode::kNotRunning);
+}
+
+TEST(Simulation, AfterTheEndOfTheRunAgentsCallsEnd) {
+  auto simulation = Make(Lockstep(100ms));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, Sleeps())));
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  const auto command = simulation->agent("robot")->Command({1, 0, 0});
+  ASSERT_FALSE(command);
+  EXPECT_EQ(command.error().code, base::ErrorCode::kEnded);
 }
 
 // Waits have leases: who asked again at such a pause ran on, and the paused state's hash changed.
@@ -168,16 +195,25 @@ TEST(Simulation, AWaitForTheInstantOfAPauseEndsWhenItGoesOn) {
 
 TEST(Simulation, PauseFreezesTheClockAndTellsTheBehaviours) {
   auto simulation = Make(Lockstep(0s));
-  auto behaviour = Drives(0.01);
+  std::atomic<int> waits = 0;
+  auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
+    SimTime until = 10ms;
+    for (;;) {
+      const auto wait = agent.SleepUntil(clock, until, 1ms);
+      if (!wait) return;
+      if (*wait == Wait::kReached) until += 10ms;
+      ++waits;
+      waits.notify_all();
+    }
+  });
   ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 0, behaviour)));
   ASSERT_TRUE(simulation->Start());
   ASSERT_EQ(simulation->WaitForPhase({Phase::kRunning}, kPatience), Phase::kRunning);
   ASSERT_TRUE(simulation->Pause());
-  // A step that was under way when the pause came is the last one.
-  while (!simulation->status().waiting_for.empty()) std::this_thread::yield();
-  ASSERT_TRUE(simulation->Step(7));
-  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  (void)simulation->state_hash();  // waits for a step that was under way when the pause came
   const std::int64_t step = simulation->status().step;
+  for (int i = 0; i < 5; ++i) waits.wait(waits);  // in a run that goes on a step at least each
+  EXPECT_EQ(simulation->status().step, step);
   ASSERT_TRUE(simulation->Step(7));
   ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
   EXPECT_EQ(simulation->status().step, step + 7);

@@ -1,13 +1,10 @@
-// The stepping thread of a simulation: wake who is due, give local behaviours their turns, wait
-// until all wait (or, in real time, for the wall clock), step, publish.
-#include <utility>
+#include "gsv/simulation/step_loop.h"
 
 #include <pthread.h>
 #include <sys/resource.h>
 
 #include "gsv/base/check.h"
 #include "gsv/simulation/pace/totals.h"
-#include "gsv/simulation/stepping_simulation.h"
 
 namespace gsv::simulation {
 namespace {
@@ -15,98 +12,122 @@ namespace {
 // Turns that one thread takes at a time: some tens of microseconds of work.
 constexpr std::size_t kTurnsAPiece = 16;
 
+// Why a run pauses by itself.
 constexpr const char* kAsFarAsTold = "as far as it was told to run";
 
-// Has the calling thread run before those of a crowd of behaviours, which all want to run at the
-// instant of a step. It takes what the system grants: raising a priority needs CAP_SYS_NICE or a
-// limit (ulimit -e) of 30 or more.
-void GoBeforeOthers() { (void)setpriority(PRIO_PROCESS, 0, -10); }
+// The calling thread runs before those of a crowd of behaviours, which all want to run at the
+// instant of a step. The system may refuse: a higher priority needs CAP_SYS_NICE or a limit
+// (ulimit -e) of 30 or more.
+void RaiseThreadPriority() { (void)setpriority(PRIO_PROCESS, 0, -10); }
 
 }  // namespace
 
-void SteppingSimulation::RunLoop() {
+StepLoop::StepLoop(Parts parts) : parts_(std::move(parts)), run_(parts_.life_cycle.run()) {
+  instant_.rays = &parts_.shared->rays;
+  instant_.seed = parts_.specification.seed;
+  thread_ = std::jthread([this] { Run(); });
+}
+
+void StepLoop::Quit() {
+  quit_ = true;
+  parts_.shared->changed.notify_all();
+}
+
+void StepLoop::Join() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void StepLoop::Run() {
   pthread_setname_np(pthread_self(), "stepping");
-  Lock lock(shared_->mutex);
-  if (shared_->mode == Mode::kRealTime) GoBeforeOthers();
-  while (!quit_) {
-    if (shared_->phase != Phase::kRunning) {
-      shared_->changed.wait(lock);
-      continue;
-    }
-    if (restart_pacing_) {
-      restart_pacing_ = false;
-      pacer_.Restart(WallNow());
-    }
-    if (IsFaultDue()) {
-      lock.unlock();
-      ApplyFaults();
-      lock.lock();
-      continue;
-    }
-    WakeAgents();
-    if (!woken_.empty()) {
-      lock.unlock();
-      gate_opener_.Open(woken_);
-      lock.lock();
-    }
-    if (shared_->phase != Phase::kRunning) continue;
-    if (!shared_->ready.empty()) {
-      lock.unlock();
-      TakeTurns();
-      lock.lock();
-      continue;
-    }
-    if (!AllWait(lock) || !IsDue(lock)) continue;
-    if (run_through_ && shared_->now >= *run_through_) {
-      run_through_.reset();
-      SetPhase(Phase::kPaused);
-      AddEvent("paused", {}, kAsFarAsTold);
-      continue;
-    }
+  Lock lock(parts_.shared->mutex);
+  if (parts_.shared->mode == Mode::kRealTime) RaiseThreadPriority();
+  while (!quit_) TakeRound(lock);
+}
+
+void StepLoop::TakeRound(Lock& lock) {
+  SharedState& shared = *parts_.shared;
+  if (!run_.is_running()) return shared.changed.wait(lock);
+  parts_.life_cycle.pace().RestartIfResumed();
+  if (parts_.faults.schedule().IsDue(shared.now)) {
     lock.unlock();
-    TakeStep();
+    ApplyFaults();
+    return lock.lock();
+  }
+  WakeAgents();
+  if (!woken_.empty()) {
+    lock.unlock();
+    gate_opener_.Open(woken_);
     lock.lock();
   }
+  if (!run_.is_running()) return;
+  if (!shared.ready.empty()) {
+    lock.unlock();
+    TakeTurns();
+    return lock.lock();
+  }
+  if (!AllWait(lock) || !IsDue(lock)) return;
+  const RunControl::Change change = run_.EndTurns(shared.now);
+  if (change != RunControl::Change::kNone) return parts_.life_cycle.Apply(change, kAsFarAsTold);
+  lock.unlock();
+  TakeStep();
+  lock.lock();
 }
 
-void SteppingSimulation::WakeAgents() {
-  turns_have_begun_ = true;
-  const bool has_reported_deaths = std::exchange(shared_->has_reported_deaths, false);
-  for (const auto& [robot, sentence] : std::exchange(shared_->given_up, {})) {
-    AddEvent("agent_dead", robot, sentence);
+void StepLoop::ApplyFaults() {
+  const auto world_lock = parts_.world.lock().Lock();
+  FaultSchedule& schedule = parts_.faults.schedule();
+  Lock lock(parts_.shared->mutex);
+  while (run_.is_running() && schedule.IsDue(parts_.shared->now)) {
+    const scenario::Fault& fault = schedule.TakeDue();
+    lock.unlock();
+    const base::Status injected = parts_.faults.Inject(fault);
+    lock.lock();
+    if (injected) continue;
+    if (run_.is_running()) parts_.life_cycle.Fail(injected.error().Sentence());
+    return;
   }
-  if (!has_reported_deaths && !shared_->sleepers.HasDue(shared_->now)) return;
+}
+
+void StepLoop::WakeAgents() {
+  SharedState& shared = *parts_.shared;
+  run_.BeginTurns();
+  const bool has_reported_deaths = std::exchange(shared.has_reported_deaths, false);
+  for (const auto& [robot, sentence] : std::exchange(shared.given_up, {})) {
+    parts_.events.Emit("agent_dead", robot, sentence);
+  }
+  if (!has_reported_deaths && !shared.sleepers.HasDue(shared.now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
-    const RobotAgent::Woken woken = agent.Wake(shared_->now, wall_now);
+    const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
     if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.gate());
-    if (woken.has_died && specification_.on_failure == FailurePolicy::kFail &&
-        shared_->phase == Phase::kRunning) {
-      Fail("the behaviour of " + agent.Describe() + " died");
+    if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
+        run_.is_running()) {
+      parts_.life_cycle.Fail("the behaviour of " + agent.Describe() + " died");
     }
   };
-  shared_->sleepers.TakeDue(shared_->now, wake);
+  shared.sleepers.TakeDue(shared.now, wake);
   if (!has_reported_deaths) return;
-  for (const auto& [name, agent] : agents_) wake(*agent);
+  for (const auto& [name, agent] : parts_.agents.all()) wake(*agent);
 }
 
-void SteppingSimulation::TakeTurns() {
-  const std::lock_guard world_lock(world_mutex_);
+void StepLoop::TakeTurns() {
+  SharedState& shared = *parts_.shared;
+  const auto world_lock = parts_.world.lock().Lock();
   {
-    const std::lock_guard lock(shared_->mutex);
-    if (shared_->phase != Phase::kRunning) return;
-    turns_.swap(shared_->ready);
-    instant_.now = shared_->now;
-    shared_->history.MakeFrame(instant_.snapshots);
+    const std::lock_guard lock(shared.mutex);
+    if (!run_.is_running()) return;
+    turns_.swap(shared.ready);
+    instant_.now = shared.now;
+    shared.history.MakeFrame(instant_.snapshots);
   }
-  instant_.Prepare(*team_);
-  team_->Share(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
+  instant_.Prepare(*parts_.team);
+  parts_.team->Share(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
     sensing::Sampling sampling = instant_.MakeSampling();
     for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
-  const std::lock_guard lock(shared_->mutex);
-  is_stuck_ = false;  // it came back after all
-  const WallTime deadline = WallNow() - specification_.deadline;
+  const std::lock_guard lock(shared.mutex);
+  parts_.world.lock().SetStuck(false);  // it came back after all
+  const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (RobotAgent* agent : turns_) {
     if (auto work = agent->Settle()) PostBlocked(agent->shared_from_this(), std::move(work));
     // It may have waited for instants that were here already, again and again.
@@ -115,178 +136,146 @@ void SteppingSimulation::TakeTurns() {
   turns_.clear();
 }
 
-void SteppingSimulation::PostBlocked(AgentPtr agent, std::function<void()> work) {
+void StepLoop::PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work) {
   const std::string key = "block " + agent->robot();
-  caller_.Post(key, [this, agent = std::move(agent), work = std::move(work)] {
-    work();
-    const std::lock_guard lock(shared_->mutex);
-    if (!agent->is_gone()) agent->MakeReady();
-    shared_->changed.notify_all();
-  });
+  parts_.caller.Post(key,
+                     [shared = parts_.shared, agent = std::move(agent), work = std::move(work)] {
+                       work();
+                       const std::lock_guard lock(shared->mutex);
+                       if (!agent->is_gone()) agent->MakeReady();
+                       shared->changed.notify_all();
+                     });
 }
 
-bool SteppingSimulation::AllWait(Lock& lock) {
-  if (shared_->mode != Mode::kLockstep || shared_->running == 0) return true;
-  AgentPtr longest;
-  for (const auto& [name, agent] : agents_) {
+bool StepLoop::AllWait(Lock& lock) {
+  SharedState& shared = *parts_.shared;
+  if (shared.mode != Mode::kLockstep || shared.running == 0) return true;
+  AgentPopulation::AgentPtr longest;
+  for (const auto& [name, agent] : parts_.agents.all()) {
     if (!agent->HoldsUp()) continue;
     if (longest == nullptr || agent->running_since() < longest->running_since()) longest = agent;
   }
   GSV_CHECK(longest != nullptr);
-  const WallTime deadline = longest->running_since() + specification_.deadline;
-  // `agents_` may change while the lock is released: `longest` holds on to the agent.
-  const std::cv_status status = shared_->changed.wait_until(lock, deadline);
-  if (status == std::cv_status::timeout && shared_->phase == Phase::kRunning &&
-      longest->HoldsUp() && WallNow() >= longest->running_since() + specification_.deadline) {
+  const auto deadline = [&] { return longest->running_since() + parts_.specification.deadline; };
+  // The population may change while the lock is released: `longest` keeps the agent.
+  const std::cv_status status = shared.changed.wait_until(lock, deadline());
+  if (status == std::cv_status::timeout && run_.is_running() && longest->HoldsUp() &&
+      WallNow() >= deadline()) {
     GiveUpOn(*longest);
   }
   return false;
 }
 
-void SteppingSimulation::GiveUpOn(RobotAgent& agent) {
+void StepLoop::GiveUpOn(RobotAgent& agent) {
   const std::string detail = "neither waited nor returned within " +
-                             std::to_string(specification_.deadline.count()) + " ms";
+                             std::to_string(parts_.specification.deadline.count()) + " ms";
   agent.MarkUnresponsive(detail);
-  AddEvent("agent_unresponsive", agent.robot(),
-           agent.Describe() + " " + detail + "; its robot stops");
-  if (specification_.on_failure == FailurePolicy::kFail) Fail(agent.Describe() + " " + detail);
+  parts_.events.Emit("agent_unresponsive", agent.robot(),
+                     agent.Describe() + " " + detail + "; its robot stops");
+  if (parts_.specification.on_failure == FailurePolicy::kFail)
+    parts_.life_cycle.Fail(agent.Describe() + " " + detail);
 }
 
-bool SteppingSimulation::IsDue(Lock& lock) {
-  if (shared_->mode != Mode::kRealTime) return true;
-  if (WallNow() >= pacer_.due()) return true;
-  shared_->changed.wait_until(lock, pacer_.due());
+bool StepLoop::IsDue(Lock& lock) {
+  if (parts_.shared->mode != Mode::kRealTime) return true;
+  const WallTime due = parts_.life_cycle.pace().due();
+  if (WallNow() >= due) return true;
+  parts_.shared->changed.wait_until(lock, due);
   return false;
 }
 
-void SteppingSimulation::ApplyCommands() {
-  for (RobotAgent* agent : shared_->commanded) {
+// One step, from t to t + h:
+//
+//   lock the world
+//     return if the run has been halted, or if an agent has begun to act since the last check
+//     apply the commands of agents: drives and joints           they act from t on
+//     apply their commands of devices, by robot and name;
+//       then each device takes its part in the step             it sees the snapshot at t
+//     attach and detach what devices have grasped and released
+//     move bodies and joints by h                               dynamics::Engine
+//     devices move what they hold; odometry, contacts and accelerations follow
+//     publish the snapshot at t + h, and with it the phase
+//       that the run enters at its end                          RunControl
+//   pass the snapshot to the observers, without a lock
+void StepLoop::TakeStep() {
+  SimulatedWorld& world = parts_.world;
+  SharedState& shared = *parts_.shared;
+  const SimTime length = parts_.specification.step;
+  std::shared_ptr<world::Snapshot> snapshot;
+  {
+    const auto world_lock = world.lock().Lock();
+    const WallTime start = WallNow();
+    if (!BeginStep(start)) return;
+    std::vector<world::Transmission> transmissions;
+    if (world.state().devices != nullptr || !device_actions_.empty()) {
+      transmissions =
+          StepDevices(shared.history.latest(), length, std::exchange(device_actions_, {}),
+                      shared.rays, parts_.team.get(), world.state());
+      world.FollowAttachments();
+    }
+    snapshot = snapshots_.Take();
+    world.Step(length, *snapshot);
+    snapshot->transmissions = std::move(transmissions);
+    EndStep(snapshot, start);
+  }
+  parts_.events.Publish(snapshot);
+}
+
+bool StepLoop::BeginStep(WallTime start) {
+  SharedState& shared = *parts_.shared;
+  const std::lock_guard lock(shared.mutex);
+  if (!run_.is_running()) return false;
+  // Somebody may have come between the check and the locks: a robot was added, a clock opened, or
+  // the last agent that ran has given up.
+  if (shared.mode == Mode::kLockstep && (shared.running > 0 || shared.has_reported_deaths))
+    return false;
+  ApplyCommands();
+  run_.BeginStep();
+  if (shared.mode == Mode::kRealTime) parts_.life_cycle.pace().StepStarts(start);
+  return true;
+}
+
+void StepLoop::ApplyCommands() {
+  world::State& state = parts_.world.state();
+  for (RobotAgent* agent : parts_.shared->commanded) {
     RobotCommands commands = agent->TakeCommands();
     if (const auto& drive = commands.drive()) {
-      state_.bodies[agent->body()].drive.command = drive->command;
-      state_.bodies[agent->body()].drive.command_time = state_.time;
+      world::DriveState& driven = state.bodies[static_cast<std::size_t>(agent->body())].drive;
+      driven.command = drive->command;
+      driven.command_time = state.time;
     }
     for (const auto& [joint, command] : commands.joints()) {
-      world::CommandJoint(*layout_, agent->body(), joint, command, state_);
+      world::CommandJoint(*parts_.world.layout(), agent->body(), joint, command, state);
     }
     if (!commands.devices().empty()) {
       device_actions_.emplace_back(agent->robot(), std::move(commands.devices()));
     }
   }
-  shared_->commanded.clear();
+  parts_.shared->commanded.clear();
 }
 
-// One step from t to t+h, under world_mutex_:
-//
-//   unless the simulation has been halted, or some agent still runs (lockstep):
-//     apply what agents commanded: drives, joints                      ApplyCommands()
-//     apply what agents commanded of devices, by robot and name;
-//       each device does its part: hears, grasps                       StepDevices()
-//     the engine learns of what devices hold now                       Attachments::Follow()
-//     the engine moves bodies and joints by h; devices move what they
-//       hold; odometry, contacts and accelerations follow              MoveWorld()
-//     publish the snapshot, count the step, pause or finish if that
-//       was the last one                                               AfterStep()
-//   observers queue the snapshot, without any lock
-void SteppingSimulation::TakeStep() {
-  std::shared_ptr<const world::Snapshot> snapshot;
-  {
-    const std::lock_guard world_lock(world_mutex_);
-    const WallTime start = WallNow();
-    {
-      const std::lock_guard lock(shared_->mutex);
-      if (shared_->phase != Phase::kRunning) return;
-      // Somebody may have come between the check and the locks: a robot added, a clock opened, the
-      // last who ran has given up.
-      if (shared_->mode == Mode::kLockstep &&
-          (shared_->running > 0 || shared_->has_reported_deaths)) {
-        return;
-      }
-      ApplyCommands();
-      stepped_run_ = run_;
-      if (shared_->mode == Mode::kRealTime) pacer_.StepStarts(start);
-    }
-    if (state_.devices != nullptr || !device_actions_.empty()) {
-      transmissions_ =
-          StepDevices(shared_->history.latest(), step_, std::exchange(device_actions_, {}),
-                      shared_->rays, team_.get(), state_);
-      attachments_.Follow(*layout_, state_, *engine_);
-    }
-    snapshot = MoveWorld();
-    AfterStep(snapshot, start);
-  }
-  std::vector<std::shared_ptr<Observer>> observers;
-  {
-    const std::lock_guard lock(events_mutex_);
-    if (observers_.empty()) return;
-    observers = observers_;
-  }
-  for (const auto& observer : observers) observer->OnSnapshot(snapshot);
-}
-
-std::shared_ptr<const world::Snapshot> SteppingSimulation::MoveWorld() {
-  auto snapshot = snapshots_.Take();
-  const double step_seconds = base::ToSeconds(step_);
-  world::KeepVelocities(state_, snapshot->accelerations);
-  wheel_odometry_.KeepWheels(state_);
-  engine_->Step(step_, state_, snapshot->contacts);
-  MoveDevices(*layout_, state_.time + step_, state_);
-  wheel_odometry_.Advance(step_seconds, state_);
-  world::FinishContacts(state_, snapshot->accelerations, snapshot->contacts);
-  world::FinishAccelerations(state_, step_seconds, snapshot->accelerations);
-  ++state_.step;
-  state_.time = state_.step * step_;
-  snapshot->layout = layout_;
-  snapshot->state = state_;
-  snapshot->transmissions = std::exchange(transmissions_, {});
-  return snapshot;
-}
-
-void SteppingSimulation::AfterStep(const std::shared_ptr<const world::Snapshot>& snapshot,
-                                   WallTime start) {
+void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start) {
   ++ProcessTotals().steps;
+  SharedState& shared = *parts_.shared;
   const WallTime end = WallNow();
-  const std::lock_guard lock(shared_->mutex);
-  shared_->history.Publish(snapshot);  // with the phase that comes of it: see status()
-  shared_->now = snapshot->state.time;
-  turns_have_begun_ = false;
-  statistics_.Stepped(end, shared_->now, end - start);
-  // A step that was under way when somebody paused and asked for steps is none of these.
-  if (steps_left_ > 0 && stepped_run_ == run_) --steps_left_;
-  // Also when somebody paused during this last step: going on later would take one step too many.
-  if (specification_.duration.count() > 0 && shared_->now >= specification_.duration)
-    return Finish();
-  const bool arrived = run_until_.count() > 0 && shared_->now >= run_until_;
-  if (steps_left_ == 0 || arrived) {
-    run_until_ = SimTime(0);
-    steps_left_ = -1;
-    if (shared_->phase == Phase::kRunning) {
-      SetPhase(Phase::kPaused);
-      AddEvent("paused", {}, kAsFarAsTold);
-    }
-  }
+  const std::lock_guard lock(shared.mutex);
+  // The snapshot and the phase that comes of it appear together: see Simulation::status().
+  shared.history.Publish(snapshot);
+  shared.now = snapshot->state.time;
+  parts_.life_cycle.pace().StepEnds(start, end, shared.now);
+  const RunControl::Change change = run_.EndStep(shared.now);
+  if (change == RunControl::Change::kNone) return;
+  const bool has_finished = change == RunControl::Change::kFinished;
+  if (has_finished) run_.SetFinalHash(HashNow());
+  parts_.life_cycle.Apply(change, has_finished ? "" : kAsFarAsTold);
 }
 
-void SteppingSimulation::Finish() {
-  if (shared_->phase == Phase::kStopped || shared_->phase == Phase::kFailed) return;
-  final_hash_ = HashNow();
-  SetPhase(Phase::kFinished);
-  AddEvent("finished");
-  EndAgents("the simulation has finished");
-}
-
-void SteppingSimulation::Fail(std::string reason) {
-  failure_ = std::move(reason);
-  SetPhase(Phase::kFailed);
-  AddEvent("failed", {}, failure_);
-  EndAgents("the simulation has failed: " + failure_);
-}
-
-std::string SteppingSimulation::HashNow() const {
+std::string StepLoop::HashNow() const {
   base::Hash hash;
-  world::AddToHash(*layout_, state_, hash);
-  for (const auto& [name, agent] : agents_) agent->AddToHash(hash);
-  if (faults_done_ > 0) hash.Add(std::uint64_t{faults_done_});
+  world::AddToHash(*parts_.world.layout(), parts_.world.state(), hash);
+  for (const auto& [name, agent] : parts_.agents.all()) agent->AddToHash(hash);
+  const std::size_t faults = parts_.faults.schedule().done();
+  if (faults > 0) hash.Add(std::uint64_t{faults});
   return hash.Hex();
 }
 

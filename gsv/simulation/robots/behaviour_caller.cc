@@ -8,12 +8,13 @@ BehaviourCaller::BehaviourCaller(int threads) {
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { Work(); });
 }
 
-BehaviourCaller::~BehaviourCaller() {
+void BehaviourCaller::Close() {
   {
     const std::lock_guard lock(mutex_);
     closing_ = true;
   }
   changed_.notify_all();
+  threads_.clear();
 }
 
 void BehaviourCaller::Post(std::string key, std::function<void()> call) {

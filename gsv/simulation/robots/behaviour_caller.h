@@ -17,12 +17,13 @@ namespace gsv::simulation {
 class BehaviourCaller {
  public:
   explicit BehaviourCaller(int threads);
-  // Waits for the calls that are posted.
-  ~BehaviourCaller();
+  ~BehaviourCaller() { Close(); }
   BehaviourCaller(const BehaviourCaller&) = delete;
   BehaviourCaller& operator=(const BehaviourCaller&) = delete;
 
   void Post(std::string key, std::function<void()> call);
+  // Waits for the calls that are posted. Nothing may be posted after it.
+  void Close();
   // Until every call that was posted has returned; false when `timeout` of wall time comes first.
   bool WaitUntilIdle(std::chrono::milliseconds timeout);
 

@@ -40,7 +40,6 @@ struct SharedState {
   // For the stepping thread: the phase changed, the last agent that it waited for has begun to
   // wait, or a local behaviour can go on.
   std::condition_variable changed;
-  Phase phase = Phase::kCreated;
   std::string end_reason;  // not empty: agents' calls end with it
   SimTime now{0};
 

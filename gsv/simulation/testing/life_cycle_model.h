@@ -51,9 +51,9 @@ inline State Frozen(Phase phase, Interval step) {
   return {.phase = phase, .step = step, .counted = {}, .run_until = {}};
 }
 
-class LifeCycle {
+class LifeCycleModel {
  public:
-  explicit LifeCycle(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}
+  explicit LifeCycleModel(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}
 
   // `seen` was seen just before the request, `ok` was its answer. False: no state allows that.
   bool Requested(const Request& request, const Sight& seen, bool ok) {

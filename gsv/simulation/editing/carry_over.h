@@ -1,0 +1,16 @@
+// The state of a world after bodies have come or gone.
+#pragma once
+
+#include "gsv/world/state.h"
+
+namespace gsv::simulation {
+
+// The state of `layout` that continues `old_state`: bodies that `old_layout` has as well keep
+// theirs, others start at their initial poses. Devices stay as they were: see CarryOverDevices().
+world::State CarryOver(const world::Layout& old_layout, const world::State& old_state,
+                       const world::Layout& layout);
+
+// Puts a body at its initial pose, at rest.
+void PutAtRest(const world::Layout& layout, int body, world::State& state);
+
+}  // namespace gsv::simulation

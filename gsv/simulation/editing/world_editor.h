@@ -1,0 +1,62 @@
+// Changes who stands in a simulated world, and where. A change that fails leaves the world as it
+// was.
+//
+// Threads  who calls a member holds the world's lock. The world's snapshot history is restarted
+//          with each change.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/simulation/event_log.h"
+#include "gsv/simulation/robots/shared_state.h"
+#include "gsv/simulation/simulated_world.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::simulation {
+
+class WorldEditor {
+ public:
+  WorldEditor(SimulatedWorld& world, std::shared_ptr<SharedState> shared, EventLog& events)
+      : world_(world), shared_(std::move(shared)), events_(events) {}
+
+  // Names the robots and places them: all, or none.
+  base::Status AddRobots(std::vector<RobotSpecification>& robots);
+  // Returns the object's name.
+  base::Result<std::string> AddObject(const ObjectSpecification& object);
+  base::Status RemoveObject(const std::string& name);
+  // Removes bodies of any kind; names that are not there are ignored.
+  base::Status Remove(const std::vector<std::string>& names);
+  // Places a body that is not fixed to the world.
+  base::Status Place(const std::string& name, const geometry::Pose& world_from_body,
+                     bool on_ground);
+  // Places a body of any kind, by its index.
+  base::Status PlaceAny(int body, const geometry::Pose& world_from_body, bool on_ground);
+  // Gives bodies other initial poses, for the next reset. Names that are not there are ignored.
+  base::Status SetInitialPoses(const std::map<std::string, geometry::Pose>& poses);
+
+ private:
+  // `pose` with the height at which the model stands on what is below it. `own`: its body, which it
+  // cannot stand on; -1: it has none yet.
+  geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const;
+  // `placed`: names of the bodies that are new or placed elsewhere, at their initial poses.
+  base::Status ChangeBodies(std::vector<world::Body> bodies,
+                            const std::vector<std::string>& placed);
+  base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,
+                       world::State& state);
+  // The body of that name, or why it cannot be moved.
+  base::Result<int> FindMovable(const std::string& name) const;
+  base::Result<world::Body> BodyOf(const ObjectSpecification& object) const;
+  base::Result<std::string> NameOf(const ObjectSpecification& object,
+                                   const model::Model& model) const;
+
+  SimulatedWorld& world_;
+  const std::shared_ptr<SharedState> shared_;
+  EventLog& events_;
+  std::deque<world::Body> removed_;  // objects, the newest last; copies of them can be added
+};
+
+}  // namespace gsv::simulation

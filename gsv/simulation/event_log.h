@@ -1,0 +1,49 @@
+// What has happened in a simulation, and the observers that are notified of it.
+//
+// Threads  any; it has its own lock, which no other lock is taken under.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/simulation/observer.h"
+#include "gsv/simulation/robots/snapshot_history.h"
+#include "gsv/simulation/types.h"
+
+namespace gsv::simulation {
+
+class EventLog {
+ public:
+  // Events carry the step and time of the latest snapshot of `history`, which outlives the log. The
+  // log keeps the newest `capacity` events.
+  explicit EventLog(const SnapshotHistory& history, std::size_t capacity = 10'000)
+      : history_(history), capacity_(capacity) {}
+
+  // Appends an event and passes it to every observer, under the log's lock.
+  void Emit(std::string kind, std::string robot = {}, std::string detail = {},
+            std::shared_ptr<const Edit> edit = nullptr);
+  // The kept events from number `first` on; the first event of all has the number 0.
+  std::vector<Event> Since(std::uint64_t first) const;
+  // The number of events so far, dropped ones among them.
+  std::uint64_t count() const;
+
+  void AddObserver(std::shared_ptr<Observer> observer);
+  void RemoveObserver(const std::shared_ptr<Observer>& observer);
+  // Passes a snapshot to every observer; no lock is held meanwhile.
+  void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
+
+ private:
+  const SnapshotHistory& history_;
+  const std::size_t capacity_;
+
+  mutable base::Mutex mutex_;
+  std::deque<Event> events_ GSV_GUARDED_BY(mutex_);
+  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
+  std::vector<std::shared_ptr<Observer>> observers_ GSV_GUARDED_BY(mutex_);
+};
+
+}  // namespace gsv::simulation

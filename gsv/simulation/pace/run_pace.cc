@@ -1,0 +1,45 @@
+#include "gsv/simulation/pace/run_pace.h"
+
+#include <utility>
+
+namespace gsv::simulation {
+
+base::Status CheckFactor(double factor, const std::string& simulation) {
+  if (factor > 0 && factor <= 1e6) return {};
+  return base::Fail(base::ErrorCode::kInvalidArgument,
+                    "the real-time factor must lie above 0 and not above 1e6", simulation);
+}
+
+void RunPace::SetRunning(bool is_running, base::SimTime now) {
+  if (std::exchange(is_running_, is_running) == is_running) return;
+  if (is_running) {
+    has_resumed_ = true;
+    statistics_.Started(WallNow(), now);
+  } else {
+    statistics_.Stopped(WallNow(), now);
+  }
+}
+
+void RunPace::Reset() {
+  pacer_.ResetLateSteps();
+  statistics_ = RunStatistics();
+}
+
+void RunPace::SetFactor(double factor) {
+  factor_ = factor;
+  pacer_.SetFactor(factor);
+}
+
+void RunPace::RestartIfResumed() {
+  if (std::exchange(has_resumed_, false)) pacer_.Restart(WallNow());
+}
+
+void RunPace::FillStatus(SimulationStatus& status) const {
+  status.target_factor = factor_;
+  status.real_time_factor = statistics_.real_time_factor();
+  status.wall_time = statistics_.wall_time();
+  status.mean_step_time = statistics_.mean_step_time();
+  status.late_steps = pacer_.late_steps();
+}
+
+}  // namespace gsv::simulation

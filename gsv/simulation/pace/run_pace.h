@@ -1,0 +1,49 @@
+// The pace of a run: when its next step is due on the wall clock, and how fast it has been.
+//
+// Threads  one call at a time.
+#pragma once
+
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/base/sim_time.h"
+#include "gsv/simulation/pace/pacer.h"
+#include "gsv/simulation/pace/run_statistics.h"
+#include "gsv/simulation/types.h"
+
+namespace gsv::simulation {
+
+// Refuses a real-time factor that is not in (0, 1e6]; `simulation` is named in the error.
+base::Status CheckFactor(double factor, const std::string& simulation);
+
+class RunPace {
+ public:
+  RunPace(base::SimTime step, double factor) : pacer_(step, factor), factor_(factor) {}
+
+  // The simulation runs from now on, or does not run any more.
+  void SetRunning(bool is_running, base::SimTime now);
+  void Reset();
+
+  double factor() const { return factor_; }
+  void SetFactor(double factor);
+
+  // The stepping thread. After the run has begun or resumed, the next step is due at once.
+  void RestartIfResumed();
+  WallTime due() const { return pacer_.due(); }
+  void StepStarts(WallTime start) { (void)pacer_.StepStarts(start); }
+  void StepEnds(WallTime start, WallTime end, base::SimTime now) {
+    statistics_.Stepped(end, now, end - start);
+  }
+
+  // Sets the members of `status` that are about wall-clock time.
+  void FillStatus(SimulationStatus& status) const;
+
+ private:
+  Pacer pacer_;
+  double factor_;
+  RunStatistics statistics_;
+  bool is_running_ = false;
+  bool has_resumed_ = false;
+};
+
+}  // namespace gsv::simulation

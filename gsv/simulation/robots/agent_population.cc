@@ -1,0 +1,152 @@
+#include "gsv/simulation/robots/agent_population.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace gsv::simulation {
+
+void AgentPopulation::Add(const std::string& name, std::shared_ptr<const model::Model> model,
+                          bool is_avatar, std::shared_ptr<BehaviourPort> behaviour) {
+  const auto agent = std::make_shared<RobotAgent>(name, std::move(model), is_avatar, shared_);
+  SetBehaviour(*agent, std::move(behaviour));
+  agent->StartDevices();
+  agents_.emplace(name, agent);
+}
+
+void AgentPopulation::SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour) {
+  if (behaviour != nullptr && behaviour->local() != nullptr) has_hosted_ = true;
+  agent.SetBehaviour(std::move(behaviour));
+}
+
+void AgentPopulation::Remove(const std::string& name) {
+  const auto it = agents_.find(name);
+  if (it == agents_.end()) return;
+  RobotAgent* const agent = it->second.get();
+  agent->MarkGone();
+  shared_->sleepers.Remove(agent);
+  std::erase(shared_->commanded, agent);
+  std::erase(shared_->ready, agent);
+  if (const auto& behaviour = agent->behaviour(); behaviour != nullptr) {
+    caller_.Post(name, [behaviour] {
+      (void)behaviour->Stop();
+      behaviour->Destroy();
+    });
+  }
+  agents_.erase(it);
+}
+
+void AgentPopulation::AssignBodies(const world::Layout& layout) {
+  for (const auto& [name, agent] : agents_) agent->SetBody(layout.Find(name));
+}
+
+AgentPopulation::AgentPtr AgentPopulation::Find(const std::string& name) const {
+  const auto it = agents_.find(name);
+  return it == agents_.end() ? nullptr : it->second;
+}
+
+std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
+  std::vector<AgentPtr> agents;
+  for (const auto& [name, agent] : agents_) {
+    if (agent->behaviour() != nullptr) agents.push_back(agent);
+  }
+  return agents;
+}
+
+void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
+  for (const AgentPtr& agent : WithBehaviour()) {
+    caller_.Post(agent->robot(), [this, agent, what, call] {
+      // A behaviour that does not hear of a pause may live on: the clock stands still anyway.
+      if (const auto status = (agent->behaviour().get()->*call)(); !status) {
+        events_.Emit("behaviour_silent", agent->robot(),
+                     std::string(what) + ": " + status.error().Sentence());
+      }
+    });
+  }
+}
+
+void AgentPopulation::End(std::string reason, bool is_stuck) {
+  shared_->end_reason = std::move(reason);
+  for (const auto& [name, agent] : agents_) agent->gate()->Open();
+  for (const AgentPtr& agent : WithBehaviour()) {
+    if (is_stuck && agent->in_turn_since()) continue;  // the call would not return either
+    caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { (void)behaviour->Stop(); });
+  }
+}
+
+void AgentPopulation::DestroyBehaviours() {
+  for (const AgentPtr& agent : WithBehaviour()) {
+    caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { behaviour->Destroy(); });
+  }
+}
+
+void AgentPopulation::Reset() {
+  shared_->sleepers.Clear();
+  shared_->commanded.clear();
+  shared_->given_up.clear();
+  shared_->ready.clear();
+  shared_->end_reason.clear();
+  for (const auto& [name, agent] : agents_) {
+    agent->ResetClocks();
+    agent->rack().Reset();
+    agent->StartDevices();
+  }
+}
+
+void AgentPopulation::ReportDeath(RobotAgent& agent, const std::string& detail) {
+  agent.ReportDeath(detail);
+  events_.Emit("agent_dead", agent.robot(), agent.Describe() + ": " + detail);
+  shared_->changed.notify_all();
+}
+
+void AgentPopulation::ReportIfFailed(RobotAgent& agent, const char* what,
+                                     const base::Status& status) {
+  if (status) return;
+  const std::lock_guard lock(shared_->mutex);
+  ReportDeath(agent, std::string(what) + " failed: " + status.error().Sentence());
+}
+
+void AgentPopulation::LookForDeaths() {
+  for (const auto& [name, agent] : agents_) {
+    if (!agent->is_watched() || !asked_for_life_.insert(name).second) continue;
+    caller_.Post("watch " + name, [this, held = agent] {
+      const bool is_dead = held->behaviour()->IsDead();
+      const std::lock_guard lock(shared_->mutex);
+      asked_for_life_.erase(held->robot());
+      if (is_dead && held->is_watched())
+        ReportDeath(*held, "its process has ended or refuses connections");
+    });
+  }
+}
+
+std::vector<RobotStatus> AgentPopulation::Statuses(const world::Snapshot& snapshot) const {
+  std::vector<RobotStatus> statuses;
+  statuses.reserve(agents_.size());
+  for (const auto& [name, agent] : agents_) {
+    RobotStatus& status = statuses.emplace_back();
+    agent->FillStatus(status);
+    const int body = snapshot.layout->Find(name);
+    if (body < 0) continue;
+    const world::BodyState& state = snapshot.state.bodies[static_cast<std::size_t>(body)];
+    status.world_from_robot = state.world_from_model;
+    status.distance = state.distance;
+    status.collisions = state.collisions;
+  }
+  return statuses;
+}
+
+std::string AgentPopulation::WaitingFor() const {
+  const WallTime now = WallNow();
+  for (const auto& [name, agent] : agents_) {
+    const bool is_waited_for = shared_->mode == Mode::kLockstep || agent->in_turn_since();
+    if (!is_waited_for || !agent->IsAtWork()) continue;
+    const double since = std::chrono::duration<double>(now - agent->running_since()).count();
+    if (since <= 0.1) continue;
+    char text[32];
+    std::snprintf(text, sizeof text, " since %.1f s", since);
+    return agent->Describe() + text;
+  }
+  return {};
+}
+
+}  // namespace gsv::simulation

@@ -1,0 +1,71 @@
+// The agents of a simulation's robots, by name, and the calls to their behaviours.
+//
+// Threads  every member needs SharedState::mutex, except where it says otherwise.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gsv/simulation/event_log.h"
+#include "gsv/simulation/robots/behaviour_caller.h"
+#include "gsv/simulation/robots/robot_agent.h"
+
+namespace gsv::simulation {
+
+class AgentPopulation {
+ public:
+  using AgentPtr = std::shared_ptr<RobotAgent>;
+
+  // The caller is closed before the population and the log end.
+  AgentPopulation(std::shared_ptr<SharedState> shared, EventLog& events, BehaviourCaller& caller)
+      : shared_(std::move(shared)), events_(events), caller_(caller) {}
+
+  // `behaviour` may be null.
+  void Add(const std::string& name, std::shared_ptr<const model::Model> model, bool is_avatar,
+           std::shared_ptr<BehaviourPort> behaviour);
+  // Ends the calls of the agent of that name, and stops and destroys its behaviour.
+  void Remove(const std::string& name);
+  void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour);
+  // Gives each agent the index of its body.
+  void AssignBodies(const world::Layout& layout);
+
+  const std::map<std::string, AgentPtr>& all() const { return agents_; }
+  AgentPtr Find(const std::string& name) const;  // null: there is none
+  std::vector<AgentPtr> WithBehaviour() const;
+  // Any thread, without the mutex: there was a behaviour in process at some time.
+  bool has_hosted() const { return has_hosted_; }
+
+  // Posts a call to every behaviour. A failure is an event "behaviour_silent", which says `what`.
+  void CallAll(const char* what, base::Status (BehaviourPort::*call)());
+  // Ends all calls of agents with `reason` and stops the behaviours. `is_stuck`: except those that
+  // are in their turn.
+  void End(std::string reason, bool is_stuck);
+  void DestroyBehaviours();
+  // After the calls that End() posted: all agents are as new and behaviours wait for Init().
+  void Reset();
+  // Asks all behaviours that are not being asked already whether they have died; deaths are
+  // reported later.
+  void LookForDeaths();
+  // Takes the mutex itself. An agent whose behaviour failed in a call is dead.
+  void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status);
+
+  std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot) const;
+  // The first robot that the simulation has waited for longer than 0.1 s, and how long; else empty.
+  std::string WaitingFor() const;
+
+ private:
+  void ReportDeath(RobotAgent& agent, const std::string& detail);
+
+  const std::shared_ptr<SharedState> shared_;
+  EventLog& events_;
+  BehaviourCaller& caller_;
+  std::map<std::string, AgentPtr> agents_;
+  std::set<std::string> asked_for_life_;  // robots whose behaviour has not answered IsDead() yet
+  std::atomic<bool> has_hosted_{false};
+};
+
+}  // namespace gsv::simulation

@@ -1,0 +1,109 @@
+// The life cycle of a run: its phase, how far it is to run, and how it ended.
+//
+// RunControl decides. Its owner acts on the Change that a call returns: it starts behaviours, emits
+// events and wakes threads.
+//
+// Errors   a request that the phase does not allow fails with kNotRunning and changes nothing.
+// Threads  one call at a time; it has no thread, lock or clock of its own.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/simulation/types.h"
+
+namespace gsv::simulation {
+
+class RunControl {
+ public:
+  // What a call has done to the phase.
+  enum class Change {
+    kNone,
+    kStarted,   // created → starting
+    kResumed,   // paused → starting
+    kRunning,   // starting → running
+    kPaused,    // starting or running → paused
+    kStopped,   // any → stopped
+    kFinished,  // running or paused → finished
+    kFailed,    // any → failed
+  };
+
+  // `simulation` is named in errors. `duration`: 0: it runs until it is stopped.
+  RunControl(std::string simulation, SimTime duration)
+      : simulation_(std::move(simulation)), duration_(duration) {}
+
+  Phase phase() const { return phase_; }
+  bool is_running() const { return phase_ == Phase::kRunning; }
+  // Stopped, finished or failed.
+  bool has_ended() const;
+  // Fails with kNotRunning unless the phase is among `allowed`; `action` completes "to …".
+  base::Status Require(std::initializer_list<Phase> allowed, const char* action) const;
+
+  // Requests, see Simulation.
+  base::Result<Change> Start();
+  base::Result<Change> Pause();
+  base::Result<Change> Resume();
+  base::Result<Change> Step(std::int64_t count);
+  base::Result<Change> RunUntil(SimTime until, SimTime now);
+  base::Result<Change> RunThrough(SimTime until, SimTime now);
+  Change Stop();
+  // A reset has two halves: the run stops, then the owner waits for behaviours and puts everything
+  // back, and then the run is created again. kNone: there is nothing to reset.
+  Change BeginReset();
+  void FinishReset();
+
+  // Each start of a behaviour that is under way keeps the run in the phase "starting".
+  void BeginStart() { ++starts_pending_; }
+  void EndStart() { --starts_pending_; }
+  // kRunning when the run was starting and no start is under way any more.
+  Change RunIfStarted();
+
+  // The stepping thread. Agents that wait for the present instant are woken.
+  void BeginTurns() { turns_have_begun_ = true; }
+  // All turns at `now` are over. kPaused where RunThrough() ends here.
+  Change EndTurns(SimTime now);
+  void BeginStep() { run_of_step_ = run_; }
+  // The step that led to `now` is over.
+  Change EndStep(SimTime now);
+
+  Change Fail(std::string reason);
+  const std::string& failure() const { return failure_; }
+
+  // Of the state in which the run finished; empty in all other phases.
+  const std::string& final_hash() const { return final_hash_; }
+  void SetFinalHash(std::string hash) { final_hash_ = std::move(hash); }
+
+  // The number of times that the run has started or left a pause.
+  std::uint64_t run() const { return run_; }
+  // The moment of an edit that is made now. `all_wait`: no agent's turn is under way.
+  Edit::Moment MomentOfEdit(bool all_wait) const;
+  // Edits before the first start do not count.
+  void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }
+  bool was_edited() const { return was_edited_; }
+
+ private:
+  Change Run(SimTime until, std::int64_t steps);
+  Change Enter(Phase phase, Change change);
+
+  const std::string simulation_;
+  const SimTime duration_;
+
+  Phase phase_ = Phase::kCreated;
+  int starts_pending_ = 0;
+  // Where the run pauses by itself; set when it starts or resumes.
+  std::optional<SimTime> run_until_;    // when a step has led there
+  std::optional<SimTime> run_through_;  // when the turns there are over
+  std::int64_t steps_left_ = -1;        // -1: any number
+
+  std::uint64_t run_ = 0;
+  std::uint64_t run_of_step_ = 0;  // `run_` when the present step began
+  bool turns_have_begun_ = false;
+  bool was_edited_ = false;
+  std::string failure_;
+  std::string final_hash_;
+};
+
+}  // namespace gsv::simulation

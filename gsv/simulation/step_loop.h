@@ -1,0 +1,90 @@
+// The stepping thread of a simulation: it wakes agents, gives local behaviours their turns, waits
+// until all agents wait (lockstep) or for the wall clock (real time), and takes steps.
+//
+// Determinism  in lockstep nothing depends on when a call arrived: commands act from the instant at
+//              which their agent runs, and loops go over names in order.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/simulation/device_loop.h"
+#include "gsv/simulation/faults/fault_injector.h"
+#include "gsv/simulation/life_cycle.h"
+#include "gsv/simulation/robots/gate_opener.h"
+#include "gsv/simulation/snapshot_pool.h"
+
+namespace gsv::simulation {
+
+class StepLoop {
+ public:
+  // What the loop works on; all of it outlives the loop.
+  struct Parts {
+    const Specification& specification;
+    std::shared_ptr<SharedState> shared;
+    EventLog& events;
+    BehaviourCaller& caller;
+    AgentPopulation& agents;
+    LifeCycle& life_cycle;
+    SimulatedWorld& world;
+    FaultInjector& faults;
+    std::shared_ptr<base::ThreadTeam> team;  // helps whoever holds the world's lock
+  };
+
+  // Starts the thread.
+  explicit StepLoop(Parts parts);
+  StepLoop(const StepLoop&) = delete;
+  StepLoop& operator=(const StepLoop&) = delete;
+  // After Quit().
+  ~StepLoop() = default;
+  // The thread ends after the step that is under way. Needs SharedState::mutex.
+  void Quit();
+  // Waits for the end of the thread; the caller holds no lock.
+  void Join();
+
+  // The hash of the world, the agents' waits and the faults that have happened. Needs the world's
+  // lock and SharedState::mutex.
+  std::string HashNow() const;
+
+ private:
+  using Lock = std::unique_lock<std::mutex>;
+
+  void Run();
+  // One round of the loop. Releases `lock` while it works or waits.
+  void TakeRound(Lock& lock);
+  void ApplyFaults();
+  void WakeAgents();
+  // Local behaviours whose time has come run until they wait.
+  void TakeTurns();
+  void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
+  void GiveUpOn(RobotAgent& agent);
+  // True when every agent waits. Else it has waited for something to change.
+  bool AllWait(Lock& lock);
+  bool IsDue(Lock& lock);
+  void TakeStep();
+  // False: the step is not to be taken after all.
+  bool BeginStep(WallTime start);
+  void ApplyCommands();
+  void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start);
+
+  const Parts parts_;
+  RunControl& run_;
+  bool quit_ = false;  // guarded by SharedState::mutex
+
+  // The stepping thread's.
+  SnapshotPool snapshots_;
+  DeviceActions device_actions_;    // for the next step
+  Turn::Instant instant_;           // of the turns that are being taken
+  std::vector<RobotAgent*> turns_;  // that are being taken
+  GateOpener gate_opener_;
+  GateOpener::Gates woken_;  // of agents that have just been woken
+
+  std::jthread thread_;
+};
+
+}  // namespace gsv::simulation
