@@ -12,14 +12,15 @@ set(GSV_LIBRARY_VERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 # The SDK as one shared library: what behaviours and applications outside of this tree link to.
 add_library(gsv_shared_sdk SHARED
   $<TARGET_OBJECTS:gsv_sdk> $<TARGET_OBJECTS:gsv_sdk_behaviour> $<TARGET_OBJECTS:gsv_orb>
-  $<TARGET_OBJECTS:gsv_base> $<TARGET_OBJECTS:gsv_idl>)
+  $<TARGET_OBJECTS:gsv_readings> $<TARGET_OBJECTS:gsv_base> $<TARGET_OBJECTS:gsv_idl>)
 set_target_properties(gsv_shared_sdk PROPERTIES
   OUTPUT_NAME gsv EXPORT_NAME sdk LINKER_LANGUAGE CXX
   VERSION ${PROJECT_VERSION} SOVERSION ${GSV_LIBRARY_VERSION}
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 target_link_libraries(gsv_shared_sdk PRIVATE gsv::sdk)
 # What plug-ins link to: gsv itself has the rest.
-add_library(gsv_plugin_sdk STATIC $<TARGET_OBJECTS:gsv_sdk_behaviour> $<TARGET_OBJECTS:gsv_base>)
+add_library(gsv_plugin_sdk STATIC
+  $<TARGET_OBJECTS:gsv_sdk_behaviour> $<TARGET_OBJECTS:gsv_readings> $<TARGET_OBJECTS:gsv_base>)
 set_target_properties(gsv_plugin_sdk PROPERTIES
   OUTPUT_NAME gsv-behaviour EXPORT_NAME sdk_behaviour LINKER_LANGUAGE CXX
   ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
@@ -61,9 +62,9 @@ install(DIRECTORY examples/horn examples/infrared examples/out_of_tree examples/
   PATTERN __pycache__ EXCLUDE PATTERN horn_test.cc EXCLUDE)
 file(GLOB IDL_FILES CONFIGURE_DEPENDS idl/*.idl)
 install(FILES ${IDL_FILES} DESTINATION share/idl/gsv COMPONENT libgsv-dev)
-# Behaviours and applications need sdk/ and gsv/base; what implements hardware, gsv/orb, the broker's
-# client and the stubs; a sensor from outside, the rest.
-foreach(FOLDER sdk sdk/behaviour gsv/base gsv/broker/client gsv/broker/language gsv/broker/offers
+# Behaviours and applications need sdk/, gsv/readings and gsv/base; what implements hardware, gsv/orb, the
+# broker's client and the stubs; a sensor from outside, the rest.
+foreach(FOLDER sdk sdk/behaviour gsv/base gsv/readings gsv/broker/client gsv/broker/language gsv/broker/offers
     gsv/geometry gsv/model gsv/messages gsv/world gsv/sensing/rays gsv/sensing gsv/simulation/pace
     gsv/simulation/robots gsv/simulation gsv/services)
   file(GLOB HEADERS CONFIGURE_DEPENDS ${FOLDER}/*.h)

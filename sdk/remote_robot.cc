@@ -121,6 +121,8 @@ class RemotePort final : public SensorPort {
     });
   }
 
+  void Fail(const base::Error& error) override { robot_.Fail(error); }
+
  private:
   RemoteRobot& robot_;
   sba::Sensor_var sensor_;
@@ -225,8 +227,14 @@ base::Result<std::unique_ptr<Joint>> RemoteRobot::OpenJoint(const std::string& j
   return orb::Call(name_, [&] { return OpenRemoteJoint(*this, hardware_, joint); });
 }
 
-void RemoteRobot::Drive(double linear, double angular) {
-  Try([&] { base_->drive(linear, angular); });
+void RemoteRobot::Command(const DriveCommand& command) {
+  Try([&] {
+    if (command.lateral == 0) {
+      base_->drive(command.linear, command.angular);
+    } else {
+      base_->drive_sideways(command.linear, command.lateral, command.angular);
+    }
+  });
 }
 
 SimTime RemoteRobot::Now() {
@@ -245,7 +253,7 @@ bool RemoteRobot::SleepUntil(SimTime instant) {
 
 bool RemoteRobot::Exchange(const DriveCommand& command, SimTime instant,
                            std::vector<Reading>& readings) {
-  const sba::BaseCommand given{true, command.linear, 0, command.angular};
+  const sba::BaseCommand given{true, command.linear, command.lateral, command.angular};
   ++cycle_;
   sba::WaitOutcome outcome = sba::NOT_YET;
   while (outcome == sba::NOT_YET) {

@@ -41,7 +41,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   std::vector<SensorTraits> Sensors() override;
   std::vector<JointTraits> Joints() override;
   base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) override;
-  void Drive(double linear, double angular) override;
+  void Command(const DriveCommand& command) override;
   SimTime Now() override;
   bool SleepUntil(SimTime instant) override;
   bool Exchange(const DriveCommand& command, SimTime instant,
@@ -50,6 +50,9 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   std::string error() const override;
   base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
   base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
+
+  // Ends the run with this error.
+  void Fail(const base::Error& error) { Note(error); }
 
   // Calls `call` unless the run is over. What is refused is the caller's to handle; any other
   // failure ends the run.

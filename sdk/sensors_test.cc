@@ -364,5 +364,126 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   EXPECT_EQ(remote.error, "the sensor \"sonar\" is no imu");
 }
 
+// Runs the behaviour on a disc with the sensor, in process and through CORBA; a robot of its own
+// each time, made by `make`.
+void RunBothWays(const model::SensorDescription& sensor,
+                 const std::shared_ptr<sensing::SensorRegistry>& types,
+                 const std::function<std::unique_ptr<Behaviour>()>& make,
+                 const ThroughCorba::Also& also) {
+  const auto run = [&](std::shared_ptr<simulation::BehaviourPort> behaviour) {
+    auto simulation = simulation::Simulation::Create(simulation::Lockstep(100ms), types);
+    ASSERT_TRUE(simulation);
+    auto model = std::make_shared<model::Model>(*simulation::Disc(0.2));
+    model->sensors = {sensor};
+    simulation::RobotSpecification robot = simulation::Robot("robot", 0, 0, std::move(behaviour));
+    robot.model = std::move(model);
+    ASSERT_TRUE((*simulation)->AddRobot(robot));
+    (void)simulation::RunToEnd(**simulation);
+  };
+  run(std::make_shared<hosting::HostedBehaviour>("tested", make));
+  auto orb = orb::StartOrb({});
+  ASSERT_TRUE(orb) << orb.error().Sentence();
+  {
+    const PortableServer::POA_var poa = orb::RootPoa(*orb);
+    run(std::make_shared<ThroughCorba>(poa, make(), also));
+  }
+  (*orb)->destroy();
+}
+
+// Four values, where an IMU has six or ten.
+class BrokenImu final : public sensing::Sensor {
+ public:
+  using Sensor::Sensor;
+  base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
+    sensing::Reading reading = sampling.Stamped();
+    reading.values = {1, 2, 3, 4};
+    return reading;
+  }
+};
+
+TEST(Sensors, AReadingOfTheWrongSizeEndsTheRunWithAnErrorThatNamesTheSensor) {
+  auto types = std::make_shared<sensing::SensorRegistry>();
+  sensing::SensorType imu;
+  imu.name = "imu";
+  imu.create = [](const model::SensorDescription& description) {
+    return base::Result<std::unique_ptr<sensing::Sensor>>(std::make_unique<BrokenImu>(description));
+  };
+  ASSERT_TRUE(types->Add(std::move(imu)));
+  std::vector<std::string> errors;
+  class Feels final : public Behaviour {
+   public:
+    explicit Feels(std::vector<std::string>& errors) : errors_(errors) {}
+    base::Status Init(gsv::Robot& robot) override {
+      auto opened = robot.Open<Imu>("skewed");
+      if (!opened) return base::Fail(opened.error());
+      imu_ = *std::move(opened);
+      return {};
+    }
+    void Run(gsv::Robot& robot) override {
+      (void)imu_->Feel();
+      EXPECT_FALSE(robot.IsRunning());
+      errors_.push_back(robot.error());
+    }
+
+   private:
+    std::vector<std::string>& errors_;
+    std::unique_ptr<Imu> imu_;
+  };
+  RunBothWays(
+      {.name = "skewed", .type = "imu"}, types, [&] { return std::make_unique<Feels>(errors); },
+      [](sba::SensorFactory_ptr factory) {
+        EXPECT_THROW(Opened<sba::Imu>(factory, "skewed")->feel(), sba::Failed);
+      });
+  EXPECT_EQ(errors, std::vector<std::string>(2,
+                                             "skewed: a reading has the wrong size: expected 6 "
+                                             "or 10 values, found 4 values and 0 labels"));
+}
+
+TEST(Sensors, SidewaysMotionIsCommandedAndReadBack) {
+  auto types = std::make_shared<sensing::SensorRegistry>();
+  sensing::AddBuiltInSensors(*types);
+  std::vector<Odometer::Estimate> estimates;
+  class Sidles final : public Behaviour {
+   public:
+    explicit Sidles(std::vector<Odometer::Estimate>& estimates) : estimates_(estimates) {}
+    base::Status Init(gsv::Robot& robot) override {
+      auto opened = robot.Open<Odometer>("wheels");
+      if (!opened) return base::Fail(opened.error());
+      odometer_ = *std::move(opened);
+      return {};
+    }
+    void Run(gsv::Robot& robot) override {
+      robot.DriveSideways(0.25, 0.5, 0);
+      if (!robot.SleepFor(40ms)) return;
+      estimates_.push_back(odometer_->Reckon());
+      std::vector<Reading> readings;
+      robot.Exchange({.linear = 0, .lateral = -1}, robot.Now() + 20ms, readings);
+      estimates_.push_back(odometer_->Reckon());
+    }
+
+   private:
+    std::vector<Odometer::Estimate>& estimates_;
+    std::unique_ptr<Odometer> odometer_;
+  };
+  RunBothWays(
+      {.name = "wheels", .type = "odometry"}, types,
+      [&] { return std::make_unique<Sidles>(estimates); },
+      [](sba::SensorFactory_ptr factory) {
+        const auto read = Opened<sba::Odometer>(factory, "wheels")->read();
+        EXPECT_EQ(read.lateral_m_s, -1);
+        EXPECT_EQ(read.linear_m_s, 0);
+      });
+  ASSERT_EQ(estimates.size(), 4u);
+  for (std::size_t i = 0; i < estimates.size(); i += 2) {
+    const Odometer::Estimate &first = estimates[i], &second = estimates[i + 1];
+    EXPECT_EQ(first.lateral, 0.5);
+    EXPECT_EQ(first.linear, 0.25);
+    EXPECT_NEAR(first.y, 0.5 * 0.04, 1e-12);
+    EXPECT_NEAR(first.x, 0.25 * 0.04, 1e-12);
+    EXPECT_EQ(second.lateral, -1);
+    EXPECT_NEAR(second.y, 0.5 * 0.04 - 0.02, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace gsv

@@ -1,15 +1,15 @@
 // A sensor type from outside the tree: an infrared proximity sensor, which throws light ahead and
 // measures how much comes back.
 //
-//   cmake -S examples/infrared -B $B -D GSV_SOURCE_DIR=$PWD -D GSV_BUILD_DIR=$PWD/build/release
-//   cmake --build $B
-//   gsv run WORLD --robot MODEL --sensor-plugin $B/gsv-sensor-infrared.so
+//   cmake -S examples/infrared -B /tmp/infrared \
+//         -D GSV_SOURCE_DIR=$PWD -D GSV_BUILD_DIR=$PWD/build/release
+//   cmake --build /tmp/infrared
+//   gsv run WORLD --robot MODEL --sensor-plugin /tmp/infrared/gsv-sensor-infrared.so
 //
 // Frame       sensor frame: the light goes along x.
 // Model       by triangulation, as in Sharp's GP2Y0A21: the voltage is scale / (distance + offset).
 // Parameters  min (0.1) and max (0.8), m; scale (0.27, V m) and offset (0.015, m); noise (m).
-// Readings    values {distance (m), voltage (V)}; beyond max {infinity, 0}, nearer than min the
-//             distance is min. As a message: sensor_msgs/Range, infrared.
+// Readings    Proximity, below. As a message: sensor_msgs/Range, infrared.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,10 +25,19 @@ namespace {
 
 using namespace gsv;
 
-class Infrared final : public sensing::Sensor {
+// How its readings are laid out.
+struct Proximity {
+  double distance = std::numeric_limits<double>::infinity();  // nothing within max; at least min
+  double voltage = 0;
+  static constexpr auto kFields =
+      std::make_tuple(readings::Value("distance", "m", &Proximity::distance, "range"),
+                      readings::Value("voltage", "V", &Proximity::voltage));
+};
+
+class Infrared final : public sensing::SensorOf<Proximity, messages::sensor_msgs::Range> {
  public:
   Infrared(const model::SensorDescription& description, sensing::ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         min_(reader.Number("min", 0.1, 0, 10)),
         max_(reader.Number("max", 0.8, 0.01, 10)),
         scale_(reader.Number("scale", 0.27, 0, 100)),
@@ -42,31 +51,35 @@ class Infrared final : public sensing::Sensor {
     double distance =
         sampling.Range({world_from_sensor.position,
                         world_from_sensor.orientation * geometry::Vector3{1, 0, 0}, max_});
-    sensing::Reading reading = sampling.Stamped();
-    if (!std::isfinite(distance)) {
-      reading.values = {std::numeric_limits<double>::infinity(), 0};
-      return reading;
+    Proximity proximity;
+    if (std::isfinite(distance)) {
+      distance = sensing::NoisyReading(sampling, description()).Read(noise_, 0, distance);
+      distance = std::clamp(distance, min_, max_);
+      proximity = {distance, scale_ / (distance + offset_)};
     }
-    distance = sensing::NoisyReading(sampling, description()).Read(noise_, 0, distance);
-    distance = std::clamp(distance, min_, max_);
-    reading.values = {distance, scale_ / (distance + offset_)};
+    sensing::Reading reading = sampling.Stamped();
+    Fill(proximity, reading);
     return reading;
   }
   bool CastsRays() const override { return true; }
 
-  static messages::sensor_msgs::Range ToMessage(const model::SensorDescription& description,
-                                                const sensing::Reading& reading,
-                                                const std::string&) {
-    messages::sensor_msgs::Range message;
-    message.radiation_type = messages::sensor_msgs::Range::kInfrared;
+ private:
+  Message ToMessage(const Values& proximity, const sensing::Reading&,
+                    const std::string&) const override {
+    Message message;
+    message.radiation_type = Message::kInfrared;
     message.field_of_view = 0.05f;
-    message.min_range = static_cast<float>(model::NumberOr(description.parameters, "min", 0.1));
-    message.max_range = static_cast<float>(model::NumberOr(description.parameters, "max", 0.8));
-    message.range = static_cast<float>(reading.values.empty() ? 0 : reading.values[0]);
+    message.min_range = static_cast<float>(min_);
+    message.max_range = static_cast<float>(max_);
+    message.range = static_cast<float>(proximity.distance);
     return message;
   }
 
- private:
+  std::vector<sensing::Segment> BeamsOf(const Values& proximity) const override {
+    if (!std::isfinite(proximity.distance)) return {};
+    return {{{}, {proximity.distance, 0, 0}}};
+  }
+
   const double min_, max_, scale_, offset_;
   const sensing::NoiseModel noise_;
 };
@@ -74,22 +87,13 @@ class Infrared final : public sensing::Sensor {
 class InfraredServant final : public services::SensorServant<POA_infrared::ProximitySensor> {
  public:
   using SensorServant::SensorServant;
-  CORBA::Double distance() override { return Read().values.at(0); }
-  CORBA::Double voltage() override { return Read().values.at(1); }
+  CORBA::Double distance() override { return In<Proximity>(Read()).distance; }
+  CORBA::Double voltage() override { return In<Proximity>(Read()).voltage; }
 };
 
 base::Status Add(sensing::SensorRegistry& registry) {
-  auto type = sensing::MakeSensorType<Infrared, messages::sensor_msgs::Range>("infrared");
-  type.overlay = sensing::Overlay::kLines;
-  type.beams = [](const model::SensorDescription&, const sensing::Reading& reading) {
-    std::vector<sensing::Segment> beams;
-    if (!reading.values.empty() && std::isfinite(reading.values[0])) {
-      beams.push_back({{}, {reading.values[0], 0, 0}});
-    }
-    return beams;
-  };
   services::SensorServants::Register("infrared", services::MakeSensorServant<InfraredServant>);
-  return registry.Add(std::move(type));
+  return registry.Add(sensing::MakeSensorType<Infrared>("infrared", {}, sensing::Overlay::kLines));
 }
 
 }  // namespace

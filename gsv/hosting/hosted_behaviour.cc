@@ -98,7 +98,7 @@ void HostedBehaviour::Control(simulation::Turn& turn) {
     if (!status) robot_->Note(status.error());
     *next_ += controller_->period();
   }
-  robot_->Drive(command.linear, command.angular);
+  robot_->Command(command);
   if (!robot_->IsRunning()) return EndTurn(turn);
   turn.CountExchange();
   turn.WaitUntil(*next_);

@@ -67,6 +67,8 @@ class LocalPort final : public SensorPort {
     return robot_.Act(*sensor_, {values, word});
   }
 
+  void Fail(const base::Error& error) override { robot_.Note(error); }
+
  private:
   LocalRobot& robot_;
   const SensorPtr sensor_;
@@ -178,7 +180,8 @@ base::Result<std::unique_ptr<SensorPort>> LocalRobot::CreatePort(SensorTraits tr
 }
 
 void LocalRobot::Command(const DriveCommand& command) {
-  const world::DriveCommand given{command.linear, 0, command.angular};
+  if (!is_running_) return;
+  const world::DriveCommand given{command.linear, command.lateral, command.angular};
   if (!world::IsFinite(given)) {
     return Note({base::ErrorCode::kInvalidArgument, "the command is not finite", name()});
   }
@@ -209,10 +212,6 @@ std::optional<simulation::JointReading> LocalRobot::ReadJoint(int joint) {
   if (reading) return *reading;
   Note(reading.error());
   return std::nullopt;
-}
-
-void LocalRobot::Drive(double linear, double angular) {
-  if (is_running_) Command({linear, angular});
 }
 
 SimTime LocalRobot::Now() { return turn_ != nullptr ? turn_->now() : agent_->Now(); }

@@ -40,7 +40,7 @@ class LocalRobot final : public Robot {
   std::vector<SensorTraits> Sensors() override;
   std::vector<JointTraits> Joints() override;
   base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) override;
-  void Drive(double linear, double angular) override;
+  void Command(const DriveCommand& command) override;
   SimTime Now() override;
   bool SleepUntil(SimTime instant) override;
   bool Exchange(const DriveCommand& command, SimTime instant,
@@ -68,7 +68,6 @@ class LocalRobot final : public Robot {
   base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
   base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
   base::Result<std::unique_ptr<SensorPort>> Enter(const std::string& sensor);  // into open_
-  void Command(const DriveCommand& command);
   base::Result<sensing::Reading> ReadBlocked(const simulation::MountedSensor& sensor);
 
   const std::shared_ptr<simulation::Agent> agent_;

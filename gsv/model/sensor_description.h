@@ -22,6 +22,8 @@ struct SensorDescription {
   double update_rate = 0;  // Hz; 0: samples whenever asked, at most once a step
   bool visualize = false;  // the file asks for the readings to be drawn
   Parameters parameters;
+
+  friend bool operator==(const SensorDescription&, const SensorDescription&) = default;
 };
 
 // The parameter as a number or a flag; `otherwise` when it is absent or of another kind.

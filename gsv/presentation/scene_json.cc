@@ -11,7 +11,8 @@
 
 #include "gsv/geometry/box_corners.h"
 #include "gsv/presentation/pose_list.h"
-#include "gsv/presentation/state_messages.h"
+#include "gsv/presentation/sensor_messages.h"
+#include "gsv/sensing/sensor_set.h"
 
 namespace gsv::presentation {
 namespace {
@@ -77,18 +78,8 @@ Json LookJson(const model::SceneLook& look) {
           {"sky", look.sky}};
 }
 
-// What a camera sees, with the cameras' own defaults (docs/sensors.md). A logical camera is told
-// its aspect ratio, others the size of their pictures.
-void AddView(const model::SensorDescription& sensor, Json& json) {
-  const model::Parameters& parameters = sensor.parameters;
-  const double width = model::NumberOr(parameters, "image.width", 320);
-  const double height = model::NumberOr(parameters, "image.height", 240);
-  const double aspect = model::NumberOr(parameters, "aspect_ratio", width / height);
-  json["horizontal_fov_rad"] = model::NumberOr(parameters, "horizontal_fov", 1.047);
-  json["aspect_ratio"] = aspect;
-}
-
-Json SensorsJson(const SceneSource& source, const world::Body& body) {
+// `known` gives the sensors' frustums.
+Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::SensorSet& known) {
   Json sensors = Json::array();
   if (!body.is_robot()) return sensors;
   for (const model::SensorDescription& sensor : source.sensors(body.name)) {
@@ -100,8 +91,14 @@ Json SensorsJson(const SceneSource& source, const world::Body& body) {
               {"type", type->name},
               {"overlay", OverlayName(type->overlay)},
               {"link", body.model->links[sensor.link].name},
-              {"topic", "/" + FrameOf(body.name, sensor.name)}};
-    if (type->name.find("camera") != std::string::npos) AddView(sensor, json);
+              {"topic", SensorTopic(body.name, sensor.name)}};
+    // By the path of a field in the sensor's message; a path stands for all below it.
+    if (auto units = type->layout.Units(); !units.empty()) json["units"] = std::move(units);
+    const auto made = known.Of(sensor);
+    if (const auto frustum = made ? (*made)->frustum() : std::nullopt) {
+      json["horizontal_fov_rad"] = frustum->horizontal_fov;
+      json["aspect_ratio"] = frustum->aspect_ratio;
+    }
     sensors.push_back(std::move(json));
   }
   return sensors;
@@ -146,7 +143,7 @@ bool IsOfWorld(const world::Layout& layout, const world::Body& body) {
 }
 
 Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& pose,
-              const std::set<int>& moving) {
+              const std::set<int>& moving, sensing::SensorSet& known) {
   Json links = Json::array();
   for (const model::Link& link : body.model->links) links.push_back(link.name);
   Json json{{"name", body.name},
@@ -156,7 +153,7 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
             {"is_avatar", body.is_avatar()},
             {"pose", PoseJson(pose)},
             {"links", std::move(links)},
-            {"sensors", SensorsJson(source, body)}};
+            {"sensors", SensorsJson(source, body, known)}};
   if (body.is_static() && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
   if (body.is_robot() && IsOfWorld(*source.snapshot.layout, body)) json["is_of_world"] = true;
   if (const std::string id = source.identify_collisions(body.model); !id.empty()) {
@@ -233,9 +230,10 @@ std::string SceneJson(const SceneSource& source) {
   for (const PoseEntry& entry : PoseListOf(layout)) {
     if (entry.link >= 0) moving[entry.body].insert(entry.link);
   }
+  sensing::SensorSet known(source.sensor_types);
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
-    bodies.push_back(
-        BodyJson(source, layout.bodies[i], snapshot.state.bodies[i].world_from_model, moving[i]));
+    bodies.push_back(BodyJson(source, layout.bodies[i], snapshot.state.bodies[i].world_from_model,
+                              moving[i], known));
   }
   const Json scene{{"layout_version", layout.version},
                    {"name", layout.description->name},

@@ -1,14 +1,11 @@
 #include "gsv/presentation/state_messages.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "gsv/messages/time.h"
 
 namespace gsv::presentation {
 namespace {
-
-using messages::geometry_msgs::TransformStamped;
 
 std::uint64_t StepNumber(std::int64_t step) { return static_cast<std::uint64_t>(step); }
 
@@ -19,9 +16,12 @@ std::uint64_t StepAt(base::SimTime instant, const world::State& state) {
   return StepNumber(std::llround(static_cast<double>(state.step) * part));
 }
 
-TransformStamped Stamped(std::string_view parent, std::string child, base::SimTime time,
-                         const geometry::Pose& parent_from_child) {
-  TransformStamped message;
+}  // namespace
+
+messages::geometry_msgs::TransformStamped StampedTransform(
+    std::string_view parent, std::string child, base::SimTime time,
+    const geometry::Pose& parent_from_child) {
+  messages::geometry_msgs::TransformStamped message;
   message.header.stamp = messages::ToMessage(time);
   message.header.frame_id = parent;
   message.child_frame_id = std::move(child);
@@ -35,27 +35,14 @@ TransformStamped Stamped(std::string_view parent, std::string child, base::SimTi
   return message;
 }
 
-messages::visualization_msgs::Marker Marker(const std::string& robot, base::SimTime time) {
-  messages::visualization_msgs::Marker marker;
-  marker.header.stamp = messages::ToMessage(time);
-  marker.header.frame_id = sensing::kWorldFrame;
-  marker.ns = robot;
-  marker.type = messages::visualization_msgs::Marker::kLineList;
-  marker.pose.orientation.w = 1;
-  return marker;
-}
-
 std::string BodyFrame(const world::Body& body) {
   return body.is_robot() ? FrameOf(body.name, sensing::kBaseFrame) : body.name;
 }
 
-// Of a link that moves against its body, whose own frame may have taken its name.
 std::string LinkFrame(const world::Body& body, const model::Link& link) {
   std::string frame = FrameOf(body.name, link.name);
   return frame == BodyFrame(body) ? frame + "_1" : frame;
 }
-
-}  // namespace
 
 messages::gsv_msgs::Poses PosesMessage(const world::Snapshot& snapshot,
                                        const std::vector<PoseEntry>& list) {
@@ -81,32 +68,16 @@ messages::tf2_msgs::TFMessage TransformsMessage(const world::Snapshot& snapshot,
   for (std::size_t i = 0; i < list.size(); ++i) {
     const world::Body& body = snapshot.layout->bodies[list[i].body];
     if (list[i].link < 0) {
-      message.transforms.push_back(Stamped(sensing::kWorldFrame, BodyFrame(body), time, poses[i]));
+      message.transforms.push_back(
+          StampedTransform(sensing::kWorldFrame, BodyFrame(body), time, poses[i]));
       continue;
     }
     const geometry::Pose& world_from_model = snapshot.state.bodies[list[i].body].world_from_model;
-    message.transforms.push_back(Stamped(BodyFrame(body),
-                                         LinkFrame(body, body.model->links[list[i].link]), time,
-                                         Inverse(world_from_model) * poses[i]));
+    message.transforms.push_back(StampedTransform(BodyFrame(body),
+                                                  LinkFrame(body, body.model->links[list[i].link]),
+                                                  time, Inverse(world_from_model) * poses[i]));
   }
   return message;
-}
-
-void AppendSensorTransform(const world::Layout& layout, int body,
-                           const model::SensorDescription& sensor, const sensing::SensorType& type,
-                           base::SimTime time, messages::tf2_msgs::TFMessage& message) {
-  const world::Body& robot = layout.bodies[body];
-  const model::Link& link = robot.model->links[sensor.link];
-  const std::vector<int> moving = world::MovingLinks(*robot.model);
-  const bool moves = std::find(moving.begin(), moving.end(), sensor.link) != moving.end();
-  message.transforms.push_back(Stamped(
-      moves ? LinkFrame(robot, link) : BodyFrame(robot), FrameOf(robot.name, sensor.name), time,
-      moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
-  if (!type.companion) return;
-  const std::string frame = FrameOf(robot.name, sensor.name);
-  const geometry::Pose sensor_from_optical{{}, {0.5, -0.5, 0.5, -0.5}};
-  message.transforms.push_back(
-      Stamped(frame, FrameOf(frame, sensing::kOpticalFrame), time, sensor_from_optical));
 }
 
 messages::gsv_msgs::Contact ContactMessage(const world::Snapshot& snapshot,
@@ -163,43 +134,6 @@ messages::gsv_msgs::ActuatorCommand ActuatorMessage(const world::DeviceState& de
   message.values = followed.command.values;
   message.word = followed.command.word;
   return message;
-}
-
-bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor) {
-  return type.overlay == sensing::Overlay::kLines ||
-         (type.overlay == sensing::Overlay::kPoints && sensor.visualize);
-}
-
-void AppendLines(const sensing::SensorType& type, const model::SensorDescription& sensor,
-                 const sensing::Reading& reading, const geometry::Pose& world_from_sensor,
-                 std::vector<geometry::Vector3>& points_in_world) {
-  constexpr double kDash = 0.02;  // of a beam's length
-  if (!HasLines(type, sensor)) return;
-  const bool as_points = type.overlay == sensing::Overlay::kPoints;
-  for (const sensing::Segment& beam : type.beams(sensor, reading)) {
-    const geometry::Vector3 from = as_points ? beam.to + kDash * (beam.from - beam.to) : beam.from;
-    points_in_world.push_back(world_from_sensor * from);
-    points_in_world.push_back(world_from_sensor * beam.to);
-  }
-}
-
-messages::visualization_msgs::Marker BeamsMarker(const std::string& robot, base::SimTime time,
-                                                 std::vector<geometry::Vector3> points_in_world) {
-  messages::visualization_msgs::Marker marker = Marker(robot, time);
-  marker.scale.x = 0.01;  // the lines' width, m
-  marker.color.r = 0.2f;
-  marker.color.g = 0.8f;
-  marker.color.b = 1.0f;
-  marker.color.a = 0.8f;
-  marker.points.reserve(points_in_world.size());
-  for (const geometry::Vector3& p : points_in_world) marker.points.push_back({p.x, p.y, p.z});
-  return marker;
-}
-
-messages::visualization_msgs::Marker NoBeamsMarker(const std::string& robot, base::SimTime time) {
-  messages::visualization_msgs::Marker marker = Marker(robot, time);
-  marker.action = messages::visualization_msgs::Marker::kDelete;
-  return marker;
 }
 
 }  // namespace gsv::presentation

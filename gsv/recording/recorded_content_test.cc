@@ -10,7 +10,7 @@
 #include "gsv/presentation/model_identity.h"
 #include "gsv/recording/testing/recorder_fixture.h"
 #include "gsv/sensing/devices/built_in.h"
-#include "gsv/sensing/encoding.h"
+#include "gsv/sensing/sensor_type.h"
 
 namespace gsv::recording {
 namespace {
@@ -50,41 +50,36 @@ TEST_F(SimulationRecorderTest, BeamsAloneAreThoseOfSensorsWithoutATopic) {
 
 // A sensor whose picture is one pixel, sent as "jpeg" without data.
 sensing::SensorType PixelCamera() {
-  class Pixel final : public sensing::Sensor {
+  class Pixel final
+      : public sensing::SensorOf<readings::Camera, messages::sensor_msgs::CompressedImage> {
    public:
-    using Sensor::Sensor;
+    Pixel(const model::SensorDescription& description, sensing::ParameterReader&)
+        : SensorOf(description) {}
     base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
       sensing::Reading reading = sampling.Stamped();
       auto picture = std::make_shared<model::Image>();
       picture->width = picture->height = 1;
       picture->pixels = {1, 2, 3};
+      Fill(Values{1, 1}, reading);
       reading.picture = std::move(picture);
       return reading;
     }
+    Bytes EncodeCompanion(base::SimTime time, const std::string& frame) const override {
+      messages::sensor_msgs::CameraInfo message;
+      message.header = sensing::HeaderOf(time, frame);
+      message.width = 1;
+      return sensing::Encoded(message);
+    }
+
+   private:
+    Message ToMessage(const Values&, const sensing::Reading&, const std::string&) const override {
+      Message message;
+      message.format = "jpeg";
+      return message;
+    }
   };
-  sensing::SensorType type;
-  type.name = "pixel";
-  type.create = [](const model::SensorDescription& description) {
-    return base::Result<std::unique_ptr<sensing::Sensor>>(std::make_unique<Pixel>(description));
-  };
-  type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
-  type.encode = [](const model::SensorDescription&, const sensing::Reading& reading,
-                   const std::string& frame) {
-    messages::sensor_msgs::CompressedImage message;
-    message.header = sensing::HeaderOf(reading, frame);
-    message.format = "jpeg";
-    return sensing::Encoded(message);
-  };
-  type.companion.emplace();
-  type.companion->topic = "camera_info";
-  type.companion->schema = &messages::SchemaOf<messages::sensor_msgs::CameraInfo>();
-  type.companion->encode = [](const model::SensorDescription&, const sensing::Reading& reading,
-                              const std::string& frame) {
-    messages::sensor_msgs::CameraInfo message;
-    message.header = sensing::HeaderOf(reading, frame);
-    message.width = 1;
-    return sensing::Encoded(message);
-  };
+  auto type = sensing::MakeSensorType<Pixel>("pixel");
+  type.companion = {"camera_info", &messages::SchemaOf<messages::sensor_msgs::CameraInfo>()};
   return type;
 }
 

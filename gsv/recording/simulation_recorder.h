@@ -18,7 +18,7 @@
 #include "gsv/recording/attachments/scenario_attachment.h"
 #include "gsv/recording/attachments/scene_attachments.h"
 #include "gsv/recording/attachments/source_attachments.h"
-#include "gsv/recording/topics/sensor_topics.h"
+#include "gsv/recording/topics/sensor_recorder.h"
 #include "gsv/recording/topics/simulation_feed.h"
 #include "gsv/recording/topics/state_topics.h"
 
@@ -69,7 +69,7 @@ class SimulationRecorder {
   const std::unique_ptr<McapWriter> writer_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   StateTopics states_;
-  SensorTopics sensors_;
+  SensorRecorder sensors_;
   SceneAttachments scene_;
   SourceAttachments sources_;
   std::shared_ptr<SimulationFeed> feed_;

@@ -11,11 +11,14 @@
 
 namespace gsv::sensing {
 
-inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::string& frame_id) {
+inline messages::std_msgs::Header HeaderOf(base::SimTime time, const std::string& frame_id) {
   messages::std_msgs::Header header;
-  header.stamp = messages::ToMessage(reading.time);
+  header.stamp = messages::ToMessage(time);
   header.frame_id = frame_id;
   return header;
+}
+inline messages::std_msgs::Header HeaderOf(const Reading& reading, const std::string& frame_id) {
+  return HeaderOf(reading.time, frame_id);
 }
 
 // The message in CDR.

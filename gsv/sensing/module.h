@@ -14,7 +14,7 @@
 namespace gsv::sensing {
 
 // Grows with every change of SensorType, Sensor, Device, Sampling or Reading.
-inline constexpr int kSensorInterface = 3;
+inline constexpr int kSensorInterface = 4;
 inline constexpr const char* kSensorModuleSymbol = "gsv_sensor_module";
 
 struct SensorModule {

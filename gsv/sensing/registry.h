@@ -1,5 +1,5 @@
-// The sensor types there are. A new type is one registration: how to make it, how its readings are
-// written as a ROS 2 message, how they are drawn. Nothing else in the tree knows the types.
+// The sensor types there are. A new type is one registration, which MakeSensorType() makes of a
+// class (sensor_type.h). Nothing else in the tree knows the types.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/messages/schema.h"
+#include "gsv/readings/layout.h"
 #include "gsv/sensing/sensor.h"
 
 namespace gsv::sensing {
@@ -19,20 +20,12 @@ namespace gsv::sensing {
 // What a viewer draws of a reading.
 enum class Overlay { kNone, kLines, kPoints, kPicture };
 
-// A line in the sensor's frame, from where the beam starts to where it ends.
-struct Segment {
-  geometry::Vector3 from, to;
-};
-
 // A message that goes with a reading and hangs on how the sensor is made, not on what it reads: how
 // a camera's picture is to be understood. On the topic /ROBOT/SENSOR/`topic`, at the reading's
-// instant.
+// instant; Sensor::EncodeCompanion() makes it.
 struct Companion {
   std::string topic;
   const messages::Schema* schema = nullptr;
-  std::function<std::vector<std::uint8_t>(const model::SensorDescription&, const Reading&,
-                                          const std::string& frame_id)>
-      encode;
 };
 
 struct SensorType {
@@ -42,17 +35,10 @@ struct SensorType {
   // Refuses parameters that are out of range with a sentence that names them.
   std::function<base::Result<std::unique_ptr<Sensor>>(const model::SensorDescription&)> create;
 
-  // The message that a reading becomes; `frame_id` is the sensor's frame.
-  const messages::Schema* schema = nullptr;
-  std::function<std::vector<std::uint8_t>(const model::SensorDescription&, const Reading&,
-                                          const std::string& frame_id)>
-      encode;
-
+  const messages::Schema* schema = nullptr;  // of Sensor::Encode(); null: there is no message
+  readings::Layout layout;                   // of the readings; empty: nobody says
   std::optional<Companion> companion;  // of cameras alone, which have an optical frame as well
-
   Overlay overlay = Overlay::kNone;
-  // kLines and kPoints: the beams of a reading (a point is drawn at each beam's end).
-  std::function<std::vector<Segment>(const model::SensorDescription&, const Reading&)> beams;
 };
 
 class SensorRegistry {

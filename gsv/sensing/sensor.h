@@ -8,6 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "gsv/base/error.h"
 #include "gsv/base/random.h"
@@ -88,6 +91,17 @@ class Sampling {
 
 class Device;
 
+// A line in the sensor's frame, from where the beam starts to where it ends.
+struct Segment {
+  geometry::Vector3 from, to;
+};
+
+// What a sensor with a field of view sees: the angle from left to right (rad), width by height.
+struct Frustum {
+  double horizontal_fov = 0;
+  double aspect_ratio = 1;
+};
+
 class Sensor {
  public:
   explicit Sensor(model::SensorDescription description) : description_(std::move(description)) {}
@@ -105,6 +119,23 @@ class Sensor {
 
   // Whether Sample() casts rays: then who samples many has the scene made ready for all beforehand.
   virtual bool CastsRays() const { return false; }
+
+  using Bytes = std::vector<std::uint8_t>;
+  // One of this sensor's readings as its type's message, in CDR; `frame_id` is the sensor's frame.
+  // Nothing of a type without a message. kCorrupt for a reading that has another size than the
+  // type's layout says.
+  virtual base::Result<Bytes> Encode(const Reading& /*reading*/,
+                                     const std::string& /*frame_id*/) const {
+    return Bytes();
+  }
+  // The same of the message that goes beside it, of a type with a companion.
+  virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {
+    return {};
+  }
+  // What a viewer draws of a reading; a point at each end for types that are drawn as points.
+  virtual std::vector<Segment> Beams(const Reading& /*reading*/) const { return {}; }
+  // Nothing of a sensor without a field of view.
+  virtual std::optional<Frustum> frustum() const { return std::nullopt; }
 
   // This sensor as a device, or null if it keeps no state from one step to the next.
   virtual const Device* device() const { return nullptr; }

@@ -1,4 +1,14 @@
-// What sensor types have in common in their making.
+// How a class becomes a sensor type: its readings' layout, its message and its registration.
+//
+//   class Battery final : public SensorOf<readings::Battery, messages::sensor_msgs::BatteryState> {
+//    public:
+//     Battery(const model::SensorDescription& description, ParameterReader& reader);
+//     base::Result<Reading> Sample(const Sampling& sampling) const override;
+//
+//    private:
+//     Message ToMessage(const Values& battery, const Reading&, const std::string&) const override;
+//   };
+//   SensorType BatteryType() { return MakeSensorType<Battery>("battery"); }
 #pragma once
 
 #include <memory>
@@ -6,47 +16,62 @@
 #include <utility>
 #include <vector>
 
+#include "gsv/readings/catalogue.h"
 #include "gsv/sensing/encoding.h"
 #include "gsv/sensing/parameters.h"
 #include "gsv/sensing/registry.h"
 
 namespace gsv::sensing {
 
-// Kind is a Sensor that turns a reading into a Message, all but its header, by
-//   static Message ToMessage(const model::SensorDescription&, const Reading&,
-//                            const std::string& frame_id)
-// and is made by make(description, ParameterReader&), which refuses by the reader.
-template <typename Kind, typename Message, typename Make>
-SensorType MakeSensorTypeBy(std::string name, std::vector<std::string> aliases, Make make) {
+// A sensor whose readings are laid out as ValuesType (gsv/readings) and become a MessageType. Base
+// is Sensor or Actuator.
+template <typename ValuesType, typename MessageType, typename Base = Sensor>
+class SensorOf : public Base {
+ public:
+  using Values = ValuesType;
+  using Message = MessageType;
+  using Base::Base;
+
+  base::Result<Sensor::Bytes> Encode(const Reading& reading,
+                                     const std::string& frame_id) const final {
+    const auto values = ValuesOf<Values>(reading, this->description().name);
+    if (!values) return base::Fail(values.error());
+    Message message = ToMessage(*values, reading, frame_id);
+    if (message.header.frame_id.empty()) message.header = HeaderOf(reading, frame_id);
+    return Encoded(message);
+  }
+  std::vector<Segment> Beams(const Reading& reading) const final {
+    const auto values = ValuesOf<Values>(reading, this->description().name);
+    return values ? BeamsOf(*values) : std::vector<Segment>();
+  }
+
+ private:
+  // The reading as a message; its header may be left empty, unless it has a frame of its own.
+  virtual Message ToMessage(const Values& values, const Reading& reading,
+                            const std::string& frame_id) const = 0;
+  virtual std::vector<Segment> BeamsOf(const Values& /*values*/) const { return {}; }
+};
+
+// The type of a SensorOf that is made of (description, ParameterReader&, context…), and refuses by
+// the reader.
+template <typename Kind, typename... Context>
+SensorType MakeSensorType(std::string name, std::vector<std::string> aliases = {},
+                          Overlay overlay = Overlay::kNone, Context... context) {
   SensorType type;
   type.name = std::move(name);
   type.aliases = std::move(aliases);
   type.create =
-      [make = std::move(make)](
+      [context...](
           const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
     ParameterReader reader(description);
-    std::unique_ptr<Sensor> sensor = make(description, reader);
+    auto sensor = std::make_unique<Kind>(description, reader, context...);
     if (!reader.status()) return base::Fail(reader.status().error());
     return sensor;
   };
-  type.schema = &messages::SchemaOf<Message>();
-  type.encode = [](const model::SensorDescription& description, const Reading& reading,
-                   const std::string& frame_id) {
-    Message message = Kind::ToMessage(description, reading, frame_id);
-    message.header = HeaderOf(reading, frame_id);
-    return Encoded(message);
-  };
+  type.schema = &messages::SchemaOf<typename Kind::Message>();
+  type.layout = readings::LayoutOf<typename Kind::Values>();
+  type.overlay = overlay;
   return type;
-}
-
-// The same for a Kind that is made of (description, ParameterReader&).
-template <typename Kind, typename Message>
-SensorType MakeSensorType(std::string name, std::vector<std::string> aliases = {}) {
-  return MakeSensorTypeBy<Kind, Message>(
-      std::move(name), std::move(aliases),
-      [](const model::SensorDescription& description, ParameterReader& reader) {
-        return std::make_unique<Kind>(description, reader);
-      });
 }
 
 }  // namespace gsv::sensing

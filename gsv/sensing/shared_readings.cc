@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gsv/sensing/forwarding_sensor.h"
+
 namespace gsv::sensing {
 namespace {
 
@@ -17,20 +19,16 @@ bool SameSensor(const model::SensorDescription& a, const model::SensorDescriptio
          a.link_from_sensor == b.link_from_sensor && a.parameters == b.parameters;
 }
 
-class SharedSensor final : public Sensor {
+class SharedSensor final : public ForwardingSensor {
  public:
   SharedSensor(std::unique_ptr<Sensor> sensor, std::shared_ptr<SharedReadings> readings)
-      : Sensor(sensor->description()), sensor_(std::move(sensor)), readings_(std::move(readings)) {}
+      : ForwardingSensor(std::move(sensor)), readings_(std::move(readings)) {}
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
-    return readings_->Take(*sensor_, sampling);
+    return readings_->Take(sensor(), sampling);
   }
-  bool TakesLong() const override { return sensor_->TakesLong(); }
-  bool CastsRays() const override { return sensor_->CastsRays(); }
-  const Device* device() const override { return sensor_->device(); }
 
  private:
-  const std::unique_ptr<Sensor> sensor_;
   const std::shared_ptr<SharedReadings> readings_;
 };
 

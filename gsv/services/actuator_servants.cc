@@ -16,8 +16,8 @@ class LampServant final : public ActuatorServant<POA_sba::Lamp> {
   void switch_off() override { Act({{0, 1, 1, 1}, {}}, kSwitchingRaises); }
   sba::LampReading look() override {
     const Reading reading = Read();
-    const auto& v = reading.values;
-    return {reading.time.count(), v.at(0), {v.at(1), v.at(2), v.at(3)}};
+    const auto [brightness, colour] = In<readings::Lamp>(reading);
+    return {reading.time.count(), brightness, {colour.red, colour.green, colour.blue}};
   }
 };
 
@@ -30,9 +30,10 @@ class GripperServant final : public ActuatorServant<POA_sba::Gripper> {
     const Reading reading = Read();
     sba::GripperReading_var feeling = new sba::GripperReading;
     feeling->time_ns = reading.time.count();
-    feeling->opening_m = reading.values.at(0);
-    feeling->told_to_open = reading.values.at(1) != 0;
-    feeling->held = reading.labels->at(0).c_str();
+    const auto jaws = In<readings::Gripper>(reading);
+    feeling->opening_m = jaws.opening;
+    feeling->told_to_open = jaws.told_to_open;
+    feeling->held = jaws.held.c_str();
     return feeling._retn();
   }
 };
@@ -47,12 +48,12 @@ class SpeakerServant final : public ActuatorServant<POA_sba::Speaker> {
   void silence() override { Act({{20, 0, 0}, "tone"}, kSwitchingRaises); }
   sba::SpeakerReading* playing() override {
     const Reading reading = Read();
-    const auto& v = reading.values;
+    const auto sound = In<readings::Speaker>(reading);
     sba::SpeakerReading_var playing = new sba::SpeakerReading;
     playing->time_ns = reading.time.count();
-    playing->sound = reading.labels->at(0).c_str();
-    playing->frequency_hz = v.at(0), playing->volume = v.at(1);
-    playing->elapsed_s = v.at(2), playing->left_s = v.at(3);
+    playing->sound = sound.name.c_str();
+    playing->frequency_hz = sound.frequency, playing->volume = sound.volume;
+    playing->elapsed_s = sound.elapsed, playing->left_s = sound.left;
     return playing._retn();
   }
 };

@@ -12,20 +12,26 @@ namespace {
 
 using sensing::Reading;
 
-sba::Vector VectorAt(const Reading& reading, std::size_t place) {
-  return {reading.values.at(place), reading.values.at(place + 1), reading.values.at(place + 2)};
+sba::Vector VectorToIdl(const readings::Vector& v) { return {v.x, v.y, v.z}; }
+
+sba::Placement PlacementToIdl(const readings::Placement& p) {
+  return {p.x, p.y, p.z, p.roll, p.pitch, p.yaw};
 }
 
-sba::Placement PlacementAt(const Reading& reading, std::size_t place) {
-  const auto& v = reading.values;
-  return {v.at(place),     v.at(place + 1), v.at(place + 2),
-          v.at(place + 3), v.at(place + 4), v.at(place + 5)};
+// `to`, which is a sequence of an IDL module, holds what `convert` makes of each of `from`.
+template <typename Sequence, typename List, typename Convert>
+Sequence* ToSequence(const List& from, Convert convert) {
+  auto* const sequence = new Sequence;
+  sequence->length(static_cast<CORBA::ULong>(from.size()));
+  CORBA::ULong i = 0;
+  for (const auto& each : from) convert(each, (*sequence)[i++]);
+  return sequence;
 }
 
 class SonarServant final : public SensorServant<POA_sba::Sonar> {
  public:
   using SensorServant::SensorServant;
-  CORBA::Double range() override { return Read().values.at(0); }
+  CORBA::Double range() override { return In<readings::Sonar>(Read()).range; }
   CORBA::Double max_range() override {
     return model::NumberOr(description().parameters, "max", 5.0);
   }
@@ -36,10 +42,8 @@ class LidarServant final : public SensorServant<POA_sba::Lidar> {
   using SensorServant::SensorServant;
   sba::Doubles* ranges() override {
     const Reading reading = Read();
-    auto* ranges = new sba::Doubles;
-    ranges->length(static_cast<CORBA::ULong>(reading.values.size()));
-    std::copy(reading.values.begin(), reading.values.end(), ranges->get_buffer());
-    return ranges;
+    return ToSequence<sba::Doubles>(In<readings::Lidar>(reading).ranges,
+                                    [](double range, CORBA::Double& to) { to = range; });
   }
 };
 
@@ -47,7 +51,7 @@ class CameraServant final : public SensorServant<POA_sba::Camera> {
  public:
   using SensorServant::SensorServant;
   sba::Picture* take_picture() override {
-    const sba::Measurement measurement = ToIdl(description().name, Read());
+    const sba::Measurement measurement = services::ToIdl(description().name, Read());
     auto* picture = new sba::Picture;
     picture->width = measurement.image_width;
     picture->height = measurement.image_height;
@@ -60,7 +64,9 @@ class CameraServant final : public SensorServant<POA_sba::Camera> {
 class PositioningServant final : public SensorServant<POA_sba::PositioningSystem> {
  public:
   using SensorServant::SensorServant;
-  sba::Placement locate() override { return PlacementAt(Read(), 0); }
+  sba::Placement locate() override {
+    return PlacementToIdl(In<readings::Positioning>(Read()).world_from_sensor);
+  }
 };
 
 class ImuServant final : public SensorServant<POA_sba::Imu> {
@@ -68,7 +74,9 @@ class ImuServant final : public SensorServant<POA_sba::Imu> {
   using SensorServant::SensorServant;
   sba::ImuReading feel() override {
     const Reading reading = Read();
-    return {reading.time.count(), VectorAt(reading, 0), VectorAt(reading, 3)};
+    const auto motion = In<readings::Imu>(reading);
+    return {reading.time.count(), VectorToIdl(motion.angular_velocity),
+            VectorToIdl(motion.specific_force)};
   }
 };
 
@@ -76,9 +84,13 @@ class OdometerServant final : public SensorServant<POA_sba::Odometer> {
  public:
   using SensorServant::SensorServant;
   sba::OdometryReading reckon() override {
+    const sba::PlanarOdometryReading r = read();
+    return {r.time_ns, r.x_m, r.y_m, r.yaw_rad, r.linear_m_s, r.angular_rad_s};
+  }
+  sba::PlanarOdometryReading read() override {
     const Reading reading = Read();
-    const auto& v = reading.values;
-    return {reading.time.count(), v.at(0), v.at(1), v.at(2), v.at(3), v.at(4)};
+    const auto o = In<readings::Odometry>(reading);
+    return {reading.time.count(), o.x, o.y, o.yaw, o.linear, o.lateral, o.angular};
   }
 };
 
@@ -87,15 +99,16 @@ class SatelliteReceiverServant final : public SensorServant<POA_sba::SatelliteRe
   using SensorServant::SensorServant;
   sba::SatelliteFix fix() override {
     const Reading reading = Read();
-    const auto& v = reading.values;
-    return {reading.time.count(), v.at(0), v.at(1), v.at(2), v.at(3), v.at(4), v.at(5)};
+    const auto f = In<readings::Navsat>(reading);
+    return {
+        reading.time.count(), f.latitude_deg, f.longitude_deg, f.altitude, f.east, f.north, f.up};
   }
 };
 
 class MagnetometerServant final : public SensorServant<POA_sba::Magnetometer> {
  public:
   using SensorServant::SensorServant;
-  sba::Vector field_t() override { return VectorAt(Read(), 0); }
+  sba::Vector field_t() override { return VectorToIdl(In<readings::Magnetometer>(Read()).field); }
 };
 
 class AltimeterServant final : public SensorServant<POA_sba::Altimeter> {
@@ -103,28 +116,24 @@ class AltimeterServant final : public SensorServant<POA_sba::Altimeter> {
   using SensorServant::SensorServant;
   sba::AltimeterReading height() override {
     const Reading reading = Read();
-    const auto& v = reading.values;
-    return {reading.time.count(), v.at(0), v.at(1), v.at(2)};
+    const auto h = In<readings::Altimeter>(reading);
+    return {reading.time.count(), h.position, h.velocity, h.reference};
   }
 };
 
 class BumperServant final : public SensorServant<POA_sba::Bumper> {
  public:
   using SensorServant::SensorServant;
-  CORBA::Boolean is_pressed() override { return !Read().values.empty(); }
+  CORBA::Boolean is_pressed() override { return !In<readings::Contact>(Read()).touches.empty(); }
   sba::TouchPoints* touches() override {
-    const Reading reading = Read();
-    sba::TouchPoints_var touches = new sba::TouchPoints;
-    touches->length(static_cast<CORBA::ULong>(reading.values.size() / 8));
-    for (CORBA::ULong i = 0; i < touches->length(); ++i) {
-      sba::TouchPoint& touch = touches[i];
-      touch.other = reading.labels->at(i).c_str();
-      touch.point_m = VectorAt(reading, 8 * i);
-      touch.normal = VectorAt(reading, 8 * i + 3);
-      touch.depth_m = reading.values.at(8 * i + 6);
-      touch.closing_speed_m_s = reading.values.at(8 * i + 7);
-    }
-    return touches._retn();
+    return ToSequence<sba::TouchPoints>(In<readings::Contact>(Read()).touches,
+                                        [](const readings::Touch& touch, sba::TouchPoint& to) {
+                                          to.other = touch.other.c_str();
+                                          to.point_m = VectorToIdl(touch.point);
+                                          to.normal = VectorToIdl(touch.normal);
+                                          to.depth_m = touch.depth;
+                                          to.closing_speed_m_s = touch.closing_speed;
+                                        });
   }
 };
 
@@ -132,15 +141,13 @@ class JointEncodersServant final : public SensorServant<POA_sba::JointEncoders> 
  public:
   using SensorServant::SensorServant;
   sba::EncoderReadings* joints() override {
-    const Reading reading = Read();
-    sba::EncoderReadings_var joints = new sba::EncoderReadings;
-    joints->length(static_cast<CORBA::ULong>(reading.values.size() / 2));
-    for (CORBA::ULong i = 0; i < joints->length(); ++i) {
-      joints[i].joint = reading.labels->at(i).c_str();
-      joints[i].position = reading.values.at(2 * i);
-      joints[i].velocity = reading.values.at(2 * i + 1);
-    }
-    return joints._retn();
+    return ToSequence<sba::EncoderReadings>(
+        In<readings::JointEncoders>(Read()).joints,
+        [](const readings::EncodedJoint& joint, sba::EncoderReading& to) {
+          to.joint = joint.name.c_str();
+          to.position = joint.position;
+          to.velocity = joint.velocity;
+        });
   }
 };
 
@@ -149,8 +156,8 @@ class BatteryServant final : public SensorServant<POA_sba::Battery> {
   using SensorServant::SensorServant;
   sba::BatteryReading level() override {
     const Reading reading = Read();
-    const auto& v = reading.values;
-    return {reading.time.count(), v.at(0), v.at(1), v.at(2), v.at(3), v.at(4)};
+    const auto b = In<readings::Battery>(reading);
+    return {reading.time.count(), b.voltage, b.current, b.charge, b.capacity, b.fraction};
   }
 };
 
@@ -158,14 +165,12 @@ class LogicalCameraServant final : public SensorServant<POA_sba::LogicalCamera> 
  public:
   using SensorServant::SensorServant;
   sba::Sightings* look() override {
-    const Reading reading = Read();
-    sba::Sightings_var sightings = new sba::Sightings;
-    sightings->length(static_cast<CORBA::ULong>(reading.values.size() / 6));
-    for (CORBA::ULong i = 0; i < sightings->length(); ++i) {
-      sightings[i].name = reading.labels->at(i).c_str();
-      sightings[i].sensor_from_model = PlacementAt(reading, 6 * i);
-    }
-    return sightings._retn();
+    return ToSequence<sba::Sightings>(In<readings::LogicalCamera>(Read()).sightings,
+                                      [](const readings::Sighting& from, sba::Sighting& to) {
+                                        to.name = from.name.c_str();
+                                        to.sensor_from_model =
+                                            PlacementToIdl(from.sensor_from_model);
+                                      });
   }
 };
 
@@ -178,22 +183,18 @@ class RadioServant final : public SensorServant<POA_sba::Radio> {
         agent().Send(description().name, receiver, std::string(bytes, content.length())));
   }
   sba::RadioMessages* receive(CORBA::ULongLong after) override {
-    const Reading reading = Read();
-    sba::RadioMessages_var messages = new sba::RadioMessages;
-    for (std::size_t i = 0; i < reading.values.size() / 3; ++i) {
-      const auto number = static_cast<CORBA::ULongLong>(reading.values[3 * i]);
-      if (number <= after) continue;
-      messages->length(messages->length() + 1);
-      sba::RadioMessage& message = messages[messages->length() - 1];
-      message.sender = reading.labels->at(2 * i).c_str();
-      message.number = number;
-      message.sent_ns = base::FromSeconds(reading.values[3 * i + 1]).count();
-      message.strength_dbm = reading.values[3 * i + 2];
-      const auto content = base::FromBase64(reading.labels->at(2 * i + 1));
-      message.content.length(static_cast<CORBA::ULong>(content->size()));
-      std::copy(content->begin(), content->end(), message.content.get_buffer());
-    }
-    return messages._retn();
+    auto heard = In<readings::Radio>(Read());
+    std::erase_if(heard.messages, [&](const auto& message) { return message.number <= after; });
+    return ToSequence<sba::RadioMessages>(
+        heard.messages, [](const readings::HeardMessage& from, sba::RadioMessage& to) {
+          to.sender = from.sender.c_str();
+          to.number = from.number;
+          to.sent_ns = base::FromSeconds(from.sent).count();
+          to.strength_dbm = from.strength;
+          const auto content = base::FromBase64(from.content_base64);
+          to.content.length(static_cast<CORBA::ULong>(content->size()));
+          std::copy(content->begin(), content->end(), to.content.get_buffer());
+        });
   }
 };
 
@@ -202,11 +203,12 @@ class MicrophoneServant final : public SensorServant<POA_sba::Microphone> {
   using SensorServant::SensorServant;
   sba::Hearing* listen() override {
     const Reading reading = Read();
+    const auto heard = In<readings::Microphone>(reading);
     sba::Hearing_var hearing = new sba::Hearing;
     hearing->time_ns = reading.time.count();
-    hearing->level_db = reading.values.at(0);
-    hearing->frequency_hz = reading.values.at(1);
-    hearing->source = reading.labels->at(0).c_str();
+    hearing->level_db = heard.level;
+    hearing->frequency_hz = heard.frequency;
+    hearing->source = heard.source.c_str();
     return hearing._retn();
   }
 };
@@ -216,12 +218,13 @@ class DepthCameraServant final : public SensorServant<POA_sba::DepthCamera> {
   using SensorServant::SensorServant;
   sba::DepthPicture* take_depth() override {
     const Reading reading = Read();
+    const auto image = In<readings::DepthImage>(reading);
     sba::DepthPicture_var picture = new sba::DepthPicture;
     picture->time_ns = reading.time.count();
-    picture->width = static_cast<CORBA::ULong>(reading.values.at(0));
-    picture->height = static_cast<CORBA::ULong>(reading.values.at(1));
-    picture->depth_m.length(static_cast<CORBA::ULong>(reading.values.size() - 2));
-    std::transform(reading.values.begin() + 2, reading.values.end(), picture->depth_m.get_buffer(),
+    picture->width = static_cast<CORBA::ULong>(image.width);
+    picture->height = static_cast<CORBA::ULong>(image.height);
+    picture->depth_m.length(static_cast<CORBA::ULong>(image.depth.size()));
+    std::transform(image.depth.begin(), image.depth.end(), picture->depth_m.get_buffer(),
                    [](double depth) { return static_cast<CORBA::Float>(depth); });
     return picture._retn();
   }
@@ -232,14 +235,15 @@ class SegmentationCameraServant final : public SensorServant<POA_sba::Segmentati
   using SensorServant::SensorServant;
   sba::LabelPicture* segment() override {
     const Reading reading = Read();
+    const auto image = In<readings::SegmentedImage>(reading);
     sba::LabelPicture_var picture = new sba::LabelPicture;
     picture->time_ns = reading.time.count();
-    picture->width = static_cast<CORBA::ULong>(reading.values.at(0));
-    picture->height = static_cast<CORBA::ULong>(reading.values.at(1));
-    picture->labels.length(static_cast<CORBA::ULong>(reading.values.size() - 2));
-    std::transform(reading.values.begin() + 2, reading.values.end(), picture->labels.get_buffer(),
+    picture->width = static_cast<CORBA::ULong>(image.width);
+    picture->height = static_cast<CORBA::ULong>(image.height);
+    picture->labels.length(static_cast<CORBA::ULong>(image.pixels.size()));
+    std::transform(image.pixels.begin(), image.pixels.end(), picture->labels.get_buffer(),
                    [](double label) { return static_cast<CORBA::ULong>(label); });
-    picture->names = ToIdl(description().name, reading).labels;
+    picture->names = services::ToIdl(description().name, reading).labels;
     return picture._retn();
   }
 };
@@ -248,43 +252,40 @@ class BoundingBoxCameraServant final : public SensorServant<POA_sba::BoundingBox
  public:
   using SensorServant::SensorServant;
   sba::BoundingBoxes* detect() override {
-    const Reading reading = Read();
-    sba::BoundingBoxes_var boxes = new sba::BoundingBoxes;
-    boxes->length(static_cast<CORBA::ULong>(reading.values.size() / 4));
-    for (CORBA::ULong i = 0; i < boxes->length(); ++i) {
-      const double* const v = &reading.values[4 * i];
-      boxes[i].name = reading.labels->at(i).c_str();
-      boxes[i].left_px = v[0], boxes[i].top_px = v[1];
-      boxes[i].right_px = v[2], boxes[i].bottom_px = v[3];
-    }
-    return boxes._retn();
+    return ToSequence<sba::BoundingBoxes>(
+        In<readings::BoundingBoxes>(Read()).boxes,
+        [](const readings::BoundingBox& box, sba::BoundingBox& to) {
+          to.name = box.name.c_str();
+          to.left_px = box.left, to.top_px = box.top;
+          to.right_px = box.right, to.bottom_px = box.bottom;
+        });
   }
 };
 
 std::map<std::string, SensorServantMaker>& Makers() {
   static std::map<std::string, SensorServantMaker> makers = {
-      {"sonar", MakeSensorServant<SonarServant>},
-      {"lidar", MakeSensorServant<LidarServant>},
-      {"camera", MakeSensorServant<CameraServant>},
-      {"wideangle_camera", MakeSensorServant<CameraServant>},
-      {"positioning", MakeSensorServant<PositioningServant>},
-      {"imu", MakeSensorServant<ImuServant>},
-      {"odometry", MakeSensorServant<OdometerServant>},
-      {"navsat", MakeSensorServant<SatelliteReceiverServant>},
-      {"magnetometer", MakeSensorServant<MagnetometerServant>},
-      {"altimeter", MakeSensorServant<AltimeterServant>},
-      {"contact", MakeSensorServant<BumperServant>},
-      {"joint_encoders", MakeSensorServant<JointEncodersServant>},
-      {"battery", MakeSensorServant<BatteryServant>},
-      {"logical_camera", MakeSensorServant<LogicalCameraServant>},
-      {"radio", MakeSensorServant<RadioServant>},
-      {"depth_camera", MakeSensorServant<DepthCameraServant>},
-      {"segmentation_camera", MakeSensorServant<SegmentationCameraServant>},
-      {"boundingbox_camera", MakeSensorServant<BoundingBoxCameraServant>},
-      {"microphone", MakeSensorServant<MicrophoneServant>},
-      {"gripper", MakeGripperServant},
-      {"lamp", MakeLampServant},
-      {"speaker", MakeSpeakerServant},
+      {readings::Sonar::kType, MakeSensorServant<SonarServant>},
+      {readings::Lidar::kType, MakeSensorServant<LidarServant>},
+      {readings::Camera::kType, MakeSensorServant<CameraServant>},
+      {readings::Camera::kWideAngleType, MakeSensorServant<CameraServant>},
+      {readings::Positioning::kType, MakeSensorServant<PositioningServant>},
+      {readings::Imu::kType, MakeSensorServant<ImuServant>},
+      {readings::Odometry::kType, MakeSensorServant<OdometerServant>},
+      {readings::Navsat::kType, MakeSensorServant<SatelliteReceiverServant>},
+      {readings::Magnetometer::kType, MakeSensorServant<MagnetometerServant>},
+      {readings::Altimeter::kType, MakeSensorServant<AltimeterServant>},
+      {readings::Contact::kType, MakeSensorServant<BumperServant>},
+      {readings::JointEncoders::kType, MakeSensorServant<JointEncodersServant>},
+      {readings::Battery::kType, MakeSensorServant<BatteryServant>},
+      {readings::LogicalCamera::kType, MakeSensorServant<LogicalCameraServant>},
+      {readings::Radio::kType, MakeSensorServant<RadioServant>},
+      {readings::DepthImage::kType, MakeSensorServant<DepthCameraServant>},
+      {readings::SegmentedImage::kType, MakeSensorServant<SegmentationCameraServant>},
+      {readings::BoundingBoxes::kType, MakeSensorServant<BoundingBoxCameraServant>},
+      {readings::Microphone::kType, MakeSensorServant<MicrophoneServant>},
+      {readings::Gripper::kType, MakeGripperServant},
+      {readings::Lamp::kType, MakeLampServant},
+      {readings::Speaker::kType, MakeSpeakerServant},
   };
   return makers;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gsv/orb/errors.h"
+#include "gsv/readings/catalogue.h"
 #include "gsv/services/conversions.h"
 #include "gsv/services/servant_group.h"
 #include "gsv/simulation/robots/agent.h"
@@ -37,14 +38,18 @@ class SensorServant : public Skeleton {
 
  protected:
   // Raises what an operation on a sensor may raise.
-  sensing::Reading Read() {
-    return orb::ValueOrThrow(agent_->Read(description_.name),
-                             orb::kNotRunning | orb::kEnded | orb::kFailed);
+  sensing::Reading Read() { return orb::ValueOrThrow(agent_->Read(description_.name), kReading); }
+  // The reading as the struct of its type (gsv/readings/catalogue.h), which may view it.
+  template <typename Values>
+  Values In(const sensing::Reading& reading) const {
+    return orb::ValueOrThrow(sensing::ValuesOf<Values>(reading, description_.name), kReading);
   }
   const model::SensorDescription& description() const { return description_; }
   simulation::Agent& agent() { return *agent_; }
 
  private:
+  static constexpr unsigned kReading = orb::kNotRunning | orb::kEnded | orb::kFailed;
+
   const std::shared_ptr<simulation::Agent> agent_;
   const model::SensorDescription description_;
   const std::shared_ptr<ServantGroup> group_;

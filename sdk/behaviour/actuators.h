@@ -15,55 +15,42 @@
 
 namespace gsv {
 
-struct Colour {
-  double red = 1, green = 1, blue = 1;
-};
+using readings::Colour;
 
 // A lamp, or an LED.
 class Lamp : public Sensor {
  public:
-  static constexpr const char* kType = "lamp";
+  static constexpr const char* kType = readings::Lamp::kType;
   using Sensor::Sensor;
 
-  struct Glow {
-    double brightness = 0;  // 0: off
-    Colour colour;
-  };
+  using Glow = readings::Lamp;
 
   base::Status Shine(const Colour& colour, double brightness = 1) {
     return port().Act({brightness, colour.red, colour.green, colour.blue}, {});
   }
   base::Status SwitchOff() { return Shine({}, 0); }
-  Glow Look();
+  Glow Look() { return MeasureAs<Glow>(); }
 };
 
 class Gripper : public Sensor {
  public:
-  static constexpr const char* kType = "gripper";
+  static constexpr const char* kType = readings::Gripper::kType;
   using Sensor::Sensor;
 
-  struct Jaws {
-    double opening = 0;  // m
-    bool told_to_open = false;
-    std::string held;  // a body; empty: nothing
-  };
+  using Jaws = readings::Gripper;
 
   // Closes, on what is loose and between the jaws: that is held until they open.
   base::Status Grip() { return port().Act({0}, {}); }
   base::Status LetGo() { return port().Act({1}, {}); }
-  Jaws Feel();
+  Jaws Feel() { return MeasureAs<Jaws>(); }
 };
 
 class Speaker : public Sensor {
  public:
-  static constexpr const char* kType = "speaker";
+  static constexpr const char* kType = readings::Speaker::kType;
   using Sensor::Sensor;
 
-  struct Sound {
-    std::string name;  // empty: it is silent
-    double frequency = 0, volume = 0;
-    double elapsed = 0, left = 0;  // s
-  };
+  using Sound = readings::Speaker;
 
   // "tone", "buzz", "chirp" or "noise".
   base::Status Play(const std::string& sound, double frequency, double duration,
@@ -74,20 +61,16 @@ class Speaker : public Sensor {
     return Play("tone", frequency, duration);
   }
   base::Status Silence() { return Play("tone", 20, 0, 0); }
-  Sound Playing();
+  Sound Playing() { return MeasureAs<Sound>(); }
 };
 
 class Microphone : public Sensor {
  public:
-  static constexpr const char* kType = "microphone";
+  static constexpr const char* kType = readings::Microphone::kType;
   using Sensor::Sensor;
 
-  struct Hearing {
-    double level = 0;      // dB re 20 uPa, of all that sounds
-    double frequency = 0;  // of the loudest; 0: none is louder than the noise of the place
-    std::string source;    // ROBOT/SPEAKER of that
-  };
-  Hearing Listen();
+  using Hearing = readings::Microphone;
+  Hearing Listen() { return MeasureAs<Hearing>(); }
 };
 
 }  // namespace gsv

@@ -17,7 +17,7 @@ class App;
 namespace gsv {
 
 // Grows with every change of Robot, Behaviour or BehaviourModule.
-inline constexpr int kBehaviourInterface = 4;
+inline constexpr int kBehaviourInterface = 5;
 inline constexpr const char* kBehaviourModuleSymbol = "gsv_behaviour_module";
 
 struct BehaviourModule {

@@ -26,6 +26,7 @@ using namespace std::chrono_literals;  // robot.SleepFor(50ms)
 struct DriveCommand {
   double linear = 0;   // m/s
   double angular = 0;  // rad/s
+  double lateral = 0;  // m/s, to the left; bases that cannot move sideways ignore it
 };
 
 class Robot {
@@ -76,7 +77,12 @@ class Robot {
   virtual base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) = 0;
 
   // Acts until the next command.
-  virtual void Drive(double linear, double angular) = 0;
+  virtual void Command(const DriveCommand& command) = 0;
+  void Drive(double linear, double angular) { Command({linear, angular}); }
+  // As a mecanum or omnidirectional base can; `lateral` is to the left.
+  void DriveSideways(double linear, double lateral, double angular) {
+    Command({linear, angular, lateral});
+  }
 
   virtual SimTime Now() = 0;
   // False when the run has ended; the behaviour then returns.

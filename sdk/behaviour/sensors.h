@@ -1,17 +1,19 @@
-// The sensors of a robot as its behaviour reads them: one class for each type, which says what the
-// values of a reading mean. The classes are the same for every robot; only the SensorPort differs,
-// which brings the readings from wherever the robot is.
+// The sensors of a robot as its behaviour reads them: one class for each type, which gives its
+// readings as the structs of gsv/readings/catalogue.h. The classes are the same for every robot;
+// only the SensorPort differs, which brings the readings from wherever the robot is.
 //
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.
-// Errors   after the end of the run a reading has no values, and what is read from it is zero, or a
-//          sonar's maximum.
+// Errors   a reading that has not the size of its type ends the run with an error, as a sensor that
+//          fails does. After the end of the run a reading has no values, and what is read from it
+//          is zero, or a sonar's maximum.
 // Threads  those of the robot.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -19,16 +21,14 @@
 
 #include "gsv/base/error.h"
 #include "gsv/base/sim_time.h"
+#include "gsv/readings/catalogue.h"
 
 namespace gsv {
 
 using base::SimTime;
 
-// Fixed-axis roll, pitch, yaw as in URDF.
-struct Placement {
-  double x = 0, y = 0, z = 0;
-  double roll = 0, pitch = 0, yaw = 0;
-};
+using readings::Placement;
+using readings::Vector;
 
 struct Picture {
   int width = 0;
@@ -47,7 +47,7 @@ struct SensorTraits {
   Parameters parameters;
 };
 
-// One reading; the shape of `values` is its type's.
+// One reading; `values` and `labels` are laid out as its type's struct says.
 struct Reading {
   std::string sensor;
   SimTime time{0};
@@ -69,6 +69,8 @@ class SensorPort {
   virtual base::Status Send(const std::string& receiver, const std::string& content) = 0;
   // Of an actuator: tells it what to do, see actuators.h. An error of any other sensor.
   virtual base::Status Act(const std::vector<double>& values, const std::string& word) = 0;
+  // Ends the run with this error.
+  virtual void Fail(const base::Error& error) = 0;
 };
 
 // Any sensor.
@@ -79,28 +81,46 @@ class Sensor {
   const SensorTraits& traits() const { return port_->traits(); }
   // Valid until the next one.
   const Reading& Measure() {
-    port_->Measure(reading_);
+    has_measured_ = port_->Measure(reading_);
     return reading_;
   }
   // One that is the caller's.
   Reading TakeReading() {
-    port_->Measure(reading_);
+    Measure();
     return std::exchange(reading_, {});
+  }
+  // The struct that the newest reading, or a copy of it, stands for; spans in it view that reading.
+  // Nothing after the end of the run, and when the reading has another size than its type's, which
+  // ends the run with an error.
+  template <typename Values>
+  std::optional<Values> In(const Reading& reading) {
+    if (!has_measured_) return std::nullopt;
+    auto values = readings::Decode<Values>(reading.values, reading.labels, traits().name);
+    if (values) return *std::move(values);
+    has_measured_ = false;
+    port_->Fail(values.error());
+    return std::nullopt;
   }
 
  protected:
   SensorPort& port() { return *port_; }
+  // What it measures now; as it is made where there is nothing.
+  template <typename Values>
+  Values MeasureAs() {
+    return In<Values>(Measure()).value_or(Values());
+  }
   // A parameter that is a number.
   double Number(const std::string& parameter, double otherwise) const;
 
  private:
   std::unique_ptr<SensorPort> port_;
   Reading reading_;
+  bool has_measured_ = false;  // the newest reading is one
 };
 
 class Sonar : public Sensor {
  public:
-  static constexpr const char* kType = "sonar";
+  static constexpr const char* kType = readings::Sonar::kType;
   explicit Sonar(std::unique_ptr<SensorPort> port);
 
   // m to the nearest echo; max_range() when there is none.
@@ -113,7 +133,7 @@ class Sonar : public Sensor {
 
 class Lidar : public Sensor {
  public:
-  static constexpr const char* kType = "lidar";
+  static constexpr const char* kType = readings::Lidar::kType;
   using Sensor::Sensor;
 
   // m, beam by beam; infinite where nothing was hit.
@@ -122,8 +142,8 @@ class Lidar : public Sensor {
 
 class Camera : public Sensor {
  public:
-  static constexpr const char* kType = "camera";
-  static constexpr const char* kWideAngleType = "wideangle_camera";  // with another lens
+  static constexpr const char* kType = readings::Camera::kType;
+  static constexpr const char* kWideAngleType = readings::Camera::kWideAngleType;
   using Sensor::Sensor;
 
   static bool Is(const std::string& type) { return type == kType || type == kWideAngleType; }
@@ -133,133 +153,98 @@ class Camera : public Sensor {
 
 class PositioningSystem : public Sensor {
  public:
-  static constexpr const char* kType = "positioning";
+  static constexpr const char* kType = readings::Positioning::kType;
   using Sensor::Sensor;
 
-  Placement Locate();  // world_from_sensor
-};
-
-struct Vector {
-  double x = 0, y = 0, z = 0;
+  Placement Locate() { return MeasureAs<readings::Positioning>().world_from_sensor; }
 };
 
 class Imu : public Sensor {
  public:
-  static constexpr const char* kType = "imu";
+  static constexpr const char* kType = readings::Imu::kType;
   using Sensor::Sensor;
 
-  // In the sensor's frame; at rest the specific force is 9.8 m/s² upwards.
-  struct Motion {
-    Vector angular_velocity;  // rad/s
-    Vector specific_force;    // m/s²
-  };
-  Motion Feel();
+  using Motion = readings::Imu;
+  Motion Feel() { return MeasureAs<Motion>(); }
 };
 
 class Odometer : public Sensor {
  public:
-  static constexpr const char* kType = "odometry";
+  static constexpr const char* kType = readings::Odometry::kType;
   using Sensor::Sensor;
 
-  // Dead reckoning by the wheels, from where the robot started.
-  struct Estimate {
-    double x = 0, y = 0, yaw = 0;
-    double linear = 0, angular = 0;  // m/s, rad/s
-  };
-  Estimate Reckon();
+  using Estimate = readings::Odometry;
+  Estimate Reckon() { return MeasureAs<Estimate>(); }
 };
 
 class SatelliteReceiver : public Sensor {
  public:
-  static constexpr const char* kType = "navsat";
+  static constexpr const char* kType = readings::Navsat::kType;
   using Sensor::Sensor;
 
-  // WGS84.
-  struct Position {
-    double latitude_deg = 0, longitude_deg = 0, altitude = 0;
-    double east = 0, north = 0, up = 0;  // m/s
-  };
-  Position Fix();
+  using Position = readings::Navsat;
+  Position Fix() { return MeasureAs<Position>(); }
 };
 
 class Magnetometer : public Sensor {
  public:
-  static constexpr const char* kType = "magnetometer";
+  static constexpr const char* kType = readings::Magnetometer::kType;
   using Sensor::Sensor;
 
-  Vector Field();  // tesla, in the sensor's frame
+  Vector Field() { return MeasureAs<readings::Magnetometer>().field; }
 };
 
 class Altimeter : public Sensor {
  public:
-  static constexpr const char* kType = "altimeter";
+  static constexpr const char* kType = readings::Altimeter::kType;
   using Sensor::Sensor;
 
-  struct Height {
-    double position = 0, velocity = 0;  // m above the reference, m/s
-    double reference = 0;               // m, in the world
-  };
-  Height Measured();
+  using Height = readings::Altimeter;
+  Height Measured() { return MeasureAs<Height>(); }
 };
 
 class Bumper : public Sensor {
  public:
-  static constexpr const char* kType = "contact";
+  static constexpr const char* kType = readings::Contact::kType;
   using Sensor::Sensor;
 
-  // In the sensor's frame; the normal points from the robot to what it touches.
-  struct Touch {
-    std::string other;
-    Vector point, normal;
-    double depth = 0;
-    double closing_speed = 0;  // m/s at which the two met; 0: they touched already
-  };
-  bool IsPressed() { return !Measure().values.empty(); }
-  std::vector<Touch> Touches();
+  using Touch = readings::Touch;
+  bool IsPressed() { return !Touches().empty(); }
+  std::vector<Touch> Touches() { return MeasureAs<readings::Contact>().touches; }
 };
 
 class JointEncoders : public Sensor {
  public:
-  static constexpr const char* kType = "joint_encoders";
+  static constexpr const char* kType = readings::JointEncoders::kType;
   using Sensor::Sensor;
 
-  struct Joint {
-    std::string name;
-    double position = 0, velocity = 0;  // rad and rad/s; of prismatic joints m and m/s
-  };
-  std::vector<Joint> Joints();
+  using Joint = readings::EncodedJoint;
+  std::vector<Joint> Joints() { return MeasureAs<readings::JointEncoders>().joints; }
 };
 
 class Battery : public Sensor {
  public:
-  static constexpr const char* kType = "battery";
+  static constexpr const char* kType = readings::Battery::kType;
   using Sensor::Sensor;
 
-  struct Charge {
-    double voltage = 0, current = 0;  // V, A drawn
-    double charge = 0, capacity = 0;  // Ah
-    double fraction = 0;
-  };
-  Charge Level();
+  using Charge = readings::Battery;
+  Charge Level() { return MeasureAs<Charge>(); }
 };
 
 class LogicalCamera : public Sensor {
  public:
-  static constexpr const char* kType = "logical_camera";
+  static constexpr const char* kType = readings::LogicalCamera::kType;
   using Sensor::Sensor;
 
-  struct Sighting {
-    std::string name;
-    Placement sensor_from_model;
-  };
-  std::vector<Sighting> Look();
+  using Sighting = readings::Sighting;
+  std::vector<Sighting> Look() { return MeasureAs<readings::LogicalCamera>().sightings; }
 };
 
 // Sends to other robots and hears them. What is sent at an instant is heard with the next step, in
 // the order of the senders' names and, of each, in that of sending, by those that are near enough.
 class Radio : public Sensor {
  public:
-  static constexpr const char* kType = "radio";
+  static constexpr const char* kType = readings::Radio::kType;
   using Sensor::Sensor;
 
   struct Message {
@@ -289,19 +274,22 @@ class Radio : public Sensor {
 
 class DepthCamera : public Sensor {
  public:
-  static constexpr const char* kType = "depth_camera";
+  static constexpr const char* kType = readings::DepthImage::kType;
   using Sensor::Sensor;
 
   struct Image {
     int width = 0, height = 0;
     std::vector<double> depth;  // m along the view, rows from the top; infinite where nothing is
   };
-  Image TakeDepth();
+  Image TakeDepth() {
+    const auto image = MeasureAs<readings::DepthImage>();
+    return {image.width, image.height, {image.depth.begin(), image.depth.end()}};
+  }
 };
 
 class SegmentationCamera : public Sensor {
  public:
-  static constexpr const char* kType = "segmentation_camera";
+  static constexpr const char* kType = readings::SegmentedImage::kType;
   using Sensor::Sensor;
 
   // A pixel of label n shows names[n - 1], one of label 0 nothing. Rows from the top.
@@ -310,20 +298,22 @@ class SegmentationCamera : public Sensor {
     std::vector<std::uint32_t> labels;
     std::vector<std::string> names;
   };
-  Image Segment();
+  Image Segment() {
+    const auto image = MeasureAs<readings::SegmentedImage>();
+    return {image.width,
+            image.height,
+            {image.pixels.begin(), image.pixels.end()},
+            {image.names.begin(), image.names.end()}};
+  }
 };
 
 class BoundingBoxCamera : public Sensor {
  public:
-  static constexpr const char* kType = "boundingbox_camera";
+  static constexpr const char* kType = readings::BoundingBoxes::kType;
   using Sensor::Sensor;
 
-  // Pixels from the picture's upper left corner.
-  struct Box {
-    std::string name;
-    double left = 0, top = 0, right = 0, bottom = 0;
-  };
-  std::vector<Box> Detect();
+  using Box = readings::BoundingBox;
+  std::vector<Box> Detect() { return MeasureAs<readings::BoundingBoxes>().boxes; }
 };
 
 }  // namespace gsv

@@ -39,9 +39,7 @@ void BindLamp(py::module_& module, py::class_<Sensor>& sensor) {
           py::arg("colour") = Colour{}, py::arg("brightness") = 1.0, "brightness from 0 to 1")
       .def("switch_off", [](Lamp& self) { Tell([&] { return self.SwitchOff(); }); })
       .def("look", &Lamp::Look, LetOthersRun(), "how it glows");
-  py::class_<Lamp::Glow>(lamp, "Glow")
-      .def_readonly("brightness", &Lamp::Glow::brightness, "0: off")
-      .def_readonly("colour", &Lamp::Glow::colour);
+  BindReading<Lamp::Glow>(lamp, "Glow");
 }
 
 void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
@@ -53,10 +51,7 @@ void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
           "Closes, on what is loose and between the jaws: that is held until they open.")
       .def("let_go", [](Gripper& self) { Tell([&] { return self.LetGo(); }); })
       .def("feel", &Gripper::Feel, LetOthersRun(), "how its jaws stand");
-  py::class_<Gripper::Jaws>(gripper, "Jaws")
-      .def_readonly("opening", &Gripper::Jaws::opening, "m")
-      .def_readonly("told_to_open", &Gripper::Jaws::told_to_open)
-      .def_readonly("held", &Gripper::Jaws::held, "a body; empty: nothing");
+  BindReading<Gripper::Jaws>(gripper, "Jaws");
 }
 
 void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
@@ -78,19 +73,10 @@ void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
           py::arg("frequency") = 880.0, py::arg("duration") = 0.2)
       .def("silence", [](Speaker& self) { Tell([&] { return self.Silence(); }); })
       .def("playing", &Speaker::Playing, LetOthersRun(), "what it plays");
-  py::class_<Speaker::Sound>(speaker, "Sound")
-      .def_readonly("name", &Speaker::Sound::name, "empty: it is silent")
-      .def_readonly("frequency", &Speaker::Sound::frequency, "Hz")
-      .def_readonly("volume", &Speaker::Sound::volume)
-      .def_readonly("elapsed", &Speaker::Sound::elapsed, "s")
-      .def_readonly("left", &Speaker::Sound::left, "s");
+  BindReading<Speaker::Sound>(speaker, "Sound");
   auto microphone = BindKind<Microphone>(module, "Microphone", sensor, "Hears what sounds.");
   microphone.def("listen", &Microphone::Listen, LetOthersRun());
-  py::class_<Microphone::Hearing>(microphone, "Hearing")
-      .def_readonly("level", &Microphone::Hearing::level, "dB re 20 µPa, of all that sounds")
-      .def_readonly("frequency", &Microphone::Hearing::frequency,
-                    "Hz, of the loudest; 0: none is louder than the noise of the place")
-      .def_readonly("source", &Microphone::Hearing::source, "ROBOT/SPEAKER of that");
+  BindReading<Microphone::Hearing>(microphone, "Hearing");
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
 // A robot as a behaviour in Python sees it.
-#include <map>
-
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "sdk/behaviour/actuators.h"
 #include "sdk/behaviour/sonar_ring.h"
-#include "sdk/python/values.h"
+#include "sdk/python/kinds.h"
 #include "sdk/remote_robot.h"
 
 namespace gsv::python {
@@ -14,39 +11,11 @@ namespace {
 
 using sdk::RemoteRobot;
 
-template <typename Kind>
-py::object Make(std::unique_ptr<SensorPort> port) {
-  return py::cast(std::make_unique<Kind>(std::move(port)));
-}
-
 // A sensor of the class that stands for its type; of a type that has none, a Sensor.
 py::object MakeSensor(std::unique_ptr<SensorPort> port) {
-  using Maker = py::object (*)(std::unique_ptr<SensorPort>);
-  static const std::map<std::string, Maker> makers{
-      {Sonar::kType, Make<Sonar>},
-      {Lidar::kType, Make<Lidar>},
-      {Camera::kType, Make<Camera>},
-      {Camera::kWideAngleType, Make<Camera>},
-      {DepthCamera::kType, Make<DepthCamera>},
-      {SegmentationCamera::kType, Make<SegmentationCamera>},
-      {BoundingBoxCamera::kType, Make<BoundingBoxCamera>},
-      {LogicalCamera::kType, Make<LogicalCamera>},
-      {PositioningSystem::kType, Make<PositioningSystem>},
-      {Imu::kType, Make<Imu>},
-      {Odometer::kType, Make<Odometer>},
-      {SatelliteReceiver::kType, Make<SatelliteReceiver>},
-      {Magnetometer::kType, Make<Magnetometer>},
-      {Altimeter::kType, Make<Altimeter>},
-      {Bumper::kType, Make<Bumper>},
-      {JointEncoders::kType, Make<JointEncoders>},
-      {Battery::kType, Make<Battery>},
-      {Radio::kType, Make<Radio>},
-      {Lamp::kType, Make<Lamp>},
-      {Gripper::kType, Make<Gripper>},
-      {Speaker::kType, Make<Speaker>},
-      {Microphone::kType, Make<Microphone>}};
-  const auto maker = makers.find(port->traits().type);
-  return maker != makers.end() ? maker->second(std::move(port)) : Make<Sensor>(std::move(port));
+  const auto maker = SensorMakers().find(port->traits().type);
+  return maker != SensorMakers().end() ? maker->second(std::move(port))
+                                       : MakeSensorOf<Sensor>(std::move(port));
 }
 
 py::object OpenSensor(RemoteRobot& robot, const std::string& name, const py::object& kind) {
@@ -81,12 +50,13 @@ py::object CreateSensor(RemoteRobot& robot, const py::object& type, const std::s
 }
 
 // By the sensors' names; None after the end of the run.
-py::object Exchange(RemoteRobot& robot, double linear, double angular, double until) {
+py::object Exchange(RemoteRobot& robot, double linear, double angular, double until,
+                    double lateral) {
   std::vector<Reading> readings;
   bool running = false;
   {
     const py::gil_scoped_release release;
-    running = robot.Exchange({linear, angular}, TimeFrom(until), readings);
+    running = robot.Exchange({linear, angular, lateral}, TimeFrom(until), readings);
   }
   if (!running) return py::none();
   py::dict by_name;
@@ -176,8 +146,14 @@ void BindRobot(py::module_& module) {
             return ValueOrRaise(robot.OpenJoint(name));
           },
           py::arg("name"), py::keep_alive<0, 1>(), LetOthersRun())
-      .def("drive", &RemoteRobot::Drive, py::arg("linear"), py::arg("angular"), LetOthersRun(),
-           "m/s and rad/s; acts until the next command")
+      .def(
+          "drive",
+          [](RemoteRobot& robot, double linear, double angular, double lateral) {
+            robot.Command({linear, angular, lateral});
+          },
+          py::arg("linear"), py::arg("angular"), py::arg("lateral") = 0.0, LetOthersRun(),
+          "m/s and rad/s; acts until the next command. `lateral` is to the left, of bases that "
+          "can.")
       .def(
           "now", [](RemoteRobot& robot) { return SecondsOf(robot.Now()); }, LetOthersRun(),
           "simulated seconds")
@@ -190,6 +166,7 @@ void BindRobot(py::module_& module) {
           [](RemoteRobot& robot, double duration) { return robot.SleepFor(TimeFrom(duration)); },
           py::arg("duration"), LetOthersRun(), "False when the run has ended")
       .def("exchange", &Exchange, py::arg("linear"), py::arg("angular"), py::arg("until"),
+           py::arg("lateral") = 0.0,
            "One control cycle in one round trip: drives, sleeps until that instant, then reads "
            "every open sensor. A dict of Reading by the sensors' names, or None when the run has "
            "ended.")

@@ -10,15 +10,10 @@ namespace {
 
 using Doubles = py::array_t<double>;
 
-// The values of a reading from `first` on, as an array of that shape that keeps the reading.
-Doubles View(const py::object& reading, std::vector<py::ssize_t> shape, std::size_t first = 0) {
-  const double* const values = reading.cast<const Reading&>().values.data();
-  return Doubles(std::move(shape), values + first, reading);
-}
-
+// The values of a reading as an array that keeps it.
 Doubles AllValues(const py::object& reading) {
-  const auto size = static_cast<py::ssize_t>(reading.cast<const Reading&>().values.size());
-  return View(reading, {size});
+  const std::vector<double>& values = reading.cast<const Reading&>().values;
+  return Doubles(static_cast<py::ssize_t>(values.size()), values.data(), reading);
 }
 
 // Measures without the GIL; the reading then is Python's.
@@ -31,17 +26,6 @@ py::object Measured(Sensor& sensor) {
   return py::cast(std::move(reading));
 }
 
-// A reading that starts with a picture's width and height: the size, (0, 0) of none.
-struct Size {
-  py::ssize_t width = 0, height = 0;
-};
-Size SizeOf(const Reading& reading) {
-  const std::vector<double>& values = reading.values;
-  if (values.size() < 2) return {};
-  const Size size{static_cast<py::ssize_t>(values[0]), static_cast<py::ssize_t>(values[1])};
-  return static_cast<std::size_t>(size.width * size.height) + 2 <= values.size() ? size : Size{};
-}
-
 py::array_t<std::uint8_t> ToArray(Picture picture) {
   auto kept = std::make_unique<Picture>(std::move(picture));
   const Picture& of = *kept;
@@ -50,24 +34,24 @@ py::array_t<std::uint8_t> ToArray(Picture picture) {
   return py::array_t<std::uint8_t>({of.height, of.width, 3}, of.rgb.data(), owner);
 }
 
-py::array_t<double> TakeDepth(DepthCamera& camera) {
+// What a reading of Python's stands for; empty after the end of the run.
+template <typename Values>
+Values ValuesIn(Sensor& sensor, const Reading& reading) {
+  return sensor.In<Values>(reading).value_or(Values());
+}
+
+Doubles TakeDepth(DepthCamera& camera) {
   const py::object reading = Measured(camera);
-  const Size size = SizeOf(reading.cast<const Reading&>());
-  return View(reading, {size.height, size.width}, size.width * size.height > 0 ? 2 : 0);
+  const auto image = ValuesIn<readings::DepthImage>(camera, reading.cast<const Reading&>());
+  return Doubles({image.height, image.width}, image.depth.data(), reading);
 }
 
 py::tuple Segment(SegmentationCamera& camera) {
-  Reading reading;
-  {
-    const py::gil_scoped_release release;
-    reading = camera.TakeReading();
-  }
-  const Size size = SizeOf(reading);
-  py::array_t<std::uint32_t> labels({size.height, size.width});
-  if (labels.size() > 0) {
-    std::copy_n(reading.values.begin() + 2, labels.size(), labels.mutable_data());
-  }
-  return py::make_tuple(labels, reading.labels);
+  const py::object reading = Measured(camera);
+  const auto image = ValuesIn<readings::SegmentedImage>(camera, reading.cast<const Reading&>());
+  py::array_t<std::uint32_t> labels({image.height, image.width});
+  std::copy(image.pixels.begin(), image.pixels.end(), labels.mutable_data());
+  return py::make_tuple(labels, std::vector<std::string>(image.names.begin(), image.names.end()));
 }
 
 void BindPlainData(py::module_& module) {
@@ -88,10 +72,8 @@ void BindPlainData(py::module_& module) {
                    "yaw={:.3f})")
             .format(p.x, p.y, p.z, p.roll, p.pitch, p.yaw);
       });
-  py::class_<Vector>(module, "Vector", "Three components along x, y and z.")
-      .def_readonly("x", &Vector::x)
-      .def_readonly("y", &Vector::y)
-      .def_readonly("z", &Vector::z)
+  BindReading<readings::Quaternion>(module, "Quaternion", "A rotation.");
+  BindReading<Vector>(module, "Vector", "Three components along x, y and z.")
       .def("__iter__", [](const Vector& v) { return py::iter(py::make_tuple(v.x, v.y, v.z)); })
       .def("__repr__", [](const Vector& v) {
         return py::str("Vector(x={:.6g}, y={:.6g}, z={:.6g})").format(v.x, v.y, v.z);
@@ -126,6 +108,7 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
       .def(
           "ranges", [](Lidar& lidar) { return AllValues(Measured(lidar)); },
           "numpy.float64, m, beam by beam; infinite where nothing was hit");
+  SensorMakers()[Camera::kWideAngleType] = MakeSensorOf<Camera>;
   BindKind<Camera>(module, "Camera", sensor, "Takes pictures.")
       .def(
           "take_picture",
@@ -149,18 +132,11 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
   auto boxes = BindKind<BoundingBoxCamera>(module, "BoundingBoxCamera", sensor,
                                            "Finds models in its picture.");
   boxes.def("detect", &BoundingBoxCamera::Detect, LetOthersRun());
-  py::class_<BoundingBoxCamera::Box>(boxes, "Box", "Pixels from the upper left corner.")
-      .def_readonly("name", &BoundingBoxCamera::Box::name)
-      .def_readonly("left", &BoundingBoxCamera::Box::left)
-      .def_readonly("top", &BoundingBoxCamera::Box::top)
-      .def_readonly("right", &BoundingBoxCamera::Box::right)
-      .def_readonly("bottom", &BoundingBoxCamera::Box::bottom);
+  BindReading<BoundingBoxCamera::Box>(boxes, "Box", "Pixels from the upper left corner.");
   auto logical =
       BindKind<LogicalCamera>(module, "LogicalCamera", sensor, "Finds models in its frustum.");
   logical.def("look", &LogicalCamera::Look, LetOthersRun());
-  py::class_<LogicalCamera::Sighting>(logical, "Sighting")
-      .def_readonly("name", &LogicalCamera::Sighting::name)
-      .def_readonly("sensor_from_model", &LogicalCamera::Sighting::sensor_from_model);
+  BindReading<LogicalCamera::Sighting>(logical, "Sighting");
 }
 
 void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
@@ -168,62 +144,33 @@ void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
       .def("locate", &PositioningSystem::Locate, LetOthersRun(), "its pose in the world");
   auto imu = BindKind<Imu>(module, "Imu", sensor, "Feels turning and force.");
   imu.def("feel", &Imu::Feel, LetOthersRun());
-  py::class_<Imu::Motion>(imu, "Motion", "In the sensor's frame; at rest the force is upwards.")
-      .def_readonly("angular_velocity", &Imu::Motion::angular_velocity, "rad/s")
-      .def_readonly("specific_force", &Imu::Motion::specific_force, "m/s²");
+  BindReading<Imu::Motion>(imu, "Motion", "In the sensor's frame; at rest the force is upwards.");
   auto odometer = BindKind<Odometer>(module, "Odometer", sensor, "Counts the wheels' turns.");
   odometer.def("reckon", &Odometer::Reckon, LetOthersRun());
-  py::class_<Odometer::Estimate>(odometer, "Estimate", "From where the robot started.")
-      .def_readonly("x", &Odometer::Estimate::x)
-      .def_readonly("y", &Odometer::Estimate::y)
-      .def_readonly("yaw", &Odometer::Estimate::yaw)
-      .def_readonly("linear", &Odometer::Estimate::linear, "m/s")
-      .def_readonly("angular", &Odometer::Estimate::angular, "rad/s");
+  BindReading<Odometer::Estimate>(odometer, "Estimate", "From where the robot started.");
   auto satellites = BindKind<SatelliteReceiver>(module, "SatelliteReceiver", sensor,
                                                 "Receives satellites' signals.");
   satellites.def("fix", &SatelliteReceiver::Fix, LetOthersRun());
-  py::class_<SatelliteReceiver::Position>(satellites, "Position", "WGS84; m, m/s.")
-      .def_readonly("latitude_deg", &SatelliteReceiver::Position::latitude_deg)
-      .def_readonly("longitude_deg", &SatelliteReceiver::Position::longitude_deg)
-      .def_readonly("altitude", &SatelliteReceiver::Position::altitude)
-      .def_readonly("east", &SatelliteReceiver::Position::east)
-      .def_readonly("north", &SatelliteReceiver::Position::north)
-      .def_readonly("up", &SatelliteReceiver::Position::up);
+  BindReading<SatelliteReceiver::Position>(satellites, "Position", "WGS84; m, m/s.");
   BindKind<Magnetometer>(module, "Magnetometer", sensor, "Measures the magnetic field.")
       .def("field", &Magnetometer::Field, LetOthersRun(), "tesla, in the sensor's frame");
   auto altimeter = BindKind<Altimeter>(module, "Altimeter", sensor, "Measures its height.");
   altimeter.def("measured", &Altimeter::Measured, LetOthersRun());
-  py::class_<Altimeter::Height>(altimeter, "Height", "m above the reference, m/s.")
-      .def_readonly("position", &Altimeter::Height::position)
-      .def_readonly("velocity", &Altimeter::Height::velocity)
-      .def_readonly("reference", &Altimeter::Height::reference, "m, in the world");
+  BindReading<Altimeter::Height>(altimeter, "Height", "m above the reference, m/s.");
 }
 
 void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
   auto bumper = BindKind<Bumper>(module, "Bumper", sensor, "Feels what the robot touches.");
   bumper.def("is_pressed", &Bumper::IsPressed, LetOthersRun())
       .def("touches", &Bumper::Touches, LetOthersRun());
-  py::class_<Bumper::Touch>(bumper, "Touch", "In the sensor's frame; the normal points outwards.")
-      .def_readonly("other", &Bumper::Touch::other)
-      .def_readonly("point", &Bumper::Touch::point)
-      .def_readonly("normal", &Bumper::Touch::normal)
-      .def_readonly("depth", &Bumper::Touch::depth)
-      .def_readonly("closing_speed", &Bumper::Touch::closing_speed);
+  BindReading<Bumper::Touch>(bumper, "Touch", "In the sensor's frame; the normal points outwards.");
   auto encoders = BindKind<JointEncoders>(module, "JointEncoders", sensor,
                                           "Read how the robot's joints stand.");
   encoders.def("joints", &JointEncoders::Joints, LetOthersRun());
-  py::class_<JointEncoders::Joint>(encoders, "Joint", "rad and rad/s, or m and m/s.")
-      .def_readonly("name", &JointEncoders::Joint::name)
-      .def_readonly("position", &JointEncoders::Joint::position)
-      .def_readonly("velocity", &JointEncoders::Joint::velocity);
+  BindReading<JointEncoders::Joint>(encoders, "Joint", "rad and rad/s, or m and m/s.");
   auto battery = BindKind<Battery>(module, "Battery", sensor, "Says how much is left.");
   battery.def("level", &Battery::Level, LetOthersRun());
-  py::class_<Battery::Charge>(battery, "Charge", "V, A drawn, Ah.")
-      .def_readonly("voltage", &Battery::Charge::voltage)
-      .def_readonly("current", &Battery::Charge::current)
-      .def_readonly("charge", &Battery::Charge::charge)
-      .def_readonly("capacity", &Battery::Charge::capacity)
-      .def_readonly("fraction", &Battery::Charge::fraction);
+  BindReading<Battery::Charge>(battery, "Charge", "V, A drawn, Ah.");
   auto radio = BindKind<Radio>(module, "Radio", sensor, "Sends to other robots and hears them.");
   const auto send = [](Radio& from, const std::string& receiver, const std::string& content) {
     base::Status sent;
@@ -253,6 +200,11 @@ void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
 }
 
 }  // namespace
+
+std::map<std::string, SensorMaker>& SensorMakers() {
+  static std::map<std::string, SensorMaker> makers;
+  return makers;
+}
 
 void BindSensors(py::module_& module) {
   BindPlainData(module);

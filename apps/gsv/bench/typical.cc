@@ -12,6 +12,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/running/run_population.h"
 #include "gsv/base/mutex.h"
+#include "gsv/sensing/forwarding_sensor.h"
 
 namespace gsv::app {
 namespace {
@@ -71,21 +72,18 @@ class UpdateTimer final : public simulation::Observer {
 };
 
 // A camera that notes how long each picture took, from request to picture.
-class TimedSensor final : public sensing::Sensor {
+class TimedSensor final : public sensing::ForwardingSensor {
  public:
   TimedSensor(std::unique_ptr<sensing::Sensor> sensor, std::shared_ptr<Durations> times)
-      : Sensor(sensor->description()), sensor_(std::move(sensor)), times_(std::move(times)) {}
+      : ForwardingSensor(std::move(sensor)), times_(std::move(times)) {}
   base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
     const auto start = Clock::now();
-    auto reading = sensor_->Sample(sampling);
+    auto reading = sensor().Sample(sampling);
     times_->Add(Clock::now() - start);
     return reading;
   }
-  bool TakesLong() const override { return sensor_->TakesLong(); }
-  bool CastsRays() const override { return sensor_->CastsRays(); }
 
  private:
-  const std::unique_ptr<sensing::Sensor> sensor_;
   const std::shared_ptr<Durations> times_;
 };
 

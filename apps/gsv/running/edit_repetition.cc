@@ -8,6 +8,7 @@
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/edit_message.h"
+#include "gsv/presentation/topics.h"
 
 namespace gsv::app {
 namespace {
@@ -154,13 +155,13 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
     if (!*record) break;
     const auto channel = summary.channels.find((*record)->channel_id);
     if (channel == summary.channels.end()) continue;
-    if (channel->second.topic == "/gsv/edits") {
+    if (channel->second.topic == presentation::topics::kEdits.name) {
       const auto message = messages::Decode<messages::gsv_msgs::Edit>((*record)->data);
       if (!message) return base::Fail(message.error());
       auto edit = presentation::EditFrom(*message);
       if (!edit) return base::Fail(edit.error());
       doings.edits.push_back(*std::move(edit));
-    } else if (channel->second.topic == "/gsv/events") {
+    } else if (channel->second.topic == presentation::topics::kEvents.name) {
       auto message = messages::Decode<LifecycleEvent>((*record)->data);
       if (!message) return base::Fail(message.error());
       doings.was_held_up = doings.was_held_up || IsHoldingUp(message->event);

@@ -21,17 +21,18 @@
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/time.h"
+#include "gsv/presentation/topics.h"
 #include "gsv/recording/reading/decoded_messages.h"
 #include "gsv/recording/reading/recording_info.h"
 
 namespace gsv::app {
 namespace {
 
-constexpr const char* kCommandsTopic = "/gsv/commands";
-constexpr const char* kActuatorsTopic = "/gsv/actuators";
-constexpr const char* kRadioTopic = "/gsv/radio";
+namespace topics = presentation::topics;
 
-std::vector<std::string> MotionTopics() { return {"/gsv/poses", "/tf", "/gsv/state_hash"}; }
+std::vector<std::string> MotionTopics() {
+  return {topics::kPoses.name, topics::kTransforms.name, topics::kStateHash.name};
+}
 
 base::Error NotOfARun(const std::string& file) {
   return {base::ErrorCode::kInvalidArgument,
@@ -97,7 +98,8 @@ base::Error NotFinite(const char* topic, const std::string& robot) {
 
 base::Status Take(const messages::gsv_msgs::Command& message, RecordedRobots& robots) {
   const world::DriveCommand command{message.linear_m_s, message.lateral_m_s, message.angular_rad_s};
-  if (!world::IsFinite(command)) return base::Fail(NotFinite(kCommandsTopic, message.robot));
+  if (!world::IsFinite(command))
+    return base::Fail(NotFinite(topics::kCommands.name, message.robot));
   robots[message.robot].commands.push_back({messages::ToSimTime(message.stamp), command});
   return {};
 }
@@ -105,7 +107,7 @@ base::Status Take(const messages::gsv_msgs::Command& message, RecordedRobots& ro
 base::Status Take(const messages::gsv_msgs::ActuatorCommand& message, RecordedRobots& robots) {
   if (!std::all_of(message.values.begin(), message.values.end(),
                    [](double value) { return std::isfinite(value); })) {
-    return base::Fail(NotFinite(kActuatorsTopic, message.robot));
+    return base::Fail(NotFinite(topics::kActuators.name, message.robot));
   }
   robots[message.robot].commands.push_back(
       {messages::ToSimTime(message.stamp),
@@ -138,10 +140,10 @@ base::Status TakeFrom(const recording::MessageRecord& record, RecordedRobots& ro
 // Has every robot do what it did then.
 base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions& run) {
   using namespace messages::gsv_msgs;
-  const std::map<std::string_view, decltype(&TakeFrom<Command>)> topics = {
-      {kCommandsTopic, TakeFrom<Command>},
-      {kActuatorsTopic, TakeFrom<ActuatorCommand>},
-      {kRadioTopic, TakeFrom<Transmission>}};
+  const std::map<std::string_view, decltype(&TakeFrom<Command>)> takers = {
+      {topics::kCommands.name, TakeFrom<Command>},
+      {topics::kActuators.name, TakeFrom<ActuatorCommand>},
+      {topics::kRadio.name, TakeFrom<Transmission>}};
   const recording::Summary& summary = reader.summary();
   auto robots = std::make_shared<RecordedRobots>();
   recording::MessageCursor cursor = reader.Messages();
@@ -151,8 +153,8 @@ base::Status UseRecordedCommands(const recording::McapReader& reader, RunOptions
     if (!*record) break;
     const auto channel = summary.channels.find((*record)->channel_id);
     if (channel == summary.channels.end()) continue;
-    const auto take = topics.find(channel->second.topic);
-    if (take == topics.end()) continue;
+    const auto take = takers.find(channel->second.topic);
+    if (take == takers.end()) continue;
     if (auto ok = take->second(**record, *robots); !ok) return ok;
   }
   for (auto& [name, acts] : *robots) {

@@ -11,7 +11,7 @@ namespace gsv::gateway::access {
 ViewersTopic::ViewersTopic(std::shared_ptr<Hub> hub, ControlDesk* desk)
     : hub_(std::move(hub)), desk_(desk) {
   if (desk_ == nullptr) return;
-  channel_ = hub_->Advertise({ChannelFor<messages::std_msgs::String>("/gsv/viewers")}).front();
+  channel_ = hub_->Advertise({ChannelFor(presentation::topics::kViewers)}).front();
 }
 
 void ViewersTopic::Publish(ControlDesk::Time now) {

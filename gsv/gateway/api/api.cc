@@ -94,7 +94,7 @@ Response Api::Topics(const SimulationPointer& simulation, const std::string& rob
     return ErrorResponse(404, "there is no robot '" + robot + "'");
   }
   if (list_sensors_) list_sensors_(simulation, robot);
-  return JsonResponse(200, TopicsJson(SensorTopicNames(*simulation, robot)));
+  return JsonResponse(200, TopicsJson(presentation::SensorTopicNames(*simulation, robot)));
 }
 
 Response Api::Recording(const SimulationPointer& simulation) const {

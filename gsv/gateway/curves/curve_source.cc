@@ -13,6 +13,7 @@
 #include "gsv/gateway/curves/field_value.h"
 #include "gsv/messages/definition.h"
 #include "gsv/messages/gsv_msgs.h"
+#include "gsv/presentation/topics.h"
 
 namespace gsv::gateway::curves {
 namespace {
@@ -160,7 +161,8 @@ base::Result<std::unique_ptr<CurveSource>> MakeRobotSource(const recording::Mcap
     return base::Fail(base::ErrorCode::kNotFound,
                       "the recording has no robot '" + wish.robot.substr(0, kLongestKey) + "'");
   }
-  const std::string topic = is_of_poses ? "/gsv/poses" : "/gsv/status";
+  const std::string topic =
+      is_of_poses ? presentation::topics::kPoses.name : presentation::topics::kStatus.name;
   ChannelIds channels = ChannelsNamed(reader, topic);
   if (channels.empty()) return NoSuchTopic(topic);
   if (is_of_poses) return std::make_unique<PoseSource>(std::move(channels), scene, wish);
@@ -185,8 +187,8 @@ base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::Mcap
                       "the simulation's 'key' is real_time_factor or late_steps; give 'robot' or "
                       "'topic' for others");
   }
-  ChannelIds channels = ChannelsNamed(reader, "/gsv/status");
-  if (channels.empty()) return NoSuchTopic("/gsv/status");
+  ChannelIds channels = ChannelsNamed(reader, presentation::topics::kStatus.name);
+  if (channels.empty()) return NoSuchTopic(presentation::topics::kStatus.name);
   return std::make_unique<StatusSource>(std::move(channels), wish);
 }
 

@@ -1,4 +1,4 @@
-// Channels for our message types.
+// Channels for our topics.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include "gsv/gateway/foxglove/foxglove.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
 #include "gsv/messages/cdr.h"
+#include "gsv/presentation/topics.h"
 
 namespace gsv::gateway {
 
@@ -19,8 +20,8 @@ inline foxglove::Channel ChannelFor(std::string topic, const messages::Schema& s
 }
 
 template <typename Message>
-foxglove::Channel ChannelFor(std::string topic) {
-  return ChannelFor(std::move(topic), messages::SchemaOf<Message>());
+foxglove::Channel ChannelFor(const presentation::TopicOf<Message>& topic) {
+  return ChannelFor(topic.name, messages::SchemaOf<Message>());
 }
 
 template <typename Message>

@@ -15,8 +15,7 @@ constexpr int kMostInARound = 64;
 
 CommandTopic::CommandTopic(std::shared_ptr<Hub> hub)
     : hub_(std::move(hub)),
-      channel_(
-          hub_->Advertise({ChannelFor<messages::gsv_msgs::Command>("/gsv/commands")}).front()) {}
+      channel_(hub_->Advertise({ChannelFor(presentation::topics::kCommands)}).front()) {}
 
 void CommandTopic::Publish(const world::Snapshot& snapshot) {
   if (snapshot.layout != layout_) FollowLayout(snapshot);

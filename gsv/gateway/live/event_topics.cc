@@ -9,8 +9,7 @@
 namespace gsv::gateway {
 namespace {
 
-// Of what happened before a viewer came, so much is told.
-constexpr std::size_t kMostPastEvents = 100;
+namespace topics = presentation::topics;
 
 SharedBytes EncodedEvent(const simulation::Event& event) {
   return Encoded(presentation::EventMessage(event));
@@ -23,10 +22,9 @@ SharedBytes EncodedLog(const simulation::Event& event) {
 }  // namespace
 
 EventTopics::EventTopics(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
-  const auto channels =
-      hub_->Advertise({ChannelFor<messages::gsv_msgs::LifecycleEvent>("/gsv/events"),
-                       ChannelFor<messages::rcl_interfaces::Log>("/rosout")});
-  topics_ = {{channels[0], EncodedEvent}, {channels[1], EncodedLog}};
+  const auto channels = hub_->Advertise({ChannelFor(topics::kEvents), ChannelFor(topics::kLog)});
+  topics_ = {{channels[0], presentation::FindTopic(topics::kEvents.name)->history, EncodedEvent},
+             {channels[1], presentation::FindTopic(topics::kLog.name)->history, EncodedLog}};
 }
 
 void EventTopics::Publish(const simulation::Simulation& simulation) {
@@ -55,7 +53,7 @@ std::vector<simulation::Event> EventTopics::TakeNew(const simulation::Simulation
 void EventTopics::Welcome(const Topic& topic, const simulation::Simulation& simulation) {
   const std::vector<simulation::Event> past = simulation.events(0);
   std::vector<Hub::Message> messages;
-  for (std::size_t i = past.size() - std::min(past.size(), kMostPastEvents); i < past.size(); ++i) {
+  for (std::size_t i = past.size() - std::min(past.size(), topic.history); i < past.size(); ++i) {
     messages.push_back({base::NanosecondsOf(past[i].time), topic.encode(past[i])});
   }
   hub_->Welcome(topic.channel, messages);

@@ -23,6 +23,7 @@ class EventTopics {
  private:
   struct Topic {
     foxglove::ChannelId channel = 0;
+    std::size_t history = 0;
     SharedBytes (*encode)(const simulation::Event& event) = nullptr;
   };
   std::vector<simulation::Event> TakeNew(const simulation::Simulation& simulation);

@@ -4,12 +4,13 @@
 
 #include "gsv/gateway/foxglove/channels.h"
 #include "gsv/gateway/live/live_operations.h"
-#include "gsv/messages/rosgraph_msgs.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/state_messages.h"
 
 namespace gsv::gateway {
 namespace {
+
+namespace topics = presentation::topics;
 
 constexpr double kRefreshRate = 1;  // Hz: how often new sensors are looked for
 
@@ -34,13 +35,11 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       events_(hub_),
       refresh_pacing_(kRefreshRate),
       commands_(hub_),
-      contacts_(hub_, kContactTopic, CollectContacts),
-      radio_(hub_, kRadioTopic, CollectTransmissions),
+      contacts_(hub_, topics::kContacts, CollectContacts),
+      radio_(hub_, topics::kRadio, CollectTransmissions),
       viewers_(hub_, desk) {
-  const std::vector<foxglove::ChannelId> channels =
-      hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
-                       ChannelFor<messages::gsv_msgs::Poses>("/gsv/poses"),
-                       ChannelFor<messages::tf2_msgs::TFMessage>("/tf")});
+  const std::vector<foxglove::ChannelId> channels = hub_->Advertise(
+      {ChannelFor(topics::kClock), ChannelFor(topics::kPoses), ChannelFor(topics::kTransforms)});
   snapshot_topics_[0].encode = &LiveStream::EncodeClock;
   snapshot_topics_[1].encode = &LiveStream::EncodePoses;
   snapshot_topics_[2].encode = &LiveStream::EncodeTransforms;

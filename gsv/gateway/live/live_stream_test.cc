@@ -10,6 +10,7 @@
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/rcl_interfaces.h"
 #include "gsv/messages/tf2_msgs.h"
+#include "gsv/presentation/topics.h"
 
 namespace gsv::gateway {
 namespace {
@@ -23,6 +24,14 @@ using std::chrono::seconds;
 using testing::Decoded;
 using testing::LiveStreamTest;
 using testing::RecordingClient;
+
+TEST_F(LiveStreamTest, AdvertisesTheTopicsThatTheTableCallsLive) {
+  for (const presentation::Topic& topic : presentation::Topics()) {
+    // Viewers are told of where somebody can hold control.
+    const bool is_there = topic.is_live && topic.name != presentation::topics::kViewers.name;
+    EXPECT_EQ(client_->ChannelOf(std::string(topic.name)) != 0, is_there) << topic.name;
+  }
+}
 
 TEST_F(LiveStreamTest, PosesAreThoseOfTheSnapshotInTheListsOrder) {
   Subscribe(1, "/gsv/poses");

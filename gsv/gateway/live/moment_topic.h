@@ -30,9 +30,10 @@ class MomentTopic {
   using Collect = std::function<void(const world::Snapshot& snapshot, std::vector<Message>& found)>;
 
   // Advertises the topic.
-  MomentTopic(std::shared_ptr<Hub> hub, std::string topic, Collect collect)
+  MomentTopic(std::shared_ptr<Hub> hub, const presentation::TopicOf<Message>& topic,
+              Collect collect)
       : hub_(std::move(hub)),
-        channel_(hub_->Advertise({ChannelFor<Message>(std::move(topic))}).front()),
+        channel_(hub_->Advertise({ChannelFor(topic)}).front()),
         collect_(std::move(collect)) {}
 
   // Publishes what happened since the last call, if anybody listens.
@@ -92,10 +93,8 @@ class MomentTopic {
 
 // /gsv/contacts: who meets whom.
 using ContactTopic = MomentTopic<messages::gsv_msgs::Contact>;
-inline constexpr const char* kContactTopic = "/gsv/contacts";
 // /gsv/radio: who says what to whom.
 using RadioTopic = MomentTopic<messages::gsv_msgs::Transmission>;
-inline constexpr const char* kRadioTopic = "/gsv/radio";
 
 void CollectContacts(const world::Snapshot& snapshot,
                      std::vector<messages::gsv_msgs::Contact>& found);

@@ -7,6 +7,7 @@
 
 #include "gsv/gateway/foxglove/channels.h"
 #include "gsv/presentation/state_messages.h"
+#include "gsv/presentation/topics.h"
 
 namespace gsv::gateway {
 namespace {
@@ -19,46 +20,24 @@ constexpr double kPicturesRate = 5;
 // nor the page that shows it on the same machine.
 constexpr int kShareOfProcessors = 10;
 
-bool SameDescription(const model::SensorDescription& a, const model::SensorDescription& b) {
-  return a.name == b.name && a.type == b.type && a.link == b.link &&
-         a.link_from_sensor == b.link_from_sensor && a.update_rate == b.update_rate &&
-         a.parameters == b.parameters;
-}
-
-std::string TopicOf(const std::string& robot, const std::string& sensor) {
-  return "/" + presentation::FrameOf(robot, sensor);
-}
-
-std::string TopicOf(const std::string& sensor_topic, const sensing::Companion& companion) {
-  return sensor_topic + "/" + companion.topic;
-}
-
 }  // namespace
-
-std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
-                                          const std::string& robot) {
-  std::vector<std::string> names;
-  for (const model::SensorDescription& description : simulation.sensors(robot)) {
-    const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
-    if (type == nullptr || type->schema == nullptr) continue;
-    names.push_back(TopicOf(robot, description.name));
-    if (type->companion) names.push_back(TopicOf(names.back(), *type->companion));
-  }
-  return names;
-}
 
 // One sensor on one robot. What a worker uses of it is never changed, or atomic.
 struct SensorTopics::Sensor {
+  using Made = base::Result<std::shared_ptr<const sensing::Sensor>>;
+
   Sensor(std::string its_robot, model::SensorDescription its_description,
-         const sensing::SensorType* its_type)
+         const sensing::SensorType* its_type, Made its_made)
       : robot(std::move(its_robot)),
         description(std::move(its_description)),
         type(its_type),
+        made(std::move(its_made)),
         pacing(type->overlay == sensing::Overlay::kPicture ? kPicturesRate : kReadingsRate) {}
 
   const std::string robot;
   const model::SensorDescription description;
   const sensing::SensorType* const type;
+  const Made made;  // which writes its messages
   std::string frame() const { return presentation::FrameOf(robot, description.name); }
 
   foxglove::ChannelId channel = 0;            // 0: none
@@ -78,9 +57,8 @@ SensorTopics::SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers)
       workers_(workers),
       beam_sensors_(std::make_shared<SensorList>()),
       beams_pacing_(kBeamsRate) {
-  const auto channels =
-      hub_->Advertise({ChannelFor<messages::visualization_msgs::MarkerArray>("/gsv/beams"),
-                       ChannelFor<messages::tf2_msgs::TFMessage>("/tf_static")});
+  const auto channels = hub_->Advertise({ChannelFor(presentation::topics::kBeams),
+                                         ChannelFor(presentation::topics::kSensorTransforms)});
   beams_channel_ = channels[0];
   transforms_channel_ = channels[1];
 }
@@ -95,7 +73,8 @@ void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snap
   sensors_ = std::move(found);
   SensorList with_beams;
   for (const auto& [topic, sensor] : sensors_) {
-    if (presentation::HasLines(*sensor->type, sensor->description)) with_beams.push_back(sensor);
+    const bool has_lines = presentation::HasLines(*sensor->type, sensor->description);
+    if (has_lines && sensor->made) with_beams.push_back(sensor);
   }
   beam_sensors_ = std::make_shared<SensorList>(std::move(with_beams));
   by_channel_.clear();
@@ -109,20 +88,23 @@ void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snap
 
 // The sensors that are there now; those that were there already keep their state.
 SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
-                                          const world::Layout& layout) const {
+                                          const world::Layout& layout) {
+  if (!made_) made_.emplace(simulation.sensor_types());
   Sensors found;
   for (const world::Body& body : layout.bodies) {
     if (!body.is_robot()) continue;
     for (model::SensorDescription& description : simulation.sensors(body.name)) {
       const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
       if (type == nullptr) continue;
-      const std::string topic = TopicOf(body.name, description.name);
+      const std::string topic = presentation::SensorTopic(body.name, description.name);
       const auto known = sensors_.find(topic);
-      if (known != sensors_.end() && SameDescription(known->second->description, description)) {
+      if (known != sensors_.end() && known->second->description == description) {
         found.insert(*known);
-      } else {
-        found.emplace(topic, std::make_shared<Sensor>(body.name, std::move(description), type));
+        continue;
       }
+      auto made = made_->Of(description);
+      found.emplace(topic, std::make_shared<Sensor>(body.name, std::move(description), type,
+                                                    std::move(made)));
     }
   }
   return found;
@@ -153,7 +135,8 @@ void SensorTopics::MakeRoom(Sensors& found) {
       if (channel != 0) gone.push_back(channel);
     }
     // Another one: a worker may have this one.
-    sensor = std::make_shared<Sensor>(sensor->robot, sensor->description, sensor->type);
+    sensor =
+        std::make_shared<Sensor>(sensor->robot, sensor->description, sensor->type, sensor->made);
   }
   hub_->Unadvertise(gone);
 }
@@ -181,7 +164,8 @@ void SensorTopics::Advertise(Sensors& found) {
     channels.push_back(ChannelFor(topic, *sensor->type->schema));
     fresh.emplace_back(sensor, &Sensor::channel);
     if (const auto& companion = sensor->type->companion) {
-      channels.push_back(ChannelFor(TopicOf(topic, *companion), *companion->schema));
+      channels.push_back(
+          ChannelFor(presentation::CompanionTopic(topic, *companion), *companion->schema));
       fresh.emplace_back(sensor, &Sensor::companion_channel);
     }
     if (!sensor->is_wanted) topics_ += sensor->type->companion ? 2 : 1;
@@ -237,12 +221,10 @@ void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
 // the readings.
 void SensorTopics::WelcomeToCompanion(const world::Snapshot& snapshot, const Sensor& sensor) {
   if (!hub_->HasNewcomers(sensor.companion_channel)) return;
-  sensing::Reading now;
-  now.step = snapshot.state.step;
-  now.time = snapshot.state.time;
-  const Hub::Message message{
-      base::NanosecondsOf(now.time),
-      SharedBytes(sensor.type->companion->encode(sensor.description, now, sensor.frame()))};
+  if (!sensor.made) return hub_->Welcome(sensor.companion_channel, {});
+  const base::SimTime time = snapshot.state.time;
+  const Hub::Message message{base::NanosecondsOf(time),
+                             SharedBytes((*sensor.made)->EncodeCompanion(time, sensor.frame()))};
   hub_->Welcome(sensor.companion_channel, {&message, 1});
 }
 
@@ -270,30 +252,27 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
 }
 
 void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& sensor) {
+  const auto refuse = [&](const base::Error& error) {
+    hub_->Welcome(sensor.channel, {});  // or they would be asked for every round
+    if (sensor.has_complained.exchange(true)) return;
+    hub_->SendStatus(foxglove::StatusLevel::kWarning, error.Sentence());
+  };
   const base::Result<sensing::Reading> reading =
       simulation.Watch(sensor.robot, sensor.description.name);
-  if (!reading) {
-    hub_->Welcome(sensor.channel, {});  // or they would be asked for every round
-    if (!sensor.has_complained.exchange(true)) {
-      hub_->SendStatus(foxglove::StatusLevel::kWarning, reading.error().Sentence());
-    }
-    return;
-  }
+  if (!reading) return refuse(reading.error());
+  if (!sensor.made) return refuse(sensor.made.error());
   const bool is_new = sensor.published_step.exchange(reading->step) != reading->step;
   if (!is_new && !hub_->HasNewcomers(sensor.channel)) return;
-  const Hub::Message message{
-      base::NanosecondsOf(reading->time),
-      SharedBytes(sensor.type->encode(sensor.description, *reading, sensor.frame()))};
-  if (is_new) {
-    hub_->Publish(sensor.channel, message);
-    if (sensor.companion_channel != 0 && hub_->IsSubscribed(sensor.companion_channel)) {
-      hub_->Publish(sensor.companion_channel, {base::NanosecondsOf(reading->time),
-                                               SharedBytes(sensor.type->companion->encode(
-                                                   sensor.description, *reading, sensor.frame()))});
-    }
-  } else {
-    hub_->Welcome(sensor.channel, {&message, 1});
-  }
+  const sensing::Sensor& its = **sensor.made;
+  auto encoded = its.Encode(*reading, sensor.frame());
+  if (!encoded) return refuse(encoded.error());
+  const std::uint64_t time = base::NanosecondsOf(reading->time);
+  const Hub::Message message{time, SharedBytes(*std::move(encoded))};
+  if (!is_new) return hub_->Welcome(sensor.channel, {&message, 1});
+  hub_->Publish(sensor.channel, message);
+  if (sensor.companion_channel == 0 || !hub_->IsSubscribed(sensor.companion_channel)) return;
+  hub_->Publish(sensor.companion_channel,
+                {time, SharedBytes(its.EncodeCompanion(reading->time, sensor.frame()))});
 }
 
 void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,
@@ -318,31 +297,14 @@ void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& s
 
 void SensorTopics::TakeBeams(simulation::Simulation& simulation, const world::Snapshot& snapshot,
                              const SensorList& sensors) {
-  std::map<std::string, std::vector<geometry::Vector3>> points;  // in the world, by robot
   for (const std::shared_ptr<Sensor>& sensor : sensors) {
     const int body = snapshot.layout->Find(sensor->robot);
     if (body < 0) continue;
     const auto reading = simulation.Watch(sensor->robot, sensor->description.name);
-    if (!reading) continue;
-    const geometry::Pose world_from_sensor =
-        world::LinkPose(snapshot, body, sensor->description.link) *
-        sensor->description.link_from_sensor;
-    presentation::AppendLines(*sensor->type, sensor->description, *reading, world_from_sensor,
-                              points[sensor->robot]);
+    if (reading) beam_markers_.Add(snapshot, body, *sensor->type, **sensor->made, *reading);
   }
-  messages::visualization_msgs::MarkerArray message;
-  for (const std::string& robot : robots_with_beams_) {
-    if (!points.contains(robot)) {
-      message.markers.push_back(presentation::NoBeamsMarker(robot, snapshot.state.time));
-    }
-  }
-  robots_with_beams_.clear();
-  for (auto& [robot, its_points] : points) {
-    robots_with_beams_.insert(robot);
-    message.markers.push_back(
-        presentation::BeamsMarker(robot, snapshot.state.time, std::move(its_points)));
-  }
-  hub_->Publish(beams_channel_, {base::NanosecondsOf(snapshot.state.time), Encoded(message)});
+  hub_->Publish(beams_channel_, {base::NanosecondsOf(snapshot.state.time),
+                                 Encoded(beam_markers_.Take(snapshot.state.time))});
 }
 
 }  // namespace gsv::gateway

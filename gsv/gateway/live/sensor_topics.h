@@ -10,6 +10,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@
 #include "gsv/gateway/live/pacing.h"
 #include "gsv/gateway/live/wanted_robots.h"
 #include "gsv/gateway/server/worker_pool.h"
+#include "gsv/presentation/sensor_messages.h"
+#include "gsv/sensing/sensor_set.h"
 #include "gsv/simulation/simulation.h"
 
 namespace gsv::gateway {
@@ -26,10 +29,6 @@ namespace gsv::gateway {
 // first so many sensors are advertised, besides those of the robots that somebody wants to listen
 // to (WantedRobots), and a status message says that it is not all.
 inline constexpr std::size_t kMostSensorTopics = 2000;
-
-// Of all the robot's sensors: "/pebble/sonar_0", "/pebble/camera", "/pebble/camera/camera_info"...
-std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
-                                          const std::string& robot);
 
 class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
  public:
@@ -53,7 +52,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
   using SensorList = std::vector<std::shared_ptr<Sensor>>;
 
-  Sensors Found(simulation::Simulation& simulation, const world::Layout& layout) const;
+  Sensors Found(simulation::Simulation& simulation, const world::Layout& layout);
   void Withdraw(const Sensors& found);
   void MakeRoom(Sensors& found);
   std::set<std::string> RobotsHeard() const;
@@ -74,6 +73,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   const std::shared_ptr<Hub> hub_;
   WorkerPool& workers_;
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
+  std::optional<sensing::SensorSet> made_;  // once there is a simulation
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
   std::size_t topics_ = 0;  // how many of them have a channel without having been wanted
@@ -84,7 +84,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   Pacing beams_pacing_;
   std::weak_ptr<const world::Snapshot> beams_of_;  // the last that beams were taken for
   std::atomic<bool> beams_busy_{false};
-  std::set<std::string> robots_with_beams_;  // used by the beams' job alone
+  presentation::BeamMarkers beam_markers_;  // used by the beams' job alone
 };
 
 }  // namespace gsv::gateway

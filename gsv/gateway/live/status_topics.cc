@@ -22,9 +22,8 @@ SharedBytes EncodedDiagnostics(const simulation::SimulationStatus& status) {
 }  // namespace
 
 StatusTopics::StatusTopics(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
-  const auto channels =
-      hub_->Advertise({ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status"),
-                       ChannelFor<messages::diagnostic_msgs::DiagnosticArray>("/diagnostics")});
+  const auto channels = hub_->Advertise(
+      {ChannelFor(presentation::topics::kStatus), ChannelFor(presentation::topics::kDiagnostics)});
   topics_.push_back({channels[0], EncodedStatus, Pacing(kStatusRate)});
   topics_.push_back({channels[1], EncodedDiagnostics, Pacing(kDiagnosticsRate)});
 }

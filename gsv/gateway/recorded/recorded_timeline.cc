@@ -5,6 +5,7 @@
 
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/rcl_interfaces.h"
+#include "gsv/presentation/topics.h"
 
 namespace gsv::gateway {
 namespace {
@@ -26,9 +27,9 @@ bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels)
 
 RecordedTimeline::RecordedTimeline(const recording::McapReader& reader)
     : reader_(reader),
-      pose_channels_(ChannelsOf("/gsv/poses")),
-      event_channels_(ChannelsOf("/gsv/events")),
-      log_channels_(ChannelsOf("/rosout")) {}
+      pose_channels_(ChannelsOf(presentation::topics::kPoses.name)),
+      event_channels_(ChannelsOf(presentation::topics::kEvents.name)),
+      log_channels_(ChannelsOf(presentation::topics::kLog.name)) {}
 
 RecordedTimeline::ChannelIds RecordedTimeline::ChannelsOf(const std::string& topic) const {
   ChannelIds ids;

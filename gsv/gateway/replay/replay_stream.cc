@@ -5,13 +5,14 @@
 
 #include "gsv/gateway/foxglove/channels.h"
 #include "gsv/gateway/live/sensor_topics.h"
-#include "gsv/messages/rosgraph_msgs.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/run_messages.h"
 #include "gsv/recording/reading/newest_messages.h"
 
 namespace gsv::gateway {
 namespace {
+
+namespace topics = presentation::topics;
 
 constexpr double kReplayStatusRate = 5;  // Hz
 constexpr int kMostWarnings = 10;
@@ -28,7 +29,7 @@ foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& s
 
 // What belongs to the whole simulation goes first, lest the limit leave it out.
 bool IsCommon(const std::string& topic) {
-  return topic.starts_with("/gsv/") || topic == "/tf" || topic == "/tf_static";
+  return topic.starts_with("/gsv/") || presentation::FindTopic(topic) != nullptr;
 }
 
 // "pebble" of "/pebble/camera"; of other topics something that is no robot's name.
@@ -52,19 +53,21 @@ ReplayStream::ReplayStream(const recording::McapReader& reader, const std::strin
       hub_(std::make_shared<Hub>(InfoOf(name, reader.summary()), std::move(on_demand),
                                  std::move(operations))),
       status_pacing_(kReplayStatusRate) {
-  const auto own =
-      hub_->Advertise({ChannelFor<messages::rosgraph_msgs::Clock>("/clock"),
-                       ChannelFor<messages::gsv_msgs::SimulationStatus>("/gsv/status")});
+  const auto own = hub_->Advertise({ChannelFor(topics::kClock), ChannelFor(topics::kStatus)});
   clock_channel_ = own[0];
   status_channel_ = own[1];
   AdvertiseFirst();
 }
 
+ReplayStream::Kind ReplayStream::KindOf(const std::string& topic) {
+  const presentation::Topic* const row = presentation::FindTopic(topic);
+  if (topic == topics::kPoses.name) return Kind::kPoses;
+  if (row == nullptr || row->replay == presentation::Replay::kNewest) return Kind::kPlain;
+  if (row->replay == presentation::Replay::kEach) return Kind::kEvents;
+  return topic == topics::kStatus.name ? Kind::kStatus : Kind::kClock;
+}
+
 void ReplayStream::AdvertiseFirst() {
-  static const std::map<std::string, Kind> kKinds{
-      {"/gsv/events", Kind::kEvents}, {"/gsv/contacts", Kind::kEvents}, {"/rosout", Kind::kEvents},
-      {"/gsv/radio", Kind::kEvents},  {"/gsv/status", Kind::kStatus},   {"/clock", Kind::kClock},
-      {"/gsv/poses", Kind::kPoses}};
   const recording::Summary& summary = reader_.summary();
   std::vector<std::uint16_t> ids;
   for (const bool common : {true, false}) {
@@ -73,9 +76,8 @@ void ReplayStream::AdvertiseFirst() {
       const bool is_ours = channel.message_encoding == "cdr" && schema != summary.schemas.end() &&
                            schema->second.encoding == "ros2msg";
       if (!is_ours || IsCommon(channel.topic) != common) continue;
-      const auto kind = kKinds.find(channel.topic);
       Track& track = tracks_[id];
-      if (kind != kKinds.end()) track.kind = kind->second;
+      track.kind = KindOf(channel.topic);
       const bool is_own = track.kind == Kind::kStatus || track.kind == Kind::kClock;
       if (!is_own && ids.size() < kMostSensorTopics) ids.push_back(id);
     }

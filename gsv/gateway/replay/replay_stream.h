@@ -61,6 +61,7 @@ class ReplayStream {
     bool is_fresh = false;
   };
 
+  static Kind KindOf(const std::string& topic);
   void AdvertiseFirst();
   void AdvertiseWanted();
   void MakeRoom();

@@ -5,8 +5,7 @@
 #include <turbojpeg.h>
 
 #include "gsv/messages/sensor_msgs.h"
-#include "gsv/messages/time.h"
-#include "gsv/sensing/encoding.h"
+#include "gsv/sensing/sensor_type.h"
 
 namespace gsv::gateway::testing {
 namespace {
@@ -63,49 +62,58 @@ void AddWheel(model::Model& robot, const std::string& side, double y) {
   robot.joints.push_back(std::move(joint));
 }
 
-class GradientCamera final : public sensing::Sensor {
+class GradientCamera final
+    : public sensing::SensorOf<readings::Camera, messages::sensor_msgs::CompressedImage> {
  public:
-  using Sensor::Sensor;
+  GradientCamera(const model::SensorDescription& description, sensing::ParameterReader&)
+      : SensorOf(description) {}
 
   base::Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
     auto picture = std::make_shared<model::Image>();
-    picture->width = 320;
-    picture->height = 240;
-    picture->pixels.resize(3u * 320 * 240);
+    picture->width = kWidth;
+    picture->height = kHeight;
+    picture->pixels.resize(3u * kWidth * kHeight);
     const auto shade = static_cast<std::uint8_t>(sampling.snapshot()->state.step);
-    for (int y = 0; y < 240; ++y) {
-      for (int x = 0; x < 320; ++x) {
-        std::uint8_t* pixel = &picture->pixels[3u * (y * 320 + x)];
-        pixel[0] = static_cast<std::uint8_t>(x * 255 / 319);
-        pixel[1] = static_cast<std::uint8_t>(y * 255 / 239);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        std::uint8_t* pixel = &picture->pixels[3u * (y * kWidth + x)];
+        pixel[0] = static_cast<std::uint8_t>(x * 255 / (kWidth - 1));
+        pixel[1] = static_cast<std::uint8_t>(y * 255 / (kHeight - 1));
         pixel[2] = shade;
       }
     }
     sensing::Reading reading = sampling.Stamped();
+    Fill(Values{kWidth, kHeight}, reading);
     reading.picture = std::move(picture);
     return reading;
   }
-};
+  std::optional<sensing::Frustum> frustum() const override {
+    return sensing::Frustum{1.047, double{kWidth} / kHeight};
+  }
+  Bytes EncodeCompanion(base::SimTime time, const std::string& frame_id) const override {
+    messages::sensor_msgs::CameraInfo message;
+    message.header = sensing::HeaderOf(time, frame_id);
+    return sensing::Encoded(message);
+  }
 
-std::vector<std::uint8_t> EncodeJpeg(const model::SensorDescription&,
-                                     const sensing::Reading& reading, const std::string& frame_id) {
-  messages::sensor_msgs::CompressedImage message;
-  message.header.stamp = messages::ToMessage(reading.time);
-  message.header.frame_id = frame_id;
-  message.format = "jpeg";
-  unsigned char* jpeg = nullptr;
-  unsigned long size = 0;
-  const tjhandle compressor = tjInitCompress();
-  tjCompress2(compressor, reading.picture->pixels.data(), reading.picture->width, 0,
-              reading.picture->height, TJPF_RGB, &jpeg, &size, TJSAMP_420, 85, 0);
-  message.data.assign(jpeg, jpeg + size);
-  tjFree(jpeg);
-  tjDestroy(compressor);
-  messages::Bytes bytes;
-  messages::Encode(message, bytes);
-  const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  return {begin, begin + bytes.size()};
-}
+ private:
+  static constexpr int kWidth = 320, kHeight = 240;
+
+  Message ToMessage(const Values&, const sensing::Reading& reading,
+                    const std::string&) const override {
+    Message message;
+    message.format = "jpeg";
+    unsigned char* jpeg = nullptr;
+    unsigned long size = 0;
+    const tjhandle compressor = tjInitCompress();
+    tjCompress2(compressor, reading.picture->pixels.data(), kWidth, 0, kHeight, TJPF_RGB, &jpeg,
+                &size, TJSAMP_420, 85, 0);
+    message.data.assign(jpeg, jpeg + size);
+    tjFree(jpeg);
+    tjDestroy(compressor);
+    return message;
+  }
+};
 
 }  // namespace
 
@@ -155,24 +163,9 @@ model::WorldDescription ArenaDescription() {
 }
 
 sensing::SensorType GradientCameraType() {
-  sensing::SensorType type;
-  type.name = "camera";
-  type.create = [](const model::SensorDescription& description)
-      -> base::Result<std::unique_ptr<sensing::Sensor>> {
-    return std::make_unique<GradientCamera>(description);
-  };
-  type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
-  type.encode = EncodeJpeg;
-  type.companion.emplace();
-  type.companion->topic = "camera_info";
-  type.companion->schema = &messages::SchemaOf<messages::sensor_msgs::CameraInfo>();
-  type.companion->encode = [](const model::SensorDescription&, const sensing::Reading& reading,
-                              const std::string& frame) {
-    messages::sensor_msgs::CameraInfo message;
-    message.header = sensing::HeaderOf(reading, frame);
-    return sensing::Encoded(message);
-  };
-  type.overlay = sensing::Overlay::kPicture;
+  auto type = sensing::MakeSensorType<GradientCamera>(readings::Camera::kType, {},
+                                                      sensing::Overlay::kPicture);
+  type.companion = {"camera_info", &messages::SchemaOf<messages::sensor_msgs::CameraInfo>()};
   return type;
 }
 

@@ -4,14 +4,14 @@
 #include <set>
 #include <utility>
 
+#include "gsv/presentation/topics.h"
+
 namespace gsv::gateway::upstream {
 
 using foxglove::ChannelId;
 
 namespace {
 
-// What a server tells newcomers of events, see LiveStream; of all else the present is enough.
-constexpr std::size_t kEventsMemory = 100;
 // What a hostile server may make us hold.
 constexpr std::size_t kMostChannels = 10'000;
 
@@ -28,8 +28,8 @@ void ChannelMap::Take(const Advertise& message) {
     ours_by_theirs_.emplace(fresh[i].id, ours[i]);
     Source& source = sources_[ours[i]];
     source.theirs = fresh[i].id;
-    if (fresh[i].topic == "/gsv/events" || fresh[i].topic == "/rosout")
-      source.memory = kEventsMemory;
+    const presentation::Topic* const row = presentation::FindTopic(fresh[i].topic);
+    if (row != nullptr) source.memory = row->history;
   }
 }
 

@@ -7,6 +7,9 @@
 #include "gsv/presentation/edit_message.h"
 
 namespace gsv::recording {
+
+namespace topics = presentation::topics;
+
 namespace {
 
 constexpr base::SimTime kHashPeriod = std::chrono::seconds(1);
@@ -22,18 +25,18 @@ StateTopics::StateTopics(McapWriter& writer, double poses_rate, const Selection&
     : poses_instants_(base::FromSeconds(1 / poses_rate)),
       hash_instants_(kHashPeriod),
       diagnostics_instants_(kDiagnosticsPeriod),
-      clock_(writer, selection, "/clock"),
-      poses_(writer, selection, "/gsv/poses"),
-      transforms_(writer, selection, "/tf"),
-      commands_(writer, selection, "/gsv/commands"),
-      actuators_(writer, selection, "/gsv/actuators"),
-      contacts_(writer, selection, "/gsv/contacts"),
-      radio_(writer, selection, "/gsv/radio"),
-      status_(writer, selection, "/gsv/status", {.reproducible = false}),
-      diagnostics_(writer, selection, "/diagnostics", {.reproducible = false}),
-      events_(writer, selection, "/gsv/events"),
-      log_(writer, selection, "/rosout"),
-      hash_(writer, selection, "/gsv/state_hash"),
+      clock_(writer, selection, topics::kClock),
+      poses_(writer, selection, topics::kPoses),
+      transforms_(writer, selection, topics::kTransforms),
+      commands_(writer, selection, topics::kCommands),
+      actuators_(writer, selection, topics::kActuators),
+      contacts_(writer, selection, topics::kContacts),
+      radio_(writer, selection, topics::kRadio),
+      status_(writer, selection, topics::kStatus),
+      diagnostics_(writer, selection, topics::kDiagnostics),
+      events_(writer, selection, topics::kEvents),
+      log_(writer, selection, topics::kLog),
+      hash_(writer, selection, topics::kStateHash),
       writer_(writer) {}
 
 void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
@@ -127,7 +130,7 @@ void StateTopics::RecordEvent(const simulation::Event& event) {
   events_.Write(event.time, presentation::EventMessage(event));
   log_.Write(event.time, presentation::LogMessage(event));
   if (event.edit == nullptr) return;
-  if (!edits_) edits_.emplace(writer_, Selection{}, "/gsv/edits");
+  if (!edits_) edits_.emplace(writer_, Selection{}, topics::kEdits);
   edits_->Write(event.time, presentation::EditMessage(*event.edit));
 }
 

@@ -5,6 +5,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/messages/cdr.h"
+#include "gsv/presentation/topics.h"
 #include "gsv/recording/mcap/mcap_writer.h"
 #include "gsv/recording/reading/selection.h"
 
@@ -15,11 +16,14 @@ class TopicWriter {
  public:
   // `writer` must outlive this; no other type may be on the topic. One that is not selected is not
   // in the recording.
-  TopicWriter(McapWriter& writer, const Selection& selection, const std::string& topic,
-              const ChannelOptions& options = {})
+  TopicWriter(McapWriter& writer, const Selection& selection,
+              const presentation::TopicOf<Message>& topic)
       : writer_(writer) {
-    if (!selection.Has(topic)) return;
-    const auto channel = writer.AddChannel(topic, messages::SchemaOf<Message>(), options);
+    if (!selection.Has(topic.name)) return;
+    const presentation::Topic* const row = presentation::FindTopic(topic.name);
+    GSV_CHECK(row != nullptr && row->is_recorded);
+    const auto channel = writer.AddChannel(topic.name, messages::SchemaOf<Message>(),
+                                           {.reproducible = row->is_reproducible});
     GSV_CHECK(channel.has_value());
     channel_ = *channel;
   }

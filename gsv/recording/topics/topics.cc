@@ -2,35 +2,25 @@
 
 #include <algorithm>
 
-#include "gsv/presentation/state_messages.h"
+#include "gsv/presentation/sensor_messages.h"
+#include "gsv/presentation/topics.h"
 #include "gsv/recording/reading/selection.h"
 #include "gsv/recording/topics/simulation_feed.h"
 
 namespace gsv::recording {
-namespace {
-
-// Those of StateTopics and SensorTopics that are there whatever stands in the world.
-constexpr const char* kTopicsOfAll[]{
-    "/clock",        "/diagnostics",    "/gsv/actuators", "/gsv/beams",
-    "/gsv/commands", "/gsv/contacts",   "/gsv/events",    "/gsv/poses",
-    "/gsv/radio",    "/gsv/state_hash", "/gsv/status",    "/rosout",
-    "/tf",           "/tf_static"};
-
-}  // namespace
 
 std::vector<std::string> TopicsOf(const simulation::Simulation& simulation) {
-  std::vector<std::string> topics(std::begin(kTopicsOfAll), std::end(kTopicsOfAll));
-  for (const auto& [robot, sensors] : SensorsOf(simulation, *simulation.snapshot()->layout)) {
-    for (const model::SensorDescription& sensor : sensors) {
-      const sensing::SensorType* type = simulation.sensor_types().Find(sensor.type);
-      if (type == nullptr || type->schema == nullptr) continue;
-      const std::string topic = "/" + presentation::FrameOf(robot, sensor.name);
-      topics.push_back(topic);
-      if (type->companion) topics.push_back(topic + "/" + type->companion->topic);
-    }
+  std::vector<std::string> names;
+  for (const presentation::Topic& topic : presentation::Topics()) {
+    const bool is_chosen = topic.name != presentation::topics::kEdits.name;
+    if (topic.is_recorded && is_chosen) names.emplace_back(topic.name);
   }
-  std::sort(topics.begin(), topics.end());
-  return topics;
+  for (const auto& [robot, sensors] : SensorsOf(simulation, *simulation.snapshot()->layout)) {
+    const auto its = presentation::SensorTopicNames(simulation, robot);
+    names.insert(names.end(), its.begin(), its.end());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::vector<std::string> PatternsWithout(const std::vector<std::string>& topics,

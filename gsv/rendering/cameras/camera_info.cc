@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "gsv/messages/sensor_msgs.h"
-#include "gsv/rendering/cameras/optics.h"
 #include "gsv/sensing/encoding.h"
 #include "gsv/sensing/frames.h"
 
@@ -48,18 +47,15 @@ LensModel LensModelOf(const Lens& lens) {
   return {"plumb_bob", {d.k1, d.k2, d.p1, d.p2, d.k3}, lens.intrinsics()};
 }
 
-sensing::Companion CameraInfoCompanion(const std::string& lens_type) {
-  sensing::Companion companion;
-  companion.topic = "camera_info";
-  companion.schema = &messages::SchemaOf<messages::sensor_msgs::CameraInfo>();
-  companion.encode = [lens_type](const model::SensorDescription& description,
-                                 const sensing::Reading& reading, const std::string& frame_id) {
-    sensing::ParameterReader parameters(description);
-    auto info = InfoOf(Optics::Read(parameters, lens_type).lens());
-    info.header = sensing::HeaderOf(reading, sensing::FrameOf(frame_id, sensing::kOpticalFrame));
-    return sensing::Encoded(info);
-  };
-  return companion;
+sensing::Companion CameraInfoCompanion() {
+  return {"camera_info", &messages::SchemaOf<messages::sensor_msgs::CameraInfo>()};
+}
+
+sensing::Sensor::Bytes EncodeCameraInfo(const Lens& lens, base::SimTime time,
+                                        const std::string& frame_id) {
+  auto info = InfoOf(lens);
+  info.header = sensing::HeaderOf(time, sensing::FrameOf(frame_id, sensing::kOpticalFrame));
+  return sensing::Encoded(info);
 }
 
 }  // namespace gsv::rendering

@@ -10,6 +10,7 @@
 
 #include <string>
 
+#include "gsv/base/sim_time.h"
 #include "gsv/rendering/lenses/lens.h"
 #include "gsv/sensing/registry.h"
 
@@ -23,7 +24,10 @@ struct LensModel {
 };
 LensModel LensModelOf(const Lens& lens);
 
-// For the sensor types of cameras. `lens_type` as for Optics::Read().
-sensing::Companion CameraInfoCompanion(const std::string& lens_type = "gnomonical");
+// For the sensor types of cameras.
+sensing::Companion CameraInfoCompanion();
+// The message, in CDR, of a camera in the frame `frame_id`.
+sensing::Sensor::Bytes EncodeCameraInfo(const Lens& lens, base::SimTime time,
+                                        const std::string& frame_id);
 
 }  // namespace gsv::rendering

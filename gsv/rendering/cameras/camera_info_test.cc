@@ -25,9 +25,9 @@ model::SensorDescription CameraWith(model::Parameters parameters) {
 }
 
 CameraInfo InfoFor(const model::SensorDescription& description) {
-  sensing::Reading reading;
-  reading.time = std::chrono::milliseconds(1250);
-  const auto bytes = CameraInfoCompanion().encode(description, reading, "robot/front");
+  sensing::ParameterReader reader(description);
+  const auto bytes =
+      EncodeCameraInfo(Optics::Read(reader).lens(), std::chrono::milliseconds(1250), "robot/front");
   const auto info = messages::Decode<CameraInfo>(std::as_bytes(std::span(bytes)));
   EXPECT_TRUE(info);
   return info ? *info : CameraInfo();
@@ -130,8 +130,9 @@ TEST(CameraInfo, GoesWithEveryCamera) {
     EXPECT_EQ(registry.Find(name)->companion->topic, "camera_info");
   }
   // Without a <lens> a wide-angle camera is stereographic.
-  const auto bytes =
-      registry.Find("wideangle_camera")->companion->encode(CameraWith({}), {}, "robot/wide");
+  const auto wide = registry.Find("wideangle_camera")->create(CameraWith({}));
+  ASSERT_TRUE(wide);
+  const auto bytes = (*wide)->EncodeCompanion({}, "robot/wide");
   const auto info = messages::Decode<CameraInfo>(std::as_bytes(std::span(bytes)));
   ASSERT_TRUE(info);
   EXPECT_EQ(info->distortion_model, "");

@@ -3,13 +3,10 @@
 #include <utility>
 
 #include "gsv/messages/sensor_msgs.h"
-#include "gsv/rendering/cameras/camera_info.h"
+#include "gsv/rendering/cameras/camera_type.h"
 #include "gsv/rendering/cameras/exposure.h"
-#include "gsv/rendering/cameras/optics.h"
 #include "gsv/rendering/cameras/shutter.h"
 #include "gsv/rendering/images/jpeg.h"
-#include "gsv/sensing/encoding.h"
-#include "gsv/sensing/shared_readings.h"
 
 namespace gsv::rendering {
 namespace {
@@ -20,27 +17,25 @@ using base::Result;
 constexpr int kJpegQuality = 80;
 constexpr std::size_t kSharedBytes = 64 << 20;  // some 290 pictures of 320 by 240
 
-class Camera final : public sensing::Sensor {
+class Camera final : public CameraOf<readings::Camera, messages::sensor_msgs::CompressedImage> {
  public:
   Camera(const model::SensorDescription& description, sensing::ParameterReader& reader,
-         const std::string& lens_type, Result<std::shared_ptr<Renderer>> renderer)
-      : Sensor(description),
-        optics_(Optics::Read(reader, lens_type)),
+         RendererResult renderer, const std::string& lens_type)
+      : CameraOf(description, reader, std::move(renderer), lens_type),
         shutter_(reader),
-        exposure_(reader),
-        renderer_(std::move(renderer)) {}
+        exposure_(reader) {}
 
   Result<sensing::Reading> Sample(const sensing::Sampling& sampling) const override {
-    if (!renderer_) return Fail(renderer_.error());
+    if (!renderer()) return Fail(renderer().error());
     auto picture = shutter_.Take(sampling.snapshot(), [&](const auto& snapshot) {
       const geometry::Pose world_from_link =
           world::LinkPose(*snapshot, sampling.body(), description().link);
-      return optics_.Draw(**renderer_, snapshot, world_from_link * description().link_from_sensor);
+      return optics().Draw(**renderer(), snapshot,
+                           world_from_link * description().link_from_sensor);
     });
     if (!picture) return Fail(picture.error());
     sensing::Reading reading = sampling.Stamped();
-    reading.values = {static_cast<double>((*picture)->width),
-                      static_cast<double>((*picture)->height)};
+    Fill(Values{(*picture)->width, (*picture)->height}, reading);
     reading.picture = std::move(*picture);
     if (!exposure_.is_neutral()) {
       auto exposed = std::make_shared<model::Image>(*reading.picture);
@@ -49,59 +44,35 @@ class Camera final : public sensing::Sensor {
     }
     return reading;
   }
-  bool TakesLong() const override { return true; }
 
  private:
-  Optics optics_;
-  Shutter shutter_;
-  Exposure exposure_;
-  Result<std::shared_ptr<Renderer>> renderer_;
-};
-
-std::vector<std::uint8_t> Encode(const model::SensorDescription&, const sensing::Reading& reading,
-                                 const std::string& frame_id) {
-  messages::sensor_msgs::CompressedImage message;
-  message.header = sensing::HeaderOf(reading, frame_id);
-  message.format = "jpeg";
   // A reading without a picture becomes a message without data.
-  if (reading.picture != nullptr) {
+  Message ToMessage(const Values&, const sensing::Reading& reading,
+                    const std::string&) const override {
+    Message message;
+    message.format = "jpeg";
+    if (reading.picture == nullptr) return message;
     if (auto jpeg = EncodeJpeg(*reading.picture, kJpegQuality)) message.data = std::move(*jpeg);
+    return message;
   }
-  return sensing::Encoded(message);
-}
+
+  const Shutter shutter_;
+  const Exposure exposure_;
+};
 
 }  // namespace
 
 base::Status AddCameraSensor(sensing::SensorRegistry& registry,
                              Result<std::shared_ptr<Renderer>> renderer) {
-  if (renderer && *renderer == nullptr) {
-    renderer =
-        Fail(base::ErrorCode::kUnavailable, "no renderer was started, so there are no pictures");
-  }
-  const auto readings = std::make_shared<sensing::SharedReadings>(kSharedBytes);
+  const auto shared = std::make_shared<sensing::SharedReadings>(kSharedBytes);
+  auto added =
+      registry.Add(MakeCameraType<Camera>(readings::Camera::kType, {}, sensing::Overlay::kPicture,
+                                          shared, renderer, std::string("gnomonical")));
+  if (!added) return added;
   // The lens of a wide-angle camera is what SDFormat says it is without a <lens>.
-  const std::pair<const char*, const char*> kinds[] = {{"camera", "gnomonical"},
-                                                       {"wideangle_camera", "stereographic"}};
-  for (const auto& [name, lens_type] : kinds) {
-    sensing::SensorType type;
-    type.name = name;
-    if (type.name != "camera") type.aliases = {"wideanglecamera", "wide_angle_camera"};
-    type.create = [renderer,
-                   lens = std::string(lens_type)](const model::SensorDescription& description)
-        -> Result<std::unique_ptr<sensing::Sensor>> {
-      sensing::ParameterReader reader(description);
-      auto camera = std::make_unique<Camera>(description, reader, lens, renderer);
-      if (!reader.status()) return Fail(reader.status().error());
-      return camera;
-    };
-    sensing::Share(type, readings);
-    type.schema = &messages::SchemaOf<messages::sensor_msgs::CompressedImage>();
-    type.encode = Encode;
-    type.companion = CameraInfoCompanion(lens_type);
-    type.overlay = sensing::Overlay::kPicture;
-    if (auto added = registry.Add(std::move(type)); !added) return added;
-  }
-  return {};
+  return registry.Add(MakeCameraType<Camera>(
+      readings::Camera::kWideAngleType, {"wideanglecamera", "wide_angle_camera"},
+      sensing::Overlay::kPicture, shared, renderer, std::string("stereographic")));
 }
 
 }  // namespace gsv::rendering

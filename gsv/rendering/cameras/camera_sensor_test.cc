@@ -61,10 +61,12 @@ TEST(Camera, BecomesAJpegMessage) {
   for (int i = 0; i < 32 * 16; ++i) picture->pixels.insert(picture->pixels.end(), {200, 100, 50});
   sensing::Reading reading;
   reading.time = std::chrono::milliseconds(1500);
+  reading.values = {32, 16};
   reading.picture = picture;
-  const auto bytes = fixture.type().encode(Front(), reading, "robot/front");
+  const auto bytes = (*fixture.type().create(Front()))->Encode(reading, "robot/front");
+  ASSERT_TRUE(bytes);
   const auto message =
-      messages::Decode<messages::sensor_msgs::CompressedImage>(std::as_bytes(std::span(bytes)));
+      messages::Decode<messages::sensor_msgs::CompressedImage>(std::as_bytes(std::span(*bytes)));
   ASSERT_TRUE(message) << message.error().Sentence();
   EXPECT_EQ(message->format, "jpeg");
   EXPECT_EQ(message->header.frame_id, "robot/front");

@@ -55,8 +55,11 @@ Lens ReadPinhole(sensing::ParameterReader& reader, const CameraParameters& camer
 
 }  // namespace
 
-Optics::Optics(const CameraParameters& camera, Lens lens)
-    : camera_(camera), lens_(lens), joining_(JoiningOf(camera_, lens_)) {}
+Optics::Optics(const CameraParameters& camera, Lens lens, double horizontal_fov)
+    : camera_(camera),
+      lens_(lens),
+      frustum_{horizontal_fov, static_cast<double>(camera.width) / camera.height},
+      joining_(JoiningOf(camera_, lens_)) {}
 
 std::shared_ptr<Optics::Joining> Optics::JoiningOf(const CameraParameters& camera,
                                                    const Lens& lens) {
@@ -98,7 +101,7 @@ Optics Optics::Read(sensing::ParameterReader& reader, const std::string& lens_ty
                     " are more");
       lens = Lens(CameraParameters());
     }
-    return {camera, lens};
+    return {camera, lens, fov};
   };
   if (type == "gnomonical") {
     camera.horizontal_fov = fov;

@@ -22,6 +22,7 @@
 #include "gsv/rendering/lenses/lens_map.h"
 #include "gsv/rendering/renderer.h"
 #include "gsv/sensing/parameters.h"
+#include "gsv/sensing/sensor.h"
 
 namespace gsv::rendering {
 
@@ -33,6 +34,8 @@ class Optics {
 
   const CameraParameters& camera() const { return camera_; }
   const Lens& lens() const { return lens_; }
+  // By its parameters: of a wide lens the angle that it is scaled to.
+  const sensing::Frustum& frustum() const { return frustum_; }
   // Where the middle of a pixel looks, of unit length; nothing where the lens shows nothing. Pixels
   // count in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
@@ -50,13 +53,14 @@ class Optics {
     std::unique_ptr<const LensMap> map;  // made for the first picture
   };
 
-  Optics(const CameraParameters& camera, Lens lens);
+  Optics(const CameraParameters& camera, Lens lens, double horizontal_fov);
   // Equal cameras have one map: those of all robots of a model, and of who records them.
   static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
   const LensMap& Map() const;
 
   CameraParameters camera_;
   Lens lens_;
+  sensing::Frustum frustum_;
   std::shared_ptr<Joining> joining_;
 };
 

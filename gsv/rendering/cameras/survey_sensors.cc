@@ -1,6 +1,7 @@
 #include "gsv/rendering/cameras/survey_sensors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -9,12 +10,9 @@
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/vision_msgs.h"
-#include "gsv/rendering/cameras/camera_info.h"
-#include "gsv/rendering/cameras/optics.h"
+#include "gsv/rendering/cameras/camera_type.h"
 #include "gsv/rendering/images/png.h"
 #include "gsv/sensing/noise.h"
-#include "gsv/sensing/sensor_type.h"
-#include "gsv/sensing/shared_readings.h"
 
 namespace gsv::rendering {
 namespace {
@@ -24,9 +22,7 @@ using base::Result;
 using geometry::Vector3;
 using sensing::Reading;
 using sensing::Segment;
-using RendererResult = Result<std::shared_ptr<Renderer>>;
 
-constexpr std::size_t kHead = 2;  // values before the pixels': width and height
 constexpr std::size_t kSharedSurveyBytes = 64 << 20;
 constexpr std::size_t kMostDrawn = 2000;  // points of a cloud in the viewer
 
@@ -37,68 +33,61 @@ std::optional<Vector3> OneMetreOn(const std::optional<Vector3>& ray) {
   return (1 / ray->x) * *ray;
 }
 
-Optics OpticsOf(const model::SensorDescription& description) {
-  sensing::ParameterReader reader(description);
-  return Optics::Read(reader);
-}
-
-class SurveySensor : public sensing::Sensor {
+template <typename Values, typename Message>
+class SurveySensor : public CameraOf<Values, Message> {
  public:
-  SurveySensor(const model::SensorDescription& description, sensing::ParameterReader& reader,
-               RendererResult renderer)
-      : Sensor(description), optics_(Optics::Read(reader)), renderer_(std::move(renderer)) {}
+  using CameraOf<Values, Message>::CameraOf;
 
   Result<Reading> Sample(const sensing::Sampling& sampling) const override {
-    if (!renderer_) return Fail(renderer_.error());
-    const auto truth =
-        optics_.Survey(**renderer_, sampling.snapshot(), sampling.WorldFromSensor(description()));
+    if (!this->renderer()) return Fail(this->renderer().error());
+    const auto truth = this->optics().Survey(**this->renderer(), sampling.snapshot(),
+                                             sampling.WorldFromSensor(this->description()));
     if (!truth) return Fail(truth.error());
     return Read(sampling, **truth);
   }
-  bool TakesLong() const override { return true; }
 
  private:
   virtual Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const = 0;
-
-  Optics optics_;
-  RendererResult renderer_;
 };
 
-Reading WithSize(const sensing::Sampling& sampling, const GroundTruth& truth) {
-  Reading reading = sampling.Stamped();
-  reading.values.reserve(kHead + truth.depth.size());
-  reading.values.push_back(truth.width);
-  reading.values.push_back(truth.height);
-  return reading;
-}
-
-class DepthCamera final : public SurveySensor {
+class DepthCamera final
+    : public SurveySensor<readings::DepthImage, messages::sensor_msgs::PointCloud2> {
  public:
   DepthCamera(const model::SensorDescription& description, sensing::ParameterReader& reader,
               RendererResult renderer)
       : SurveySensor(description, reader, std::move(renderer)),
         noise_(ReadNoise(reader, "noise", 1e3)) {}
 
-  static messages::sensor_msgs::PointCloud2 ToMessage(const model::SensorDescription& description,
-                                                      const Reading& reading, const std::string&) {
+ private:
+  Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
+    std::vector<double> depth(truth.depth.begin(), truth.depth.end());
+    if (!noise_.is_none()) {
+      const sensing::NoisyReading noisy(sampling, description());
+      for (std::size_t i = 0; i < depth.size(); ++i) {
+        if (std::isfinite(depth[i])) depth[i] = noisy.Read(noise_, i, depth[i]);
+      }
+    }
+    Reading reading = sampling.Stamped();
+    Fill(Values{truth.width, truth.height, depth}, reading);
+    return reading;
+  }
+
+  Message ToMessage(const Values& image, const Reading&, const std::string&) const override {
     using messages::sensor_msgs::PointField;
-    messages::sensor_msgs::PointCloud2 cloud;
+    Message cloud;
     const char* const names[] = {"x", "y", "z"};
     for (std::uint32_t i = 0; i < 3; ++i) {
       cloud.fields.push_back({names[i], 4 * i, PointField::kFloat32, 1});
     }
     cloud.point_step = 12;
-    if (reading.values.size() < kHead) return cloud;
-    const Optics optics = OpticsOf(description);
-    cloud.width = static_cast<std::uint32_t>(reading.values[0]);
-    cloud.height = static_cast<std::uint32_t>(reading.values[1]);
+    cloud.width = static_cast<std::uint32_t>(image.width);
+    cloud.height = static_cast<std::uint32_t>(image.height);
     cloud.row_step = cloud.point_step * cloud.width;
     cloud.data.resize(std::size_t{cloud.row_step} * cloud.height);
-    for (std::size_t i = 0; i + kHead < reading.values.size(); ++i) {
-      const double depth = reading.values[kHead + i];
-      const auto ray = OneMetreOn(optics.RayOfPixel(i));
-      const Vector3 point = ray && std::isfinite(depth)
-                                ? depth * *ray
+    for (std::size_t i = 0; i < image.depth.size(); ++i) {
+      const auto ray = OneMetreOn(optics().RayOfPixel(i));
+      const Vector3 point = ray && std::isfinite(image.depth[i])
+                                ? image.depth[i] * *ray
                                 : Vector3{1, 1, 1} * std::numeric_limits<double>::quiet_NaN();
       const float xyz[] = {static_cast<float>(point.x), static_cast<float>(point.y),
                            static_cast<float>(point.z)};
@@ -107,98 +96,64 @@ class DepthCamera final : public SurveySensor {
     return cloud;
   }
 
- private:
-  Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
-    Reading reading = WithSize(sampling, truth);
-    const sensing::NoisyReading noisy(sampling, description());
-    for (std::size_t i = 0; i < truth.depth.size(); ++i) {
-      const double depth = truth.depth[i];
-      reading.values.push_back(
-          noise_.is_none() || !std::isfinite(depth) ? depth : noisy.Read(noise_, i, depth));
+  std::vector<Segment> BeamsOf(const Values& image) const override {
+    std::vector<Segment> beams;
+    const std::size_t pixels = image.depth.size();
+    for (std::size_t i = 0; i < pixels; i += 1 + pixels / kMostDrawn) {
+      if (!std::isfinite(image.depth[i])) continue;
+      const auto ray = OneMetreOn(optics().RayOfPixel(i));
+      if (ray) beams.push_back({{}, image.depth[i] * *ray});
     }
-    return reading;
+    return beams;
   }
 
   const sensing::NoiseModel noise_;
 };
 
-std::vector<Segment> CloudPoints(const model::SensorDescription& description,
-                                 const Reading& reading) {
-  std::vector<Segment> beams;
-  if (reading.values.size() <= kHead) return beams;
-  const Optics optics = OpticsOf(description);
-  const std::size_t pixels = reading.values.size() - kHead;
-  for (std::size_t i = 0; i < pixels; i += 1 + pixels / kMostDrawn) {
-    const double depth = reading.values[kHead + i];
-    if (!std::isfinite(depth)) continue;
-    const auto ray = OneMetreOn(optics.RayOfPixel(i));
-    if (ray) beams.push_back({{}, depth * *ray});
-  }
-  return beams;
-}
-
 // An odd factor: no two labels below 2^24 have the same colour.
 std::uint32_t ColourOf(std::uint32_t label) { return (label * 0x9E3779u) & 0xFFFFFFu; }
 
-class SegmentationCamera final : public SurveySensor {
+class SegmentationCamera final
+    : public SurveySensor<readings::SegmentedImage, messages::sensor_msgs::CompressedImage> {
  public:
   using SurveySensor::SurveySensor;
 
-  static messages::sensor_msgs::CompressedImage ToMessage(const model::SensorDescription&,
-                                                          const Reading& reading,
-                                                          const std::string&) {
-    messages::sensor_msgs::CompressedImage message;
-    message.format = "png";
-    if (reading.picture != nullptr) {
-      if (auto png = EncodePng(*reading.picture)) message.data = std::move(*png);
-    }
-    return message;
-  }
-
  private:
   Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
-    Reading reading = WithSize(sampling, truth);
     auto picture = std::make_shared<model::Image>();
     picture->width = truth.width, picture->height = truth.height;
     picture->pixels.reserve(3 * truth.body.size());
+    std::vector<double> pixels;
+    pixels.reserve(truth.body.size());
     for (const std::int32_t body : truth.body) {
       const auto label = static_cast<std::uint32_t>(body + 1);
       const std::uint32_t colour = ColourOf(label);
-      reading.values.push_back(label);
+      pixels.push_back(label);
       for (const int shift : {16, 8, 0}) {
         picture->pixels.push_back(static_cast<std::uint8_t>(colour >> shift));
       }
     }
+    std::vector<std::string> names;
+    for (const world::Body& body : sampling.snapshot()->layout->bodies) names.push_back(body.name);
+    Reading reading = sampling.Stamped();
+    Fill(Values{truth.width, truth.height, pixels, names}, reading);
     reading.picture = std::move(picture);
-    auto labels = std::make_shared<std::vector<std::string>>();
-    for (const world::Body& body : sampling.snapshot()->layout->bodies) {
-      labels->push_back(body.name);
-    }
-    reading.labels = std::move(labels);
     return reading;
+  }
+
+  Message ToMessage(const Values&, const Reading& reading, const std::string&) const override {
+    Message message;
+    message.format = "png";
+    if (reading.picture == nullptr) return message;
+    if (auto png = EncodePng(*reading.picture)) message.data = std::move(*png);
+    return message;
   }
 };
 
-class BoundingBoxCamera final : public SurveySensor {
+class BoundingBoxCamera final
+    : public SurveySensor<readings::BoundingBoxes, messages::vision_msgs::Detection2DArray> {
  public:
   using SurveySensor::SurveySensor;
-
-  static messages::vision_msgs::Detection2DArray ToMessage(const model::SensorDescription&,
-                                                           const Reading& reading,
-                                                           const std::string& frame_id) {
-    messages::vision_msgs::Detection2DArray message;
-    for (std::size_t i = 0; reading.labels != nullptr && i < reading.labels->size(); ++i) {
-      const double* const v = &reading.values[4 * i];
-      messages::vision_msgs::Detection2D detection;
-      detection.header = sensing::HeaderOf(reading, frame_id);
-      detection.id = (*reading.labels)[i];
-      detection.bbox.center.position = {(v[0] + v[2]) / 2, (v[1] + v[3]) / 2};
-      detection.bbox.size_x = v[2] - v[0];
-      detection.bbox.size_y = v[3] - v[1];
-      message.detections.push_back(std::move(detection));
-    }
-    return message;
-  }
 
  private:
   struct PixelBox {
@@ -217,75 +172,66 @@ class BoundingBoxCamera final : public SurveySensor {
                std::max(box.bottom, y)};
       }
     }
-    Reading reading = sampling.Stamped();
-    auto labels = std::make_shared<std::vector<std::string>>();
+    Values seen;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       if (boxes[i].right < 0) continue;
-      for (const int edge :
-           {boxes[i].left, boxes[i].top, boxes[i].right + 1, boxes[i].bottom + 1}) {
-        reading.values.push_back(edge);
-      }
-      labels->push_back(bodies[i].name);
+      seen.boxes.push_back({.name = bodies[i].name,
+                            .left = static_cast<double>(boxes[i].left),
+                            .top = static_cast<double>(boxes[i].top),
+                            .right = boxes[i].right + 1.0,
+                            .bottom = boxes[i].bottom + 1.0});
     }
-    reading.labels = std::move(labels);
+    Reading reading = sampling.Stamped();
+    Fill(seen, reading);
     return reading;
+  }
+
+  Message ToMessage(const Values& seen, const Reading& reading,
+                    const std::string& frame_id) const override {
+    Message message;
+    for (const readings::BoundingBox& box : seen.boxes) {
+      messages::vision_msgs::Detection2D detection;
+      detection.header = sensing::HeaderOf(reading, frame_id);
+      detection.id = box.name;
+      detection.bbox.center.position = {(box.left + box.right) / 2, (box.top + box.bottom) / 2};
+      detection.bbox.size_x = box.right - box.left;
+      detection.bbox.size_y = box.bottom - box.top;
+      message.detections.push_back(std::move(detection));
+    }
+    return message;
+  }
+
+  // Each box as a frame at a distance of 1 m.
+  std::vector<Segment> BeamsOf(const Values& seen) const override {
+    const auto corner = [&](double u, double v) { return OneMetreOn(optics().lens().RayAt(u, v)); };
+    std::vector<Segment> lines;
+    for (const readings::BoundingBox& box : seen.boxes) {
+      const std::optional<Vector3> corners[] = {
+          corner(box.left, box.top), corner(box.right, box.top), corner(box.right, box.bottom),
+          corner(box.left, box.bottom)};
+      for (int k = 0; k < 4; ++k) {
+        const auto &from = corners[k], &to = corners[(k + 1) % 4];
+        if (from && to) lines.push_back({*from, *to});
+      }
+    }
+    return lines;
   }
 };
 
-// Each box as a frame at a distance of 1 m.
-std::vector<Segment> BoxFrames(const model::SensorDescription& description,
-                               const Reading& reading) {
-  const Optics optics = OpticsOf(description);
-  const auto corner = [&](double u, double v) { return OneMetreOn(optics.lens().RayAt(u, v)); };
-  std::vector<Segment> lines;
-  for (std::size_t i = 0; i + 4 <= reading.values.size(); i += 4) {
-    const double* const v = &reading.values[i];
-    const std::optional<Vector3> corners[] = {corner(v[0], v[1]), corner(v[2], v[1]),
-                                              corner(v[2], v[3]), corner(v[0], v[3])};
-    for (int k = 0; k < 4; ++k) {
-      const auto &from = corners[k], &to = corners[(k + 1) % 4];
-      if (from && to) lines.push_back({*from, *to});
-    }
-  }
-  return lines;
-}
-
-// MakeSensorType() for those that need a renderer.
-template <typename Kind, typename Message>
-sensing::SensorType TypeWith(const RendererResult& renderer, std::string name,
-                             std::vector<std::string> aliases) {
-  auto type = sensing::MakeSensorTypeBy<Kind, Message>(
-      std::move(name), std::move(aliases),
-      [renderer](const model::SensorDescription& description, sensing::ParameterReader& reader) {
-        return std::make_unique<Kind>(description, reader, renderer);
-      });
-  return type;
-}
-
 }  // namespace
 
-base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererResult& given) {
-  RendererResult renderer = given;
-  if (renderer && *renderer == nullptr) {
-    renderer =
-        Fail(base::ErrorCode::kUnavailable, "no renderer was started, so there are no pictures");
-  }
-  auto depth = TypeWith<DepthCamera, messages::sensor_msgs::PointCloud2>(
-      renderer, "depth_camera", {"depth", "rgbd_camera", "rgbd"});
-  depth.overlay = sensing::Overlay::kPoints;
-  depth.beams = CloudPoints;
-  auto segmentation = TypeWith<SegmentationCamera, messages::sensor_msgs::CompressedImage>(
-      renderer, "segmentation_camera", {"segmentation"});
-  segmentation.overlay = sensing::Overlay::kPicture;
-  auto boxes = TypeWith<BoundingBoxCamera, messages::vision_msgs::Detection2DArray>(
-      renderer, "boundingbox_camera", {"boundingbox"});
-  boxes.overlay = sensing::Overlay::kLines;
-  boxes.beams = BoxFrames;
-  const auto readings = std::make_shared<sensing::SharedReadings>(kSharedSurveyBytes);
-  for (sensing::SensorType* type : {&depth, &segmentation, &boxes}) {
-    sensing::Share(*type, readings);
-    type->companion = CameraInfoCompanion();
-    if (auto ok = registry.Add(std::move(*type)); !ok) return ok;
+base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererResult& renderer) {
+  using sensing::Overlay;
+  const auto shared = std::make_shared<sensing::SharedReadings>(kSharedSurveyBytes);
+  std::array types{
+      MakeCameraType<DepthCamera>(readings::DepthImage::kType, {"depth", "rgbd_camera", "rgbd"},
+                                  Overlay::kPoints, shared, renderer),
+      MakeCameraType<SegmentationCamera>(readings::SegmentedImage::kType, {"segmentation"},
+                                         Overlay::kPicture, shared, renderer),
+      MakeCameraType<BoundingBoxCamera>(readings::BoundingBoxes::kType, {"boundingbox"},
+                                        Overlay::kLines, shared, renderer)};
+  for (sensing::SensorType& type : types) {
+    if (auto ok = registry.Add(std::move(type)); !ok) return ok;
   }
   return {};
 }

@@ -74,8 +74,10 @@ class SurveyTest : public ::testing::Test {
   }
   template <typename Message>
   Message Sent(const model::SensorDescription& description, const Reading& reading) {
-    const auto bytes = registry_.Find(description.type)->encode(description, reading, "robot/eye");
-    const auto message = messages::Decode<Message>(std::as_bytes(std::span(bytes)));
+    const auto sensor = registry_.Find(description.type)->create(description);
+    const auto bytes = (*sensor)->Encode(reading, "robot/eye");
+    EXPECT_TRUE(bytes);
+    const auto message = messages::Decode<Message>(std::as_bytes(std::span(*bytes)));
     EXPECT_TRUE(message);
     return *message;
   }

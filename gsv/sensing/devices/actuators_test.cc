@@ -83,8 +83,9 @@ TEST_F(ActuatorReadings, ALampShowsWhatItWasTold) {
   const Reading reading = Sampled(*lamp, "ear");
   EXPECT_EQ(Values(reading), (std::vector<double>{1, 0, 0, 1}));
 
-  const auto bytes = LampType().encode(Device("lamp", parameters), reading, "ear/lamp");
-  const auto message = messages::Decode<messages::gsv_msgs::Lamp>(std::as_bytes(std::span(bytes)));
+  const auto bytes = lamp->Encode(reading, "ear/lamp");
+  ASSERT_TRUE(bytes);
+  const auto message = messages::Decode<messages::gsv_msgs::Lamp>(std::as_bytes(std::span(*bytes)));
   ASSERT_TRUE(message);
   EXPECT_EQ(message->brightness, 1);
   EXPECT_EQ(message->color.b, 1);

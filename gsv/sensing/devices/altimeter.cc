@@ -11,10 +11,11 @@
 namespace gsv::sensing {
 namespace {
 
-class Altimeter final : public Sensor {
+class Altimeter final
+    : public SensorOf<readings::Altimeter, messages::ros_gz_interfaces::Altimeter> {
  public:
   Altimeter(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         reference_(reader.Number("vertical_reference", std::numeric_limits<double>::quiet_NaN(),
                                  -1e6, 1e6)),
         position_noise_(ReadNoise(reader, "vertical_position.noise", 1e6)),
@@ -25,25 +26,23 @@ class Altimeter final : public Sensor {
     const double reference = std::isnan(reference_) ? Start(sampling.robot()) : reference_;
     const NoisyReading noisy(sampling, description());
     Reading reading = sampling.Stamped();
-    reading.values = {
-        noisy.Read(position_noise_, 0, motion.world_from_sensor.position.z - reference),
-        noisy.Read(velocity_noise_, 1, motion.velocity.z), reference};
+    Fill(Values{.position =
+                    noisy.Read(position_noise_, 0, motion.world_from_sensor.position.z - reference),
+                .velocity = noisy.Read(velocity_noise_, 1, motion.velocity.z),
+                .reference = reference},
+         reading);
     return reading;
   }
 
-  static messages::ros_gz_interfaces::Altimeter ToMessage(const model::SensorDescription&,
-                                                          const Reading& reading,
-                                                          const std::string&) {
-    messages::ros_gz_interfaces::Altimeter message;
-    if (reading.values.size() == 3) {
-      message.vertical_position = reading.values[0];
-      message.vertical_velocity = reading.values[1];
-      message.vertical_reference = reading.values[2];
-    }
+ private:
+  Message ToMessage(const Values& height, const Reading&, const std::string&) const override {
+    Message message;
+    message.vertical_position = height.position;
+    message.vertical_velocity = height.velocity;
+    message.vertical_reference = height.reference;
     return message;
   }
 
- private:
   double Start(const world::Body& robot) const {
     const geometry::Pose model_from_sensor =
         robot.model->links[description().link].model_from_link * description().link_from_sensor;
@@ -56,8 +55,6 @@ class Altimeter final : public Sensor {
 
 }  // namespace
 
-SensorType AltimeterType() {
-  return MakeSensorType<Altimeter, messages::ros_gz_interfaces::Altimeter>("altimeter");
-}
+SensorType AltimeterType() { return MakeSensorType<Altimeter>(readings::Altimeter::kType); }
 
 }  // namespace gsv::sensing

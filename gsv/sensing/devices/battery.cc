@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kSecondsAnHour = 3600;
 
-class Battery final : public Sensor {
+class Battery final : public SensorOf<readings::Battery, messages::sensor_msgs::BatteryState> {
  public:
   Battery(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         capacity_(reader.Number("capacity", 5, 1e-3, 1e6)),
         initial_(reader.Number("initial_charge", 1, 0, 1)),
         full_(reader.Number("voltage_full", 12.6, 0, 1e5)),
@@ -46,37 +46,35 @@ class Battery final : public Sensor {
                    : 0;
     const NoisyReading noisy(sampling, description());
     Reading reading = sampling.Stamped();
-    reading.values = {noisy.Read(voltage_noise_, 0, voltage),
-                      noisy.Read(current_noise_, 1, current), charge, capacity_, fraction};
+    Fill(Values{.voltage = noisy.Read(voltage_noise_, 0, voltage),
+                .current = noisy.Read(current_noise_, 1, current),
+                .charge = charge,
+                .capacity = capacity_,
+                .fraction = fraction},
+         reading);
     return reading;
   }
 
-  static messages::sensor_msgs::BatteryState ToMessage(const model::SensorDescription&,
-                                                       const Reading& reading, const std::string&) {
-    using messages::sensor_msgs::BatteryState;
-    BatteryState message;
-    if (reading.values.size() != 5) return message;
-    const auto& v = reading.values;
-    message.voltage = static_cast<float>(v[0]);
-    message.current = static_cast<float>(-v[1]);
-    message.charge = static_cast<float>(v[2]);
-    message.capacity = message.design_capacity = static_cast<float>(v[3]);
-    message.percentage = static_cast<float>(v[4]);
+ private:
+  Message ToMessage(const Values& battery, const Reading&, const std::string&) const override {
+    Message message;
+    message.voltage = static_cast<float>(battery.voltage);
+    message.current = static_cast<float>(-battery.current);
+    message.charge = static_cast<float>(battery.charge);
+    message.capacity = message.design_capacity = static_cast<float>(battery.capacity);
+    message.percentage = static_cast<float>(battery.fraction);
     message.temperature = std::numeric_limits<float>::quiet_NaN();  // not measured
-    message.power_supply_status = BatteryState::kPowerSupplyStatusDischarging;
+    message.power_supply_status = Message::kPowerSupplyStatusDischarging;
     message.present = true;
     return message;
   }
 
- private:
   const double capacity_, initial_, full_, empty_, resistance_, idle_current_, drive_charge_;
   const NoiseModel voltage_noise_, current_noise_;
 };
 
 }  // namespace
 
-SensorType BatteryType() {
-  return MakeSensorType<Battery, messages::sensor_msgs::BatteryState>("battery");
-}
+SensorType BatteryType() { return MakeSensorType<Battery>(readings::Battery::kType); }
 
 }  // namespace gsv::sensing

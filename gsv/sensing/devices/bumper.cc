@@ -11,14 +11,16 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr std::size_t kValuesOfContact = 8;  // of one contact
-constexpr double kGroundSlope = -0.70;       // of a normal that points down within 45 degrees
-constexpr double kNormalLength = 0.3;        // m
+constexpr double kGroundSlope = -0.70;  // of a normal that points down within 45 degrees
+constexpr double kNormalLength = 0.3;   // m
 
-class Bumper final : public Sensor {
+readings::Vector ToVector(const Vector3& v) { return {v.x, v.y, v.z}; }
+Vector3 FromVector(const readings::Vector& v) { return {v.x, v.y, v.z}; }
+
+class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bumper> {
  public:
   Bumper(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         half_view_(reader.Number("field_of_view", 2 * std::numbers::pi, 0, 2 * std::numbers::pi) /
                    2),
         feels_ground_(reader.Flag("ground", false)) {}
@@ -26,8 +28,7 @@ class Bumper final : public Sensor {
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const world::Snapshot& snapshot = *sampling.snapshot();
     const geometry::Pose sensor_from_world = Inverse(sampling.WorldFromSensor(description()));
-    Reading reading = sampling.Stamped();
-    auto labels = std::make_shared<std::vector<std::string>>();
+    Values felt;
     for (const world::Contact& contact : snapshot.contacts) {
       const bool is_first = contact.first == sampling.body();
       if (!is_first && contact.second != sampling.body()) continue;
@@ -36,49 +37,49 @@ class Bumper final : public Sensor {
       const Vector3 point = sensor_from_world * contact.point;
       if (std::abs(std::atan2(point.y, point.x)) > half_view_) continue;
       const Vector3 normal = sensor_from_world.orientation * outwards;
-      for (const double value : {point.x, point.y, point.z, normal.x, normal.y, normal.z,
-                                 contact.depth, contact.closing_speed}) {
-        reading.values.push_back(value);
-      }
-      labels->push_back(snapshot.layout->bodies[is_first ? contact.second : contact.first].name);
+      felt.touches.push_back(
+          {.other = snapshot.layout->bodies[is_first ? contact.second : contact.first].name,
+           .point = ToVector(point),
+           .normal = ToVector(normal),
+           .depth = contact.depth,
+           .closing_speed = contact.closing_speed});
     }
-    reading.labels = std::move(labels);
+    Reading reading = sampling.Stamped();
+    Fill(felt, reading);
     return reading;
   }
 
-  static messages::gsv_msgs::Bumper ToMessage(const model::SensorDescription&,
-                                              const Reading& reading, const std::string&) {
-    messages::gsv_msgs::Bumper message;
-    for (std::size_t i = 0; reading.labels != nullptr && i < reading.labels->size(); ++i) {
-      const double* const v = &reading.values[kValuesOfContact * i];
-      message.contacts.push_back(
-          {(*reading.labels)[i], {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6], v[7]});
+ private:
+  Message ToMessage(const Values& felt, const Reading&, const std::string&) const override {
+    Message message;
+    for (const readings::Touch& touch : felt.touches) {
+      const auto& [point, normal] = std::tie(touch.point, touch.normal);
+      message.contacts.push_back({touch.other,
+                                  {point.x, point.y, point.z},
+                                  {normal.x, normal.y, normal.z},
+                                  touch.depth,
+                                  touch.closing_speed});
     }
     return message;
   }
 
- private:
+  std::vector<Segment> BeamsOf(const Values& felt) const override {
+    std::vector<Segment> lines;
+    for (const readings::Touch& touch : felt.touches) {
+      const Vector3 point = FromVector(touch.point);
+      lines.push_back({point, point - kNormalLength * FromVector(touch.normal)});
+    }
+    return lines;
+  }
+
   const double half_view_;
   const bool feels_ground_;
 };
 
-std::vector<Segment> ContactLines(const model::SensorDescription&, const Reading& reading) {
-  std::vector<Segment> lines;
-  for (std::size_t i = 0; i + kValuesOfContact <= reading.values.size(); i += kValuesOfContact) {
-    const double* const v = &reading.values[i];
-    const Vector3 point{v[0], v[1], v[2]};
-    lines.push_back({point, point - kNormalLength * Vector3{v[3], v[4], v[5]}});
-  }
-  return lines;
-}
-
 }  // namespace
 
 SensorType BumperType() {
-  SensorType type = MakeSensorType<Bumper, messages::gsv_msgs::Bumper>("contact", {"bumper"});
-  type.overlay = Overlay::kLines;
-  type.beams = ContactLines;
-  return type;
+  return MakeSensorType<Bumper>(readings::Contact::kType, {"bumper"}, Overlay::kLines);
 }
 
 }  // namespace gsv::sensing

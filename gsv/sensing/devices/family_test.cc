@@ -70,10 +70,9 @@ class FamilyTest : public ::testing::Test {
   }
   template <typename Message>
   Message Sent(const model::SensorDescription& description) {
-    const auto bytes = BuiltInSensors()
-                           .Find(description.type)
-                           ->encode(description, Sample(description), "robot/it");
-    const auto message = messages::Decode<Message>(std::as_bytes(std::span(bytes)));
+    const auto sensor = BuiltInSensors().Find(description.type)->create(description);
+    const auto bytes = (*sensor)->Encode(Sample(description), "robot/it");
+    const auto message = messages::Decode<Message>(std::as_bytes(std::span(*bytes)));
     EXPECT_TRUE(message);
     return *message;
   }
@@ -221,7 +220,8 @@ TEST_F(FamilyTest, ABumperFeelsWhereItIsTouched) {
   EXPECT_EQ(message.contacts[0].other, "other");
   EXPECT_NEAR(message.contacts[0].point.x, 0.3, 1e-12);
   EXPECT_EQ(message.contacts[0].closing_speed, 0.4);
-  const auto lines = BuiltInSensors().Find("contact")->beams(DescriptionOf("contact"), all);
+  const auto bumper = BuiltInSensors().Find("contact")->create(DescriptionOf("contact"));
+  const auto lines = (*bumper)->Beams(all);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NEAR(lines[0].from.x, 0.3, 1e-12);
 }

@@ -19,10 +19,10 @@ GripperSetup ReadGripper(ParameterReader& reader) {
   return gripper;
 }
 
-class Gripper final : public Actuator {
+class Gripper final : public SensorOf<readings::Gripper, messages::gsv_msgs::Gripper, Actuator> {
  public:
   Gripper(const model::SensorDescription& description, ParameterReader& reader)
-      : Actuator(description), setup_(std::make_shared<const GripperSetup>(ReadGripper(reader))) {}
+      : SensorOf(description), setup_(std::make_shared<const GripperSetup>(ReadGripper(reader))) {}
 
   base::Status Check(const world::DeviceCommand& command) const override {
     if (auto ok = CheckShape(command, 1); !ok) return ok;
@@ -32,34 +32,28 @@ class Gripper final : public Actuator {
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const auto* const state = dynamic_cast<const GripperState*>(StateIn(sampling));
-    Reading reading = sampling.Stamped();
-    if (state == nullptr) {
-      reading.values = {setup_->opening, 1};
-    } else {
-      reading.values = {state->OpeningAt(sampling.snapshot()->state.time),
-                        state->opens() ? 1.0 : 0.0};
+    Values jaws{setup_->opening, true, ""};
+    if (state != nullptr) {
+      const world::Grasp* const grasp = state->grasp();
+      jaws = {state->OpeningAt(sampling.snapshot()->state.time), state->opens(),
+              grasp != nullptr ? grasp->held : std::string()};
     }
-    const world::Grasp* const grasp = state != nullptr ? state->grasp() : nullptr;
-    reading.labels = std::make_shared<const std::vector<std::string>>(
-        1, grasp != nullptr ? grasp->held : std::string());
+    Reading reading = sampling.Stamped();
+    Fill(jaws, reading);
     return reading;
   }
 
-  static messages::gsv_msgs::Gripper ToMessage(const model::SensorDescription& description,
-                                               const Reading& reading, const std::string&) {
-    messages::gsv_msgs::Gripper message;
-    if (reading.values.size() != 2) return message;
-    ParameterReader reader(description);
-    const GripperSetup gripper = ReadGripper(reader);
-    message.opening_m = reading.values[0];
-    message.told_to_open = reading.values[1] != 0;
-    message.held = reading.labels->front();
-    message.reach_m = gripper.reach;
-    message.height_m = gripper.height;
+ private:
+  Message ToMessage(const Values& jaws, const Reading&, const std::string&) const override {
+    Message message;
+    message.opening_m = jaws.opening;
+    message.told_to_open = jaws.told_to_open;
+    message.held = jaws.held;
+    message.reach_m = setup_->reach;
+    message.height_m = setup_->height;
     return message;
   }
 
- private:
   world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                const world::DeviceState* before) const override {
     return GripperState::After(before, std::move(mount), std::move(followed), setup_);
@@ -70,6 +64,6 @@ class Gripper final : public Actuator {
 
 }  // namespace
 
-SensorType GripperType() { return MakeSensorType<Gripper, messages::gsv_msgs::Gripper>("gripper"); }
+SensorType GripperType() { return MakeSensorType<Gripper>(readings::Gripper::kType); }
 
 }  // namespace gsv::sensing

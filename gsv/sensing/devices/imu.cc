@@ -15,10 +15,10 @@ using geometry::Vector3;
 
 constexpr double kDrawnPerForce = 0.03;  // m a m/s²
 
-class Imu final : public Sensor {
+class Imu final : public SensorOf<readings::Imu, messages::sensor_msgs::Imu> {
  public:
   Imu(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description), has_orientation_(reader.Flag("enable_orientation", true)) {
+      : SensorOf(description), has_orientation_(reader.Flag("enable_orientation", true)) {
     constexpr std::array kAxes = {"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string axis = kAxes[i];
@@ -34,56 +34,48 @@ class Imu final : public Sensor {
     const Vector3 turning = sensor_from_world * motion.angular_velocity;
     const Vector3 force = sensor_from_world *
                           (motion.acceleration - sampling.snapshot()->layout->description->gravity);
-    Reading reading = sampling.Stamped();
-    reading.values = {turning.x, turning.y, turning.z, force.x, force.y, force.z};
     const NoisyReading noisy(sampling, description());
-    for (std::size_t i = 0; i < noise_.size(); ++i) {
-      reading.values[i] = noisy.Read(noise_[i], i, reading.values[i]);
-    }
+    const auto disturbed = [&](const Vector3& v, std::size_t channel) {
+      return readings::Vector{noisy.Read(noise_[channel], channel, v.x),
+                              noisy.Read(noise_[channel + 1], channel + 1, v.y),
+                              noisy.Read(noise_[channel + 2], channel + 2, v.z)};
+    };
+    Values motion_felt{disturbed(turning, 0), disturbed(force, 3), std::nullopt};
     if (has_orientation_) {
-      for (const double q :
-           {world_from_sensor.w, world_from_sensor.x, world_from_sensor.y, world_from_sensor.z}) {
-        reading.values.push_back(q);
-      }
+      const Quaternion& q = world_from_sensor;
+      motion_felt.world_from_sensor = {q.w, q.x, q.y, q.z};
     }
+    Reading reading = sampling.Stamped();
+    Fill(motion_felt, reading);
     return reading;
   }
 
-  static messages::sensor_msgs::Imu ToMessage(const model::SensorDescription&,
-                                              const Reading& reading, const std::string&) {
-    messages::sensor_msgs::Imu message;
-    const auto& v = reading.values;
-    if (v.size() >= 6) {
-      message.angular_velocity = {v[0], v[1], v[2]};
-      message.linear_acceleration = {v[3], v[4], v[5]};
-    }
-    if (v.size() == 10) {
-      message.orientation = {v[7], v[8], v[9], v[6]};
+ private:
+  Message ToMessage(const Values& motion, const Reading&, const std::string&) const override {
+    Message message;
+    const auto& [turning, force] = std::tie(motion.angular_velocity, motion.specific_force);
+    message.angular_velocity = {turning.x, turning.y, turning.z};
+    message.linear_acceleration = {force.x, force.y, force.z};
+    if (const auto& q = motion.world_from_sensor) {
+      message.orientation = {q->x, q->y, q->z, q->w};
     } else {
       message.orientation_covariance[0] = -1;  // there is none
     }
     return message;
   }
 
- private:
+  std::vector<Segment> BeamsOf(const Values& motion) const override {
+    if (!description().visualize) return {};
+    const readings::Vector& force = motion.specific_force;
+    return {{{}, kDrawnPerForce * Vector3{force.x, force.y, force.z}}};
+  }
+
   const bool has_orientation_;
   std::array<NoiseModel, 6> noise_;
 };
 
-std::vector<Segment> AccelerationLines(const model::SensorDescription& description,
-                                       const Reading& reading) {
-  if (!description.visualize || reading.values.size() < 6) return {};
-  const auto& v = reading.values;
-  return {{{}, kDrawnPerForce * Vector3{v[3], v[4], v[5]}}};
-}
-
 }  // namespace
 
-SensorType ImuType() {
-  SensorType type = MakeSensorType<Imu, messages::sensor_msgs::Imu>("imu");
-  type.overlay = Overlay::kLines;
-  type.beams = AccelerationLines;
-  return type;
-}
+SensorType ImuType() { return MakeSensorType<Imu>(readings::Imu::kType, {}, Overlay::kLines); }
 
 }  // namespace gsv::sensing

@@ -15,10 +15,11 @@ bool Moves(const model::Joint& joint) {
          joint.kind == model::JointKind::kPrismatic;
 }
 
-class JointEncoders final : public Sensor {
+class JointEncoders final
+    : public SensorOf<readings::JointEncoders, messages::sensor_msgs::JointState> {
  public:
   JointEncoders(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         joint_(reader.Text("joint", "")),
         counts_per_turn_(reader.Number("counts_per_turn", 0, 0, 1e9)),
         position_noise_(ReadNoise(reader, "position.noise", 1e3)),
@@ -28,39 +29,38 @@ class JointEncoders final : public Sensor {
     const world::State& state = sampling.snapshot()->state;
     const world::Body& robot = sampling.robot();
     const NoisyReading noisy(sampling, description());
-    Reading reading = sampling.Stamped();
-    auto labels = std::make_shared<std::vector<std::string>>();
+    Values encoded;
     for (std::size_t j = 0; j < robot.model->joints.size(); ++j) {
       const model::Joint& joint = robot.model->joints[j];
       if (!Moves(joint) || (!joint_.empty() && joint.name != joint_)) continue;
       const std::size_t place = robot.first_joint + j;
       const double position = noisy.Read(position_noise_, 2 * j, state.joint_positions[place]);
-      reading.values.push_back(Counted(position));
-      reading.values.push_back(
-          noisy.Read(velocity_noise_, 2 * j + 1, state.joint_velocities[place]));
-      labels->push_back(joint.name);
+      encoded.joints.push_back(
+          {.name = joint.name,
+           .position = Counted(position),
+           .velocity = noisy.Read(velocity_noise_, 2 * j + 1, state.joint_velocities[place])});
     }
-    if (!joint_.empty() && labels->empty()) {
+    if (!joint_.empty() && encoded.joints.empty()) {
       return base::Fail(base::ErrorCode::kNotFound,
                         "the robot has no joint \"" + joint_ + "\" that moves",
                         robot.name + "/" + description().name);
     }
-    reading.labels = std::move(labels);
+    Reading reading = sampling.Stamped();
+    Fill(encoded, reading);
     return reading;
   }
 
-  static messages::sensor_msgs::JointState ToMessage(const model::SensorDescription&,
-                                                     const Reading& reading, const std::string&) {
-    messages::sensor_msgs::JointState message;
-    for (std::size_t i = 0; reading.labels != nullptr && i < reading.labels->size(); ++i) {
-      message.name.push_back((*reading.labels)[i]);
-      message.position.push_back(reading.values[2 * i]);
-      message.velocity.push_back(reading.values[2 * i + 1]);
+ private:
+  Message ToMessage(const Values& encoded, const Reading&, const std::string&) const override {
+    Message message;
+    for (const readings::EncodedJoint& joint : encoded.joints) {
+      message.name.push_back(joint.name);
+      message.position.push_back(joint.position);
+      message.velocity.push_back(joint.velocity);
     }
     return message;
   }
 
- private:
   double Counted(double position) const {
     if (counts_per_turn_ == 0) return position;
     const double count = 2 * std::numbers::pi / counts_per_turn_;
@@ -75,8 +75,7 @@ class JointEncoders final : public Sensor {
 }  // namespace
 
 SensorType JointEncodersType() {
-  return MakeSensorType<JointEncoders, messages::sensor_msgs::JointState>("joint_encoders",
-                                                                          {"joint_state"});
+  return MakeSensorType<JointEncoders>(readings::JointEncoders::kType, {"joint_state"});
 }
 
 }  // namespace gsv::sensing

@@ -40,10 +40,10 @@ class LampState final : public world::ActuatorState {
   const world::Glow lamp_;
 };
 
-class Lamp final : public Actuator {
+class Lamp final : public SensorOf<readings::Lamp, messages::gsv_msgs::Lamp, Actuator> {
  public:
   Lamp(const model::SensorDescription& description, ParameterReader& reader)
-      : Actuator(description),
+      : SensorOf(description),
         lamp_(ReadLamp(reader)),
         brightness_(reader.Number("brightness", 0, 0, 1)) {}
 
@@ -69,24 +69,21 @@ class Lamp final : public Actuator {
     return reading;
   }
 
-  static messages::gsv_msgs::Lamp ToMessage(const model::SensorDescription& description,
-                                            const Reading& reading, const std::string&) {
-    messages::gsv_msgs::Lamp message;
-    if (reading.values.size() != 4) return message;
-    ParameterReader reader(description);
-    const world::Glow lamp = ReadLamp(reader);
-    const auto part = [&](std::size_t i) { return static_cast<float>(reading.values[i]); };
-    message.brightness = reading.values[0];
-    message.color.r = part(1), message.color.g = part(2), message.color.b = part(3);
+ private:
+  Message ToMessage(const Values& glow, const Reading&, const std::string&) const override {
+    Message message;
+    message.brightness = glow.brightness;
+    message.color.r = static_cast<float>(glow.colour.red);
+    message.color.g = static_cast<float>(glow.colour.green);
+    message.color.b = static_cast<float>(glow.colour.blue);
     message.color.a = 1;
-    message.radius_m = lamp.radius;
-    message.range_m = lamp.range;
-    message.angle_rad = lamp.angle;
-    message.intensity = lamp.intensity;
+    message.radius_m = lamp_.radius;
+    message.range_m = lamp_.range;
+    message.angle_rad = lamp_.angle;
+    message.intensity = lamp_.intensity;
     return message;
   }
 
- private:
   world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                const world::DeviceState*) const override {
     return std::make_shared<const LampState>(std::move(mount), std::move(followed), lamp_);
@@ -102,6 +99,6 @@ class Lamp final : public Actuator {
 
 }  // namespace
 
-SensorType LampType() { return MakeSensorType<Lamp, messages::gsv_msgs::Lamp>("lamp", {"led"}); }
+SensorType LampType() { return MakeSensorType<Lamp>(readings::Lamp::kType, {"led"}); }
 
 }  // namespace gsv::sensing

@@ -8,9 +8,8 @@
 
 #include "gsv/geometry/constants.h"
 #include "gsv/messages/sensor_msgs.h"
-#include "gsv/sensing/encoding.h"
 #include "gsv/sensing/noise.h"
-#include "gsv/sensing/parameters.h"
+#include "gsv/sensing/sensor_type.h"
 
 namespace gsv::sensing {
 namespace {
@@ -56,8 +55,7 @@ Angles ReadAngles(ParameterReader& reader, const std::string& name, int samples,
   return fan;
 }
 
-base::Result<LidarSettings> ReadLidarSettings(const model::SensorDescription& description) {
-  ParameterReader reader(description);
+LidarSettings ReadLidarSettings(ParameterReader& reader) {
   LidarSettings settings;
   settings.horizontal =
       ReadAngles(reader, "scan.horizontal", 360, -kPi, kPi - 2 * kPi / 360, 4 * kPi);
@@ -80,7 +78,6 @@ base::Result<LidarSettings> ReadLidarSettings(const model::SensorDescription& de
   } else {
     settings.full_noise = noise;
   }
-  if (!reader.status()) return base::Fail(reader.status().error());
   return settings;
 }
 
@@ -98,10 +95,21 @@ std::vector<Vector3> Directions(const LidarSettings& settings) {
   return directions;
 }
 
-class Lidar final : public Sensor {
+// The fan nearest to the horizontal.
+int LevelRow(const Angles& vertical) {
+  int best = 0;
+  for (int row = 1; row < vertical.count; ++row) {
+    if (std::abs(vertical.angle(row)) < std::abs(vertical.angle(best))) best = row;
+  }
+  return best;
+}
+
+class Lidar final : public SensorOf<readings::Lidar, messages::sensor_msgs::LaserScan> {
  public:
-  Lidar(const model::SensorDescription& description, const LidarSettings& settings)
-      : Sensor(description), settings_(settings), directions_(Directions(settings)) {}
+  Lidar(const model::SensorDescription& description, ParameterReader& reader)
+      : SensorOf(description), settings_(ReadLidarSettings(reader)) {
+    if (reader.status()) directions_ = Directions(settings_);
+  }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const geometry::Pose world_from_lidar = sampling.WorldFromSensor(description());
@@ -153,68 +161,41 @@ class Lidar final : public Sensor {
     return std::clamp(distance + error, settings_.min, settings_.max);
   }
 
-  LidarSettings settings_;
-  std::vector<Vector3> directions_;
-};
-
-// The fan nearest to the horizontal.
-int LevelRow(const Angles& vertical) {
-  int best = 0;
-  for (int row = 1; row < vertical.count; ++row) {
-    if (std::abs(vertical.angle(row)) < std::abs(vertical.angle(best))) best = row;
-  }
-  return best;
-}
-
-std::vector<std::uint8_t> EncodeScan(const model::SensorDescription& description,
-                                     const Reading& reading, const std::string& frame_id) {
-  messages::sensor_msgs::LaserScan message;
-  message.header = HeaderOf(reading, frame_id);
-  if (const auto settings = ReadLidarSettings(description)) {
-    const Angles& fan = settings->horizontal;
+  Message ToMessage(const Values& scan, const Reading&, const std::string&) const override {
+    const Angles& fan = settings_.horizontal;
+    const double rate = description().update_rate;
+    Message message;
     message.angle_min = static_cast<float>(fan.first);
     message.angle_max = static_cast<float>(fan.angle(fan.count - 1));
     message.angle_increment = static_cast<float>(fan.increment());
-    message.scan_time =
-        description.update_rate > 0 ? static_cast<float>(1 / description.update_rate) : 0;
-    message.range_min = static_cast<float>(settings->min);
-    message.range_max = static_cast<float>(settings->max);
-    const std::size_t first = std::size_t(LevelRow(settings->vertical)) * fan.count;
-    for (std::size_t i = first; i < std::min(first + fan.count, reading.values.size()); ++i) {
-      message.ranges.push_back(static_cast<float>(reading.values[i]));
+    message.scan_time = rate > 0 ? static_cast<float>(1 / rate) : 0;
+    message.range_min = static_cast<float>(settings_.min);
+    message.range_max = static_cast<float>(settings_.max);
+    const auto beams = static_cast<std::size_t>(fan.count);
+    const std::size_t first = static_cast<std::size_t>(LevelRow(settings_.vertical)) * beams;
+    for (std::size_t i = first; i < std::min(first + beams, scan.ranges.size()); ++i) {
+      message.ranges.push_back(static_cast<float>(scan.ranges[i]));
     }
+    return message;
   }
-  return Encoded(message);
-}
 
-std::vector<Segment> Beams(const model::SensorDescription& description, const Reading& reading) {
-  std::vector<Segment> beams;
-  const auto settings = ReadLidarSettings(description);
-  if (!settings) return beams;
-  const std::vector<Vector3> directions = Directions(*settings);
-  for (std::size_t i = 0; i < std::min(directions.size(), reading.values.size()); ++i) {
-    if (std::isfinite(reading.values[i])) beams.push_back({{}, reading.values[i] * directions[i]});
+  std::vector<Segment> BeamsOf(const Values& scan) const override {
+    std::vector<Segment> beams;
+    for (std::size_t i = 0; i < std::min(directions_.size(), scan.ranges.size()); ++i) {
+      if (std::isfinite(scan.ranges[i])) beams.push_back({{}, scan.ranges[i] * directions_[i]});
+    }
+    return beams;
   }
-  return beams;
-}
+
+  const LidarSettings settings_;
+  std::vector<Vector3> directions_;
+};
 
 }  // namespace
 
 SensorType LidarType() {
-  SensorType type;
-  type.name = "lidar";
-  type.aliases = {"ray", "gpu_ray", "gpu_lidar"};
-  type.create =
-      [](const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
-    const auto settings = ReadLidarSettings(description);
-    if (!settings) return base::Fail(settings.error());
-    return std::make_unique<Lidar>(description, *settings);
-  };
-  type.schema = &messages::SchemaOf<messages::sensor_msgs::LaserScan>();
-  type.encode = EncodeScan;
-  type.overlay = Overlay::kPoints;
-  type.beams = Beams;
-  return type;
+  return MakeSensorType<Lidar>(readings::Lidar::kType, {"ray", "gpu_ray", "gpu_lidar"},
+                               Overlay::kPoints);
 }
 
 }  // namespace gsv::sensing

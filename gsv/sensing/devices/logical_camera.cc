@@ -18,8 +18,6 @@ using geometry::kInfinity;
 using geometry::Pose;
 using geometry::Vector3;
 
-constexpr std::size_t kValuesOfModel = 6;  // of one model
-
 // The middle of the box around a model's collisions, joints at zero; empty without any.
 std::optional<Vector3> CentreOf(const model::Model& model) {
   Vector3 low{kInfinity, kInfinity, kInfinity}, high = -low;
@@ -41,14 +39,17 @@ std::optional<Vector3> CentreOf(const model::Model& model) {
   return 0.5 * (low + high);
 }
 
-class LogicalCamera final : public Sensor {
+class LogicalCamera final
+    : public SensorOf<readings::LogicalCamera, messages::vision_msgs::Detection3DArray> {
  public:
   LogicalCamera(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         near_(reader.Number("near", 0.05, 0, 1e4)),
         far_(reader.Number("far", 10, 1e-3, 1e4)),
-        half_width_(std::tan(reader.Number("horizontal_fov", 1.047, 0.01, 3) / 2)),
-        half_height_(half_width_ / reader.Number("aspect_ratio", 4.0 / 3, 0.01, 100)),
+        frustum_{reader.Number("horizontal_fov", 1.047, 0.01, 3),
+                 reader.Number("aspect_ratio", 4.0 / 3, 0.01, 100)},
+        half_width_(std::tan(frustum_.horizontal_fov / 2)),
+        half_height_(half_width_ / frustum_.aspect_ratio),
         hides_(reader.Flag("occlusion", true)),
         robots_only_(reader.Flag("robots_only", false)) {
     if (near_ > far_) reader.Refuse(fmt::format("near is {} and above far, {}", near_, far_));
@@ -58,8 +59,7 @@ class LogicalCamera final : public Sensor {
     const world::Snapshot& snapshot = *sampling.snapshot();
     const Pose world_from_sensor = sampling.WorldFromSensor(description());
     const Pose sensor_from_world = Inverse(world_from_sensor);
-    Reading reading = sampling.Stamped();
-    auto labels = std::make_shared<std::vector<std::string>>();
+    Values seen;
     for (int b = 0; b < static_cast<int>(snapshot.layout->bodies.size()); ++b) {
       const world::Body& body = snapshot.layout->bodies[b];
       if (b == sampling.body() || (robots_only_ && !body.is_robot())) continue;
@@ -72,35 +72,39 @@ class LogicalCamera final : public Sensor {
       const Pose sensor_from_model = sensor_from_world * world_from_model;
       const Vector3& p = sensor_from_model.position;
       const auto angles = geometry::ToRollPitchYaw(sensor_from_model.orientation);
-      for (const double value : {p.x, p.y, p.z, angles.roll, angles.pitch, angles.yaw}) {
-        reading.values.push_back(value);
-      }
-      labels->push_back(body.name);
+      seen.sightings.push_back({body.name, {p.x, p.y, p.z, angles.roll, angles.pitch, angles.yaw}});
     }
-    reading.labels = std::move(labels);
+    Reading reading = sampling.Stamped();
+    Fill(seen, reading);
     return reading;
   }
 
   bool CastsRays() const override { return hides_; }
+  std::optional<Frustum> frustum() const override { return frustum_; }
 
-  static messages::vision_msgs::Detection3DArray ToMessage(const model::SensorDescription&,
-                                                           const Reading& reading,
-                                                           const std::string& frame_id) {
-    messages::vision_msgs::Detection3DArray message;
-    for (std::size_t i = 0; reading.labels != nullptr && i < reading.labels->size(); ++i) {
-      const double* const v = &reading.values[kValuesOfModel * i];
-      const geometry::Quaternion q = geometry::FromRollPitchYaw({v[3], v[4], v[5]});
+ private:
+  Message ToMessage(const Values& seen, const Reading& reading,
+                    const std::string& frame_id) const override {
+    Message message;
+    for (const readings::Sighting& sighting : seen.sightings) {
+      const readings::Placement& p = sighting.sensor_from_model;
+      const geometry::Quaternion q = geometry::FromRollPitchYaw({p.roll, p.pitch, p.yaw});
       messages::vision_msgs::Detection3D detection;
       detection.header = HeaderOf(reading, frame_id);
-      detection.id = (*reading.labels)[i];
-      detection.bbox.center.position = {v[0], v[1], v[2]};
+      detection.id = sighting.name;
+      detection.bbox.center.position = {p.x, p.y, p.z};
       detection.bbox.center.orientation = {q.x, q.y, q.z, q.w};
       message.detections.push_back(std::move(detection));
     }
     return message;
   }
 
- private:
+  std::vector<Segment> BeamsOf(const Values& seen) const override {
+    std::vector<Segment> lines;
+    for (const auto& [name, p] : seen.sightings) lines.push_back({{}, {p.x, p.y, p.z}});
+    return lines;
+  }
+
   bool IsInFrustum(const Vector3& point) const {
     return point.x >= near_ && point.x <= far_ && std::abs(point.y) <= half_width_ * point.x &&
            std::abs(point.z) <= half_height_ * point.x;
@@ -116,27 +120,15 @@ class LogicalCamera final : public Sensor {
   }
 
   const double near_, far_;
+  const Frustum frustum_;
   const double half_width_, half_height_;  // at a distance of 1
   const bool hides_, robots_only_;
 };
 
-std::vector<Segment> FrustumLines(const model::SensorDescription&, const Reading& reading) {
-  std::vector<Segment> lines;
-  for (std::size_t i = 0; i + kValuesOfModel <= reading.values.size(); i += kValuesOfModel) {
-    const double* const v = &reading.values[i];
-    lines.push_back({{}, {v[0], v[1], v[2]}});
-  }
-  return lines;
-}
-
 }  // namespace
 
 SensorType LogicalCameraType() {
-  SensorType type =
-      MakeSensorType<LogicalCamera, messages::vision_msgs::Detection3DArray>("logical_camera");
-  type.overlay = Overlay::kLines;
-  type.beams = FrustumLines;
-  return type;
+  return MakeSensorType<LogicalCamera>(readings::LogicalCamera::kType, {}, Overlay::kLines);
 }
 
 }  // namespace gsv::sensing

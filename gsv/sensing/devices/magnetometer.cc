@@ -13,10 +13,11 @@ using geometry::Vector3;
 
 constexpr double kDrawnLength = 0.3;  // m
 
-class Magnetometer final : public Sensor {
+class Magnetometer final
+    : public SensorOf<readings::Magnetometer, messages::sensor_msgs::MagneticField> {
  public:
   Magnetometer(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         noise_{ReadNoise(reader, "x.noise", 1), ReadNoise(reader, "y.noise", 1),
                ReadNoise(reader, "z.noise", 1)} {}
 
@@ -25,39 +26,33 @@ class Magnetometer final : public Sensor {
                           sampling.snapshot()->layout->description->magnetic_field;
     const NoisyReading noisy(sampling, description());
     Reading reading = sampling.Stamped();
-    reading.values = {noisy.Read(noise_[0], 0, field.x), noisy.Read(noise_[1], 1, field.y),
-                      noisy.Read(noise_[2], 2, field.z)};
+    Fill(Values{{noisy.Read(noise_[0], 0, field.x), noisy.Read(noise_[1], 1, field.y),
+                 noisy.Read(noise_[2], 2, field.z)}},
+         reading);
     return reading;
   }
 
-  static messages::sensor_msgs::MagneticField ToMessage(const model::SensorDescription&,
-                                                        const Reading& reading,
-                                                        const std::string&) {
-    messages::sensor_msgs::MagneticField message;
-    const auto& v = reading.values;
-    if (v.size() == 3) message.magnetic_field = {v[0], v[1], v[2]};
+ private:
+  Message ToMessage(const Values& measured, const Reading&, const std::string&) const override {
+    Message message;
+    const readings::Vector& field = measured.field;
+    message.magnetic_field = {field.x, field.y, field.z};
     return message;
   }
 
- private:
+  std::vector<Segment> BeamsOf(const Values& measured) const override {
+    if (!description().visualize) return {};
+    const readings::Vector& field = measured.field;
+    return {{{}, kDrawnLength * geometry::Normalized(Vector3{field.x, field.y, field.z})}};
+  }
+
   const std::array<NoiseModel, 3> noise_;
 };
-
-std::vector<Segment> FieldLines(const model::SensorDescription& description,
-                                const Reading& reading) {
-  if (!description.visualize || reading.values.size() != 3) return {};
-  const auto& v = reading.values;
-  return {{{}, kDrawnLength * geometry::Normalized(Vector3{v[0], v[1], v[2]})}};
-}
 
 }  // namespace
 
 SensorType MagnetometerType() {
-  SensorType type =
-      MakeSensorType<Magnetometer, messages::sensor_msgs::MagneticField>("magnetometer");
-  type.overlay = Overlay::kLines;
-  type.beams = FieldLines;
-  return type;
+  return MakeSensorType<Magnetometer>(readings::Magnetometer::kType, {}, Overlay::kLines);
 }
 
 }  // namespace gsv::sensing

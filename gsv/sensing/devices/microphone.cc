@@ -25,10 +25,10 @@ std::optional<double> LevelAt(const geometry::Vector3& point, const world::Devic
   return sound.loudness + 20 * std::log10(sound.volume / distance);
 }
 
-class Microphone final : public Sensor {
+class Microphone final : public SensorOf<readings::Microphone, messages::gsv_msgs::Microphone> {
  public:
   Microphone(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         ambient_(reader.Number("ambient", 30, -100, 200)),
         noise_(ReadNoise(reader, "noise", 200)) {}
 
@@ -52,30 +52,28 @@ class Microphone final : public Sensor {
     }
     const NoisyReading noisy(sampling, description());
     Reading reading = sampling.Stamped();
-    reading.values = {noisy.Read(noise_, 0, 10 * std::log10(power)), frequency};
-    reading.labels = std::make_shared<const std::vector<std::string>>(1, source);
+    Fill(Values{.level = noisy.Read(noise_, 0, 10 * std::log10(power)),
+                .frequency = frequency,
+                .source = source},
+         reading);
     return reading;
   }
 
-  static messages::gsv_msgs::Microphone ToMessage(const model::SensorDescription&,
-                                                  const Reading& reading, const std::string&) {
-    messages::gsv_msgs::Microphone message;
-    if (reading.values.size() != 2) return message;
-    message.level_db = reading.values[0];
-    message.frequency_hz = reading.values[1];
-    message.source = reading.labels->front();
+ private:
+  Message ToMessage(const Values& heard, const Reading&, const std::string&) const override {
+    Message message;
+    message.level_db = heard.level;
+    message.frequency_hz = heard.frequency;
+    message.source = heard.source;
     return message;
   }
 
- private:
   const double ambient_;
   const NoiseModel noise_;
 };
 
 }  // namespace
 
-SensorType MicrophoneType() {
-  return MakeSensorType<Microphone, messages::gsv_msgs::Microphone>("microphone");
-}
+SensorType MicrophoneType() { return MakeSensorType<Microphone>(readings::Microphone::kType); }
 
 }  // namespace gsv::sensing

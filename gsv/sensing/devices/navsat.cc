@@ -16,10 +16,10 @@ using geometry::Vector3;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-class Navsat final : public Sensor {
+class Navsat final : public SensorOf<readings::Navsat, messages::sensor_msgs::NavSatFix> {
  public:
   Navsat(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         across_(ReadNoise(reader, "position_sensing.horizontal.noise", 1e6)),
         up_(ReadNoise(reader, "position_sensing.vertical.noise", 1e6)),
         velocity_across_(ReadNoise(reader, "velocity_sensing.horizontal.noise", 1e6)),
@@ -42,41 +42,34 @@ class Navsat final : public Sensor {
     const GeodeticPlace place = PlaceOf(*origin, point);
     const Vector3 velocity = EastNorthUp(*origin, motion.velocity);
     Reading reading = sampling.Stamped();
-    reading.values = {place.latitude * kDegrees,
-                      place.longitude * kDegrees,
-                      place.altitude,
-                      noisy.Read(velocity_across_, 3, velocity.x),
-                      noisy.Read(velocity_across_, 4, velocity.y),
-                      noisy.Read(velocity_up_, 5, velocity.z)};
+    Fill(Values{.latitude_deg = place.latitude * kDegrees,
+                .longitude_deg = place.longitude * kDegrees,
+                .altitude = place.altitude,
+                .east = noisy.Read(velocity_across_, 3, velocity.x),
+                .north = noisy.Read(velocity_across_, 4, velocity.y),
+                .up = noisy.Read(velocity_up_, 5, velocity.z)},
+         reading);
     return reading;
   }
 
-  static messages::sensor_msgs::NavSatFix ToMessage(const model::SensorDescription& description,
-                                                    const Reading& reading, const std::string&) {
-    messages::sensor_msgs::NavSatFix message;
-    if (reading.values.size() != 6) return message;
-    message.latitude = reading.values[0];
-    message.longitude = reading.values[1];
-    message.altitude = reading.values[2];
+ private:
+  Message ToMessage(const Values& fix, const Reading&, const std::string&) const override {
+    Message message;
+    message.latitude = fix.latitude_deg;
+    message.longitude = fix.longitude_deg;
+    message.altitude = fix.altitude;
     message.status.service = messages::sensor_msgs::NavSatStatus::kServiceGps;
-    const double across =
-        model::NumberOr(description.parameters, "position_sensing.horizontal.noise.stddev", 0);
-    const double up =
-        model::NumberOr(description.parameters, "position_sensing.vertical.noise.stddev", 0);
+    const double across = across_.stddev, up = up_.stddev;
     message.position_covariance = {across * across, 0, 0, 0, across * across, 0, 0, 0, up * up};
-    message.position_covariance_type =
-        messages::sensor_msgs::NavSatFix::kCovarianceTypeDiagonalKnown;
+    message.position_covariance_type = Message::kCovarianceTypeDiagonalKnown;
     return message;
   }
 
- private:
   const NoiseModel across_, up_, velocity_across_, velocity_up_;
 };
 
 }  // namespace
 
-SensorType NavsatType() {
-  return MakeSensorType<Navsat, messages::sensor_msgs::NavSatFix>("navsat", {"gps", "gnss"});
-}
+SensorType NavsatType() { return MakeSensorType<Navsat>(readings::Navsat::kType, {"gps", "gnss"}); }
 
 }  // namespace gsv::sensing

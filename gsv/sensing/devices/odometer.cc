@@ -14,55 +14,52 @@ namespace {
 // From "ROBOT/SENSOR".
 std::string_view RobotOf(std::string_view frame) { return frame.substr(0, frame.rfind('/')); }
 
-class Odometer final : public Sensor {
+class Odometer final : public SensorOf<readings::Odometry, messages::nav_msgs::Odometry> {
  public:
   Odometer(const model::SensorDescription& description, ParameterReader& reader)
-      : Sensor(description),
+      : SensorOf(description),
         linear_noise_(ReadNoise(reader, "linear.noise", 1e3)),
         angular_noise_(ReadNoise(reader, "angular.noise", 1e3)) {}
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
-    const world::Odometry& odometry = sampling.snapshot()->state.bodies[sampling.body()].odometry;
+    const world::BodyState& body = sampling.snapshot()->state.bodies[sampling.body()];
+    const world::Odometry& odometry = body.odometry;
     const NoisyReading noisy(sampling, description());
+    // Of a base that cannot move sideways it is 0, and stays so.
+    const double lateral = body.drive.actual.lateral;
     Reading reading = sampling.Stamped();
-    reading.values = {odometry.place.x, odometry.place.y,
-                      std::atan2(odometry.place.sine, odometry.place.cosine),
-                      noisy.Read(linear_noise_, 0, odometry.linear),
-                      noisy.Read(angular_noise_, 1, odometry.angular)};
+    Fill(Values{.x = odometry.place.x,
+                .y = odometry.place.y,
+                .yaw = std::atan2(odometry.place.sine, odometry.place.cosine),
+                .linear = noisy.Read(linear_noise_, 0, odometry.linear),
+                .angular = noisy.Read(angular_noise_, 1, odometry.angular),
+                .lateral = lateral == 0 ? 0 : noisy.Read(linear_noise_, 2, lateral)},
+         reading);
     return reading;
   }
 
-  static messages::nav_msgs::Odometry ToMessage(const model::SensorDescription&,
-                                                const Reading& reading,
-                                                const std::string& frame_id) {
-    messages::nav_msgs::Odometry message;
+ private:
+  Message ToMessage(const Values& estimate, const Reading& reading,
+                    const std::string& frame_id) const override {
+    Message message;
+    message.header = HeaderOf(reading, FrameOf(RobotOf(frame_id), kOdometryFrame));
     message.child_frame_id = FrameOf(RobotOf(frame_id), kBaseFrame);
-    const auto& v = reading.values;
-    if (v.size() != 5) return message;
-    const geometry::Pose pose = geometry::PlanarPose(v[0], v[1], 0, v[2]);
-    message.pose.pose.position = {v[0], v[1], 0};
+    const geometry::Pose pose = geometry::PlanarPose(estimate.x, estimate.y, 0, estimate.yaw);
+    message.pose.pose.position = {estimate.x, estimate.y, 0};
     message.pose.pose.orientation = {0, 0, pose.orientation.z, pose.orientation.w};
-    message.twist.twist.linear.x = v[3];
-    message.twist.twist.angular.z = v[4];
+    message.twist.twist.linear.x = estimate.linear;
+    message.twist.twist.linear.y = estimate.lateral;
+    message.twist.twist.angular.z = estimate.angular;
     return message;
   }
 
- private:
   const NoiseModel linear_noise_, angular_noise_;
 };
 
 }  // namespace
 
 SensorType OdometerType() {
-  SensorType type =
-      MakeSensorType<Odometer, messages::nav_msgs::Odometry>("odometry", {"wheel_odometry"});
-  type.encode = [](const model::SensorDescription& description, const Reading& reading,
-                   const std::string& frame_id) {
-    auto message = Odometer::ToMessage(description, reading, frame_id);
-    message.header = HeaderOf(reading, FrameOf(RobotOf(frame_id), kOdometryFrame));
-    return Encoded(message);
-  };
-  return type;
+  return MakeSensorType<Odometer>(readings::Odometry::kType, {"wheel_odometry"});
 }
 
 }  // namespace gsv::sensing

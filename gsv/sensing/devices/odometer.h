@@ -3,9 +3,10 @@
 //
 // Frame       the base's reference point (halfway between the wheels) in the frame of its start;
 //             where the sensor is mounted does not matter.
-// Parameters  linear.noise (m/s) and angular.noise (rad/s) of the velocities, see noise.h.
-// Readings    values {x, y (m), yaw (rad), linear (m/s), angular (rad/s)}. As a message:
-//             nav_msgs/Odometry from ROBOT/odom to ROBOT/base_link.
+// Parameters  linear.noise (m/s; of the lateral velocity, too) and angular.noise (rad/s), see
+//             noise.h.
+// Readings    readings::Odometry; the lateral velocity is what the drive tells its wheels to do. As
+//             a message: nav_msgs/Odometry from ROBOT/odom to ROBOT/base_link.
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -9,7 +9,6 @@
 namespace gsv::sensing {
 namespace {
 
-constexpr std::size_t kValuesOfMessage = 3;  // of one message
 constexpr double kHertzAMegahertz = 1e6;
 constexpr std::size_t kLongestName = 128;
 
@@ -32,10 +31,10 @@ world::RadioSetupPtr ReadSetup(ParameterReader& reader) {
   return setup;
 }
 
-class Radio final : public Device {
+class Radio final : public SensorOf<readings::Radio, messages::gsv_msgs::Radio, Device> {
  public:
   Radio(const model::SensorDescription& description, ParameterReader& reader)
-      : Device(description), setup_(ReadSetup(reader)) {}
+      : SensorOf(description), setup_(ReadSetup(reader)) {}
 
   bool IsOnWhileOpen() const override { return true; }
   bool SendsMessages() const override { return true; }
@@ -72,48 +71,45 @@ class Radio final : public Device {
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
-    Reading reading = sampling.Stamped();
-    auto labels = std::make_shared<std::vector<std::string>>();
+    Values heard;
     const auto* const radio = dynamic_cast<const RadioState*>(StateIn(sampling));
     for (std::size_t i = 0; radio != nullptr && i < radio->inbox().size(); ++i) {
       const auto& [message, number, strength] = radio->inbox()[i];
-      reading.values.push_back(static_cast<double>(number));
-      reading.values.push_back(base::ToSeconds(message->sent));
-      reading.values.push_back(strength);
-      labels->push_back(message->sender);
-      labels->push_back(base::ToBase64(message->content));
+      heard.messages.push_back({.number = number,
+                                .sent = base::ToSeconds(message->sent),
+                                .strength = strength,
+                                .sender = message->sender,
+                                .content_base64 = base::ToBase64(message->content)});
     }
-    reading.labels = std::move(labels);
+    Reading reading = sampling.Stamped();
+    Fill(heard, reading);
     return reading;
   }
 
-  static messages::gsv_msgs::Radio ToMessage(const model::SensorDescription&,
-                                             const Reading& reading, const std::string&) {
-    messages::gsv_msgs::Radio message;
-    const std::size_t count = reading.values.size() / kValuesOfMessage;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double* const v = &reading.values[kValuesOfMessage * i];
-      messages::gsv_msgs::RadioMessage heard;
-      heard.number = static_cast<std::uint64_t>(v[0]);
-      heard.sender = (*reading.labels)[2 * i];
-      heard.sent = messages::ToMessage(base::FromSeconds(v[1]));
-      heard.strength_dbm = v[2];
-      const auto content = base::FromBase64((*reading.labels)[2 * i + 1]);
-      if (content) heard.content.assign(content->begin(), content->end());
-      message.messages.push_back(std::move(heard));
+ private:
+  Message ToMessage(const Values& heard, const Reading&, const std::string&) const override {
+    Message message;
+    for (const readings::HeardMessage& each : heard.messages) {
+      messages::gsv_msgs::RadioMessage sent;
+      sent.number = each.number;
+      sent.sender = each.sender;
+      sent.sent = messages::ToMessage(base::FromSeconds(each.sent));
+      sent.strength_dbm = each.strength;
+      const auto content = base::FromBase64(each.content_base64);
+      if (content) sent.content.assign(content->begin(), content->end());
+      message.messages.push_back(std::move(sent));
     }
     return message;
   }
 
- private:
   const world::RadioSetupPtr setup_;
 };
 
 }  // namespace
 
 SensorType RadioType() {
-  return MakeSensorType<Radio, messages::gsv_msgs::Radio>(
-      "radio",
+  return MakeSensorType<Radio>(
+      readings::Radio::kType,
       {"transceiver", "wireless_transceiver", "wireless_transmitter", "wireless_receiver"});
 }
 

@@ -191,8 +191,10 @@ TEST(Radio, ShowsWhatItHasHeard) {
             (std::vector<double>{7, 1.5, -41.5}));
   EXPECT_EQ(*reading->labels, (std::vector<std::string>{"other", "YQBi/w=="}));
 
-  const auto bytes = RadioType().encode(RadioOf(), *reading, "robot/radio");
-  const auto decoded = messages::Decode<messages::gsv_msgs::Radio>(std::as_bytes(std::span(bytes)));
+  const auto bytes = (*radio)->Encode(*reading, "robot/radio");
+  ASSERT_TRUE(bytes);
+  const auto decoded =
+      messages::Decode<messages::gsv_msgs::Radio>(std::as_bytes(std::span(*bytes)));
   ASSERT_TRUE(decoded);
   ASSERT_EQ(decoded->messages.size(), 1u);
   EXPECT_EQ(decoded->messages[0].sender, "other");

@@ -51,9 +51,9 @@ class SensorTest : public ::testing::Test {
 
 template <typename Message>
 Message Decoded(const model::SensorDescription& description, const Reading& reading) {
-  const auto bytes =
-      BuiltInSensors().Find(description.type)->encode(description, reading, "robot/front");
-  const auto message = messages::Decode<Message>(std::as_bytes(std::span(bytes)));
+  const auto bytes = (*Make(description))->Encode(reading, "robot/front");
+  EXPECT_TRUE(bytes) << bytes.error().Sentence();
+  const auto message = messages::Decode<Message>(std::as_bytes(std::span(*bytes)));
   EXPECT_TRUE(message);
   return *message;
 }
@@ -78,7 +78,7 @@ TEST_F(SensorTest, SonarIsDrawnAsALineAsLongAsItsReading) {
   const auto description = DescriptionOf("sonar", {{"max", 10.0}});
   const SensorType& type = *BuiltInSensors().Find("sonar");
   EXPECT_EQ(type.overlay, Overlay::kLines);
-  const auto beams = type.beams(description, Sample(description));
+  const auto beams = (*Make(description))->Beams(Sample(description));
   ASSERT_EQ(beams.size(), 1u);
   EXPECT_NEAR(beams[0].to.x, 3.8, 1e-12);
   EXPECT_EQ(beams[0].from, geometry::Vector3{});
@@ -184,7 +184,7 @@ TEST_F(SensorTest, SonarIsDeafWhereAnEchoDropsOut) {
 
 TEST_F(SensorTest, LidarIsDrawnWhereItsBeamsEnd) {
   const auto description = DescriptionOf("lidar", Scan(3, -0.2, 0.2));
-  const auto beams = BuiltInSensors().Find("lidar")->beams(description, Sample(description));
+  const auto beams = (*Make(description))->Beams(Sample(description));
   ASSERT_EQ(beams.size(), 3u);
   for (const Segment& beam : beams) EXPECT_NEAR(beam.to.x, 3.8, 1e-9);
   EXPECT_NEAR(beams[0].to.y, -3.8 * std::tan(0.2), 1e-9);

@@ -9,9 +9,8 @@
 
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/devices/sound_cone.h"
-#include "gsv/sensing/encoding.h"
 #include "gsv/sensing/noise.h"
-#include "gsv/sensing/parameters.h"
+#include "gsv/sensing/sensor_type.h"
 
 namespace gsv::sensing {
 namespace {
@@ -25,8 +24,7 @@ struct SonarSettings {
   NoiseModel noise;
 };
 
-base::Result<SonarSettings> ReadSonarSettings(const model::SensorDescription& description) {
-  ParameterReader reader(description);
+SonarSettings ReadSonarSettings(ParameterReader& reader) {
   SonarSettings settings;
   settings.min = reader.Number("min", settings.min, 0, 1e4);
   settings.max = reader.Number("max", settings.max, 1e-3, 1e4);
@@ -44,15 +42,14 @@ base::Result<SonarSettings> ReadSonarSettings(const model::SensorDescription& de
   } else if (beam != "ray") {
     reader.Refuse(fmt::format("beam is \"{}\"; it must be ray or cone", beam));
   }
-  if (!reader.status()) return base::Fail(reader.status().error());
   return settings;
 }
 
-class Sonar final : public Sensor {
+class Sonar final : public SensorOf<readings::Sonar, messages::sensor_msgs::Range> {
  public:
-  Sonar(const model::SensorDescription& description, const SonarSettings& settings)
-      : Sensor(description), settings_(settings) {
-    if (settings.sound) cone_.emplace(*settings.sound);
+  Sonar(const model::SensorDescription& description, ParameterReader& reader)
+      : SensorOf(description), settings_(ReadSonarSettings(reader)) {
+    if (settings_.sound && reader.status()) cone_.emplace(*settings_.sound);
   }
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
@@ -62,8 +59,7 @@ class Sonar final : public Sensor {
       echo = NoisyReading(sampling, description()).Read(settings_.noise, 0, echo);
     }
     base::Result<Reading> reading = sampling.Stamped();
-    reading->values.push_back(echo >= settings_.min ? std::min(echo, settings_.max)
-                                                    : settings_.max);
+    Fill(Values{echo >= settings_.min ? std::min(echo, settings_.max) : settings_.max}, *reading);
     return reading;
   }
 
@@ -76,43 +72,28 @@ class Sonar final : public Sensor {
                            world_from_sonar.orientation * Vector3{1, 0, 0}, settings_.max});
   }
 
-  SonarSettings settings_;
+  Message ToMessage(const Values& sonar, const Reading&, const std::string&) const override {
+    Message message;
+    message.radiation_type = Message::kUltrasound;
+    message.field_of_view = static_cast<float>(settings_.field_of_view);
+    message.min_range = static_cast<float>(settings_.min);
+    message.max_range = static_cast<float>(settings_.max);
+    message.range = static_cast<float>(sonar.range);
+    return message;
+  }
+
+  std::vector<Segment> BeamsOf(const Values& sonar) const override {
+    return {{{}, {sonar.range, 0, 0}}};
+  }
+
+  const SonarSettings settings_;
   std::optional<SoundCone> cone_;
 };
-
-std::vector<std::uint8_t> EncodeRange(const model::SensorDescription& description,
-                                      const Reading& reading, const std::string& frame_id) {
-  const SonarSettings settings = ReadSonarSettings(description).value_or(SonarSettings{});
-  messages::sensor_msgs::Range message;
-  message.header = HeaderOf(reading, frame_id);
-  message.radiation_type = messages::sensor_msgs::Range::kUltrasound;
-  message.field_of_view = static_cast<float>(settings.field_of_view);
-  message.min_range = static_cast<float>(settings.min);
-  message.max_range = static_cast<float>(settings.max);
-  message.range = reading.values.empty() ? 0.0f : static_cast<float>(reading.values[0]);
-  return Encoded(message);
-}
 
 }  // namespace
 
 SensorType SonarType() {
-  SensorType type;
-  type.name = "sonar";
-  type.create =
-      [](const model::SensorDescription& description) -> base::Result<std::unique_ptr<Sensor>> {
-    const auto settings = ReadSonarSettings(description);
-    if (!settings) return base::Fail(settings.error());
-    return std::make_unique<Sonar>(description, *settings);
-  };
-  type.schema = &messages::SchemaOf<messages::sensor_msgs::Range>();
-  type.encode = EncodeRange;
-  type.overlay = Overlay::kLines;
-  type.beams = [](const model::SensorDescription&, const Reading& reading) {
-    std::vector<Segment> beams;
-    for (const double range : reading.values) beams.push_back({{}, {range, 0, 0}});
-    return beams;
-  };
-  return type;
+  return MakeSensorType<Sonar>(readings::Sonar::kType, {}, Overlay::kLines);
 }
 
 }  // namespace gsv::sensing

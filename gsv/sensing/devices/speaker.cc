@@ -33,10 +33,10 @@ class SpeakerState final : public world::ActuatorState {
   const double loudness_;  // dB
 };
 
-class Speaker final : public Actuator {
+class Speaker final : public SensorOf<readings::Speaker, messages::gsv_msgs::Speaker, Actuator> {
  public:
   Speaker(const model::SensorDescription& description, ParameterReader& reader)
-      : Actuator(description), loudness_(ReadLoudness(reader)) {}
+      : SensorOf(description), loudness_(ReadLoudness(reader)) {}
 
   base::Status Check(const world::DeviceCommand& command) const override {
     if (auto ok = CheckShape(command, 3); !ok) return ok;
@@ -56,26 +56,27 @@ class Speaker final : public Actuator {
         state != nullptr ? state->SoundAt(sampling.snapshot()->state.time) : std::nullopt;
     const world::Sound now = sound.value_or(world::Sound());
     Reading reading = sampling.Stamped();
-    reading.values = {now.frequency, now.volume, now.elapsed, now.left};
-    reading.labels = std::make_shared<const std::vector<std::string>>(1, now.name);
+    Fill(Values{.name = now.name,
+                .frequency = now.frequency,
+                .volume = now.volume,
+                .elapsed = now.elapsed,
+                .left = now.left},
+         reading);
     return reading;
   }
 
-  static messages::gsv_msgs::Speaker ToMessage(const model::SensorDescription& description,
-                                               const Reading& reading, const std::string&) {
-    messages::gsv_msgs::Speaker message;
-    if (reading.values.size() != 4) return message;
-    ParameterReader reader(description);
-    message.sound = reading.labels->front();
-    message.frequency_hz = reading.values[0];
-    message.volume = reading.values[1];
-    message.elapsed_s = reading.values[2];
-    message.left_s = reading.values[3];
-    message.loudness_db = ReadLoudness(reader);
+ private:
+  Message ToMessage(const Values& now, const Reading&, const std::string&) const override {
+    Message message;
+    message.sound = now.name;
+    message.frequency_hz = now.frequency;
+    message.volume = now.volume;
+    message.elapsed_s = now.elapsed;
+    message.left_s = now.left;
+    message.loudness_db = loudness_;
     return message;
   }
 
- private:
   world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                const world::DeviceState*) const override {
     return std::make_shared<const SpeakerState>(std::move(mount), std::move(followed), loudness_);
@@ -86,8 +87,6 @@ class Speaker final : public Actuator {
 
 }  // namespace
 
-SensorType SpeakerType() {
-  return MakeSensorType<Speaker, messages::gsv_msgs::Speaker>("speaker", {"buzzer"});
-}
+SensorType SpeakerType() { return MakeSensorType<Speaker>(readings::Speaker::kType, {"buzzer"}); }
 
 }  // namespace gsv::sensing

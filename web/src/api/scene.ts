@@ -27,6 +27,9 @@ export interface CameraView {
   aspect: number;
 }
 
+// By the path of a field in the sensor's messages; a path stands for all below it.
+export type Units = Readonly<Record<string, string>>;
+
 export interface SceneSensor {
   name: string;
   type: string;
@@ -34,6 +37,7 @@ export interface SceneSensor {
   link: string;
   topic: string;
   view: CameraView | null; // null: it is no camera, or its angles are not told
+  units?: Units; // absent: of a recording that does not tell them
 }
 
 export interface SceneBody {
@@ -156,7 +160,13 @@ function parseSensor(sensor: JsonObject, where: string): SceneSensor {
     link: textOr(sensor.link, ""),
     topic: textAt(sensor.topic, `${where}.topic`),
     view: parseView(sensor),
+    units: parseUnits(sensor.units),
   };
+}
+
+function parseUnits(value: unknown): Units {
+  const entries = typeof value === "object" && value !== null ? Object.entries(value) : [];
+  return Object.fromEntries(entries.filter(([, unit]) => typeof unit === "string"));
 }
 
 function parseView(sensor: JsonObject): CameraView | null {

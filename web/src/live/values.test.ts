@@ -3,18 +3,22 @@ import { anglesOf, stampOf, unitOf, valuesOf } from "./values";
 
 const header = { stamp: { sec: 2, nsec: 500_000_000 }, frame_id: "a/sonar" };
 
-function asText(message: unknown): string[] {
-  return valuesOf(message).map(({ key, unit, value }) => `${key} = ${value} ${unit}`.trim());
+function asText(message: unknown, units = {}): string[] {
+  return valuesOf(message, units).map(({ key, unit, value }) => `${key} = ${value} ${unit}`.trim());
 }
 
 test("a sonar's message gives its range in metres, and not how it is made", () => {
   const range = { header, radiation_type: 0, field_of_view: 0.25, min_range: 0, max_range: 5, range: 1.5 };
-  expect(asText(range)).toEqual(["range = 1.5 m"]);
+  expect(asText(range, { range: "m" })).toEqual(["range = 1.5 m"]);
 });
 
 test("a long list is summed up by what is finite in it", () => {
   const ranges = new Float32Array([2, Infinity, 1, 4, 1, 2, 2, 2, NaN]);
-  expect(asText({ header, ranges })).toEqual(["ranges.min = 1 m", "ranges.max = 4 m", "ranges.mean = 2 m"]);
+  expect(asText({ header, ranges }, { ranges: "m" })).toEqual([
+    "ranges.min = 1 m",
+    "ranges.max = 4 m",
+    "ranges.mean = 2 m",
+  ]);
   expect(valuesOf({ ranges: new Float32Array(9).fill(Infinity) }).map(({ value }) => value)).toEqual([
     NaN,
     NaN,
@@ -40,7 +44,7 @@ test("a turn is told as angles, covariances are left out", () => {
     orientation_covariance: new Float64Array(9),
     angular_velocity: { x: 0, y: 0, z: 0.25 },
   };
-  const values = valuesOf(imu);
+  const values = valuesOf(imu, { angular_velocity: "rad/s" });
   expect(values.map(({ key }) => key)).toEqual([
     "orientation.roll",
     "orientation.pitch",
@@ -55,7 +59,8 @@ test("a turn is told as angles, covariances are left out", () => {
 
 test("of a list of things their number and the first one", () => {
   const contact = { other: "wall", point: { x: 0.25, y: 0, z: 0 }, depth: 0.001 };
-  expect(asText({ header, contacts: [contact, contact] })).toEqual([
+  const units = { "contacts.point": "m", "contacts.depth": "m" };
+  expect(asText({ header, contacts: [contact, contact] }, units)).toEqual([
     "contacts.count = 2",
     "contacts[0].point.x = 0.25 m",
     "contacts[0].point.y = 0 m",
@@ -80,13 +85,16 @@ test("large integers and flags are numbers too", () => {
   expect(asText({ step: 12n, present: true })).toEqual(["step = 12", "present = 1"]);
 });
 
-test("a unit is that of the field, wherever it stands", () => {
-  expect(unitOf("pose.pose.position.x")).toBe("m");
-  expect(unitOf("twist.twist.linear.x")).toBe("m/s");
-  expect(unitOf("twist.twist.angular.z")).toBe("rad/s");
-  expect(unitOf("ranges[3]")).toBe("m");
-  expect(unitOf("latitude")).toBe("°");
-  expect(unitOf("percentage")).toBe("");
+test("a unit is that of the nearest path above the field", () => {
+  const units = { "pose.pose.position": "m", "twist.twist.linear": "m/s", ranges: "m", twist: "none" };
+  expect(unitOf("pose.pose.position.x", units)).toBe("m");
+  expect(unitOf("twist.twist.linear.x", units)).toBe("m/s");
+  expect(unitOf("twist.twist.angular.z", units)).toBe("none");
+  expect(unitOf("ranges[3]", units)).toBe("m");
+  expect(unitOf("ranges.min", units)).toBe("m");
+  expect(unitOf("position[a.b]", { position: "rad" })).toBe("rad");
+  expect(unitOf("percentage", units)).toBe("");
+  expect(unitOf("constructor", {})).toBe("");
 });
 
 test("angles are those of the order roll, pitch, yaw", () => {

@@ -1,5 +1,7 @@
-// The numbers in a message, each under a key of its own, with its unit where the field tells it.
+// The numbers in a message, each under a key of its own, with the unit that the server tells.
 // It knows no type of sensor by name: what it cannot name it shows as the field is called.
+
+import type { Units } from "../api/scene";
 
 export interface LiveValue {
   key: string; // the field's path: "range", "pose.position.x", "ranges.min"
@@ -20,35 +22,24 @@ const LEFT_OUT = new RegExp(
   ].join("|")})$`,
 );
 
-// By the end of the key, the first that fits.
-const UNITS: [pattern: RegExp, unit: string][] = [
-  [/(^|\.)range$|^ranges[.[]/, "m"],
-  [/(^|\.)(roll|pitch|yaw)$/, "rad"],
-  [/angular(_velocity)?\.[xyz]$/, "rad/s"],
-  [/linear_acceleration\.[xyz]$/, "m/s²"],
-  [/linear\.[xyz]$|vertical_velocity$/, "m/s"],
-  [/position\.[xyz]$|translation\.[xyz]$|center\.[xyz]$|size\.[xyz]$|point\.[xyz]$/, "m"],
-  [/(^|\.)(altitude|vertical_position|depth)$/, "m"],
-  [/(^|\.)(latitude|longitude)$/, "°"],
-  [/magnetic_field\.[xyz]$/, "T"],
-  [/(^|\.)voltage$/, "V"],
-  [/(^|\.)current$/, "A"],
-  [/(^|\.)(charge|capacity)$/, "Ah"],
-  [/(^|\.)temperature$/, "°C"],
-];
-
-export function valuesOf(message: unknown): LiveValue[] {
+export function valuesOf(message: unknown, units: Units = {}): LiveValue[] {
   const values: LiveValue[] = [];
   collect(message, "", 0, values);
-  return values;
+  return values.map((value) => ({ ...value, unit: value.unit || unitOf(value.key, units) }));
 }
 
-export function unitOf(key: string): string {
-  return UNITS.find(([pattern]) => pattern.test(key))?.[1] ?? "";
+// Of the longest path that the key lies below.
+export function unitOf(key: string, units: Units): string {
+  const parts = key.replace(/\[[^\]]*\]/g, "").split(".");
+  for (let count = parts.length; count > 0; count--) {
+    const path = parts.slice(0, count).join(".");
+    if (Object.hasOwn(units, path)) return units[path]!;
+  }
+  return "";
 }
 
-function add(values: LiveValue[], key: string, value: number): void {
-  if (values.length < MOST_VALUES) values.push({ key, unit: unitOf(key), value });
+function add(values: LiveValue[], key: string, value: number, unit = ""): void {
+  if (values.length < MOST_VALUES) values.push({ key, unit, value });
 }
 
 function collect(value: unknown, key: string, depth: number, values: LiveValue[]): void {
@@ -138,7 +129,7 @@ function isQuaternion(value: unknown): value is Quaternion {
 
 function collectAngles(rotation: Quaternion, key: string, values: LiveValue[]): void {
   const angles = anglesOf(rotation);
-  for (const name of ["roll", "pitch", "yaw"] as const) add(values, `${key}.${name}`, angles[name]);
+  for (const name of ["roll", "pitch", "yaw"] as const) add(values, `${key}.${name}`, angles[name], "rad");
 }
 
 // Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), in radians.

@@ -13,7 +13,7 @@ const SCENE = scene({
   bodies: [
     body("a", {
       sensors: [
-        sensor("sonar"),
+        sensor("sonar", { units: { range: "m" } }),
         sensor("eye", { type: "camera", overlay: "picture" }),
         sensor("depth", { type: "depth_camera", overlay: "points" }),
       ],

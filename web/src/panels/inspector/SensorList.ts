@@ -97,7 +97,7 @@ class SensorRow {
 
   write(): void {
     if (this.newest === null) return;
-    const values = valuesOf(this.newest);
+    const values = valuesOf(this.newest, this.sensor.units);
     this.newest = null;
     if (values.length !== this.cells.size || values.some(({ key }) => !this.cells.has(key))) {
       this.build(values);

@@ -1,4 +1,4 @@
-#include "gsv/recording/topics/sensor_topics.h"
+#include "gsv/recording/topics/sensor_recorder.h"
 
 #include <cmath>
 #include <optional>
@@ -24,19 +24,12 @@ base::SimTime PeriodOf(const model::SensorDescription& description, double rate)
   return own * static_cast<std::int64_t>(std::ceil(description.update_rate / rate - 1e-9));
 }
 
-bool SameDescription(const model::SensorDescription& a, const model::SensorDescription& b) {
-  return a.name == b.name && a.type == b.type && a.link == b.link &&
-         a.link_from_sensor == b.link_from_sensor && a.update_rate == b.update_rate &&
-         a.parameters == b.parameters;
-}
-
 }  // namespace
 
-struct SensorTopics::Sensor {
+struct SensorRecorder::Sensor {
   std::string robot;
-  model::SensorDescription description;
   const sensing::SensorType* type = nullptr;
-  std::unique_ptr<sensing::Sensor> sensor;
+  std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
   bool is_wanted = true;                       // its readings are
   bool has_companion = false;                  // and it is wanted
@@ -45,27 +38,32 @@ struct SensorTopics::Sensor {
   std::optional<ChannelId> companion_channel;  // the same
   std::optional<sensing::Reading> newest;      // of what has beams
   bool has_failed = false;
+
+  const model::SensorDescription& description() const { return sensor->description(); }
+  std::string frame() const { return presentation::FrameOf(robot, description().name); }
 };
 
-SensorTopics::SensorTopics(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
-                           std::uint64_t seed, SensorTopicOptions options)
+SensorRecorder::SensorRecorder(McapWriter& writer,
+                               std::shared_ptr<const sensing::SensorRegistry> types,
+                               std::uint64_t seed, SensorRecorderOptions options)
     : writer_(writer),
       types_(std::move(types)),
+      made_(*types_),
       seed_(seed),
       options_(std::move(options)),
       beams_instants_(base::FromSeconds(1 / options_.rates.beams)),
-      beams_(writer, options_.selection, "/gsv/beams"),
-      transforms_(writer, options_.selection, "/tf_static") {}
+      beams_(writer, options_.selection, presentation::topics::kBeams),
+      transforms_(writer, options_.selection, presentation::topics::kSensorTransforms) {}
 
-SensorTopics::~SensorTopics() = default;
+SensorRecorder::~SensorRecorder() = default;
 
-void SensorTopics::Mount(const SensorLists& lists, const world::Snapshot& snapshot) {
+void SensorRecorder::Mount(const SensorLists& lists, const world::Snapshot& snapshot) {
   Sensors found;
   for (const auto& [robot, list] : lists) {
     for (const model::SensorDescription& description : list) {
-      const std::string topic = "/" + presentation::FrameOf(robot, description.name);
+      const std::string topic = presentation::SensorTopic(robot, description.name);
       const auto known = sensors_.find(topic);
-      if (known != sensors_.end() && SameDescription(known->second->description, description)) {
+      if (known != sensors_.end() && known->second->description() == description) {
         found.insert(*known);
       } else if (std::shared_ptr<Sensor> sensor = Make(robot, description)) {
         found.emplace(topic, std::move(sensor));
@@ -77,24 +75,24 @@ void SensorTopics::Mount(const SensorLists& lists, const world::Snapshot& snapsh
   WriteTransforms(snapshot);
 }
 
-std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
+std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
     const std::string& robot, const model::SensorDescription& description) {
   const sensing::SensorType* type = types_->Find(description.type);
   if (type == nullptr || type->schema == nullptr) return nullptr;
-  const std::string topic = "/" + presentation::FrameOf(robot, description.name);
+  const std::string topic = presentation::SensorTopic(robot, description.name);
   const bool is_wanted = options_.selection.Has(topic);
   const bool has_companion =
-      is_wanted && type->companion && options_.selection.Has(topic + "/" + type->companion->topic);
+      is_wanted && type->companion &&
+      options_.selection.Has(presentation::CompanionTopic(topic, *type->companion));
   const bool has_beams = beams_.is_wanted() && presentation::HasLines(*type, description);
   if (!is_wanted && !has_beams) return nullptr;
-  auto sensor = type->create(description);
+  auto sensor = made_.Of(description);
   if (!sensor) {
     Complain(sensor.error());
     return nullptr;
   }
   const double rate = (*sensor)->TakesLong() ? options_.rates.pictures : options_.rates.readings;
   return std::make_shared<Sensor>(Sensor{.robot = robot,
-                                         .description = description,
                                          .type = type,
                                          .sensor = *std::move(sensor),
                                          .instants = Instants(PeriodOf(description, rate)),
@@ -103,7 +101,7 @@ std::shared_ptr<SensorTopics::Sensor> SensorTopics::Make(
                                          .has_beams = has_beams});
 }
 
-void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
+void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapshot) {
   std::vector<Sample> slow;
   const auto take_slow = [&] {
     if (team_ == nullptr) team_ = std::make_unique<base::ThreadTeam>(kSlowAtOnce);
@@ -129,19 +127,23 @@ void SensorTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot
   if (beams_instants_.Pass(snapshot->state.time) && beams_.is_wanted()) WriteBeams(*snapshot);
 }
 
-void SensorTopics::Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample) {
+void SensorRecorder::Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample) {
   const Sensor& sensor = *sample.sensor;
   sample.reading = sensor.sensor->Sample({snapshot, sample.body, seed_, rays_});
   if (!sample.reading) return;
-  if (sensor.is_wanted) sample.message = Encode(sensor, *sample.reading);
   if (sensor.has_companion) {
-    sample.companion = sensor.type->companion->encode(
-        sensor.description, *sample.reading,
-        presentation::FrameOf(sensor.robot, sensor.description.name));
+    sample.companion = sensor.sensor->EncodeCompanion(sample.reading->time, sensor.frame());
+  }
+  if (!sensor.is_wanted) return;
+  auto message = Encode(sensor, *sample.reading);
+  if (message) {
+    sample.message = *std::move(message);
+  } else {
+    sample.reading = base::Fail(message.error());
   }
 }
 
-void SensorTopics::Write(Sample& sample) {
+void SensorRecorder::Write(Sample& sample) {
   Sensor& sensor = *sample.sensor;
   if (!sample.reading) {
     sensor.has_failed = true;
@@ -159,7 +161,8 @@ void SensorTopics::Write(Sample& sample) {
   if (sensor.has_companion) {
     const sensing::Companion& type = *sensor.type->companion;
     if (!sensor.companion_channel) {
-      sensor.companion_channel = AddChannel(*sample.topic + "/" + type.topic, *type.schema);
+      sensor.companion_channel =
+          AddChannel(presentation::CompanionTopic(*sample.topic, type), *type.schema);
     }
     sensor.has_companion = sensor.companion_channel.has_value();
     if (!sensor.has_companion) return;
@@ -168,70 +171,53 @@ void SensorTopics::Write(Sample& sample) {
   if (sensor.has_beams) sensor.newest = *std::move(sample.reading);
 }
 
-std::optional<ChannelId> SensorTopics::AddChannel(const std::string& topic,
-                                                  const messages::Schema& schema) {
+std::optional<ChannelId> SensorRecorder::AddChannel(const std::string& topic,
+                                                    const messages::Schema& schema) {
   const auto channel = writer_.AddChannel(topic, schema);
   if (channel) return *channel;
   Complain(channel.error());
   return std::nullopt;
 }
 
-std::vector<std::uint8_t> SensorTopics::Encode(const Sensor& sensor,
-                                               const sensing::Reading& reading) const {
+base::Result<std::vector<std::uint8_t>> SensorRecorder::Encode(
+    const Sensor& sensor, const sensing::Reading& reading) const {
   using messages::sensor_msgs::CompressedImage;
-  const std::string frame = presentation::FrameOf(sensor.robot, sensor.description.name);
   const bool is_picture = sensor.type->schema == &messages::SchemaOf<CompressedImage>() &&
                           reading.picture != nullptr && options_.write_png;
   if (is_picture) {
     if (auto png = options_.write_png(*reading.picture)) {
       CompressedImage message;
-      message.header = sensing::HeaderOf(reading, frame);
+      message.header = sensing::HeaderOf(reading, sensor.frame());
       message.format = "png";
       message.data = *std::move(png);
       return sensing::Encoded(message);
     }
   }
-  return sensor.type->encode(sensor.description, reading, frame);
+  return sensor.sensor->Encode(reading, sensor.frame());
 }
 
-void SensorTopics::WriteTransforms(const world::Snapshot& snapshot) {
+void SensorRecorder::WriteTransforms(const world::Snapshot& snapshot) {
   messages::tf2_msgs::TFMessage message;
   for (const auto& [topic, sensor] : sensors_) {
     const int body = snapshot.layout->Find(sensor->robot);
     if (body < 0) continue;
-    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description, *sensor->type,
-                                        snapshot.state.time, message);
+    presentation::AppendSensorTransform(*snapshot.layout, body, sensor->description(),
+                                        *sensor->type, snapshot.state.time, message);
   }
   transforms_.Write(snapshot.state.time, message);
 }
 
-void SensorTopics::WriteBeams(const world::Snapshot& snapshot) {
-  std::map<std::string, std::vector<geometry::Vector3>> points;  // in the world, by robot
+void SensorRecorder::WriteBeams(const world::Snapshot& snapshot) {
   for (const auto& [topic, sensor] : sensors_) {
-    if (!sensor->newest) continue;
-    const int body = snapshot.layout->Find(sensor->robot);
+    const int body = sensor->newest ? snapshot.layout->Find(sensor->robot) : -1;
     if (body < 0) continue;
-    const geometry::Pose world_from_sensor =
-        world::LinkPose(snapshot, body, sensor->description.link) *
-        sensor->description.link_from_sensor;
-    presentation::AppendLines(*sensor->type, sensor->description, *sensor->newest,
-                              world_from_sensor, points[sensor->robot]);
+    beam_markers_.Add(snapshot, body, *sensor->type, *sensor->sensor, *sensor->newest);
   }
-  const base::SimTime time = snapshot.state.time;
-  messages::visualization_msgs::MarkerArray message;
-  for (const std::string& robot : robots_with_beams_) {
-    if (!points.contains(robot))
-      message.markers.push_back(presentation::NoBeamsMarker(robot, time));
-  }
-  robots_with_beams_.clear();
-  for (auto& [robot, its_points] : points) {
-    robots_with_beams_.insert(robot);
-    message.markers.push_back(presentation::BeamsMarker(robot, time, std::move(its_points)));
-  }
-  if (!message.markers.empty()) beams_.Write(time, message);
+  const auto message = beam_markers_.Take(snapshot.state.time);
+  if (!message.markers.empty()) beams_.Write(snapshot.state.time, message);
 }
 
-void SensorTopics::Complain(const base::Error& error) {
+void SensorRecorder::Complain(const base::Error& error) {
   if (std::exchange(has_complained_, true)) return;
   spdlog::warn("a sensor is not recorded: {}", error.Sentence());
 }

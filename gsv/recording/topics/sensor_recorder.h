@@ -9,17 +9,17 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "gsv/base/thread_team.h"
 #include "gsv/messages/tf2_msgs.h"
 #include "gsv/messages/visualization_msgs.h"
+#include "gsv/presentation/sensor_messages.h"
 #include "gsv/recording/topics/instants.h"
 #include "gsv/recording/topics/simulation_feed.h"
 #include "gsv/recording/topics/topic_writer.h"
-#include "gsv/sensing/registry.h"
+#include "gsv/sensing/sensor_set.h"
 
 namespace gsv::recording {
 
@@ -35,19 +35,19 @@ struct SensorRates {
 using WritePng =
     std::function<base::Result<std::vector<std::uint8_t>>(const model::Image& picture)>;
 
-struct SensorTopicOptions {
+struct SensorRecorderOptions {
   SensorRates rates{};
   Selection selection{};  // of topics
   // For the pictures that their sensors send as JPEG; without it they are recorded so.
   WritePng write_png{};
 };
 
-class SensorTopics {
+class SensorRecorder {
  public:
   // `writer` must outlive this. `seed` is the simulation's.
-  SensorTopics(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
-               std::uint64_t seed, SensorTopicOptions options);
-  ~SensorTopics();
+  SensorRecorder(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
+                 std::uint64_t seed, SensorRecorderOptions options);
+  ~SensorRecorder();
 
   // These are the sensors from here on.
   void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
@@ -72,7 +72,8 @@ class SensorTopics {
   void Write(Sample& sample);
   // Nothing, and a complaint, if it cannot be had.
   std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
-  std::vector<std::uint8_t> Encode(const Sensor& sensor, const sensing::Reading& reading) const;
+  base::Result<std::vector<std::uint8_t>> Encode(const Sensor& sensor,
+                                                 const sensing::Reading& reading) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);
   // Of all sensors that cannot be recorded only the first is told of: there may be thousands.
@@ -80,13 +81,14 @@ class SensorTopics {
 
   McapWriter& writer_;
   const std::shared_ptr<const sensing::SensorRegistry> types_;
+  sensing::SensorSet made_;  // of types_
   const std::uint64_t seed_;
-  const SensorTopicOptions options_;
+  const SensorRecorderOptions options_;
   sensing::RaySceneCache rays_;
   std::unique_ptr<base::ThreadTeam> team_;  // for sensors that take long, once there is one
   Sensors sensors_;
   Instants beams_instants_;
-  std::set<std::string> robots_with_beams_;  // in the last message
+  presentation::BeamMarkers beam_markers_;
   bool has_complained_ = false;
 
   TopicWriter<messages::visualization_msgs::MarkerArray> beams_;

@@ -1,0 +1,119 @@
+#include "gsv/presentation/sensor_messages.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gsv/messages/time.h"
+#include "gsv/presentation/state_messages.h"
+
+namespace gsv::presentation {
+namespace {
+
+using messages::visualization_msgs::Marker;
+
+constexpr double kDash = 0.02;  // of a beam's length
+
+Marker MarkerOf(const std::string& robot, base::SimTime time) {
+  Marker marker;
+  marker.header.stamp = messages::ToMessage(time);
+  marker.header.frame_id = sensing::kWorldFrame;
+  marker.ns = robot;
+  marker.type = Marker::kLineList;
+  marker.pose.orientation.w = 1;
+  return marker;
+}
+
+// Pairs of points.
+Marker LinesOf(const std::string& robot, base::SimTime time,
+               const std::vector<geometry::Vector3>& points_in_world) {
+  Marker marker = MarkerOf(robot, time);
+  marker.scale.x = 0.01;  // the lines' width, m
+  marker.color.r = 0.2f;
+  marker.color.g = 0.8f;
+  marker.color.b = 1.0f;
+  marker.color.a = 0.8f;
+  marker.points.reserve(points_in_world.size());
+  for (const geometry::Vector3& p : points_in_world) marker.points.push_back({p.x, p.y, p.z});
+  return marker;
+}
+
+Marker NoLinesOf(const std::string& robot, base::SimTime time) {
+  Marker marker = MarkerOf(robot, time);
+  marker.action = Marker::kDelete;
+  return marker;
+}
+
+}  // namespace
+
+std::string SensorTopic(const std::string& robot, const std::string& sensor) {
+  return "/" + FrameOf(robot, sensor);
+}
+
+std::string CompanionTopic(const std::string& sensor_topic, const sensing::Companion& companion) {
+  return sensor_topic + "/" + companion.topic;
+}
+
+std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
+                                          const std::string& robot) {
+  std::vector<std::string> names;
+  for (const model::SensorDescription& description : simulation.sensors(robot)) {
+    const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
+    if (type == nullptr || type->schema == nullptr) continue;
+    names.push_back(SensorTopic(robot, description.name));
+    if (type->companion) names.push_back(CompanionTopic(names.back(), *type->companion));
+  }
+  return names;
+}
+
+void AppendSensorTransform(const world::Layout& layout, int body,
+                           const model::SensorDescription& sensor, const sensing::SensorType& type,
+                           base::SimTime time, messages::tf2_msgs::TFMessage& message) {
+  const world::Body& robot = layout.bodies[body];
+  const model::Link& link = robot.model->links[sensor.link];
+  const std::vector<int> moving = world::MovingLinks(*robot.model);
+  const bool moves = std::find(moving.begin(), moving.end(), sensor.link) != moving.end();
+  const std::string frame = FrameOf(robot.name, sensor.name);
+  message.transforms.push_back(StampedTransform(
+      moves ? LinkFrame(robot, link) : BodyFrame(robot), frame, time,
+      moves ? sensor.link_from_sensor : link.model_from_link * sensor.link_from_sensor));
+  if (!type.companion) return;
+  const geometry::Pose sensor_from_optical{{}, {0.5, -0.5, 0.5, -0.5}};
+  message.transforms.push_back(
+      StampedTransform(frame, FrameOf(frame, sensing::kOpticalFrame), time, sensor_from_optical));
+}
+
+bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor) {
+  return type.overlay == sensing::Overlay::kLines ||
+         (type.overlay == sensing::Overlay::kPoints && sensor.visualize);
+}
+
+void BeamMarkers::Add(const world::Snapshot& snapshot, int body, const sensing::SensorType& type,
+                      const sensing::Sensor& sensor, const sensing::Reading& reading) {
+  const model::SensorDescription& description = sensor.description();
+  std::vector<geometry::Vector3>& points =
+      points_[snapshot.layout->bodies[static_cast<std::size_t>(body)].name];
+  if (!HasLines(type, description)) return;
+  const geometry::Pose world_from_sensor =
+      world::LinkPose(snapshot, body, description.link) * description.link_from_sensor;
+  const bool as_points = type.overlay == sensing::Overlay::kPoints;
+  for (const sensing::Segment& beam : sensor.Beams(reading)) {
+    const geometry::Vector3 from = as_points ? beam.to + kDash * (beam.from - beam.to) : beam.from;
+    points.push_back(world_from_sensor * from);
+    points.push_back(world_from_sensor * beam.to);
+  }
+}
+
+messages::visualization_msgs::MarkerArray BeamMarkers::Take(base::SimTime time) {
+  messages::visualization_msgs::MarkerArray message;
+  for (const std::string& robot : shown_) {
+    if (!points_.contains(robot)) message.markers.push_back(NoLinesOf(robot, time));
+  }
+  shown_.clear();
+  for (const auto& [robot, points] : std::exchange(points_, {})) {
+    shown_.insert(robot);
+    message.markers.push_back(LinesOf(robot, time, points));
+  }
+  return message;
+}
+
+}  // namespace gsv::presentation

@@ -1,0 +1,69 @@
+// The topics of a simulation as a whole: one table for all who send, record, replay or relay them.
+// A topic's handle, topics::kPoses, carries its name and its message; its row in the table says who
+// has it. Robots' sensors have topics by their names besides, see sensor_messages.h.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "gsv/messages/cdr.h"
+#include "gsv/messages/diagnostic_msgs.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/messages/rcl_interfaces.h"
+#include "gsv/messages/rosgraph_msgs.h"
+#include "gsv/messages/std_msgs.h"
+#include "gsv/messages/tf2_msgs.h"
+#include "gsv/messages/visualization_msgs.h"
+
+namespace gsv::presentation {
+
+// A topic with its message's type.
+template <typename Message>
+struct TopicOf {
+  const char* name;
+};
+
+// How a recording's messages are played.
+enum class Replay {
+  kNewest,   // the newest one at each instant
+  kEach,     // each that is played past, none of what is jumped over
+  kByClock,  // the player has its own: time and status are those of the replay
+};
+
+struct Topic {
+  std::string_view name{};
+  const messages::Schema* schema = nullptr;
+  bool is_live = true;
+  bool is_recorded = true;
+  Replay replay = Replay::kNewest;
+  bool is_reproducible = true;  // the same in every run, so that recordings' content hashes have it
+  std::size_t history = 1;      // of what went before, a new subscriber gets so many live
+};
+
+std::span<const Topic> Topics();
+// Null: it is no topic of a simulation as a whole.
+const Topic* FindTopic(std::string_view name);
+
+namespace topics {
+
+inline constexpr TopicOf<messages::rosgraph_msgs::Clock> kClock{"/clock"};
+inline constexpr TopicOf<messages::gsv_msgs::Poses> kPoses{"/gsv/poses"};
+inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kTransforms{"/tf"};
+inline constexpr TopicOf<messages::tf2_msgs::TFMessage> kSensorTransforms{"/tf_static"};
+inline constexpr TopicOf<messages::visualization_msgs::MarkerArray> kBeams{"/gsv/beams"};
+inline constexpr TopicOf<messages::gsv_msgs::SimulationStatus> kStatus{"/gsv/status"};
+inline constexpr TopicOf<messages::diagnostic_msgs::DiagnosticArray> kDiagnostics{"/diagnostics"};
+inline constexpr TopicOf<messages::gsv_msgs::LifecycleEvent> kEvents{"/gsv/events"};
+inline constexpr TopicOf<messages::rcl_interfaces::Log> kLog{"/rosout"};
+inline constexpr TopicOf<messages::gsv_msgs::Command> kCommands{"/gsv/commands"};
+inline constexpr TopicOf<messages::gsv_msgs::ActuatorCommand> kActuators{"/gsv/actuators"};
+inline constexpr TopicOf<messages::gsv_msgs::Contact> kContacts{"/gsv/contacts"};
+inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
+inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
+// In every recording of a simulation that was edited, whatever topics were chosen.
+inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
+inline constexpr TopicOf<messages::std_msgs::String> kViewers{"/gsv/viewers"};
+
+}  // namespace topics
+}  // namespace gsv::presentation

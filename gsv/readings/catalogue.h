@@ -1,0 +1,293 @@
+// The catalogue of readings: what each sensor type measures, once for all who write, read, send or
+// show it. fields.h tells how a struct is laid out in values and labels.
+//
+// The structs are those that behaviours get (sdk/behaviour/sensors.h); their fields' names are also
+// those in Python. docs/sensors.md lists them, and a test holds that table to these structs.
+//
+// Frames  REP-103: x forward, y left, z up.
+// Units   metres, radians, seconds, or what the field says.
+#pragma once
+
+#include "gsv/readings/fields.h"
+
+namespace gsv::readings {
+
+// Parts.
+
+struct Vector {
+  double x = 0, y = 0, z = 0;
+  static constexpr auto kFields =
+      std::make_tuple(Value("x", "", &Vector::x),  //
+                      Value("y", "", &Vector::y), Value("z", "", &Vector::z));
+};
+
+// Fixed-axis roll, pitch, yaw as in URDF.
+struct Placement {
+  double x = 0, y = 0, z = 0;
+  double roll = 0, pitch = 0, yaw = 0;
+  static constexpr auto kFields = std::make_tuple(
+      Value("x", "m", &Placement::x, "position"), Value("y", "m", &Placement::y, "position"),
+      Value("z", "m", &Placement::z, "position"),
+      Value("roll", "rad", &Placement::roll, "orientation"),
+      Value("pitch", "rad", &Placement::pitch, "orientation"),
+      Value("yaw", "rad", &Placement::yaw, "orientation"));
+};
+
+struct Quaternion {
+  double w = 1, x = 0, y = 0, z = 0;
+  static constexpr auto kFields =
+      std::make_tuple(Value("w", "", &Quaternion::w), Value("x", "", &Quaternion::x),
+                      Value("y", "", &Quaternion::y), Value("z", "", &Quaternion::z));
+};
+
+// From 0 to 1 each.
+struct Colour {
+  double red = 1, green = 1, blue = 1;
+  static constexpr auto kFields =
+      std::make_tuple(Value("red", "", &Colour::red), Value("green", "", &Colour::green),
+                      Value("blue", "", &Colour::blue));
+};
+
+// Readings.
+
+struct Sonar {
+  static constexpr const char* kType = "sonar";
+  double range = 0;  // to the nearest echo; the maximum where there is none
+  static constexpr auto kFields = std::make_tuple(Value("range", "m", &Sonar::range));
+};
+
+struct Lidar {
+  static constexpr const char* kType = "lidar";
+  std::span<const double> ranges;  // beam by beam; infinite where nothing was hit
+  static constexpr auto kFields = std::make_tuple(Value("ranges", "m", &Lidar::ranges));
+};
+
+struct Positioning {
+  static constexpr const char* kType = "positioning";
+  Placement world_from_sensor;
+  static constexpr auto kFields =
+      std::make_tuple(Value("world_from_sensor", "", &Positioning::world_from_sensor, "pose"));
+};
+
+// In the sensor's frame; at rest the specific force is 9.8 m/s² upwards.
+struct Imu {
+  static constexpr const char* kType = "imu";
+  Vector angular_velocity;
+  Vector specific_force;
+  std::optional<Quaternion> world_from_sensor;  // of an IMU that knows it
+  static constexpr auto kFields =
+      std::make_tuple(Value("angular_velocity", "rad/s", &Imu::angular_velocity),
+                      Value("specific_force", "m/s²", &Imu::specific_force, "linear_acceleration"),
+                      Value("world_from_sensor", "", &Imu::world_from_sensor, "orientation"));
+};
+
+// Dead reckoning by the wheels, from where the robot started.
+struct Odometry {
+  static constexpr const char* kType = "odometry";
+  double x = 0, y = 0, yaw = 0;
+  double linear = 0, angular = 0;
+  double lateral = 0;  // to the left; missing in readings of gsv up to 0.1
+  static constexpr auto kFields =
+      std::make_tuple(Value("x", "m", &Odometry::x, "pose.pose.position"),
+                      Value("y", "m", &Odometry::y, "pose.pose.position"),
+                      Value("yaw", "rad", &Odometry::yaw, "pose.pose.orientation"),
+                      Value("linear", "m/s", &Odometry::linear, "twist.twist.linear"),
+                      Value("angular", "rad/s", &Odometry::angular, "twist.twist.angular"),
+                      OptionalValue("lateral", "m/s", &Odometry::lateral, "twist.twist.linear"));
+};
+
+// WGS84.
+struct Navsat {
+  static constexpr const char* kType = "navsat";
+  double latitude_deg = 0, longitude_deg = 0, altitude = 0;
+  double east = 0, north = 0, up = 0;
+  static constexpr auto kFields = std::make_tuple(
+      Value("latitude_deg", "°", &Navsat::latitude_deg, "latitude"),
+      Value("longitude_deg", "°", &Navsat::longitude_deg, "longitude"),
+      Value("altitude", "m", &Navsat::altitude), Value("east", "m/s", &Navsat::east),
+      Value("north", "m/s", &Navsat::north), Value("up", "m/s", &Navsat::up));
+};
+
+struct Magnetometer {
+  static constexpr const char* kType = "magnetometer";
+  Vector field;  // in the sensor's frame
+  static constexpr auto kFields =
+      std::make_tuple(Value("field", "T", &Magnetometer::field, "magnetic_field"));
+};
+
+struct Altimeter {
+  static constexpr const char* kType = "altimeter";
+  double position = 0, velocity = 0;  // above the reference
+  double reference = 0;               // in the world
+  static constexpr auto kFields =
+      std::make_tuple(Value("position", "m", &Altimeter::position, "vertical_position"),
+                      Value("velocity", "m/s", &Altimeter::velocity, "vertical_velocity"),
+                      Value("reference", "m", &Altimeter::reference, "vertical_reference"));
+};
+
+// In the sensor's frame; the normal points from the robot to what it touches.
+struct Touch {
+  std::string other;
+  Vector point, normal;
+  double depth = 0;
+  double closing_speed = 0;  // at which the two met; 0: they touched already
+  static constexpr auto kFields =
+      std::make_tuple(Value("other", "", &Touch::other), Value("point", "m", &Touch::point),
+                      Value("normal", "", &Touch::normal), Value("depth", "m", &Touch::depth),
+                      Value("closing_speed", "m/s", &Touch::closing_speed));
+};
+struct Contact {
+  static constexpr const char* kType = "contact";
+  std::vector<Touch> touches;
+  static constexpr auto kFields =
+      std::make_tuple(Value("touches", "", &Contact::touches, "contacts"));
+};
+
+// rad and rad/s; of prismatic joints m and m/s.
+struct EncodedJoint {
+  std::string name;
+  double position = 0, velocity = 0;
+  static constexpr auto kFields = std::make_tuple(Value("name", "", &EncodedJoint::name),
+                                                  Value("position", "", &EncodedJoint::position),
+                                                  Value("velocity", "", &EncodedJoint::velocity));
+};
+struct JointEncoders {
+  static constexpr const char* kType = "joint_encoders";
+  std::vector<EncodedJoint> joints;
+  static constexpr auto kFields = std::make_tuple(Value("joints", "", &JointEncoders::joints, ""));
+};
+
+struct Battery {
+  static constexpr const char* kType = "battery";
+  double voltage = 0, current = 0;  // the current that is drawn
+  double charge = 0, capacity = 0;
+  double fraction = 0;
+  static constexpr auto kFields = std::make_tuple(
+      Value("voltage", "V", &Battery::voltage), Value("current", "A", &Battery::current),
+      Value("charge", "Ah", &Battery::charge), Value("capacity", "Ah", &Battery::capacity),
+      Value("fraction", "", &Battery::fraction, "percentage"));
+};
+
+struct Sighting {
+  std::string name;
+  Placement sensor_from_model;
+  static constexpr auto kFields =
+      std::make_tuple(Value("name", "", &Sighting::name),
+                      Value("sensor_from_model", "", &Sighting::sensor_from_model, "bbox.center"));
+};
+struct LogicalCamera {
+  static constexpr const char* kType = "logical_camera";
+  std::vector<Sighting> sightings;
+  static constexpr auto kFields =
+      std::make_tuple(Value("sightings", "", &LogicalCamera::sightings, "detections"));
+};
+
+struct HeardMessage {
+  std::uint64_t number = 0;  // from 1, since the radio was opened
+  double sent = 0;
+  double strength = 0;
+  std::string sender;          // robot
+  std::string content_base64;  // labels are text
+  static constexpr auto kFields = std::make_tuple(
+      Value("number", "", &HeardMessage::number), Value("sent", "s", &HeardMessage::sent),
+      Value("strength", "dBm", &HeardMessage::strength, "strength_dbm"),
+      Value("sender", "", &HeardMessage::sender),
+      Value("content_base64", "", &HeardMessage::content_base64));
+};
+struct Radio {
+  static constexpr const char* kType = "radio";
+  std::vector<HeardMessage> messages;  // the oldest first
+  static constexpr auto kFields = std::make_tuple(Value("messages", "", &Radio::messages));
+};
+
+struct Microphone {
+  static constexpr const char* kType = "microphone";
+  double level = 0;      // re 20 uPa, of all that sounds
+  double frequency = 0;  // of the loudest; 0: none is louder than the noise of the place
+  std::string source;    // ROBOT/SPEAKER of that
+  static constexpr auto kFields =
+      std::make_tuple(Value("level", "dB", &Microphone::level, "level_db"),
+                      Value("frequency", "Hz", &Microphone::frequency, "frequency_hz"),
+                      Value("source", "", &Microphone::source));
+};
+
+struct Lamp {
+  static constexpr const char* kType = "lamp";
+  double brightness = 0;  // 0: off, 1: full
+  Colour colour;
+  static constexpr auto kFields = std::make_tuple(Value("brightness", "", &Lamp::brightness),
+                                                  Value("colour", "", &Lamp::colour, "color"));
+};
+
+struct Gripper {
+  static constexpr const char* kType = "gripper";
+  double opening = 0;
+  bool told_to_open = false;
+  std::string held;  // a body; empty: nothing
+  static constexpr auto kFields = std::make_tuple(
+      Value("opening", "m", &Gripper::opening, "opening_m"),
+      Value("told_to_open", "", &Gripper::told_to_open), Value("held", "", &Gripper::held));
+};
+
+struct Speaker {
+  static constexpr const char* kType = "speaker";
+  std::string name;  // of the sound; empty: it is silent
+  double frequency = 0, volume = 0;
+  double elapsed = 0, left = 0;
+  static constexpr auto kFields = std::make_tuple(
+      Value("name", "", &Speaker::name, "sound"),
+      Value("frequency", "Hz", &Speaker::frequency, "frequency_hz"),
+      Value("volume", "", &Speaker::volume), Value("elapsed", "s", &Speaker::elapsed, "elapsed_s"),
+      Value("left", "s", &Speaker::left, "left_s"));
+};
+
+// The image itself goes beside the values.
+struct Camera {
+  static constexpr const char* kType = "camera";
+  static constexpr const char* kWideAngleType = "wideangle_camera";  // with another lens
+  int width = 0, height = 0;
+  static constexpr auto kFields =
+      std::make_tuple(Value("width", "px", &Camera::width), Value("height", "px", &Camera::height));
+};
+
+// Rows from the top.
+struct DepthImage {
+  static constexpr const char* kType = "depth_camera";
+  int width = 0, height = 0;
+  std::span<const double> depth;  // along the view; infinite where nothing is
+  static constexpr auto kFields = std::make_tuple(Value("width", "px", &DepthImage::width),
+                                                  Value("height", "px", &DepthImage::height),
+                                                  Value("depth", "m", &DepthImage::depth));
+  bool IsWhole() const { return depth.size() == std::size_t(1) * width * height; }
+};
+
+// Rows from the top. A pixel of label n shows names[n - 1], one of label 0 nothing.
+struct SegmentedImage {
+  static constexpr const char* kType = "segmentation_camera";
+  int width = 0, height = 0;
+  std::span<const double> pixels;
+  std::span<const std::string> names;
+  static constexpr auto kFields = std::make_tuple(
+      Value("width", "px", &SegmentedImage::width), Value("height", "px", &SegmentedImage::height),
+      Value("pixels", "", &SegmentedImage::pixels), Value("names", "", &SegmentedImage::names));
+  bool IsWhole() const { return pixels.size() == std::size_t(1) * width * height; }
+};
+
+// Pixels from the image's upper left corner.
+struct BoundingBox {
+  std::string name;
+  double left = 0, top = 0, right = 0, bottom = 0;
+  static constexpr auto kFields = std::make_tuple(
+      Value("name", "", &BoundingBox::name), Value("left", "px", &BoundingBox::left, "bbox.center"),
+      Value("top", "px", &BoundingBox::top, "bbox.center"),
+      Value("right", "px", &BoundingBox::right, "bbox.size_x"),
+      Value("bottom", "px", &BoundingBox::bottom, "bbox.size_y"));
+};
+struct BoundingBoxes {
+  static constexpr const char* kType = "boundingbox_camera";
+  std::vector<BoundingBox> boxes;
+  static constexpr auto kFields =
+      std::make_tuple(Value("boxes", "", &BoundingBoxes::boxes, "detections"));
+};
+
+}  // namespace gsv::readings

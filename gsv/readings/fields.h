@@ -1,0 +1,255 @@
+// How a reading's struct is laid out in its values and labels.
+//
+// A reading travels as numbers (`values`) and names (`labels`), whatever its sensor's type. The
+// struct of a type (catalogue.h) lists its members in that order, each with its name and unit:
+//
+//   struct Altimeter {
+//     double position = 0, velocity = 0, reference = 0;
+//     static constexpr auto kFields = std::make_tuple(Value("position", "m", &Altimeter::position),
+//                                                     …);
+//   };
+//
+// Decode() and Append() convert by that list, LayoutOf() describes it, and the Python module makes
+// its attributes of it. Members may be
+//   numbers, flags              one value each
+//   std::string                 one label
+//   a struct with kFields       its parts, in order
+//   std::optional of a struct   its parts, or nothing at the end of the values
+//   std::vector of a struct     its parts again and again, to the end of the values
+//   std::span of double         all values that are left; of std::string: all labels that are left
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/readings/layout.h"
+
+namespace gsv::readings {
+
+template <typename Struct, typename Member>
+struct Field {
+  const char* name;  // the member's
+  const char* unit;  // "m", "rad/s"; empty: it has none, or its parts have their own
+  Member Struct::*member;
+  const char* path;  // of the field in the type's message; null: as the name, empty: as its parts
+  bool is_optional;  // may be missing at the end of the values
+};
+
+template <typename Struct, typename Member>
+constexpr Field<Struct, Member> Value(const char* name, const char* unit, Member Struct::*member,
+                                      const char* path = nullptr) {
+  return {name, unit, member, path, false};
+}
+
+template <typename Struct, typename Member>
+constexpr Field<Struct, Member> OptionalValue(const char* name, const char* unit,
+                                              Member Struct::*member, const char* path = nullptr) {
+  return {name, unit, member, path, true};
+}
+
+// Calls `function` with each Field of the struct.
+template <typename Struct, typename Function>
+constexpr void ForEachField(Function function) {
+  std::apply([&](const auto&... field) { (function(field), ...); }, Struct::kFields);
+}
+
+namespace internal {
+
+template <typename T>
+inline constexpr bool kIsOptional = false;
+template <typename T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+template <typename T>
+inline constexpr bool kIsList = false;
+template <typename T>
+inline constexpr bool kIsList<std::vector<T>> = true;
+template <typename T>
+inline constexpr bool kIsLabel = std::is_same_v<T, std::string>;
+template <typename T>
+inline constexpr bool kIsAllValues = std::is_same_v<T, std::span<const double>>;
+template <typename T>
+inline constexpr bool kIsAllLabels = std::is_same_v<T, std::span<const std::string>>;
+
+// The place up to which a reading is decoded.
+class Cursor {
+ public:
+  Cursor(std::span<const double> values, std::span<const std::string> labels)
+      : values_(values), labels_(labels) {}
+
+  bool has_values() const { return !values_.empty(); }
+  // Whether all was there, and nothing is left.
+  bool is_exact() const { return !is_bad_ && values_.empty() && labels_.empty(); }
+
+  double Value() {
+    if (values_.empty()) return is_bad_ = true, 0;
+    const double value = values_.front();
+    values_ = values_.subspan(1);
+    return value;
+  }
+  template <typename Whole>
+  Whole WholeValue() {
+    const double value = Value();
+    const bool fits = value >= 0 && value < 0x1p53 &&
+                      value <= static_cast<double>(std::numeric_limits<Whole>::max());
+    if (!fits) is_bad_ = true;
+    return fits ? static_cast<Whole>(value) : Whole{};
+  }
+  std::string Label() {
+    if (labels_.empty()) return is_bad_ = true, std::string();
+    const std::string& label = labels_.front();
+    labels_ = labels_.subspan(1);
+    return label;
+  }
+  std::span<const double> AllValues() { return std::exchange(values_, {}); }
+  std::span<const std::string> AllLabels() { return std::exchange(labels_, {}); }
+
+ private:
+  std::span<const double> values_;
+  std::span<const std::string> labels_;
+  bool is_bad_ = false;
+};
+
+template <typename Struct>
+void Read(Cursor& from, Struct& to);
+
+template <typename Member>
+void ReadMember(Cursor& from, Member& to) {
+  if constexpr (std::is_same_v<Member, bool>) {
+    to = from.Value() != 0;
+  } else if constexpr (std::is_integral_v<Member>) {
+    to = from.WholeValue<Member>();
+  } else if constexpr (std::is_floating_point_v<Member>) {
+    to = from.Value();
+  } else if constexpr (kIsLabel<Member>) {
+    to = from.Label();
+  } else if constexpr (kIsAllValues<Member>) {
+    to = from.AllValues();
+  } else if constexpr (kIsAllLabels<Member>) {
+    to = from.AllLabels();
+  } else if constexpr (kIsOptional<Member>) {
+    if (from.has_values()) Read(from, to.emplace());
+  } else if constexpr (kIsList<Member>) {
+    while (from.has_values()) Read(from, to.emplace_back());
+  } else {
+    Read(from, to);
+  }
+}
+
+template <typename Struct>
+void Read(Cursor& from, Struct& to) {
+  ForEachField<Struct>([&](const auto& field) {
+    if (!field.is_optional || from.has_values()) ReadMember(from, to.*field.member);
+  });
+}
+
+template <typename Member, typename Values>
+void AppendMember(const Member& from, Values& values, std::vector<std::string>& labels) {
+  const auto append_fields = [&](const auto& part) {
+    using Part = std::remove_cvref_t<decltype(part)>;
+    ForEachField<Part>(
+        [&](const auto& field) { AppendMember(part.*field.member, values, labels); });
+  };
+  if constexpr (std::is_arithmetic_v<Member>) {
+    values.push_back(static_cast<double>(from));
+  } else if constexpr (kIsLabel<Member>) {
+    labels.push_back(from);
+  } else if constexpr (kIsAllValues<Member>) {
+    values.insert(values.end(), from.begin(), from.end());
+  } else if constexpr (kIsAllLabels<Member>) {
+    labels.insert(labels.end(), from.begin(), from.end());
+  } else if constexpr (kIsOptional<Member>) {
+    if (from) append_fields(*from);
+  } else if constexpr (kIsList<Member>) {
+    for (const auto& part : from) append_fields(part);
+  } else {
+    append_fields(from);
+  }
+}
+
+template <typename Struct>
+constexpr bool HasLabels();
+
+template <typename Member>
+constexpr bool HasLabelsIn() {
+  if constexpr (kIsLabel<Member> || kIsAllLabels<Member>) {
+    return true;
+  } else if constexpr (kIsList<Member> || kIsOptional<Member>) {
+    return HasLabels<typename Member::value_type>();
+  } else if constexpr (std::is_arithmetic_v<Member> || kIsAllValues<Member>) {
+    return false;
+  } else {
+    return HasLabels<Member>();
+  }
+}
+
+template <typename Struct>
+constexpr bool HasLabels() {
+  bool has = false;
+  ForEachField<Struct>([&]<typename Of, typename Member>(const Field<Of, Member>&) {
+    has = has || HasLabelsIn<Member>();
+  });
+  return has;
+}
+
+template <typename Struct>
+void Describe(const Place& place, Layout& layout) {
+  ForEachField<Struct>([&]<typename Of, typename Member>(const Field<Of, Member>& field) {
+    Place inner = place.Inside(field.name, field.unit, field.path);
+    if (field.is_optional || kIsOptional<Member>) inner.occurs = Occurs::kPerhaps;
+    if constexpr (kIsList<Member> || kIsAllValues<Member> || kIsAllLabels<Member>) {
+      inner.occurs = Occurs::kRepeatedly;
+    }
+    if constexpr (kIsLabel<Member> || kIsAllLabels<Member>) {
+      layout.AddLabel(inner);
+    } else if constexpr (std::is_arithmetic_v<Member> || kIsAllValues<Member>) {
+      layout.AddValue(inner);
+    } else if constexpr (kIsList<Member> || kIsOptional<Member>) {
+      Describe<typename Member::value_type>(inner, layout);
+    } else {
+      Describe<Member>(inner, layout);
+    }
+  });
+}
+
+}  // namespace internal
+
+// Whether readings of this layout have labels at all.
+template <typename Struct>
+inline constexpr bool kHasLabels = internal::HasLabels<Struct>();
+
+template <typename Struct>
+Layout LayoutOf() {
+  Layout layout;
+  internal::Describe<Struct>({}, layout);
+  return layout;
+}
+
+// Appends the struct's numbers to `values` and its names to `labels`.
+template <typename Struct, typename Values>
+void Append(const Struct& from, Values& values, std::vector<std::string>& labels) {
+  internal::AppendMember(from, values, labels);
+}
+
+// The struct that a reading stands for; spans in it view the reading. kCorrupt, about `where`, when
+// the reading has another size than the layout says.
+template <typename Struct>
+base::Result<Struct> Decode(std::span<const double> values, std::span<const std::string> labels,
+                            const std::string& where) {
+  internal::Cursor cursor(values, labels);
+  base::Result<Struct> decoded;
+  internal::Read(cursor, *decoded);
+  bool is_whole = cursor.is_exact();
+  if constexpr (requires { decoded->IsWhole(); }) is_whole = is_whole && decoded->IsWhole();
+  if (is_whole) return decoded;
+  return base::Fail(WrongSize(LayoutOf<Struct>(), values.size(), labels.size(), where));
+}
+
+}  // namespace gsv::readings

@@ -1,0 +1,106 @@
+#include "gsv/readings/layout.h"
+
+#include <algorithm>
+
+namespace gsv::readings {
+namespace {
+
+using Columns = std::vector<Layout::Column>;
+
+std::string Joined(const std::string& outer, const std::string& inner) {
+  return outer.empty() || inner.empty() ? outer + inner : outer + "." + inner;
+}
+
+std::size_t CountOf(const Columns& columns, Occurs occurs) {
+  return static_cast<std::size_t>(
+      std::count_if(columns.begin(), columns.end(),
+                    [&](const Layout::Column& column) { return column.occurs == occurs; }));
+}
+
+std::string Counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+// "3 values and 1 label"; of neither, nothing.
+std::string Counted(std::size_t values, std::size_t labels) {
+  const std::string names = labels > 0 ? Counted(labels, "label") : "";
+  if (values == 0) return names;
+  return Counted(values, "value") + (names.empty() ? "" : " and " + names);
+}
+
+// "point.x" behind "point.y" is ".x".
+std::string Shortened(const std::string& name, const std::string& before) {
+  const std::size_t dot = name.rfind('.');
+  const bool is_beside = dot != std::string::npos && before.size() > dot &&
+                         before.compare(0, dot + 1, name, 0, dot + 1) == 0;
+  return is_beside ? name.substr(dot) : name;
+}
+
+// The names, each unit once behind those that share it.
+std::string Listed(const Columns& columns, Occurs occurs) {
+  std::string text, before;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Layout::Column& column = columns[i];
+    if (column.occurs != occurs) continue;
+    // Of a group, without the list's own name.
+    std::string name = column.name;
+    if (occurs == Occurs::kRepeatedly) name = name.substr(name.find('.') + 1);
+    text += (text.empty() ? "" : ", ") + Shortened(name, before);
+    before = name;
+    const bool ends_unit = i + 1 == columns.size() || columns[i + 1].unit != column.unit ||
+                           columns[i + 1].occurs != occurs;
+    if (ends_unit && !column.unit.empty()) text += " (" + column.unit + ")";
+  }
+  return text;
+}
+
+std::string Listed(const Columns& columns) {
+  const std::string once = Listed(columns, Occurs::kOnce);
+  const std::string perhaps = Listed(columns, Occurs::kPerhaps);
+  const std::string repeatedly = Listed(columns, Occurs::kRepeatedly);
+  std::string text = once;
+  if (!perhaps.empty()) text += "; perhaps " + perhaps;
+  if (!repeatedly.empty()) text += (text.empty() ? "each: " : "; then each: ") + repeatedly;
+  return text;
+}
+
+}  // namespace
+
+Place Place::Inside(const char* field, const char* field_unit, const char* field_path) const {
+  return {Joined(name, field), *field_unit != '\0' ? field_unit : unit,
+          Joined(path, field_path != nullptr ? field_path : field), occurs};
+}
+
+std::string Layout::Text() const {
+  const std::string names = Listed(labels);
+  return Listed(values) + (names.empty() ? "" : " [" + names + "]");
+}
+
+std::string Layout::Sizes() const {
+  const std::size_t once = CountOf(values, Occurs::kOnce);
+  const std::size_t perhaps = CountOf(values, Occurs::kPerhaps);
+  std::string text = Counted(once, CountOf(labels, Occurs::kOnce));
+  if (perhaps > 0) text = std::to_string(once) + " or " + Counted(once + perhaps, 0);
+  const std::string group =
+      Counted(CountOf(values, Occurs::kRepeatedly), CountOf(labels, Occurs::kRepeatedly));
+  if (group.empty()) return text;
+  return text.empty() ? "groups of " + group : text + ", then groups of " + group;
+}
+
+std::map<std::string, std::string> Layout::Units() const {
+  std::map<std::string, std::string> units;
+  for (const Column& column : values) {
+    if (!column.unit.empty() && !column.path.empty()) units.emplace(column.path, column.unit);
+  }
+  return units;
+}
+
+base::Error WrongSize(const Layout& layout, std::size_t values, std::size_t labels,
+                      const std::string& where) {
+  return {base::ErrorCode::kCorrupt,
+          "a reading has the wrong size: expected " + layout.Sizes() + ", found " +
+              Counted(values, "value") + " and " + Counted(labels, "label"),
+          where};
+}
+
+}  // namespace gsv::readings

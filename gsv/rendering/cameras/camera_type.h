@@ -1,0 +1,64 @@
+// What the sensor types of all cameras have in common: a lens, a renderer, a CameraInfo beside
+// their readings, and readings that are shared by all who ask for one instant.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gsv/rendering/cameras/camera_info.h"
+#include "gsv/rendering/cameras/optics.h"
+#include "gsv/sensing/sensor_type.h"
+#include "gsv/sensing/shared_readings.h"
+
+namespace gsv::rendering {
+
+// What Renderer::Start() gave, its failure included.
+using RendererResult = base::Result<std::shared_ptr<Renderer>>;
+
+template <typename Values, typename Message>
+class CameraOf : public sensing::SensorOf<Values, Message> {
+ public:
+  // `lens_type`: of a camera whose parameters name none.
+  CameraOf(const model::SensorDescription& description, sensing::ParameterReader& reader,
+           RendererResult renderer, const std::string& lens_type = "gnomonical")
+      : sensing::SensorOf<Values, Message>(description),
+        optics_(Optics::Read(reader, lens_type)),
+        renderer_(std::move(renderer)) {}
+
+  bool TakesLong() const override { return true; }
+  std::optional<sensing::Frustum> frustum() const override { return optics_.frustum(); }
+  sensing::Sensor::Bytes EncodeCompanion(base::SimTime time,
+                                         const std::string& frame_id) const override {
+    return EncodeCameraInfo(optics_.lens(), time, frame_id);
+  }
+
+ protected:
+  const Optics& optics() const { return optics_; }
+  const RendererResult& renderer() const { return renderer_; }
+
+ private:
+  const Optics optics_;
+  const RendererResult renderer_;
+};
+
+// The type of a CameraOf. Without a renderer there are such cameras, but they cannot be read.
+template <typename Kind, typename... Context>
+sensing::SensorType MakeCameraType(std::string name, std::vector<std::string> aliases,
+                                   sensing::Overlay overlay,
+                                   std::shared_ptr<sensing::SharedReadings> readings,
+                                   RendererResult renderer, Context... context) {
+  if (renderer && *renderer == nullptr) {
+    renderer = base::Fail(base::ErrorCode::kUnavailable,
+                          "no renderer was started, so there are no pictures");
+  }
+  auto type = sensing::MakeSensorType<Kind>(std::move(name), std::move(aliases), overlay,
+                                            std::move(renderer), std::move(context)...);
+  sensing::Share(type, std::move(readings));
+  type.companion = CameraInfoCompanion();
+  return type;
+}
+
+}  // namespace gsv::rendering

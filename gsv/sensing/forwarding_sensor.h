@@ -1,0 +1,42 @@
+// A sensor that passes everything on to another one: the base of those that add something to it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gsv/sensing/sensor.h"
+
+namespace gsv::sensing {
+
+class ForwardingSensor : public Sensor {
+ public:
+  explicit ForwardingSensor(std::unique_ptr<Sensor> sensor)
+      : Sensor(sensor->description()), sensor_(std::move(sensor)) {}
+
+  base::Result<Reading> Sample(const Sampling& sampling) const override {
+    return sensor_->Sample(sampling);
+  }
+  bool TakesLong() const override { return sensor_->TakesLong(); }
+  bool CastsRays() const override { return sensor_->CastsRays(); }
+  base::Result<Bytes> Encode(const Reading& reading, const std::string& frame_id) const override {
+    return sensor_->Encode(reading, frame_id);
+  }
+  Bytes EncodeCompanion(base::SimTime time, const std::string& frame_id) const override {
+    return sensor_->EncodeCompanion(time, frame_id);
+  }
+  std::vector<Segment> Beams(const Reading& reading) const override {
+    return sensor_->Beams(reading);
+  }
+  std::optional<Frustum> frustum() const override { return sensor_->frustum(); }
+  const Device* device() const override { return sensor_->device(); }
+
+ protected:
+  const Sensor& sensor() const { return *sensor_; }
+
+ private:
+  const std::unique_ptr<Sensor> sensor_;
+};
+
+}  // namespace gsv::sensing
