@@ -211,13 +211,15 @@ model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> 
 }
 
 GroundTruth LensMap::Join(std::span<const std::shared_ptr<const GroundTruth>> truths) const {
-  GroundTruth joined{width_, height_, {}, {}};
+  GroundTruth joined{width_, height_, {}, {}, {}};
   joined.depth.reserve(sources_.size());
   joined.body.reserve(sources_.size());
+  joined.visual.reserve(sources_.size());
   for (const Source& source : sources_) {
     if (source.face < 0) {
       joined.depth.push_back(std::numeric_limits<float>::infinity());
       joined.body.push_back(-1);
+      joined.visual.push_back(-1);
       continue;
     }
     const GroundTruth& from = *truths[static_cast<std::size_t>(source.face)];
@@ -229,6 +231,7 @@ GroundTruth LensMap::Join(std::span<const std::shared_ptr<const GroundTruth>> tr
     const bool is_something = std::isfinite(from.depth[at]);
     joined.depth.push_back(is_something ? from.depth[at] * source.depth_scale : from.depth[at]);
     joined.body.push_back(from.body[at]);
+    joined.visual.push_back(from.visual[at]);
   }
   return joined;
 }

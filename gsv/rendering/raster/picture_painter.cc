@@ -44,10 +44,11 @@ GroundTruth PicturePainter::Survey(const CameraView& view, const DrawPlan& plan,
   Begin(view, block);
   FindVisible(view, plan);
   Cover(view, plan);
-  GroundTruth truth{width_, height_, {}, {}};
+  GroundTruth truth{width_, height_, {}, {}, {}};
   const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   truth.depth.assign(pixels, std::numeric_limits<float>::infinity());
   truth.body.assign(pixels, -1);
+  truth.visual.assign(pixels, -1);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       const std::uint32_t triangle = nearest_[At(x, y)];
@@ -57,6 +58,7 @@ GroundTruth PicturePainter::Survey(const CameraView& view, const DrawPlan& plan,
       const float back = drawn_[drawn].group->ground ? kGroundBack : 1.0f;
       truth.depth[pixel] = back / inverse_w_[At(x, y)];
       truth.body[pixel] = body_of_[drawn];
+      truth.visual[pixel] = visual_of_[drawn];
     }
   }
   return truth;
@@ -76,6 +78,7 @@ void PicturePainter::Begin(const CameraView& view, const FrameBlock& block) {
   triangles_.clear();
   drawn_.clear();
   body_of_.clear();
+  visual_of_.clear();
   // The middle of pixel (x, y) is at (2 x + 1) / width - 1, and so forth.
   for (int i = 0; i < 3; ++i) {
     right_[i] = 2 * block.view_right[i] / static_cast<float>(width_);
@@ -126,6 +129,7 @@ void PicturePainter::Cover(const CameraView& view, const DrawPlan& plan) {
     if (IsHidden(view, centre, plan.items()[seen.item].radius)) continue;
     drawn_.push_back(DrawnItem(plan, seen.item, *seen.level, view.world_from_camera.position));
     body_of_.push_back(plan.items()[seen.item].body);
+    visual_of_.push_back(plan.items()[seen.item].visual);
     CoverWith(static_cast<std::uint32_t>(drawn_.size() - 1),
               static_cast<float>(1 / view.parameters.near));
   }

@@ -57,7 +57,7 @@ class PicturePainter {
   std::vector<std::int32_t> surface_of_;  // triangle's number - 1 to its place in surfaces_, or -1
   std::vector<TriangleSurface> surfaces_;
   std::vector<Drawn> drawn_;
-  std::vector<std::int32_t> body_of_;  // as drawn_, of what is solid
+  std::vector<std::int32_t> body_of_, visual_of_;  // as drawn_, of what is solid
   std::vector<Seen> solid_, see_through_;
   std::vector<std::uint32_t> rgba_;
   Rasteriser rasteriser_;

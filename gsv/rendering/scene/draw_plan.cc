@@ -42,7 +42,8 @@ class Builder {
  public:
   Builder(MeshStore& meshes, TextureStore& textures) : meshes_(meshes), textures_(textures) {}
 
-  void Add(const model::Visual& visual, int body, int link, bool of_robot) {
+  // `part` says whose visual it is.
+  void Add(const model::Visual& visual, const DrawItem& part) {
     const DrawShape shape = meshes_.Find(AsDrawn(visual));
     const bool plane = std::holds_alternative<geometry::Plane>(visual.shape);
     const int first_surface = next_surface_;
@@ -58,10 +59,7 @@ class Builder {
       group.index_count = 3 * chunk.triangle_count;
       group.mirrored = shape.scale.x * shape.scale.y * shape.scale.z < 0;
       group.ground = plane;
-      DrawItem item;
-      item.body = body;
-      item.link = link;
-      item.of_robot = of_robot;
+      DrawItem item = part;
       item.link_from_visual = visual.link_from_visual;
       item.scale = shape.scale;
       item.centre_in_visual = Scaled(0.5 * (chunk.bounds.min + chunk.bounds.max), shape.scale);
@@ -130,10 +128,15 @@ DrawPlan::DrawPlan(const world::Layout& layout, MeshStore& meshes, TextureStore&
     const bool of_robot = body.is_robot();
     bodies_[b].moved = of_robot;
     bodies_[b].first_item = builder.items.size();
-    for (std::size_t l = 0; l < body.model->links.size(); ++l) {
-      for (const model::Visual& visual : body.model->links[l].visuals) {
-        builder.Add(visual, static_cast<int>(b), static_cast<int>(l), of_robot);
+    DrawItem part;
+    part.body = static_cast<int>(b);
+    part.of_robot = of_robot;
+    for (const model::Link& link : body.model->links) {
+      for (const model::Visual& visual : link.visuals) {
+        builder.Add(visual, part);
+        ++part.visual;
       }
+      ++part.link;
     }
     bodies_[b].item_count = builder.items.size() - bodies_[b].first_item;
   }
@@ -183,7 +186,9 @@ void DrawPlan::MakeGlow() {
   ball.materials.front().base_colour = {0, 0, 0, 1};
   ball.cast_shadows = false;
   Builder builder(meshes_, textures_);
-  builder.Add(ball, 0, 0, true);
+  DrawItem part;
+  part.of_robot = true;
+  builder.Add(ball, part);
   glow_ = std::move(builder.items);
   for (DrawItem& item : glow_) item.group += static_cast<int>(groups_.size());
   std::move(builder.groups.begin(), builder.groups.end(), std::back_inserter(groups_));

@@ -44,6 +44,7 @@ struct DrawItem {
   int group = 0;
   int body = 0;
   int link = 0;
+  int visual = 0;  // among the body's, counted through its links
   geometry::Pose link_from_visual;
   geometry::Vector3 scale;
   geometry::Vector3 centre_in_visual;
