@@ -352,6 +352,36 @@ TEST_F(SdfReaderTest, ReadsMaterials) {
   EXPECT_EQ(visuals[4].materials[0].roughness, 0.2);
 }
 
+TEST_F(SdfReaderTest, ReadsTemperaturesOfTheAirAndOfVisuals) {
+  EXPECT_EQ(World("<world name='w'/>").temperature, 288.15);
+  EXPECT_EQ(World("<world name='w'><atmosphere type='adiabatic'><temperature>300</temperature>"
+                  "</atmosphere></world>")
+                .temperature,
+            300);
+  const auto visual = [](const std::string& name, const std::string& more) {
+    return "<visual name='" + name + "'><geometry><sphere><radius>1</radius></sphere></geometry>" +
+           more + "</visual>";
+  };
+  const auto warm = [](const std::string& kelvin) {
+    return "<plugin filename='gz-sim-thermal-system' name='gz::sim::systems::Thermal'>"
+           "<temperature>" +
+           kelvin + "</temperature></plugin>";
+  };
+  const auto model =
+      Model("<model name='m'><link name='l'>" + visual("cold", "") + visual("warm", warm("350")) +
+            visual("other",
+                   "<plugin filename='f' name='gz::sim::systems::Label'>"
+                   "<label>10</label></plugin>" +
+                       warm("310.5")) +
+            visual("wrong", warm("-1")) + "</link></model>");
+  ASSERT_THAT(model->links[0].visuals, SizeIs(4));
+  EXPECT_EQ(model->links[0].visuals[0].temperature, std::nullopt);
+  EXPECT_EQ(model->links[0].visuals[1].temperature, 350);
+  EXPECT_EQ(model->links[0].visuals[2].temperature, 310.5);
+  EXPECT_EQ(model->links[0].visuals[3].temperature, std::nullopt);
+  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("<temperature> must be a number of kelvins")));
+}
+
 TEST_F(SdfReaderTest, AModelIsAnEnvironmentWithSunAndGround) {
   folder_.Write("hall/model.sdf",
                 Sdf("<model name='hall'><static>true</static><pose>1 2 0 0 0 0</pose>"

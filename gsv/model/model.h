@@ -23,6 +23,7 @@ struct Visual {
   // One for each material slot of a mesh; a shape that is not a mesh uses the first. Never empty.
   std::vector<Material> materials{Material{}};
   bool cast_shadows = true;
+  std::optional<double> temperature = std::nullopt;  // K; without one it is as warm as the air
 };
 
 // Coulomb friction and restitution, as in SDFormat's <surface>.

@@ -52,6 +52,7 @@ struct WorldDescription {
   double real_time_factor = 1;
   geometry::Vector3 gravity{0, 0, -9.8};
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
+  double temperature = 288.15;                                           // K, of the air
   std::optional<GeodeticOrigin> origin;  // without one, satellites tell nothing
   SceneLook scene;
   std::vector<Light> lights;

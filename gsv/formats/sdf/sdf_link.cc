@@ -155,6 +155,21 @@ std::vector<Visual> CollisionsAsVisuals(const model::Link& link) {
   return visuals;
 }
 
+// As Gazebo's thermal system has it; nothing where the visual has none.
+std::optional<double> TemperatureOf(const sdf::ElementPtr& visual, const ReadingContext& context) {
+  if (!visual->HasElement("plugin")) return std::nullopt;
+  for (auto plugin = visual->GetElement("plugin"); plugin != nullptr;
+       plugin = plugin->GetNextElement("plugin")) {
+    const auto name = plugin->Get<std::string>("name", "").first;
+    if (!name.ends_with("::systems::Thermal") || !plugin->HasElement("temperature")) continue;
+    const auto [kelvin, is_number] = plugin->Get<double>("temperature", -1.0);
+    if (is_number && kelvin >= 0 && std::isfinite(kelvin)) return kelvin;
+    context.Complain("<temperature> must be a number of kelvins, at least 0",
+                     PlaceOf(*plugin, context.source));
+  }
+  return std::nullopt;
+}
+
 void ReadVisuals(const sdf::Link& source, model::Link& link, const ReadingContext& context) {
   bool any_missing = false;
   for (std::uint64_t i = 0; i < source.VisualCount(); ++i) {
@@ -173,7 +188,8 @@ void ReadVisuals(const sdf::Link& source, model::Link& link, const ReadingContex
     link.visuals.push_back(
         {visual.Name(),
          Resolve(visual.SemanticPose(), "", place, context) * shape->visual_from_shape,
-         shape->shape, MaterialsOf(visual, *shape, context), visual.CastShadows()});
+         shape->shape, MaterialsOf(visual, *shape, context), visual.CastShadows(),
+         TemperatureOf(element, context)});
   }
   if (!any_missing) return;
   for (Visual& visual : CollisionsAsVisuals(link)) link.visuals.push_back(std::move(visual));

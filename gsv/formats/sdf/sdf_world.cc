@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <sdf/Atmosphere.hh>
 #include <sdf/Element.hh>
 #include <sdf/Physics.hh>
 #include <sdf/Scene.hh>
@@ -100,6 +101,14 @@ void ReadSurroundings(const sdf::World& source, const ReadingContext& context,
   }
   if (const auto* coordinates = source.SphericalCoordinates()) {
     ReadOrigin(*coordinates, context, world);
+  }
+  if (source.Atmosphere() != nullptr) {
+    const double kelvin = source.Atmosphere()->Temperature().Kelvin();
+    if (std::isfinite(kelvin) && kelvin >= 0) {
+      world.temperature = kelvin;
+    } else {
+      context.Complain("<atmosphere><temperature> must be at least 0 K", context.source.string());
+    }
   }
   if (const sdf::Physics* physics = source.PhysicsDefault()) ReadPhysics(*physics, context, world);
   const sdf::Scene* scene = source.Scene();
