@@ -1,6 +1,8 @@
 // The pictures of one robot's camera, as they arrive. It listens only while it is open.
 import type { CameraChoice } from "../../api/scene";
 import { camerasOf } from "../../api/scene";
+import type { ColouredImage } from "../../live/greyPng";
+import { colouredGreyPng } from "../../live/greyPng";
 import type { CompressedImageMessage } from "../../protocol/messages";
 import { seconds } from "../../protocol/messages";
 import { shallowEqual } from "../../state/Store";
@@ -158,6 +160,11 @@ class PicturePainter {
   }
 
   private async paint(image: CompressedImageMessage, generation: number): Promise<void> {
+    if (image.format.startsWith("mono16")) {
+      const shown = await colouredGreyPng(image.data.slice());
+      if (shown && generation === this.generation) this.paintColoured(shown, image);
+      return;
+    }
     const type = image.format.includes("png") ? "image/png" : "image/jpeg";
     // A copy: the message may be a view on memory that the connection uses again.
     const blob = new Blob([image.data.slice()], { type });
@@ -169,5 +176,13 @@ class PicturePainter {
     this.isPainted = true;
     bitmap.close();
     this.onPainted(seconds(image.header.stamp));
+  }
+
+  private paintColoured({ width, height, rgba }: ColouredImage, { header }: CompressedImageMessage): void {
+    this.canvas.width = width;
+    this.canvas.height = height;
+    this.context?.putImageData(new ImageData(rgba, width, height), 0, 0);
+    this.isPainted = true;
+    this.onPainted(seconds(header.stamp));
   }
 }
