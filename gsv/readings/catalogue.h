@@ -273,6 +273,19 @@ struct SegmentedImage {
   bool IsWhole() const { return pixels.size() == std::size_t(1) * width * height; }
 };
 
+// Rows from the top, whole steps of the camera's resolution.
+struct ThermalImage {
+  static constexpr const char* kType = "thermal_camera";
+  int width = 0, height = 0;
+  double resolution = 0;
+  std::span<const double> temperature;
+  static constexpr auto kFields = std::make_tuple(
+      Value("width", "px", &ThermalImage::width), Value("height", "px", &ThermalImage::height),
+      Value("resolution", "K", &ThermalImage::resolution),
+      Value("temperature", "K", &ThermalImage::temperature));
+  bool IsWhole() const { return temperature.size() == std::size_t(1) * width * height; }
+};
+
 // Pixels from the image's upper left corner.
 struct BoundingBox {
   std::string name;

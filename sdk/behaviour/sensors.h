@@ -307,6 +307,25 @@ class SegmentationCamera : public Sensor {
   }
 };
 
+class ThermalCamera : public Sensor {
+ public:
+  static constexpr const char* kType = readings::ThermalImage::kType;
+  using Sensor::Sensor;
+
+  struct Image {
+    int width = 0, height = 0;
+    double resolution = 0;            // K
+    std::vector<double> temperature;  // K, rows from the top, whole steps of the resolution
+  };
+  Image TakeTemperatures() {
+    const auto image = MeasureAs<readings::ThermalImage>();
+    return {image.width,
+            image.height,
+            image.resolution,
+            {image.temperature.begin(), image.temperature.end()}};
+  }
+};
+
 class BoundingBoxCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::BoundingBoxes::kType;

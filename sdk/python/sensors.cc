@@ -46,6 +46,12 @@ Doubles TakeDepth(DepthCamera& camera) {
   return Doubles({image.height, image.width}, image.depth.data(), reading);
 }
 
+Doubles TakeTemperatures(ThermalCamera& camera) {
+  const py::object reading = Measured(camera);
+  const auto image = ValuesIn<readings::ThermalImage>(camera, reading.cast<const Reading&>());
+  return Doubles({image.height, image.width}, image.temperature.data(), reading);
+}
+
 py::tuple Segment(SegmentationCamera& camera) {
   const py::object reading = Measured(camera);
   const auto image = ValuesIn<readings::SegmentedImage>(camera, reading.cast<const Reading&>());
@@ -125,6 +131,9 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
       .def("take_depth", &TakeDepth,
            "numpy.float64 of the shape (height, width): m along the view, infinite where nothing "
            "is");
+  BindKind<ThermalCamera>(module, "ThermalCamera", sensor, "Measures how warm each pixel is.")
+      .def("take_temperatures", &TakeTemperatures,
+           "numpy.float64 of the shape (height, width): K, whole steps of the resolution");
   BindKind<SegmentationCamera>(module, "SegmentationCamera", sensor, "Says what each pixel shows.")
       .def("segment", &Segment,
            "(labels, names): numpy.uint32 of the shape (height, width); a pixel of label n shows "

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -218,6 +219,75 @@ class BoundingBoxCamera final
   }
 };
 
+// The temperature of each visual of a body, in the order in which surveys number them.
+std::vector<double> TemperaturesOf(const world::Body& body, double of_air) {
+  std::vector<double> temperatures;
+  for (const model::Link& link : body.model->links) {
+    for (const model::Visual& visual : link.visuals) {
+      temperatures.push_back(visual.temperature.value_or(of_air));
+    }
+  }
+  return temperatures;
+}
+
+class ThermalCamera final
+    : public SurveySensor<readings::ThermalImage, messages::sensor_msgs::CompressedImage> {
+ public:
+  ThermalCamera(const model::SensorDescription& description, sensing::ParameterReader& reader,
+                RendererResult renderer)
+      : SurveySensor(description, reader, std::move(renderer)),
+        resolution_(reader.Number("resolution", 0.01, 1e-6, 100)),
+        noise_(ReadNoise(reader, "noise", 1e3)) {}
+
+ private:
+  static constexpr double kMostSteps = 65535;
+
+  Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
+    const world::Layout& layout = *sampling.snapshot()->layout;
+    const double of_air = layout.description->temperature;
+    std::map<std::int32_t, std::vector<double>> known;  // by body, of those that are seen
+    const sensing::NoisyReading noisy(sampling, description());
+    std::vector<double> temperature(truth.body.size(), Stepped(of_air));
+    for (std::size_t i = 0; i < temperature.size(); ++i) {
+      double kelvin = of_air;
+      if (const std::int32_t body = truth.body[i]; body >= 0) {
+        auto& its = known[body];
+        if (its.empty()) {
+          its = TemperaturesOf(layout.bodies[static_cast<std::size_t>(body)], of_air);
+        }
+        kelvin = its[static_cast<std::size_t>(truth.visual[i])];
+      }
+      temperature[i] = Stepped(noise_.is_none() ? kelvin : noisy.Read(noise_, i, kelvin));
+    }
+    Reading reading = sampling.Stamped();
+    Fill(Values{truth.width, truth.height, resolution_, temperature}, reading);
+    return reading;
+  }
+
+  // As ROS's image_transport writes mono16.
+  Message ToMessage(const Values& image, const Reading&, const std::string&) const override {
+    std::vector<std::uint16_t> steps;
+    steps.reserve(image.temperature.size());
+    for (const double kelvin : image.temperature) {
+      steps.push_back(static_cast<std::uint16_t>(StepsOf(kelvin)));
+    }
+    Message message;
+    message.format = "mono16; png compressed";
+    if (auto png = EncodeGreyPng(image.width, image.height, steps)) message.data = std::move(*png);
+    return message;
+  }
+
+  // What drops out reads as nothing, 0 K.
+  double StepsOf(double kelvin) const {
+    return std::isfinite(kelvin) ? std::clamp(std::round(kelvin / resolution_), 0.0, kMostSteps)
+                                 : 0;
+  }
+  double Stepped(double kelvin) const { return resolution_ * StepsOf(kelvin); }
+
+  const double resolution_;  // K
+  const sensing::NoiseModel noise_;
+};
+
 }  // namespace
 
 base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererResult& renderer) {
@@ -229,7 +299,9 @@ base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererR
       MakeCameraType<SegmentationCamera>(readings::SegmentedImage::kType, {"segmentation"},
                                          Overlay::kPicture, shared, renderer),
       MakeCameraType<BoundingBoxCamera>(readings::BoundingBoxes::kType, {"boundingbox"},
-                                        Overlay::kLines, shared, renderer)};
+                                        Overlay::kLines, shared, renderer),
+      MakeCameraType<ThermalCamera>(readings::ThermalImage::kType, {"thermal"}, Overlay::kPicture,
+                                    shared, renderer)};
   for (sensing::SensorType& type : types) {
     if (auto ok = registry.Add(std::move(type)); !ok) return ok;
   }

@@ -1,5 +1,5 @@
-// The sensor types that know what they see: "depth_camera", "segmentation_camera" and
-// "boundingbox_camera".
+// The sensor types that know what they see: "depth_camera", "segmentation_camera",
+// "boundingbox_camera" and "thermal_camera".
 //
 // Frame       sensor frame: x along the view, y left, z up.
 // Parameters  those of every camera, see optics.h. Of a depth camera also noise (m), see
@@ -15,6 +15,10 @@
 //             boundingbox_camera ("boundingbox"): for each model of which a pixel is seen, by name,
 //             the values {left, top, right, bottom} in pixels, and its name as label. As a message:
 //             vision_msgs/Detection2DArray.
+//             thermal_camera ("thermal"): how warm the visual at each pixel is, or the air where
+//             nothing is, in whole steps of the parameter `resolution` (0.01 K, so that 16 bits
+//             reach to 655.35 K); `noise` (K). As a message:
+//             sensor_msgs/CompressedImage, PNG of 16-bit grey, where a pixel counts steps.
 // Errors      Sample(): kUnavailable with the reason where nothing can draw.
 #pragma once
 

@@ -11,6 +11,7 @@
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/messages/vision_msgs.h"
+#include "gsv/readings/catalogue.h"
 #include "gsv/rendering/testing/test_scene.h"
 #include "gsv/sensing/rays/ray_scene.h"
 
@@ -32,14 +33,6 @@ Vector3 RayOf(int x, int y) {
 
 class SurveyTest : public ::testing::Test {
  protected:
-  SurveyTest() {
-    if (renderer_) {
-      EXPECT_TRUE(AddSurveySensors(registry_, renderer_));
-    }
-    // To see and to touch, so that rays can be cast.
-    Add("robot", geometry::Box{{0.4, 0.4, 0.4}}, PlanarPose(0, 0, 1, 0));
-  }
-
   void SetUp() override {
     if (!renderer_) GTEST_SKIP() << renderer_.error().Sentence();
   }
@@ -82,8 +75,16 @@ class SurveyTest : public ::testing::Test {
     return *message;
   }
 
-  base::Result<std::shared_ptr<Renderer>> renderer_ =
-      Renderer::Start({.back_end = BackEnd::kRasteriser});
+  explicit SurveyTest(BackEnd back_end = BackEnd::kRasteriser)
+      : renderer_(Renderer::Start({.back_end = back_end})) {
+    if (renderer_) {
+      EXPECT_TRUE(AddSurveySensors(registry_, renderer_));
+    }
+    // To see and to touch, so that rays can be cast.
+    Add("robot", geometry::Box{{0.4, 0.4, 0.4}}, PlanarPose(0, 0, 1, 0));
+  }
+
+  base::Result<std::shared_ptr<Renderer>> renderer_;
   TestScene scene_;
   std::shared_ptr<const world::Snapshot> snapshot_;
   sensing::SensorRegistry registry_;
@@ -241,6 +242,75 @@ TEST(SurveySensors, SayWhyThereIsNoRenderer) {
     description.parameters["image.width"] = 0.0;
     EXPECT_FALSE(registry.Find(type)->create(description));
   }
+}
+
+class ThermalCameraTest : public SurveyTest, public ::testing::WithParamInterface<BackEnd> {
+ protected:
+  ThermalCameraTest() : SurveyTest(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(BackEnds, ThermalCameraTest,
+                         ::testing::Values(BackEnd::kRasteriser, BackEnd::kOpenGl),
+                         [](const auto& test) {
+                           return test.param == BackEnd::kOpenGl ? "OpenGl" : "Rasteriser";
+                         });
+
+// A body whose face, 2 m wide and 1 m high, stands 4 m before the camera; beside it, to the left,
+// another of its visuals with a face of 1 m by 1 m, and on the right one without a temperature.
+TEST_P(ThermalCameraTest, ShowsEachVisualsTemperatureWithinItsOutlineAndTheAirsOutside) {
+  Add("oven", geometry::Box{{1, 2, 1}}, {{4.8, 0, 1}, {}});
+  std::vector<model::Visual>& visuals = scene_.LinkOf("oven").visuals;
+  visuals[0].temperature = 350;
+  model::Visual beside = visuals[0];
+  beside.shape = geometry::Box{{1, 1, 1}};
+  beside.link_from_visual.position = {0, 1.5, 0};
+  beside.temperature = 310.004;
+  visuals.push_back(beside);
+  beside.link_from_visual.position = {0, -1.5, 0};
+  beside.temperature.reset();
+  visuals.push_back(beside);
+  const Reading reading = Sample(Description("thermal_camera"));
+  const auto image = sensing::ValuesOf<readings::ThermalImage>(reading, "eye");
+  ASSERT_TRUE(image) << image.error().Sentence();
+  ASSERT_EQ(image->width, kSurveyWidth);
+  EXPECT_EQ(image->resolution, 0.01);
+  int warm = 0, tepid = 0;
+  for (int y = 0; y < kSurveyHeight; ++y) {
+    for (int x = 0; x < kSurveyWidth; ++x) {
+      const Vector3 on_plane = 4 * RayOf(x, y);
+      double expected = 288.15;
+      if (std::abs(on_plane.z) < 0.5 && std::abs(on_plane.y) < 1) expected = 350, ++warm;
+      if (std::abs(on_plane.z) < 0.5 && on_plane.y > 1 && on_plane.y < 2) expected = 310, ++tepid;
+      EXPECT_WITHIN(image->temperature[static_cast<std::size_t>(y * kSurveyWidth + x)], expected,
+                    1e-9, "K")
+          << x << ", " << y;
+    }
+  }
+  EXPECT_GT(warm, 200);
+  EXPECT_GT(tepid, 100);
+
+  const auto message =
+      Sent<messages::sensor_msgs::CompressedImage>(Description("thermal_camera"), reading);
+  EXPECT_EQ(message.format, "mono16; png compressed");
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_memory(&png, message.data.data(), message.data.size()));
+  EXPECT_EQ(png.format, PNG_FORMAT_LINEAR_Y);
+  ASSERT_EQ(png.width, unsigned{kSurveyWidth});
+  ASSERT_EQ(png.height, unsigned{kSurveyHeight});
+  std::vector<std::uint16_t> steps(std::size_t{kSurveyWidth} * kSurveyHeight);
+  ASSERT_TRUE(png_image_finish_read(&png, nullptr, steps.data(), 0, nullptr));
+  EXPECT_EQ(steps[kSurveyHeight / 2 * kSurveyWidth + kSurveyWidth / 2], 35000);
+  EXPECT_EQ(steps[0], 28815);
+}
+
+TEST_P(ThermalCameraTest, TakesItsResolutionAndTheAirFromTheWorld) {
+  scene_.description().temperature = 300.26;
+  model::SensorDescription description = Description("thermal_camera");
+  description.parameters["resolution"] = 0.5;
+  const Reading reading = Sample(description);
+  EXPECT_EQ(reading.values[2], 0.5);
+  EXPECT_EQ(reading.values[3], 300.5);
 }
 
 }  // namespace

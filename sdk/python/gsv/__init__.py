@@ -17,9 +17,9 @@ Frames are those of REP-103 (x forward, y left, z up), units metres, radians and
 from gsv._native import (
     Altimeter, Battery, BoundingBoxCamera, Bumper, Camera, Colour, DepthCamera, Gripper, Imu, Joint,
     JointEncoders, JointState, JointTraits, Lamp, Lidar, LogicalCamera, Magnetometer, Microphone,
-    Odometer, Placement, PositioningSystem, Quaternion, Radio, Reading, Robot, RobotState, SatelliteReceiver,
-    SegmentationCamera, Sensor, SensorTraits, SimulationState, Sonar, SonarRing, Speaker, Vector,
-    nearest)
+    Odometer, Placement, PositioningSystem, Quaternion, Radio, Reading, Robot, RobotState,
+    SatelliteReceiver, SegmentationCamera, Sensor, SensorTraits, SimulationState, Sonar, SonarRing,
+    Speaker, ThermalCamera, Vector, nearest)
 from gsv._native import __version__
 from gsv.applications import Application, Simulation, connect
 from gsv.behaviours import Behaviour, Controller, Offer, serve

@@ -89,6 +89,10 @@ class SegmentationCamera(Sensor):
     TYPE: str
     def segment(self) -> tuple[NDArray[numpy.uint32], list[str]]: ...
 
+class ThermalCamera(Sensor):
+    TYPE: str
+    def take_temperatures(self) -> NDArray[numpy.float64]: ...
+
 class BoundingBoxCamera(Sensor):
     class Box:
         @property

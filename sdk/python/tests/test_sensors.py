@@ -92,6 +92,15 @@ def test_depth_and_labels_are_pictures_of_numbers(simulate, world):
     assert names[labels[12, 16] - 1] == "wall"
 
 
+def test_temperatures_are_a_picture_of_kelvins(simulate, world):
+    size = {"image.width": 32, "image.height": 24}
+    kelvins = in_run(simulate, world,
+                     lambda robot: robot.create(gsv.ThermalCamera, "t", gsv.Placement(z=0.5), size),
+                     lambda robot, camera: camera.take_temperatures())
+    assert kelvins.shape == (24, 32) and isinstance(kelvins.base, gsv.Reading)
+    assert kelvins == pytest.approx(288.15)
+
+
 def test_poses_and_forces_have_names(simulate, world):
     def prepare(robot):
         return (robot.create("positioning", "p"), robot.create("imu", "i"),
