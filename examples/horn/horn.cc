@@ -43,10 +43,16 @@ class HornState final : public world::ActuatorState {
   const world::Sound sound_;
 };
 
-class Horn final : public sensing::Actuator {
+// How its readings are laid out.
+struct Honk {
+  double left = 0;
+  static constexpr auto kFields = std::make_tuple(readings::Value("left", "s", &Honk::left));
+};
+
+class Horn final : public sensing::SensorOf<Honk, messages::gsv_msgs::Speaker, sensing::Actuator> {
  public:
   Horn(const model::SensorDescription& description, sensing::ParameterReader& reader)
-      : Actuator(description), sound_(ReadHorn(reader)) {}
+      : SensorOf(description), sound_(ReadHorn(reader)) {}
 
   base::Status Check(const world::DeviceCommand& command) const override {
     if (auto ok = CheckShape(command, 1); !ok) return ok;
@@ -58,26 +64,23 @@ class Horn final : public sensing::Actuator {
     const auto sound =
         state != nullptr ? state->SoundAt(sampling.snapshot()->state.time) : std::nullopt;
     sensing::Reading reading = sampling.Stamped();
-    reading.values = {sound ? sound->left : 0};
+    Fill(Honk{sound ? sound->left : 0}, reading);
     return reading;
   }
 
-  static messages::gsv_msgs::Speaker ToMessage(const model::SensorDescription& description,
-                                               const sensing::Reading& reading,
-                                               const std::string&) {
-    messages::gsv_msgs::Speaker message;
-    if (reading.values.empty() || reading.values[0] == 0) return message;
-    sensing::ParameterReader reader(description);
-    const world::Sound sound = ReadHorn(reader);
-    message.sound = sound.name;
-    message.frequency_hz = sound.frequency;
-    message.volume = sound.volume;
-    message.left_s = reading.values[0];
-    message.loudness_db = sound.loudness;
+ private:
+  Message ToMessage(const Values& honk, const sensing::Reading&,
+                    const std::string&) const override {
+    Message message;
+    if (honk.left == 0) return message;
+    message.sound = sound_.name;
+    message.frequency_hz = sound_.frequency;
+    message.volume = sound_.volume;
+    message.left_s = honk.left;
+    message.loudness_db = sound_.loudness;
     return message;
   }
 
- private:
   world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                const world::DeviceState*) const override {
     return std::make_shared<const HornState>(std::move(mount), std::move(followed), sound_);
@@ -87,7 +90,7 @@ class Horn final : public sensing::Actuator {
 };
 
 base::Status Add(sensing::SensorRegistry& registry) {
-  return registry.Add(sensing::MakeSensorType<Horn, messages::gsv_msgs::Speaker>("horn"));
+  return registry.Add(sensing::MakeSensorType<Horn>("horn"));
 }
 
 }  // namespace
