@@ -89,7 +89,8 @@ TEST(MotionSensors, AnOdometerClosesTheSquareThatUnequalWheelsMiss) {
   // know.
   const double ratio = 1.001, left = 2 / (1 + ratio), right = 2 * ratio / (1 + ratio);
   const Driven driven = Drive(Rover("odometry", left, right), AroundTheSquare());
-  ASSERT_EQ(driven.values.size(), 5u);
+  ASSERT_EQ(driven.values.size(), 6u);
+  EXPECT_EQ(driven.values[5], 0);  // sideways: this drive cannot
   EXPECT_WITHIN(driven.values[0], 0, 1e-9, "m");
   EXPECT_WITHIN(driven.values[1], 0, 1e-9, "m");
   EXPECT_NEAR(geometry::WrapAngle(driven.values[2]), 0, 1e-9);

@@ -8,6 +8,7 @@ namespace {
 std::shared_ptr<const model::Model> NamedModel(const std::string& name) {
   auto model = std::make_shared<model::Model>();
   model->name = name;
+  model->links.resize(1);
   return model;
 }
 
