@@ -8,8 +8,8 @@ namespace gsv::simulation {
 
 template <typename Request>
 base::Status SteppingSimulation::Perform(Request request) {
-  const std::lock_guard control(control_mutex_);
-  const std::lock_guard lock(shared_->mutex);
+  const base::MutexLock control(control_mutex_);
+  const SimulationLock lock(*shared_);
   if (run_.phase() == Phase::kCreated) {
     if (auto ok = faults_.Check(); !ok) return ok;
   }
@@ -24,7 +24,7 @@ base::Status SteppingSimulation::Start() {
 }
 
 base::Status SteppingSimulation::Pause() {
-  return Perform([this](RunControl& run) {
+  return Perform([this](RunControl& run) GSV_REQUIRES(simulation_mutex) {
     auto change = run.Pause();
     if (change == RunControl::Change::kPaused) agents_.CallAll("pause", &BehaviourPort::Pause);
     return change;
@@ -32,7 +32,7 @@ base::Status SteppingSimulation::Pause() {
 }
 
 base::Status SteppingSimulation::Resume() {
-  return Perform([this](RunControl& run) {
+  return Perform([this](RunControl& run) GSV_REQUIRES(simulation_mutex) {
     auto change = run.Resume();
     if (change == RunControl::Change::kResumed) {
       events_.Emit("resumed");
@@ -47,16 +47,19 @@ base::Status SteppingSimulation::Step(std::int64_t count) {
 }
 
 base::Status SteppingSimulation::RunUntil(SimTime until) {
-  return Perform([=, this](RunControl& run) { return run.RunUntil(until, shared_->now); });
+  return Perform([=, this](RunControl& run)
+                     GSV_REQUIRES(simulation_mutex) { return run.RunUntil(until, shared_->now); });
 }
 
 base::Status SteppingSimulation::RunThrough(SimTime until) {
-  return Perform([=, this](RunControl& run) { return run.RunThrough(until, shared_->now); });
+  return Perform([=, this](RunControl& run) GSV_REQUIRES(simulation_mutex) {
+    return run.RunThrough(until, shared_->now);
+  });
 }
 
 base::Status SteppingSimulation::Stop() {
-  const std::lock_guard control(control_mutex_);
-  const std::lock_guard lock(shared_->mutex);
+  const base::MutexLock control(control_mutex_);
+  const SimulationLock lock(*shared_);
   life_cycle_.Apply(run_.Stop());
   return {};
 }
@@ -76,35 +79,36 @@ base::Status SteppingSimulation::AwaitCalls() {
 }
 
 base::Status SteppingSimulation::Reset() {
-  const std::lock_guard control(control_mutex_);
+  const base::MutexLock control(control_mutex_);
   if (world_.lock().is_stuck()) return RefuseStuck();
-  std::vector<AgentPopulation::AgentPtr> agents;
+  std::vector<std::pair<AgentPopulation::AgentPtr, std::shared_ptr<BehaviourPort>>> behaviours;
   {
-    const std::lock_guard lock(shared_->mutex);
+    const SimulationLock lock(*shared_);
     if (!life_cycle_.BeginReset()) return {};
-    agents = agents_.WithBehaviour();
+    for (const auto& agent : agents_.WithBehaviour())
+      behaviours.emplace_back(agent, agent->behaviour());
   }
   if (auto ok = AwaitCalls(); !ok) return ok;
   {
-    const auto world_lock = world_.lock().LockUnlessStuck();
-    if (!world_lock) return RefuseStuck();
+    const WorldGuard world_guard(world_.lock());
+    if (!world_guard.is_held()) return RefuseStuck();
     if (auto ok = faults_.UndoMoves(); !ok) return ok;
     world_.Reset();
-    const std::lock_guard lock(shared_->mutex);
+    const SimulationLock lock(*shared_);
     shared_->history.Restart(std::make_shared<world::Snapshot>(world_.InitialSnapshot()));
     shared_->now = SimTime(0);
     faults_.schedule().Rewind();
     agents_.Reset();
     life_cycle_.FinishReset();
   }
-  for (const auto& agent : agents)
-    agents_.ReportIfFailed(*agent, "init", agent->behaviour()->Init(agent));
+  for (const auto& [agent, behaviour] : behaviours)
+    agents_.ReportIfFailed(*agent, "init", behaviour->Init(agent));
   return {};
 }
 
 base::Status SteppingSimulation::SetFactor(double factor) {
   if (auto ok = CheckFactor(factor, specification_.name); !ok) return ok;
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   if (shared_->mode == Mode::kLockstep) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "in lockstep a simulation goes as fast as it can, so that there is no factor "
@@ -121,7 +125,7 @@ base::Status SteppingSimulation::SetFactor(double factor) {
 }
 
 double SteppingSimulation::factor() const {
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   return life_cycle_.pace().factor();
 }
 

@@ -83,23 +83,21 @@ Edit RemovalOf(const std::string& name) {
 }  // namespace
 
 void SteppingSimulation::AwaitTurns() const {
-  std::unique_lock lock(shared_->mutex);
+  SimulationLock lock(*shared_);
   if (shared_->mode != Mode::kLockstep || run_.phase() != Phase::kPaused) return;
-  shared_->changed.wait_for(lock, kTurnPatience, [this] { return shared_->running == 0; });
+  shared_->changed.wait_for(lock.inner(), kTurnPatience, [this]() GSV_REQUIRES(simulation_mutex) {
+    return shared_->running == 0;
+  });
 }
 
-base::Result<WorldLock::Held> SteppingSimulation::LockForEdit() const {
-  AwaitTurns();
-  auto world_lock = world_.lock().LockUnlessStuck();
-  if (!world_lock) return base::Fail(RefuseStuck().error());
-  const std::lock_guard lock(shared_->mutex);
-  auto ok = run_.Require({Phase::kCreated, Phase::kPaused}, "change what stands in it");
-  if (!ok) return base::Fail(ok.error());
-  return world_lock;
+base::Status SteppingSimulation::CheckMayEdit(const WorldGuard& guard) const {
+  if (!guard.is_held()) return RefuseStuck();
+  const SimulationLock lock(*shared_);
+  return run_.Require({Phase::kCreated, Phase::kPaused}, "change what stands in it");
 }
 
 void SteppingSimulation::AssignBodies() {
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   agents_.AssignBodies(*world_.layout());
 }
 
@@ -107,7 +105,7 @@ void SteppingSimulation::RecordEdit(Edit edit, const char* event, const std::str
   edit.step = world_.state().step;
   edit.time = world_.state().time;
   {
-    const std::lock_guard lock(shared_->mutex);
+    const SimulationLock lock(*shared_);
     run_.MarkEdited();
     edit.halt = run_.run();
     edit.moment = run_.MomentOfEdit(shared_->running == 0 && shared_->ready.empty());
@@ -117,13 +115,13 @@ void SteppingSimulation::RecordEdit(Edit edit, const char* event, const std::str
 }
 
 bool SteppingSimulation::was_edited() const {
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   return run_.was_edited();
 }
 
 base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
     std::vector<RobotSpecification> robots) {
-  const std::lock_guard control(control_mutex_);
+  const base::MutexLock control(control_mutex_);
   for (const RobotSpecification& robot : robots) {
     if (auto ok = CheckRobot(robot, specification_.mode); !ok) return base::Fail(ok.error());
   }
@@ -142,20 +140,20 @@ base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
     }
     with_behaviour.push_back(std::move(agent));
   }
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   if (run_.phase() == Phase::kStarting || run_.is_running())
     life_cycle_.StartBehaviours(with_behaviour);
   return names;
 }
 
 base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& robots) {
-  const auto world_lock = world_.lock().LockUnlessStuck();
-  if (!world_lock) return RefuseStuck();
+  const WorldGuard world_guard(world_.lock());
+  if (!world_guard.is_held()) return RefuseStuck();
   if (auto ok = editor_.AddRobots(robots); !ok) return ok;
   for (const RobotSpecification& robot : robots) {
     RecordEdit(EditOf(robot), robot.is_avatar ? "avatar_added" : "robot_added");
   }
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   for (const RobotSpecification& robot : robots) {
     agents_.Add(robot.name, robot.model, robot.is_avatar, robot.behaviour);
   }
@@ -164,17 +162,17 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
 }
 
 base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
-  const std::lock_guard control(control_mutex_);
+  const base::MutexLock control(control_mutex_);
   if (const auto found = RequireAgent(name); !found) return base::Fail(found.error());
   AwaitTurns();
   return RemoveRobots({name});
 }
 
 base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& names) {
-  const auto world_lock = world_.lock().LockUnlessStuck();
-  if (!world_lock) return RefuseStuck();
+  const WorldGuard world_guard(world_.lock());
+  if (!world_guard.is_held()) return RefuseStuck();
   {
-    const std::lock_guard lock(shared_->mutex);
+    const SimulationLock lock(*shared_);
     for (const std::string& name : names) agents_.Remove(name);
   }
   // No step is taken meanwhile, and whoever calls for an agent need not wait for the engine.
@@ -186,11 +184,12 @@ base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& na
 }
 
 base::Result<std::string> SteppingSimulation::AddObject(ObjectSpecification object) {
-  const std::lock_guard control(control_mutex_);
+  const base::MutexLock control(control_mutex_);
   if (auto ok = CheckFinite(object.world_from_object, object.name); !ok)
     return base::Fail(ok.error());
-  const auto world_lock = LockForEdit();
-  if (!world_lock) return base::Fail(world_lock.error());
+  AwaitTurns();
+  const WorldGuard world_guard(world_.lock());
+  if (auto ok = CheckMayEdit(world_guard); !ok) return base::Fail(ok.error());
   auto name = editor_.AddObject(object);
   if (!name) return name;
   AssignBodies();
@@ -199,9 +198,10 @@ base::Result<std::string> SteppingSimulation::AddObject(ObjectSpecification obje
 }
 
 base::Status SteppingSimulation::RemoveObject(const std::string& name) {
-  const std::lock_guard control(control_mutex_);
-  const auto world_lock = LockForEdit();
-  if (!world_lock) return base::Fail(world_lock.error());
+  const base::MutexLock control(control_mutex_);
+  AwaitTurns();
+  const WorldGuard world_guard(world_.lock());
+  if (auto ok = CheckMayEdit(world_guard); !ok) return base::Fail(ok.error());
   if (auto ok = editor_.RemoveObject(name); !ok) return ok;
   AssignBodies();
   RecordEdit(RemovalOf(name), "object_removed");
@@ -210,10 +210,11 @@ base::Status SteppingSimulation::RemoveObject(const std::string& name) {
 
 base::Status SteppingSimulation::PlaceBody(const std::string& name,
                                            const geometry::Pose& world_from_body, bool on_ground) {
-  const std::lock_guard control(control_mutex_);
+  const base::MutexLock control(control_mutex_);
   if (auto ok = CheckFinite(world_from_body, name); !ok) return ok;
-  const auto world_lock = LockForEdit();
-  if (!world_lock) return base::Fail(world_lock.error());
+  AwaitTurns();
+  const WorldGuard world_guard(world_.lock());
+  if (auto ok = CheckMayEdit(world_guard); !ok) return base::Fail(ok.error());
   if (auto ok = editor_.Place(name, world_from_body, on_ground); !ok) return ok;
   Edit edit;
   edit.kind = Edit::Kind::kPlace;
@@ -226,8 +227,8 @@ base::Status SteppingSimulation::PlaceBody(const std::string& name,
 
 base::Status SteppingSimulation::CommandJoint(const std::string& body, const std::string& joint,
                                               const world::JointCommand& command) {
-  const auto world_lock = world_.lock().LockUnlessStuck();
-  if (!world_lock) return RefuseStuck();
+  const WorldGuard world_guard(world_.lock());
+  if (!world_guard.is_held()) return RefuseStuck();
   const world::Layout& layout = *world_.layout();
   const int index = layout.Find(body);
   const world::Body* const moved =
@@ -248,18 +249,18 @@ base::Status SteppingSimulation::CommandJoint(const std::string& body, const std
 
 base::Status SteppingSimulation::SetBehaviour(const std::string& robot,
                                               std::shared_ptr<BehaviourPort> behaviour) {
-  const std::lock_guard control(control_mutex_);
+  const base::MutexLock control(control_mutex_);
   const auto found = RequireAgent(robot);
   if (!found) return base::Fail(found.error());
   if (auto ok = CheckBehaviour(*behaviour, specification_.mode, robot); !ok) return ok;
   {
-    const std::lock_guard lock(shared_->mutex);
+    const SimulationLock lock(*shared_);
     if (auto ok = run_.Require({Phase::kCreated}, "change a behaviour"); !ok) return ok;
     agents_.SetBehaviour(**found, behaviour);
   }
   const base::Status status = behaviour->Init(*found);
   if (!status) {
-    const std::lock_guard lock(shared_->mutex);
+    const SimulationLock lock(*shared_);
     agents_.SetBehaviour(**found, nullptr);
   }
   return status;

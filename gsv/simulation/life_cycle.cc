@@ -24,7 +24,8 @@ void LifeCycle::Apply(RunControl::Change change, const std::string& detail) {
       [[fallthrough]];
     case Change::kResumed: {
       std::vector<AgentPopulation::AgentPtr> waiting = agents_.WithBehaviour();
-      std::erase_if(waiting, [](const auto& agent) { return agent->is_started(); });
+      std::erase_if(waiting, [](const auto& agent)
+                                 GSV_REQUIRES(simulation_mutex) { return agent->is_started(); });
       StartBehaviours(waiting);
       return Apply(run_.RunIfStarted());
     }
@@ -62,12 +63,12 @@ void LifeCycle::StartBehaviours(const std::vector<AgentPopulation::AgentPtr>& ag
   for (const AgentPopulation::AgentPtr& agent : agents) {
     agent->MarkStarted();
     run_.BeginStart();
-    caller_.Post(agent->robot(), [this, agent] {
-      const base::Status status = agent->behaviour()->Start();
+    caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour()] {
+      const base::Status status = behaviour->Start();
       agents_.ReportIfFailed(*agent, "start", status);
-      const std::lock_guard lock(shared_->mutex);
+      const SimulationLock lock(*shared_);
       agent->MarkStarted();
-      if (status && agent->behaviour()->local() != nullptr) agent->MakeReady();
+      if (status && behaviour->local() != nullptr) agent->MakeReady();
       run_.EndStart();
       Apply(run_.RunIfStarted());
     });
@@ -80,8 +81,8 @@ void LifeCycle::EndBehaviours(std::string reason) {
 
 Phase LifeCycle::WaitForPhase(const std::vector<Phase>& phases,
                               std::chrono::milliseconds timeout) const {
-  std::unique_lock lock(shared_->mutex);
-  phase_changed_.wait_for(lock, timeout, [&] {
+  SimulationLock lock(*shared_);
+  phase_changed_.wait_for(lock.inner(), timeout, [&]() GSV_REQUIRES(simulation_mutex) {
     return std::find(phases.begin(), phases.end(), run_.phase()) != phases.end();
   });
   return run_.phase();

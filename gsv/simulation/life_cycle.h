@@ -1,11 +1,10 @@
 // Acts on what RunControl decides: starts and stops behaviours, emits events, keeps the pace and
 // wakes the threads that wait for a phase.
 //
-// Threads  every member needs SharedState::mutex, except where it says otherwise.
+// Threads  any, with SharedState::mutex (simulation_mutex) as declared.
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,37 +31,39 @@ class LifeCycle {
         agents_(agents),
         caller_(caller) {}
 
-  RunControl& run() { return run_; }
-  const RunControl& run() const { return run_; }
-  RunPace& pace() { return pace_; }
-  const RunPace& pace() const { return pace_; }
+  RunControl& run() GSV_REQUIRES(simulation_mutex) { return run_; }
+  const RunControl& run() const GSV_REQUIRES(simulation_mutex) { return run_; }
+  RunPace& pace() GSV_REQUIRES(simulation_mutex) { return pace_; }
+  const RunPace& pace() const GSV_REQUIRES(simulation_mutex) { return pace_; }
 
   // Does what a change of run() entails. `detail` is that of its event.
-  void Apply(RunControl::Change change, const std::string& detail = {});
-  void Fail(const std::string& reason);
+  void Apply(RunControl::Change change, const std::string& detail = {})
+      GSV_REQUIRES(simulation_mutex);
+  void Fail(const std::string& reason) GSV_REQUIRES(simulation_mutex);
   // The first half of a reset. False: there is nothing to reset.
-  bool BeginReset();
+  bool BeginReset() GSV_REQUIRES(simulation_mutex);
   // The second half; what else is to be reset has been.
-  void FinishReset();
+  void FinishReset() GSV_REQUIRES(simulation_mutex);
 
   // Starts behaviours; the run begins when all that are being started have answered.
-  void StartBehaviours(const std::vector<AgentPopulation::AgentPtr>& agents);
-  void EndBehaviours(std::string reason);
+  void StartBehaviours(const std::vector<AgentPopulation::AgentPtr>& agents)
+      GSV_REQUIRES(simulation_mutex);
+  void EndBehaviours(std::string reason) GSV_REQUIRES(simulation_mutex);
 
-  // Takes the mutex itself; see Simulation.
+  // See Simulation.
   Phase WaitForPhase(const std::vector<Phase>& phases, std::chrono::milliseconds timeout) const;
 
  private:
-  void NotifyPhase();
+  void NotifyPhase() GSV_REQUIRES(simulation_mutex);
 
-  RunControl run_;
-  RunPace pace_;
+  RunControl run_ GSV_GUARDED_BY(simulation_mutex);
+  RunPace pace_ GSV_GUARDED_BY(simulation_mutex);
   const WorldLock& world_lock_;
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;
   AgentPopulation& agents_;
   BehaviourCaller& caller_;
-  mutable std::condition_variable phase_changed_;
+  mutable base::ConditionVariable phase_changed_;
 };
 
 }  // namespace gsv::simulation

@@ -1,6 +1,6 @@
 // The world that a simulation moves: who stands in it, the state, and the engine.
 //
-// Threads  who calls a member other than lock() holds lock().
+// Threads  any, with lock() (world_mutex) as declared.
 #pragma once
 
 #include <memory>
@@ -21,40 +21,46 @@ class SimulatedWorld {
 
   WorldLock& lock() const { return lock_; }
 
-  const std::shared_ptr<const world::Layout>& layout() const { return layout_; }
-  world::State& state() { return state_; }
-  const world::State& state() const { return state_; }
-  dynamics::Engine& engine() { return *engine_; }
+  const std::shared_ptr<const world::Layout>& layout() const GSV_REQUIRES(world_mutex) {
+    return layout_;
+  }
+  world::State& state() GSV_REQUIRES(world_mutex) { return state_; }
+  const world::State& state() const GSV_REQUIRES(world_mutex) { return state_; }
+  dynamics::Engine& engine() GSV_REQUIRES(world_mutex) { return *engine_; }
   // world_from_model of the body of that name, which is there.
-  const geometry::Pose& PoseOf(const std::string& body) const {
+  const geometry::Pose& PoseOf(const std::string& body) const GSV_REQUIRES(world_mutex) {
     return state_.bodies[static_cast<std::size_t>(layout_->Find(body))].world_from_model;
   }
 
   // Has the engine move the bodies of `layout`, with what `state` says is held. A layout that is
   // tried only is followed by Replace() or Restore().
   base::Status TryLayout(const std::shared_ptr<const world::Layout>& layout,
-                         const world::State& state) {
+                         const world::State& state) GSV_REQUIRES(world_mutex) {
     return attachments_.SetLayout(layout, state, *engine_);
   }
-  base::Status Restore() { return TryLayout(layout_, state_); }
-  base::Status Replace(std::shared_ptr<const world::Layout> layout, world::State state);
+  base::Status Restore() GSV_REQUIRES(world_mutex) { return TryLayout(layout_, state_); }
+  base::Status Replace(std::shared_ptr<const world::Layout> layout, world::State state)
+      GSV_REQUIRES(world_mutex);
   // Back to the initial state.
-  void Reset();
+  void Reset() GSV_REQUIRES(world_mutex);
 
   // Has the engine attach and detach what devices have grasped and released since the last step.
-  void FollowAttachments() { attachments_.Follow(*layout_, state_, *engine_); }
+  void FollowAttachments() GSV_REQUIRES(world_mutex) {
+    attachments_.Follow(*layout_, state_, *engine_);
+  }
   // Moves the world by one step. `snapshot` becomes the state after it; its memory is used again.
-  void Step(base::SimTime step, world::Snapshot& snapshot);
-  world::Snapshot InitialSnapshot() const { return {layout_, state_, {}, {}, {}}; }
+  void Step(base::SimTime step, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
+  world::Snapshot InitialSnapshot() const GSV_REQUIRES(world_mutex) {
+    return {layout_, state_, {}, {}, {}};
+  }
 
  private:
   mutable WorldLock lock_;
-  // Guarded by lock_.
-  std::unique_ptr<dynamics::Engine> engine_;
-  std::shared_ptr<const world::Layout> layout_;
-  world::State state_;
-  Attachments attachments_;
-  world::WheelOdometry wheel_odometry_;
+  std::unique_ptr<dynamics::Engine> engine_ GSV_GUARDED_BY(world_mutex);
+  std::shared_ptr<const world::Layout> layout_ GSV_GUARDED_BY(world_mutex);
+  world::State state_ GSV_GUARDED_BY(world_mutex);
+  Attachments attachments_ GSV_GUARDED_BY(world_mutex);
+  world::WheelOdometry wheel_odometry_ GSV_GUARDED_BY(world_mutex);
 };
 
 }  // namespace gsv::simulation

@@ -4,9 +4,9 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::simulation {
@@ -26,19 +26,19 @@ class SnapshotPool {
     static constexpr std::size_t kMost = 4;
 
     std::unique_ptr<world::Snapshot> Take() {
-      const std::lock_guard lock(mutex);
+      const base::MutexLock lock(mutex);
       if (idle.empty()) return std::make_unique<world::Snapshot>();
       std::unique_ptr<world::Snapshot> snapshot = std::move(idle.back());
       idle.pop_back();
       return snapshot;
     }
     void Return(std::unique_ptr<world::Snapshot> snapshot) {
-      const std::lock_guard lock(mutex);
+      const base::MutexLock lock(mutex);
       if (idle.size() < kMost) idle.push_back(std::move(snapshot));
     }
 
-    std::mutex mutex;
-    std::vector<std::unique_ptr<world::Snapshot>> idle;
+    base::Mutex mutex;
+    std::vector<std::unique_ptr<world::Snapshot>> idle GSV_GUARDED_BY(mutex);
   };
   const std::shared_ptr<Shelf> shelf_ = std::make_shared<Shelf>();
 };

@@ -39,44 +39,50 @@ void StepLoop::Join() {
 
 void StepLoop::Run() {
   pthread_setname_np(pthread_self(), "stepping");
-  Lock lock(parts_.shared->mutex);
-  if (parts_.shared->mode == Mode::kRealTime) RaiseThreadPriority();
-  while (!quit_) TakeRound(lock);
-}
-
-void StepLoop::TakeRound(Lock& lock) {
   SharedState& shared = *parts_.shared;
-  if (!run_.is_running()) return shared.changed.wait(lock);
-  parts_.life_cycle.pace().RestartIfResumed();
-  if (parts_.faults.schedule().IsDue(shared.now)) {
+  SimulationLock lock(shared);
+  if (shared.mode == Mode::kRealTime) RaiseThreadPriority();
+  while (!quit_) {
+    if (!run_.is_running()) {
+      shared.changed.wait(lock.inner());
+      continue;
+    }
+    parts_.life_cycle.pace().RestartIfResumed();
+    if (parts_.faults.schedule().IsDue(shared.now)) {
+      lock.unlock();
+      ApplyFaults();
+      lock.lock();
+      continue;
+    }
+    WakeAgents();
+    if (!woken_.empty()) {
+      lock.unlock();
+      gate_opener_.Open(woken_);
+      lock.lock();
+    }
+    if (!run_.is_running()) continue;
+    if (!shared.ready.empty()) {
+      lock.unlock();
+      TakeTurns();
+      lock.lock();
+      continue;
+    }
+    if (!AllWait(lock) || !IsDue(lock)) continue;
+    const RunControl::Change change = run_.EndTurns(shared.now);
+    if (change != RunControl::Change::kNone) {
+      parts_.life_cycle.Apply(change, kAsFarAsTold);
+      continue;
+    }
     lock.unlock();
-    ApplyFaults();
-    return lock.lock();
-  }
-  WakeAgents();
-  if (!woken_.empty()) {
-    lock.unlock();
-    gate_opener_.Open(woken_);
+    TakeStep();
     lock.lock();
   }
-  if (!run_.is_running()) return;
-  if (!shared.ready.empty()) {
-    lock.unlock();
-    TakeTurns();
-    return lock.lock();
-  }
-  if (!AllWait(lock) || !IsDue(lock)) return;
-  const RunControl::Change change = run_.EndTurns(shared.now);
-  if (change != RunControl::Change::kNone) return parts_.life_cycle.Apply(change, kAsFarAsTold);
-  lock.unlock();
-  TakeStep();
-  lock.lock();
 }
 
 void StepLoop::ApplyFaults() {
-  const auto world_lock = parts_.world.lock().Lock();
+  const SteppingWorldGuard world_guard(parts_.world.lock());
+  SimulationLock lock(*parts_.shared);
   FaultSchedule& schedule = parts_.faults.schedule();
-  Lock lock(parts_.shared->mutex);
   while (run_.is_running() && schedule.IsDue(parts_.shared->now)) {
     const scenario::Fault& fault = schedule.TakeDue();
     lock.unlock();
@@ -98,6 +104,7 @@ void StepLoop::WakeAgents() {
   if (!has_reported_deaths && !shared.sleepers.HasDue(shared.now)) return;
   const WallTime wall_now = WallNow();
   const auto wake = [&](RobotAgent& agent) {
+    simulation_mutex.AssertHeld();  // by this function
     const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
     if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.gate());
     if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
@@ -112,9 +119,9 @@ void StepLoop::WakeAgents() {
 
 void StepLoop::TakeTurns() {
   SharedState& shared = *parts_.shared;
-  const auto world_lock = parts_.world.lock().Lock();
+  const SteppingWorldGuard world_guard(parts_.world.lock());
   {
-    const std::lock_guard lock(shared.mutex);
+    const SimulationLock lock(shared);
     if (!run_.is_running()) return;
     turns_.swap(shared.ready);
     instant_.now = shared.now;
@@ -125,7 +132,7 @@ void StepLoop::TakeTurns() {
     sensing::Sampling sampling = instant_.MakeSampling();
     for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
-  const std::lock_guard lock(shared.mutex);
+  const SimulationLock lock(shared);
   parts_.world.lock().SetStuck(false);  // it came back after all
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (RobotAgent* agent : turns_) {
@@ -141,13 +148,13 @@ void StepLoop::PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()
   parts_.caller.Post(key,
                      [shared = parts_.shared, agent = std::move(agent), work = std::move(work)] {
                        work();
-                       const std::lock_guard lock(shared->mutex);
+                       const SimulationLock lock(*shared);
                        if (!agent->is_gone()) agent->MakeReady();
                        shared->changed.notify_all();
                      });
 }
 
-bool StepLoop::AllWait(Lock& lock) {
+bool StepLoop::AllWait(SimulationLock& lock) {
   SharedState& shared = *parts_.shared;
   if (shared.mode != Mode::kLockstep || shared.running == 0) return true;
   AgentPopulation::AgentPtr longest;
@@ -156,9 +163,11 @@ bool StepLoop::AllWait(Lock& lock) {
     if (longest == nullptr || agent->running_since() < longest->running_since()) longest = agent;
   }
   GSV_CHECK(longest != nullptr);
-  const auto deadline = [&] { return longest->running_since() + parts_.specification.deadline; };
+  const auto deadline = [&]() GSV_REQUIRES(simulation_mutex) {
+    return longest->running_since() + parts_.specification.deadline;
+  };
   // The population may change while the lock is released: `longest` keeps the agent.
-  const std::cv_status status = shared.changed.wait_until(lock, deadline());
+  const std::cv_status status = shared.changed.wait_until(lock.inner(), deadline());
   if (status == std::cv_status::timeout && run_.is_running() && longest->HoldsUp() &&
       WallNow() >= deadline()) {
     GiveUpOn(*longest);
@@ -176,11 +185,11 @@ void StepLoop::GiveUpOn(RobotAgent& agent) {
     parts_.life_cycle.Fail(agent.Describe() + " " + detail);
 }
 
-bool StepLoop::IsDue(Lock& lock) {
+bool StepLoop::IsDue(SimulationLock& lock) {
   if (parts_.shared->mode != Mode::kRealTime) return true;
   const WallTime due = parts_.life_cycle.pace().due();
   if (WallNow() >= due) return true;
-  parts_.shared->changed.wait_until(lock, due);
+  parts_.shared->changed.wait_until(lock.inner(), due);
   return false;
 }
 
@@ -203,7 +212,7 @@ void StepLoop::TakeStep() {
   const SimTime length = parts_.specification.step;
   std::shared_ptr<world::Snapshot> snapshot;
   {
-    const auto world_lock = world.lock().Lock();
+    const SteppingWorldGuard world_guard(world.lock());
     const WallTime start = WallNow();
     if (!BeginStep(start)) return;
     std::vector<world::Transmission> transmissions;
@@ -223,7 +232,7 @@ void StepLoop::TakeStep() {
 
 bool StepLoop::BeginStep(WallTime start) {
   SharedState& shared = *parts_.shared;
-  const std::lock_guard lock(shared.mutex);
+  const SimulationLock lock(shared);
   if (!run_.is_running()) return false;
   // Somebody may have come between the check and the locks: a robot was added, a clock opened, or
   // the last agent that ran has given up.
@@ -258,7 +267,7 @@ void StepLoop::EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, W
   ++ProcessTotals().steps;
   SharedState& shared = *parts_.shared;
   const WallTime end = WallNow();
-  const std::lock_guard lock(shared.mutex);
+  const SimulationLock lock(shared);
   // The snapshot and the phase that comes of it appear together: see Simulation::status().
   shared.history.Publish(snapshot);
   shared.now = snapshot->state.time;

@@ -7,7 +7,6 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -42,39 +41,35 @@ class StepLoop {
   StepLoop& operator=(const StepLoop&) = delete;
   // After Quit().
   ~StepLoop() = default;
-  // The thread ends after the step that is under way. Needs SharedState::mutex.
-  void Quit();
+  // The thread ends after the step that is under way.
+  void Quit() GSV_REQUIRES(simulation_mutex);
   // Waits for the end of the thread; the caller holds no lock.
   void Join();
 
-  // The hash of the world, the agents' waits and the faults that have happened. Needs the world's
-  // lock and SharedState::mutex.
-  std::string HashNow() const;
+  // The hash of the world, the agents' waits and the faults that have happened.
+  std::string HashNow() const GSV_REQUIRES(world_mutex, simulation_mutex);
 
  private:
-  using Lock = std::unique_lock<std::mutex>;
-
   void Run();
-  // One round of the loop. Releases `lock` while it works or waits.
-  void TakeRound(Lock& lock);
   void ApplyFaults();
-  void WakeAgents();
+  void WakeAgents() GSV_REQUIRES(simulation_mutex);
   // Local behaviours whose time has come run until they wait.
   void TakeTurns();
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
-  void GiveUpOn(RobotAgent& agent);
+  void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
   // True when every agent waits. Else it has waited for something to change.
-  bool AllWait(Lock& lock);
-  bool IsDue(Lock& lock);
+  bool AllWait(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
+  bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   void TakeStep();
   // False: the step is not to be taken after all.
-  bool BeginStep(WallTime start);
-  void ApplyCommands();
-  void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start);
+  bool BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
+  void ApplyCommands() GSV_REQUIRES(world_mutex, simulation_mutex);
+  void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start)
+      GSV_REQUIRES(world_mutex);
 
   const Parts parts_;
-  RunControl& run_;
-  bool quit_ = false;  // guarded by SharedState::mutex
+  RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
+  bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
 
   // The stepping thread's.
   SnapshotPool snapshots_;

@@ -99,7 +99,8 @@ SteppingSimulation::SteppingSimulation(Specification specification,
       step_loop_({specification_, shared_, events_, caller_, agents_, life_cycle_, world_, faults_,
                   std::move(team)}),
       watchdog_(specification_.deadline, world_.lock(), shared_, events_, agents_, life_cycle_) {
-  const std::lock_guard lock(shared_->mutex);
+  const SteppingWorldGuard world_guard(world_.lock());
+  const SimulationLock lock(*shared_);
   for (const world::Body& body : world_.layout()->bodies) {
     if (body.is_robot()) agents_.Add(body.name, body.model, false, nullptr);
   }
@@ -108,7 +109,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
 
 SteppingSimulation::~SteppingSimulation() {
   {
-    const std::lock_guard lock(shared_->mutex);
+    const SimulationLock lock(*shared_);
     const Phase phase = run_.phase();
     if (phase != Phase::kStopped && phase != Phase::kFinished)
       life_cycle_.EndBehaviours("the simulation is gone");
@@ -153,7 +154,7 @@ SimulationStatus SteppingSimulation::status() const {
   status.mode = specification_.mode;
   status.step_size = specification_.step;
   status.events = events_.count();
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   const auto snapshot = shared_->history.latest();
   status.phase = run_.phase();
   status.failure = run_.failure();
@@ -170,14 +171,14 @@ std::shared_ptr<const world::Snapshot> SteppingSimulation::snapshot() const {
 }
 
 std::string SteppingSimulation::state_hash() const {
-  const auto world_lock = world_.lock().LockUnlessStuck();
-  if (!world_lock) return {};
-  const std::lock_guard lock(shared_->mutex);
+  const WorldGuard world_guard(world_.lock());
+  if (!world_guard.is_held()) return {};
+  const SimulationLock lock(*shared_);
   return run_.final_hash().empty() ? step_loop_.HashNow() : run_.final_hash();
 }
 
 AgentPopulation::AgentPtr SteppingSimulation::FindAgent(const std::string& robot) const {
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   return agents_.Find(robot);
 }
 

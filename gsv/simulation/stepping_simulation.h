@@ -81,13 +81,13 @@ class SteppingSimulation final : public Simulation {
   // Waits until no call to a behaviour is under way. Fails if one in process does not return.
   base::Status AwaitCalls();
 
-  // Waits for the turns of a pause, locks the world, and checks that it may be edited.
-  base::Result<WorldLock::Held> LockForEdit() const;
   // Waits for the end of the turns of behaviours elsewhere, if they do not take long.
   void AwaitTurns() const;
-  void AssignBodies();
-  // Emits the event of an edit that has been made, under the world's lock.
-  void RecordEdit(Edit edit, const char* event, const std::string& detail = {});
+  base::Status CheckMayEdit(const WorldGuard& guard) const;
+  void AssignBodies() GSV_REQUIRES(world_mutex);
+  // Emits the event of an edit that has been made.
+  void RecordEdit(Edit edit, const char* event, const std::string& detail = {})
+      GSV_REQUIRES(world_mutex);
   base::Status PlaceRobots(std::vector<RobotSpecification>& robots);
   base::Status RemoveRobots(const std::vector<std::string>& names);
 
@@ -99,12 +99,12 @@ class SteppingSimulation final : public Simulation {
   BehaviourCaller caller_;
   AgentPopulation agents_;
   LifeCycle life_cycle_;
-  RunControl& run_;
+  RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
   WorldEditor editor_;
   FaultInjector faults_;
   StepLoop step_loop_;
   Watchdog watchdog_;
-  std::mutex control_mutex_;
+  base::Mutex control_mutex_;
 };
 
 }  // namespace gsv::simulation

@@ -19,18 +19,23 @@ Watchdog::Watchdog(std::chrono::milliseconds deadline, WorldLock& world_lock,
       events_(events),
       agents_(agents),
       life_cycle_(life_cycle),
-      thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+      thread_([this] { Run(); }) {}
 
 void Watchdog::Stop() {
-  thread_.request_stop();
+  {
+    const SimulationLock lock(*shared_);
+    quit_ = true;
+  }
+  stopped_.notify_one();
   if (thread_.joinable()) thread_.join();
 }
 
-void Watchdog::Run(const std::stop_token& stop) {
-  std::unique_lock lock(shared_->mutex);
+void Watchdog::Run() {
+  SimulationLock lock(*shared_);
   for (;;) {
-    stopped_.wait_for(lock, stop, kWatchPeriod, [] { return false; });
-    if (stop.stop_requested()) return;
+    stopped_.wait_for(lock.inner(), kWatchPeriod,
+                      [this]() GSV_REQUIRES(simulation_mutex) { return quit_; });
+    if (quit_) return;
     LookForEndlessTurns();
     if (IsUnderWay()) agents_.LookForDeaths();
   }

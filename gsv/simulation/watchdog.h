@@ -3,7 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <thread>
 
@@ -21,10 +20,9 @@ class Watchdog {
   void Stop();
 
  private:
-  void Run(const std::stop_token& stop);
-  // These need SharedState::mutex.
-  bool IsUnderWay() const;
-  void LookForEndlessTurns();
+  void Run();
+  bool IsUnderWay() const GSV_REQUIRES(simulation_mutex);
+  void LookForEndlessTurns() GSV_REQUIRES(simulation_mutex);
 
   const std::chrono::milliseconds deadline_;
   WorldLock& world_lock_;
@@ -32,7 +30,8 @@ class Watchdog {
   EventLog& events_;
   AgentPopulation& agents_;
   LifeCycle& life_cycle_;
-  std::condition_variable_any stopped_;
+  bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
+  base::ConditionVariable stopped_;
   std::jthread thread_;
 };
 

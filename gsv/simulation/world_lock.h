@@ -9,31 +9,68 @@
 
 #include <atomic>
 #include <chrono>
-#include <mutex>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::simulation {
 
+// A world's mutex, as the thread-safety analysis knows it: the parts of a simulation reach it each
+// through a reference of their own.
+class GSV_CAPABILITY("mutex") WorldMutex {};
+inline WorldMutex world_mutex;
+
 class WorldLock {
  public:
-  using Held = std::unique_lock<std::timed_mutex>;
   // How soon a waiting thread notices that the simulation is stuck.
   static constexpr std::chrono::milliseconds kLookPeriod{100};
-
-  // For the stepping thread.
-  Held Lock() { return Held(mutex_); }
-  // For all other threads. What it returns owns nothing if the simulation is stuck.
-  Held LockUnlessStuck() const {
-    Held held(mutex_, std::defer_lock);
-    while (!held.owns_lock() && !is_stuck_) (void)held.try_lock_for(kLookPeriod);
-    return held;
-  }
 
   bool is_stuck() const { return is_stuck_; }
   void SetStuck(bool is_stuck) { is_stuck_ = is_stuck; }
 
  private:
-  mutable std::timed_mutex mutex_;
+  friend class SteppingWorldGuard;
+  friend class WorldGuard;
+
+  base::TimedMutex mutex_;
   std::atomic<bool> is_stuck_{false};
+};
+
+// Holds the world's lock as long as it lives; for the stepping thread.
+class GSV_SCOPED_CAPABILITY SteppingWorldGuard {
+ public:
+  explicit SteppingWorldGuard(WorldLock& world) GSV_ACQUIRE(world_mutex) : lock_(world.mutex_) {}
+  ~SteppingWorldGuard() GSV_RELEASE() = default;
+  SteppingWorldGuard(const SteppingWorldGuard&) = delete;
+  SteppingWorldGuard& operator=(const SteppingWorldGuard&) = delete;
+
+ private:
+  const base::TimedMutexLock lock_;
+};
+
+// The same for all other threads. It does not hold the lock if the simulation is stuck: the caller
+// asks is_held() first, which the analysis cannot check.
+class GSV_SCOPED_CAPABILITY WorldGuard {
+ public:
+  explicit WorldGuard(WorldLock& world) GSV_ACQUIRE(world_mutex) : world_(world) { Lock(); }
+  ~WorldGuard() GSV_RELEASE() {
+    if (is_held_) Unlock();
+  }
+  WorldGuard(const WorldGuard&) = delete;
+  WorldGuard& operator=(const WorldGuard&) = delete;
+
+  bool is_held() const { return is_held_; }
+
+ private:
+  // The analysis knows the mutex as world_mutex.
+  void Lock() GSV_NO_THREAD_SAFETY_ANALYSIS {
+    while (!is_held_ && !world_.is_stuck()) {
+      is_held_ = world_.mutex_.try_lock_for(WorldLock::kLookPeriod);
+    }
+  }
+  void Unlock() GSV_NO_THREAD_SAFETY_ANALYSIS { world_.mutex_.unlock(); }
+
+  WorldLock& world_;
+  bool is_held_ = false;
 };
 
 }  // namespace gsv::simulation

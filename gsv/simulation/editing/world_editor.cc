@@ -38,7 +38,7 @@ base::Status CheckRoomFor(std::size_t more, const std::vector<world::Body>& bodi
 
 geometry::Pose WorldEditor::StandingPose(const model::Model& model, geometry::Pose pose,
                                          int own) const {
-  const auto may_carry = [this, own](int body) {
+  const auto may_carry = [this, own](int body) GSV_REQUIRES(world_mutex) {
     return body != own && !world_.layout()->bodies[static_cast<std::size_t>(body)].is_robot();
   };
   const auto solids = shared_->rays.At(shared_->history.latest());

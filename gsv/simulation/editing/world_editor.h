@@ -1,8 +1,8 @@
 // Changes who stands in a simulated world, and where. A change that fails leaves the world as it
 // was.
 //
-// Threads  who calls a member holds the world's lock. The world's snapshot history is restarted
-//          with each change.
+// Threads  any, with the world's lock (world_mutex). The history of snapshots is restarted with each
+//          change.
 #pragma once
 
 #include <deque>
@@ -24,39 +24,44 @@ class WorldEditor {
       : world_(world), shared_(std::move(shared)), events_(events) {}
 
   // Names the robots and places them: all, or none.
-  base::Status AddRobots(std::vector<RobotSpecification>& robots);
+  base::Status AddRobots(std::vector<RobotSpecification>& robots) GSV_REQUIRES(world_mutex);
   // Returns the object's name.
-  base::Result<std::string> AddObject(const ObjectSpecification& object);
-  base::Status RemoveObject(const std::string& name);
+  base::Result<std::string> AddObject(const ObjectSpecification& object) GSV_REQUIRES(world_mutex);
+  base::Status RemoveObject(const std::string& name) GSV_REQUIRES(world_mutex);
   // Removes bodies of any kind; names that are not there are ignored.
-  base::Status Remove(const std::vector<std::string>& names);
+  base::Status Remove(const std::vector<std::string>& names) GSV_REQUIRES(world_mutex);
   // Places a body that is not fixed to the world.
-  base::Status Place(const std::string& name, const geometry::Pose& world_from_body,
-                     bool on_ground);
+  base::Status Place(const std::string& name, const geometry::Pose& world_from_body, bool on_ground)
+      GSV_REQUIRES(world_mutex);
   // Places a body of any kind, by its index.
-  base::Status PlaceAny(int body, const geometry::Pose& world_from_body, bool on_ground);
+  base::Status PlaceAny(int body, const geometry::Pose& world_from_body, bool on_ground)
+      GSV_REQUIRES(world_mutex);
   // Gives bodies other initial poses, for the next reset. Names that are not there are ignored.
-  base::Status SetInitialPoses(const std::map<std::string, geometry::Pose>& poses);
+  base::Status SetInitialPoses(const std::map<std::string, geometry::Pose>& poses)
+      GSV_REQUIRES(world_mutex);
 
  private:
   // `pose` with the height at which the model stands on what is below it. `own`: its body, which it
   // cannot stand on; -1: it has none yet.
-  geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const;
+  geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const
+      GSV_REQUIRES(world_mutex);
   // `placed`: names of the bodies that are new or placed elsewhere, at their initial poses.
-  base::Status ChangeBodies(std::vector<world::Body> bodies,
-                            const std::vector<std::string>& placed);
+  base::Status ChangeBodies(std::vector<world::Body> bodies, const std::vector<std::string>& placed)
+      GSV_REQUIRES(world_mutex);
   base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,
-                       world::State& state);
+                       world::State& state) GSV_REQUIRES(world_mutex);
   // The body of that name, or why it cannot be moved.
-  base::Result<int> FindMovable(const std::string& name) const;
-  base::Result<world::Body> BodyOf(const ObjectSpecification& object) const;
+  base::Result<int> FindMovable(const std::string& name) const GSV_REQUIRES(world_mutex);
+  base::Result<world::Body> BodyOf(const ObjectSpecification& object) const
+      GSV_REQUIRES(world_mutex);
   base::Result<std::string> NameOf(const ObjectSpecification& object,
-                                   const model::Model& model) const;
+                                   const model::Model& model) const GSV_REQUIRES(world_mutex);
 
   SimulatedWorld& world_;
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;
-  std::deque<world::Body> removed_;  // objects, the newest last; copies of them can be added
+  // Objects, the newest last; copies of them can be added.
+  std::deque<world::Body> removed_ GSV_GUARDED_BY(world_mutex);
 };
 
 }  // namespace gsv::simulation

@@ -79,7 +79,7 @@ base::Status FaultInjector::Inject(const Fault& fault) {
 base::Status FaultInjector::Apply(const Fault& fault) {
   if (fault.kind == FaultKind::kBodyMoves) return MoveBody(fault);
   if (fault.kind == FaultKind::kJointMoves) return MoveJoint(fault);
-  std::unique_lock lock(shared_->mutex);
+  SimulationLock lock(*shared_);
   const AgentPopulation::AgentPtr agent = agents_.Find(fault.body);
   if (agent == nullptr) {
     return RefuseFault(base::ErrorCode::kNotFound, fault, "the robot is gone: " + fault.body);
@@ -123,7 +123,7 @@ base::Status FaultInjector::MoveBody(const Fault& fault) {
     return RefuseFault(ok.error().code, fault, ok.error().Sentence());
   }
   if (before.is_static()) moved_from_.emplace(fault.body, before.initial_pose);
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   agents_.AssignBodies(*world_.layout());
   return {};
 }

@@ -1,6 +1,7 @@
 // Makes the faults of a scenario happen, and undoes what they moved. See scenario/fault.h.
 //
-// Threads  "mutex" is SharedState::mutex, "world" the world's lock.
+// Threads  any, with SharedState::mutex (simulation_mutex) and the world's lock (world_mutex) as
+//          declared.
 #pragma once
 
 #include <map>
@@ -26,32 +27,33 @@ class FaultInjector {
         world_(world),
         editor_(editor) {}
 
-  // Needs the mutex. Fails if a fault cannot happen to who stands in the world now.
-  base::Status Check() const;
-  // Needs the mutex.
-  FaultSchedule& schedule() { return schedule_; }
-  const FaultSchedule& schedule() const { return schedule_; }
+  // Fails if a fault cannot happen to who stands in the world now.
+  base::Status Check() const GSV_REQUIRES(simulation_mutex);
+  FaultSchedule& schedule() GSV_REQUIRES(simulation_mutex) { return schedule_; }
+  const FaultSchedule& schedule() const GSV_REQUIRES(simulation_mutex) { return schedule_; }
 
-  // Needs the world; takes the mutex itself. Emits an event in either case.
-  base::Status Inject(const scenario::Fault& fault);
-  // Needs the world. Static bodies will start where faults found them.
-  base::Status UndoMoves();
+  // Emits an event, also if the fault cannot happen.
+  base::Status Inject(const scenario::Fault& fault) GSV_REQUIRES(world_mutex)
+      GSV_EXCLUDES(simulation_mutex);
+  // Static bodies will start where faults found them.
+  base::Status UndoMoves() GSV_REQUIRES(world_mutex);
 
  private:
-  base::Status CheckOne(const scenario::Fault& fault, const world::Layout& layout) const;
-  base::Status Apply(const scenario::Fault& fault);
+  base::Status CheckOne(const scenario::Fault& fault, const world::Layout& layout) const
+      GSV_REQUIRES(simulation_mutex);
+  base::Status Apply(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);
   base::Status FailSensor(const scenario::Fault& fault, RobotAgent& agent);
-  base::Status MoveBody(const scenario::Fault& fault);
-  base::Status MoveJoint(const scenario::Fault& fault);
+  base::Status MoveBody(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);
+  base::Status MoveJoint(const scenario::Fault& fault) GSV_REQUIRES(world_mutex);
 
-  FaultSchedule schedule_;  // guarded by SharedState::mutex
+  FaultSchedule schedule_ GSV_GUARDED_BY(simulation_mutex);
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;
   AgentPopulation& agents_;
   SimulatedWorld& world_;
   WorldEditor& editor_;
-  // Where static bodies stood that faults have moved; guarded by the world's lock.
-  std::map<std::string, geometry::Pose> moved_from_;
+  // Where static bodies stood that faults have moved.
+  std::map<std::string, geometry::Pose> moved_from_ GSV_GUARDED_BY(world_mutex);
 };
 
 }  // namespace gsv::simulation

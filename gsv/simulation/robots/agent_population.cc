@@ -55,9 +55,9 @@ std::vector<AgentPopulation::AgentPtr> AgentPopulation::WithBehaviour() const {
 
 void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*call)()) {
   for (const AgentPtr& agent : WithBehaviour()) {
-    caller_.Post(agent->robot(), [this, agent, what, call] {
+    caller_.Post(agent->robot(), [this, agent, behaviour = agent->behaviour(), what, call] {
       // A behaviour that does not hear of a pause may live on: the clock stands still anyway.
-      if (const auto status = (agent->behaviour().get()->*call)(); !status) {
+      if (const auto status = (behaviour.get()->*call)(); !status) {
         events_.Emit("behaviour_silent", agent->robot(),
                      std::string(what) + ": " + status.error().Sentence());
       }
@@ -102,16 +102,16 @@ void AgentPopulation::ReportDeath(RobotAgent& agent, const std::string& detail) 
 void AgentPopulation::ReportIfFailed(RobotAgent& agent, const char* what,
                                      const base::Status& status) {
   if (status) return;
-  const std::lock_guard lock(shared_->mutex);
+  const SimulationLock lock(*shared_);
   ReportDeath(agent, std::string(what) + " failed: " + status.error().Sentence());
 }
 
 void AgentPopulation::LookForDeaths() {
   for (const auto& [name, agent] : agents_) {
     if (!agent->is_watched() || !asked_for_life_.insert(name).second) continue;
-    caller_.Post("watch " + name, [this, held = agent] {
-      const bool is_dead = held->behaviour()->IsDead();
-      const std::lock_guard lock(shared_->mutex);
+    caller_.Post("watch " + name, [this, held = agent, behaviour = agent->behaviour()] {
+      const bool is_dead = behaviour->IsDead();
+      const SimulationLock lock(*shared_);
       asked_for_life_.erase(held->robot());
       if (is_dead && held->is_watched())
         ReportDeath(*held, "its process has ended or refuses connections");

@@ -1,6 +1,6 @@
 // The agents of a simulation's robots, by name, and the calls to their behaviours.
 //
-// Threads  every member needs SharedState::mutex, except where it says otherwise.
+// Threads  any, with SharedState::mutex (simulation_mutex) as declared.
 #pragma once
 
 #include <atomic>
@@ -26,45 +26,53 @@ class AgentPopulation {
 
   // `behaviour` may be null.
   void Add(const std::string& name, std::shared_ptr<const model::Model> model, bool is_avatar,
-           std::shared_ptr<BehaviourPort> behaviour);
+           std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
   // Ends the calls of the agent of that name, and stops and destroys its behaviour.
-  void Remove(const std::string& name);
-  void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour);
+  void Remove(const std::string& name) GSV_REQUIRES(simulation_mutex);
+  void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour)
+      GSV_REQUIRES(simulation_mutex);
   // Gives each agent the index of its body.
-  void AssignBodies(const world::Layout& layout);
+  void AssignBodies(const world::Layout& layout) GSV_REQUIRES(simulation_mutex);
 
-  const std::map<std::string, AgentPtr>& all() const { return agents_; }
-  AgentPtr Find(const std::string& name) const;  // null: there is none
-  std::vector<AgentPtr> WithBehaviour() const;
-  // Any thread, without the mutex: there was a behaviour in process at some time.
+  const std::map<std::string, AgentPtr>& all() const GSV_REQUIRES(simulation_mutex) {
+    return agents_;
+  }
+  AgentPtr Find(const std::string& name) const
+      GSV_REQUIRES(simulation_mutex);  // null: there is none
+  std::vector<AgentPtr> WithBehaviour() const GSV_REQUIRES(simulation_mutex);
+  // There was a behaviour in process at some time.
   bool has_hosted() const { return has_hosted_; }
 
   // Posts a call to every behaviour. A failure is an event "behaviour_silent", which says `what`.
-  void CallAll(const char* what, base::Status (BehaviourPort::*call)());
+  void CallAll(const char* what, base::Status (BehaviourPort::*call)())
+      GSV_REQUIRES(simulation_mutex);
   // Ends all calls of agents with `reason` and stops the behaviours. `is_stuck`: except those that
   // are in their turn.
-  void End(std::string reason, bool is_stuck);
-  void DestroyBehaviours();
+  void End(std::string reason, bool is_stuck) GSV_REQUIRES(simulation_mutex);
+  void DestroyBehaviours() GSV_REQUIRES(simulation_mutex);
   // After the calls that End() posted: all agents are as new and behaviours wait for Init().
-  void Reset();
+  void Reset() GSV_REQUIRES(simulation_mutex);
   // Asks all behaviours that are not being asked already whether they have died; deaths are
   // reported later.
-  void LookForDeaths();
-  // Takes the mutex itself. An agent whose behaviour failed in a call is dead.
-  void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status);
+  void LookForDeaths() GSV_REQUIRES(simulation_mutex);
+  // An agent whose behaviour failed in a call is dead.
+  void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
+      GSV_EXCLUDES(simulation_mutex);
 
-  std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot) const;
+  std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot) const
+      GSV_REQUIRES(simulation_mutex);
   // The first robot that the simulation has waited for longer than 0.1 s, and how long; else empty.
-  std::string WaitingFor() const;
+  std::string WaitingFor() const GSV_REQUIRES(simulation_mutex);
 
  private:
-  void ReportDeath(RobotAgent& agent, const std::string& detail);
+  void ReportDeath(RobotAgent& agent, const std::string& detail) GSV_REQUIRES(simulation_mutex);
 
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;
   BehaviourCaller& caller_;
-  std::map<std::string, AgentPtr> agents_;
-  std::set<std::string> asked_for_life_;  // robots whose behaviour has not answered IsDead() yet
+  std::map<std::string, AgentPtr> agents_ GSV_GUARDED_BY(simulation_mutex);
+  // Robots whose behaviour has not answered IsDead() yet.
+  std::set<std::string> asked_for_life_ GSV_GUARDED_BY(simulation_mutex);
   std::atomic<bool> has_hosted_{false};
 };
 

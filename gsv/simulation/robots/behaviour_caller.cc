@@ -10,7 +10,7 @@ BehaviourCaller::BehaviourCaller(int threads) {
 
 void BehaviourCaller::Close() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     closing_ = true;
   }
   changed_.notify_all();
@@ -19,28 +19,31 @@ void BehaviourCaller::Close() {
 
 void BehaviourCaller::Post(std::string key, std::function<void()> call) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     tasks_.push_back({std::move(key), std::move(call)});
   }
   changed_.notify_one();
 }
 
 bool BehaviourCaller::WaitUntilIdle(std::chrono::milliseconds timeout) {
-  std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, timeout,
-                           [this] { return tasks_.empty() && in_progress_.empty(); });
+  base::MutexLock lock(mutex_);
+  return changed_.wait_for(lock, timeout, [this]() GSV_REQUIRES(mutex_) {
+    return tasks_.empty() && in_progress_.empty();
+  });
 }
 
 std::deque<BehaviourCaller::Task>::iterator BehaviourCaller::FindRunnable() {
-  return std::find_if(tasks_.begin(), tasks_.end(),
-                      [this](const Task& task) { return !in_progress_.contains(task.key); });
+  return std::find_if(tasks_.begin(), tasks_.end(), [this](const Task& task) GSV_REQUIRES(mutex_) {
+    return !in_progress_.contains(task.key);
+  });
 }
 
 void BehaviourCaller::Work() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   for (;;) {
-    changed_.wait(
-        lock, [this] { return FindRunnable() != tasks_.end() || (closing_ && tasks_.empty()); });
+    changed_.wait(lock, [this]() GSV_REQUIRES(mutex_) {
+      return FindRunnable() != tasks_.end() || (closing_ && tasks_.empty());
+    });
     const auto it = FindRunnable();
     if (it == tasks_.end()) return;
     const Task task = std::move(*it);

@@ -3,14 +3,14 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <set>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::simulation {
 
@@ -34,14 +34,14 @@ class BehaviourCaller {
   };
 
   void Work();
-  // The first task whose key is not in progress; end() if there is none. Under the lock.
-  std::deque<Task>::iterator FindRunnable();
+  // The first task whose key is not in progress; end() if there is none.
+  std::deque<Task>::iterator FindRunnable() GSV_REQUIRES(mutex_);
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Task> tasks_;
-  std::set<std::string> in_progress_;
-  bool closing_ = false;
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::deque<Task> tasks_ GSV_GUARDED_BY(mutex_);
+  std::set<std::string> in_progress_ GSV_GUARDED_BY(mutex_);
+  bool closing_ GSV_GUARDED_BY(mutex_) = false;
   std::vector<std::jthread> threads_;
 };
 

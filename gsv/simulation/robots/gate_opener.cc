@@ -13,10 +13,14 @@ void OpenAll(const GateOpener::Gates& gates) {
 
 }  // namespace
 
-GateOpener::GateOpener() : thread_([this](const std::stop_token& stop) { Run(stop); }) {}
+GateOpener::GateOpener() : thread_([this] { Run(); }) {}
 
 GateOpener::~GateOpener() {
-  thread_.request_stop();
+  {
+    const base::MutexLock lock(mutex_);
+    quit_ = true;
+  }
+  came_.notify_one();
   thread_.join();
   OpenAll(waiting_);
 }
@@ -25,18 +29,20 @@ void GateOpener::Open(Gates& gates) {
   if (gates.size() <= kFew) {
     OpenAll(gates);
   } else {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     waiting_.insert(waiting_.end(), gates.begin(), gates.end());
     came_.notify_one();
   }
   gates.clear();
 }
 
-void GateOpener::Run(const std::stop_token& stop) {
+void GateOpener::Run() {
   pthread_setname_np(pthread_self(), "waking");
   Gates gates;
-  std::unique_lock lock(mutex_);
-  while (came_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
+  base::MutexLock lock(mutex_);
+  for (;;) {
+    came_.wait(lock, [this]() GSV_REQUIRES(mutex_) { return quit_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
     gates.swap(waiting_);
     lock.unlock();
     OpenAll(gates);

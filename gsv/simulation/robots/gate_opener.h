@@ -4,12 +4,11 @@
 // Threads  Open() from one thread at a time.
 #pragma once
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/simulation/robots/wait_gate.h"
 
 namespace gsv::simulation {
@@ -28,11 +27,12 @@ class GateOpener {
   void Open(Gates& gates);
 
  private:
-  void Run(const std::stop_token& stop);
+  void Run();
 
-  std::mutex mutex_;
-  std::condition_variable_any came_;
-  Gates waiting_;
+  base::Mutex mutex_;
+  base::ConditionVariable came_;
+  Gates waiting_ GSV_GUARDED_BY(mutex_);
+  bool quit_ GSV_GUARDED_BY(mutex_) = false;
   std::jthread thread_;
 };
 

@@ -53,7 +53,7 @@ base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription descript
 
 std::shared_ptr<const SensorDesigns::List> SensorDesigns::Of(
     const std::shared_ptr<const model::Model>& model) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::shared_ptr<const List>& known = known_[model];
   if (known != nullptr) return known;
   List designs;
@@ -76,7 +76,7 @@ std::shared_ptr<const SensorDesigns::List> SensorDesigns::Of(
 
 base::Result<sensing::Reading> MountedSensor::Read(const sensing::Sampling& sampling) {
   if (design_->sensor == nullptr) return base::Fail(design_->refusal);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (!has_failed_) return SampleOnce(sampling);
   if (silent_since_ == nullptr) {
     return base::Fail(base::ErrorCode::kUnavailable, "the sensor has failed", name());
@@ -100,13 +100,13 @@ base::Result<sensing::Reading> MountedSensor::SampleOnce(const sensing::Sampling
 }
 
 void MountedSensor::Fail(std::shared_ptr<const world::Snapshot> snapshot) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   has_failed_ = true;
   silent_since_ = std::move(snapshot);
 }
 
 void MountedSensor::Forget() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   has_failed_ = false;
   silent_since_ = nullptr;
   sampled_step_ = -1;

@@ -7,10 +7,10 @@
 #include <atomic>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/sensing/registry.h"
 #include "gsv/simulation/robots/snapshot_history.h"
 
@@ -45,9 +45,10 @@ class SensorDesigns {
 
  private:
   const std::shared_ptr<const sensing::SensorRegistry> types_;
-  std::mutex mutex_;
-  std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>>
-      known_;  // looked up only
+  base::Mutex mutex_;
+  // Looked up only.
+  std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>> known_
+      GSV_GUARDED_BY(mutex_);
 };
 
 class MountedSensor {
@@ -80,18 +81,17 @@ class MountedSensor {
   void Forget();
 
  private:
-  // Under the lock.
-  base::Result<sensing::Reading> SampleOnce(const sensing::Sampling& sampling);
+  base::Result<sensing::Reading> SampleOnce(const sensing::Sampling& sampling) GSV_REQUIRES(mutex_);
 
   const SensorDesignPtr design_;
   std::atomic<std::uint64_t> readings_{0};
 
-  std::mutex mutex_;                // guards what follows
-  std::int64_t sampled_step_ = -1;  // -1: never
-  std::uint32_t sampled_layout_ = 0;
-  sensing::Reading newest_;
-  bool has_failed_ = false;
-  std::shared_ptr<const world::Snapshot> silent_since_;
+  base::Mutex mutex_;
+  std::int64_t sampled_step_ GSV_GUARDED_BY(mutex_) = -1;  // -1: never
+  std::uint32_t sampled_layout_ GSV_GUARDED_BY(mutex_) = 0;
+  sensing::Reading newest_ GSV_GUARDED_BY(mutex_);
+  bool has_failed_ GSV_GUARDED_BY(mutex_) = false;
+  std::shared_ptr<const world::Snapshot> silent_since_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::simulation

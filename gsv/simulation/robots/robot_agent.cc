@@ -51,7 +51,7 @@ RobotCommands& RobotAgent::Commands() {
   return commands_;
 }
 
-base::Status RobotAgent::CheckAlive(const std::unique_lock<std::mutex>&) const {
+base::Status RobotAgent::CheckAlive() const {
   if (is_gone_) return base::Fail(base::ErrorCode::kEnded, "the robot has been removed", robot_);
   if (!shared_->end_reason.empty()) {
     return base::Fail(base::ErrorCode::kEnded, shared_->end_reason, robot_);
@@ -62,8 +62,8 @@ base::Status RobotAgent::CheckAlive(const std::unique_lock<std::mutex>&) const {
   return {};
 }
 
-base::Status RobotAgent::CheckMayAct(const std::unique_lock<std::mutex>& lock) const {
-  if (auto alive = CheckAlive(lock); !alive) return alive;
+base::Status RobotAgent::CheckMayAct() const {
+  if (auto alive = CheckAlive(); !alive) return alive;
   const bool waits = shared_->mode == Mode::kLockstep && started_ && behaviour_ != nullptr &&
                      clocks_.HasOpened() && !clocks_.IsFinished() && !clocks_.IsRunning();
   return waits ? base::Fail(NotRunning(robot_)) : base::Status();
@@ -75,8 +75,8 @@ base::Status RobotAgent::CheckClock(ClockId clock) const {
 }
 
 base::Result<ClockId> RobotAgent::OpenClock() {
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
   const ClockId clock = clocks_.Open();
   if (clocks_.count() > kMaxClocks) {
     clocks_.Close(clock);
@@ -88,9 +88,9 @@ base::Result<ClockId> RobotAgent::OpenClock() {
 }
 
 base::Status RobotAgent::CloseClock(ClockId clock) {
-  std::unique_lock lock = shared_->LockForAgent();
+  AgentCallLock lock(*shared_);
   if (auto ok = CheckClock(clock); !ok) return ok;
-  if (has_given_up_) return CheckAlive(lock);  // its clocks stay as they were then
+  if (has_given_up_) return CheckAlive();  // its clocks stay as they were then
   clocks_.Close(clock);
   gate_.Open();
   Recount();
@@ -98,22 +98,22 @@ base::Status RobotAgent::CloseClock(ClockId clock) {
 }
 
 base::Status RobotAgent::GiveUp(ClockId clock, const std::string& reason) {
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckAlive(lock); !ok) return ok;
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckAlive(); !ok) return ok;
   if (auto ok = CheckClock(clock); !ok) return ok;
   ReportFailure(reason);
   return {};
 }
 
 SimTime RobotAgent::Now() const {
-  const std::unique_lock lock = shared_->LockForAgent();
+  const AgentCallLock lock(*shared_);
   return shared_->now;
 }
 
 base::Result<Wait> RobotAgent::SleepUntil(ClockId clock, SimTime until,
                                           std::chrono::milliseconds lease) {
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckAlive(); !ok) return base::Fail(ok.error());
   if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
   return WaitOn(lock, clock, until, lease);
 }
@@ -126,16 +126,18 @@ bool RobotAgent::BeginWait(ClockId clock, SimTime until) {
   return true;
 }
 
-base::Result<Wait> RobotAgent::WaitOn(std::unique_lock<std::mutex>& lock, ClockId clock,
-                                      SimTime until, std::chrono::milliseconds lease) {
+// The analysis does not know that `lock` is the caller's lock of the mutex.
+base::Result<Wait> RobotAgent::WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,
+                                      std::chrono::milliseconds lease)
+    GSV_NO_THREAD_SAFETY_ANALYSIS {
   if (!BeginWait(clock, until)) return Wait::kReached;
   const WallTime lease_ends = WallNow() + lease;
   for (;;) {
     const std::uint64_t openings = gate_.openings();
     lock.unlock();
     const bool was_opened = gate_.WaitBeyond(openings, lease_ends);
-    lock = shared_->LockForAgent();
-    if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+    lock.lock();
+    if (auto ok = CheckAlive(); !ok) return base::Fail(ok.error());
     if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
     if (!clocks_.IsWaiting(clock)) return Wait::kReached;
     if (!was_opened) return Wait::kNotYet;
@@ -147,12 +149,12 @@ base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
                                              SimTime until, std::chrono::milliseconds lease) {
   Exchanged exchanged;
   {
-    std::unique_lock lock = shared_->LockForAgent();
-    if (auto ok = CheckAlive(lock); !ok) return base::Fail(ok.error());
+    AgentCallLock lock(*shared_);
+    if (auto ok = CheckAlive(); !ok) return base::Fail(ok.error());
     if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
     const std::uint64_t last = clocks_.last_cycle(clock);
     if (cycle == last + 1) {
-      if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+      if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
       if (command && !world::IsFinite(*command)) {
         return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
       }
@@ -192,8 +194,8 @@ base::Status RobotAgent::Command(const world::DriveCommand& command) {
   if (!world::IsFinite(command)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
   }
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckMayAct(); !ok) return ok;
   Commands().OfferDrive({0, command});
   return {};
 }
@@ -207,16 +209,16 @@ base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& comm
   }
   const world::Body& robot = snapshot->layout->bodies[static_cast<std::size_t>(body)];
   if (auto ok = world::CheckJointCommand(robot, joint, command); !ok) return ok;
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckMayAct(); !ok) return ok;
   Commands().CommandJoint(joint, command);
   return {};
 }
 
 base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
   {
-    std::unique_lock lock = shared_->LockForAgent();
-    if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+    AgentCallLock lock(*shared_);
+    if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
   }
   const auto snapshot = shared_->history.latest();
   const int body = snapshot->layout->Find(robot_);
@@ -229,8 +231,8 @@ base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
 }
 
 base::Status RobotAgent::OpenSensor(const std::string& name) {
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckMayAct(); !ok) return ok;
   if (auto ok = rack_.Open(name); !ok) return ok;
   SwitchOn(**rack_.Find(name));
   return {};
@@ -256,8 +258,8 @@ void RobotAgent::StartDevices() {
 }
 
 base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckMayAct(); !ok) return ok;
   const std::string name = description.name;
   auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
   if (!created) return created;
@@ -269,13 +271,13 @@ base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
 }
 
 base::Status RobotAgent::CloseSensor(const std::string& name) {
-  std::unique_lock lock = shared_->LockForAgent();
+  AgentCallLock lock(*shared_);
   const auto sensor = rack_.Find(name);
   if (auto ok = rack_.Close(name); !ok) return ok;
   auto device = (*sensor)->device();
   // An actuator of the model continues with its command.
   const bool ends = device != nullptr && (device->IsOnWhileOpen() || !rack_.Find(name));
-  if (ends && CheckAlive(lock)) {
+  if (ends && CheckAlive()) {
     Commands().Add({DeviceAction::Kind::kSwitchOff, std::move(device)});
   }
   return {};
@@ -286,8 +288,8 @@ base::Status RobotAgent::Act(const std::string& actuator, world::DeviceCommand c
   if (!mounted) return base::Fail(mounted.error());
   auto action = CommandOf(**mounted, std::move(command), robot_);
   if (!action) return base::Fail(action.error());
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckMayAct(); !ok) return ok;
   Commands().Add(*std::move(action));
   return {};
 }
@@ -296,8 +298,8 @@ base::Status RobotAgent::Send(const std::string& radio, const std::string& recei
                               std::string content) {
   const auto mounted = rack_.Find(radio);
   if (!mounted) return base::Fail(mounted.error());
-  std::unique_lock lock = shared_->LockForAgent();
-  if (auto ok = CheckMayAct(lock); !ok) return ok;
+  AgentCallLock lock(*shared_);
+  if (auto ok = CheckMayAct(); !ok) return ok;
   return Commands().Send(**mounted, receiver, std::move(content), robot_);
 }
 
@@ -310,8 +312,8 @@ base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
 
 base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {
   {
-    std::unique_lock lock = shared_->LockForAgent();
-    if (auto ok = CheckMayAct(lock); !ok) return base::Fail(ok.error());
+    AgentCallLock lock(*shared_);
+    if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
   }
   const auto mounted = rack_.Find(sensor);
   if (!mounted) return base::Fail(mounted.error());
@@ -384,7 +386,10 @@ void RobotAgent::MakeReady() {
   shared_->ready.push_back(this);
 }
 
-void RobotAgent::TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling) {
+// The index of the body changes only under the world's lock, which the stepping thread holds, and
+// the behaviour only before the run has started.
+void RobotAgent::TakeTurn(const Turn::Instant& instant,
+                          sensing::Sampling& sampling) GSV_NO_THREAD_SAFETY_ANALYSIS {
   sampling.MoveTo(body_);
   turn_ = Turn(instant, sampling);
   turn_began_ = WallNow();

@@ -1,5 +1,4 @@
-// The Agent of one robot. What the stepping thread sees of it is guarded by SharedState::mutex; the
-// members under "stepping" need it held.
+// The Agent of one robot. Its state is guarded by SharedState::mutex (simulation_mutex).
 #pragma once
 
 #include <atomic>
@@ -58,47 +57,56 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Result<sensing::Reading> Watch(const std::string& sensor);
 
   // Stepping.
-  void SetBody(int body) { body_ = body; }  // its index in the present layout
-  int body() const { return body_; }
-  void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour);
-  const std::shared_ptr<BehaviourPort>& behaviour() const { return behaviour_; }
+  // Its index in the present layout.
+  void SetBody(int body) GSV_REQUIRES(simulation_mutex) { body_ = body; }
+  int body() const GSV_REQUIRES(simulation_mutex) { return body_; }
+  void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
+  const std::shared_ptr<BehaviourPort>& behaviour() const GSV_REQUIRES(simulation_mutex) {
+    return behaviour_;
+  }
   // Its behaviour is in this process: it takes turns, and no thread waits for it.
-  bool is_hosted() const { return behaviour_ != nullptr && behaviour_->local() != nullptr; }
-  void MarkStarted();
-  bool is_started() const { return started_; }
+  bool is_hosted() const GSV_REQUIRES(simulation_mutex) {
+    return behaviour_ != nullptr && behaviour_->local() != nullptr;
+  }
+  void MarkStarted() GSV_REQUIRES(simulation_mutex);
+  bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
   // The simulation must not step: the agent is waited for and runs.
-  bool HoldsUp() const;
+  bool HoldsUp() const GSV_REQUIRES(simulation_mutex);
   // It holds up the simulation, and not only because others have their turn before it.
-  bool IsAtWork() const;
-  WallTime running_since() const { return running_since_; }
+  bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
+  WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
   struct Woken {
     bool has_passed = false;  // its gate is to be opened, best outside of all locks
     bool has_died = false;    // a reported death has taken effect
   };
   // Ends waits up to `now`.
-  Woken Wake(SimTime now, WallTime wall_now);
+  Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
   // Where its waiting calls stand; once it is open they look whether their wait is over.
   std::shared_ptr<WaitGate> gate() { return {shared_from_this(), &gate_}; }
   // It runs and will never wait: takes effect at once.
-  void MarkUnresponsive(std::string detail);
+  void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
   // Its end is known; takes effect at its next wake, at once if it runs.
-  void ReportDeath(std::string detail);
-  bool is_alive() const { return fate_ == Fate::kAlive && !death_reported_; }
-  bool is_watched() const { return behaviour_ != nullptr && is_alive() && !is_gone_; }
+  void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
+  bool is_alive() const GSV_REQUIRES(simulation_mutex) {
+    return fate_ == Fate::kAlive && !death_reported_;
+  }
+  bool is_watched() const GSV_REQUIRES(simulation_mutex) {
+    return behaviour_ != nullptr && is_alive() && !is_gone_;
+  }
   // Returns the commands that act from this step on, as far as its motor and joints can follow
   // them, and clears them.
-  RobotCommands TakeCommands();
+  RobotCommands TakeCommands() GSV_REQUIRES(simulation_mutex);
   // Has its devices follow the commands that they follow from the start.
-  void StartDevices();
+  void StartDevices() GSV_REQUIRES(simulation_mutex);
   // Faults: from the next step on its drive stands still, or nothing moves that joint.
-  void LoseMotor();
-  void LoseJoint(int joint);
-  void MarkGone();
-  bool is_gone() const { return is_gone_; }
-  void ResetClocks();
-  void FillStatus(RobotStatus& status) const;
-  std::string Describe() const;  // "robot_3 (wander on host:pid)"
-  void AddToHash(base::Hash& hash) const;
+  void LoseMotor() GSV_REQUIRES(simulation_mutex);
+  void LoseJoint(int joint) GSV_REQUIRES(simulation_mutex);
+  void MarkGone() GSV_REQUIRES(simulation_mutex);
+  bool is_gone() const GSV_REQUIRES(simulation_mutex) { return is_gone_; }
+  void ResetClocks() GSV_REQUIRES(simulation_mutex);
+  void FillStatus(RobotStatus& status) const GSV_REQUIRES(simulation_mutex);
+  std::string Describe() const GSV_REQUIRES(simulation_mutex);  // "robot_3 (wander on host:pid)"
+  void AddToHash(base::Hash& hash) const GSV_REQUIRES(simulation_mutex);
   SensorRack& rack() { return rack_; }
 
   // A local behaviour's turn. TakeTurn() needs no lock; Settle() enters what came of it, and gives
@@ -106,33 +114,34 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
   // When the turn began that is under way; empty between turns. Any thread.
   std::optional<WallTime> in_turn_since() const;
-  std::function<void()> Settle();
+  std::function<void()> Settle() GSV_REQUIRES(simulation_mutex);
   // The turn of its local behaviour has come.
-  void MakeReady();
+  void MakeReady() GSV_REQUIRES(simulation_mutex);
 
  private:
   enum class Fate { kAlive, kUnresponsive, kDead };
 
-  base::Status CheckMayAct(const std::unique_lock<std::mutex>& lock) const;
-  base::Status CheckAlive(const std::unique_lock<std::mutex>& lock) const;
-  base::Status CheckClock(ClockId clock) const;
-  base::Result<Wait> WaitOn(std::unique_lock<std::mutex>& lock, ClockId clock, SimTime until,
-                            std::chrono::milliseconds lease);
+  base::Status CheckMayAct() const GSV_REQUIRES(simulation_mutex);
+  base::Status CheckAlive() const GSV_REQUIRES(simulation_mutex);
+  base::Status CheckClock(ClockId clock) const GSV_REQUIRES(simulation_mutex);
+  // Releases `lock` while it waits.
+  base::Result<Wait> WaitOn(AgentCallLock& lock, ClockId clock, SimTime until,
+                            std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
   // The clock waits; false when `until` is here already.
-  bool BeginWait(ClockId clock, SimTime until);
-  void ReportFailure(std::string_view reason);
+  bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
+  void ReportFailure(std::string_view reason) GSV_REQUIRES(simulation_mutex);
   // Tells the simulation whether it has to wait for this agent; after whatever may change that.
-  void Recount();
+  void Recount() GSV_REQUIRES(simulation_mutex);
 
   // The commands that the next step takes, which it does not forget then.
-  RobotCommands& Commands();
-  void StopDriving() { Commands().SetDrive({}); }
+  RobotCommands& Commands() GSV_REQUIRES(simulation_mutex);
+  void StopDriving() GSV_REQUIRES(simulation_mutex) { Commands().SetDrive({}); }
   // A device that is on while it is open is on from the next step on.
-  void SwitchOn(const MountedSensor& sensor);
+  void SwitchOn(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
   // A device follows the command that it follows from the start.
-  void StartDevice(const MountedSensor& sensor);
+  void StartDevice(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
 
   const std::string robot_;
   const std::shared_ptr<const model::Model> model_;
@@ -142,23 +151,24 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
 
   WaitGate gate_;
 
-  // Guarded by shared_->mutex.
-  std::shared_ptr<BehaviourPort> behaviour_;
-  AgentClocks clocks_;
-  RobotCommands commands_;
-  int body_ = -1;
-  bool has_motor_ = true;
-  std::set<int> lost_joints_;
-  bool is_counted_ = false;    // in shared_->running
-  bool is_commanded_ = false;  // in shared_->commanded
-  bool is_blocked_ = false;    // a local behaviour on work that takes its time
-  bool started_ = false;
-  bool is_gone_ = false;
-  bool death_reported_ = false;
-  bool has_given_up_ = false;  // its death was reported by itself: nothing of it counts any more
-  Fate fate_ = Fate::kAlive;
-  std::string detail_;
-  WallTime running_since_{};
+  std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
+  AgentClocks clocks_ GSV_GUARDED_BY(simulation_mutex);
+  RobotCommands commands_ GSV_GUARDED_BY(simulation_mutex);
+  int body_ GSV_GUARDED_BY(simulation_mutex) = -1;
+  bool has_motor_ GSV_GUARDED_BY(simulation_mutex) = true;
+  std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
+  bool is_counted_ GSV_GUARDED_BY(simulation_mutex) = false;    // in shared_->running
+  bool is_commanded_ GSV_GUARDED_BY(simulation_mutex) = false;  // in shared_->commanded
+  // A local behaviour is blocked on work that takes its time.
+  bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
+  bool started_ GSV_GUARDED_BY(simulation_mutex) = false;
+  bool is_gone_ GSV_GUARDED_BY(simulation_mutex) = false;
+  bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
+  // It has reported its death itself: nothing of it counts any more.
+  bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
+  Fate fate_ GSV_GUARDED_BY(simulation_mutex) = Fate::kAlive;
+  std::string detail_ GSV_GUARDED_BY(simulation_mutex);
+  WallTime running_since_ GSV_GUARDED_BY(simulation_mutex){};
 
   Turn turn_;  // the stepping thread's, and during a turn the thread's that takes it
   std::atomic<WallTime> turn_began_{WallTime()};  // WallTime(): no turn is under way

@@ -33,7 +33,7 @@ base::Error SensorRack::NoSuchSensor(const std::string& name) const {
 }
 
 std::vector<model::SensorDescription> SensorRack::Descriptions() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::vector<model::SensorDescription> descriptions;
   for (const Slot& slot : slots_) descriptions.push_back(slot.sensor->design().description);
   return descriptions;
@@ -55,7 +55,7 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
   }
   const auto design = MakeSensorDesign(std::move(description), designs_.types(), where);
   if (!design) return base::Fail(design.error());
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (const std::size_t most = ProcessLimits().sensors_of_a_robot; slots_.size() >= most) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "a robot carries at most " + std::to_string(most) +
@@ -72,7 +72,7 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
 }
 
 base::Status SensorRack::Open(const std::string& name) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (Seek(name) == nullptr) return base::Fail(NoSuchSensor(name));
   Slot& slot = slots_[PlaceOf(name)];
   if (slot.sensor->design().sensor == nullptr) return base::Fail(slot.sensor->design().refusal);
@@ -81,7 +81,7 @@ base::Status SensorRack::Open(const std::string& name) {
 }
 
 base::Status SensorRack::Close(const std::string& name) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (Seek(name) == nullptr) return base::Fail(NoSuchSensor(name));
   const auto slot = slots_.begin() + static_cast<std::ptrdiff_t>(PlaceOf(name));
   slot->is_open = false;
@@ -92,7 +92,7 @@ base::Status SensorRack::Close(const std::string& name) {
 }
 
 void SensorRack::Reset() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::erase_if(slots_, [](const Slot& slot) { return slot.is_created; });
   for (Slot& slot : slots_) {
     slot.is_open = false;
@@ -102,14 +102,14 @@ void SensorRack::Reset() {
 }
 
 base::Result<MountedSensorPtr> SensorRack::Find(const std::string& name) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const Slot* slot = Seek(name);
   if (slot == nullptr) return base::Fail(NoSuchSensor(name));
   return slot->sensor;
 }
 
 std::vector<MountedSensorPtr> SensorRack::OpenSensors() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::vector<MountedSensorPtr> sensors;
   for (const Slot& slot : slots_) {
     if (slot.is_open) sensors.push_back(slot.sensor);
@@ -118,7 +118,7 @@ std::vector<MountedSensorPtr> SensorRack::OpenSensors() const {
 }
 
 std::map<std::string, std::uint64_t> SensorRack::readings_by_type() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::map<std::string, std::uint64_t> readings = of_the_gone_;
   for (const Slot& slot : slots_) {
     if (const std::uint64_t count = slot.sensor->readings(); count > 0) {

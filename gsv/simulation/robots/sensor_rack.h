@@ -5,10 +5,10 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/simulation/robots/mounted_sensor.h"
 
 namespace gsv::simulation {
@@ -44,16 +44,18 @@ class SensorRack {
     bool is_created = false;  // by a caller, not by the model
     bool is_open = false;
   };
-  // Null if there is none of that name. Under the lock.
-  const Slot* Seek(const std::string& name) const;
-  std::size_t PlaceOf(const std::string& name) const;  // of the first whose name is not below
+  // Null if there is none of that name.
+  const Slot* Seek(const std::string& name) const GSV_REQUIRES(mutex_);
+  // Of the first whose name is not below.
+  std::size_t PlaceOf(const std::string& name) const GSV_REQUIRES(mutex_);
   base::Error NoSuchSensor(const std::string& name) const;
 
   const std::string robot_;
   SensorDesigns& designs_;
-  mutable std::mutex mutex_;
-  std::vector<Slot> slots_;                           // by name
-  std::map<std::string, std::uint64_t> of_the_gone_;  // readings of closed sensors, by type
+  mutable base::Mutex mutex_;
+  std::vector<Slot> slots_ GSV_GUARDED_BY(mutex_);  // by name
+  // Readings of closed sensors, by type.
+  std::map<std::string, std::uint64_t> of_the_gone_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::simulation

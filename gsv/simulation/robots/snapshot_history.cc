@@ -3,25 +3,25 @@
 namespace gsv::simulation {
 
 SnapshotHistory::SnapshotPtr SnapshotHistory::latest() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return latest_;
 }
 
 SnapshotHistory::SnapshotPtr SnapshotHistory::At(const Cadence& cadence) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (cadence.period.count() <= 0) return latest_;
   return kept_.try_emplace(cadence, Kept{latest_, {}}).first->second.arrived;
 }
 
 void SnapshotHistory::MakeFrame(Frame& frame) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   frame.latest_ = latest_;
   frame.at_instant_.clear();
   for (const auto& [cadence, kept] : kept_) frame.at_instant_.emplace_back(cadence, kept.arrived);
 }
 
 void SnapshotHistory::Publish(SnapshotPtr snapshot) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const base::SimTime before = latest_->state.time, now = snapshot->state.time;
   for (auto& [cadence, kept] : kept_) {
     if (now / cadence.period != before / cadence.period) {
@@ -40,7 +40,7 @@ void SnapshotHistory::Publish(SnapshotPtr snapshot) {
 }
 
 void SnapshotHistory::Restart(SnapshotPtr snapshot) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (auto& [cadence, kept] : kept_) kept = {snapshot, {}};
   latest_ = std::move(snapshot);
 }

@@ -12,10 +12,10 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::simulation {
@@ -70,9 +70,9 @@ class SnapshotHistory {
     std::deque<SnapshotPtr> coming;  // as many as the latency holds periods, at most
   };
 
-  mutable std::mutex mutex_;
-  SnapshotPtr latest_;
-  std::map<Cadence, Kept> kept_;
+  mutable base::Mutex mutex_;
+  SnapshotPtr latest_ GSV_GUARDED_BY(mutex_);
+  std::map<Cadence, Kept> kept_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::simulation

@@ -5,10 +5,9 @@
 // Threads  any.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
-#include <mutex>
 
+#include "gsv/base/mutex.h"
 #include "gsv/simulation/pace/wall_clock.h"
 
 namespace gsv::simulation {
@@ -18,14 +17,14 @@ class WaitGate {
   // How often it has been opened. Who reads this under the lock that guards what it waits for, and
   // then waits beyond it, misses nothing.
   std::uint64_t openings() const {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return openings_;
   }
 
   // Lets all pass who wait now; dear (a system call) where somebody waits.
   void Open() {
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       ++openings_;
     }
     opened_.notify_all();
@@ -33,14 +32,15 @@ class WaitGate {
 
   // Waits until it has been opened more often than `openings`. False when `until` comes first.
   bool WaitBeyond(std::uint64_t openings, WallTime until) {
-    std::unique_lock lock(mutex_);
-    return opened_.wait_until(lock, until, [&] { return openings_ > openings; });
+    base::MutexLock lock(mutex_);
+    return opened_.wait_until(lock, until,
+                              [&]() GSV_REQUIRES(mutex_) { return openings_ > openings; });
   }
 
  private:
-  mutable std::mutex mutex_;
-  std::condition_variable opened_;
-  std::uint64_t openings_ = 0;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable opened_;
+  std::uint64_t openings_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace gsv::simulation
