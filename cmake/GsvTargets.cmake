@@ -32,9 +32,9 @@ endfunction()
 # neighbours are then one, so their names must differ. dev compiles file by file, which shows a missing
 # include and rebuilds sooner.
 #
-# gsv_compile_in_groups(TARGET) has all sources of a target go together in the order in which they are listed;
-# gsv_library and gsv_test call it. After it, gsv_compile_together(TARGET GROUP FILE …) makes a group of its own
-# of those that share what takes longest (libsdformat, Boost.Beast, nlohmann::json, CLI11).
+# gsv_compile_in_groups(TARGET FILE[@GROUP] …) has the target's sources go together in the order in which they are
+# listed, but for those with a group: @json and the like make a group of those that share what takes longest
+# (libsdformat, Boost.Beast, nlohmann::json, CLI11). gsv_library and gsv_test call it with their SOURCES.
 function(gsv_compile_in_groups TARGET)
   if(CMAKE_BUILD_TYPE STREQUAL "Debug")
     return()
@@ -43,17 +43,23 @@ function(gsv_compile_in_groups TARGET)
   # A file's unnamed namespace seems a header's to GCC there.
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  get_target_property(SOURCES ${TARGET} SOURCES)
-  list(FILTER SOURCES INCLUDE REGEX "\\.cc$")
+  set(SOURCES ${ARGN})
+  list(FILTER SOURCES INCLUDE REGEX "\\.cc(@|$)")
   set(COUNT 0)
   foreach(SOURCE IN LISTS SOURCES)
     math(EXPR GROUP "${COUNT} / ${FILES_A_GROUP}")
     math(EXPR COUNT "${COUNT} + 1")
+    if(SOURCE MATCHES "^(.*)@(.*)$")
+      set(SOURCE ${CMAKE_MATCH_1})
+      set(GROUP ${CMAKE_MATCH_2})
+    endif()
     set_source_files_properties(${SOURCE} PROPERTIES UNITY_GROUP ${GROUP})
   endforeach()
 endfunction()
-function(gsv_compile_together TARGET GROUP)
-  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${GROUP})
+# The files alone.
+function(gsv_without_groups OUT)
+  list(TRANSFORM ARGN REPLACE "@.*$" "" OUTPUT_VARIABLE FILES)
+  set(${OUT} ${FILES} PARENT_SCOPE)
 endfunction()
 
 # ctest begins what costs most first; only the browser's programs (tests/browser) cost more.
@@ -76,7 +82,7 @@ function(gsv_test_helper)
   endforeach()
 endfunction()
 
-# gsv_library(NAME SOURCES … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …])
+# gsv_library(NAME SOURCES FILE[@GROUP] … HEADERS … [DEPENDS …] [PRIVATE_DEPENDS …])
 #
 # Adds the static library gsv_NAME with the alias gsv::NAME. Path, include and target agree:
 # the folder gsv/NAME is included as "gsv/NAME/…" from the repository root. Each header is
@@ -84,11 +90,12 @@ endfunction()
 function(gsv_library NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   if(ARG_SOURCES)
-    add_library(gsv_${NAME} STATIC ${ARG_SOURCES})
+    gsv_without_groups(FILES ${ARG_SOURCES})
+    add_library(gsv_${NAME} STATIC ${FILES})
     set(SCOPE PUBLIC)
     target_link_libraries(gsv_${NAME} PRIVATE ${ARG_PRIVATE_DEPENDS})
     gsv_precompile(gsv_${NAME} library)
-    gsv_compile_in_groups(gsv_${NAME})
+    gsv_compile_in_groups(gsv_${NAME} ${ARG_SOURCES})
   else()
     add_library(gsv_${NAME} INTERFACE)
     set(SCOPE INTERFACE)
@@ -100,7 +107,7 @@ function(gsv_library NAME)
   set_target_properties(gsv_${NAME} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
-# gsv_test(NAME SOURCES … [DEPENDS …] [LABEL …] [TIMEOUT seconds] [EARLY])
+# gsv_test(NAME SOURCES FILE[@GROUP] … [DEPENDS …] [LABEL …] [TIMEOUT seconds] [EARLY])
 #
 # Adds the GoogleTest program NAME; each of its tests becomes one ctest test, whose report GoogleTest
 # leaves in test-reports of the build folder. GSV_REAL_DIR (other people's worlds and robots, may be
@@ -114,11 +121,12 @@ function(gsv_test NAME)
   if(GSV_SANITIZE)
     math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")  # all takes two to ten times as long
   endif()
-  add_executable(${NAME} ${ARG_SOURCES})
+  gsv_without_groups(FILES ${ARG_SOURCES})
+  add_executable(${NAME} ${FILES})
   target_link_libraries(${NAME} PRIVATE ${ARG_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${NAME} PRIVATE "${GSV_TEST_OPTIONS}")
   gsv_precompile(${NAME} test)
-  gsv_compile_in_groups(${NAME})
+  gsv_compile_in_groups(${NAME} ${ARG_SOURCES})
   set_target_properties(${NAME} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(ARG_LABEL)
