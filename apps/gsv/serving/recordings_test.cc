@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -58,7 +59,8 @@ TEST_F(RecordingsTest, TheFileSaysWhichProgramWroteIt) {
   std::map<std::string, recording::StringMap> metadata;
   for (const auto& record : info->metadata) metadata[record.name] = record.values;
   EXPECT_FALSE(metadata["gsv.simulation"]["gsv_version"].empty());
-  EXPECT_NE(metadata["gsv.simulation"]["command"].find("recordings_test"), std::string::npos);
+  EXPECT_NE(metadata["gsv.simulation"]["command"].find(program_invocation_short_name),
+            std::string::npos);
   // The scenario, the scene, and the models of the disc and the wall: looks and collision shapes.
   ASSERT_EQ(info->attachments.size(), 6u);
   EXPECT_EQ(info->attachments[0].name, "scenario.yaml");
