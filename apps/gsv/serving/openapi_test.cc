@@ -151,7 +151,8 @@ TEST_F(OpenApiTest, DescribesEveryRouteAndNothingElse) {
     for (const Route& route : (*set)->router().routes()) {
       const std::string address = AddressOf(route);
       if (route.pattern.starts_with("/replays/{session}/api/")) continue;
-      ASSERT_TRUE(described.contains(address)) << address;
+      EXPECT_TRUE(described.contains(address)) << address << " is a route, and not described";
+      if (!described.contains(address)) continue;
       Operation operation = OperationOf(route);
       if (operation.summary == "Refused, as this is a replay") {
         operation.summary = described.at(address).summary;
@@ -200,7 +201,7 @@ TEST_F(OpenApiTest, IsServedByEveryGateway) {
     const auto reply = gateway::testing::Fetch((*set)->port(), "GET", "/api/openapi.yaml");
     EXPECT_EQ(reply.status, 200);
     EXPECT_EQ(reply.headers.at("content-type"), "application/yaml");
-    EXPECT_EQ(reply.body, file.str());
+    EXPECT_TRUE(reply.body == file.str()) << reply.body.substr(0, 100);
   }
 }
 
