@@ -106,7 +106,7 @@ base::Status JournalWriter::End() { return Write({{"end", true}, {"at", WallSeco
 base::Status JournalWriter::Write(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::string line = HashOf(text) + " " + text + "\n";
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   // Appended in one go: what a full disk cuts off is a torn line, which the next one ends.
   const ssize_t written = write(descriptor_, line.data(), line.size());
   std::string why;

@@ -10,12 +10,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/campaign/results.h"
 
 namespace gsv::campaign {
@@ -45,7 +45,7 @@ class JournalWriter {
 
   const std::filesystem::path file_;
   const int descriptor_;
-  std::mutex mutex_;
+  base::Mutex mutex_;
 };
 
 // Threads  one at a time.

@@ -1,10 +1,10 @@
 #include "gsv/campaign/local_engine.h"
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 #include <utility>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::campaign {
 namespace {
@@ -22,19 +22,20 @@ class Work {
 
   // What has been done since the last time; waits for something, but not for long.
   std::vector<RunResult> Collect() {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kWritePeriod, [this] { return idle_ == threads_.size(); });
+    base::MutexLock lock(mutex_);
+    changed_.wait_for(lock, kWritePeriod,
+                      [this]() GSV_REQUIRES(mutex_) { return idle_ == threads_.size(); });
     return std::exchange(done_, {});
   }
   bool IsOver() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     return idle_ == threads_.size() && done_.empty();
   }
   void Cancel() { is_cancelled_ = true; }
 
  private:
   void TakeRuns() {
-    std::unique_lock lock(mutex_);
+    base::MutexLock lock(mutex_);
     while (next_ < runs_.size() && !is_cancelled_) {
       const std::int64_t run = runs_[next_++];
       lock.unlock();
@@ -49,10 +50,11 @@ class Work {
   const LocalEngine& engine_;
   const std::vector<std::int64_t> runs_;
   std::atomic<bool> is_cancelled_{false};
-  std::mutex mutex_;  // guards what follows
-  std::condition_variable changed_;
-  std::size_t next_ = 0, idle_ = 0;
-  std::vector<RunResult> done_;
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::size_t next_ GSV_GUARDED_BY(mutex_) = 0;
+  std::size_t idle_ GSV_GUARDED_BY(mutex_) = 0;
+  std::vector<RunResult> done_ GSV_GUARDED_BY(mutex_);
   std::vector<std::jthread> threads_;  // the last member: they use all others
 };
 

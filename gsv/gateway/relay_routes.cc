@@ -1,12 +1,12 @@
 // The routes of another instance that is relayed. What it answers, it answers; the permissions that
 // requests take are known here as well, as the relay's own tokens give them.
 #include <map>
-#include <mutex>
 #include <thread>
 #include <utility>
 
 #include <boost/asio/executor_work_guard.hpp>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/route_set.h"
 #include "gsv/gateway/upstream/fetch.h"
 #include "gsv/gateway/upstream/relayed_operations.h"
@@ -42,7 +42,7 @@ class RelayRoutes final : public RouteSet {
 
   ~RelayRoutes() override {
     {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       for (const auto& [name, stream] : streams_) stream->Stop();
     }
     work_.reset();
@@ -96,7 +96,7 @@ class RelayRoutes final : public RouteSet {
     const auto& query = request.target.query;
     const auto found = query.find("simulation");
     const std::string name = found == query.end() ? std::string() : found->second;
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     std::erase_if(streams_, [](const auto& entry) { return entry.second->has_ended(); });
     const auto known = streams_.find({socket, name});
     if (known != streams_.end()) return known->second->hub();
@@ -117,9 +117,10 @@ class RelayRoutes final : public RouteSet {
   boost::asio::io_context io_{1};
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};
-  std::mutex mutex_;
+  base::Mutex mutex_;
   // By socket and name; "": the first.
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_;
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<upstream::Stream>> streams_
+      GSV_GUARDED_BY(mutex_);
   std::thread thread_;
 };
 

@@ -13,6 +13,7 @@
 #include "apps/gsv/trials/campaign_commands.h"
 #include "apps/gsv/trials/campaign_runs.h"
 #include "gsv/base/host_name.h"
+#include "gsv/base/mutex.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/campaign/queue_driver.h"
 
@@ -86,23 +87,23 @@ int TakeShare(Spool& spool, Attempt attempt, const std::vector<std::int64_t>& ru
   bool is_interrupted = false;
   campaign::LocalEngine engine =
       EngineFor(options.jobs, signals, is_interrupted, until_stdin_closes);
-  std::mutex mutex;
-  base::Status written;  // guarded by mutex
+  base::Mutex mutex;
+  base::Status written GSV_GUARDED_BY(mutex);
   engine.take = [&](std::int64_t run,
                     const std::atomic<bool>& is_cancelled) -> std::optional<RunResult> {
     auto ok = (*journal)->Begin(run);
     auto result = ok ? taker.Take(run, is_cancelled) : std::nullopt;
     if (result) ok = (*journal)->Add(*result);
-    const std::lock_guard lock(mutex);
+    const base::MutexLock lock(mutex);
     if (!ok) written = ok;
     return result;
   };
   const auto ended =
       engine.Take(left, {runs.size(), done.size()}, [&](const std::vector<RunResult>&) {
-        const std::lock_guard lock(mutex);
+        const base::MutexLock lock(mutex);
         return written;
       });
-  const std::lock_guard lock(mutex);
+  const base::MutexLock lock(mutex);
   if (!ended) return Complain(ended.error());
   if (!written) return Complain(written.error());
   if (is_interrupted) return kInterrupted;

@@ -5,11 +5,11 @@
 #include <chrono>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <semaphore>
 #include <thread>
 #include <utility>
 
+#include "gsv/base/mutex.h"
 #include "gsv/broker/transport/message_check.h"
 #include "gsv/orb/giop/giop_header.h"
 
@@ -58,13 +58,13 @@ class ConnectionTable {
     SteadyClock::time_point incomplete{};  // since when its message has been coming, or the epoch
   };
 
-  void EndLate(SteadyClock::time_point now);
-  void EndSilent();
+  void EndLate(SteadyClock::time_point now) GSV_REQUIRES(mutex_);
+  void EndSilent() GSV_REQUIRES(mutex_);
 
   const std::size_t limit_;
   RequestTurns turns_;
-  std::mutex mutex_;
-  std::map<orb::ConnectionControl*, Entry> connections_;
+  base::Mutex mutex_;
+  std::map<orb::ConnectionControl*, Entry> connections_ GSV_GUARDED_BY(mutex_);
 };
 
 class ClientConnection final : public orb::ConnectionHooks {
@@ -113,18 +113,18 @@ class ClientConnection final : public orb::ConnectionHooks {
 };
 
 void ConnectionTable::Add(orb::ConnectionControl* control, ClientConnection* connection) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (connections_.size() >= limit_) EndSilent();
   connections_[control] = {connection};
 }
 
 void ConnectionTable::Remove(orb::ConnectionControl* control) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   connections_.erase(control);
 }
 
 bool ConnectionTable::Readable(orb::ConnectionControl* control) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = connections_.find(control);
   if (found == connections_.end()) return true;
   SteadyClock::time_point& incomplete = found->second.incomplete;
@@ -160,20 +160,20 @@ class ServiceConnection final : public orb::ConnectionHooks {
  public:
   // The reply may come before OnSent() is called.
   void OnSend(std::string_view bytes) override {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     replies_.Sending(bytes);
   }
   void OnSent(std::size_t count) override {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     replies_.Sent(count);
   }
   void OnMessage(std::string& message) override {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     replies_.Check(message);
   }
 
  private:
-  std::mutex mutex_;
+  base::Mutex mutex_;
   orb::ReplyCheck replies_{TradingSignatures()};
 };
 

@@ -1,11 +1,12 @@
 #include "gsv/broker/transport/memory_reserve.h"
 
-#include <mutex>
 #include <new>
 
 #include <malloc.h>
 #include <omniORB4/CORBA.h>
 #include <sys/mman.h>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::broker {
 namespace {
@@ -17,7 +18,7 @@ class Reserve {
 
   // Whether it is there, now at the latest, or as much is free among what is in use.
   bool PutBy() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (range_ != MAP_FAILED) return true;
     range_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -26,7 +27,7 @@ class Reserve {
 
   // Whether it was there.
   bool Spend() {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (range_ == MAP_FAILED) return false;
     munmap(range_, bytes_);
     range_ = MAP_FAILED;
@@ -35,8 +36,8 @@ class Reserve {
 
  private:
   const std::size_t bytes_;
-  std::mutex mutex_;
-  void* range_ = MAP_FAILED;
+  base::Mutex mutex_;
+  void* range_ GSV_GUARDED_BY(mutex_) = MAP_FAILED;
 };
 
 // Leaked: threads of the ORB may outlive main().

@@ -41,7 +41,7 @@ std::string NameFor(const std::string& name, std::uint64_t number) {
 
 base::Result<ControlDesk::Admission> ControlDesk::Enter(const std::string& name,
                                                         const std::string& simulation, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Settle(now);
   if (viewers_.size() >= kMostViewers) {
     return base::Fail(base::ErrorCode::kUnavailable, "a thousand people are watching already");
@@ -64,7 +64,7 @@ base::Result<ControlDesk::Viewer*> ControlDesk::Find(const std::string& key, Tim
 }
 
 base::Status ControlDesk::Rename(const std::string& key, const std::string& name, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const base::Result<Viewer*> viewer = Find(key, now);
   if (!viewer) return base::Fail(viewer.error());
   Person& person = (*viewer)->person;
@@ -74,7 +74,7 @@ base::Status ControlDesk::Rename(const std::string& key, const std::string& name
 }
 
 base::Status ControlDesk::Turn(const std::string& key, const std::string& simulation, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const base::Result<Viewer*> viewer = Find(key, now);
   if (!viewer) return base::Fail(viewer.error());
   if ((*viewer)->person.simulation == simulation) return {};
@@ -86,7 +86,7 @@ base::Status ControlDesk::Turn(const std::string& key, const std::string& simula
 }
 
 base::Status ControlDesk::Leave(const std::string& key, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (const auto viewer = Find(key, now); !viewer) return base::Fail(viewer.error());
   Forget(key);
   Settle(now);
@@ -94,7 +94,7 @@ base::Status ControlDesk::Leave(const std::string& key, Time now) {
 }
 
 base::Status ControlDesk::Ask(const std::string& key, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const base::Result<Viewer*> viewer = Find(key, now);
   if (!viewer) return base::Fail(viewer.error());
   if ((*viewer)->person.simulation.empty()) {
@@ -111,7 +111,7 @@ base::Status ControlDesk::Ask(const std::string& key, Time now) {
 }
 
 base::Status ControlDesk::Release(const std::string& key, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (const auto viewer = Find(key, now); !viewer) return base::Fail(viewer.error());
   LetGo(key);
   Settle(now);
@@ -119,7 +119,7 @@ base::Status ControlDesk::Release(const std::string& key, Time now) {
 }
 
 base::Status ControlDesk::Answer(const std::string& key, bool grants, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const base::Result<Viewer*> viewer = Find(key, now);
   if (!viewer) return base::Fail(viewer.error());
   Control& control = ControlOf(**viewer);
@@ -139,7 +139,7 @@ base::Status ControlDesk::Answer(const std::string& key, bool grants, Time now) 
 }
 
 ControlDesk::Standing ControlDesk::See(const std::string& key, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const base::Result<Viewer*> you = Find(key, now);
   Standing standing;
   if (you) standing.you = (*you)->person.number;
@@ -163,13 +163,13 @@ ControlDesk::Standing ControlDesk::See(const std::string& key, Time now) {
 }
 
 std::uint64_t ControlDesk::Version(Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   Settle(now);
   return version_;
 }
 
 base::Status ControlDesk::MayAct(const std::string& key, const std::string& simulation, Time now) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   (void)Find(key, now);
   const auto found = controls_.find(simulation);
   if (found == controls_.end()) return {};

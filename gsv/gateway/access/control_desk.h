@@ -13,11 +13,11 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 
 namespace gsv::gateway::access {
 
@@ -87,20 +87,22 @@ class ControlDesk {
     std::deque<Question> questions;
   };
 
-  // With mutex_ held:
-  void Settle(Time now);  // lets go of who is gone, and passes control on where it is due
-  void Forget(const std::string& key);
-  void LetGo(const std::string& key);
+  void Settle(Time now)
+      GSV_REQUIRES(mutex_);  // lets go of who is gone, and passes control on where it is due
+  void Forget(const std::string& key) GSV_REQUIRES(mutex_);
+  void LetGo(const std::string& key) GSV_REQUIRES(mutex_);
   static void PassOn(Control& control, Time now);
-  base::Result<Viewer*> Find(const std::string& key, Time now);
-  Control& ControlOf(const Viewer& viewer) { return controls_[viewer.person.simulation]; }
+  base::Result<Viewer*> Find(const std::string& key, Time now) GSV_REQUIRES(mutex_);
+  Control& ControlOf(const Viewer& viewer) GSV_REQUIRES(mutex_) {
+    return controls_[viewer.person.simulation];
+  }
 
   const ControlLimits limits_;
-  std::mutex mutex_;
-  std::map<std::string, Viewer> viewers_;    // by key
-  std::map<std::string, Control> controls_;  // by simulation
-  std::uint64_t next_ = 1;
-  std::uint64_t version_ = 1;
+  base::Mutex mutex_;
+  std::map<std::string, Viewer> viewers_ GSV_GUARDED_BY(mutex_);    // by key
+  std::map<std::string, Control> controls_ GSV_GUARDED_BY(mutex_);  // by simulation
+  std::uint64_t next_ GSV_GUARDED_BY(mutex_) = 1;
+  std::uint64_t version_ GSV_GUARDED_BY(mutex_) = 1;
 };
 
 }  // namespace gsv::gateway::access

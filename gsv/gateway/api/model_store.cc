@@ -8,27 +8,27 @@
 
 namespace gsv::gateway {
 
-std::string ModelStore::Known(Identities& identities,
+std::string ModelStore::Known(Identities ModelStore::*identities,
                               const std::shared_ptr<const model::Model>& model,
                               const std::function<std::string()>& identify) {
   {
-    const std::lock_guard lock(mutex_);
-    const auto known = identities.find(model);
-    if (known != identities.end()) return known->second;
+    const base::MutexLock lock(mutex_);
+    const auto known = (this->*identities).find(model);
+    if (known != (this->*identities).end()) return known->second;
   }
   const std::string id = identify();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   ForgetGone();
-  identities.emplace(model, id);
+  (this->*identities).emplace(model, id);
   return id;
 }
 
 std::string ModelStore::Identify(const std::shared_ptr<const model::Model>& model) {
-  return Known(looks_, model, [&] { return presentation::ModelIdentity(*model); });
+  return Known(&ModelStore::looks_, model, [&] { return presentation::ModelIdentity(*model); });
 }
 
 std::string ModelStore::IdentifyCollisions(const std::shared_ptr<const model::Model>& model) {
-  return Known(collisions_, model, [&] {
+  return Known(&ModelStore::collisions_, model, [&] {
     return presentation::HasCollisions(*model)
                ? presentation::ModelIdentity(presentation::CollisionModel(*model))
                : std::string();
@@ -39,7 +39,7 @@ base::Result<SharedBytes> ModelStore::Glb(const std::string& id) {
   std::shared_ptr<const model::Model> model;
   std::shared_ptr<File> file;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     model = FindModel(id);
     if (!model) {
       return base::Fail(base::ErrorCode::kNotFound,
@@ -49,7 +49,7 @@ base::Result<SharedBytes> ModelStore::Glb(const std::string& id) {
     if (!known) known = std::make_shared<File>();
     file = known;
   }
-  const std::lock_guard writing(file->writing);
+  const base::MutexLock writing(file->writing);
   if (!file->glb) {
     file->glb = write_(*model).map(
         [](std::vector<std::uint8_t> bytes) { return SharedBytes(std::move(bytes)); });

@@ -7,11 +7,11 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
 #include "gsv/model/model.h"
 
@@ -42,25 +42,26 @@ class ModelStore {
 
  private:
   struct File {
-    std::mutex writing;
-    std::optional<base::Result<SharedBytes>> glb;  // guarded by `writing`
+    base::Mutex writing;
+    std::optional<base::Result<SharedBytes>> glb GSV_GUARDED_BY(writing);
   };
 
-  // With mutex_ held.
-  void ForgetGone();
-  std::shared_ptr<const model::Model> FindModel(const std::string& id) const;
+  void ForgetGone() GSV_REQUIRES(mutex_);
+  std::shared_ptr<const model::Model> FindModel(const std::string& id) const GSV_REQUIRES(mutex_);
 
   const WriteGlb write_;
-  std::mutex mutex_;
+  base::Mutex mutex_;
   using Identities = std::map<std::weak_ptr<const model::Model>, std::string, std::owner_less<>>;
 
-  std::string Known(Identities& identities, const std::shared_ptr<const model::Model>& model,
+  std::string Known(Identities ModelStore::*identities,
+                    const std::shared_ptr<const model::Model>& model,
                     const std::function<std::string()>& identify);
   static std::shared_ptr<const model::Model> FindIn(const Identities& identities,
                                                     const std::string& id);
 
-  Identities looks_, collisions_;
-  std::map<std::string, std::shared_ptr<File>> files_;  // by identity
+  Identities looks_ GSV_GUARDED_BY(mutex_);
+  Identities collisions_ GSV_GUARDED_BY(mutex_);
+  std::map<std::string, std::shared_ptr<File>> files_ GSV_GUARDED_BY(mutex_);  // by identity
 };
 
 }  // namespace gsv::gateway

@@ -23,11 +23,11 @@ struct RecordedCurves::Job {
   const std::unique_ptr<CurveSource> source;  // of the thread that reads
   std::atomic<bool> is_dropped = false;
 
-  std::mutex mutex;  // of what follows
-  CurvePoints points;
-  base::SimTime read_to;
-  bool is_done = false;
-  std::string problem;
+  base::Mutex mutex;
+  CurvePoints points GSV_GUARDED_BY(mutex);
+  base::SimTime read_to GSV_GUARDED_BY(mutex);
+  bool is_done GSV_GUARDED_BY(mutex) = false;
+  std::string problem GSV_GUARDED_BY(mutex);
 };
 
 base::Result<Curve> RecordedCurves::Get(const CurveWish& wish) {
@@ -36,7 +36,7 @@ base::Result<Curve> RecordedCurves::Get(const CurveWish& wish) {
   }
   std::shared_ptr<Job> job;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (is_stopping_) {
       return base::Fail(base::ErrorCode::kUnavailable, "the server is shutting down");
     }
@@ -54,7 +54,7 @@ base::Result<Curve> RecordedCurves::Get(const CurveWish& wish) {
       changed_.notify_all();
     }
   }
-  const std::lock_guard lock(job->mutex);
+  const base::MutexLock lock(job->mutex);
   return Curve{job->points.Points(), job->points.samples(), job->points.is_whole(),
                job->is_done,         job->read_to,          job->problem};
 }
@@ -70,7 +70,7 @@ std::shared_ptr<RecordedCurves::Job> RecordedCurves::Find(const CurveWish& wish)
 void RecordedCurves::Stop() {
   std::thread thread;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_stopping_ = true;
     for (const auto& job : jobs_) job->is_dropped = true;
     thread.swap(thread_);
@@ -81,14 +81,14 @@ void RecordedCurves::Stop() {
 
 void RecordedCurves::Run() {
   const auto is_waiting = [](const std::shared_ptr<Job>& job) {
-    const std::lock_guard lock(job->mutex);
+    const base::MutexLock lock(job->mutex);
     return !job->is_done;
   };
   for (;;) {
     std::shared_ptr<Job> job;
     {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] {
+      base::MutexLock lock(mutex_);
+      changed_.wait(lock, [&]() GSV_REQUIRES(mutex_) {
         return is_stopping_ || std::any_of(jobs_.begin(), jobs_.end(), is_waiting);
       });
       if (is_stopping_) return;
@@ -102,7 +102,7 @@ void RecordedCurves::Read(Job& job) {
   const auto end = std::chrono::steady_clock::now() + longest_;
   recording::MessageCursor cursor = reader_.Messages();
   const auto finish = [&](const std::string& problem) {
-    const std::lock_guard lock(job.mutex);
+    const base::MutexLock lock(job.mutex);
     job.is_done = true;
     if (!problem.empty()) job.problem = problem;
   };
@@ -115,13 +115,13 @@ void RecordedCurves::Read(Job& job) {
     }
     const auto message = cursor.Next();
     if (!message) {  // the next call goes on behind the damage
-      const std::lock_guard lock(job.mutex);
+      const base::MutexLock lock(job.mutex);
       job.problem = message.error().Sentence();
       continue;
     }
     if (!*message) break;
     const std::optional<double> sample = job.source->SampleIn(**message);
-    const std::lock_guard lock(job.mutex);
+    const base::MutexLock lock(job.mutex);
     job.read_to = (*message)->log_time;
     if (sample) job.points.Add((*message)->log_time, *sample);
   }

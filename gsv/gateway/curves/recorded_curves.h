@@ -7,13 +7,12 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/curves/curve_points.h"
 #include "gsv/gateway/curves/curve_source.h"
 
@@ -49,17 +48,18 @@ class RecordedCurves {
   struct Job;
 
   // The one for the wish, or null; it counts as asked for now.
-  std::shared_ptr<Job> Find(const CurveWish& wish);
+  std::shared_ptr<Job> Find(const CurveWish& wish) GSV_REQUIRES(mutex_);
   void Run();
   void Read(Job& job);
 
   const recording::McapReader& reader_;
   const RecordedScene& scene_;
   const std::chrono::milliseconds longest_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<std::shared_ptr<Job>> jobs_;  // the one that was asked for last stands last
-  bool is_stopping_ = false;
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::vector<std::shared_ptr<Job>> jobs_
+      GSV_GUARDED_BY(mutex_);  // the one that was asked for last stands last
+  bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

@@ -33,7 +33,7 @@ void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
   // The older protocol knows no playbacks.
   const bool knows_playback = subprotocol == foxglove::kSubprotocols.front();
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     foxglove::ServerInfo info = info_;
     if (!knows_playback) info.playback.reset();
     client->SendText(SharedBytes(foxglove::ServerInfoText(info)));
@@ -54,7 +54,7 @@ void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
 void Hub::Remove(Client* client) {
   desk_.Forget(client);
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     members_.erase(client);
     for (auto& [id, topic] : topics_) topic.listeners.erase(client);
     has_graph_changed_ = true;
@@ -77,19 +77,22 @@ base::Status Hub::ReceiveBytes(Client* client, std::string_view bytes) {
 }
 
 void Hub::Take(Client* client, const foxglove::ClientMessage& message) {
-  std::unique_lock lock(mutex_);
-  const auto member = members_.find(client);
-  if (member == members_.end()) return;
+  std::shared_ptr<Client> sender;
+  {
+    const base::MutexLock lock(mutex_);
+    const auto member = members_.find(client);
+    if (member == members_.end()) return;
+    sender = member->second.client;
+    std::visit(
+        [&](const auto& content) GSV_REQUIRES(mutex_) {
+          if constexpr (requires { Apply(member->second, content); })
+            Apply(member->second, content);
+        },
+        message);
+  }
   std::visit(
       [&](const auto& content) {
-        if constexpr (requires { Apply(member->second, content); }) {
-          Apply(member->second, content);
-          lock.unlock();
-        } else {
-          const std::shared_ptr<Client> sender = member->second.client;
-          lock.unlock();
-          desk_.Take(sender, content);
-        }
+        if constexpr (requires { desk_.Take(sender, content); }) desk_.Take(sender, content);
       },
       message);
   on_demand_();
@@ -148,7 +151,7 @@ void Hub::Complain(Member& member, std::string_view message) {
 
 std::vector<ChannelId> Hub::Advertise(std::vector<foxglove::Channel> channels) {
   if (channels.empty()) return {};
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::vector<ChannelId> ids;
   for (foxglove::Channel& channel : channels) {
     channel.id = next_channel_++;
@@ -165,30 +168,31 @@ std::vector<ChannelId> Hub::Advertise(std::vector<foxglove::Channel> channels) {
 
 void Hub::Unadvertise(std::span<const ChannelId> channels) {
   if (channels.empty()) return;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (const ChannelId id : channels) topics_.erase(id);
   has_graph_changed_ = true;
   const SharedBytes text(foxglove::UnadvertiseText(channels));
   for (auto& [key, member] : members_) {
-    std::erase_if(member.subscriptions,
-                  [&](const auto& subscription) { return !topics_.contains(subscription.second); });
+    std::erase_if(member.subscriptions, [&](const auto& subscription) GSV_REQUIRES(mutex_) {
+      return !topics_.contains(subscription.second);
+    });
     member.client->SendText(text);
   }
 }
 
 bool Hub::has_clients() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return !members_.empty();
 }
 
 bool Hub::IsSubscribed(ChannelId channel) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto topic = topics_.find(channel);
   return topic != topics_.end() && !topic->second.listeners.empty();
 }
 
 bool Hub::HasNewcomers(ChannelId channel) const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto topic = topics_.find(channel);
   if (topic == topics_.end()) return false;
   for (const auto& [client, listener] : topic->second.listeners) {
@@ -198,7 +202,7 @@ bool Hub::HasNewcomers(ChannelId channel) const {
 }
 
 std::vector<ChannelId> Hub::SubscribedChannels() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::set<ChannelId> subscribed;
   for (const auto& [key, member] : members_) {
     for (const auto& [id, channel] : member.subscriptions) subscribed.insert(channel);
@@ -207,7 +211,7 @@ std::vector<ChannelId> Hub::SubscribedChannels() const {
 }
 
 void Hub::Publish(ChannelId channel, const Message& message, Audience audience) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto topic = topics_.find(channel);
   if (topic == topics_.end()) return;
   for (auto& [client, listener] : topic->second.listeners) {
@@ -219,7 +223,7 @@ void Hub::Publish(ChannelId channel, const Message& message, Audience audience) 
 }
 
 void Hub::Welcome(ChannelId channel, std::span<const Message> messages) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto topic = topics_.find(channel);
   if (topic == topics_.end()) return;
   for (auto& [client, listener] : topic->second.listeners) {
@@ -233,20 +237,20 @@ void Hub::Welcome(ChannelId channel, std::span<const Message> messages) {
 
 void Hub::PublishTime(std::uint64_t time_ns) {
   const foxglove::BinaryHeader header = foxglove::TimeHeader(time_ns);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (auto& [key, member] : members_) member.client->SendData(header, SharedBytes());
 }
 
 void Hub::SendStatus(StatusLevel level, std::string_view message) {
   const SharedBytes text(foxglove::StatusText(level, message));
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   statuses_.push_back(text);
   if (statuses_.size() > kStatusesKept) statuses_.pop_front();
   for (auto& [key, member] : members_) member.client->SendText(text);
 }
 
 void Hub::SetPublishers(ChannelId channel, std::set<std::string> publishers) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto topic = topics_.find(channel);
   if (topic == topics_.end() || topic->second.publishers == publishers) return;
   topic->second.publishers = std::move(publishers);
@@ -259,7 +263,7 @@ void Hub::PublishChanges(bool has_jumped) {
 }
 
 void Hub::PublishGraph() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (!has_graph_changed_ || !IsGraphWatched()) return;
   has_graph_changed_ = false;
   foxglove::ConnectionGraph now = Graph();
@@ -271,13 +275,11 @@ void Hub::PublishGraph() {
   }
 }
 
-// The lock is held.
 bool Hub::IsGraphWatched() const {
   return std::any_of(members_.begin(), members_.end(),
                      [](const auto& entry) { return entry.second.watches_graph; });
 }
 
-// The lock is held.
 foxglove::ConnectionGraph Hub::Graph() const {
   foxglove::ConnectionGraph graph;
   for (const auto& [id, topic] : topics_) {
@@ -292,7 +294,7 @@ foxglove::ConnectionGraph Hub::Graph() const {
 }
 
 void Hub::Close(CloseCode code, const std::string& reason) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   closed_ = true;
   close_code_ = code;
   close_reason_ = reason;

@@ -10,7 +10,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <span>
 #include <string>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/client.h"
 #include "gsv/gateway/foxglove/request_desk.h"
 
@@ -94,30 +94,30 @@ class Hub {
 
   void Take(Client* client, const foxglove::ClientMessage& message);
 
-  void Apply(Member& member, const foxglove::Subscribe& message);
-  void Apply(Member& member, const foxglove::Unsubscribe& message);
-  void Apply(Member& member, const foxglove::WatchGraph& message);
-  void Apply(Member& member, const foxglove::Unsupported& message);
+  void Apply(Member& member, const foxglove::Subscribe& message) GSV_REQUIRES(mutex_);
+  void Apply(Member& member, const foxglove::Unsubscribe& message) GSV_REQUIRES(mutex_);
+  void Apply(Member& member, const foxglove::WatchGraph& message) GSV_REQUIRES(mutex_);
+  void Apply(Member& member, const foxglove::Unsupported& message) GSV_REQUIRES(mutex_);
   static void Complain(Member& member, std::string_view message);
-  bool IsGraphWatched() const;
-  foxglove::ConnectionGraph Graph() const;
+  bool IsGraphWatched() const GSV_REQUIRES(mutex_);
+  foxglove::ConnectionGraph Graph() const GSV_REQUIRES(mutex_);
   void PublishGraph();
 
   foxglove::ServerInfo info_;
   const std::string simulation_;
   const std::function<void()> on_demand_;
-  mutable std::mutex mutex_;
-  foxglove::ChannelId next_channel_ = 1;
-  std::map<foxglove::ChannelId, Topic> topics_;
-  std::map<Client*, Member> members_;
-  std::uint64_t next_member_ = 1;
-  std::deque<SharedBytes> statuses_;
-  bool has_graph_changed_ = false;
-  foxglove::ConnectionGraph graph_;  // as it was told last
+  mutable base::Mutex mutex_;
+  foxglove::ChannelId next_channel_ GSV_GUARDED_BY(mutex_) = 1;
+  std::map<foxglove::ChannelId, Topic> topics_ GSV_GUARDED_BY(mutex_);
+  std::map<Client*, Member> members_ GSV_GUARDED_BY(mutex_);
+  std::uint64_t next_member_ GSV_GUARDED_BY(mutex_) = 1;
+  std::deque<SharedBytes> statuses_ GSV_GUARDED_BY(mutex_);
+  bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
+  foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // as it was told last
   RequestDesk desk_;
-  bool closed_ = false;
-  CloseCode close_code_{};
-  std::string close_reason_;
+  bool closed_ GSV_GUARDED_BY(mutex_) = false;
+  CloseCode close_code_ GSV_GUARDED_BY(mutex_){};
+  std::string close_reason_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::gateway

@@ -51,6 +51,7 @@ RequestDesk::RequestDesk(std::shared_ptr<Operations> operations)
 
 std::vector<std::string> RequestDesk::capabilities() const {
   if (!operations_) return {};
+  const base::MutexLock lock(mutex_);
   if (told_.empty()) return {"services"};
   return {"services", "parameters", "parametersSubscribe"};
 }
@@ -69,12 +70,12 @@ void RequestDesk::Welcome(const std::shared_ptr<Client>& client, bool knows_play
   if (knows_playback && playback) {
     client->SendBytes(SharedBytes(foxglove::PlaybackStateBytes(*playback)));
   }
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   guests_[client.get()] = Guest{client, knows_playback};
 }
 
 void RequestDesk::Forget(Client* client) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   guests_.erase(client);
 }
 
@@ -110,7 +111,7 @@ void RequestDesk::Take(const std::shared_ptr<Client>& client,
                        const foxglove::WatchParameters& request) {
   if (!operations_) return RefuseAll(*client);
   const std::vector<Parameter> parameters = Named(operations_->parameters(), request.names);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto guest = guests_.find(client.get());
   if (guest == guests_.end()) return;
   for (const Parameter& parameter : parameters) {
@@ -123,7 +124,7 @@ void RequestDesk::Take(const std::shared_ptr<Client>& client,
 }
 
 std::shared_ptr<std::atomic<int>> RequestDesk::BeginCall(Client* client) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto guest = guests_.find(client);
   if (guest == guests_.end() || *guest->second.calls >= kMostCalls) return nullptr;
   ++*guest->second.calls;
@@ -172,7 +173,7 @@ void RequestDesk::PublishChanges(bool has_jumped) {
 
 void RequestDesk::PublishParameters() {
   std::vector<Parameter> now = operations_->parameters();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::vector<Parameter> changed;
   for (const Parameter& parameter : now) {
     if (std::find(told_.begin(), told_.end(), parameter) == told_.end()) {
@@ -195,7 +196,7 @@ void RequestDesk::PublishPlayback(bool has_jumped) {
   auto state = operations_->playback();
   if (!state) return;
   state->did_seek = has_jumped;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const bool is_news =
       has_jumped || state->status != playback_.status || state->speed != playback_.speed;
   playback_ = *state;

@@ -7,11 +7,11 @@
 #include <atomic>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/client.h"
 #include "gsv/gateway/foxglove/operations.h"
 
@@ -55,10 +55,11 @@ class RequestDesk {
   void PublishPlayback(bool has_jumped);
 
   const std::shared_ptr<Operations> operations_;
-  mutable std::mutex mutex_;
-  std::map<Client*, Guest> guests_;
-  std::vector<foxglove::Parameter> told_;  // of the parameters, when last published
-  foxglove::PlaybackState playback_;       // when last published
+  mutable base::Mutex mutex_;
+  std::map<Client*, Guest> guests_ GSV_GUARDED_BY(mutex_);
+  std::vector<foxglove::Parameter> told_
+      GSV_GUARDED_BY(mutex_);  // of the parameters, when last published
+  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);  // when last published
 };
 
 }  // namespace gsv::gateway

@@ -10,11 +10,11 @@
 #include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/channels.h"
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/messages/gsv_msgs.h"
@@ -66,7 +66,7 @@ class MomentTopic {
       std::vector<Message> found;
       collect_(*snapshot, found);
       if (found.empty()) return;
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       for (Message& message : found) {
         if (moments_.size() == kMost) moments_.pop_front();
         moments_.emplace_back(snapshot->state.time, std::move(message));
@@ -75,14 +75,14 @@ class MomentTopic {
     void OnEvent(const simulation::Event&) override {}
 
     std::deque<Moment> Take() {
-      const std::lock_guard lock(mutex_);
+      const base::MutexLock lock(mutex_);
       return std::exchange(moments_, {});
     }
 
    private:
     const Collect collect_;
-    std::mutex mutex_;
-    std::deque<Moment> moments_;
+    base::Mutex mutex_;
+    std::deque<Moment> moments_ GSV_GUARDED_BY(mutex_);
   };
 
   const std::shared_ptr<Hub> hub_;

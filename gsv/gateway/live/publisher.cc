@@ -35,7 +35,7 @@ void Publisher::WantSensorsOf(const std::shared_ptr<simulation::Simulation>& sim
 
 std::shared_ptr<LiveStream> Publisher::StreamOf(
     const std::shared_ptr<simulation::Simulation>& simulation) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (const Entry& entry : entries_) {
     if (entry.simulation.lock() == simulation) return entry.stream;
   }
@@ -48,7 +48,7 @@ std::shared_ptr<LiveStream> Publisher::StreamOf(
 
 void Publisher::Stop() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_stopping_ = true;
   }
   changed_.notify_all();
@@ -60,7 +60,7 @@ void Publisher::Stop() {
 
 void Publisher::Wake() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_woken_ = true;
   }
   changed_.notify_all();
@@ -70,9 +70,9 @@ void Publisher::Run() {
   const std::chrono::nanoseconds period(static_cast<std::int64_t>(1e9 / kRoundRate));
   auto next_round = std::chrono::steady_clock::now();
   bool is_watched = false;
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (!is_stopping_) {
-    const auto is_called = [&] { return is_stopping_ || is_woken_; };
+    const auto is_called = [&]() GSV_REQUIRES(mutex_) { return is_stopping_ || is_woken_; };
     if (is_watched) {
       changed_.wait_until(lock, next_round, is_called);
     } else {
@@ -110,13 +110,13 @@ void Publisher::DropEnded() {
     if (simulation && directory_->Find(entry.name) == simulation) continue;
     entry.stream->hub()->Close(CloseCode::kGoingAway,
                                "the simulation '" + entry.name + "' is gone");
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     std::erase_if(entries_, [&](const Entry& other) { return other.stream == entry.stream; });
   }
 }
 
 std::vector<Publisher::Entry> Publisher::Entries() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return entries_;
 }
 

@@ -2,13 +2,12 @@
 // and at once when somebody subscribes. Sleeps while nobody watches.
 #pragma once
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/live/live_stream.h"
 #include "gsv/gateway/program/ports.h"
 
@@ -53,12 +52,12 @@ class Publisher {
   WorkerPool& commanders_;
   RecordingSwitch* const recordings_;
   access::ControlDesk* const desk_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Entry> entries_;
-  bool is_woken_ = false;
-  bool is_stopping_ = false;
-  Pacing directory_pacing_;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);
+  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
+  Pacing directory_pacing_;  // of thread_
   std::thread thread_;
 };
 

@@ -3,19 +3,19 @@
 namespace gsv::gateway {
 
 void WantedRobots::Want(const std::string& robot) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (wishes_.size() < kMostWantedRobots) wishes_.insert(robot);
 }
 
 bool WantedRobots::has_wishes() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return !wishes_.empty();
 }
 
 bool WantedRobots::TakeWishes() {
   std::set<std::string> wishes;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     wishes.swap(wishes_);
   }
   for (const std::string& robot : wishes) {

@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <functional>
 #include <list>
-#include <mutex>
 #include <set>
 #include <string>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::gateway {
 
@@ -27,8 +28,9 @@ class WantedRobots {
   bool Contains(const std::string& robot) const { return wanted_.contains(robot); }
 
  private:
-  mutable std::mutex mutex_;
-  std::set<std::string> wishes_;  // guarded by mutex_
+  mutable base::Mutex mutex_;
+  std::set<std::string> wishes_ GSV_GUARDED_BY(mutex_);
+  // Of the thread that takes the wishes.
   std::set<std::string> wanted_;
   std::list<std::string> in_order_;  // the same; who was wanted last is last
 };

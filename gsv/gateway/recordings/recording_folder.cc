@@ -89,7 +89,7 @@ RecordingLine RecordingFolder::Look(const std::string& name, const fs::path& fil
     line.modified = std::chrono::time_point_cast<std::chrono::system_clock::duration>(
         std::chrono::file_clock::to_sys(modified));
   }
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto known = known_.find(name);
   if (known != known_.end() && known->second.size == line.size &&
       known->second.modified == line.modified) {
@@ -122,7 +122,7 @@ RecordingFolder::Listing RecordingFolder::List() {
   listing.left_out = found.size() - std::min(found.size(), kMostListed);
   found.resize(found.size() - listing.left_out);
   for (const Found& each : found) listing.lines.push_back(Look(each.name, each.file));
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::erase_if(known_, [&](const auto& entry) {
     return std::none_of(found.begin(), found.end(),
                         [&](const Found& each) { return each.name == entry.first; });

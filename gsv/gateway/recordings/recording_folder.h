@@ -9,11 +9,11 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
 #include "gsv/base/sim_time.h"
 
 namespace gsv::gateway::recordings {
@@ -63,8 +63,8 @@ class RecordingFolder {
 
   const std::filesystem::path folder_;
   const std::string only_;
-  std::mutex mutex_;
-  std::map<std::string, RecordingLine> known_;  // by name
+  base::Mutex mutex_;
+  std::map<std::string, RecordingLine> known_ GSV_GUARDED_BY(mutex_);  // by name
 };
 
 }  // namespace gsv::gateway::recordings

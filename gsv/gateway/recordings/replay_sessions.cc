@@ -15,7 +15,7 @@ base::Result<std::string> ReplaySessions::Open(const std::string& path,
   auto player = ReplayPlayer::Open(path, {});
   if (!player) return base::Fail(player.error());
   const std::map<std::string, Entry> unwatched = TakeUnwatched();
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (is_stopped_) return base::Fail(base::ErrorCode::kUnavailable, "the server is shutting down");
   if (sessions_.size() >= limits_.sessions) {
     return base::Fail(base::ErrorCode::kUnavailable,
@@ -30,7 +30,7 @@ base::Result<std::string> ReplaySessions::Open(const std::string& path,
 std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
   const auto now = std::chrono::steady_clock::now();
   std::map<std::string, Entry> unwatched;
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   for (auto entry = sessions_.begin(); entry != sessions_.end();) {
     const auto next = std::next(entry);
     // Who watches it, or asks it something, holds it as well.
@@ -45,7 +45,7 @@ std::map<std::string, ReplaySessions::Entry> ReplaySessions::TakeUnwatched() {
 }
 
 base::Result<Replay> ReplaySessions::Find(const std::string& name) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const auto found = sessions_.find(name);
   if (found == sessions_.end()) return base::Fail(base::ErrorCode::kNotFound, kGone);
   found->second.used = std::chrono::steady_clock::now();
@@ -79,7 +79,7 @@ base::Result<std::shared_ptr<Hub>> ReplaySessions::FindHub(const std::string& na
 void ReplaySessions::Stop() {
   std::map<std::string, Entry> sessions;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_stopped_ = true;
     sessions.swap(sessions_);
   }

@@ -11,10 +11,10 @@
 #include <chrono>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/api/replay_api.h"
 #include "gsv/gateway/replay/replay_player.h"
 
@@ -54,10 +54,10 @@ class ReplaySessions {
   std::map<std::string, Entry> TakeUnwatched();
 
   const SessionLimits limits_;
-  std::mutex mutex_;
-  std::map<std::string, Entry> sessions_;  // by name
-  std::uint64_t next_ = 1;
-  bool is_stopped_ = false;
+  base::Mutex mutex_;
+  std::map<std::string, Entry> sessions_ GSV_GUARDED_BY(mutex_);  // by name
+  std::uint64_t next_ GSV_GUARDED_BY(mutex_) = 1;
+  bool is_stopped_ GSV_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace gsv::gateway::recordings

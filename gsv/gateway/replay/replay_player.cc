@@ -98,7 +98,7 @@ void ReplayPlayer::ReadMetadata() {
 
 template <typename Change>
 auto ReplayPlayer::Command(Change change) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   is_woken_ = true;
   changed_.notify_all();
   return change(clock_);
@@ -118,18 +118,19 @@ base::Status ReplayPlayer::Step(std::int64_t count) {
   if (count < 1 || count > base::SimTime::max() / step_) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "so many steps cannot be taken at once");
   }
-  return Command([&](ReplayClock& clock) { return clock.Step(count * step_); });
+  return Command([&](ReplayClock& clock)
+                     GSV_REQUIRES(mutex_) { return clock.Step(count * step_); });
 }
 
 void ReplayPlayer::Rewind() {
-  Command([this](ReplayClock& clock) {
+  Command([this](ReplayClock& clock) GSV_REQUIRES(mutex_) {
     clock.Rewind();
     has_jumped_ = true;
   });
 }
 
 void ReplayPlayer::Seek(base::SimTime time) {
-  Command([&](ReplayClock& clock) {
+  Command([&](ReplayClock& clock) GSV_REQUIRES(mutex_) {
     clock.Seek(time);
     has_jumped_ = true;
   });
@@ -141,7 +142,7 @@ base::Status ReplayPlayer::StepPoses(std::int64_t count) {
                       "a step over recorded poses is from 1 to 1000 of them, or from -1 to -1000");
   }
   const base::SimTime time = timeline_.PoseBeside(clock().position(), count);
-  Command([&](ReplayClock& clock) {
+  Command([&](ReplayClock& clock) GSV_REQUIRES(mutex_) {
     clock.StandAt(time);
     has_jumped_ = true;
   });
@@ -152,12 +153,12 @@ base::Status ReplayPlayer::SetSpeed(double speed) {
   if (!(speed >= kSlowest && speed <= kFastest)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "'speed' must be from 0.001 to 1000");
   }
-  Command([&](ReplayClock& clock) { clock.SetSpeed(speed); });
+  Command([&](ReplayClock& clock) GSV_REQUIRES(mutex_) { clock.SetSpeed(speed); });
   return {};
 }
 
 void ReplayPlayer::SetLoop(bool loop) {
-  Command([&](ReplayClock& clock) { clock.SetLoop(loop); });
+  Command([&](ReplayClock& clock) GSV_REQUIRES(mutex_) { clock.SetLoop(loop); });
 }
 
 std::vector<std::string> ReplayPlayer::ListTopicsOf(const std::string& robot) {
@@ -171,14 +172,14 @@ std::vector<std::string> ReplayPlayer::ListTopicsOf(const std::string& robot) {
 }
 
 void ReplayPlayer::Wake() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   is_woken_ = true;
   changed_.notify_all();
 }
 
 void ReplayPlayer::Stop() {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     is_stopping_ = true;
     changed_.notify_all();
   }
@@ -189,7 +190,7 @@ void ReplayPlayer::Stop() {
 
 void ReplayPlayer::Run() {
   auto next_round = std::chrono::steady_clock::now();
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (!is_stopping_) {
     is_woken_ = false;
     const WallTime now = std::chrono::steady_clock::now();
@@ -205,7 +206,9 @@ void ReplayPlayer::Run() {
     }
     stream_.Publish(position, phase, now, [this] { return status(); });
     lock.lock();
-    const auto is_called = [this] { return is_stopping_ || is_woken_ || has_jumped_; };
+    const auto is_called = [this]() GSV_REQUIRES(mutex_) {
+      return is_stopping_ || is_woken_ || has_jumped_;
+    };
     if (clock_.is_playing()) {
       next_round = std::max(next_round + kRound, now);
       changed_.wait_until(lock, next_round, is_called);
@@ -216,7 +219,7 @@ void ReplayPlayer::Run() {
 }
 
 ReplayClock ReplayPlayer::clock() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return clock_;
 }
 

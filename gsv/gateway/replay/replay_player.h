@@ -4,13 +4,12 @@
 // Errors   kNotRunning with a sentence when the phase does not allow an action.
 #pragma once
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/curves/recorded_curves.h"
 #include "gsv/gateway/recorded/recorded_scene.h"
 #include "gsv/gateway/recorded/recorded_timeline.h"
@@ -83,12 +82,12 @@ class ReplayPlayer {
   curves::RecordedCurves curves_;
   base::Problems problems_;
 
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  ReplayClock clock_;
-  bool has_jumped_ = false;
-  bool is_woken_ = false;
-  bool is_stopping_ = false;
+  mutable base::Mutex mutex_;
+  base::ConditionVariable changed_;
+  ReplayClock clock_ GSV_GUARDED_BY(mutex_);
+  bool has_jumped_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_woken_ GSV_GUARDED_BY(mutex_) = false;
+  bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
 
   ReplayStream stream_;
   std::thread thread_;

@@ -178,7 +178,7 @@ const ReplayStream::Track* ReplayStream::Keep(std::uint16_t id, base::SimTime ti
   track.latest = Hub::Message{base::NanosecondsOf(time), SharedBytes(std::move(data))};
   track.is_fresh = track.kind != Kind::kEvents;
   if (track.kind == Kind::kStatus || track.kind == Kind::kPoses) {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     (track.kind == Kind::kStatus ? status_ : poses_) = track.latest->payload;
   }
   return &track;
@@ -224,12 +224,12 @@ void ReplayStream::Warn(const std::string& sentence) {
 }
 
 messages::gsv_msgs::SimulationStatus ReplayStream::recorded_status() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return DecodedOrEmpty<messages::gsv_msgs::SimulationStatus>(status_);
 }
 
 messages::gsv_msgs::Poses ReplayStream::recorded_poses() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return DecodedOrEmpty<messages::gsv_msgs::Poses>(poses_);
 }
 

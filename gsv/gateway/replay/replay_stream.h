@@ -10,12 +10,12 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/pacing.h"
 #include "gsv/gateway/live/wanted_robots.h"
@@ -89,8 +89,9 @@ class ReplayStream {
   bool has_jumped_ = false;  // since the last Publish()
   int warnings_ = 0;
 
-  mutable std::mutex mutex_;
-  SharedBytes status_, poses_;  // as recorded
+  mutable base::Mutex mutex_;
+  SharedBytes status_ GSV_GUARDED_BY(mutex_);  // as recorded
+  SharedBytes poses_ GSV_GUARDED_BY(mutex_);   // as recorded
 };
 
 }  // namespace gsv::gateway

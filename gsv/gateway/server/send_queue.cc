@@ -5,7 +5,7 @@
 namespace gsv::gateway {
 
 bool SendQueue::PushControl(SharedBytes message, bool is_text) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (control_bytes_ + message.size() > limits_.control_bytes) return false;
   control_bytes_ += message.size();
   control_.push_back({is_text, false, {}, std::move(message)});
@@ -14,7 +14,7 @@ bool SendQueue::PushControl(SharedBytes message, bool is_text) {
 
 std::size_t SendQueue::PushData(const foxglove::BinaryHeader& header, SharedBytes payload) {
   Outgoing message{false, true, header, std::move(payload)};
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   std::size_t dropped = 0;
   while (!data_.empty() && (data_.size() >= limits_.data_messages ||
                             data_bytes_ + message.size() > limits_.data_bytes)) {
@@ -28,19 +28,19 @@ std::size_t SendQueue::PushData(const foxglove::BinaryHeader& header, SharedByte
 }
 
 std::optional<Outgoing> SendQueue::Pop() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (!control_.empty()) return Take(control_, control_bytes_);
   if (!data_.empty()) return Take(data_, data_bytes_);
   return std::nullopt;
 }
 
 bool SendQueue::empty() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return control_.empty() && data_.empty();
 }
 
 std::uint64_t SendQueue::dropped() const {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return dropped_;
 }
 

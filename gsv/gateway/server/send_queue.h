@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <mutex>
 #include <optional>
 
+#include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/foxglove.h"
 #include "gsv/gateway/foxglove/shared_bytes.h"
 
@@ -50,10 +50,11 @@ class SendQueue {
   static Outgoing Take(std::deque<Outgoing>& queue, std::size_t& bytes);
 
   const SendLimits limits_;
-  mutable std::mutex mutex_;
-  std::deque<Outgoing> control_, data_;
-  std::size_t control_bytes_ = 0, data_bytes_ = 0;
-  std::uint64_t dropped_ = 0;
+  mutable base::Mutex mutex_;
+  std::deque<Outgoing> control_ GSV_GUARDED_BY(mutex_);
+  std::deque<Outgoing> data_ GSV_GUARDED_BY(mutex_);
+  std::size_t control_bytes_ GSV_GUARDED_BY(mutex_) = 0, data_bytes_ = 0;
+  std::uint64_t dropped_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace gsv::gateway

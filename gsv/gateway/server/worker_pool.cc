@@ -12,7 +12,7 @@ WorkerPool::~WorkerPool() { Stop(); }
 
 bool WorkerPool::Submit(std::function<void()> job) {
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     if (stopping_ || jobs_.size() >= queue_limit_) return false;
     jobs_.push_back(std::move(job));
   }
@@ -23,7 +23,7 @@ bool WorkerPool::Submit(std::function<void()> job) {
 void WorkerPool::Stop() {
   std::deque<std::function<void()>> dropped;
   {
-    const std::lock_guard lock(mutex_);
+    const base::MutexLock lock(mutex_);
     stopping_ = true;
     dropped.swap(jobs_);
   }
@@ -34,9 +34,9 @@ void WorkerPool::Stop() {
 }
 
 void WorkerPool::Work() {
-  std::unique_lock lock(mutex_);
+  base::MutexLock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [&] { return stopping_ || !jobs_.empty(); });
+    changed_.wait(lock, [&]() GSV_REQUIRES(mutex_) { return stopping_ || !jobs_.empty(); });
     if (stopping_) return;
     std::function<void()> job = std::move(jobs_.front());
     jobs_.pop_front();

@@ -3,13 +3,13 @@
 // Bounded  a job that finds the queue full is refused, never kept.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <thread>
 #include <vector>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::gateway {
 
@@ -33,10 +33,10 @@ class WorkerPool {
   void Work();
 
   const std::size_t queue_limit_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  base::Mutex mutex_;
+  base::ConditionVariable changed_;
   std::deque<std::function<void()>> jobs_;
-  bool stopping_ = false;
+  bool stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::vector<std::thread> threads_;
 };
 

@@ -27,7 +27,7 @@ std::uint64_t NumberOf(const std::string& set) {
 }  // namespace
 
 base::Result<std::string> UploadFolder::Begin() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (!folder_) {
     auto made = base::TemporaryFolder::Make("gsv-uploads");
     if (!made) return base::Fail(made.error());
@@ -43,7 +43,7 @@ base::Result<std::string> UploadFolder::Begin() {
 base::Result<fs::path> UploadFolder::Put(const std::string& set,
                                          const std::vector<std::string>& path,
                                          std::string_view content) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   const std::uint64_t number = NumberOf(set);
   if (number == 0 || number > sets_) {
     return base::Fail(base::ErrorCode::kNotFound, "there is no such upload, any more");

@@ -9,12 +9,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gsv/base/mutex.h"
 #include "gsv/base/temporary_folder.h"
 
 namespace gsv::gateway::uploads {
@@ -41,11 +41,11 @@ class UploadFolder {
 
  private:
   const UploadLimits limits_;
-  std::mutex mutex_;
-  std::optional<base::TemporaryFolder> folder_;  // made when it is needed
-  std::uint64_t sets_ = 0;
-  std::size_t files_ = 0;
-  std::uint64_t bytes_ = 0;
+  base::Mutex mutex_;
+  std::optional<base::TemporaryFolder> folder_ GSV_GUARDED_BY(mutex_);  // made when it is needed
+  std::uint64_t sets_ GSV_GUARDED_BY(mutex_) = 0;
+  std::size_t files_ GSV_GUARDED_BY(mutex_) = 0;
+  std::uint64_t bytes_ GSV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace gsv::gateway::uploads

@@ -113,7 +113,7 @@ int Connection::Send(void* buffer, std::size_t size, const omni_time_t& deadline
 int Connection::Recv(void* buffer, std::size_t size, const omni_time_t& deadline) {
   if (is_shut_down_) return -1;
   if (!is_accepted_ && hooks_ == nullptr) return channel_->Receive(buffer, size, deadline);
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (hooks_ != nullptr && incoming_.assembly().empty()) hooks_->OnWait();
   omni_time_t until = deadline;
   while (!incoming_.IsThere()) {
@@ -143,8 +143,8 @@ int Connection::ReadPiece(const omni_time_t& deadline) {
 }
 
 bool Connection::Gather() {
-  const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock) return true;  // a thread of the ORB reads
+  if (!mutex_.try_lock()) return true;  // a thread of the ORB reads
+  const base::MutexLock lock(mutex_, std::adopt_lock);
   while (!incoming_.IsThere()) {
     const auto room = incoming_.assembly().Next();
     const ssize_t received = channel_->TryReceive(room.bytes, room.size);

@@ -9,9 +9,9 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 
+#include "gsv/base/mutex.h"
 #include "gsv/orb/giop/incoming_message.h"
 #include "gsv/orb/transport/channel.h"
 #include "gsv/orb/transport/connection_policy.h"
@@ -49,7 +49,8 @@ class Connection : public omni::giopConnection,
   CORBA::Boolean Peek() override;
 
   bool Gather() override;
-  bool has_begun() const override { return incoming_.has_begun(); }
+  // Called where Gather() has just returned false, when no thread of the ORB reads.
+  bool has_begun() const override GSV_NO_THREAD_SAFETY_ANALYSIS { return incoming_.has_begun(); }
   void Watch() override { setSelectable(1, false); }
   void End() override { Shutdown(); }
 
@@ -61,7 +62,7 @@ class Connection : public omni::giopConnection,
  private:
   Connection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses,
              omni::SocketCollection& collection, const MessageLimits& limits);
-  int ReadPiece(const omni_time_t& deadline);
+  int ReadPiece(const omni_time_t& deadline) GSV_REQUIRES(mutex_);
 
   std::unique_ptr<Channel> channel_;
   const ConnectionAddresses addresses_;
@@ -69,8 +70,8 @@ class Connection : public omni::giopConnection,
   bool is_accepted_ = false;
   std::unique_ptr<ConnectionHooks> hooks_;
   std::atomic<bool> is_shut_down_ = false;
-  std::mutex mutex_;
-  IncomingMessage incoming_;
+  base::Mutex mutex_;
+  IncomingMessage incoming_ GSV_GUARDED_BY(mutex_);
 };
 
 class ActiveConnection final : public omni::giopActiveConnection, public Connection {

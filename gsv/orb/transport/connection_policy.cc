@@ -1,14 +1,16 @@
 #include "gsv/orb/transport/connection_policy.h"
 
-#include <mutex>
 #include <utility>
+
+#include "gsv/base/mutex.h"
 
 namespace gsv::orb {
 namespace {
 
 struct Current {
-  std::mutex mutex;
-  std::shared_ptr<const ConnectionPolicy> policy = std::make_shared<ConnectionPolicy>();
+  base::Mutex mutex;
+  std::shared_ptr<const ConnectionPolicy> policy GSV_GUARDED_BY(mutex) =
+      std::make_shared<ConnectionPolicy>();
 };
 Current& CurrentPolicy() {
   static auto& current = *new Current;  // an ORB may outlive statics
@@ -20,13 +22,13 @@ Current& CurrentPolicy() {
 void SetConnectionPolicy(ConnectionPolicy policy) {
   auto made = std::make_shared<const ConnectionPolicy>(std::move(policy));
   Current& current = CurrentPolicy();
-  const std::lock_guard lock(current.mutex);
+  const base::MutexLock lock(current.mutex);
   current.policy = std::move(made);
 }
 
 std::shared_ptr<const ConnectionPolicy> CurrentConnectionPolicy() {
   Current& current = CurrentPolicy();
-  const std::lock_guard lock(current.mutex);
+  const base::MutexLock lock(current.mutex);
   return current.policy;
 }
 

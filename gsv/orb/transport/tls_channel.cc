@@ -67,7 +67,6 @@ TlsChannel::TlsChannel(std::shared_ptr<const TlsContext> context, int socket, Si
 
 TlsChannel::~TlsChannel() { SSL_free(session_); }
 
-// The lock is held.
 TlsChannel::Step TlsChannel::StepAfter(int result) {
   if (result > 0) return Step::kDone;
   switch (SSL_get_error(session_, result)) {
@@ -86,7 +85,7 @@ TlsChannel::Step TlsChannel::StepAfter(int result) {
 
 template <typename Call>
 TlsChannel::Step TlsChannel::Try(const Call& call, std::size_t& moved) {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   moved = 0;
   if (session_ == nullptr) return Step::kFailed;
   ERR_clear_error();
@@ -119,8 +118,7 @@ bool TlsChannel::AwaitHandshake(const omni_time_t& deadline, bool& timed_out) {
   };
   const int done = Await(shake, deadline);
   timed_out = done == 0;
-  if (timed_out) failure_ = "it does not finish the handshake of TLS";
-  if (done != 1) last_failure = failure_;
+  if (done != 1) last_failure = timed_out ? "it does not finish the handshake of TLS" : failure();
   return done == 1;
 }
 
@@ -147,7 +145,7 @@ int TlsChannel::Receive(void* buffer, std::size_t size, const omni_time_t& deadl
   const int moved = Await(
       [&](std::size_t* count) { return SSL_read_ex(session_, buffer, size, count); }, deadline);
   // With TLS 1.3 a client learns only here what the server thinks of its certificate.
-  if (moved < 0) last_failure = failure_;
+  if (moved < 0) last_failure = failure();
   return moved;
 }
 
@@ -157,13 +155,18 @@ int TlsChannel::Send(const void* buffer, std::size_t size, const omni_time_t& de
                deadline);
 }
 
+std::string TlsChannel::failure() {
+  const base::MutexLock lock(mutex_);
+  return failure_;
+}
+
 bool TlsChannel::HasBytes() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   return session_ != nullptr && SSL_pending(session_) > 0;
 }
 
 void TlsChannel::Close() {
-  const std::lock_guard lock(mutex_);
+  const base::MutexLock lock(mutex_);
   if (session_ == nullptr) return;
   ERR_clear_error();
   SSL_shutdown(session_);

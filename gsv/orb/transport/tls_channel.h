@@ -8,11 +8,11 @@
 
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include <omnithread.h>
 
+#include "gsv/base/mutex.h"
 #include "gsv/orb/transport/channel.h"
 #include "gsv/orb/transport/tls_context.h"
 
@@ -46,17 +46,18 @@ class TlsChannel final : public Channel {
   void Close() override;
 
  private:
-  Step StepAfter(int result);
+  Step StepAfter(int result) GSV_REQUIRES(mutex_);
   template <typename Call>
   Step Try(const Call& call, std::size_t& moved);
   template <typename Call>
   int Await(const Call& call, const omni_time_t& deadline);
+  std::string failure();
 
   const std::shared_ptr<const TlsContext> context_;
   const int socket_;
-  std::mutex mutex_;
-  ssl_st* session_;
-  std::string failure_;
+  base::Mutex mutex_;
+  ssl_st* const session_ GSV_PT_GUARDED_BY(mutex_);
+  std::string failure_ GSV_GUARDED_BY(mutex_);
 };
 
 // Why the last TLS connection that this thread asked for failed, once; empty: it did not.

@@ -1,11 +1,11 @@
 #include "gsv/orb/transport/transports.h"
 
 #include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "gsv/base/check.h"
+#include "gsv/base/mutex.h"
 #include "gsv/orb/transport/addresses.h"
 #include "gsv/orb/transport/endpoint.h"
 
@@ -73,11 +73,11 @@ void GiveUpName(const char* address, const char* name) {
 
 // Transports for TLS that were ever used stay, as connections and references of their ORB may.
 struct Installed {
-  std::mutex mutex;
-  std::unique_ptr<TcpTransport> tcp;
-  std::unique_ptr<LocalTransport> local;
-  std::vector<std::unique_ptr<TlsTransport>> tls;  // the last one is in use
-  std::optional<CorbaCertificate> certificate;     // of that one
+  base::Mutex mutex;
+  std::unique_ptr<TcpTransport> tcp GSV_GUARDED_BY(mutex);
+  std::unique_ptr<LocalTransport> local GSV_GUARDED_BY(mutex);
+  std::vector<std::unique_ptr<TlsTransport>> tls GSV_GUARDED_BY(mutex);  // the last one is in use
+  std::optional<CorbaCertificate> certificate GSV_GUARDED_BY(mutex);     // of that one
 };
 Installed& InstalledTransports() {
   static auto& installed = *new Installed;  // an ORB may outlive statics
@@ -88,7 +88,7 @@ Installed& InstalledTransports() {
 
 base::Status InstallTransports(const std::optional<CorbaCertificate>& certificate) {
   Installed& installed = InstalledTransports();
-  const std::lock_guard lock(installed.mutex);
+  const base::MutexLock lock(installed.mutex);
   if (installed.tcp == nullptr) {
     GiveUpName("giop:tcp:h:1", "giop:plain-tcp");
     GiveUpName("giop:unix:/f", "giop:plain-unix");
@@ -109,7 +109,7 @@ base::Status InstallTransports(const std::optional<CorbaCertificate>& certificat
 }
 
 bool SpeaksTls() {
-  const std::lock_guard lock(InstalledTransports().mutex);
+  const base::MutexLock lock(InstalledTransports().mutex);
   return InstalledTransports().certificate.has_value();
 }
 

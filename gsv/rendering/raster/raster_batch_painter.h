@@ -41,7 +41,7 @@ class RasterBatchPainter final : public BatchPainter {
   base::ThreadTeam team_;
   SunShadow shadow_;
   base::Mutex mutex_;
-  std::vector<std::unique_ptr<PicturePainter>> idle_ GSV_GUARDED_BY(mutex_);  // guarded by mutex_
+  std::vector<std::unique_ptr<PicturePainter>> idle_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::rendering::raster
