@@ -196,7 +196,8 @@ class WorldReader {
       } else if (kind == "frame") {
         TakeFrame(*child);
       } else if (kind == "physics" || kind == "gravity" || kind == "scene" ||
-                 kind == "magnetic_field" || kind == "spherical_coordinates") {
+                 kind == "magnetic_field" || kind == "spherical_coordinates" ||
+                 kind == "atmosphere") {
         surroundings_.push_back(child);
       } else if (kind == "actor" || kind == "population" || kind == "road" || kind == "joint") {
         context_.Warn("<" + kind + "> in a world is not supported and left out", Place(*child));
