@@ -1,6 +1,7 @@
 #include "gsv/services/sensor_servants.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "gsv/base/base64.h"
@@ -248,6 +249,26 @@ class SegmentationCameraServant final : public SensorServant<POA_sba::Segmentati
   }
 };
 
+class ThermalCameraServant final : public SensorServant<POA_sba::ThermalCamera> {
+ public:
+  using SensorServant::SensorServant;
+  sba::ThermalImage* take_temperatures() override {
+    const Reading reading = Read();
+    const auto image = In<readings::ThermalImage>(reading);
+    sba::ThermalImage_var picture = new sba::ThermalImage;
+    picture->time_ns = reading.time.count();
+    picture->width = static_cast<CORBA::ULong>(image.width);
+    picture->height = static_cast<CORBA::ULong>(image.height);
+    picture->resolution_k = image.resolution;
+    picture->pixels.length(static_cast<CORBA::ULong>(image.temperature.size()));
+    std::transform(image.temperature.begin(), image.temperature.end(), picture->pixels.get_buffer(),
+                   [&](double kelvin) {
+                     return static_cast<CORBA::UShort>(std::lround(kelvin / image.resolution));
+                   });
+    return picture._retn();
+  }
+};
+
 class BoundingBoxCameraServant final : public SensorServant<POA_sba::BoundingBoxCamera> {
  public:
   using SensorServant::SensorServant;
@@ -282,6 +303,7 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {readings::DepthImage::kType, MakeSensorServant<DepthCameraServant>},
       {readings::SegmentedImage::kType, MakeSensorServant<SegmentationCameraServant>},
       {readings::BoundingBoxes::kType, MakeSensorServant<BoundingBoxCameraServant>},
+      {readings::ThermalImage::kType, MakeSensorServant<ThermalCameraServant>},
       {readings::Microphone::kType, MakeSensorServant<MicrophoneServant>},
       {readings::Gripper::kType, MakeGripperServant},
       {readings::Lamp::kType, MakeLampServant},
