@@ -166,6 +166,11 @@ class SimulationProxy final : public RemoteSimulation {
     return Ask([this, factor] { simulation_->set_factor(factor); });
   }
 
+  base::Status Command(const std::string& name,
+                       const std::map<std::string, std::string>& arguments) override {
+    return Ask([&] { simulation_->command(name.c_str(), ToIdl(arguments)); });
+  }
+
   base::Status RunUntil(SimTime until, std::chrono::seconds patience,
                         const std::function<bool()>& go_on) override {
     const auto give_up = std::chrono::steady_clock::now() + patience;

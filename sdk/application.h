@@ -78,6 +78,11 @@ class RemoteSimulation {
   // In real time: simulated seconds a wall second from the next step on; above 0, at most 1e6. It
   // outlives a reset. Fails with kInvalidArgument in lockstep, which goes as fast as it can.
   virtual base::Status SetFactor(double factor) = 0;
+  // Any command of the server by its name, also those that this library does not know: see
+  // `gsv --help`, or sba::Simulation::commands(). Values are written as in "-1.62" or "true". Fails
+  // with kInvalidArgument when there is no such command, or an argument does not fit it.
+  virtual base::Status Command(const std::string& name,
+                               const std::map<std::string, std::string>& arguments = {}) = 0;
   // Runs to that instant and freezes there; blocks until then. `patience` is wall time. `go_on` is
   // asked every two seconds of it at least; false: the run goes on, this returns kEnded.
   virtual base::Status RunUntil(SimTime until,

@@ -108,6 +108,39 @@ sba::NameValues ToIdl(const model::Parameters& parameters) {
   return values;
 }
 
+std::map<std::string, std::string> TextsOf(const sba::NameValues& values) {
+  std::map<std::string, std::string> texts;
+  for (CORBA::ULong i = 0; i < values.length(); ++i) {
+    texts[std::string(values[i].name)] = std::string(values[i].value);
+  }
+  return texts;
+}
+
+sba::CommandDescription ToIdl(const simulation::Command& command) {
+  constexpr sba::CommandParameterType kTypes[]{sba::COMMAND_NUMBER, sba::COMMAND_INTEGER,
+                                               sba::COMMAND_FLAG, sba::COMMAND_TEXT};
+  sba::CommandDescription idl;
+  idl.name = std::string(command.name).c_str();
+  idl.summary = std::string(command.summary).c_str();
+  idl.parameters.length(static_cast<CORBA::ULong>(command.parameters.size()));
+  CORBA::ULong i = 0;
+  for (const simulation::Parameter& parameter : command.parameters) {
+    sba::CommandParameter& out = idl.parameters[i++];
+    out.name = std::string(parameter.name).c_str();
+    out.type = kTypes[static_cast<std::size_t>(parameter.type)];
+    out.unit = std::string(parameter.unit).c_str();
+    out.summary = std::string(parameter.summary).c_str();
+    out.required = parameter.is_required();
+    out.minimum = parameter.minimum;
+    out.maximum = parameter.maximum;
+    if (parameter.default_value) {
+      out.default_value = simulation::ToText(*parameter.default_value).c_str();
+    }
+    out.default_meaning = std::string(parameter.default_meaning).c_str();
+  }
+  return idl;
+}
+
 void RefuseUnknown(const model::Parameters& options,
                    std::initializer_list<std::string_view> known) {
   for (const auto& [name, value] : options) {

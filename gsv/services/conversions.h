@@ -2,11 +2,14 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
+#include <string>
 #include <string_view>
 
 #include "gsv/geometry/pose.h"
 #include "gsv/model/sensor_description.h"
 #include "gsv/sensing/reading.h"
+#include "gsv/simulation/commands/command.h"
 #include "gsv/simulation/types.h"
 #include "idl/simulation.hh"
 
@@ -23,6 +26,10 @@ model::Parameters FromIdl(const sba::NameValues& values);
 sba::NameValues ToIdl(const model::Parameters& parameters);
 // Raises sba::Refused, naming those that are known, for an option that is none of them.
 void RefuseUnknown(const model::Parameters& options, std::initializer_list<std::string_view> known);
+
+sba::CommandDescription ToIdl(const simulation::Command& command);
+// GSV reads each as the type of the parameter that it is for. Of two with one name the last counts.
+std::map<std::string, std::string> TextsOf(const sba::NameValues& values);
 
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
 

@@ -11,6 +11,8 @@
 #include "gsv/orb/orb.h"
 #include "gsv/services/conversions.h"
 #include "gsv/services/remote_behaviour.h"
+#include "gsv/simulation/commands/argument_reader.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::services {
 namespace {
@@ -194,6 +196,26 @@ char* SimulationServant::viewer_url() {
   NoteContact();
   const auto& hook = service_.hooks().viewer_url;
   return CORBA::string_dup(hook ? hook(simulation_->specification().name).c_str() : "");
+}
+
+sba::CommandDescriptions* SimulationServant::commands() {
+  NoteContact();
+  const auto commands = simulation::Commands();
+  auto* descriptions = new sba::CommandDescriptions;
+  descriptions->length(static_cast<CORBA::ULong>(commands.size()));
+  CORBA::ULong i = 0;
+  for (const simulation::Command& command : commands) (*descriptions)[i++] = ToIdl(command);
+  return descriptions;
+}
+
+void SimulationServant::command(const char* name, const sba::NameValues& arguments) {
+  NoteContact();
+  const simulation::Command* const command = simulation::FindCommand(name);
+  if (command == nullptr) {
+    throw sba::Refused(("there is no command '" + std::string(name).substr(0, 100) + "'").c_str());
+  }
+  const auto given = orb::ValueOrThrow(ReadArguments(*command, TextsOf(arguments)));
+  orb::ValueOrThrow(command->apply(*simulation_, given));
 }
 
 void SimulationServant::start_recording(const char* path) {

@@ -49,6 +49,8 @@ class SimulationServant final : public POA_sba::Simulation {
   sba::SimulationPhase await_change(sba::SimulationPhase known) override;
   char* state_hash() override;
   char* viewer_url() override;
+  sba::CommandDescriptions* commands() override;
+  void command(const char* name, const sba::NameValues& arguments) override;
   void start_recording(const char* path) override;
   void stop_recording() override;
   void destroy() override;

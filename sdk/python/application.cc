@@ -100,6 +100,20 @@ void BindState(py::module_& module) {
       });
 }
 
+// Numbers, flags and texts as sba::NameValue has them.
+std::string TextOf(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  return py::str(value);
+}
+
+void Command(const PythonSimulation& simulation, const std::string& name,
+             const py::kwargs& keywords) {
+  std::map<std::string, std::string> arguments;
+  for (const auto& [key, value] : keywords) arguments[py::str(key)] = TextOf(value);
+  const py::gil_scoped_release release;
+  ValueOrRaise(simulation.Get().Command(name, arguments));
+}
+
 Owned<PythonSimulation> Create(Application& application, const std::string& world,
                                const std::string& constraint, const std::string& preference,
                                bool lockstep, double factor, double step, std::uint64_t seed,
@@ -138,6 +152,9 @@ void BindApplications(py::module_& module) {
            "Back to the start, with the same robots.")
       .def("set_factor", Calling(&RemoteSimulation::SetFactor), py::arg("factor"), LetOthersRun(),
            "In real time: simulated seconds a second from the next step on. Lockstep refuses.")
+      .def("command", &Command, py::arg("name"),
+           "Any command of the simulator by its name, with its arguments by theirs: "
+           "command(\"step\", count=10).")
       .def("run_until", &RunUntil, py::arg("instant"), py::kw_only(), py::arg("patience") = 600.0,
            "Runs to that simulated second and freezes there; blocks until then, for `patience` "
            "seconds of wall time at most.")

@@ -24,7 +24,7 @@ void AddCheckCommands(const CommandLine& line);      // world check, model check
 void AddDrawCommand(const CommandLine& line);        // world draw; after AddCheckCommands()
 void AddRecordingCommands(const CommandLine& line);  // rec, replay
 void AddRecordCommands(const CommandLine& line);   // rec start, stop; after AddRecordingCommands()
-void AddControlCommands(const CommandLine& line);  // ps, pause, resume, step, stop, reset
+void AddControlCommands(const CommandLine& line);  // ps, and those on a simulation
 void AddBenchCommands(const CommandLine& line);    // bench
 void AddTestCommand(const CommandLine& line);
 void AddViewCommand(const CommandLine& line);

@@ -1,7 +1,9 @@
 // Looks at simulations that run in other processes, and steers them.
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +15,9 @@
 #include "apps/gsv/lost/server_note.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/orb/errors.h"
+#include "gsv/services/conversions.h"
+#include "gsv/simulation/commands/argument_reader.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::app {
 namespace {
@@ -60,6 +65,7 @@ struct Arguments {
   bool json = false;
   std::uint64_t steps = 1;
   double factor = 1;
+  std::map<std::string, std::string> texts;  // of commands of the table, by parameter
 };
 
 // What servers of this user were running when they ended without a word.
@@ -171,6 +177,44 @@ void AddFactor(CLI::App& command, Arguments& arguments) {
       ->required();
 }
 
+// set_gravity is spelt set-gravity here.
+std::string Dashed(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+void AddParameter(const simulation::Parameter& parameter, CLI::App& command, Arguments& arguments) {
+  std::string help(parameter.summary);
+  help += ": " + DescribeRange(parameter);
+  if (parameter.default_value) {
+    help += " (default: " + simulation::ToText(*parameter.default_value) + ")";
+  } else if (!parameter.is_required()) {
+    help += " (default: " + std::string(parameter.default_meaning) + ")";
+  }
+  const std::string name(parameter.name);
+  const std::string type(ToString(parameter.type));
+  const auto set = [&arguments, name](const std::string& text) { arguments.texts[name] = text; };
+  command.add_option_function<std::string>("--" + Dashed(name), set, help)
+      ->type_name(type)
+      ->required(parameter.is_required());
+}
+
+// A command as the table describes it: its parameters are options.
+void AddFromTable(const CommandLine& line, const simulation::Command& command) {
+  const auto call = [&command](sba::Simulation_ptr simulation, const Arguments& given) {
+    const model::Parameters texts(given.texts.begin(), given.texts.end());
+    simulation->command(std::string(command.name).c_str(), services::ToIdl(texts));
+  };
+  const auto add_parameters = [&command](CLI::App& app, Arguments& arguments) {
+    for (const simulation::Parameter& each : command.parameters) {
+      AddParameter(each, app, arguments);
+    }
+  };
+  AddSteering(line, Dashed(command.name).c_str(), std::string(command.summary).c_str(), call,
+              add_parameters);
+}
+
 }  // namespace
 
 void AddControlCommands(const CommandLine& line) {
@@ -205,6 +249,12 @@ void AddControlCommands(const CommandLine& line) {
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->stop(); });
   AddSteering(line, "reset", "Put a simulation back to its start, where `resume` starts it",
               [](sba::Simulation_ptr simulation, const Arguments&) { simulation->reset(); });
+  for (const simulation::Command& command : simulation::Commands()) {
+    const std::string name = Dashed(command.name);
+    const auto own =
+        line.app.get_subcommands([&](const CLI::App* each) { return each->get_name() == name; });
+    if (own.empty()) AddFromTable(line, command);
+  }
 }
 
 }  // namespace gsv::app

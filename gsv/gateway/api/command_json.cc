@@ -1,15 +1,18 @@
 #include "gsv/gateway/api/command_json.h"
 
+#include <cmath>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
-#include "gsv/gateway/live/simulation_commands.h"
+#include "gsv/simulation/commands/argument_reader.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::gateway {
 namespace {
 
 using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
 
 tl::unexpected<base::Error> Invalid(std::string sentence) {
   return base::Fail(base::ErrorCode::kInvalidArgument, std::move(sentence));
@@ -22,6 +25,33 @@ base::Result<Json> ParseObject(std::string_view body) {
   return json;
 }
 
+// Null, lists and objects are no values.
+base::Result<simulation::ArgumentValue> ValueOf(const std::string& name, const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_string()) return json.get<std::string>();
+  const bool is_large = json.is_number_unsigned() && json.get<std::int64_t>() < 0;
+  if (json.is_number_integer() && !is_large) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  return Invalid("'" + name.substr(0, 100) + "' must be a number, true, false or a text");
+}
+
+Json JsonOf(const simulation::ArgumentValue& value) {
+  return std::visit([](const auto& each) { return Json(each); }, value);
+}
+
+OrderedJson JsonOf(const simulation::Parameter& parameter) {
+  OrderedJson json{{"name", parameter.name},
+                   {"type", ToString(parameter.type)},
+                   {"unit", parameter.unit},
+                   {"summary", parameter.summary},
+                   {"required", parameter.is_required()}};
+  if (std::isfinite(parameter.minimum)) json["minimum"] = parameter.minimum;
+  if (std::isfinite(parameter.maximum)) json["maximum"] = parameter.maximum;
+  if (parameter.default_value) json["default"] = JsonOf(*parameter.default_value);
+  if (!parameter.default_meaning.empty()) json["default_meaning"] = parameter.default_meaning;
+  return json;
+}
+
 base::Result<double> NumberOrZero(const Json& object, const char* name) {
   const auto found = object.find(name);
   if (found == object.end()) return 0.0;
@@ -31,23 +61,33 @@ base::Result<double> NumberOrZero(const Json& object, const char* name) {
 
 }  // namespace
 
-base::Result<std::int64_t> ParseStepCount(std::string_view body) {
+base::Result<simulation::Arguments> ParseArguments(const simulation::Command& command,
+                                                   std::string_view body) {
+  if (command.parameters.empty()) {
+    return ReadArguments(command, simulation::Arguments::Values());
+  }
   const base::Result<Json> json = ParseObject(body);
   if (!json) return base::Fail(json.error());
-  const auto count = json->find("count");
-  if (count == json->end()) return 1;
-  const bool is_valid = count->is_number_unsigned() && count->get<std::uint64_t>() >= 1 &&
-                        count->get<std::uint64_t>() <= kMostSteps;
-  if (!is_valid) return Invalid("'count' must be a whole number of steps from 1 to 1000000000");
-  return count->get<std::int64_t>();
+  simulation::Arguments::Values given;
+  for (const auto& [name, each] : json->items()) {
+    auto value = ValueOf(name, each);
+    if (!value) return base::Fail(value.error());
+    given.emplace(name, *std::move(value));
+  }
+  return ReadArguments(command, std::move(given));
 }
 
-base::Result<double> ParseFactor(std::string_view body) {
-  const base::Result<Json> json = ParseObject(body);
-  if (!json) return base::Fail(json.error());
-  const auto factor = json->find("factor");
-  if (factor != json->end() && factor->is_number()) return factor->get<double>();
-  return Invalid("to set the real-time factor, give {\"factor\": simulated seconds a second}");
+std::string CommandsJson() {
+  OrderedJson list = OrderedJson::array();
+  for (const simulation::Command& command : simulation::Commands()) {
+    OrderedJson parameters = OrderedJson::array();
+    for (const simulation::Parameter& each : command.parameters) {
+      parameters.push_back(JsonOf(each));
+    }
+    list.push_back(
+        {{"name", command.name}, {"summary", command.summary}, {"parameters", parameters}});
+  }
+  return list.dump();
 }
 
 base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body) {

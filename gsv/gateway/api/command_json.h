@@ -1,21 +1,27 @@
-// The bodies of requests that command something. An empty body counts as {}.
+// Commands as JSON: the bodies of requests that command something, and the description of what can
+// be commanded. An empty body counts as {}.
 //
 // Errors  kInvalidArgument with a sentence that names the field.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "gsv/base/error.h"
+#include "gsv/simulation/commands/command.h"
 #include "gsv/world/state.h"
 
 namespace gsv::gateway {
 
-// {"count": N}, N from 1 to a thousand million; 1 when it is absent.
-base::Result<std::int64_t> ParseStepCount(std::string_view body);
+// {"PARAMETER": value, …}. The body of a command without parameters is ignored.
+base::Result<simulation::Arguments> ParseArguments(const simulation::Command& command,
+                                                   std::string_view body);
 
-// {"factor": F}, simulated seconds a wall second; what it may be, the simulation says.
-base::Result<double> ParseFactor(std::string_view body);
+// All commands of the table: an array of {"name", "summary", "parameters": [{"name", "type", "unit",
+// "summary", "required", "minimum", "maximum", "default", "default_meaning"}]}. What a parameter does
+// not have is left out.
+std::string CommandsJson();
 
 // {"linear_m_s": v, "lateral_m_s": v, "angular_rad_s": w}; what is absent is 0.
 base::Result<world::DriveCommand> ParseDriveCommand(std::string_view body);

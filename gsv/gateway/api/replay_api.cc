@@ -10,6 +10,7 @@
 #include "gsv/gateway/api/answers.h"
 #include "gsv/gateway/api/command_json.h"
 #include "gsv/gateway/api/status_json.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::gateway {
 namespace {
@@ -30,9 +31,9 @@ base::Status StepBy(ReplayPlayer& player, const std::string& body) {
     const bool is_whole = json["poses"].is_number_integer();
     return player.StepPoses(is_whole ? json["poses"].get<std::int64_t>() : 0);
   }
-  const base::Result<std::int64_t> count = ParseStepCount(body);
-  if (!count) return base::Fail(count.error());
-  return player.Step(*count);
+  const auto arguments = ParseArguments(*simulation::FindCommand("step"), body);
+  if (!arguments) return base::Fail(arguments.error());
+  return player.Step(arguments->Get<std::int64_t>("count"));
 }
 
 base::Status SeekTo(ReplayPlayer& player, const std::string& body) {
@@ -53,13 +54,13 @@ struct ReplayCommand {
   base::Status (*apply)(ReplayPlayer& player, const std::string& body);
 };
 constexpr ReplayCommand kReplayCommands[]{
-    {"start", "Start a simulation, or a replay from its beginning",
+    {"start", "Start a simulation",
      [](ReplayPlayer& player, const std::string&) { return player.Start(); }},
     {"pause", "Pause a simulation",
      [](ReplayPlayer& player, const std::string&) { return player.Pause(); }},
     {"resume", "Resume a simulation that is paused",
      [](ReplayPlayer& player, const std::string&) { return player.Resume(); }},
-    {"stop", "End a simulation; a replay goes to its beginning", &Rewind},
+    {"stop", "End a simulation", &Rewind},
     {"reset", "Go back to the start", &Rewind},
     {"step", "Take some steps, then pause", &StepBy},
     {"seek", "Go to an instant of the recording (replays only)", &SeekTo},

@@ -7,7 +7,7 @@
 #include "gsv/gateway/api/factory_api.h"
 #include "gsv/gateway/api/scenario_json.h"
 #include "gsv/gateway/api/status_json.h"
-#include "gsv/gateway/live/simulation_commands.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::gateway {
 namespace {
@@ -19,20 +19,14 @@ Response Done(const base::Status& done) {
   return done ? JsonResponse(200, "{}") : ErrorResponse(done.error());
 }
 
-// A command with the arguments that its request's body holds.
-using ApplyBody = std::function<base::Status(Simulation& simulation, const std::string& body)>;
-
-ApplyBody ApplyBodyOf(const SimulationCommand& command) {
-  return [command](Simulation& simulation, const std::string& body) {
-    if (!command.takes_count) return command.run(simulation, 0);
-    const base::Result<std::int64_t> count = ParseStepCount(body);
-    return count ? command.run(simulation, *count) : base::Status(base::Fail(count.error()));
+SimulationHandler Applying(const simulation::Command& command) {
+  return [&command](const SimulationPointer& simulation, const Request& request) {
+    const auto arguments = ParseArguments(command, request.body);
+    if (!arguments) return ErrorResponse(arguments.error());
+    const base::Status done = command.apply(*simulation, *arguments);
+    if (!done) return ErrorResponse(done.error());
+    return JsonResponse(200, StatusJson(simulation->status()));
   };
-}
-
-base::Status SetFactor(Simulation& simulation, const std::string& body) {
-  const base::Result<double> factor = ParseFactor(body);
-  return factor ? simulation.SetFactor(*factor) : base::Status(base::Fail(factor.error()));
 }
 
 // Robots with a behaviour are steered by that alone.
@@ -78,22 +72,17 @@ Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
 }
 
 std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& directory) {
-  std::vector<Route> routes;
-  const auto add = [&](std::string_view name, std::string_view summary, ApplyBody apply) {
-    const auto handler = [apply = std::move(apply)](const SimulationPointer& simulation,
-                                                    const Request& request) {
-      const base::Status done = apply(*simulation, request.body);
-      if (!done) return ErrorResponse(done.error());
-      return JsonResponse(200, StatusJson(simulation->status()));
-    };
-    routes.push_back({"POST", "/api/simulations/{name}/" + std::string(name), Permission::kControl,
-                      true, Pool::kCommanders, OfSimulation(directory, handler),
-                      std::string(summary)});
-  };
-  for (const SimulationCommand& command : SimulationCommands()) {
-    add(command.name, command.summary, ApplyBodyOf(command));
+  const std::string simulation = "/api/simulations/{name}/";
+  std::vector<Route> routes{
+      {"GET", simulation + "commands", Permission::kWatch, false, Pool::kReaders,
+       OfSimulation(directory, [](const SimulationPointer&,
+                                  const Request&) { return JsonResponse(200, CommandsJson()); }),
+       "The commands that a simulation takes"}};
+  for (const simulation::Command& command : simulation::Commands()) {
+    routes.push_back({"POST", simulation + std::string(command.name), Permission::kControl, true,
+                      Pool::kCommanders, OfSimulation(directory, Applying(command)),
+                      std::string(command.summary)});
   }
-  add("factor", "Set how fast a simulation in real time goes", &SetFactor);
   return routes;
 }
 

@@ -17,8 +17,8 @@ using SimulationHandler =
 Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
                             SimulationHandler handler);
 
-// POST /api/simulations/{name}/COMMAND for each command on a simulation (start, pause, step,
-// factor, …). The body holds its arguments; the answer is the simulation's status.
+// POST /api/simulations/{name}/COMMAND for each entry of the table of commands. The body holds its
+// arguments; the answer is the simulation's status. GET …/commands describes them.
 std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& directory);
 
 // What is done to what stands in a simulation: bodies are placed and removed, avatars steered.

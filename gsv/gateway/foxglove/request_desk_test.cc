@@ -1,11 +1,14 @@
 #include "gsv/gateway/foxglove/request_desk.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/command_services.h"
 #include "gsv/gateway/testing/recording_client.h"
 #include "gsv/messages/cdr.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::gateway {
 namespace {
@@ -229,15 +232,32 @@ class CommandServicesTest : public ::testing::Test {
 
   std::int64_t count_ = -1;
   const CommandServices services_{
-      {{"pause", false,
-        [this](std::int64_t) {
+      {{{.name = "pause"},
+        [this](const simulation::Arguments&) {
           count_ = 0;
           return std::string("well");
         }},
-       {"step", true, [this](std::int64_t count) -> base::Result<std::string> {
-          count_ = count;
+       {*simulation::FindCommand("step"),
+        [this](const simulation::Arguments& given) -> base::Result<std::string> {
+          count_ = given.Get<std::int64_t>("count");
           return base::Fail(base::ErrorCode::kNotRunning, "no");
+        }},
+       {{.name = "lift_up",
+         .parameters = {{.name = "height",
+                         .unit = "m",
+                         .summary = "how high",
+                         .minimum = -2,
+                         .maximum = 2,
+                         .default_meaning = "to the top"},
+                        {.name = "gently", .type = simulation::ParameterType::kFlag},
+                        {.name = "of",
+                         .type = simulation::ParameterType::kText,
+                         .default_value = std::string("all")}}},
+        [this](const simulation::Arguments& given) {
+          lifted_ = given.values();
+          return std::string();
         }}}};
+  simulation::Arguments::Values lifted_;
 };
 
 TEST_F(CommandServicesTest, ATriggerTakesNothingHoweverNothingIsWritten) {
@@ -270,9 +290,35 @@ TEST_F(CommandServicesTest, AStepTakesACountAndTellsThatItWasRefused) {
   EXPECT_FALSE(Prepare(2, ""));
 }
 
+TEST_F(CommandServicesTest, EachParameterIsAFieldOfTheRequest) {
+  const foxglove::Service service = services_.list()[2];
+  EXPECT_EQ(service.name, "/gsv/lift_up");
+  EXPECT_EQ(service.type, "gsv_msgs/srv/LiftUp");
+  EXPECT_EQ(service.request.schema,
+            "# how high: a number from -2 to 2 m; NaN: to the top\nfloat64 height\n"
+            "# : true or false\nbool gently\n"
+            "# : a text; empty: all\nstring of\n");
+  const auto request = [](double height, bool gently, const std::string& of) {
+    messages::Bytes bytes;
+    messages::CdrWriter writer(bytes);
+    writer.Write(height);
+    writer.Write(gently);
+    writer.Write(of);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  (*Prepare(3, request(-1.5, true, "crates")))();
+  EXPECT_EQ(lifted_, (simulation::Arguments::Values{
+                         {"height", -1.5}, {"gently", true}, {"of", std::string("crates")}}));
+  (*Prepare(3, request(std::nan(""), false, "")))();
+  EXPECT_EQ(lifted_,
+            (simulation::Arguments::Values{{"gently", false}, {"of", std::string("all")}}));
+  EXPECT_EQ(Prepare(3, request(2.5, false, "")).error().Sentence(),
+            "lift_up: 'height' must be a number from -2 to 2 m, and it is 2.5");
+}
+
 TEST_F(CommandServicesTest, AServiceThatIsNotThereIsNamed) {
   EXPECT_EQ(Prepare(0, "").error().Sentence(), "there is no service 0");
-  EXPECT_EQ(Prepare(3, "").error().Sentence(), "there is no service 3");
+  EXPECT_EQ(Prepare(4, "").error().Sentence(), "there is no service 4");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "gsv/gateway/live/simulation_commands.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::gateway {
 namespace {
@@ -25,25 +25,25 @@ base::Result<std::string> Record(const std::shared_ptr<Simulation>& simulation,
   return recordings.RecordingOf(name).path;
 }
 
-std::vector<CommandServices::Command> CommandsOf(const std::weak_ptr<Simulation>& simulation,
+std::vector<CommandServices::Service> ServicesOf(const std::weak_ptr<Simulation>& simulation,
                                                  RecordingSwitch* recordings) {
-  std::vector<CommandServices::Command> commands;
-  for (const SimulationCommand& command : SimulationCommands()) {
-    commands.push_back({std::string(command.name), command.takes_count,
-                        [simulation, run = command.run](std::int64_t count) {
-                          const auto locked = simulation.lock();
-                          return locked ? WithoutWords(run(*locked, count)) : Gone();
-                        }});
+  std::vector<CommandServices::Service> services;
+  for (const simulation::Command& command : simulation::Commands()) {
+    services.push_back(
+        {command, [simulation, apply = command.apply](const simulation::Arguments& arguments) {
+           const auto locked = simulation.lock();
+           return locked ? NoMessage(apply(*locked, arguments)) : Gone();
+         }});
   }
-  if (recordings == nullptr) return commands;
+  if (recordings == nullptr) return services;
   for (const bool begins : {true, false}) {
-    commands.push_back({begins ? "start_recording" : "stop_recording", false,
-                        [simulation, recordings, begins](std::int64_t) {
+    services.push_back({{.name = begins ? "start_recording" : "stop_recording"},
+                        [simulation, recordings, begins](const simulation::Arguments&) {
                           const auto locked = simulation.lock();
                           return locked ? Record(locked, *recordings, begins) : Gone();
                         }});
   }
-  return commands;
+  return services;
 }
 
 std::vector<foxglove::Parameter> ParametersOf(const Simulation& simulation) {
@@ -66,7 +66,7 @@ LiveOperations::LiveOperations(const std::shared_ptr<Simulation>& simulation, Wo
     : simulation_(simulation),
       workers_(workers),
       recordings_(recordings),
-      services_(CommandsOf(simulation, recordings)),
+      services_(ServicesOf(simulation, recordings)),
       fixed_(ParametersOf(*simulation)) {}
 
 void LiveOperations::Call(const foxglove::ServiceCall& call, Answer answer) {

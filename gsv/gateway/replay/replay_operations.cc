@@ -4,28 +4,33 @@
 #include <limits>
 #include <utility>
 
-#include "gsv/gateway/live/simulation_commands.h"
 #include "gsv/gateway/replay/replay_player.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::gateway {
 namespace {
 
 using base::ErrorCode;
 using foxglove::PlaybackState;
+using simulation::Arguments;
 using simulation::Phase;
 
-std::vector<CommandServices::Command> CommandsOf(ReplayPlayer& player) {
-  const auto rewind = [&player](std::int64_t) {
+std::vector<CommandServices::Service> ServicesOf(ReplayPlayer& player) {
+  const auto service = [](std::string_view name, auto run) {
+    return CommandServices::Service{*simulation::FindCommand(name), run};
+  };
+  const auto rewind = [&player](const Arguments&) {
     player.Rewind();
     return std::string();
   };
-  return {
-      {"start", false, [&player](std::int64_t) { return WithoutWords(player.Start()); }},
-      {"pause", false, [&player](std::int64_t) { return WithoutWords(player.Pause()); }},
-      {"resume", false, [&player](std::int64_t) { return WithoutWords(player.Resume()); }},
-      {"stop", false, rewind},
-      {"reset", false, rewind},
-      {"step", true, [&player](std::int64_t count) { return WithoutWords(player.Step(count)); }}};
+  return {service("start", [&](const Arguments&) { return NoMessage(player.Start()); }),
+          service("pause", [&](const Arguments&) { return NoMessage(player.Pause()); }),
+          service("resume", [&](const Arguments&) { return NoMessage(player.Resume()); }),
+          service("stop", rewind),
+          service("reset", rewind),
+          service("step", [&](const Arguments& given) {
+            return NoMessage(player.Step(given.Get<std::int64_t>("count")));
+          })};
 }
 
 PlaybackState::Status StatusOf(Phase phase) {
@@ -52,7 +57,7 @@ base::Status Pause(ReplayPlayer& player) {
 }  // namespace
 
 ReplayOperations::ReplayOperations(ReplayPlayer& player)
-    : player_(player), services_(CommandsOf(player)) {}
+    : player_(player), services_(ServicesOf(player)) {}
 
 void ReplayOperations::Call(const foxglove::ServiceCall& call, Answer answer) {
   const auto command = services_.Prepare(call);

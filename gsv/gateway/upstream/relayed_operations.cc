@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gsv/gateway/http/target.h"
-#include "gsv/gateway/live/simulation_commands.h"
 #include "gsv/gateway/upstream/fetch.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::gateway::upstream {
 namespace {
@@ -35,14 +35,19 @@ base::Result<std::string> FirstSimulation(const Address& address) {
 }
 
 base::Result<std::string> Command(const Address& address, std::string simulation,
-                                  const std::string& command, std::int64_t count) {
+                                  const std::string& command,
+                                  const simulation::Arguments& arguments) {
   if (simulation.empty()) {
     auto first = FirstSimulation(address);
     if (!first) return base::Fail(first.error());
     simulation = *std::move(first);
   }
+  nlohmann::json body = nlohmann::json::object();
+  for (const auto& [name, value] : arguments.values()) {
+    std::visit([&body, &name = name](const auto& each) { body[name] = each; }, value);
+  }
   const auto answer = Ask(address, "POST", "/api/simulations/" + Escape(simulation) + "/" + command,
-                          nlohmann::json{{"count", count}}.dump());
+                          body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   if (!answer) return base::Fail(answer.error());
   if (answer->status == 200) return std::string();
   const auto json = nlohmann::json::parse(answer->body.view(), nullptr, false);
@@ -54,23 +59,23 @@ base::Result<std::string> Command(const Address& address, std::string simulation
                     address.Url());
 }
 
-std::vector<CommandServices::Command> CommandsOf(const Address& address,
+std::vector<CommandServices::Service> ServicesOf(const Address& address,
                                                  const std::string& simulation) {
-  std::vector<CommandServices::Command> commands;
-  for (const SimulationCommand& command : SimulationCommands()) {
-    std::string name(command.name);
-    commands.push_back({name, command.takes_count, [address, simulation, name](std::int64_t count) {
-                          return Command(address, simulation, name, count);
+  std::vector<CommandServices::Service> services;
+  for (const simulation::Command& command : simulation::Commands()) {
+    services.push_back({command, [address, simulation, name = std::string(command.name)](
+                                     const simulation::Arguments& arguments) {
+                          return Command(address, simulation, name, arguments);
                         }});
   }
-  return commands;
+  return services;
 }
 
 }  // namespace
 
 RelayedOperations::RelayedOperations(const Address& address, const std::string& simulation,
                                      WorkerPool& workers)
-    : workers_(workers), services_(CommandsOf(address, simulation)) {}
+    : workers_(workers), services_(ServicesOf(address, simulation)) {}
 
 void RelayedOperations::Call(const foxglove::ServiceCall& call, Answer answer) {
   auto command = services_.Prepare(call);

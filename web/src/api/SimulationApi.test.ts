@@ -24,6 +24,14 @@ test("how fast it goes is posted to its own address", async () => {
   expect(init).toMatchObject({ method: "POST", body: '{"factor":2.5}' });
 });
 
+test("any command is posted to its own address with its arguments", async () => {
+  const { api, fetchPage } = answering(STATUS);
+  await api.command("a b", "set_gravity", { z: -1.62 });
+  const [url, init] = fetchPage.mock.calls[0]!;
+  expect(url).toBe("http://127.0.0.1:8080/api/simulations/a%20b/set_gravity");
+  expect(init).toMatchObject({ method: "POST", body: '{"z":-1.62}' });
+});
+
 test("a replay is moved and changed at its own addresses", async () => {
   const { api, fetchPage } = answering({ ...STATUS, start_s: 0, end_s: 9, speed: 2, loop: false });
   await api.seek("a b", 1.5);

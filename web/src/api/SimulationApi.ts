@@ -4,6 +4,8 @@ import { SetUpApi } from "./SetUpApi";
 import { Credentials } from "./credentials";
 import { MetricsApi } from "./MetricsApi";
 import { ViewersApi } from "./ViewersApi";
+import type { CommandArguments, CommandDescription } from "./commands";
+import { parseCommands } from "./commands";
 import type { CurveOf, WholeCurve } from "./curve";
 import { curveQuery, parseCurve } from "./curve";
 import type { Recording } from "./recording";
@@ -75,6 +77,14 @@ export class SimulationApi {
   async act(name: string, action: Action, count = 1): Promise<SimulationStatus> {
     const body = action === "step" ? { count } : {};
     return parseStatus(await this.server.post(`${simulationPath(name)}/${action}`, body, ACTION_TIMEOUT_MS));
+  }
+
+  async commands(name: string): Promise<CommandDescription[]> {
+    return parseCommands(await this.server.get(`${simulationPath(name)}/commands`));
+  }
+
+  async command(name: string, command: string, given: CommandArguments): Promise<void> {
+    await this.server.post(`${simulationPath(name)}/${encodeURIComponent(command)}`, given, ACTION_TIMEOUT_MS);
   }
 
   // In real time: simulated seconds a second.

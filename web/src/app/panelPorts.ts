@@ -15,6 +15,10 @@ export function panelPorts(app: App, api: SimulationApi): PanelPorts {
       log: (simulation) => api.log(simulation),
       curve: (simulation, of, most) => api.curve(simulation, of, most),
     },
+    commands: {
+      list: (simulation) => api.commands(simulation),
+      run: (simulation, command, given) => api.command(simulation, command, given),
+    },
     replay: { seek: (time) => app.replay.seek(time) },
     robots: {
       select: (robot) => app.select(robot),

@@ -38,4 +38,12 @@ export const PANELS: readonly Panel[] = [
     isAvailable: () => true,
     load: () => import("./status/StatusPanel"),
   },
+  {
+    id: "commands",
+    title: "Commands",
+    hint: "Commands that the simulation takes",
+    picture: "gauge",
+    isAvailable: ({ replay }) => replay === null,
+    load: () => import("./commands/CommandsPanel"),
+  },
 ];

@@ -3,6 +3,7 @@
 // A panel names in its mount function only the ports that it uses, and knows nothing else of the page: a
 // test, or another page, mounts it with ports of its own. app/panelPorts.ts makes them for the viewer.
 import type { ServerFigures } from "../../api/MetricsApi";
+import type { CommandArguments, CommandDescription } from "../../api/commands";
 import type { CurveOf, WholeCurve } from "../../api/curve";
 import type { RecordedLine } from "../../api/replay";
 import type { CameraChoice } from "../../api/scene";
@@ -16,6 +17,7 @@ export interface PanelPorts {
   state: StateReader<State>; // what the page knows; it is changed through the other ports
   topics: TopicSource; // of the simulation that is watched, and then of the next one
   server: ServerPort;
+  commands: CommandsPort;
   replay: ReplayPort;
   robots: RobotsPort;
   cameras: CamerasPort;
@@ -33,6 +35,12 @@ export interface ServerPort {
   log(simulation: string): Promise<RecordedLine[]>;
   // What is read so far of one value over a whole recording, in at most `most` samples.
   curve(simulation: string, of: CurveOf, most: number): Promise<WholeCurve>;
+}
+
+// Commands on a simulation. Promises reject with the server's sentence.
+export interface CommandsPort {
+  list(simulation: string): Promise<CommandDescription[]>;
+  run(simulation: string, command: string, given: CommandArguments): Promise<void>;
 }
 
 export interface ReplayPort {

@@ -48,6 +48,7 @@ export function testPorts(state: Partial<State> = {}, server: Partial<PanelPorts
       curve: vi.fn(async () => Promise.reject(new Error("no curve"))),
       ...server,
     },
+    commands: { list: vi.fn(async () => []), run: vi.fn(async () => {}) },
     replay: { seek: vi.fn(async () => {}) },
     robots: { select: vi.fn(), pick: vi.fn(), follow: vi.fn() },
     cameras: { show: vi.fn(), open: vi.fn() },

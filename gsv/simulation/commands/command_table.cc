@@ -1,0 +1,63 @@
+#include "gsv/simulation/commands/command_table.h"
+
+#include <algorithm>
+
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::simulation {
+
+std::span<const Command> Commands() {
+  using enum ParameterType;
+  static const std::vector<Command> kCommands{
+      {"start",
+       "Start a simulation",
+       {},
+       [](Simulation& s, const Arguments&) { return s.Start(); }},
+      {"pause",
+       "Pause a simulation",
+       {},
+       [](Simulation& s, const Arguments&) { return s.Pause(); }},
+      {"resume",
+       "Resume a simulation that is paused",
+       {},
+       [](Simulation& s, const Arguments&) { return s.Resume(); }},
+      {"stop", "End a simulation", {}, [](Simulation& s, const Arguments&) { return s.Stop(); }},
+      {"reset",
+       "Go back to the start",
+       {},
+       [](Simulation& s, const Arguments&) { return s.Reset(); }},
+      {"step",
+       "Take some steps, then pause",
+       {{.name = "count",
+         .type = kInteger,
+         .unit = "steps",
+         .summary = "number of steps",
+         .minimum = 1,
+         .maximum = 1e9,
+         .default_value = std::int64_t{1}}},
+       [](Simulation& s, const Arguments& given) {
+         return s.Step(given.Get<std::int64_t>("count"));
+       }},
+      {"factor",
+       "Set how fast a simulation in real time goes",
+       {{.name = "factor",
+         .type = kNumber,
+         .unit = "simulated seconds a second",
+         .summary = "target real-time factor, above 0",
+         .minimum = 0,
+         .maximum = 1e6}},
+       [](Simulation& s, const Arguments& given) {
+         return s.SetFactor(given.Get<double>("factor"));
+       }},
+  };
+  return kCommands;
+}
+
+const Command* FindCommand(std::string_view name) {
+  const auto commands = Commands();
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const Command& command) { return command.name == name; });
+  return found == commands.end() ? nullptr : &*found;
+}
+
+}  // namespace gsv::simulation
