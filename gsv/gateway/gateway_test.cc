@@ -66,6 +66,9 @@ TEST_F(GatewayTest, ViewersCommandTheSimulationByServices) {
   const std::string three("\0\1\0\0\3\0\0\0\0\0\0\0", 12);
   EXPECT_TRUE(viewer.CallService("step", three).first);
   EXPECT_EQ(simulation_->status().step, 3);
+  const std::string moon("\0\1\0\0\xec\x51\xb8\x1e\x85\xeb\xf9\xbf", 12);  // -1.62
+  EXPECT_TRUE(viewer.CallService("set_gravity", moon).first);
+  EXPECT_EQ(simulation_->gravity(), -1.62);
   EXPECT_TRUE(viewer.CallService("resume").first);
   EXPECT_TRUE(viewer.CallService("stop").first);
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kStopped);

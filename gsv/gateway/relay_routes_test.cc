@@ -128,6 +128,9 @@ TEST_F(RelayTest, ServicesArePassedOn) {
     EXPECT_FALSE(again);
     EXPECT_NE(why.find("the simulation is running and cannot be started"), std::string::npos);
     EXPECT_TRUE(viewer.CallService("reset").first);
+    const std::string moon("\0\1\0\0\xec\x51\xb8\x1e\x85\xeb\xf9\xbf", 12);  // -1.62
+    EXPECT_TRUE(viewer.CallService("set_gravity", moon).first);
+    EXPECT_EQ(simulation_->gravity(), -1.62);
   }
   Viewer viewer(port());
   viewer.SendText(R"({"op":"setParameters","parameters":[{"name":"/gsv/seed","value":7}]})");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <sstream>
 #include <string>
 
 #include "gsv/messages/time.h"
@@ -14,7 +16,7 @@ using simulation::Edit;
 
 constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 62;
 constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edit::Kind::kAddObject,
-                              Edit::Kind::kRemove, Edit::Kind::kPlace};
+                              Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
                                   Edit::Moment::kAmidTurns};
 constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
@@ -31,6 +33,25 @@ std::optional<Value> Named(const std::string& name, const Value (&values)[kCount
   return found == std::end(values) ? std::nullopt : std::optional(*found);
 }
 
+using Texts = std::map<std::string, std::string>;
+
+// "z=-1.62", one argument a line.
+std::string Lines(const Texts& arguments) {
+  std::string lines;
+  for (const auto& [name, value] : arguments) lines += name + "=" + value + "\n";
+  return lines;
+}
+
+Texts FromLines(const std::string& lines) {
+  Texts arguments;
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t sign = std::min(line.find('='), line.size());
+    arguments[line.substr(0, sign)] = line.substr(std::min(sign + 1, line.size()));
+  }
+  return arguments;
+}
+
 }  // namespace
 
 messages::gsv_msgs::Edit EditMessage(const simulation::Edit& edit) {
@@ -40,8 +61,9 @@ messages::gsv_msgs::Edit EditMessage(const simulation::Edit& edit) {
   message.kind = ToString(edit.kind);
   message.moment = ToString(edit.moment);
   message.halt = edit.halt;
-  message.body = edit.body;
-  message.model = edit.model;
+  const bool is_command = edit.kind == Edit::Kind::kCommand;
+  message.body = is_command ? edit.command : edit.body;
+  message.model = is_command ? Lines(edit.arguments) : edit.model;
   message.copy_of = edit.copy_of;
   message.behaviour = edit.behaviour;
   if (edit.movement) message.movement = ToString(*edit.movement);
@@ -74,8 +96,13 @@ base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message)
   edit.kind = *kind;
   edit.moment = *moment;
   edit.halt = message.halt;
-  edit.body = message.body;
-  edit.model = message.model;
+  if (edit.kind == Edit::Kind::kCommand) {
+    edit.command = message.body;
+    edit.arguments = FromLines(message.model);
+  } else {
+    edit.body = message.body;
+    edit.model = message.model;
+  }
   edit.copy_of = message.copy_of;
   edit.behaviour = message.behaviour;
   edit.on_ground = message.on_ground;

@@ -42,6 +42,22 @@ TEST(EditMessage, TellsAllThatTheEditIsMadeOf) {
   EXPECT_FALSE(back->on_ground);
 }
 
+TEST(EditMessage, KeepsACommandAndItsArguments) {
+  Edit edit;
+  edit.kind = Edit::Kind::kCommand;
+  edit.command = "set_gravity";
+  edit.arguments = {{"of", "a=b"}, {"z", "-1.62"}};
+  const auto back = EditFrom(EditMessage(edit));
+  ASSERT_TRUE(back) << back.error().Sentence();
+  EXPECT_EQ(back->kind, Edit::Kind::kCommand);
+  EXPECT_EQ(back->command, "set_gravity");
+  EXPECT_EQ(back->arguments, edit.arguments);
+  EXPECT_EQ(back->body, "");
+  EXPECT_EQ(back->model, "");
+  edit.arguments.clear();
+  EXPECT_TRUE(EditFrom(EditMessage(edit))->arguments.empty());
+}
+
 TEST(EditMessage, OfWhatNobodyCanHaveMadeIsRefused) {
   const auto is_refused = [](auto change) {
     messages::gsv_msgs::Edit message = EditMessage(AddedRobot());

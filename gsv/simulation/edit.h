@@ -1,7 +1,8 @@
-// A change by hand of who stands in a simulated world: all that is needed to make it once more.
+// A change by hand of a simulated world or of who stands in it: all that is needed to make it once more.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -12,7 +13,7 @@
 namespace gsv::simulation {
 
 struct Edit {
-  enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace };
+  enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace, kCommand };
   // Where between two steps, as behaviours see it.
   enum class Moment {
     kBeforeTurns,  // those that wake at this instant find the world changed
@@ -34,6 +35,10 @@ struct Edit {
   // Of what is added or placed: as it was asked for.
   geometry::Pose world_from_body;
   bool on_ground = true;
+  // A command of simulation/commands/command_table.h and its arguments, which the reader of
+  // arguments understands.
+  std::string command;
+  std::map<std::string, std::string> arguments;
 };
 
 const char* ToString(Edit::Kind kind);

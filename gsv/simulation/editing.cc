@@ -1,5 +1,7 @@
 // Requests that change who stands in a simulated world, and the record of them.
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "gsv/simulation/editing/placement.h"
@@ -73,6 +75,13 @@ Edit EditOf(const ObjectSpecification& object, const std::string& name) {
   return edit;
 }
 
+// Reads back as the same number.
+std::string ShortestText(double number) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, number);
+  return {text, end};
+}
+
 Edit RemovalOf(const std::string& name) {
   Edit edit;
   edit.kind = Edit::Kind::kRemove;
@@ -106,7 +115,7 @@ void SteppingSimulation::RecordEdit(Edit edit, const char* event, const std::str
   edit.time = world_.state().time;
   {
     const SimulationLock lock(*shared_);
-    run_.MarkEdited();
+    edit.kind == Edit::Kind::kCommand ? run_.MarkWorldChanged() : run_.MarkEdited();
     edit.halt = run_.run();
     edit.moment = run_.MomentOfEdit(shared_->running == 0 && shared_->ready.empty());
   }
@@ -244,6 +253,25 @@ base::Status SteppingSimulation::CommandJoint(const std::string& body, const std
   if (auto ok = world::CheckJointCommand(*moved, number, command); !ok) return ok;
   world::CommandJoint(layout, index, number, command, world_.state());
   events_.Emit("joint_commanded", body, joint);
+  return {};
+}
+
+base::Status SteppingSimulation::SetGravity(std::optional<double> z) {
+  if (z && !std::isfinite(*z)) {
+    return base::Fail(base::ErrorCode::kInvalidArgument, "gravity must be finite",
+                      specification_.name);
+  }
+  const base::MutexLock control(control_mutex_);
+  AwaitTurns();
+  const WorldGuard world_guard(world_.lock());
+  if (auto ok = CheckMayEdit(world_guard); !ok) return ok;
+  const geometry::Vector3 gravity = z ? geometry::Vector3{0, 0, *z} : specification_.world->gravity;
+  if (auto ok = editor_.SetGravity(gravity); !ok) return ok;
+  Edit edit;
+  edit.kind = Edit::Kind::kCommand;
+  edit.command = "set_gravity";
+  if (z) edit.arguments["z"] = ShortestText(*z);
+  RecordEdit(std::move(edit), "gravity_set", "z " + ShortestText(gravity.z) + " m/s²");
   return {};
 }
 

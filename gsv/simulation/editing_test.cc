@@ -1,6 +1,7 @@
 // Objects come, go and are turned while the world stands still; and what was done by hand is done
 // once more.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "gsv/simulation/testing/test_simulation.h"
@@ -211,9 +212,58 @@ std::string HashOfAnEditedRun(SimTime first, SimTime second) {
   EXPECT_TRUE(simulation->AddRobot(Robot("late", 0, 1, Drives(0.2))));
   PauseThrough(*simulation, second);
   EXPECT_TRUE(simulation->PlaceBody("crate", PlanarPose(0.8, 1, 0, 0.4), true));
+  EXPECT_TRUE(simulation->SetGravity(-3.7));
   EXPECT_TRUE(simulation->Resume());
   EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
   return simulation->state_hash();
+}
+
+TEST(Editing, GravityActsFromTheInstantOnAtWhichItIsSet) {
+  auto simulation = Make(Room(0s));
+  ObjectSpecification crate = Thing(Crate(), 0, 0, "high");
+  crate.world_from_object.position.z = 3;
+  crate.on_ground = false;
+  ASSERT_TRUE(simulation->AddObject(crate));
+  ASSERT_TRUE(simulation->AddRobot(Robot("robot", 0, 1)));
+  PauseAt(*simulation, 200ms);
+  ASSERT_TRUE(simulation->SetGravity(-1.62));
+  PauseAt(*simulation, 500ms);
+  // z0 + v0 t + g t² / 2 before and after, by steps of a millisecond at the coarsest.
+  const double then = 3 - 9.8 * 0.2 * 0.2 / 2;
+  const double now = then - 9.8 * 0.2 * 0.3 - 1.62 * 0.3 * 0.3 / 2;
+  EXPECT_NEAR(PoseOf(*simulation, "high").position.z, now, 9.8 * 0.5 * 1e-3);
+  EXPECT_EQ(PoseOf(*simulation, "robot").position, (Vector3{0, 1, 0}));
+  const Edit edit = EditsOf(*simulation).back();
+  EXPECT_EQ(edit.kind, Edit::Kind::kCommand);
+  EXPECT_EQ(edit.command, "set_gravity");
+  EXPECT_EQ(edit.arguments, (std::map<std::string, std::string>{{"z", "-1.62"}}));
+  EXPECT_EQ(edit.time, 200ms);
+  EXPECT_TRUE(simulation->was_edited());
+}
+
+TEST(Editing, GravityIsPartOfTheHashWhereItIsNotTheWorldsOwn) {
+  auto simulation = Make(Room(0s));
+  const std::string own = simulation->state_hash();
+  ASSERT_TRUE(simulation->SetGravity(-1.62));
+  const std::string moon = simulation->state_hash();
+  EXPECT_NE(moon, own);
+  ASSERT_TRUE(simulation->SetGravity(-9.8));
+  EXPECT_EQ(simulation->state_hash(), own);
+  ASSERT_TRUE(simulation->SetGravity(-1.62));
+  ASSERT_TRUE(simulation->Reset());
+  EXPECT_EQ(simulation->state_hash(), moon);
+  ASSERT_TRUE(simulation->SetGravity(std::nullopt));
+  EXPECT_EQ(simulation->state_hash(), own);
+  EXPECT_FALSE(simulation->SetGravity(std::nan("")));
+}
+
+TEST(Editing, GravityIsNotSetWhileTheSimulationRuns) {
+  auto simulation = Make(Room(0s));
+  ASSERT_TRUE(simulation->Start());
+  const base::Status refused = simulation->SetGravity(-1.62);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, base::ErrorCode::kNotRunning);
+  EXPECT_TRUE(simulation->Stop());
 }
 
 TEST(Editing, TheSameEditsAtTheSameStepsGiveTheSameHash) {

@@ -80,8 +80,9 @@ class RunControl {
   std::uint64_t run() const { return run_; }
   // The moment of an edit that is made now. `all_wait`: no agent's turn is under way.
   Edit::Moment MomentOfEdit(bool all_wait) const;
-  // Edits before the first start do not count.
+  // Edits of the bodies before the first start do not count: that is how a run is set up.
   void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }
+  void MarkWorldChanged() { was_edited_ = true; }
   bool was_edited() const { return was_edited_; }
 
  private:

@@ -326,5 +326,11 @@ TEST(RunControl, CountsEditsFromTheFirstStartOn) {
   EXPECT_EQ(run.control().run(), 1u);
 }
 
+TEST(RunControl, CountsChangesOfTheWorldBeforeTheFirstStart) {
+  BareRun run(0, 0);
+  run.control().MarkWorldChanged();
+  EXPECT_TRUE(run.control().was_edited());
+}
+
 }  // namespace
 }  // namespace gsv::simulation

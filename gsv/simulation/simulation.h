@@ -89,6 +89,11 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual base::Status CommandJoint(const std::string& body, const std::string& joint,
                                     const world::JointCommand& command) = 0;
 
+  // Gravity along the world's z, in m/s² (negative: downwards), from the next step on; without `z`
+  // the world's own. While the simulation is created or paused; it outlives a reset. Bodies that
+  // planar kinematics moves do not feel it.
+  virtual base::Status SetGravity(std::optional<double> z) = 0;
+
   // Each returns once the request is accepted; what comes of it is seen in status(). An action that
   // the phase does not allow fails with kNotRunning and says what is allowed.
   virtual base::Status Start() = 0;

@@ -285,6 +285,10 @@ std::string StepLoop::HashNow() const {
   for (const auto& [name, agent] : parts_.agents.all()) agent->AddToHash(hash);
   const std::size_t faults = parts_.faults.schedule().done();
   if (faults > 0) hash.Add(std::uint64_t{faults});
+  const geometry::Vector3& gravity = parts_.world.layout()->description->gravity;
+  if (gravity != parts_.specification.world->gravity) {
+    for (const double each : {gravity.x, gravity.y, gravity.z}) hash.Add(each);
+  }
   return hash.Hex();
 }
 

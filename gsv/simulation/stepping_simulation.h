@@ -40,6 +40,7 @@ class SteppingSimulation final : public Simulation {
                             std::shared_ptr<BehaviourPort> behaviour) override;
   base::Status CommandJoint(const std::string& body, const std::string& joint,
                             const world::JointCommand& command) override;
+  base::Status SetGravity(std::optional<double> z) override;
   bool was_edited() const override;
 
   // control.cc

@@ -36,6 +36,8 @@ const char* ToString(Edit::Kind kind) {
       return "remove";
     case Edit::Kind::kPlace:
       return "place";
+    case Edit::Kind::kCommand:
+      return "command";
   }
   return "";
 }

@@ -114,6 +114,18 @@ TEST_F(Control, ResetGoesBackToTheStartAndTheSameComesOutAgain) {
   EXPECT_THAT(Json({"resume"})["phase"].get<std::string>(), AnyOf("starting", "running"));
 }
 
+TEST_F(Control, CommandsOfTheTableTakeTheirParametersAsOptions) {
+  const auto run = StartRun();
+  Json({"pause"});
+  Json({"step"});
+  const auto before = Json({"ps"})["state_hash"];
+  EXPECT_NE(Json({"set-gravity", "simulation", "--z", "-1.62"})["state_hash"], before);
+  ExpectComplaint({"set-gravity", "--z", "-101"}, 2, "'z' must be a number from -100 to 100 m/s²");
+  EXPECT_EQ(Json({"set-gravity"})["state_hash"], before);
+  EXPECT_THAT(Gsv({"set-gravity", "--help"}).out,
+              HasSubstr("a number from -100 to 100 m/s² (default: the world's own)"));
+}
+
 TEST_F(Control, TheFactorOfARunInRealTimeIsSet) {
   Running run("gsv", {"run", "playground", "--headless", "--factor", "0.001", "--duration", "20"});
   run.AwaitLine("broker: ");

@@ -1,4 +1,5 @@
 // `gsv replay --resimulate`: a recorded run once more, with live behaviours.
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -50,6 +51,32 @@ TEST_F(Resimulation, TellsThatARunRepeats) {
   EXPECT_EQ(again.ending, "exit code 0") << again.err;
   EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
   EXPECT_THAT(again.out, HasSubstr("2.000 s"));
+}
+
+// A ball that lies on the floor rises from the instant on at which gravity points upwards.
+TEST_F(Resimulation, SetsGravityAgainWhereItWasSet) {
+  setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+  unsetenv("GSV_BROKER");
+  std::string world = Room(2);
+  const std::string ball =
+      R"(<model name="ball"><pose>0 3 0.2 0 0 0</pose><link name="link"><collision name="c">
+      <geometry><sphere><radius>0.2</radius></sphere></geometry></collision></link></model>)";
+  world.insert(world.find("</world>"), ball);
+  std::ofstream(world_) << world;
+  Running run("gsv", {"run", world_.string(), "--headless", "--lockstep", "--robot", "pebble@0,0",
+                      "--record", recording_.string()});
+  run.AwaitLine("broker: ");
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"pause"},
+                                                  {"set-gravity", "--z", "2"},
+                                                  {"step", "200"},
+                                                  {"stop"}}) {
+    const Outcome done = RunProgram("gsv", command);
+    ASSERT_EQ(done.ending, "exit code 0") << done.err;
+  }
+  EXPECT_EQ(run.AwaitEnd().ending, "exit code 0");
+  const Outcome again = RunProgram("gsv", {"replay", recording_, "--resimulate"});
+  EXPECT_EQ(again.ending, "exit code 0") << again.err << again.out;
+  EXPECT_THAT(again.out, StartsWith("simulated again, it is the same: "));
 }
 
 TEST_F(Resimulation, NamesTheFirstDifference) {

@@ -132,6 +132,37 @@ TEST_F(SimulationService, CreatesASimulationOfAWorld) {
   EXPECT_EQ(all->length(), 1u);
 }
 
+TEST_F(SimulationService, DescribesItsCommandsAndTakesThemByName) {
+  sba::Simulation_var simulation = service_->create_simulation(Playground());
+  const sba::CommandDescriptions_var commands = simulation->commands();
+  const sba::CommandDescription* gravity = nullptr;
+  for (CORBA::ULong i = 0; i < commands->length(); ++i) {
+    if (std::string(commands[i].name) == "set_gravity") gravity = &commands[i];
+  }
+  ASSERT_NE(gravity, nullptr);
+  ASSERT_EQ(gravity->parameters.length(), 1u);
+  EXPECT_STREQ(gravity->parameters[0].name, "z");
+  EXPECT_EQ(gravity->parameters[0].type, sba::COMMAND_NUMBER);
+  EXPECT_EQ(gravity->parameters[0].minimum, -100);
+  EXPECT_FALSE(gravity->parameters[0].required);
+  sba::NameValues arguments;
+  arguments.length(1);
+  arguments[0].name = "z";
+  arguments[0].value = "-1.62";
+  const std::string before = CORBA::String_var(simulation->state_hash()).in();
+  simulation->command("set_gravity", arguments);
+  EXPECT_NE(CORBA::String_var(simulation->state_hash()).in(), before);
+  arguments[0].value = "down";
+  EXPECT_THAT(ReasonOf<sba::Refused>([&] { simulation->command("set_gravity", arguments); }),
+              HasSubstr("'z' must be a number from -100 to 100"));
+  arguments.length(0);
+  EXPECT_EQ(ReasonOf<sba::Refused>([&] { simulation->command("explode", arguments); }),
+            "there is no command 'explode'");
+  EXPECT_THAT(ReasonOf<sba::NotRunning>([&] { simulation->command("pause", arguments); }),
+              HasSubstr("to pause it must be"));
+  simulation->destroy();
+}
+
 TEST_F(SimulationService, ParametersTakeEffect) {
   sba::SimulationSpecification specification = Playground();
   specification.name = "parameters";

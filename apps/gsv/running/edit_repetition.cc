@@ -9,6 +9,8 @@
 #include "gsv/messages/time.h"
 #include "gsv/presentation/edit_message.h"
 #include "gsv/presentation/topics.h"
+#include "gsv/simulation/commands/argument_reader.h"
+#include "gsv/simulation/commands/command_table.h"
 
 namespace gsv::app {
 namespace {
@@ -53,11 +55,23 @@ class EditMaker {
                                                        : simulation_.RemoveObject(edit.body);
       case Edit::Kind::kPlace:
         return simulation_.PlaceBody(edit.body, edit.world_from_body, edit.on_ground);
+      case Edit::Kind::kCommand:
+        return Apply(edit);
     }
     return {};
   }
 
  private:
+  base::Status Apply(const Edit& edit) {
+    const simulation::Command* const command = simulation::FindCommand(edit.command);
+    if (command == nullptr) {
+      return base::Fail(base::ErrorCode::kNotFound, "there is no such command", edit.command);
+    }
+    const auto arguments = ReadArguments(*command, edit.arguments);
+    return arguments ? command->apply(simulation_, *arguments)
+                     : base::Status(base::Fail(arguments.error()));
+  }
+
   base::Result<std::shared_ptr<const model::Model>> ReadModel(const std::string& model) {
     base::Problems problems;  // were told when it was added first
     return runtime_.host().library().ReadModel(model, problems,
@@ -177,7 +191,8 @@ base::Result<RecordedDoings> ReadDoings(const recording::McapReader& reader,
   }
   for (const Edit& edit : doings.edits) {
     if (by_commands || edit.moment != Edit::Moment::kAmidTurns) continue;
-    return NotAgain(file, "\"" + edit.body + "\" was changed by hand " + AtInstant(edit.time) +
+    return NotAgain(file, "\"" + (edit.body.empty() ? edit.command : edit.body) +
+                              "\" was changed by hand " + AtInstant(edit.time) +
                               " while behaviours ran, and nobody knows which of them saw it; try "
                               "--commands, by which they do what they did,");
   }

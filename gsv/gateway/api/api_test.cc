@@ -1,5 +1,6 @@
 #include "gsv/gateway/api/api.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -157,6 +158,30 @@ TEST_F(ApiTest, TheFactorIsSet) {
   }
   EXPECT_EQ(simulation_->factor(), 2.5);
   EXPECT_EQ(Ask("GET", path_ + "/factor").allow, "POST");
+}
+
+TEST_F(ApiTest, CommandsAreDescribedAndTakeTheirArguments) {
+  const auto commands = AskJson("GET", path_ + "/commands", 200);
+  const auto gravity = std::find_if(commands.begin(), commands.end(), [](const auto& command) {
+    return command["name"] == "set_gravity";
+  });
+  ASSERT_NE(gravity, commands.end());
+  const auto& z = (*gravity)["parameters"][0];
+  EXPECT_EQ(z["name"], "z");
+  EXPECT_EQ(z["type"], "number");
+  EXPECT_EQ(z["unit"], "m/s²");
+  EXPECT_EQ(z["required"], false);
+  EXPECT_EQ(z["minimum"], -100);
+  EXPECT_EQ(z["maximum"], 100);
+  EXPECT_EQ(z["default_meaning"], "the world's own");
+  AskJson("POST", path_ + "/set_gravity", 200, R"({"z":-1.62})");
+  EXPECT_EQ(simulation_->gravity(), -1.62);
+  EXPECT_EQ(AskJson("POST", path_ + "/set_gravity", 400, R"({"z":-101})")["error"],
+            "set_gravity: 'z' must be a number from -100 to 100 m/s², and it is -101");
+  EXPECT_EQ(AskJson("POST", path_ + "/set_gravity", 400, R"({"x":1})")["error"],
+            "set_gravity: there is no parameter 'x'; known: z");
+  AskJson("POST", path_ + "/set_gravity", 200);
+  EXPECT_EQ(simulation_->gravity(), std::nullopt);
 }
 
 TEST_F(ApiTest, WhatThePhaseDoesNotAllowIsAConflict) {

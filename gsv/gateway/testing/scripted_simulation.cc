@@ -258,6 +258,15 @@ base::Status ScriptedSimulation::SetFactor(double factor) {
   factor_ = factor;
   return {};
 }
+base::Status ScriptedSimulation::SetGravity(std::optional<double> z) {
+  const std::lock_guard lock(mutex_);
+  gravity_ = z;
+  return {};
+}
+std::optional<double> ScriptedSimulation::gravity() const {
+  const std::lock_guard lock(mutex_);
+  return gravity_;
+}
 double ScriptedSimulation::factor() const {
   const std::lock_guard lock(mutex_);
   return factor_;

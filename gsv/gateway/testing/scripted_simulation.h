@@ -58,6 +58,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Status Stop() override;
   base::Status Reset() override;
   base::Status SetFactor(double factor) override;
+  base::Status SetGravity(std::optional<double> z) override;
+  std::optional<double> gravity() const;  // as it was set last
   double factor() const override;
   const simulation::Specification& specification() const override { return specification_; }
   simulation::SimulationStatus status() const override;
@@ -101,6 +103,7 @@ class ScriptedSimulation final : public simulation::Simulation {
   std::function<base::Status(const std::string&)> on_watch_;
   std::vector<std::shared_ptr<simulation::Observer>> observers_;
   double factor_ = 1;
+  std::optional<double> gravity_;
 };
 
 }  // namespace gsv::gateway::testing

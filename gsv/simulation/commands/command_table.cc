@@ -49,6 +49,19 @@ std::span<const Command> Commands() {
        [](Simulation& s, const Arguments& given) {
          return s.SetFactor(given.Get<double>("factor"));
        }},
+      {"set_gravity",
+       "Set gravity along the world's z, while created or paused",
+       {{.name = "z",
+         .type = kNumber,
+         .unit = "m/s²",
+         .summary = "acceleration upwards, -1.62 on the Moon",
+         .minimum = -100,
+         .maximum = 100,
+         .default_meaning = "the world's own"}},
+       [](Simulation& s, const Arguments& given) {
+         const double* const z = given.Find<double>("z");
+         return s.SetGravity(z ? std::optional(*z) : std::nullopt);
+       }},
   };
   return kCommands;
 }

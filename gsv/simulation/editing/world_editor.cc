@@ -79,9 +79,15 @@ base::Status WorldEditor::Resolve(const world::Layout& layout,
 
 base::Status WorldEditor::ChangeBodies(std::vector<world::Body> bodies,
                                        const std::vector<std::string>& placed) {
+  return ChangeWorld(std::move(bodies), world_.layout()->description, placed);
+}
+
+base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
+                                      std::shared_ptr<const model::WorldDescription> description,
+                                      const std::vector<std::string>& placed) {
   const world::Layout& old_layout = *world_.layout();
   const std::uint32_t version = old_layout.version + 1;
-  auto layout = world::MakeLayout(version, std::move(bodies), old_layout.description);
+  auto layout = world::MakeLayout(version, std::move(bodies), std::move(description));
   world::State state = CarryOver(old_layout, world_.state(), *layout);
   CarryOverDevices(*layout, placed, state);
   auto status = world_.TryLayout(layout, state);
@@ -213,6 +219,12 @@ base::Status WorldEditor::PlaceAny(int body, const geometry::Pose& world_from_bo
       on_ground ? StandingPose(*placed.model, world_from_body, body) : world_from_body;
   const std::string name = placed.name;
   return ChangeBodies(std::move(bodies), {name});
+}
+
+base::Status WorldEditor::SetGravity(const geometry::Vector3& gravity) {
+  auto description = std::make_shared<model::WorldDescription>(*world_.layout()->description);
+  description->gravity = gravity;
+  return ChangeWorld(world_.layout()->bodies, std::move(description), {});
 }
 
 base::Status WorldEditor::SetInitialPoses(const std::map<std::string, geometry::Pose>& poses) {

@@ -1,5 +1,5 @@
-// Changes who stands in a simulated world, and where. A change that fails leaves the world as it
-// was.
+// Changes who stands in a simulated world, and where, and its gravity. A change that fails leaves
+// the world as it was.
 //
 // Threads  any, with the world's lock (world_mutex). The history of snapshots is restarted with each
 //          change.
@@ -36,6 +36,8 @@ class WorldEditor {
   // Places a body of any kind, by its index.
   base::Status PlaceAny(int body, const geometry::Pose& world_from_body, bool on_ground)
       GSV_REQUIRES(world_mutex);
+  // The bodies stay as they are.
+  base::Status SetGravity(const geometry::Vector3& gravity) GSV_REQUIRES(world_mutex);
   // Gives bodies other initial poses, for the next reset. Names that are not there are ignored.
   base::Status SetInitialPoses(const std::map<std::string, geometry::Pose>& poses)
       GSV_REQUIRES(world_mutex);
@@ -48,6 +50,9 @@ class WorldEditor {
   // `placed`: names of the bodies that are new or placed elsewhere, at their initial poses.
   base::Status ChangeBodies(std::vector<world::Body> bodies, const std::vector<std::string>& placed)
       GSV_REQUIRES(world_mutex);
+  base::Status ChangeWorld(std::vector<world::Body> bodies,
+                           std::shared_ptr<const model::WorldDescription> description,
+                           const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);
   base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,
                        world::State& state) GSV_REQUIRES(world_mutex);
   // The body of that name, or why it cannot be moved.

@@ -61,6 +61,19 @@ def test_how_fast_real_time_goes_can_be_set(simulator, simulate):
         simulate("playground").set_factor(2)
 
 
+def test_any_command_is_given_by_its_name(simulate):
+    simulation = simulate("playground")
+    before = simulation.state_hash()
+    simulation.command("set_gravity", z=-1.62)
+    assert simulation.state_hash() != before
+    simulation.command("set_gravity")
+    assert simulation.state_hash() == before
+    with pytest.raises(gsv.Refused, match="set_gravity: 'z' must be a number from -100 to 100"):
+        simulation.command("set_gravity", z=float("nan"))
+    with pytest.raises(gsv.Refused, match="no command 'explode'"):
+        simulation.command("explode", loudly=True)
+
+
 def test_a_run_until_something_is_true_stops_at_the_same_instant(simulate):
     instants = set()
     for _ in range(2):
