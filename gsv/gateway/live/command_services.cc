@@ -13,7 +13,6 @@ namespace {
 using simulation::Arguments;
 using simulation::ArgumentValue;
 using simulation::Command;
-using simulation::Parameter;
 using simulation::ParameterType;
 
 // The encapsulation header, and the octet that ROS 2 puts into an empty message.
@@ -32,9 +31,9 @@ std::string TypeName(std::string_view name) {
   return type;
 }
 
-bool IsUnsigned(const Parameter& parameter) { return parameter.minimum >= 0; }
+bool IsUnsigned(const simulation::Parameter& parameter) { return parameter.minimum >= 0; }
 
-const char* FieldType(const Parameter& parameter) {
+const char* FieldType(const simulation::Parameter& parameter) {
   switch (parameter.type) {
     case ParameterType::kNumber:
       return "float64";
@@ -49,7 +48,7 @@ const char* FieldType(const Parameter& parameter) {
 }
 
 // What a field says to leave the argument to its default.
-bool IsAbsent(const Parameter& parameter, const ArgumentValue& value) {
+bool IsAbsent(const simulation::Parameter& parameter, const ArgumentValue& value) {
   if (parameter.is_required()) return false;
   if (const auto* number = std::get_if<double>(&value)) return std::isnan(*number);
   if (const auto* integer = std::get_if<std::int64_t>(&value)) {
@@ -59,7 +58,7 @@ bool IsAbsent(const Parameter& parameter, const ArgumentValue& value) {
   return text != nullptr && text->empty();
 }
 
-std::string DefaultOf(const Parameter& parameter) {
+std::string DefaultOf(const simulation::Parameter& parameter) {
   if (parameter.is_required() || parameter.type == ParameterType::kFlag) return "";
   const char* const absent = parameter.type == ParameterType::kNumber    ? "NaN"
                              : parameter.type == ParameterType::kInteger ? "0"
@@ -72,7 +71,7 @@ std::string DefaultOf(const Parameter& parameter) {
 
 std::string RequestSchema(const Command& command) {
   std::string schema;
-  for (const Parameter& parameter : command.parameters) {
+  for (const simulation::Parameter& parameter : command.parameters) {
     schema += "# " + std::string(parameter.summary) + ": " + DescribeRange(parameter) +
               DefaultOf(parameter) + "\n";
     schema += std::string(FieldType(parameter)) + " " + std::string(parameter.name) + "\n";
@@ -97,7 +96,7 @@ Field ReadField(messages::CdrReader& reader) {
   return field;
 }
 
-ArgumentValue ReadValue(const Parameter& parameter, messages::CdrReader& reader) {
+ArgumentValue ReadValue(const simulation::Parameter& parameter, messages::CdrReader& reader) {
   switch (parameter.type) {
     case ParameterType::kNumber:
       break;
@@ -125,7 +124,7 @@ base::Result<Arguments> ArgumentsIn(const Command& command, const foxglove::Serv
   }
   messages::CdrReader reader(std::as_bytes(std::span(call.request)));
   Arguments::Values given;
-  for (const Parameter& parameter : command.parameters) {
+  for (const simulation::Parameter& parameter : command.parameters) {
     ArgumentValue value = ReadValue(parameter, reader);
     if (!IsAbsent(parameter, value)) given.emplace(std::string(parameter.name), std::move(value));
   }

@@ -40,7 +40,7 @@ class Newcomer : public omni::SocketHolder {
   }
 
   TlsChannel::Step Proceed() { return is_refused_ ? ReadToTheEnd() : channel_->Handshake(); }
-  const std::string& failure() const { return channel_->failure(); }
+  std::string failure() const { return channel_->failure(); }
   // The peer loses what it was sent if its socket is closed while bytes from it are unread.
   void Refuse(const std::string& why) {
     constexpr std::string_view kScheme = "giop:ssl:";

@@ -118,7 +118,11 @@ bool TlsChannel::AwaitHandshake(const omni_time_t& deadline, bool& timed_out) {
   };
   const int done = Await(shake, deadline);
   timed_out = done == 0;
-  if (done != 1) last_failure = timed_out ? "it does not finish the handshake of TLS" : failure();
+  if (timed_out) {
+    const base::MutexLock lock(mutex_);
+    failure_ = "it does not finish the handshake of TLS";
+  }
+  if (done != 1) last_failure = failure();
   return done == 1;
 }
 
@@ -155,7 +159,7 @@ int TlsChannel::Send(const void* buffer, std::size_t size, const omni_time_t& de
                deadline);
 }
 
-std::string TlsChannel::failure() {
+std::string TlsChannel::failure() const {
   const base::MutexLock lock(mutex_);
   return failure_;
 }

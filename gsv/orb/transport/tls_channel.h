@@ -36,7 +36,7 @@ class TlsChannel final : public Channel {
   // Whether it was done before `deadline`.
   bool AwaitHandshake(const omni_time_t& deadline, bool& timed_out);
   // Why it failed, as a sentence about the peer: "it shows no certificate".
-  const std::string& failure() const { return failure_; }
+  std::string failure() const;
 
   ssize_t TryReceive(void* buffer, std::size_t size) override;
   ssize_t TrySend(const void* buffer, std::size_t size) override;
@@ -51,11 +51,10 @@ class TlsChannel final : public Channel {
   Step Try(const Call& call, std::size_t& moved);
   template <typename Call>
   int Await(const Call& call, const omni_time_t& deadline);
-  std::string failure();
 
   const std::shared_ptr<const TlsContext> context_;
   const int socket_;
-  base::Mutex mutex_;
+  mutable base::Mutex mutex_;
   ssl_st* const session_ GSV_PT_GUARDED_BY(mutex_);
   std::string failure_ GSV_GUARDED_BY(mutex_);
 };
