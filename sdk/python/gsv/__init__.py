@@ -14,17 +14,14 @@
 Frames are those of REP-103 (x forward, y left, z up), units metres, radians and seconds.
 """
 
-from gsv._native import (
-    Altimeter, Battery, BoundingBoxCamera, Bumper, Camera, Colour, DepthCamera, Gripper, Imu, Joint,
-    JointEncoders, JointState, JointTraits, Lamp, Lidar, LogicalCamera, Magnetometer, Microphone,
-    Odometer, Placement, PositioningSystem, Quaternion, Radio, Reading, Robot, RobotState,
-    SatelliteReceiver, SegmentationCamera, Sensor, SensorTraits, SimulationState, Sonar, SonarRing,
-    Speaker, ThermalCamera, Vector, nearest)
+from gsv._native import *  # the robot, its sensors and their readings
 from gsv._native import __version__
 from gsv.applications import Application, Simulation, connect
 from gsv.behaviours import Behaviour, Controller, Offer, serve
 from gsv.errors import (
     BadModel, BehaviourFailed, Corrupt, Ended, Error, NotFound, NotRunning, Refused, TimedOut,
     Unavailable)
+
+del end_with_parent  # internal: gsv.behaviours and the fixtures take it from gsv._native
 
 __all__ = [name for name in dir() if not name.startswith("_")]
