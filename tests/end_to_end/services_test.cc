@@ -134,7 +134,7 @@ TEST_F(SimulationService, CreatesASimulationOfAWorld) {
 
 TEST_F(SimulationService, DescribesItsCommandsAndTakesThemByName) {
   sba::Simulation_var simulation = service_->create_simulation(Playground());
-  const sba::CommandDescriptions_var commands = simulation->commands();
+  sba::CommandDescriptions_var commands = simulation->commands();
   const sba::CommandDescription* gravity = nullptr;
   for (CORBA::ULong i = 0; i < commands->length(); ++i) {
     if (std::string(commands[i].name) == "set_gravity") gravity = &commands[i];
