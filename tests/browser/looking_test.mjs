@@ -293,6 +293,7 @@ test("the sheet of keys knows them all", async () => {
   }
   await keepPicture(page, "keys");
   await page.keyboard.press("Escape");
+  await sheet.waitFor({ state: "hidden" });
 });
 
 test("the status of the simulation, its robots and the server is in a panel", async () => {
