@@ -35,6 +35,9 @@ WALLED_INCLUDES = {
     ),
 }
 
+# What no folder may use, for gsv/base has the same where clang can check it. Tests and examples are free.
+UNCHECKED_CODE = re.compile(r"\bstd::((timed_|shared_|recursive_)?mutex|condition_variable)\b")
+
 
 class Table:
     """docs/layers.txt: folders in their order, what each may include, and the core's limits."""
@@ -122,7 +125,12 @@ def check_include(table, root, path, folder, quote, included):
 
 def check_code(table, path, folder, code):
     """The sentence that says what one line of code uses and must not, or None."""
-    if not table.is_core(folder) or TEST_SOURCE.search(path):
+    if TEST_SOURCE.search(path) or folder.startswith(("tests", "examples")):
+        return None
+    unchecked = UNCHECKED_CODE.search(code)
+    if unchecked and not table.is_excepted(path, "unchecked-locks"):
+        return f"use gsv/base/mutex.h, which clang can check, instead of {unchecked.group(0)}"
+    if not table.is_core(folder):
         return None
     for use, pattern in FORBIDDEN_CODE.items():
         found = pattern.search(code)

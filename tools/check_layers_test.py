@@ -107,6 +107,13 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual((code, len(lines)), (1, 3))
         self.assertTrue(lines[0].startswith("gsv/broker/a.cc:1: gsv/broker may not use omniorb-int"), lines[0])
 
+    def test_locks_that_clang_cannot_check_are_refused_but_where_excepted_and_in_tests(self):
+        code = "std::mutex mutex;\n"
+        self.assert_violation({"gsv/services/a.h": code}, "gsv/services/a.h:1: ", "gsv/base/mutex.h")
+        excepted = LAYERS + "except gsv/base/mutex.h unchecked-locks\n"
+        self.assertEqual(self.run_on({"gsv/base/mutex.h": code}, excepted)[0], 0)
+        self.assertEqual(self.run_on({"gsv/services/a_test.cc": code})[0], 0)
+
     def test_a_folder_nobody_declared_is_refused(self):
         self.assert_violation({"gsv/extra/a.cc": "\n"}, "gsv/extra/a.cc:1: ", "does not name")
 
