@@ -46,7 +46,7 @@ struct Campaign {
 
 // Each value is tried in the scenario by itself; what is wrong with any is added to `problems`.
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
-// The same, with the engine that the file and `request` name (engine.h).
+// Also sets `engine` to the one that `request` names, else the one that the file names (engine.h).
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
                                     const EngineRequest& request, Engine& engine);
 

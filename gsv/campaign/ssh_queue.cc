@@ -189,7 +189,7 @@ class SshQueue final : public JobQueue {
         {std::move(task), &host, *std::move(program), context_.now() + kStartPatience});
   }
 
-  // Of two settings ssh takes the first, so that the user's come before these.
+  // ssh uses the first value it finds for a setting: the user's options come before these defaults.
   std::vector<std::string> CommandFor(const Task& task, const std::string& host) const {
     std::vector<std::string> command{options_.ssh};
     command.insert(command.end(), options_.options.begin(), options_.options.end());

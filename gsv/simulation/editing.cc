@@ -102,7 +102,7 @@ void SteppingSimulation::AwaitTurns() const {
 base::Status SteppingSimulation::CheckMayEdit(const WorldGuard& guard) const {
   if (!guard.is_held()) return RefuseStuck();
   const SimulationLock lock(*shared_);
-  return run_.Require({Phase::kCreated, Phase::kPaused}, "change what stands in it");
+  return run_.Require({Phase::kCreated, Phase::kPaused}, "edit its world");
 }
 
 void SteppingSimulation::AssignBodies() {

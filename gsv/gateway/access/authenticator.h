@@ -1,5 +1,5 @@
-// Who makes a request, and what they may do: the port behind which ways to find that out stand.
-// Tokens (token_authenticator.h) are the one that comes with GSV.
+// The port through which the gateway finds out who makes a request, and with what permission.
+// GSV comes with one implementation, tokens (token_authenticator.h).
 #pragma once
 
 #include <chrono>

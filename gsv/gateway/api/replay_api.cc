@@ -198,7 +198,7 @@ Route::Handler OfReplay(const FindReplay& find, ReplayHandler handler) {
   };
 }
 
-// What is done to simulations, and cannot be done to a recording.
+// A request that simulations take and a replay refuses.
 struct RefusedRequest {
   const char* method;
   const char* below;  // /api/simulations/{name}

@@ -52,7 +52,7 @@ test("a command is sent with what was typed, and its answer stands beside it", a
   await vi.waitFor(() => expect(gravity.querySelector("output")!.textContent).toBe("Done."));
   expect(run).toHaveBeenLastCalledWith("house", "set_gravity", {});
   gravity.querySelector("input")!.value = "-1.62";
-  run.mockRejectedValueOnce(new Error("to change what stands in it it must be paused"));
+  run.mockRejectedValueOnce(new Error("to edit its world it must be paused"));
   gravity.requestSubmit();
   await vi.waitFor(() => expect(gravity.querySelector("output")!.textContent).toMatch("must be paused"));
   expect(run).toHaveBeenLastCalledWith("house", "set_gravity", { z: -1.62 });
