@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/base/log.h"
 #include "gsv/simulation/simulation.h"
 

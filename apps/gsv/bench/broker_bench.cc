@@ -17,9 +17,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/bench/bench.h"
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/child_process.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/storage/offer_file.h"

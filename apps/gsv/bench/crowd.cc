@@ -11,8 +11,8 @@
 
 #include "apps/gsv/bench/bench.h"
 #include "apps/gsv/bench/crowd_check.h"
-#include "apps/gsv/bench/crowd_scenario.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/thread_team.h"
 #include "gsv/hosting/hosted_behaviour.h"
 #include "gsv/sensing/devices/built_in.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/gsv/bench/crowd_scenario.h"
+#include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/random.h"
 
 namespace gsv::app {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/bench/bench.h"
-#include "apps/gsv/bench/moving_scene.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/scenes/moving_scene.h"
 #include "gsv/base/thread_team.h"
 
 namespace gsv::app {

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/bench/bench.h"
-#include "apps/gsv/bench/crowd_scenario.h"
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/run_population.h"
+#include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/base/mutex.h"
 #include "gsv/sensing/forwarding_sensor.h"
 

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/broker/client/broker_administration.h"
 #include "gsv/broker/client/offer_listing.h"
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "apps/gsv/campaigns/campaign_engines.h"
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/exit_code.h"
-#include "apps/gsv/trials/campaign_engines.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/campaign/queue_cost.h"
 #include "gsv/campaign/report.h"
 

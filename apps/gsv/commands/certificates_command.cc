@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/base/host_name.h"
 #include "gsv/tls/certificates.h"
 

@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/commands/limit_option.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/doctor/doctor.h"
+#include "apps/gsv/doctor/exposure.h"
 #include "apps/gsv/machine/confinement.h"
-#include "apps/gsv/machine/doctor.h"
-#include "apps/gsv/machine/exposure.h"
 #include "apps/gsv/machine/installation.h"
-#include "apps/gsv/running/sensor_types.h"
+#include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/serving/limit_option.h"
+#include "apps/gsv/simulations/sensor_types.h"
 #include "gsv/formats/sdf_reader.h"
 
 namespace gsv::app {

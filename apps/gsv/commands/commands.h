@@ -1,7 +1,7 @@
 // The subcommands of gsv. Each adds itself to the command line; its callback sets the exit code.
 #pragma once
 
-#include "apps/gsv/signals.h"
+#include "apps/gsv/process/signals.h"
 
 namespace CLI {
 class App;

@@ -11,8 +11,8 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/commands/selection_options.h"
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/lost/server_note.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/gateway/api/status_json.h"
 #include "gsv/orb/errors.h"
 #include "gsv/services/conversions.h"

@@ -9,12 +9,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/bench/moving_scene.h"
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/commands/limit_option.h"
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/picture.h"
+#include "apps/gsv/scenes/moving_scene.h"
+#include "apps/gsv/serving/limit_option.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/geometry/box_corners.h"
 #include "gsv/rendering/renderer.h"

@@ -7,7 +7,7 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/commands/selection_options.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/orb/errors.h"
 
 namespace gsv::app {

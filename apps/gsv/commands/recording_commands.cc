@@ -14,11 +14,11 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/commands/viewer_options.h"
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/resimulation.h"
 #include "apps/gsv/running/video_export.h"
+#include "apps/gsv/serving/viewer_options.h"
 #include "gsv/recording/attachments/scene_attachments.h"
 #include "gsv/recording/reading/decoded_messages.h"
 #include "gsv/recording/reading/recording_info.h"

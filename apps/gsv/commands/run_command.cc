@@ -7,14 +7,14 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/picture.h"
 #include "apps/gsv/running/run.h"
 #include "apps/gsv/running/run_population.h"
 #include "apps/gsv/running/run_report.h"
-#include "apps/gsv/serving/recordings.h"
+#include "apps/gsv/simulations/recordings.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/recording/topics/topics.h"
 #include "gsv/verdict/judge.h"

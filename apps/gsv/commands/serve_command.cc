@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/commands/limit_option.h"
-#include "apps/gsv/exit_code.h"
-#include "apps/gsv/running/sensor_types.h"
+#include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/serving/runtime.h"
+#include "apps/gsv/simulations/sensor_types.h"
 
 namespace gsv::app {
 namespace {

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "apps/gsv/trials/test_report.h"
 #include "gsv/base/mutex.h"

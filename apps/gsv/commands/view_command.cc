@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
-#include "apps/gsv/commands/viewer_options.h"
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/serving/remote_simulations.h"
+#include "apps/gsv/serving/viewer_options.h"
 #include "gsv/base/log.h"
 
 namespace gsv::app {

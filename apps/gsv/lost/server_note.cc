@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/serving/running_instances.h"
+#include "apps/gsv/machine/running_instances.h"
 #include "gsv/base/host_name.h"
 #include "gsv/base/whole_file.h"
 

@@ -2,9 +2,9 @@
 
 #include <csignal>
 
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/child_process.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 
 namespace gsv::app {
 namespace {

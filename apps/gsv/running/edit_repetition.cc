@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "apps/gsv/exit_code.h"
-#include "apps/gsv/running/population.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/run_population.h"
+#include "apps/gsv/simulations/population.h"
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/time.h"
 #include "gsv/presentation/edit_message.h"

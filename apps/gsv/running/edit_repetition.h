@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "apps/gsv/commands/run_options.h"
-#include "apps/gsv/signals.h"
+#include "apps/gsv/process/signals.h"
+#include "apps/gsv/running/run_options.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/simulation/edit.h"
 

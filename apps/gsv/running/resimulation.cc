@@ -12,10 +12,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/run.h"
-#include "apps/gsv/serving/recordings.h"
+#include "apps/gsv/simulations/recordings.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/hosting/recorded_commands.h"
 #include "gsv/messages/cdr.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/gsv/signals.h"
+#include "apps/gsv/process/signals.h"
 #include "gsv/base/error.h"
 
 namespace gsv::app {

@@ -1,8 +1,8 @@
 // One run of a simulation, from its start to its end.
 #pragma once
 
-#include "apps/gsv/commands/run_options.h"
-#include "apps/gsv/signals.h"
+#include "apps/gsv/process/signals.h"
+#include "apps/gsv/running/run_options.h"
 
 namespace gsv::app {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "apps/gsv/running/in_process.h"
-#include "apps/gsv/running/population.h"
+#include "apps/gsv/simulations/in_process.h"
+#include "apps/gsv/simulations/population.h"
 #include "gsv/recording/attachments/scenario_attachment.h"
 
 namespace gsv::app {

@@ -1,7 +1,7 @@
 // The robots of `gsv run`, with their behaviours.
 #pragma once
 
-#include "apps/gsv/commands/run_options.h"
+#include "apps/gsv/running/run_options.h"
 
 namespace gsv::app {
 

@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "apps/gsv/machine/installation.h"
-#include "apps/gsv/serving/recordings.h"
+#include "apps/gsv/simulations/recordings.h"
 
 namespace gsv::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "apps/gsv/serving/running_instances.h"
+#include "apps/gsv/machine/running_instances.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/corbaloc.h"
 #include "gsv/broker/client/gsv_service_types.h"

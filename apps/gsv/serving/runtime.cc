@@ -10,10 +10,10 @@
 
 #include "apps/gsv/lost/lost_page.h"
 #include "apps/gsv/machine/installation.h"
-#include "apps/gsv/running/simulation_builder.h"
 #include "apps/gsv/serving/broker_page.h"
 #include "apps/gsv/serving/instances_page.h"
-#include "apps/gsv/serving/recordings.h"
+#include "apps/gsv/simulations/recordings.h"
+#include "apps/gsv/simulations/simulation_builder.h"
 #include "gsv/base/host_name.h"
 #include "gsv/base/log.h"
 #include "gsv/broker/client/client_errors.h"

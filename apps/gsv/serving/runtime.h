@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/gsv/commands/viewer_options.h"
 #include "apps/gsv/machine/child_process.h"
-#include "apps/gsv/running/sensor_types.h"
+#include "apps/gsv/machine/running_instances.h"
 #include "apps/gsv/servers/scenario_service.h"
 #include "apps/gsv/serving/behaviour_launcher.h"
-#include "apps/gsv/serving/running_instances.h"
 #include "apps/gsv/serving/server_limits.h"
+#include "apps/gsv/serving/viewer_options.h"
+#include "apps/gsv/simulations/sensor_types.h"
 #include "gsv/formats/files/read_limits.h"
 #include "gsv/services/broker_behaviours.h"
 #include "gsv/services/server_load.h"

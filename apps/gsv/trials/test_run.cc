@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/child_process.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "gsv/base/temporary_folder.h"
 #include "gsv/recording/reading/recover.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/gsv/serving/recordings.h"
 #include "apps/gsv/serving/runtime.h"
+#include "apps/gsv/simulations/recordings.h"
 #include "gsv/scenario/scenario.h"
 #include "gsv/simulation/robots/behaviour_port.h"
 #include "gsv/simulation/types.h"

@@ -1,4 +1,4 @@
-#include "apps/gsv/running/model_list.h"
+#include "apps/gsv/simulations/model_list.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "apps/gsv/serving/running_instances.h"
+#include "apps/gsv/machine/running_instances.h"
 
 #include <unistd.h>
 

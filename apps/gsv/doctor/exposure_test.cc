@@ -1,4 +1,4 @@
-#include "apps/gsv/machine/exposure.h"
+#include "apps/gsv/doctor/exposure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

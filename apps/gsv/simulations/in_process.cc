@@ -1,4 +1,4 @@
-#include "apps/gsv/running/in_process.h"
+#include "apps/gsv/simulations/in_process.h"
 
 #include <cstdlib>
 #include <sstream>

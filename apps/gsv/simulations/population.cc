@@ -1,4 +1,4 @@
-#include "apps/gsv/running/population.h"
+#include "apps/gsv/simulations/population.h"
 
 #include <algorithm>
 #include <cmath>

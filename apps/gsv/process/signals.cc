@@ -1,4 +1,4 @@
-#include "apps/gsv/signals.h"
+#include "apps/gsv/process/signals.h"
 
 #include <pthread.h>
 

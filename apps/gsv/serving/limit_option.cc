@@ -1,4 +1,4 @@
-#include "apps/gsv/commands/limit_option.h"
+#include "apps/gsv/serving/limit_option.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,12 +1,12 @@
-#include "apps/gsv/commands/run_options.h"
+#include "apps/gsv/running/run_options.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "apps/gsv/commands/limit_option.h"
-#include "apps/gsv/running/sensor_types.h"
+#include "apps/gsv/serving/limit_option.h"
+#include "apps/gsv/simulations/sensor_types.h"
 #include "gsv/scenario/scenario_file.h"
 
 namespace gsv::app {

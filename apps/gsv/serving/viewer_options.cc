@@ -1,4 +1,4 @@
-#include "apps/gsv/commands/viewer_options.h"
+#include "apps/gsv/serving/viewer_options.h"
 
 #include <CLI/CLI.hpp>
 

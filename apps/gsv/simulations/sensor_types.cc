@@ -1,4 +1,4 @@
-#include "apps/gsv/running/sensor_types.h"
+#include "apps/gsv/simulations/sensor_types.h"
 
 #include <cstdlib>
 #include <utility>

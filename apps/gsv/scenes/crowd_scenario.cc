@@ -1,4 +1,4 @@
-#include "apps/gsv/bench/crowd_scenario.h"
+#include "apps/gsv/scenes/crowd_scenario.h"
 
 #include <algorithm>
 #include <cmath>

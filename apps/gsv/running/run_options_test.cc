@@ -1,4 +1,4 @@
-#include "apps/gsv/commands/run_options.h"
+#include "apps/gsv/running/run_options.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "apps/gsv/bench/moving_scene.h"
+#include "apps/gsv/scenes/moving_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "apps/gsv/bench/crowd_scenario.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/scenes/crowd_scenario.h"
 #include "gsv/formats/sdf_reader.h"
 #include "gsv/hosting/hosted_behaviour.h"
 #include "gsv/sensing/devices/built_in.h"
@@ -18,7 +18,7 @@ using geometry::PlanarPose;
 using geometry::Vector3;
 
 constexpr double kEyeHeight = 1.1;  // m
-constexpr int kPlacesTried = 2000;
+constexpr int kMaxScenePlacements = 2000;
 
 class DriveInCircles final : public Controller {
  public:
@@ -88,7 +88,7 @@ base::Status PlaceOnTheSquare(MovingScene& scene, std::shared_ptr<const model::M
 base::Status PlaceInASpiral(MovingScene& scene, std::shared_ptr<const model::Model> model,
                             int count) {
   base::Result<std::string> name;
-  for (int n = 0; n < kPlacesTried && static_cast<int>(scene.robots.size()) < count; ++n) {
+  for (int n = 0; n < kMaxScenePlacements && static_cast<int>(scene.robots.size()) < count; ++n) {
     const double turns = std::sqrt(static_cast<double>(n));
     const double angle = turns * std::numbers::pi * 2 / 1.8;
     simulation::RobotSpecification robot;

@@ -1,4 +1,4 @@
-#include "apps/gsv/machine/exposure.h"
+#include "apps/gsv/doctor/exposure.h"
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -12,8 +12,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/gsv/exit_code.h"
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/gateway/access/access_rule.h"
 #include "gsv/tls/stranger.h"
 

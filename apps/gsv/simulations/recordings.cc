@@ -1,4 +1,4 @@
-#include "apps/gsv/serving/recordings.h"
+#include "apps/gsv/simulations/recordings.h"
 
 #include <algorithm>
 #include <cctype>

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "apps/gsv/machine/trial_reading.h"
-#include "apps/gsv/running/population.h"
-#include "apps/gsv/serving/recordings.h"
+#include "apps/gsv/simulations/population.h"
+#include "apps/gsv/simulations/recordings.h"
 #include "gsv/base/mutex.h"
 #include "gsv/gateway/program/simulation_factory.h"
 #include "gsv/services/broker_behaviours.h"

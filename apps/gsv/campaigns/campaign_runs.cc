@@ -1,4 +1,4 @@
-#include "apps/gsv/trials/campaign_runs.h"
+#include "apps/gsv/campaigns/campaign_runs.h"
 
 #include <fstream>
 

@@ -1,10 +1,10 @@
-#include "apps/gsv/running/simulation_builder.h"
+#include "apps/gsv/simulations/simulation_builder.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "apps/gsv/machine/installation.h"
-#include "apps/gsv/running/model_list.h"
+#include "apps/gsv/simulations/model_list.h"
 #include "gsv/broker/client/gsv_service_types.h"
 
 namespace gsv::app {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/gsv/signals.h"
+#include "apps/gsv/process/signals.h"
 #include "apps/gsv/trials/test_cases.h"
 #include "gsv/campaign/engine.h"
 #include "gsv/campaign/results.h"

@@ -1,12 +1,12 @@
-#include "apps/gsv/machine/doctor.h"
+#include "apps/gsv/doctor/doctor.h"
 
 #include <chrono>
 #include <cstdio>
 
-#include "apps/gsv/bench/moving_scene.h"
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/doctor/machine_checks.h"
 #include "apps/gsv/machine/installation.h"
-#include "apps/gsv/machine/machine_checks.h"
+#include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/scenes/moving_scene.h"
 #include "gsv/rendering/renderer.h"
 
 namespace gsv::app {

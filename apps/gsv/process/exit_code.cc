@@ -1,4 +1,4 @@
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/process/exit_code.h"
 
 #include <cstdio>
 

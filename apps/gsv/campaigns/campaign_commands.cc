@@ -1,4 +1,4 @@
-#include "apps/gsv/trials/campaign_commands.h"
+#include "apps/gsv/campaigns/campaign_commands.h"
 
 #include <chrono>
 

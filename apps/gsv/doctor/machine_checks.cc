@@ -1,4 +1,4 @@
-#include "apps/gsv/machine/machine_checks.h"
+#include "apps/gsv/doctor/machine_checks.h"
 
 #include <arpa/inet.h>
 #include <dlfcn.h>
@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "apps/gsv/serving/running_instances.h"
+#include "apps/gsv/machine/running_instances.h"
 #include "gsv/base/user_folder.h"
 #include "gsv/broker/client/broker_client.h"
 #include "gsv/broker/client/corbaloc.h"

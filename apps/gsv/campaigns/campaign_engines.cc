@@ -1,4 +1,4 @@
-#include "apps/gsv/trials/campaign_engines.h"
+#include "apps/gsv/campaigns/campaign_engines.h"
 
 #include <poll.h>
 #include <unistd.h>
@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/gsv/exit_code.h"
+#include "apps/gsv/campaigns/campaign_commands.h"
+#include "apps/gsv/campaigns/campaign_runs.h"
 #include "apps/gsv/machine/installation.h"
-#include "apps/gsv/trials/campaign_commands.h"
-#include "apps/gsv/trials/campaign_runs.h"
+#include "apps/gsv/process/exit_code.h"
 #include "gsv/base/host_name.h"
 #include "gsv/base/mutex.h"
 #include "gsv/base/temporary_folder.h"
