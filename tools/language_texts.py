@@ -1,0 +1,240 @@
+"""Extracts from the source tree the texts that people read, for tools/check_language.
+
+A text is one paragraph, list item, table cell, heading, help line, string of the page or comment.
+Code inside a text (`like_this`) becomes the word "CODE", so that names do not count as language.
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+SKIPPED_FOLDERS = {"build", "node_modules", ".git", "generated"}
+CODE = "CODE"
+
+
+@dataclass(frozen=True)
+class Text:
+    line: int  # of its first character, from 1
+    kind: str  # "docs", "heading", "cell", "help", "ui", "comment"
+    words: str
+
+
+def without_code(text):
+    """Replaces code spans by CODE, and Markdown links and images by what a reader sees of them."""
+    text = re.sub(r"(`+)(.+?)\1", CODE, text)
+    text = re.sub(r"<!--.*?-->", "", text)
+    text = re.sub(r"!\[([^\]]*)\]\([^)]*\)", r"\1", text)
+    text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
+    text = re.sub(r"\bhttps?://\S+", CODE, text)
+    return re.sub(r"\*\*|__|\s+", lambda found: " " if found.group().isspace() else "", text).strip()
+
+
+def texts_of_markdown(source):
+    paragraph, start, fence = [], 0, None
+
+    def ended():
+        nonlocal paragraph
+        words, paragraph = without_code(" ".join(paragraph)), []
+        return [Text(start, "docs", words)] if words else []
+
+    for number, line in enumerate(source.splitlines(), start=1):
+        stripped = line.strip()
+        mark = re.match(r"(```+|~~~+)", stripped)
+        if fence or mark:
+            yield from ended()
+            if mark and (fence is None or stripped == fence):
+                fence = None if fence else mark.group(1)
+            continue
+        heading = re.match(r"#+\s+(.*)", stripped)
+        item = re.match(r"([-*+]|\d+\.)\s+(.*)", stripped)
+        if heading:
+            yield from ended()
+            yield Text(number, "heading", without_code(heading.group(1)))
+        elif stripped.startswith("|"):
+            yield from ended()
+            for cell in re.split(r"(?<!\\)\|", stripped.strip("|")):
+                if re.search(r"\w", cell):
+                    yield Text(number, "cell", without_code(cell))
+        elif not stripped or stripped.startswith("<"):
+            yield from ended()
+        else:
+            if item:
+                yield from ended()
+                stripped = item.group(2)
+            if not paragraph:
+                start = number
+            paragraph.append(stripped.lstrip("> "))
+    yield from ended()
+
+
+STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
+
+
+def end_of_string(source, start):
+    """The position behind the literal that opens at `start` with a quote."""
+    quote, at = source[start], start + 1
+    while at < len(source) and source[at] != quote:
+        at += 2 if source[at] == "\\" else 1
+    return at + 1
+
+
+def arguments_of_call(source, start):
+    """The arguments of the call whose "(" is at `start`, as (position, text)."""
+    arguments, depth, begin, at = [], 0, start + 1, start
+    while at < len(source):
+        character = source[at]
+        if character in "\"'":
+            at = end_of_string(source, at)
+            continue
+        if source.startswith("//", at):
+            at = source.find("\n", at)
+            if at < 0:
+                break
+            continue
+        if character in "([{":
+            depth += 1
+        elif character in ")]}":
+            depth -= 1
+        if (character == "," and depth == 1) or depth == 0:
+            arguments.append((begin, source[begin:at]))
+            begin = at + 1
+        if depth == 0:
+            break
+        at += 1
+    return arguments
+
+
+HELP_CALL = re.compile(
+    r"\b(?:add_(?:option|flag|subcommand|option_function|flag_function|flag_callback)|"
+    r"CLI::App \w+)\s*(?:<[\w:]+>)?(?=\()"
+)
+
+
+def texts_of_help(source):
+    """The descriptions of CLI11 options and commands: the literal that is the last argument of one."""
+    for call in HELP_CALL.finditer(source):
+        arguments = arguments_of_call(source, call.end())
+        named = 0 if call.group().startswith("CLI::App") else 1
+        for begin, argument in arguments[named:]:
+            if argument.lstrip().startswith('"'):
+                begin += len(argument) - len(argument.lstrip())
+                words = "".join(STRING.findall(argument)).replace('\\"', '"')
+                yield Text(source.count("\n", 0, begin) + 1, "help", without_code(words))
+                break
+
+
+WORDS_OF_UI = re.compile(r"^[A-Za-z(][\w'’(),:;.!?%…/-]*(?: [\w'’(),:;.!?%…/&·–—-]+)+[ ]?$")
+NOT_FOR_READERS = re.compile(
+    r"^\s*(import|export \* from|export \{|throw )|console\.|class:|className|querySelector|"
+    r"\.style\.|viewBox|data-testid\"?: *$"
+)
+UI_STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"|`((?:[^`\\]|\\.)*)`')
+
+
+def texts_of_typescript(source):
+    """String literals of two words or more; those in comments, imports and classes are no texts."""
+    source = re.sub(r"/\*.*?\*/", lambda found: "\n" * found.group().count("\n"), source, flags=re.S)
+    for number, line in enumerate(source.splitlines(), start=1):
+        line = re.sub(r"(^|\s)//.*", "", line)
+        line = re.sub(r'\bclass: "[^"]*"', "", line)
+        if NOT_FOR_READERS.search(line):
+            continue
+        for found in UI_STRING.finditer(line):
+            words = re.sub(r"\$\{[^}]*\}+", CODE, found.group(1) or found.group(2) or "")
+            if WORDS_OF_UI.match(words) and re.search(r"[A-Za-z]{3}", words):  # no drawing of an icon
+                yield Text(number, "ui", words)
+
+
+def texts_of_html(source):
+    blanked = re.sub(r"<(script|style)\b.*?</\1>|<!--.*?-->",
+                     lambda found: "\n" * found.group().count("\n"), source, flags=re.S)
+    for found in re.finditer(r'>([^<>]*\w \w[^<>]*)<|(?:title|placeholder|aria-label)="([^"]*)"', blanked):
+        words = " ".join((found.group(1) or found.group(2) or "").split())
+        if words:
+            yield Text(blanked.count("\n", 0, found.start()) + 1, "ui", words)
+
+
+def looks_like_code(comment):
+    return bool(re.search(r"[{;]\s*$|^\s*#|^(clang-format|NOLINT|namespace)", comment))
+
+
+def texts_of_comments(source):
+    """Paragraphs of // comments. A comment behind code is a text of its own, with the lines below it."""
+    paragraph, start, column = [], 0, None
+
+    def ended():
+        nonlocal paragraph
+        words, paragraph = without_code(" ".join(paragraph)), []
+        return [Text(start, "comment", words)] if re.search(r"\w", words) else []
+
+    for number, line in enumerate(source.splitlines(), start=1):
+        found = re.match(r'((?:[^"/]|"(?:[^"\\]|\\.)*"|/(?![/*]))*)//+[!<]?\s?(.*)', line)
+        if not found:
+            yield from ended()
+            column = None
+            continue
+        here, words = len(found.group(1)), found.group(2)
+        follows = not found.group(1).strip() and here == column
+        indented = re.match(r"\s{2,}|[-*] ", words)  # a list, a formula or a drawing
+        if not follows or not words.strip() or indented:
+            yield from ended()
+        column = here
+        if looks_like_code(words) or not words.strip():
+            continue
+        if not paragraph:
+            start = number
+        paragraph.append(words.strip().removeprefix("- "))
+    yield from ended()
+
+
+def texts_of_openapi(source):
+    """Summaries and descriptions of an OpenAPI document in YAML."""
+    lines = source.splitlines()
+    for number, line in enumerate(lines, start=1):
+        found = re.search(r"\b(?:summary|description): *(.*)", line)
+        if not found or line.lstrip().startswith("#"):
+            continue
+        words = found.group(1)
+        if words.strip() in (">", "|", ">-", "|-"):
+            indent = len(line) - len(line.lstrip())
+            block = []
+            for below in lines[number:]:
+                if below.strip() and len(below) - len(below.lstrip()) <= indent:
+                    break
+                block.append(below.strip())
+            words = " ".join(block)
+        elif words.startswith('"'):
+            words = STRING.match(words).group(1) if STRING.match(words) else words
+        elif line.lstrip().startswith(("-", "{")) or "{" in line[: found.start()]:
+            words = re.split(r"[,}]", words)[0]
+        if re.search(r"\w", words):
+            yield Text(number, "docs", without_code(words))
+
+
+# Which files hold texts for readers, and how to find the texts: a pattern below the root each.
+SOURCES = (
+    ("*.md", texts_of_markdown),
+    ("docs/**/*.md", texts_of_markdown),
+    ("web/*.md", texts_of_markdown),
+    ("docs/api.yaml", texts_of_openapi),
+    ("apps/**/*.cc", texts_of_help),
+    ("behaviours/**/*.cc", texts_of_help),
+    ("sdk/**/*.cc", texts_of_help),
+    ("web/*.html", texts_of_html),
+    ("web/src/**/*.ts", texts_of_typescript),
+    ("gsv/**/*.h", texts_of_comments),
+    ("sdk/**/*.h", texts_of_comments),
+    ("idl/*.idl", texts_of_comments),
+)
+
+
+def texts_below(root):
+    """All texts, as {path relative to the root: [Text]}, in the order of the paths."""
+    texts = {}
+    for pattern, extract in SOURCES:
+        for file in Path(root).glob(pattern):
+            path = file.relative_to(root)
+            if SKIPPED_FOLDERS & set(path.parts) or file.name.endswith(".test.ts"):
+                continue
+            texts[str(path)] = list(extract(file.read_text(encoding="utf-8")))
+    return dict(sorted(texts.items()))
