@@ -1,4 +1,4 @@
-// A first behaviour: goes forward, and turns where a wall comes near.
+// A first behaviour: drives forward and turns in front of walls.
 //
 //   gsv run --robot pebble --behaviour first
 #include "sdk/behaviour/module.h"
@@ -29,4 +29,4 @@ class First final : public gsv::Behaviour {
 
 }  // namespace
 
-GSV_BEHAVIOUR("first", "Goes forward, and turns before walls.", First)
+GSV_BEHAVIOUR("first", "Drives forward and turns in front of walls.", First)

@@ -25,9 +25,9 @@ namespace {
 
 using namespace gsv;
 
-// How its readings are laid out.
+// The layout of its readings.
 struct Proximity {
-  double distance = std::numeric_limits<double>::infinity();  // nothing within max; at least min
+  double distance = std::numeric_limits<double>::infinity();  // infinite: nothing within max
   double voltage = 0;
   static constexpr auto kFields =
       std::make_tuple(readings::Value("distance", "m", &Proximity::distance, "range"),

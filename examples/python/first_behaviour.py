@@ -9,7 +9,7 @@ import gsv
 
 
 class First(gsv.Behaviour):
-    """Goes forward, and turns before walls."""
+    """Drives forward and turns in front of walls."""
 
     def init(self, robot):
         self.sonars = gsv.SonarRing(robot, 8)

@@ -1,4 +1,4 @@
-"""Does wander get about without hitting anything? In a room, with company, from several seeds."""
+"""Does wander move without collisions? In a room, with other robots, from several seeds."""
 import pytest
 
 pytest_plugins = ["gsv.testing"]
