@@ -15,8 +15,13 @@ void HoldBase(const DriveServo& servo, const geometry::Pose& world_from_model, c
   const double wanted_x = std::cos(yaw) * twist.x - std::sin(yaw) * twist.y - twist.angular * arm.y;
   const double wanted_y = std::sin(yaw) * twist.x + std::cos(yaw) * twist.y + twist.angular * arm.x;
   const double most = grip * seconds;
-  velocity_of_point.x += std::clamp(wanted_x - velocity_of_point.x, -most, most);
-  velocity_of_point.y += std::clamp(wanted_y - velocity_of_point.y, -most, most);
+  const double missing_x = wanted_x - velocity_of_point.x;
+  const double missing_y = wanted_y - velocity_of_point.y;
+  // Its grip is the same in every direction.
+  const double missing = std::sqrt(missing_x * missing_x + missing_y * missing_y);
+  const double share = missing > most ? most / missing : 1;
+  velocity_of_point.x += share * missing_x;
+  velocity_of_point.y += share * missing_y;
   angular_velocity.z += std::clamp(twist.angular - angular_velocity.z, -most, most);
 }
 

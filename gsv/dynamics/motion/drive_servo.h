@@ -30,8 +30,9 @@ class DriveServo {
 };
 
 // Drives without wheels that Bullet could roll (synchro, mecanum, velocity) take hold of the base
-// itself: its velocities over the ground and about the vertical change towards those wanted, by no
-// more than `grip` (m/s², rad/s²) allows in so many seconds.
+// itself: its velocity over the ground, in whatever direction, and its turn about the vertical
+// change towards those wanted, by no more than `grip` (m/s², rad/s²) allows in so many seconds.
+// What carries such a base must not rub on it.
 void HoldBase(const DriveServo& servo, const geometry::Pose& world_from_model,
               const geometry::Vector3& point, double grip, double seconds,
               geometry::Vector3& velocity_of_point, geometry::Vector3& angular_velocity);

@@ -4,11 +4,11 @@
 #include <optional>
 
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include "gsv/dynamics/motion/ball_angles.h"
 #include "gsv/dynamics/motion/drive_servo.h"
+#include "gsv/dynamics/rigid/joint_row.h"
 #include "gsv/dynamics/rigid/moving_body.h"
 
 namespace gsv::dynamics {
@@ -26,6 +26,19 @@ bool Holds(const std::vector<int>& joints, int joint) {
   return std::find(joints.begin(), joints.end(), joint) != joints.end();
 }
 
+// Keeps a joint to its limit of velocity, whatever drives it there. One that is far from it is left
+// alone.
+void Limit(JointRow& row, const model::Joint& joint, double rate, double force, double seconds) {
+  const double limit = joint.velocity_limit, most = kNoLimit * seconds;
+  if (std::abs(rate) < limit / 2 && force == 0) {
+    row.Set(0, 0, 0);
+  } else if (std::abs(rate) < limit / 2 ? force > 0 : rate > 0) {
+    row.Set(limit, -most, 0);
+  } else {
+    row.Set(-limit, 0, most);
+  }
+}
+
 class JointTree final : public MovingBody {
  public:
   JointTree(const RigidBody& plan, const world::State& state, std::span<Owner* const> owners,
@@ -40,9 +53,11 @@ class JointTree final : public MovingBody {
 
  private:
   struct Motor {
-    int link;   // of tree_
-    int joint;  // of the model
-    std::unique_ptr<btMultiBodyJointMotor> constraint;
+    int link;                           // of tree_
+    int joint;                          // of the model
+    std::unique_ptr<JointRow> row;      // moves it, or rubs
+    std::unique_ptr<JointRow> damper;   // null without damping
+    std::unique_ptr<JointRow> limiter;  // null without a limit of velocity
   };
   struct Ball {
     int link;
@@ -71,7 +86,9 @@ class JointTree final : public MovingBody {
   void Drive(double seconds);
   world::JointCommand CommandOf(int joint) const;
   void TurnMotors(double seconds);
-  double Damping(const Motor& motor, double seconds) const;
+  void Move(const Motor& motor, double rate, double seconds);
+  void Push(const Motor& motor, double force, double seconds);
+  std::unique_ptr<JointRow> AddJointRow(int link, btMultiBodyDynamicsWorld& world);
   Pose WorldFromModel() const;
   double RestingSpeed() const;
 
@@ -241,10 +258,16 @@ void JointTree::AddLimitsAndMotors(btMultiBodyDynamicsWorld& world) {
           &tree_, link, std::max(limits.min, -kNoLimit), std::min(limits.max, kNoLimit)));
       world.addMultiBodyConstraint(limits_.back().get());
     }
-    auto motor = std::make_unique<btMultiBodyJointMotor>(&tree_, link, 0.0, 0.0);
-    world.addMultiBodyConstraint(motor.get());
-    motors_.push_back({link, part.joint, std::move(motor)});
+    Motor& motor = motors_.emplace_back(Motor{link, part.joint, AddJointRow(link, world), {}, {}});
+    if (joint.damping > 0) motor.damper = AddJointRow(link, world);
+    if (joint.velocity_limit < kNoLimit) motor.limiter = AddJointRow(link, world);
   }
+}
+
+std::unique_ptr<JointRow> JointTree::AddJointRow(int link, btMultiBodyDynamicsWorld& world) {
+  auto row = std::make_unique<JointRow>(tree_, link);
+  world.addMultiBodyConstraint(row.get());
+  return row;
 }
 
 Pose JointTree::WorldFromModel() const {
@@ -281,44 +304,40 @@ world::JointCommand JointTree::CommandOf(int joint) const {
   return commands_.empty() ? world::JointCommand{} : commands_[joint];
 }
 
+// A motor that takes the joint to a rate within its limit of effort.
+void JointTree::Move(const Motor& motor, double rate, double seconds) {
+  const model::Joint& joint = plan_.model->joints[motor.joint];
+  const double fastest = std::min(joint.velocity_limit, kNoLimit);
+  const double impulse = std::min(joint.effort_limit, kNoLimit) * seconds;
+  motor.row->Set(std::clamp(rate, -fastest, fastest), -impulse, impulse);
+}
+
+// A force, and Coulomb's friction: a motor that holds still with so much force.
+void JointTree::Push(const Motor& motor, double force, double seconds) {
+  const model::Joint& joint = plan_.model->joints[motor.joint];
+  const double impulse = joint.friction * seconds;
+  motor.row->Set(0, -impulse, impulse);
+  if (force == 0) return;
+  const double effort = std::min(joint.effort_limit, kNoLimit);
+  tree_.addJointTorque(motor.link, std::clamp(force, -effort, effort));
+}
+
 void JointTree::TurnMotors(double seconds) {
   for (const Motor& motor : motors_) {
     const model::Joint& joint = plan_.model->joints[motor.joint];
-    const double effort = std::min(joint.effort_limit, kNoLimit);
-    const double fastest = std::min(joint.velocity_limit, kNoLimit);
     const world::JointCommand command = CommandOf(motor.joint);
-    if (command.kind == Kind::kPosition || command.kind == Kind::kVelocity) {
-      const double rate = command.kind == Kind::kVelocity
-                              ? command.value
-                              : kServoGain * (command.value - tree_.getJointPos(motor.link));
-      motor.constraint->setVelocityTarget(std::clamp(rate, -fastest, fastest));
-      motor.constraint->setMaxAppliedImpulse(effort * seconds);
-      continue;
-    }
-    // A motor that holds still with so much force is Coulomb's friction.
-    motor.constraint->setVelocityTarget(0);
-    motor.constraint->setMaxAppliedImpulse(joint.friction * seconds);
     const double force = command.kind == Kind::kEffort ? command.value : 0;
-    tree_.addJointTorque(motor.link, std::clamp(force, -effort, effort) + Damping(motor, seconds));
+    if (command.kind == Kind::kVelocity) {
+      Move(motor, command.value, seconds);
+    } else if (command.kind == Kind::kPosition) {
+      Move(motor, kServoGain * (command.value - tree_.getJointPos(motor.link)), seconds);
+    } else {
+      Push(motor, force, seconds);
+    }
+    // At the rate that a substep ends with, its force is -damping times that rate.
+    if (motor.damper) motor.damper->Soften(0, 1 / (joint.damping * seconds));
+    if (motor.limiter) Limit(*motor.limiter, joint, tree_.getJointVel(motor.link), force, seconds);
   }
-}
-
-// Never more than would stop the lightest that may hang from the joint.
-double JointTree::Damping(const Motor& motor, double seconds) const {
-  const model::Joint& joint = plan_.model->joints[motor.joint];
-  // A cross of two axes weighs nothing: what hangs from it counts.
-  auto part = parts().begin() + motor.link + 1;
-  while (part->mass == 0) {
-    const int index = static_cast<int>(part - parts().begin());
-    const auto child =
-        std::find_if(part, parts().end(), [&](const Part& p) { return p.parent == index; });
-    if (child == parts().end()) return 0;
-    part = child;
-  }
-  const double inertia = joint.kind == model::JointKind::kPrismatic
-                             ? part->mass
-                             : std::min({part->inertia.x, part->inertia.y, part->inertia.z});
-  return -joint.damping * tree_.getJointVel(motor.link) / (1 + joint.damping * seconds / inertia);
 }
 
 void JointTree::BeforeSubstep(double seconds) {

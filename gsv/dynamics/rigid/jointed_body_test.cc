@@ -93,6 +93,46 @@ TEST(JointedBody, DampingLetsALinkSinkAtItsTerminalSpeed) {
   EXPECT_WITHIN_PERCENT(world.joint_velocity("slider", 0), -kG / 20, 3);
 }
 
+TEST(JointedBody, DampingTakesAJointToItsTerminalRateHoweverLightTheLink) {
+  for (const double inertia : {1e-6, 1e-4, 1e-3, 0.1}) {
+    auto model = Hanging(model::JointKind::kContinuous, 0, {0, 0, 1});
+    model->links[0].inertial.ixx = model->links[0].inertial.iyy = model->links[0].inertial.izz =
+        inertia;
+    model->joints[0].damping = 1;
+    TestWorld world(MakeWorldEngine());
+    world.AddRigid("rotor", model, At(0, 0, 2));
+    ASSERT_TRUE(world.Start());
+    world.CommandJoint("rotor", 0, {world::JointCommand::Kind::kEffort, 1});
+    world.Run(2, 0.01);
+    EXPECT_WITHIN_PERCENT(world.joint_velocity("rotor", 0), 1, 0.01) << inertia;
+  }
+}
+
+TEST(JointedBody, AJointKeepsItsLimitOfVelocityUnderAnyEffort) {
+  auto model = Hanging(model::JointKind::kContinuous, 0, {0, 0, 1});
+  model->joints[0].velocity_limit = 0.5;
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("rotor", model, At(0, 0, 2));
+  ASSERT_TRUE(world.Start());
+  for (const double effort : {1.0, 100.0, -100.0}) {
+    world.CommandJoint("rotor", 0, {world::JointCommand::Kind::kEffort, effort});
+    for (int i = 0; i < 20; ++i) {
+      world.Step(0.01);
+      ASSERT_WITHIN(std::abs(world.joint_velocity("rotor", 0)), 0.5, 1e-6, "rad/s") << effort;
+    }
+  }
+}
+
+TEST(JointedBody, AFallingLinkKeepsItsLimitOfVelocity) {
+  auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
+  model->joints[0].velocity_limit = 0.3;
+  TestWorld world(MakeWorldEngine());
+  world.AddRigid("slider", model, At(0, 0, 5));
+  ASSERT_TRUE(world.Start());
+  world.Run(1, 0.01);
+  EXPECT_WITHIN(world.joint_velocity("slider", 0), -0.3, 1e-6, "m/s");
+}
+
 TEST(JointedBody, FrictionHoldsAJoint) {
   auto model = Hanging(model::JointKind::kPrismatic, 0, {0, 0, 1});
   model->joints[0].friction = 9.9;  // it weighs 9.8 N

@@ -11,9 +11,13 @@ constexpr double kTouchingDistance = 1e-4;
 // What is below and steeper than 45° to nothing carries.
 constexpr double kCarries = 0.70710678118654757;
 
+const Owner& OwnerOf(const btCollisionObjectWrapper* wrapper) {
+  return *static_cast<const Owner*>(wrapper->getCollisionObject()->getUserPointer());
+}
+
 // Which child of its compound was touched.
 const model::Surface& SurfaceOf(const btCollisionObjectWrapper* wrapper) {
-  const auto& owner = *static_cast<const Owner*>(wrapper->getCollisionObject()->getUserPointer());
+  const Owner& owner = OwnerOf(wrapper);
   for (const auto* w = wrapper; w->m_parent != nullptr; w = w->m_parent) {
     if (w->m_parent->getCollisionShape()->isCompound()) {
       return owner.solid->surfaces[static_cast<std::size_t>(w->m_index)];
@@ -34,7 +38,7 @@ btVector3 DirectionOf(const model::Surface& surface, const btCollisionObjectWrap
 // The contact has less friction across `direction` than along it, or more. Bullet knows one
 // coefficient: where a direction is shorter than one, so much less force acts along it.
 void TakeDirections(const btVector3& direction, double along, double across,
-                    btManifoldPoint& point) {
+                    std::deque<FrictionAxes>& axes, btManifoldPoint& point) {
   constexpr double kShortest = 1e-6;
   const btVector3& normal = point.m_normalWorldOnB;
   btVector3 first = direction - direction.dot(normal) * normal;
@@ -46,12 +50,27 @@ void TakeDirections(const btVector3& direction, double along, double across,
   point.m_lateralFrictionDir1 = first * std::max(along / most, kShortest);
   point.m_lateralFrictionDir2 = normal.cross(first) * std::max(across / most, kShortest);
   point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+  // Bullet overwrites the point's own axes where a tree of links is touched.
+  point.m_userPersistentData =
+      &axes.emplace_back(FrictionAxes{point.m_lateralFrictionDir1, point.m_lateralFrictionDir2});
+}
+
+// The normal points from the second to the first.
+bool GlidesOn(const Owner& first, const Owner& second, const btVector3& normal) {
+  return (first.is_held && normal.z() > kCarries) || (second.is_held && normal.z() < -kCarries);
 }
 
 bool TakeSurfaces(btManifoldPoint& point, const btCollisionObjectWrapper* first, int, int,
                   const btCollisionObjectWrapper* second, int, int) {
   const model::Surface& a = SurfaceOf(first);
   const model::Surface& b = SurfaceOf(second);
+  const Owner &first_owner = OwnerOf(first), &second_owner = OwnerOf(second);
+  point.m_combinedRestitution = a.restitution * b.restitution;
+  point.m_userPersistentData = nullptr;
+  if (GlidesOn(first_owner, second_owner, point.m_normalWorldOnB)) {
+    point.m_combinedFriction = 0;
+    return true;
+  }
   point.m_combinedFriction = std::min(a.friction, b.friction);
   if (IsSlantwise(a) || IsSlantwise(b)) {
     // Of two that both have a direction, that of the one which slips more.
@@ -60,9 +79,8 @@ bool TakeSurfaces(btManifoldPoint& point, const btCollisionObjectWrapper* first,
         (!IsSlantwise(b) || std::min(a.friction, a.friction2) <= std::min(b.friction, b.friction2));
     const btVector3 direction = first_tells ? DirectionOf(a, first) : DirectionOf(b, second);
     TakeDirections(direction, std::min(a.friction, b.friction), std::min(a.friction2, b.friction2),
-                   point);
+                   *first_owner.axes, point);
   }
-  point.m_combinedRestitution = a.restitution * b.restitution;
   return true;
 }
 

@@ -3,11 +3,14 @@
 // Surfaces  two that touch have the smaller friction of the two and the product of their
 //           restitutions, as in DART, which Gazebo uses. Where one of them has two frictions, they
 //           act along its direction and across; where both have, that of the more slippery one
-//           counts.
+//           counts. A base that its drive holds (HoldBase) glides on what carries it: its traction
+//           is the drive's.
 #pragma once
 
+#include <deque>
 #include <vector>
 
+#include "gsv/dynamics/rigid/impulse_solver.h"
 #include "gsv/dynamics/rigid/rigid_scene.h"
 #include "gsv/dynamics/shapes/contact_collector.h"
 
@@ -16,7 +19,9 @@ namespace gsv::dynamics {
 // What a collision object stands for; its user pointer points to one.
 struct Owner {
   const Solid* solid = nullptr;
+  std::deque<FrictionAxes>* axes = nullptr;  // where those of its contacts are kept
   bool moves_by_forces = false;
+  bool is_held = false;  // by a drive, at its base
   bool touches = false;  // something, in the last substep
 };
 

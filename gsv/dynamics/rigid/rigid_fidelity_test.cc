@@ -191,6 +191,50 @@ TEST(RigidFidelity, AStackStandsForAMinute) {
   }
 }
 
+// One cube on another, at rest from the beginning.
+TEST(RigidFidelity, AHeavyBoxStandsOnALightOne) {
+  for (const double mass : {10.0, 1e3, 1e5}) {
+    TestWorld world = WorldOnGround();
+    world.AddRigid("light", SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, 1), At(0, 0, 0.1));
+    world.AddRigid("heavy", SolidOf(geometry::Box{{0.2, 0.2, 0.2}}, mass), At(0, 0, 0.3));
+    ASSERT_TRUE(world.Start());
+    world.Run(5, 0.01);
+    EXPECT_WITHIN(world.position("heavy").z, 0.3, 1e-4, "m") << mass;
+    EXPECT_WITHIN(std::hypot(world.position("heavy").x, world.position("heavy").y), 0, 1e-4, "m")
+        << mass;
+  }
+}
+
+TEST(RigidFidelity, ASlabStandsOnFourLightLegs) {
+  TestWorld world = WorldOnGround();
+  for (int i = 0; i < 4; ++i) {
+    world.AddRigid("leg" + std::to_string(i), SolidOf(geometry::Box{{0.1, 0.1, 0.5}}, 1),
+                   At(i % 2 == 0 ? -0.4 : 0.4, i < 2 ? -0.4 : 0.4, 0.25));
+  }
+  world.AddRigid("slab", SolidOf(geometry::Box{{1, 1, 0.1}}, 1000), At(0, 0, 0.55));
+  ASSERT_TRUE(world.Start());
+  world.Run(3, 0.01);
+  EXPECT_WITHIN(world.position("slab").z, 0.55, 1e-4, "m");
+}
+
+// Coulomb's friction knows no direction: µ g in each, and a box on an incline stays or slides
+// whichever way it faces.
+TEST(RigidFidelity, FrictionIsTheSameInEveryDirection) {
+  const double mu = 0.3, angle = 0.35;  // tan 0.35 = 0.365
+  for (int i = 0; i < 8; ++i) {
+    const double heading = i * 0.2;
+    const geometry::Quaternion turn = geometry::FromAxisAngle({0, 0, 1}, heading);
+    const Pose incline{{}, turn * geometry::FromAxisAngle({0, 1, 0}, angle)};
+    TestWorld world(MakeWorldEngine());
+    world.AddStatic("incline", testing::GroundOf(SurfaceOf(mu, 0)), incline);
+    world.AddRigid("box", SolidOf(geometry::Box{{0.4, 0.4, 0.1}}, 1), incline * At(0, 0, 0.05));
+    ASSERT_TRUE(world.Start());
+    world.Run(1, 0.01);
+    const double slid = (Inverse(incline) * world.position("box")).x;
+    EXPECT_WITHIN_PERCENT(slid, kG * (std::sin(angle) - mu * std::cos(angle)) / 2, 1) << heading;
+  }
+}
+
 TEST(RigidFidelity, EnergyNeverGrows) {
   TestWorld world = WorldOnGround(SurfaceOf(0.6, 1));
   const model::Surface bouncy = SurfaceOf(0.6, 0.6);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "gsv/dynamics/motion/drive_servo.h"
 #include "gsv/dynamics/rigid/plane_pairs.h"
 
 namespace gsv::dynamics {
@@ -19,9 +20,9 @@ constexpr double kLongest = 1e-3, kShortest = 1e-3 / 16;
 constexpr double kPassable = 0.4;
 
 // Iterations of the solver: a few bodies have time for many.
-constexpr int kMaxIterations = 250, kMinIterations = 50, kIterationsOfAll = 5000;
-// (N s)²: until no impulse changes by more.
-constexpr double kConverged = 1e-16;
+constexpr int kMaxIterations = 80, kMinIterations = 25, kIterationsOfAll = 1600;
+// (m/s)²: until no velocity changes by more in an iteration.
+constexpr double kConverged = 1e-14;
 // m: how deep bodies rest in each other, so that what touches goes on touching.
 constexpr double kSlop = 1e-5;
 // m/s: what meets slower does not bounce.
@@ -73,13 +74,14 @@ RigidWorld::RigidWorld(BulletKit& kit, const RigidScene& scene, const world::Sta
 
 RigidWorld::~RigidWorld() = default;
 
-Owner& RigidWorld::NewOwner(const Solid& solid, bool moves_by_forces) {
-  return owners_.emplace_back(Owner{&solid, moves_by_forces, false});
+Owner& RigidWorld::NewOwner(const Solid& solid, bool moves_by_forces, bool is_held) {
+  return owners_.emplace_back(Owner{&solid, &friction_axes_, moves_by_forces, is_held, false});
 }
 
 void RigidWorld::AddRigid(const RigidBody& body) {
   std::vector<Owner*> owners;
-  for (const Solid& solid : body.solids) owners.push_back(&NewOwner(solid, true));
+  const bool is_held = body.kinematics && !RollsOnWheels(*body.model);
+  for (const Solid& solid : body.solids) owners.push_back(&NewOwner(solid, true, is_held));
   bodies_.push_back(body.is_jointed() ? MakeJointTree(body, before_, owners, world_)
                                       : MakeFreeBody(body, before_, *owners[0], world_));
 }

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "gsv/dynamics/motion/rigid_engine.h"
+#include "gsv/dynamics/rigid/impulse_solver.h"
 #include "gsv/dynamics/rigid/moving_body.h"
 #include "gsv/dynamics/rigid/push_constraint.h"
 #include "gsv/dynamics/rigid/rigid_contacts.h"
@@ -63,7 +63,7 @@ class RigidWorld {
   void StartPushes(std::span<const Push> pushes, double time);
   double SubstepFor(double left) const;
   void TakeSubstep(double time, double substep, RigidContacts& contacts);
-  Owner& NewOwner(const Solid& solid, bool moves_by_forces);
+  Owner& NewOwner(const Solid& solid, bool moves_by_forces, bool is_held = false);
 
   BulletKit& kit_;
   const RigidScene& scene_;
@@ -72,13 +72,14 @@ class RigidWorld {
   const double seconds_;
 
   std::deque<Owner> owners_;
+  std::deque<FrictionAxes> friction_axes_;  // of contacts
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
   std::vector<std::unique_ptr<MovingBody>> bodies_;  // as scene_.bodies()
   std::vector<Planar> planar_;
   std::vector<std::unique_ptr<PushConstraint>> pushes_;
 
   btDbvtBroadphase broad_phase_;
-  btMultiBodyConstraintSolver solver_;
+  ImpulseSolver solver_;
   btMultiBodyDynamicsWorld world_;  // goes before all that it holds
 };
 

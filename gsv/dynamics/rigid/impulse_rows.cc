@@ -1,0 +1,436 @@
+#include "gsv/dynamics/rigid/impulse_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gsv/base/check.h"
+#include "gsv/dynamics/rigid/linear_solve.h"
+
+namespace gsv::dynamics {
+namespace {
+
+// The impulses of least energy within a circle: of (a0, a1), both above 0, and pulls (b0, b1) the x
+// with a x = b, or where that lies outside of the circle, (a + shift) x = b on it. Newton's method
+// on 1 / |x(shift)| is monotonic (Moré and Sorensen 1983).
+std::array<double, 2> WithinCircle(double a0, double a1, double b0, double b1, double radius) {
+  double x0 = b0 / a0, x1 = b1 / a1;
+  double length2 = x0 * x0 + x1 * x1;
+  if (length2 <= radius * radius) return {x0, x1};
+  if (!(radius > 0)) return {0, 0};
+  double shift = 0;
+  for (int i = 0; i < 12; ++i) {
+    const double length = std::sqrt(length2);
+    if (length - radius <= 1e-12 * radius) break;
+    const double slope = x0 * x0 / (a0 + shift) + x1 * x1 / (a1 + shift);
+    shift += length2 / slope * (length - radius) / radius;
+    x0 = b0 / (a0 + shift);
+    x1 = b1 / (a1 + shift);
+    length2 = x0 * x0 + x1 * x1;
+  }
+  const double scale = radius / std::sqrt(length2);
+  return {x0 * scale, x1 * scale};
+}
+
+// The turn that makes a symmetric matrix of two rows diagonal.
+ImpulseRows::Axes PrincipalAxesOf(double a, double b, double coupling) {
+  const double angle = 0.5 * std::atan2(2 * coupling, a - b);
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {{{c, s}, {-s, c}}};
+}
+
+}  // namespace
+
+void ImpulseRows::Clear() {
+  velocities_.clear();
+  jacobians_.clear();
+  responses_.clear();
+  rows_.clear();
+  cones_.clear();
+}
+
+int ImpulseRows::AddBody(std::span<const double> velocities) {
+  const int first = static_cast<int>(velocities_.size());
+  velocities_.insert(velocities_.end(), velocities.begin(), velocities.end());
+  return first;
+}
+
+std::span<const double> ImpulseRows::velocities(int first, int count) const {
+  return std::span(velocities_)
+      .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+}
+
+ImpulseRows::Block ImpulseRows::AddSide(const Side& side) {
+  GSV_CHECK(side.jacobian.size() == side.response.size());
+  const Block block{side.first, static_cast<int>(side.jacobian.size()),
+                    static_cast<int>(jacobians_.size()), 0, static_cast<int>(side.jacobian.size())};
+  jacobians_.insert(jacobians_.end(), side.jacobian.begin(), side.jacobian.end());
+  responses_.insert(responses_.end(), side.response.begin(), side.response.end());
+  return block;
+}
+
+int ImpulseRows::AddRow(const Side& a, const Side& b, const Limits& limits, double impulse) {
+  Row row{{AddSide(a), AddSide(b)},
+          limits.target,
+          limits.softness,
+          limits.lower,
+          limits.upper,
+          impulse,
+          0,
+          0,
+          0,
+          false};
+  Weigh(row);
+  rows_.push_back(row);
+  return static_cast<int>(rows_.size()) - 1;
+}
+
+// Both rows act on the same bodies.
+double ImpulseRows::Coupling(const Row& a, const Row& b) const {
+  double sum = 0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (int i = 0; i < a.sides[side].count; ++i) {
+      sum += jacobians_[static_cast<std::size_t>(a.sides[side].start + i)] *
+             responses_[static_cast<std::size_t>(b.sides[side].start + i)];
+    }
+  }
+  return sum;
+}
+
+void ImpulseRows::Weigh(Row& row) const {
+  constexpr double kNothing = 1e-15;
+  const double moved = Coupling(row, row);
+  row.mass_inverse = moved > kNothing ? moved + row.softness : 0;
+}
+
+// A joint's row asks for one velocity of its tree, and not at all for those of its other side.
+void ImpulseRows::Trim() {
+  for (Row& row : rows_) {
+    for (Block& side : row.sides) {
+      const double* jacobian = jacobians_.data() + side.start;
+      while (side.end > side.begin && jacobian[side.end - 1] == 0) --side.end;
+      while (side.begin < side.end && jacobian[side.begin] == 0) ++side.begin;
+      if (side.begin == side.end) side.count = 0;
+    }
+  }
+}
+
+// The two rows become weighted sums of both.
+void ImpulseRows::Combine(int first_row, const Axes& axes) {
+  Row &a = At(first_row), &b = At(first_row + 1);
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (int i = 0; i < a.sides[side].count; ++i) {
+      for (auto* values : {&jacobians_, &responses_}) {
+        double& of_a = (*values)[static_cast<std::size_t>(a.sides[side].start + i)];
+        double& of_b = (*values)[static_cast<std::size_t>(b.sides[side].start + i)];
+        const double was_a = of_a, was_b = of_b;
+        of_a = axes[0][0] * was_a + axes[0][1] * was_b;
+        of_b = axes[1][0] * was_a + axes[1][1] * was_b;
+      }
+    }
+  }
+  const double target_a = a.target, target_b = b.target;
+  a.target = axes[0][0] * target_a + axes[0][1] * target_b;
+  b.target = axes[1][0] * target_a + axes[1][1] * target_b;
+  const double impulse_a = a.impulse, impulse_b = b.impulse;
+  a.impulse = axes[0][0] * impulse_a + axes[0][1] * impulse_b;
+  b.impulse = axes[1][0] * impulse_a + axes[1][1] * impulse_b;
+}
+
+void ImpulseRows::AddCone(int normal_row, int first_row, double friction, const Axes& axes) {
+  Combine(first_row, axes);
+  const Row &a = At(first_row), &b = At(first_row + 1);
+  const Axes principal = PrincipalAxesOf(Coupling(a, a), Coupling(b, b), Coupling(a, b));
+  Combine(first_row, principal);
+  for (int row = first_row; row < first_row + 2; ++row) {
+    At(row).is_in_cone = true;
+    At(row).softness = 0;
+    Weigh(At(row));
+  }
+  cones_.push_back({normal_row, first_row, friction, principal});
+}
+
+std::array<double, 2> ImpulseRows::ConeImpulse(int cone) const {
+  const Cone& of = cones_[static_cast<std::size_t>(cone)];
+  const double x0 = impulse(of.first_row), x1 = impulse(of.first_row + 1);
+  return {of.axes[0][0] * x0 + of.axes[1][0] * x1, of.axes[0][1] * x0 + of.axes[1][1] * x1};
+}
+
+double ImpulseRows::VelocityOf(const Row& row) const {
+  double sum = 0;
+  for (const Block& side : row.sides) {
+    const double* jacobian = jacobians_.data() + side.start;
+    const double* velocity = velocities_.data() + side.first;
+    for (int i = side.begin; i < side.end; ++i) sum += jacobian[i] * velocity[i];
+  }
+  return sum;
+}
+
+void ImpulseRows::Apply(Row& row, double impulse) {
+  row.impulse += impulse;
+  for (const Block& side : row.sides) {
+    const double* response = responses_.data() + side.start;
+    double* velocity = velocities_.data() + side.first;
+    for (int i = 0; i < side.count; ++i) velocity[i] += response[i] * impulse;
+  }
+}
+
+void ImpulseRows::SolveRow(Row& row) {
+  if (row.mass_inverse == 0) return;
+  const double missing = row.target - VelocityOf(row) - row.softness * row.impulse;
+  const double wanted = row.impulse + missing / row.mass_inverse;
+  row.change = std::clamp(wanted, row.lower, row.upper) - row.impulse;
+  Apply(row, row.change);
+}
+
+void ImpulseRows::SolveCone(const Cone& cone) {
+  Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
+  const double radius = RadiusOf(cone);
+  // What moves in one direction alone.
+  if (a.mass_inverse == 0 || b.mass_inverse == 0) {
+    for (Row* row : {&a, &b}) {
+      row->lower = -radius;
+      row->upper = radius;
+      SolveRow(*row);
+    }
+    return;
+  }
+  const double pull_a = a.target - VelocityOf(a) + a.mass_inverse * a.impulse;
+  const double pull_b = b.target - VelocityOf(b) + b.mass_inverse * b.impulse;
+  const auto [x, y] = WithinCircle(a.mass_inverse, b.mass_inverse, pull_a, pull_b, radius);
+  a.change = x - a.impulse;
+  b.change = y - b.impulse;
+  Apply(a, a.change);
+  Apply(b, b.change);
+}
+
+void ImpulseRows::Sweep(bool backwards) {
+  const std::size_t count = rows_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Row& row = rows_[backwards ? count - 1 - i : i];
+    if (!row.is_in_cone) SolveRow(row);
+  }
+  for (const Cone& cone : cones_) SolveCone(cone);
+}
+
+// Goes further where the iterations before have led, within the bounds.
+void ImpulseRows::Accelerate(double beta) {
+  for (Row& row : rows_) {
+    if (row.is_in_cone || row.mass_inverse == 0) continue;
+    const double step =
+        std::clamp(row.impulse + beta * row.search, row.lower, row.upper) - row.impulse;
+    Apply(row, step);
+    row.search = step + row.change;
+  }
+  for (const Cone& cone : cones_) {
+    Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
+    double x = a.impulse + beta * a.search, y = b.impulse + beta * b.search;
+    const double radius = RadiusOf(cone);
+    const double length = std::sqrt(x * x + y * y);
+    if (length > radius) {
+      x *= radius / length;
+      y *= radius / length;
+    }
+    const double step_a = x - a.impulse, step_b = y - b.impulse;
+    Apply(a, step_a);
+    Apply(b, step_b);
+    a.search = step_a + a.change;
+    b.search = step_b + b.change;
+  }
+}
+
+double ImpulseRows::LargestChange() const {
+  double largest = 0;
+  for (const Row& row : rows_) {
+    largest = std::max(largest, std::abs(row.mass_inverse * row.change));
+  }
+  return largest;
+}
+
+double ImpulseRows::RadiusOf(const Cone& cone) const {
+  return cone.friction * std::max(impulse(cone.normal_row), 0.0);
+}
+
+void ImpulseRows::CoupleAll() {
+  const std::size_t count = rows_.size();
+  if (couplings_.size() == count * count) return;
+  couplings_.assign(count * count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = 0;
+      for (const Block& a : rows_[i].sides) {
+        for (const Block& b : rows_[j].sides) {
+          if (a.count == 0 || b.count == 0 || a.first != b.first) continue;
+          const double* jacobian = jacobians_.data() + a.start;
+          const double* response = responses_.data() + b.start;
+          for (int k = a.begin; k < a.end; ++k) sum += jacobian[k] * response[k];
+        }
+      }
+      couplings_[i * count + j] = couplings_[j * count + i] = sum;
+    }
+  }
+}
+
+// Rows strictly within their bounds or at a bound that they might leave, and cones that stick.
+void ImpulseRows::ChooseFree() {
+  constexpr double kSticks = 1 - 1e-9, kMightLeave = 1e-6;  // m/s
+  free_.clear();
+  place_.assign(rows_.size(), -1);
+  const auto choose = [&](int row) {
+    place_[static_cast<std::size_t>(row)] = static_cast<int>(free_.size());
+    free_.push_back(row);
+  };
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
+    const Row& row = At(i);
+    if (row.is_in_cone || row.mass_inverse == 0) continue;
+    const bool is_within = row.impulse > row.lower && row.impulse < row.upper;
+    const bool is_bounded = row.lower < row.upper;
+    if (is_within || (is_bounded && std::abs(row.target - VelocityOf(row)) < kMightLeave)) {
+      choose(i);
+    }
+  }
+  slips_.assign(cones_.size(), false);
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    const Cone& cone = cones_[i];
+    const Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
+    if (a.mass_inverse == 0 || b.mass_inverse == 0) continue;
+    const double radius = RadiusOf(cone);
+    if (!(radius > 0)) continue;
+    slips_[i] = std::sqrt(a.impulse * a.impulse + b.impulse * b.impulse) >= radius * kSticks;
+    if (slips_[i]) continue;
+    choose(cone.first_row);
+    choose(cone.first_row + 1);
+  }
+}
+
+// What is missing in each of them, and by how much their impulses change it. The friction of what
+// slips grows with its normal impulse.
+void ImpulseRows::WriteEquations(bool shares_loads) {
+  // Four contacts of a box are one too many: springs of this softness decide among them.
+  constexpr double kRidge = 1e-9;
+  const std::size_t n = free_.size(), count = rows_.size();
+  matrix_.resize(n * n);
+  unknown_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Row& row = At(free_[i]);
+    const double* couplings = couplings_.data() + static_cast<std::size_t>(free_[i]) * count;
+    for (std::size_t j = 0; j < n; ++j) matrix_[i * n + j] = couplings[free_[j]];
+    matrix_[i * n + i] += row.softness + kRidge * row.mass_inverse;
+    unknown_[i] = row.target - VelocityOf(row) - row.softness * row.impulse;
+    if (shares_loads) unknown_[i] -= kRidge * row.mass_inverse * row.impulse;
+    for (std::size_t c = 0; c < cones_.size(); ++c) {
+      const Cone& cone = cones_[c];
+      const int normal = place_[static_cast<std::size_t>(cone.normal_row)];
+      if (!slips_[c] || normal < 0) continue;
+      const double share = 1 / impulse(cone.normal_row);
+      matrix_[i * n + static_cast<std::size_t>(normal)] +=
+          share * (impulse(cone.first_row) * couplings[cone.first_row] +
+                   impulse(cone.first_row + 1) * couplings[cone.first_row + 1]);
+    }
+  }
+}
+
+void ImpulseRows::TakeSolution() {
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    Row& row = At(free_[i]);
+    if (row.is_in_cone) continue;
+    row.change = std::clamp(row.impulse + unknown_[i], row.lower, row.upper) - row.impulse;
+  }
+  for (std::size_t c = 0; c < cones_.size(); ++c) {
+    const Cone& cone = cones_[c];
+    Row &a = At(cone.first_row), &b = At(cone.first_row + 1);
+    Row& normal = At(cone.normal_row);
+    const bool normal_changes = place_[static_cast<std::size_t>(cone.normal_row)] >= 0;
+    const double before = normal.impulse;
+    const double after = before + (normal_changes ? normal.change : 0);
+    const double radius = cone.friction * std::max(after, 0.0);
+    const int place = place_[static_cast<std::size_t>(cone.first_row)];
+    if (place >= 0) {
+      double x = a.impulse + unknown_[static_cast<std::size_t>(place)];
+      double y = b.impulse + unknown_[static_cast<std::size_t>(place) + 1];
+      const double length = std::sqrt(x * x + y * y);
+      if (length > radius) {
+        x *= radius / length;
+        y *= radius / length;
+      }
+      Apply(a, x - a.impulse);
+      Apply(b, y - b.impulse);
+    } else if (slips_[c] && before > 0) {
+      Apply(a, a.impulse * (after / before - 1));
+      Apply(b, b.impulse * (after / before - 1));
+    }
+  }
+  for (const int i : free_) {
+    if (!At(i).is_in_cone) Apply(At(i), At(i).change);
+  }
+}
+
+bool ImpulseRows::SolveFree(bool shares_loads) {
+  ChooseFree();
+  if (free_.empty() || free_.size() > static_cast<std::size_t>(kMaxDirect)) return false;
+  CoupleAll();
+  WriteEquations(shares_loads);
+  if (!SolveLinear(matrix_, unknown_)) return false;
+  TakeSolution();
+  return true;
+}
+
+void ImpulseRows::Remember() {
+  velocities_before_ = velocities_;
+  impulses_before_.clear();
+  for (const Row& row : rows_) impulses_before_.push_back(row.impulse);
+}
+
+void ImpulseRows::GoBack() {
+  velocities_ = velocities_before_;
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].impulse = impulses_before_[i];
+}
+
+// Of the last iteration, by all rows: how far it was from the solution.
+double ImpulseRows::ChangeOfEnergy() const {
+  double energy = 0;
+  for (const Row& row : rows_) energy += row.mass_inverse * row.change * row.change;
+  return energy;
+}
+
+int ImpulseRows::Solve(int max_iterations, double tolerance) {
+  // Iterations between two direct solutions. One that leads away from the solution, since other
+  // rows come to their bounds, is taken back, and the next one tried later. The first shares loads.
+  constexpr int kSweeps = 6;
+  Trim();
+  couplings_.clear();
+  double energy_before = 0, last_energy = 0;
+  int wait = kSweeps, since = 0;
+  bool is_first = true, is_direct = false;
+  for (int iteration = 1; iteration < max_iterations; ++iteration) {
+    Sweep(iteration % 2 == 0);
+    ++since;
+    const bool is_solved = LargestChange() <= tolerance;
+    const double energy = ChangeOfEnergy();
+    if (is_solved && !is_first) return iteration;
+    const bool was_direct = std::exchange(is_direct, false);
+    if (was_direct && energy > energy_before) {
+      GoBack();
+      wait *= 3;
+    } else {
+      energy_before = energy;
+    }
+    if (is_solved || since > wait) {
+      Remember();
+      is_direct = SolveFree(is_first);
+      if (!is_direct && is_solved) return iteration;
+      if (!is_direct) wait *= 3;
+      is_first = false;
+      since = 0;
+    } else if (since > 1 && energy <= last_energy) {
+      Accelerate(energy / last_energy);
+    } else {
+      for (Row& row : rows_) row.search = was_direct ? 0 : row.change;
+    }
+    last_energy = energy;
+  }
+  Sweep(max_iterations % 2 == 0);
+  return max_iterations;
+}
+
+}  // namespace gsv::dynamics

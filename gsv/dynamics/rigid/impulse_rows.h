@@ -1,0 +1,124 @@
+// Constraints on velocities, and the impulses that keep them: the problem that a substep poses, in
+// numbers alone.
+//
+// Row       J v + softness x = target, where v is the change of velocities (of all bodies, one
+//           after the other) and x the row's impulse, between a lower and an upper bound. A row
+//           acts on at most two bodies.
+// Cone      two rows whose impulses together are at most friction times that of a normal row
+//           (Coulomb). Where they are that large they point against the slip, whatever axes the
+//           two rows were given along.
+// Method    projected Gauss-Seidel, row by row and cone by cone (each cone is solved exactly), which
+//           finds the rows that are within their bounds. For these, up to kMaxDirect, linear
+//           equations are solved now and then: Silcowitz, Niebur, Erleben, "Projected Gauss-Seidel
+//           subspace minimization method for interactive rigid body dynamics" (GRAPP 2010). Larger
+//           problems are accelerated as a nonsmooth nonlinear conjugate gradient: Silcowitz-Hansen
+//           and others, The Visual Computer 26 (2010). Masses of a thousand to one and long chains
+//           of joints would take Gauss-Seidel alone thousands of iterations.
+// Loads     where there are more rows than are needed (a base on two wheels and two casters), they
+//           share the load as equal springs would, up to kMaxDirect.
+// Threads   one thread at a time.
+// Determinism  Solve() is a function of what was added, in that order.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace gsv::dynamics {
+
+class ImpulseRows {
+ public:
+  // The effect of a row on one body: spans of equal size, one value a degree of freedom.
+  struct Side {
+    int first = 0;                     // of the body's velocities, from AddBody()
+    std::span<const double> jacobian;  // empty: none, or a body that nothing moves
+    std::span<const double> response;  // change of velocities by a unit impulse
+  };
+  struct Limits {
+    double target = 0;    // m/s or rad/s
+    double softness = 0;  // (m/s) / (N s), or as is fitting
+    double lower = 0, upper = 0;
+  };
+
+  // Removes all.
+  void Clear();
+
+  // A body with these changes of velocities so far; returns where they begin.
+  int AddBody(std::span<const double> velocities);
+  std::span<const double> velocities(int first, int count) const;
+
+  // `impulse` is what has acted already: its effect is part of the velocities. Returns the row.
+  int AddRow(const Side& a, const Side& b, const Limits& limits, double impulse);
+  // A row that no impulse can move (J M⁻¹ Jᵀ = 0) keeps its impulse.
+  double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
+
+  // Makes a cone of two rows, which were added one after the other. Before that, they become along
+  // `axes`: each axis gives the weights of the two rows.
+  using Axes = std::array<std::array<double, 2>, 2>;
+  void AddCone(int normal_row, int first_row, double friction, const Axes& axes);
+
+  static constexpr int kMaxDirect = 150;
+
+  // Until no row's velocity changes by more than the tolerance in an iteration. Returns the number
+  // of iterations.
+  int Solve(int max_iterations, double tolerance);
+
+  // The impulses of a cone along the rows as they were added (with axes of unit length at right
+  // angles).
+  std::array<double, 2> ConeImpulse(int cone) const;
+
+ private:
+  struct Block {
+    int first = 0, count = 0, start = 0;  // in velocities_; in jacobians_ and responses_
+    int begin = 0, end = 0;               // where its jacobian is not zero, from `start`
+  };
+  struct Row {
+    std::array<Block, 2> sides;
+    double target, softness, lower, upper, impulse;
+    double mass_inverse;  // J M⁻¹ Jᵀ + softness; 0: nothing can move it
+    double change, search;
+    bool is_in_cone;
+  };
+  struct Cone {
+    int normal_row, first_row;
+    double friction;
+    Axes axes;
+  };
+
+  Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
+  Block AddSide(const Side& side);
+  void Weigh(Row& row) const;
+  void Trim();
+  double Coupling(const Row& a, const Row& b) const;
+  void Combine(int first_row, const Axes& axes);
+  double VelocityOf(const Row& row) const;
+  void Apply(Row& row, double impulse);
+  void SolveRow(Row& row);
+  void SolveCone(const Cone& cone);
+  void Sweep(bool backwards);
+  void Accelerate(double beta);
+  double LargestChange() const;
+  double RadiusOf(const Cone& cone) const;
+  void CoupleAll();
+  void ChooseFree();
+  void WriteEquations(bool shares_loads);
+  void TakeSolution();
+  bool SolveFree(bool shares_loads);
+  void Remember();
+  void GoBack();
+  double ChangeOfEnergy() const;
+
+  std::vector<double> velocities_, jacobians_, responses_;
+  std::vector<Row> rows_;
+  std::vector<Cone> cones_;
+
+  // The linear equations of the rows that are within their bounds.
+  std::vector<double> couplings_;         // J M⁻¹ Jᵀ of all rows, once it is asked for
+  std::vector<int> free_;                 // rows
+  std::vector<int> place_;                // of each row in free_, or -1
+  std::vector<bool> slips_;               // of each cone: its friction is at its limit
+  std::vector<double> matrix_, unknown_;  // of free_
+  std::vector<double> velocities_before_, impulses_before_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,112 @@
+#include "gsv/dynamics/rigid/impulse_rows.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "gsv/dynamics/rigid/linear_solve.h"
+
+namespace gsv::dynamics {
+namespace {
+
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+TEST(SolveLinear, SolvesEquationsThatNeedPivots) {
+  std::array<double, 9> a{0, 2, 1, 1, 1, 0, 3, 0, -1};
+  std::array<double, 3> b{7, 3, 0};  // of x = (1, 2, 3)
+  ASSERT_TRUE(SolveLinear(a, b));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(b[i], 1.0 + static_cast<double>(i), 1e-14);
+}
+
+TEST(SolveLinear, RefusesASingularMatrix) {
+  std::array<double, 4> a{1, 2, 2, 4};
+  std::array<double, 2> b{1, 2};
+  EXPECT_FALSE(SolveLinear(a, b));
+}
+
+// A column of bodies of these masses on the ground, each pulled down by 1 m/s: one row between
+// each and what is below it.
+class Column {
+ public:
+  explicit Column(const std::vector<double>& masses) {
+    const std::array<double, 1> pulled{-1}, up{1}, down{-1};
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      first_.push_back(rows_.AddBody(pulled));
+      const std::array<double, 1> lifts{1 / masses[i]};
+      const std::array<double, 1> presses{i == 0 ? 0 : -1 / masses[i - 1]};
+      const ImpulseRows::Side above{first_[i], up, lifts};
+      const ImpulseRows::Side below{i == 0 ? 0 : first_[i - 1], down, presses};
+      rows_.AddRow(above, i == 0 ? ImpulseRows::Side{} : below, {0, 0, 0, kNoBound}, 0);
+    }
+  }
+  ImpulseRows& rows() { return rows_; }
+
+ private:
+  ImpulseRows rows_;
+  std::vector<int> first_;
+};
+
+TEST(ImpulseRows, EachOfAColumnCarriesWhatIsAboveIt) {
+  for (const double heaviest : {1.0, 1e3, 1e6}) {
+    Column column({1, 1, 1, heaviest});
+    EXPECT_LT(column.rows().Solve(200, 1e-10), 40) << heaviest;
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(column.rows().impulse(i) / (3 - i + heaviest), 1, 1e-9) << heaviest;
+    }
+  }
+}
+
+TEST(ImpulseRows, ASoftRowGivesWay) {
+  ImpulseRows rows;
+  const std::array<double, 1> velocity{2}, unit{1}, response{0.5};
+  rows.AddRow({rows.AddBody(velocity), unit, response}, {}, {0, 1.5, -kNoBound, kNoBound}, 0);
+  rows.Solve(50, 1e-12);
+  // v + 1.5 x = 0 with v = 2 + 0.5 x.
+  EXPECT_NEAR(rows.impulse(0), -1, 1e-12);
+  EXPECT_NEAR(rows.velocities(0, 1)[0], 1.5, 1e-12);
+}
+
+// A body of 1 kg that slides in a plane, on a contact that presses by 1 N s. Its inertia along the
+// two axes differs, as that of a wheel does.
+std::array<double, 2> SlipAfter(double angle, double speed, const ImpulseRows::Axes& axes) {
+  ImpulseRows rows;
+  const std::array<double, 3> velocity{speed * std::cos(angle), speed * std::sin(angle), -1};
+  const int body = rows.AddBody(velocity);
+  const std::array<double, 3> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const std::array<double, 3> along_x{4, 0, 0}, along_y{0, 0.5, 0};
+  rows.AddRow({body, z, z}, {}, {0, 0, 0, kNoBound}, 0);
+  rows.AddRow({body, x, along_x}, {}, {}, 0);
+  rows.AddRow({body, y, along_y}, {}, {}, 0);
+  rows.AddCone(0, 1, 0.5, axes);
+  rows.Solve(100, 1e-13);
+  return {rows.velocities(body, 3)[0], rows.velocities(body, 3)[1]};
+}
+
+TEST(ImpulseRows, FrictionPointsAgainstTheSlipWhateverTheMasses) {
+  for (const double angle : {0.0, 0.4, 0.8, 1.2, 1.5}) {
+    const auto [x, y] = SlipAfter(angle, 5, {{{1, 0}, {0, 1}}});
+    const double speed = std::sqrt(x * x + y * y);
+    // Its change, by 0.5 N s against the slip that is left.
+    EXPECT_NEAR(x - 5 * std::cos(angle), -4 * 0.5 * x / speed, 1e-9) << angle;
+    EXPECT_NEAR(y - 5 * std::sin(angle), -0.5 * 0.5 * y / speed, 1e-9) << angle;
+  }
+}
+
+TEST(ImpulseRows, FrictionDoesNotDependOnItsAxes) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const auto [x, y] = SlipAfter(0.9, 5, {{{1, 0}, {0, 1}}});
+  const auto [turned_x, turned_y] = SlipAfter(0.9, 5, {{{c, s}, {-s, c}}});
+  EXPECT_NEAR(x, turned_x, 1e-9);
+  EXPECT_NEAR(y, turned_y, 1e-9);
+}
+
+TEST(ImpulseRows, FrictionHoldsWhatItCan) {
+  const auto [x, y] = SlipAfter(0.9, 0.2, {{{1, 0}, {0, 1}}});
+  EXPECT_NEAR(x, 0, 1e-12);
+  EXPECT_NEAR(y, 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

@@ -1,0 +1,26 @@
+// One row of constraint on one joint of a tree: what moves, brakes, damps or limits it. Private to
+// this folder: it includes Bullet.
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+
+namespace gsv::dynamics {
+
+class JointRow final : public btMultiBodyJointMotor {
+ public:
+  JointRow(btMultiBody& tree, int link);
+
+  // Holds the joint at a rate (rad/s or m/s) by an impulse (N m s or N s) from `lower` to `upper`.
+  // If both are 0, the row does nothing.
+  void Set(double rate, double lower, double upper);
+  // Gives way: the rate misses `rate` by `softness` times the impulse, which has no bounds.
+  void Soften(double rate, double softness);
+
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& bullet,
+                            const btContactSolverInfo& info) override;
+
+ private:
+  double lower_ = 0, upper_ = 0, softness_ = 0;
+};
+
+}  // namespace gsv::dynamics

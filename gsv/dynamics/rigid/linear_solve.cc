@@ -1,0 +1,51 @@
+#include "gsv/dynamics/rigid/linear_solve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gsv/base/check.h"
+
+namespace gsv::dynamics {
+namespace {
+
+constexpr double kSingular = 1e-13;
+
+double LargestOf(std::span<const double> row) {
+  double largest = 0;
+  for (const double value : row) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+}  // namespace
+
+bool SolveLinear(std::span<double> a, std::span<double> b) {
+  const std::size_t n = b.size();
+  GSV_CHECK(a.size() == n * n);
+  for (std::size_t column = 0; column < n; ++column) {
+    std::size_t pivot = column;
+    for (std::size_t row = column + 1; row < n; ++row) {
+      if (std::abs(a[row * n + column]) > std::abs(a[pivot * n + column])) pivot = row;
+    }
+    const double largest = LargestOf(a.subspan(pivot * n, n));
+    if (!(std::abs(a[pivot * n + column]) > kSingular * largest)) return false;
+    if (pivot != column) {
+      std::swap_ranges(a.begin() + static_cast<std::ptrdiff_t>(pivot * n),
+                       a.begin() + static_cast<std::ptrdiff_t>(pivot * n + n),
+                       a.begin() + static_cast<std::ptrdiff_t>(column * n));
+      std::swap(b[pivot], b[column]);
+    }
+    for (std::size_t row = column + 1; row < n; ++row) {
+      const double factor = a[row * n + column] / a[column * n + column];
+      if (factor == 0) continue;
+      for (std::size_t k = column; k < n; ++k) a[row * n + k] -= factor * a[column * n + k];
+      b[row] -= factor * b[column];
+    }
+  }
+  for (std::size_t row = n; row-- > 0;) {
+    for (std::size_t k = row + 1; k < n; ++k) b[row] -= a[row * n + k] * b[k];
+    b[row] /= a[row * n + row];
+  }
+  return true;
+}
+
+}  // namespace gsv::dynamics
