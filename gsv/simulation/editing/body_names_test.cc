@@ -46,6 +46,7 @@ TEST(BodyNames, RobotsWithoutANameGetOneThatNobodyHas) {
                                          Named("", "disc"), Named("", "cart")};
   ASSERT_TRUE(NameRobots(*LayoutWith({"disc"}), robots));
   std::vector<std::string> names;
+  names.reserve(robots.size());
   for (const RobotSpecification& robot : robots) names.push_back(robot.name);
   EXPECT_THAT(names, testing::ElementsAre("disc_3", "disc_2", "disc_4", "cart"));
 }
