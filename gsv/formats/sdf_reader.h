@@ -5,8 +5,8 @@
 //
 // Frames   model::Model keeps every link in the model's frame; nested models are flattened to
 //          "inner::link". Ground Plane and Sun are built in and need no file.
-// Drives   come from plugin elements, see sdf_drive.h; a URDF without any, but with two free wheels
-//          side by side, is taken to have a differential drive.
+// Drives   come from plugin elements, see sdf_drive.h; that of a URDF without any is guessed from
+//          its wheels, see model/drive_guess.h.
 // Errors   kBadModel with one sentence when nothing usable could be read: no such file, malformed
 //          XML, no world or model inside, includes that go round, a file too large. Everything
 //          else is appended to `problems`: a warning for what can be lived with (a missing mesh, a

@@ -149,25 +149,76 @@ TEST_F(SdfRobotTest, ReadsTheOtherDrives) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
-TEST_F(SdfRobotTest, ComplainsOfDrivesThatCannotWork) {
-  EXPECT_FALSE(
+TEST_F(SdfRobotTest, GuessesInsteadOfADriveThatCannotWork) {
+  const auto wrong =
       DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive",
-                     "<left_joint>nowhere</left_joint><right_joint>fr_joint</right_joint>"))
-          .has_value());
-  EXPECT_FALSE(DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive", "")).has_value());
+                     "<left_joint>nowhere</left_joint><right_joint>fr_joint</right_joint>"
+                     "<max_linear_velocity>2</max_linear_velocity>"));
+  ASSERT_TRUE(wrong.has_value());
+  EXPECT_EQ(wrong->origin, model::DriveOrigin::kGuessed);
+  EXPECT_THAT(wrong->left_wheels, ElementsAre(0, 2));
+  EXPECT_EQ(wrong->linear_velocity.max, 2);
+  EXPECT_TRUE(DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive", "")).has_value());
+  ASSERT_THAT(problems_, SizeIs(4));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("nowhere"));
+  EXPECT_THAT(problems_[1].Sentence(),
+              HasSubstr("the plugin is not used; the drive is skid steering, guessed from wheels "
+                        "fl_joint, rl_joint, fr_joint, rr_joint; radius 0.15 m, separation 0.6 m"));
+  EXPECT_THAT(problems_[2].Sentence(), HasSubstr("names no joint"));
+}
+
+TEST_F(SdfRobotTest, MeasuresInsteadOfNumbersThatCannotBe) {
   EXPECT_TRUE(DriveOf(Plugin("gz-sim-diff-drive-system", "DiffDrive",
                              "<left_joint>fl_joint</left_joint><right_joint>fr_joint</"
                              "right_joint><wheel_radius>-1</wheel_radius>"
                              "<max_linear_velocity>1</max_linear_velocity><min_linear_velocity>2</"
                              "min_linear_velocity>"))
                   .has_value());
-  ASSERT_THAT(problems_, SizeIs(4));
-  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("nowhere"));
-  EXPECT_THAT(problems_[1].Sentence(), HasSubstr("names no joint"));
-  EXPECT_THAT(problems_[2].Sentence(), HasSubstr("<wheel_radius> must be above zero"));
-  EXPECT_THAT(problems_[3].Sentence(), HasSubstr("linear_velocity"));
-  for (const auto& problem : problems_)
-    EXPECT_EQ(problem.severity, base::Problem::Severity::kError);
+  ASSERT_THAT(problems_, SizeIs(2));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("<wheel_radius> must be above zero"));
+  EXPECT_THAT(problems_[1].Sentence(), HasSubstr("linear_velocity"));
+  for (const auto& problem : problems_) {
+    EXPECT_EQ(problem.severity, base::Problem::Severity::kWarning);
+  }
+}
+
+TEST_F(SdfRobotTest, TakesASteeringOnlyPluginWithoutWheels) {
+  const auto model = Read(
+      "<sdf version='1.9'><model name='car'><link name='base'/><link name='ball'><pose>1 0 0 0 0 "
+      "0</pose><collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>"
+      "</collision></link><joint name='steer' type='revolute'><parent>base</parent><child>ball"
+      "</child><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>"
+      "</joint>" +
+      Plugin("gz-sim-ackermann-steering-system", "gz::sim::systems::AckermannSteering",
+             "<steering_only>true</steering_only><left_steering_joint>steer</left_steering_joint>"
+             "<right_steering_joint>steer</right_steering_joint>") +
+      "</model></sdf>");
+  ASSERT_TRUE(model->drive.has_value());
+  EXPECT_EQ(model->drive->kind, DriveKind::kNone);
+  EXPECT_THAT(model->drive->steered, IsEmpty());
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+TEST_F(SdfRobotTest, ReadsRos2ControlWithItsInterfaces) {
+  const auto model = Read(Robot(
+      "<ros2_control name='base' type='system'><hardware><plugin>some/Hardware</plugin></hardware>"
+      "<joint name='fl_joint'><command_interface name='velocity'><param name='min'>-1</param>"
+      "</command_interface><state_interface name='position'/><state_interface name='velocity'/>"
+      "</joint><joint name='nobody'/></ros2_control>"));
+  ASSERT_THAT(model->control_systems, SizeIs(1));
+  const model::ControlSystem& system = model->control_systems.front();
+  EXPECT_EQ(system.name, "base");
+  EXPECT_EQ(system.type, "system");
+  EXPECT_EQ(system.hardware, "some/Hardware");
+  ASSERT_THAT(system.joints, SizeIs(1));
+  EXPECT_EQ(system.joints[0].joint, "fl_joint");
+  EXPECT_THAT(system.joints[0].command, ElementsAre("velocity"));
+  EXPECT_THAT(system.joints[0].state, ElementsAre("position", "velocity"));
+  bool is_said = false;
+  for (const auto& problem : problems_) {
+    is_said = is_said || problem.message.find("names the joint \"nobody\"") != std::string::npos;
+  }
+  EXPECT_TRUE(is_said);
 }
 
 TEST_F(SdfRobotTest, ReadsSensorsOfKnownAndUnknownTypes) {

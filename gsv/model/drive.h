@@ -15,6 +15,14 @@ enum class DriveKind {
   kAckermann,     // steered front wheels: cannot turn on the spot
   kMecanum,       // moves sideways as well
   kVelocity,      // no wheels: takes the commanded velocity
+  kNone,          // the base stays where it is put; only joints take commands
+};
+
+// Where the knowledge of a drive comes from.
+enum class DriveOrigin {
+  kPlugin,   // an element of the model's file
+  kGuessed,  // the shapes of its wheels, see drive_guess.h
+  kChosen,   // the user, see drive_choice.h
 };
 
 struct Range {
@@ -39,6 +47,8 @@ struct Drive {
   Range linear_acceleration, angular_acceleration;
   // After this long without a command the base brakes; zero: never.
   base::SimTime command_timeout{0};
+  DriveOrigin origin = DriveOrigin::kPlugin;
+  std::string choice;  // kChosen: the text of drive_choice.h that it came from
 };
 
 }  // namespace gsv::model

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gsv/geometry/shape.h"
+#include "gsv/model/control_system.h"
 #include "gsv/model/drive.h"
 #include "gsv/model/material.h"
 #include "gsv/model/sensor_description.h"
@@ -119,6 +120,7 @@ struct Model {
   std::vector<Joint> joints;               // a forest: no link is the child of two joints
   std::vector<JointTarget> joint_targets;  // at most one of a joint
   std::vector<SensorDescription> sensors;
+  std::vector<ControlSystem> control_systems;
   std::optional<Drive> drive;             // present: a robot that can be given a behaviour
   Movement movement = Movement::kPlanar;  // of a model with a drive
 };

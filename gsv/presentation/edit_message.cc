@@ -19,6 +19,7 @@ constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edi
                               Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
                                   Edit::Moment::kAmidTurns};
+const std::string kDrive = " drive ";  // what follows is a choice, as model/drive_choice.h has it
 constexpr model::Movement kMovements[]{model::Movement::kPlanar, model::Movement::kRigid};
 
 const char* ToString(model::Movement movement) {
@@ -67,6 +68,7 @@ messages::gsv_msgs::Edit EditMessage(const simulation::Edit& edit) {
   message.copy_of = edit.copy_of;
   message.behaviour = edit.behaviour;
   if (edit.movement) message.movement = ToString(*edit.movement);
+  if (!edit.drive.empty()) message.movement += kDrive + edit.drive;
   const auto& [p, q] = edit.world_from_body;
   message.pose.position = {p.x, p.y, p.z};
   message.pose.orientation.x = q.x;
@@ -82,11 +84,15 @@ base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message)
   const auto kind = Named(message.kind, kKinds);
   const auto moment = Named(message.moment, kMoments);
   simulation::Edit edit;
-  edit.movement = Named(message.movement, kMovements);
+  // A field of its own would make older recordings unreadable (ADR 034).
+  const std::size_t drive = message.movement.find(kDrive);
+  const std::string movement = message.movement.substr(0, drive);
+  if (drive != std::string::npos) edit.drive = message.movement.substr(drive + kDrive.size());
+  edit.movement = Named(movement, kMovements);
   edit.world_from_body = {{p.x, p.y, p.z}, {q.w, q.x, q.y, q.z}};
   const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
   if (!kind || !moment || message.body.empty() || message.step > kMostSteps ||
-      (!edit.movement && !message.movement.empty()) || !geometry::IsFinite(edit.world_from_body) ||
+      (!edit.movement && !movement.empty()) || !geometry::IsFinite(edit.world_from_body) ||
       !(std::abs(length - 1) < 1e-6)) {
     return base::Fail(base::ErrorCode::kCorrupt,
                       "the recording has an edit that nobody can have made", message.body);

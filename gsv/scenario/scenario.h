@@ -23,6 +23,8 @@ struct RobotEntry {
   std::string behaviour;                    // its name and options; empty: none
   std::string behaviour_constraint;         // or what its offer must fulfil
   std::optional<model::Movement> movement;  // without one: as its model says
+  // As model/drive_choice.h has it; empty: its model's own drive, else the guessed one.
+  std::string drive = {};
 
   friend bool operator==(const RobotEntry&, const RobotEntry&) = default;
 };

@@ -1,5 +1,6 @@
 #include "gsv/scenario/scenario_keys.h"
 
+#include "gsv/model/drive_choice.h"
 #include "gsv/scenario/test_keys.h"
 
 namespace gsv::scenario {
@@ -14,6 +15,15 @@ std::optional<model::Movement> ReadMovement(YamlMapping& mapping) {
   const auto is_rigid = mapping.IsSecond("movement", "planar", "rigid");
   if (!is_rigid) return std::nullopt;
   return *is_rigid ? model::Movement::kRigid : model::Movement::kPlanar;
+}
+
+std::string ReadDrive(YamlMapping& mapping) {
+  const std::string drive = mapping.Text("drive").value_or("");
+  if (drive.empty()) return {};
+  const auto choice = model::ParseDriveChoice(drive);
+  if (choice) return drive;
+  mapping.Complain("drive", choice.error().message);
+  return {};
 }
 
 void CheckRobot(const RobotEntry& robot, bool is_avatar, const YamlMapping& mapping) {
@@ -101,6 +111,7 @@ RobotEntry ReadRobotKeys(YamlMapping& mapping, bool is_avatar) {
     robot.behaviour = mapping.Text("behaviour").value_or("");
     robot.behaviour_constraint = mapping.Text("behaviour_constraint").value_or("");
     robot.movement = ReadMovement(mapping);
+    robot.drive = ReadDrive(mapping);
   }
   CheckRobot(robot, is_avatar, mapping);
   return robot;

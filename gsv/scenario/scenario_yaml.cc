@@ -116,6 +116,7 @@ class Writer {
     if (robot.movement) {
       add("movement", *robot.movement == model::Movement::kRigid ? "rigid" : "planar");
     }
+    if (!robot.drive.empty()) add("drive", Text(robot.drive));
     return fields;
   }
 

@@ -32,6 +32,7 @@ struct Edit {
   std::string copy_of;
   std::string behaviour;  // its name; empty: none
   std::optional<model::Movement> movement;
+  std::string drive;  // as model/drive_choice.h has it; empty: the model's or the guessed one
   // Of what is added or placed: as it was asked for.
   geometry::Pose world_from_body;
   bool on_ground = true;

@@ -32,14 +32,6 @@ base::Status CheckRobot(const RobotSpecification& robot, Mode mode) {
   if (!geometry::IsFinite(robot.world_from_robot)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the robot's pose is not finite", where);
   }
-  if (!robot.model->drive) {
-    return base::Fail(
-        base::ErrorCode::kBadModel,
-        "the model \"" + robot.model->name +
-            "\" has no drive that gsv knows, so it cannot be a robot; add a plugin such as "
-            "gz::sim::systems::DiffDrive to it",
-        where);
-  }
   if (robot.behaviour == nullptr || robot.allow_unmanaged) return {};
   return CheckBehaviour(*robot.behaviour, mode, where);
 }
@@ -56,6 +48,7 @@ Edit EditOf(const RobotSpecification& robot) {
   edit.model = SourceOf(*robot.model);
   if (robot.behaviour != nullptr) edit.behaviour = robot.behaviour->name();
   edit.movement = robot.movement;
+  edit.drive = robot.drive;
   edit.world_from_body = robot.world_from_robot;
   edit.on_ground = robot.on_ground;
   return edit;
@@ -131,8 +124,14 @@ bool SteppingSimulation::was_edited() const {
 base::Result<std::vector<std::string>> SteppingSimulation::AddRobots(
     std::vector<RobotSpecification> robots) {
   const base::MutexLock control(control_mutex_);
-  for (const RobotSpecification& robot : robots) {
+  for (RobotSpecification& robot : robots) {
     if (auto ok = CheckRobot(robot, specification_.mode); !ok) return base::Fail(ok.error());
+    auto model = robot_models_.Find(robot.model, robot.drive, robot.is_avatar);
+    if (!model) {
+      model.error().where = robot.name.empty() ? robot.model->name : robot.name;
+      return base::Fail(model.error());
+    }
+    robot.model = *std::move(model);
   }
   AwaitTurns();
   if (auto ok = PlaceRobots(robots); !ok) return base::Fail(ok.error());

@@ -33,6 +33,8 @@ struct RobotSpecification {
   bool allow_unmanaged = false;
   bool is_avatar = false;
   std::optional<model::Movement> movement;  // without one, as its model says
+  // As model/drive_choice.h has it; empty: the model's own drive, else the guessed one.
+  std::string drive;
 };
 
 // Something that is no robot, to be put into the world.

@@ -13,6 +13,7 @@
 #pragma once
 
 #include "gsv/base/thread_team.h"
+#include "gsv/simulation/editing/robot_models.h"
 #include "gsv/simulation/step_loop.h"
 #include "gsv/simulation/watchdog.h"
 
@@ -106,6 +107,7 @@ class SteppingSimulation final : public Simulation {
   StepLoop step_loop_;
   Watchdog watchdog_;
   base::Mutex control_mutex_;
+  RobotModels robot_models_ GSV_GUARDED_BY(control_mutex_);
 };
 
 }  // namespace gsv::simulation

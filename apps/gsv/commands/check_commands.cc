@@ -12,6 +12,7 @@
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/sensor_types.h"
 #include "gsv/formats/sdf_reader.h"
+#include "gsv/model/drive_choice.h"
 
 namespace gsv::app {
 namespace {
@@ -26,8 +27,34 @@ struct CheckArguments {
   bool strict = false;
 };
 
+using Notes = std::vector<std::string>;
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
+}
+
+// How the model drives as a robot, and what <ros2_control> says about its joints.
+Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
+  Notes notes;
+  if (const auto robot = model::AsRobot(model, "")) {
+    const bool is_guessed = (*robot)->drive->origin == model::DriveOrigin::kGuessed;
+    notes.push_back("drive: " + model::DescribeDrive(**robot) +
+                    (is_guessed ? "; override with --drive" : ""));
+  }
+  for (const model::ControlSystem& system : model->control_systems) {
+    for (const model::JointInterfaces& joint : system.joints) {
+      notes.push_back("ros2_control " + system.name + ": joint " + joint.joint +
+                      ": command interfaces " + Listed(joint.command) + "; state interfaces " +
+                      Listed(joint.state));
+    }
+  }
+  return notes;
+}
+
 // Prints each problem; gives the exit code: 3 when the simulation would not be faithful.
-int Report(const CheckArguments& arguments, const base::Problems& problems,
+int Report(const CheckArguments& arguments, const base::Problems& problems, const Notes& notes,
            const base::Status& read) {
   int errors = read ? 0 : 1;
   int warnings = 0;
@@ -43,6 +70,7 @@ int Report(const CheckArguments& arguments, const base::Problems& problems,
                   message.c_str());
     }
   };
+  for (const std::string& note : notes) print("note", "", note);
   for (const base::Problem& problem : problems) {
     const bool is_error = problem.severity == base::Problem::Severity::kError;
     ++(is_error ? errors : warnings);
@@ -91,8 +119,9 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
     options.model_path.assign(arguments->model_path.begin(), arguments->model_path.end());
     formats::ModelLibrary library(std::move(options));
     base::Problems problems;
-    const base::Status status = read(library, arguments->file, problems);
-    line.exit_code = Report(*arguments, problems, status);
+    Notes notes;
+    const base::Status status = read(library, arguments->file, problems, notes);
+    line.exit_code = Report(*arguments, problems, notes, status);
   });
 }
 
@@ -100,16 +129,20 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
 
 void AddCheckCommands(const CommandLine& line) {
   AddCheck(line, "world", "a world",
-           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems) {
+           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems,
+              Notes&) {
              const auto found = FindWorld(file);
              if (!found) return base::Status(base::Fail(found.error()));
              const auto world = library.ReadWorld(*found, problems);
              return world ? base::Status() : base::Fail(world.error());
            });
   AddCheck(line, "model", "a model",
-           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems) {
+           [](formats::ModelLibrary& library, const std::string& file, base::Problems& problems,
+              Notes& notes) {
              const auto model = library.ReadModel(file, problems);
-             return model ? base::Status() : base::Fail(model.error());
+             if (!model) return base::Status(base::Fail(model.error()));
+             notes = RobotNotes(*model);
+             return base::Status();
            });
   struct DoctorArguments {
     std::string broker;

@@ -9,12 +9,14 @@
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/running/drive_options.h"
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/picture.h"
 #include "apps/gsv/running/run.h"
 #include "apps/gsv/running/run_population.h"
 #include "apps/gsv/running/run_report.h"
 #include "apps/gsv/simulations/recordings.h"
+#include "apps/gsv/simulations/robot_drives.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 #include "gsv/recording/topics/topics.h"
 #include "gsv/verdict/judge.h"
@@ -159,13 +161,17 @@ int JudgeExpectations(verdict::Judge& judge, const RunOptions& options,
 
 }  // namespace
 
-base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet) {
+base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) {
+  RunOptions options = given;
   if (TellErrors(options.problems)) return kBadModel;
   const auto world = FindWorld(options.scenario.world);
   if (!world) return base::Fail(world.error());
   auto runtime = Runtime::Start(options.runtime);
   if (!runtime) return base::Fail(runtime.error());
   base::Problems problems;
+  auto& library = (*runtime)->host().library();
+  if (auto ok = PrepareDrives(*world, library, options, problems); !ok)
+    return base::Fail(ok.error());
   auto simulation = (*runtime)->host().Create(options.specification, *world, problems);
   if (!simulation) return base::Fail(simulation.error());
   auto told = PopulateRun(**runtime, **simulation, options, problems);
@@ -180,6 +186,11 @@ base::Result<int> Run(const RunOptions& options, Signals& signals, bool is_quiet
       std::fprintf(stderr, "gsv: note: %s: %s\n", event.robot.c_str(), event.detail.c_str());
   }
 
+  if (!is_quiet) {
+    for (const std::string& note : DriveNotes(**simulation)) {
+      std::fprintf(stderr, "gsv: note: %s\n", note.c_str());
+    }
+  }
   auto judge = verdict::Judge::Attach(options.scenario.expect, **simulation);
   if (!judge) return base::Fail(judge.error());
   if (auto ok = (*runtime)->OfferService("gsv run"); !ok) return base::Fail(ok.error());

@@ -101,6 +101,7 @@ class EditMaker {
     robot.behaviour = *behaviour;
     robot.is_avatar = edit.kind == Edit::Kind::kAddAvatar;
     robot.movement = edit.movement;
+    robot.drive = edit.drive;
     const auto added = simulation_.AddRobot(std::move(robot));
     if (added) return {};
     if (*behaviour != nullptr) (*behaviour)->Destroy();

@@ -7,6 +7,7 @@
 
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/sensor_types.h"
+#include "gsv/model/drive_choice.h"
 #include "gsv/scenario/scenario_file.h"
 
 namespace gsv::app {
@@ -27,6 +28,9 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
       "--movement", a.movements,
       "ROBOT=rigid (a name, or a model of --robot): by forces, as its wheels roll; ROBOT=planar: "
       "by its drive alone, over level ground. Without it: as its model says, else planar");
+  command.add_option(
+      "--drive", a.drives,
+      "ROBOT=KIND[,KEY=VALUE]...: drive, as husky=skid,radius=0.16 (default: model's or guess)");
   command.add_flag("--in-process", a.in_process,
                    "run the behaviours inside gsv, from their plug-ins gsv-NAME.so: the same "
                    "outcome, and many more robots");
@@ -137,6 +141,24 @@ base::Status UnderstandMovements(const std::vector<std::string>& texts, RunOptio
     }
     options.movement_of[text.substr(0, equals)] =
         how == "rigid" ? model::Movement::kRigid : model::Movement::kPlanar;
+  }
+  return {};
+}
+
+base::Status UnderstandDrives(const std::vector<std::string>& texts, RunOptions& options) {
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      return base::Fail(base::ErrorCode::kInvalidArgument,
+                        "expected ROBOT=KIND[,KEY=VALUE]..., such as husky=skid,radius=0.16",
+                        "--drive " + text);
+    }
+    const std::string drive = text.substr(equals + 1);
+    if (const auto choice = model::ParseDriveChoice(drive); !choice) {
+      return base::Fail(base::ErrorCode::kInvalidArgument, choice.error().message,
+                        "--drive " + text);
+    }
+    options.drive_of[text.substr(0, equals)] = drive;
   }
   return {};
 }
@@ -266,6 +288,7 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
     return base::Fail(ok.error());
   if (auto ok = UnderstandBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());
   if (auto ok = UnderstandMovements(a.movements, options); !ok) return base::Fail(ok.error());
+  if (auto ok = UnderstandDrives(a.drives, options); !ok) return base::Fail(ok.error());
   UnderstandSpecification(a, options.scenario, options.specification);
   if (auto ok = UnderstandTimes(options.scenario, options.specification); !ok)
     return base::Fail(ok.error());

@@ -27,6 +27,7 @@ struct RunOptions {
   std::string behaviour;                               // of all robots that have none of their own
   std::map<std::string, std::string> behaviour_of;     // by robot
   std::map<std::string, model::Movement> movement_of;  // by robot
+  std::map<std::string, std::string> drive_of;         // by robot: as model/drive_choice.h has it
   bool in_process = false;                             // behaviours are plug-ins, not programs
   // Makes the behaviour of a robot that comes at that time, in place of the one that is named, when
   // it is set.
@@ -46,7 +47,8 @@ struct RunOptions {
 // The options as they stand on the command line, before they are understood.
 struct RunArguments {
   std::string world;
-  std::vector<std::string> robots, avatars, behaviours, movements, model_path, sensor_plugins;
+  std::vector<std::string> robots, avatars, behaviours, movements, drives, model_path,
+      sensor_plugins;
   formats::ReadLimits limits;
   ServerLimits server_limits;
   std::string broker, name, mode_on_failure, record, record_pictures, failure_picture;

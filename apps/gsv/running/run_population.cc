@@ -128,7 +128,7 @@ scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
   told.avatars.clear();
   for (const PlacedRobot& robot : population.robots) {
     const bool does_nothing = robot.entry.model.empty() && robot.entry.behaviour.empty() &&
-                              robot.entry.behaviour_constraint.empty();
+                              robot.entry.behaviour_constraint.empty() && robot.entry.drive.empty();
     if (!does_nothing) told.robots.push_back(robot.entry);
   }
   for (const PlacedRobot& avatar : population.avatars) told.avatars.push_back(avatar.entry);

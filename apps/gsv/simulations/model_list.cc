@@ -5,6 +5,8 @@
 #include <iterator>
 #include <set>
 
+#include "gsv/model/drive_guess.h"
+
 namespace gsv::app {
 namespace {
 
@@ -13,7 +15,12 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargestFile = 4u << 20;
 
 bool IsModelFile(const fs::path& file) {
-  return file.extension() == ".sdf" || file.extension() == ".urdf";
+  return file.extension() == ".sdf" || file.extension() == ".urdf" || file.extension() == ".xacro";
+}
+
+bool IsRobot(const model::Model& model) {
+  return model.drive || !model.control_systems.empty() ||
+         model::GuessDrive(model).kind != model::DriveKind::kNone;
 }
 
 // A drive is a plugin's (or a URDF's, which has its own element for it): a library of furniture is
@@ -26,7 +33,7 @@ bool MayHaveDrive(const fs::path& folder) {
     if (entry.file_size(ignored) > kLargestFile) continue;
     std::ifstream stream(file, std::ios::binary);
     const std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (text.find("<plugin") != std::string::npos || file.extension() == ".urdf") return true;
+    if (text.find("<plugin") != std::string::npos || file.extension() != ".sdf") return true;
   }
   return false;
 }
@@ -42,7 +49,7 @@ std::vector<std::string> FindRobotModels(formats::ModelLibrary& library,
       if (!entry.is_directory(ignored) || !MayHaveDrive(entry.path())) continue;
       base::Problems problems;  // told when the model is used
       const auto model = library.ReadModel(entry.path(), problems);
-      if (model && (*model)->drive) names.insert(entry.path().filename());
+      if (model && IsRobot(**model)) names.insert(entry.path().filename());
     }
   }
   return {names.begin(), names.end()};

@@ -51,18 +51,12 @@ FieldResult<RobotSpecification> Specify(const Simulation& simulation,
                                         base::Problems& problems) {
   const auto model = ModelFor(simulation, library, entry, problems);
   if (!model) return WrongField(entry.model.empty() ? "name" : "model", model.error());
-  if (!(*model)->drive) {
-    return WrongField("model",
-                      {base::ErrorCode::kBadModel,
-                       "it has no drive that gsv knows, so it cannot be a robot; choose "
-                       "another, or add a plugin such as gz::sim::systems::DiffDrive to it",
-                       (*model)->name});
-  }
   RobotSpecification robot;
   robot.name = entry.name;
   robot.model = *model;
   robot.is_avatar = is_avatar;
   robot.movement = entry.movement;
+  robot.drive = entry.drive;
   if (entry.start) Stand(*entry.start, robot);
   return robot;
 }

@@ -5,6 +5,7 @@
 
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/simulations/model_list.h"
+#include "apps/gsv/simulations/robot_drives.h"
 #include "gsv/broker/client/gsv_service_types.h"
 
 namespace gsv::app {
@@ -143,7 +144,9 @@ FieldResult<SimulationBuilder::Preview> SimulationBuilder::Show(const Simulation
   simulation::Specification specification = SpecificationOf(request.scenario);
   specification.name = "preview";
   specification.mode = simulation::Mode::kRealTime;  // on one thread: it takes no step
-  specification.world = world->world;
+  auto driven = WithDrives(world->world, request.scenario);
+  if (!driven) return WrongField("robots", driven.error());
+  specification.world = *std::move(driven);
   auto simulation = host_.CreateUnlisted(std::move(specification));
   if (!simulation) return WrongField("", simulation.error());
   Preview preview{*simulation, world->warnings};
@@ -159,7 +162,9 @@ FieldResult<std::shared_ptr<Simulation>> SimulationBuilder::Create(
   auto world = ReadWorld(request.scenario.world);
   if (!world) return tl::make_unexpected(world.error());
   simulation::Specification specification = SpecificationOf(request.scenario);
-  specification.world = world->world;
+  auto driven = WithDrives(world->world, request.scenario);
+  if (!driven) return WrongField("robots", driven.error());
+  specification.world = *std::move(driven);
   base::Problems problems;  // those of the world were told with its preview
   auto created = host_.Create(std::move(specification), {}, problems);
   if (!created) return WrongField("name", created.error());

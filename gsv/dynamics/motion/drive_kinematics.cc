@@ -150,6 +150,7 @@ world::DriveCommand DriveKinematics::Next(const world::DriveState& state, base::
                                           double step_seconds) const {
   const bool stale = drive_.command_timeout > base::SimTime(0) &&
                      now - state.command_time >= drive_.command_timeout;
+  if (drive_.kind == DriveKind::kNone) return {};
   const world::DriveCommand target = stale ? world::DriveCommand{} : state.command;
   world::DriveCommand next;
   next.linear = Follow(target.linear, state.actual.linear, drive_.linear_velocity,

@@ -50,7 +50,9 @@ class DriveKinematics {
     return {moves.linear, moves.lateral - moves.angular * reference_x_, moves.angular};
   }
 
-  bool can_turn_on_the_spot() const { return drive_.kind != model::DriveKind::kAckermann; }
+  bool can_turn_on_the_spot() const {
+    return drive_.kind != model::DriveKind::kAckermann && drive_.kind != model::DriveKind::kNone;
+  }
   // May slide along what it runs into.
   bool can_move_sideways() const {
     return drive_.kind == model::DriveKind::kMecanum || drive_.kind == model::DriveKind::kVelocity;

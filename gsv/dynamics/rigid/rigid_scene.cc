@@ -83,7 +83,7 @@ base::Status RigidScene::AddRigid(int index) {
   for (const Part& part : rigid.articulation.parts) {
     rigid.solids.push_back(SolidOf(part, *body.model, index, shapes_));
   }
-  if (body.model->drive) {
+  if (body.model->drive && body.model->drive->kind != model::DriveKind::kNone) {
     auto kinematics = DriveKinematics::Create(*body.model);
     if (!kinematics) return base::Fail(kinematics.error());
     rigid.kinematics = *std::move(kinematics);

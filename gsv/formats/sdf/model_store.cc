@@ -5,10 +5,11 @@
 #include <sdf/Root.hh>
 
 #include "gsv/formats/sdf/include_scan.h"
+#include "gsv/formats/sdf/ros2_control.h"
 #include "gsv/formats/sdf/sdf_document.h"
-#include "gsv/formats/sdf/sdf_drive.h"
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/urdf_text.h"
+#include "gsv/model/drive_guess.h"
 
 namespace gsv::formats {
 namespace {
@@ -53,7 +54,7 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
     auto text = UrdfText(*xml);
     if (!text) return Fail(text.error());
     auto robot = FromText(*text, file, {}, std::move(stored));
-    if (robot) AddGuessedDrive(*robot);
+    if (robot) Complete(*xml->root, file, true, *robot);
     return robot;
   }
   XMLElement* content = xml->root->FirstChildElement("model");
@@ -73,17 +74,23 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   printer.Text("<sdf version='" + xml->version + "'>");
   printer.Element(*content);
   printer.Text("</sdf>");
-  return FromText(printer.Take(), file, includes.files(), std::move(stored));
+  auto read = FromText(printer.Take(), file, includes.files(), std::move(stored));
+  if (read) Complete(*content, file, false, *read);
+  return read;
 }
 
-void ModelStore::AddGuessedDrive(StoredFile& stored) {
-  const auto& model = stored.framed.model;
-  if (model == nullptr || model->drive) return;
-  auto drive = GuessDifferentialDrive(*model);
-  if (!drive) return;
-  auto driven = std::make_shared<model::Model>(*model);
-  driven->drive = std::move(drive);
-  stored.framed.model = std::move(driven);
+void ModelStore::Complete(const XMLElement& element, const std::filesystem::path& file,
+                          bool is_robot, StoredFile& stored) {
+  if (stored.framed.model == nullptr) return;
+  model::Model model = *stored.framed.model;
+  model.control_systems = ReadControlSystems(element, file, model, stored.problems);
+  if (is_robot && !model.drive) {
+    if (auto drive = model::GuessDrive(model); drive.kind != model::DriveKind::kNone) {
+      model.drive = std::move(drive);
+    }
+  }
+  if (model.control_systems.empty() && !model.drive) return;
+  stored.framed.model = std::make_shared<const model::Model>(std::move(model));
 }
 
 base::Result<StoredFile> ModelStore::FromText(

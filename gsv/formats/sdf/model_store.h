@@ -48,7 +48,9 @@ class ModelStore {
 
  private:
   base::Result<StoredFile> ReadFresh(const std::filesystem::path& file, const std::string& plugins);
-  static void AddGuessedDrive(StoredFile& stored);
+  // Adds what libsdformat does not read: <ros2_control>, and a robot description's guessed drive.
+  static void Complete(const tinyxml2::XMLElement& element, const std::filesystem::path& file,
+                       bool is_robot, StoredFile& stored);
   base::Result<StoredFile> FromText(const std::string& text, const std::filesystem::path& file,
                                     const std::map<std::string, std::filesystem::path>& includes,
                                     StoredFile stored);

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/model/drive_choice.h"
+#include "gsv/model/drive_guess.h"
 
 namespace gsv::formats {
 namespace {
@@ -58,13 +60,10 @@ class DriveReader {
       drive_.steered = Joints({"left_steering_joint", "right_steering_joint"});
     }
     if (kind == DriveKind::kSynchro) drive_.left_wheels = Joints({"wheel_joint"});
-    if (!is_complete_) return std::nullopt;
     const bool paired = kind == DriveKind::kDifferential || kind == DriveKind::kAckermann ||
                         kind == DriveKind::kMecanum;
-    if (paired && (drive_.left_wheels.empty() || drive_.right_wheels.empty())) {
-      context_.Complain("the drive names no joint of a left and of a right wheel", Place());
-      return std::nullopt;
-    }
+    const bool has_sides = !drive_.left_wheels.empty() && !drive_.right_wheels.empty();
+    if (!is_complete_ || (paired && !has_sides)) return GuessInstead();
     ReadSizes();
     ReadLimits();
     return drive_;
@@ -72,6 +71,27 @@ class DriveReader {
 
  private:
   std::string Place() const { return PlaceOf(*plugin_, context_.source); }
+
+  bool OnlySteers() const {
+    return drive_.kind == DriveKind::kAckermann && plugin_->HasElement("steering_only") &&
+           plugin_->Get<bool>("steering_only");
+  }
+
+  Drive GuessInstead() {
+    const bool only_steers = is_complete_ && OnlySteers();
+    if (is_complete_ && !only_steers) {
+      context_.Warn("the drive names no joint of a left and of a right wheel", Place());
+    }
+    drive_ = model::GuessDrive(model_);
+    if (drive_.kind != DriveKind::kNone) ReadLimits();
+    if (only_steers && drive_.kind == DriveKind::kNone) return drive_;
+    Model robot = model_;
+    robot.drive = drive_;
+    context_.Warn(std::string(only_steers ? "the plugin only steers" : "the plugin is not used") +
+                      "; the drive is " + model::DescribeDrive(robot),
+                  Place());
+    return drive_;
+  }
 
   std::vector<int> Joints(std::initializer_list<const char*> element_names) {
     std::vector<int> joints;
@@ -87,8 +107,8 @@ class DriveReader {
           continue;
         }
         is_complete_ = false;
-        context_.Complain(
-            "the drive names the joint \"" + name + "\", which the model does not have", Place());
+        context_.Warn("the drive names the joint \"" + name + "\", which the model does not have",
+                      Place());
       }
     }
     return joints;
@@ -101,8 +121,9 @@ class DriveReader {
       char* end = nullptr;
       const double value = std::strtod(text.c_str(), &end);
       if (end != text.c_str() && std::isfinite(value)) return value;
-      context_.Complain(std::string("<") + name + "> must be a number, not \"" + text + "\"",
-                        Place());
+      context_.Warn(std::string("<") + name + "> must be a number, not \"" + text +
+                        "\"; it is measured, or its default taken",
+                    Place());
     }
     return std::nullopt;
   }
@@ -111,7 +132,9 @@ class DriveReader {
     const auto value = Number(names);
     if (!value) return otherwise;
     if (*value > 0) return *value;
-    context_.Complain(std::string("<") + *names.begin() + "> must be above zero", Place());
+    context_.Warn(std::string("<") + *names.begin() +
+                      "> must be above zero; it is measured, or its default taken",
+                  Place());
     return otherwise;
   }
 
@@ -139,7 +162,8 @@ class DriveReader {
     if (max) range = {-std::abs(*max), std::abs(*max)};
     if (min) range.min = *min;
     if (range.min > range.max || range.max < 0 || range.min > 0) {
-      context_.Complain("the limits of " + what + " must have zero between them", Place());
+      context_.Warn("the limits of " + what + " must have zero between them; they are left out",
+                    Place());
       return {};
     }
     return range;
@@ -243,39 +267,6 @@ std::optional<Drive> ReadDrive(const sdf::ElementPtr& plugin, const Model& model
                            plugin->Get<std::string>("name", "").first);
   if (!kind) return std::nullopt;
   return DriveReader(plugin, model, scope, context).Read(*kind);
-}
-
-std::optional<Drive> GuessDifferentialDrive(const Model& model) {
-  constexpr double kAside = 0.99;   // cosine: how well the axis must point to the side
-  constexpr double kInLine = 0.01;  // m
-  const auto turns_freely = [](const Joint& joint) {
-    return joint.kind == model::JointKind::kContinuous ||
-           (joint.kind == model::JointKind::kRevolute && joint.position_limits.min < -1e6 &&
-            joint.position_limits.max > 1e6);
-  };
-  std::vector<int> wheels;
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& joint = model.joints[i];
-    const Vector3 axis = joint.model_from_joint.orientation * joint.axis;
-    if (turns_freely(joint) && std::abs(axis.y) > kAside) wheels.push_back(static_cast<int>(i));
-  }
-  if (wheels.size() != 2) return std::nullopt;
-  const auto place = [&](int joint) { return model.joints[joint].model_from_joint.position; };
-  if (place(wheels[0]).y < place(wheels[1]).y) std::swap(wheels[0], wheels[1]);
-  const Vector3 apart = place(wheels[0]) - place(wheels[1]);
-  if (std::abs(apart.x) > kInLine || std::abs(apart.z) > kInLine || apart.y < kInLine) {
-    return std::nullopt;
-  }
-  Drive drive;
-  drive.left_wheels = {wheels[0]};
-  drive.right_wheels = {wheels[1]};
-  drive.wheel_separation = apart.y;
-  for (const model::Collision& collision : model.links[model.joints[wheels[0]].child].collisions) {
-    if (const auto* wheel = std::get_if<geometry::Cylinder>(&collision.shape)) {
-      drive.wheel_radius = wheel->radius;
-    }
-  }
-  return drive;
 }
 
 }  // namespace gsv::formats

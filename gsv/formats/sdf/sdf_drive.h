@@ -17,13 +17,10 @@ namespace gsv::formats {
 //
 // Joints are those of `model`, named within `scope` ("" or "inner::"). Separation, radius and wheel
 // base that the file leaves out are measured: between the wheel's joints, and on the collision
-// shapes of the wheels. A joint that is not there is an error.
+// shapes of the wheels. A drive that names joints which are not there, or no wheels, is guessed
+// instead (model/drive_guess.h), with a warning. AckermannSteering with <steering_only> names no
+// wheels: they are guessed; without any the base stands still and its joints take commands.
 std::optional<model::Drive> ReadDrive(const sdf::ElementPtr& plugin, const model::Model& model,
                                       const std::string& scope, const ReadingContext& context);
-
-// Of a model without any such plugin: two wheels side by side, on joints that turn without limit
-// about one axis across the model, are a differential drive. Robot descriptions made for other
-// programs say no more than that. None for anything else.
-std::optional<model::Drive> GuessDifferentialDrive(const model::Model& model);
 
 }  // namespace gsv::formats

@@ -20,7 +20,7 @@ struct RobotToAdd {
   scenario::RobotEntry robot;
   bool is_avatar = false;
 };
-// {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar, avatar};
+// {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar, drive, avatar};
 // only the model is needed.
 FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body);
 

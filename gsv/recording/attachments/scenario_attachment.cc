@@ -22,6 +22,10 @@ bool CameWithTheWorld(const model::WorldDescription& world, const std::string& b
                      [&](const model::PlacedModel& placed) { return placed.name == body; });
 }
 
+bool HasChosenDrive(const world::Body& body) {
+  return body.model->drive && !body.model->drive->choice.empty();
+}
+
 }  // namespace
 
 scenario::Scenario ScenarioOf(const Simulation& simulation) {
@@ -49,13 +53,14 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
     if (!CameWithTheWorld(*specification.world, body.name)) {
       entry.model = body.model->source.empty() ? body.model->name : body.model->source;
       entry.start = PlaceOf(body.initial_pose);
-    } else if (entry.behaviour.empty()) {
+    } else if (entry.behaviour.empty() && !HasChosenDrive(body)) {
       continue;
     }
     const bool is_told = !entry.model.empty() && !body.is_avatar();
     if (is_told && body.is_rigid() != (body.model->movement == model::Movement::kRigid)) {
       entry.movement = body.is_rigid() ? model::Movement::kRigid : model::Movement::kPlanar;
     }
+    if (body.model->drive) entry.drive = body.model->drive->choice;
     (body.is_avatar() ? scenario.avatars : scenario.robots).push_back(std::move(entry));
   }
   return scenario;

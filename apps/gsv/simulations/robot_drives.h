@@ -1,0 +1,23 @@
+// The drives of robots whose files name none.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/model/world_description.h"
+#include "gsv/scenario/scenario.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::app {
+
+// The world with drives for those of its models that the scenario lists as robots: the one that the
+// entry chooses, else the guessed one. The same world where nothing changes.
+base::Result<std::shared_ptr<const model::WorldDescription>> WithDrives(
+    std::shared_ptr<const model::WorldDescription> world, const scenario::Scenario& scenario);
+
+// "NAME: drive: …", once for each model of a robot whose drive no file names.
+std::vector<std::string> DriveNotes(const simulation::Simulation& simulation);
+
+}  // namespace gsv::app

@@ -1,0 +1,23 @@
+// The hardware interfaces behind a robot's joints, as <ros2_control> of its file names them.
+//
+// Source  ros2_control, "Hardware components": joints with command and state interfaces.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gsv::model {
+
+struct JointInterfaces {
+  std::string joint;                        // the name of a Joint
+  std::vector<std::string> command, state;  // "position", "velocity", "effort", …
+};
+
+struct ControlSystem {
+  std::string name;
+  std::string type;      // "system", "actuator" or "sensor"
+  std::string hardware;  // the class of its hardware plugin
+  std::vector<JointInterfaces> joints;
+};
+
+}  // namespace gsv::model

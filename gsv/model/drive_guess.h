@@ -1,0 +1,28 @@
+// Guesses how a robot drives whose file names no drive, from its wheels.
+//
+// Rule    the wheels are those of FindWheels() whose axes point across the model.
+//         - A wheel on a joint about the vertical is a caster when that joint turns without end and
+//           the wheel trails it or stands beside fixed wheels; else it is steered.
+//         - Wheels that are clearly smaller than the largest, wheels in the middle between left and
+//           right, and wheels named caster are casters. Casters are not driven.
+//         - When <ros2_control> gives some of the wheels a command interface, only these are driven.
+//         - Left and right fixed wheels: a differential drive (of more than one axle: skid
+//           steering; with rollers at 45°: mecanum). With steered wheels in front of them all:
+//           Ackermann steering. Other steered wheels are held straight.
+//         - Only steered wheels, three or more: the base moves in all directions (kVelocity).
+// Measured  radius on the wheels, separation between their middles, the wheel base between steered
+//         joints and rear axle, the steering limit from the steered joints.
+#pragma once
+
+#include "gsv/model/model.h"
+
+namespace gsv::model {
+
+// Its origin is kGuessed, and its kind kNone where no rule above applies.
+Drive GuessDrive(const Model& model);
+
+// Sets separation, radius, wheel base and steering limit of a drive whose joints are set: what
+// cannot be measured is left as it is.
+void MeasureDrive(const Model& model, Drive& drive);
+
+}  // namespace gsv::model

@@ -1,0 +1,28 @@
+// Models as robots: each with its drive, made once for all robots of that model and that choice.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "gsv/base/error.h"
+#include "gsv/model/model.h"
+
+namespace gsv::simulation {
+
+class RobotModels {
+ public:
+  // As model::AsRobot(). A person steers an avatar: without a drive it takes any velocity.
+  base::Result<std::shared_ptr<const model::Model>> Find(
+      const std::shared_ptr<const model::Model>& model, const std::string& drive, bool is_avatar);
+
+ private:
+  struct Entry {
+    std::shared_ptr<const model::Model> model, robot;
+  };
+  // By the address of the model, which the entry keeps alive, and the choice: looked up only.
+  std::map<std::pair<const model::Model*, std::string>, Entry> robots_;
+};
+
+}  // namespace gsv::simulation
