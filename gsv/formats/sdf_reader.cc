@@ -8,6 +8,7 @@
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/model_store.h"
 #include "gsv/formats/sdf/world_reader.h"
+#include "gsv/formats/xacro/arguments.h"
 
 namespace gsv::formats {
 namespace {
@@ -27,6 +28,10 @@ bool HasPlaneToCollideWith(const Model& model) {
 
 base::Result<fs::path> FileAt(const fs::path& path) {
   std::error_code ignored;
+  const xacro::NamedFile named = xacro::SplitArguments(path.string());
+  if (!named.arguments.empty() && fs::exists(named.file, ignored)) {
+    return fs::path(xacro::AsPath(path.string()));
+  }
   if (fs::is_directory(path, ignored)) return ModelFileIn(path);
   if (fs::exists(path, ignored)) return path;
   return Fail(ErrorCode::kBadModel, "there is no such file", path.string());
@@ -42,7 +47,7 @@ class ModelLibrary::Reader {
     const base::MutexLock lock(mutex_);
     auto file = FileAt(path);
     if (!file) return Fail(file.error());
-    auto xml = ReadXml(*file, store_.limits(), problems);
+    auto xml = ReadXml(*file, store_.finder(), store_.limits(), problems);
     if (!xml) return Fail(xml.error());
     if (xml->root->FirstChildElement("world") != nullptr) {
       return formats::ReadWorld(*xml, store_, problems);
@@ -64,7 +69,7 @@ class ModelLibrary::Reader {
       GSV_REQUIRES(mutex_) {
     std::error_code ignored;
     if (name.empty()) return Fail(ErrorCode::kBadModel, "the name of a model is empty");
-    if (fs::exists(name, ignored)) return FileAt(name);
+    if (fs::exists(xacro::FilePart(name), ignored)) return FileAt(name);
     const bool has_scheme = name.find("://") != std::string::npos;
     auto found = store_.finder().Find(has_scheme ? name : "model://" + name, named_in);
     if (!found) {

@@ -431,11 +431,33 @@ TEST_F(SdfReaderTest, ReadsUrdfWithItsFixedJointsLumped) {
   EXPECT_EQ((*model)->links[0].inertial.mass, 2);
   EXPECT_EQ((*model)->joints.at(0).kind, model::JointKind::kContinuous);
   ExpectNear((*model)->joints[0].model_from_joint.position, {0, 0.5, 0});
+}
 
-  folder_.Write("macro.urdf", "<robot name='r' xmlns:xacro='x'>\n<xacro:macro name='m'/></robot>");
-  const auto macro = ModelLibrary().ReadModel((folder_.path() / "macro.urdf").string(), problems_);
-  ASSERT_FALSE(macro.has_value());
-  EXPECT_THAT(macro.error().Sentence(), HasSubstr("macro.urdf:2: <xacro:macro> needs xacro"));
+TEST_F(SdfReaderTest, ExpandsXacroWithTheArgumentsInItsName) {
+  const std::string file = folder_
+                               .Write("robot.urdf.xacro", R"(<?xml version='1.0'?>
+<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>
+<xacro:arg name='mass' default='2'/>
+<xacro:macro name='part' params='name'>
+<link name='${name}'><inertial><mass value='$(arg mass)'/>
+<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>
+</xacro:macro>
+<xacro:part name='base'/>
+</robot>)")
+                               .string();
+  ModelLibrary library;
+  const auto plain = library.ReadModel(file, problems_);
+  ASSERT_TRUE(plain.has_value()) << plain.error().Sentence();
+  EXPECT_EQ((*plain)->links.at(0).inertial.mass, 2);
+  const auto heavy = library.ReadModel(file + "?mass=5", problems_);
+  ASSERT_TRUE(heavy.has_value()) << heavy.error().Sentence();
+  EXPECT_EQ((*heavy)->links.at(0).inertial.mass, 5);
+  EXPECT_EQ((*heavy)->source, file + "?mass=5");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  const auto broken = library.ReadModel(
+      folder_.Write("broken.xacro", "<robot name='r'>\n<xacro:none/></robot>").string(), problems_);
+  ASSERT_FALSE(broken.has_value());
+  EXPECT_THAT(broken.error().Sentence(), HasSubstr("broken.xacro:2: there is no macro \"none\""));
 }
 
 TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {

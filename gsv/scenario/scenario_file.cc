@@ -7,6 +7,7 @@
 
 #include <yaml-cpp/eventhandler.h>
 
+#include "gsv/formats/xacro/arguments.h"
 #include "gsv/scenario/scenario_keys.h"
 
 namespace gsv::scenario {
@@ -78,9 +79,11 @@ std::optional<std::size_t> LineWithControlCharacter(const std::string& text) {
 // Seen from the file's folder, if it is there.
 std::string SeenFrom(const std::filesystem::path& folder, const std::string& name) {
   std::error_code ignored;
-  const std::filesystem::path path = folder / name;
+  const std::string file = formats::xacro::FilePart(name);
+  const std::filesystem::path path = folder / file;
   if (name.empty() || !std::filesystem::exists(path, ignored)) return name;
-  return std::filesystem::absolute(path, ignored).lexically_normal().string();
+  return std::filesystem::absolute(path, ignored).lexically_normal().string() +
+         name.substr(file.size());
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "gsv/formats/xacro/arguments.h"
+
 namespace gsv::app {
 
 namespace fs = std::filesystem;
@@ -30,7 +32,7 @@ std::vector<std::string> OurWorlds() {
 
 base::Result<std::string> FindWorld(const std::string& world) {
   std::error_code ignored;
-  if (fs::exists(world, ignored) || world.find('/') != std::string::npos) return world;
+  if (fs::exists(formats::xacro::FilePart(world), ignored) || world.find('/') != std::string::npos) return world;
   for (const char* suffix : {".sdf", ""}) {
     const fs::path ours = ShareFolder() / "worlds" / (world + suffix);
     if (fs::is_regular_file(ours, ignored)) return ours;

@@ -7,6 +7,7 @@
 
 #include "apps/gsv/simulations/in_process.h"
 #include "apps/gsv/simulations/population.h"
+#include "gsv/formats/xacro/arguments.h"
 #include "gsv/recording/attachments/scenario_attachment.h"
 
 namespace gsv::app {
@@ -17,8 +18,10 @@ using simulation::Simulation;
 // What is there under this name stays what it is from another folder.
 std::string Whole(const std::string& name) {
   std::error_code ignored;
-  if (name.empty() || !std::filesystem::exists(name, ignored)) return name;
-  return std::filesystem::absolute(name, ignored).lexically_normal().string();
+  const std::string file = formats::xacro::FilePart(name);
+  if (name.empty() || !std::filesystem::exists(file, ignored)) return name;
+  return std::filesystem::absolute(file, ignored).lexically_normal().string() +
+         name.substr(file.size());
 }
 
 // What --movement says goes over what the scenario says.

@@ -34,6 +34,7 @@ class ResourceFinder {
   // `naming_file` is the file in which the name stands; empty: the current folder.
   base::Result<std::filesystem::path> Find(std::string_view name,
                                            const std::filesystem::path& naming_file = {}) const;
+  bool allows_absolute_paths() const { return allow_absolute_paths_; }
 
  private:
   std::vector<std::filesystem::path> FoldersFor(const std::filesystem::path& naming_file) const;

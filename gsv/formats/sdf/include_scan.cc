@@ -82,7 +82,7 @@ base::Status IncludeScan::Enter(const fs::path& file) {
   }
   if (!done_.emplace(path, true).second) return {};
   base::Problems ignored;  // libsdformat reads the file and says what is wrong with it
-  auto xml = ReadXml(path, limits_, ignored);
+  auto xml = ReadXml(path, finder_, limits_, ignored);
   if (!xml) return Fail(xml.error());
   open_.push_back(path);
   auto status = Visit(*xml->root, path);

@@ -48,7 +48,7 @@ base::Result<std::shared_ptr<const StoredFile>> ModelStore::Read(const std::file
 base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file,
                                                const std::string& plugins) {
   StoredFile stored;
-  auto xml = ReadXml(file, limits_, stored.problems);
+  auto xml = ReadXml(file, finder_, limits_, stored.problems);
   if (!xml) return Fail(xml.error());
   if (xml->dialect == XmlDialect::kUrdf) {
     auto text = UrdfText(*xml);

@@ -7,6 +7,9 @@
 #include <set>
 #include <system_error>
 
+#include "gsv/formats/xacro/arguments.h"
+#include "gsv/formats/xacro/xacro.h"
+
 namespace gsv::formats {
 namespace {
 
@@ -103,8 +106,10 @@ std::string PlaceOf(const std::filesystem::path& file, const XMLNode& node) {
   return file.string() + ":" + std::to_string(node.GetLineNum());
 }
 
-base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ReadLimits& limits,
-                              base::Problems& problems) {
+base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const ResourceFinder& finder,
+                              const ReadLimits& limits, base::Problems& problems) {
+  const auto [name, arguments] = xacro::SplitArguments(named.string());
+  const std::filesystem::path path(name);
   auto text = ReadText(path, limits.xml_bytes);
   if (!text) return Fail(text.error());
   if (ByteOrderMark(*text)) text->erase(0, 3);
@@ -118,6 +123,12 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ReadLimit
                 path.string() + ":" + std::to_string(file.document->ErrorLineNum()));
   }
   file.root = file.document->RootElement();
+  if (file.root != nullptr && xacro::NeedsExpansion(*file.root, path)) {
+    const auto expanded = xacro::Expand(*file.root, path, {finder, limits, arguments}, problems);
+    if (!expanded) return Fail(expanded.error());
+    file.document->Parse(expanded->data(), expanded->size());
+    file.root = file.document->RootElement();
+  }
   const std::string root = file.root == nullptr ? "" : file.root->Name();
   if (root == "gazebo") {
     return Fail(ErrorCode::kBadModel,

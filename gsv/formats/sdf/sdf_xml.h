@@ -9,6 +9,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/formats/files/read_limits.h"
+#include "gsv/formats/files/resource_finder.h"
 
 namespace gsv::formats {
 
@@ -23,9 +24,10 @@ struct XmlFile {
 };
 
 // Reads and checks the frame of a file: its size, its XML, its root and version. What a newer
-// version than 1.9 brings is named in a warning.
-base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ReadLimits& limits,
-                              base::Problems& problems);
+// version than 1.9 brings is named in a warning. A xacro file is expanded (xacro/xacro.h); its
+// arguments may stand in the path (xacro/arguments.h).
+base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ResourceFinder& finder,
+                              const ReadLimits& limits, base::Problems& problems);
 
 // "file:line" of an element.
 std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);

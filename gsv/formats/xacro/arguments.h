@@ -1,0 +1,26 @@
+// Arguments in the name of a xacro file: "robot.urdf.xacro?arm=true&prefix=left_".
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace gsv::formats::xacro {
+
+struct NamedFile {
+  std::string file;
+  std::map<std::string, std::string> arguments;  // empty for any file that is no xacro file
+};
+
+// The name without its arguments.
+inline std::string FilePart(const std::string& name) {
+  const std::size_t at = name.find(".xacro?");
+  return at == std::string::npos ? name : name.substr(0, at + 6);
+}
+
+// Arguments are separated by "&"; %20 and its like are decoded.
+NamedFile SplitArguments(const std::string& name);
+
+// The same name with slashes in its arguments written as %2F: it is a path in one folder then.
+std::string AsPath(const std::string& name);
+
+}  // namespace gsv::formats::xacro

@@ -1,0 +1,27 @@
+// Evaluates xacro's expressions in a sandbox: no file, no clock, no environment, bounded results.
+//
+// Errors  kBadModel with what is wrong (a name that is not defined, a type that does not fit, a
+//         division by zero, a function that is not supported); the place is the caller's to add.
+// Differs from Python in that integers beyond 64 bits are errors.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/xacro/value.h"
+
+namespace gsv::formats::xacro {
+
+// The part of the file around an expression that the expression may see.
+struct Surroundings {
+  // A property's value, or none if there is no such property.
+  std::function<base::Result<std::optional<Value>>(const std::string& name)> property;
+  // The content of a YAML file, and the value of an argument; may be empty.
+  std::function<base::Result<Value>(const std::string& file)> load_yaml;
+  std::function<base::Result<Value>(const std::string& name)> argument;
+};
+
+base::Result<Value> Evaluate(const std::string& expression, const Surroundings& surroundings);
+
+}  // namespace gsv::formats::xacro

@@ -1,0 +1,505 @@
+#include "gsv/formats/xacro/expander.h"
+
+#include <algorithm>
+
+namespace gsv::formats::xacro {
+namespace {
+
+constexpr int kMaxSteps = 1'000'000;
+constexpr int kMaxLevels = 500;
+constexpr std::size_t kLongestMessage = 600;
+
+tl::unexpected<base::Error> Unfit(const std::string& why) {
+  return base::Fail(base::ErrorCode::kBadModel, why);
+}
+
+std::string WithoutPrefix(const std::string& name) {
+  return name.starts_with("xacro:") ? name.substr(6) : name;
+}
+
+bool IsIdentifier(const std::string& name) {
+  return !name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) == 0 &&
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c >= 0x80; });
+}
+
+// Elements of robot descriptions that no macro can stand for without the prefix.
+bool IsOfUrdf(const std::string& name) {
+  for (const char* known :
+       {"link",   "joint",    "visual",   "collision", "inertial",     "inertia",
+        "mass",   "origin",   "geometry", "mesh",      "box",          "cylinder",
+        "sphere", "material", "color",    "parent",    "child",        "axis",
+        "limit",  "gazebo",   "plugin",   "sensor",    "transmission", "robot"}) {
+    if (name == known) return true;
+  }
+  return false;
+}
+
+void SetAttribute(Node& node, const std::string& name, const std::string& value) {
+  for (auto& attribute : node.attributes) {
+    if (attribute.first != name) continue;
+    attribute.second = value;
+    return;
+  }
+  node.attributes.emplace_back(name, value);
+}
+
+std::string Stripped(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+// Counts the levels of what is being expanded.
+class Level {
+ public:
+  explicit Level(int& levels) : levels_(levels) { ++levels_; }
+  ~Level() { --levels_; }
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
+
+ private:
+  int& levels_;
+};
+
+}  // namespace
+
+Expander::Expander(const ExpandOptions& options, base::Problems& problems)
+    : problems_(problems),
+      files_(options.finder, options.limits),
+      arguments_(options.arguments),
+      resolve_([this](const std::string& text, const Node& at, Scope& scope) {
+        return Evaluate(text, at, scope);
+      }),
+      main_(nullptr, nullptr, resolve_),
+      most_included_(options.limits.include_depth) {}
+
+base::Result<NodePtr> Expander::Run(const NodePtr& root) {
+  takes_plain_names_ = root->text == "robot";
+  Node document;
+  Context context{main_.scope, main_, 0, most_included_};
+  auto status = Plain(root->text, *root, document, context);
+  if (!status && status.error().where.empty()) status.error().where = root->place();
+  if (!status) return base::Fail(status.error());
+  return document.children.front();
+}
+
+base::Status Expander::Children(const Node& of, Node& parent, Context& context) {
+  for (const NodePtr& child : of.children) {
+    if (auto ok = One(child, parent, context); !ok) return ok;
+  }
+  return {};
+}
+
+base::Status Expander::One(const NodePtr& node, Node& parent, Context& context) {
+  const Level level(levels_);
+  base::Status status;
+  if (++steps_ > kMaxSteps) {
+    status = Unfit("the file takes more than " + std::to_string(kMaxSteps) + " steps to expand");
+  } else if (levels_ > kMaxLevels) {
+    status = Unfit("macros and elements are nested deeper than " + std::to_string(kMaxLevels));
+  } else if (node->is_element) {
+    status = Element(node, parent, context);
+  } else if (const auto text = TextOf(node->text, *node, context.scope)) {
+    auto leaf = std::make_shared<Node>(*node);
+    leaf->text = *text;
+    parent.children.push_back(std::move(leaf));
+  } else {
+    status = base::Fail(text.error());
+  }
+  if (!status && status.error().where.empty()) status.error().where = node->place();
+  return status;
+}
+
+Expander::Handler Expander::HandlerOf(const Node& node, bool takes_plain_names) {
+  struct Known {
+    const char* name;
+    Handler handler;
+    std::vector<const char*> attributes;  // that it has when it is written without the prefix
+  };
+  static const std::vector<Known> kKnown{
+      {"property", &Expander::OnProperty, {"name", "value"}},
+      {"macro", &Expander::OnMacro, {"name"}},
+      {"arg", &Expander::OnArgument, {"name", "default"}},
+      {"include", &Expander::OnInclude, {"filename"}},
+      {"if", &Expander::OnCondition, {"value"}},
+      {"unless", &Expander::OnCondition, {"value"}},
+      {"insert_block", &Expander::OnInsertBlock, {"name"}},
+      {"call", &Expander::OnCall, {"xacro:"}},
+      {"element", &Expander::OnElement, {"xacro:"}},
+      {"attribute", &Expander::OnAttribute, {"xacro:"}},
+  };
+  const bool is_prefixed = node.text.starts_with("xacro:");
+  if (!is_prefixed && !takes_plain_names) return nullptr;
+  const std::string name = WithoutPrefix(node.text);
+  for (const Known& known : kKnown) {
+    if (name != known.name) continue;
+    const bool is_meant =
+        std::all_of(known.attributes.begin(), known.attributes.end(),
+                    [&](const char* each) { return node.attribute(each) != nullptr; }) &&
+        !(name == "include" && !node.children.empty());
+    if (is_prefixed || is_meant) return known.handler;
+  }
+  return nullptr;
+}
+
+base::Status Expander::Element(const NodePtr& node, Node& parent, Context& context) {
+  const bool is_prefixed = node->text.starts_with("xacro:");
+  const std::string name = WithoutPrefix(node->text);
+  // As xacro has it, a macro named "call" hides the element.
+  if (is_prefixed || (takes_plain_names_ && !IsOfUrdf(name))) {
+    const auto [macro, home] = context.space.FindMacro(name);
+    const bool is_call = macro != nullptr && (is_prefixed || LooksLikeCall(*node, *macro));
+    if (is_call) return CallMacro(*macro, *home, node, parent, context);
+  }
+  if (const Handler handler = HandlerOf(*node, takes_plain_names_)) {
+    return (this->*handler)(node, parent, context);
+  }
+  if (is_prefixed) return Unfit("there is no macro \"" + name + "\"");
+  return Plain(node->text, *node, parent, context);
+}
+
+// Without the prefix a name alone says little: <camera> in a macro "camera" is an element.
+bool Expander::LooksLikeCall(const Node& node, const Macro& macro) const {
+  if (active_.contains(macro.definition.get())) return false;
+  if (!macro.definition->text.starts_with("xacro:")) return true;
+  const auto& parameters = macro.parameters;
+  const bool fits = std::all_of(parameters.begin(), parameters.end(), [&](const Parameter& each) {
+    return each.kind != Parameter::Kind::kValue || each.otherwise || each.is_forwarded ||
+           node.attribute(each.name) != nullptr;
+  });
+  return fits && !node.attributes.empty() &&
+         std::all_of(node.attributes.begin(), node.attributes.end(), [&](const auto& given) {
+           return std::any_of(
+               parameters.begin(), parameters.end(),
+               [&](const Parameter& parameter) { return parameter.name == given.first; });
+         });
+}
+
+base::Status Expander::Plain(const std::string& name, const Node& node, Node& parent,
+                             Context& context) {
+  auto element = std::make_shared<Node>();
+  element->text = name;
+  element->file = node.file;
+  element->line = context.line > 0 ? context.line : node.line;
+  for (const auto& [key, value] : node.attributes) {
+    if (key.starts_with("xmlns") || key.starts_with("xacro:")) continue;
+    const auto text = TextOf(value, node, context.scope);
+    if (!text) return base::Fail(text.error());
+    element->attributes.emplace_back(key, *text);
+  }
+  auto status = Children(node, *element, context);
+  parent.children.push_back(std::move(element));
+  return status;
+}
+
+base::Status Expander::OnProperty(const NodePtr& node, Node&, Context& context) {
+  Scope& scope = context.scope;
+  const auto name = Needed(*node, "name", scope);
+  if (!name) return base::Fail(name.error());
+  if (!IsIdentifier(*name)) return Unfit("\"" + *name + "\" cannot be the name of a property");
+  const auto removes = FlagOf(*node, "remove", false, scope);
+  if (!removes) return base::Fail(removes.error());
+  if (*removes) {
+    scope.Remove(*name);
+    return {};
+  }
+  const std::string* value = node->attribute("value");
+  if (value == nullptr && node->attribute("default") != nullptr) {
+    if (scope.Has(*name)) return {};
+    value = node->attribute("default");
+  }
+  const std::string reach = node->attribute("scope") == nullptr ? "" : *node->attribute("scope");
+  if (reach != "" && reach != "parent" && reach != "global" && reach != "local") {
+    return Unfit("the scope of a property is parent or global, not \"" + reach + "\"");
+  }
+  Scope* target = &scope;
+  if (reach == "global") target = &scope.outermost();
+  if (reach == "parent" && scope.parent() != nullptr) target = scope.parent();
+  if (value == nullptr) {
+    target->SetBlock(*name, {node->children, false});
+    return {};
+  }
+  const auto lazy = FlagOf(*node, "lazy_eval", true, scope);
+  if (!lazy) return base::Fail(lazy.error());
+  if (*lazy && target == &scope && reach != "global") {
+    target->Set(*name, {*value}, node, true);
+    return {};
+  }
+  const auto evaluated = Evaluate(*value, *node, scope);
+  if (!evaluated) return base::Fail(evaluated.error());
+  target->Set(*name, *evaluated, node, false);
+  return {};
+}
+
+base::Status Expander::OnMacro(const NodePtr& node, Node&, Context& context) {
+  const std::string* name = node->attribute("name");
+  if (name == nullptr || name->empty()) return Unfit("the macro has no name");
+  const std::string* parameters = node->attribute("params");
+  context.space.macros[WithoutPrefix(*name)] = {
+      node, parameters == nullptr ? std::vector<Parameter>() : ParseParameters(*parameters)};
+  return {};
+}
+
+base::Status Expander::OnArgument(const NodePtr& node, Node&, Context& context) {
+  const auto name = Needed(*node, "name", context.scope);
+  if (!name) return base::Fail(name.error());
+  const std::string* otherwise = node->attribute("default");
+  if (arguments_.contains(*name) || otherwise == nullptr) return {};
+  const auto value = TextOf(*otherwise, *node, context.scope);
+  if (!value) return base::Fail(value.error());
+  arguments_[*name] = *value;
+  return {};
+}
+
+base::Status Expander::OnInclude(const NodePtr& node, Node& parent, Context& context) {
+  const auto name = Needed(*node, "filename", context.scope);
+  if (!name) return base::Fail(name.error());
+  const auto is_optional = FlagOf(*node, "optional", false, context.scope);
+  if (!is_optional) return base::Fail(is_optional.error());
+  if (name->find_first_of("*?[") != std::string::npos) {
+    return Unfit("the pattern \"" + *name + "\" is not supported; include the files one by one");
+  }
+  if (context.includes_left <= 0) {
+    return Unfit("files include each other deeper than " + std::to_string(most_included_));
+  }
+  const auto root = files_.ReadIncluded(*name, *node->file);
+  if (!root) {
+    if (!*is_optional) return base::Fail(root.error());
+    problems_.push_back({base::Problem::Severity::kWarning,
+                         "the optional file is left out: " + root.error().message, node->place()});
+    return {};
+  }
+  Space* space = &context.space;
+  Scope* scope = &context.scope;
+  if (const std::string* written = node->attribute("ns")) {
+    const auto spelled = TextOf(*written, *node, context.scope);
+    if (!spelled) return base::Fail(spelled.error());
+    auto& named = context.space.spaces[*spelled];
+    named = std::make_unique<Space>(&context.space, &context.scope, resolve_);
+    space = named.get();
+    scope = &named->scope;
+    context.scope.Set(*spelled, {static_cast<const Names*>(scope)}, node, false);
+  }
+  Context inner{*scope, *space, context.line > 0 ? context.line : node->line,
+                context.includes_left - 1};
+  return Children(**root, parent, inner);
+}
+
+base::Status Expander::OnCondition(const NodePtr& node, Node& parent, Context& context) {
+  const std::string* text = node->attribute("value");
+  if (text == nullptr) return Unfit("the condition has no value");
+  const auto value = Evaluate(*text, *node, context.scope);
+  if (!value) return base::Fail(value.error());
+  const auto condition = ConditionOf(*value);
+  if (!condition) {
+    return Unfit("the condition \"" + *text + "\" gives \"" + ToText(*value) +
+                 "\", which is neither true nor false");
+  }
+  const bool keeps = *condition != (WithoutPrefix(node->text) == "unless");
+  return keeps ? Children(*node, parent, context) : base::Status();
+}
+
+base::Status Expander::OnInsertBlock(const NodePtr& node, Node& parent, Context& context) {
+  const auto name = Needed(*node, "name", context.scope);
+  if (!name) return base::Fail(name.error());
+  const Block* const found = context.scope.FindBlock(*name);
+  if (found == nullptr) return Unfit("there is no block \"" + *name + "\"");
+  const Block block = *found;  // what is expanded may define another of that name
+  if (block.is_expanded) {
+    steps_ += static_cast<int>(block.nodes.size());
+    parent.children.insert(parent.children.end(), block.nodes.begin(), block.nodes.end());
+    return {};
+  }
+  Node holder;
+  holder.children = block.nodes;
+  return Children(holder, parent, context);
+}
+
+base::Status Expander::OnCall(const NodePtr& node, Node& parent, Context& context) {
+  const auto name = Needed(*node, "macro", context.scope);
+  if (!name) return base::Fail(name.error());
+  const auto [macro, home] = context.space.FindMacro(WithoutPrefix(*name));
+  if (macro == nullptr) return Unfit("there is no macro \"" + *name + "\"");
+  auto call = std::make_shared<Node>(*node);
+  std::erase_if(call->attributes, [](const auto& each) { return each.first == "macro"; });
+  return CallMacro(*macro, *home, call, parent, context);
+}
+
+base::Status Expander::OnElement(const NodePtr& node, Node& parent, Context& context) {
+  const auto name = Needed(*node, "xacro:name", context.scope);
+  if (!name) return base::Fail(name.error());
+  if (!IsIdentifier(*name)) return Unfit("\"" + *name + "\" cannot be the name of an element");
+  return Plain(*name, *node, parent, context);
+}
+
+base::Status Expander::OnAttribute(const NodePtr& node, Node& parent, Context& context) {
+  const auto name = Needed(*node, "name", context.scope);
+  if (!name) return base::Fail(name.error());
+  const auto value = Needed(*node, "value", context.scope);
+  if (!value) return base::Fail(value.error());
+  if (!IsIdentifier(*name)) return Unfit("\"" + *name + "\" cannot be the name of an attribute");
+  SetAttribute(parent, *name, *value);
+  return {};
+}
+
+base::Status Expander::CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
+                                 Context& context) {
+  const NodePtr definition = macro.definition;  // the body may define the macro anew
+  Scope inner(&home == &main_ || &home == &context.space ? &context.scope : &home.scope, resolve_);
+  if (auto ok = BindValues(macro, node, context, inner); !ok) return ok;
+  if (auto ok = BindBlocks(macro, node, context, inner); !ok) return ok;
+  Context body{inner, home, context.line > 0 ? context.line : node->line, context.includes_left};
+  const bool is_outermost = active_.insert(definition.get()).second;
+  auto status = Children(*definition, parent, body);
+  if (is_outermost) active_.erase(definition.get());
+  if (!status && status.error().message.size() < kLongestMessage) {
+    status.error().message +=
+        ", in the macro " + WithoutPrefix(node->text) + " called at " + node->place();
+  }
+  return status;
+}
+
+base::Status Expander::BindValues(const Macro& macro, const NodePtr& node, Context& context,
+                                  Scope& inner) {
+  std::map<std::string, Value> given;
+  for (const auto& [name, text] : node->attributes) {
+    const bool is_taken =
+        std::any_of(macro.parameters.begin(), macro.parameters.end(), [&](const auto& parameter) {
+          return parameter.name == name && parameter.kind == Parameter::Kind::kValue;
+        });
+    if (!is_taken) return Unfit("the macro has no parameter \"" + name + "\"");
+    auto value = Evaluate(text, *node, context.scope);
+    if (!value) return base::Fail(value.error());
+    given[name] = *std::move(value);
+  }
+  for (const Parameter& parameter : macro.parameters) {
+    if (parameter.kind != Parameter::Kind::kValue) continue;
+    if (const auto it = given.find(parameter.name); it != given.end()) {
+      inner.Set(parameter.name, it->second, node, false);
+    } else if (auto ok = BindDefault(parameter, node, context, inner); !ok) {
+      return ok;
+    }
+  }
+  return {};
+}
+
+base::Status Expander::BindDefault(const Parameter& parameter, const NodePtr& node,
+                                   Context& context, Scope& inner) {
+  if (parameter.is_forwarded) {
+    const auto value = context.scope.Find(parameter.name);
+    if (!value) return base::Fail(value.error());
+    if (*value) {
+      inner.Set(parameter.name, **value, node, false);
+      return {};
+    }
+  }
+  if (!parameter.otherwise) {
+    return Unfit("the call lacks the parameter \"" + parameter.name + "\"");
+  }
+  const auto value = Evaluate(*parameter.otherwise, *node, context.scope);
+  if (!value) return base::Fail(value.error());
+  inner.Set(parameter.name, *value, node, false);
+  return {};
+}
+
+base::Status Expander::BindBlocks(const Macro& macro, const NodePtr& node, Context& context,
+                                  Scope& inner) {
+  Node holder;
+  if (auto ok = Children(*node, holder, context); !ok) return ok;
+  std::erase_if(holder.children, [](const NodePtr& child) { return !child->is_element; });
+  auto block = holder.children.begin();
+  for (const Parameter& parameter : macro.parameters) {
+    if (parameter.kind == Parameter::Kind::kValue) continue;
+    if (block == holder.children.end()) {
+      return Unfit("the call lacks an element for the block \"" + parameter.name + "\"");
+    }
+    const NodePtr element = *block++;
+    const bool is_whole = parameter.kind == Parameter::Kind::kBlock;
+    inner.SetBlock(parameter.name,
+                   {is_whole ? std::vector<NodePtr>{element} : element->children, true});
+  }
+  if (block == holder.children.end()) return {};
+  return Unfit("the macro takes no block <" + (*block)->text + ">");
+}
+
+base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, Scope& scope) {
+  if (text.find('$') == std::string::npos) return Value{text};
+  if (++steps_ > kMaxSteps) return Unfit("the file takes too many steps to expand");
+  const Level level(levels_);
+  if (levels_ > kMaxLevels) return Unfit("properties need each other too deep");
+  Surroundings surroundings;
+  surroundings.property = [&](const std::string& name) { return scope.Find(name); };
+  surroundings.load_yaml = [&](const std::string& name) { return files_.ReadYaml(name, *at.file); };
+  surroundings.argument = [&](const std::string& name) { return ArgumentNamed(name); };
+  return Substitute(text, surroundings,
+                    [&](const std::string& command) { return Command(command, at, scope); });
+}
+
+base::Result<std::string> Expander::TextOf(const std::string& text, const Node& at, Scope& scope) {
+  const auto value = Evaluate(text, at, scope);
+  if (!value) return base::Fail(value.error());
+  return ToText(*value);
+}
+
+base::Result<std::string> Expander::Needed(const Node& node, const char* name, Scope& scope) {
+  const std::string* text = node.attribute(name);
+  if (text == nullptr) return Unfit("<" + node.text + "> needs the attribute " + name);
+  auto value = TextOf(*text, node, scope);
+  if (value && value->empty() && std::string(name) != "value") {
+    return Unfit("<" + node.text + "> has an empty attribute " + name);
+  }
+  return value;
+}
+
+base::Result<bool> Expander::FlagOf(const Node& node, const char* name, bool otherwise,
+                                    Scope& scope) {
+  const std::string* text = node.attribute(name);
+  if (text == nullptr) return otherwise;
+  const auto value = Evaluate(*text, node, scope);
+  if (!value) return base::Fail(value.error());
+  const auto flag = ConditionOf(*value);
+  if (!flag) return Unfit(std::string(name) + " must be true or false, not " + ToText(*value));
+  return *flag;
+}
+
+base::Result<Value> Expander::Command(const std::string& command, const Node& at, Scope& scope) {
+  const std::size_t blank = std::min(command.find_first_of(" \t\n"), command.size());
+  const std::string name = command.substr(0, blank), rest = Stripped(command.substr(blank));
+  if (name == "arg") return ArgumentNamed(rest);
+  if (name == "find" || name == "find-pkg-share") {
+    const auto folder = files_.Package(rest, *at.file);
+    if (!folder) return base::Fail(folder.error());
+    return Value{folder->string()};
+  }
+  if (name == "dirname") return Value{at.file->parent_path().string()};
+  if (name == "eval") {
+    Surroundings surroundings;
+    surroundings.property = [&](const std::string& word) -> base::Result<std::optional<Value>> {
+      const auto argument = arguments_.find(word);
+      if (argument != arguments_.end()) return FromLiteral(argument->second);
+      return scope.Find(word);
+    };
+    surroundings.argument = [&](const std::string& word) { return ArgumentNamed(word); };
+    return xacro::Evaluate(rest, surroundings);
+  }
+  if (name == "optenv") {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    problems_.push_back({base::Problem::Severity::kWarning,
+                         "$(optenv " + rest.substr(0, end) +
+                             ") takes its default: environment variables are not read",
+                         at.place()});
+    return Value{Stripped(rest.substr(end))};
+  }
+  return Unfit("$(" + name + " …) is not supported" +
+               (name == "env" ? ": environment variables are not read; use an argument" : ""));
+}
+
+base::Result<Value> Expander::ArgumentNamed(const std::string& name) const {
+  const auto it = arguments_.find(name);
+  if (it != arguments_.end()) return Value{it->second};
+  return Unfit("the argument \"" + name + "\" has no default; give it behind the file's name, as " +
+               "robot.urdf.xacro?" + name + "=VALUE");
+}
+
+}  // namespace gsv::formats::xacro

@@ -1,0 +1,75 @@
+// Walks the elements of a xacro file and writes down what becomes of them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gsv/formats/xacro/file_access.h"
+#include "gsv/formats/xacro/scope.h"
+#include "gsv/formats/xacro/substitution.h"
+#include "gsv/formats/xacro/xacro.h"
+
+namespace gsv::formats::xacro {
+
+class Expander {
+ public:
+  Expander(const ExpandOptions& options, base::Problems& problems);
+
+  base::Result<NodePtr> Run(const NodePtr& root);
+
+ private:
+  // Where an element stands among what is being expanded.
+  struct Context {
+    Scope& scope;
+    Space& space;
+    int line = 0;           // of the call in the main file; 0: its own
+    int includes_left = 0;  // how deep files may still include others
+  };
+  using Handler = base::Status (Expander::*)(const NodePtr&, Node& parent, Context&);
+
+  base::Status Children(const Node& of, Node& parent, Context& context);
+  base::Status One(const NodePtr& node, Node& parent, Context& context);
+  base::Status Element(const NodePtr& node, Node& parent, Context& context);
+  static Handler HandlerOf(const Node& node, bool takes_plain_names);
+  bool LooksLikeCall(const Node& node, const Macro& macro) const;
+  base::Status Plain(const std::string& name, const Node& node, Node& parent, Context& context);
+
+  base::Status OnProperty(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnMacro(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnArgument(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnInclude(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnCondition(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnInsertBlock(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnCall(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnElement(const NodePtr& node, Node& parent, Context& context);
+  base::Status OnAttribute(const NodePtr& node, Node& parent, Context& context);
+
+  base::Status CallMacro(const Macro& macro, Space& home, const NodePtr& node, Node& parent,
+                         Context& context);
+  base::Status BindValues(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
+  base::Status BindDefault(const Parameter& parameter, const NodePtr& node, Context& context,
+                           Scope& inner);
+  base::Status BindBlocks(const Macro& macro, const NodePtr& node, Context& context, Scope& inner);
+
+  base::Result<Value> Evaluate(const std::string& text, const Node& at, Scope& scope);
+  base::Result<std::string> TextOf(const std::string& text, const Node& at, Scope& scope);
+  // An attribute's value; kBadModel when it is not there.
+  base::Result<std::string> Needed(const Node& node, const char* name, Scope& scope);
+  base::Result<bool> FlagOf(const Node& node, const char* name, bool otherwise, Scope& scope);
+  base::Result<Value> Command(const std::string& command, const Node& at, Scope& scope);
+  base::Result<Value> ArgumentNamed(const std::string& name) const;
+
+  base::Problems& problems_;
+  FileAccess files_;
+  std::map<std::string, std::string> arguments_;
+  const Resolve resolve_;
+  Space main_;
+  bool takes_plain_names_ = false;  // <macro> for <xacro:macro>, in descriptions of robots
+  std::set<const Node*> active_;    // definitions of the macros that are being expanded
+  int steps_ = 0, levels_ = 0, most_included_;
+};
+
+}  // namespace gsv::formats::xacro

@@ -1,0 +1,46 @@
+// The syntax of xacro's expressions: the part of Python that robot descriptions use.
+//
+// Grammar  ternary (a if b else c), or, and, not, comparisons (chained, in, not in, is), + - * / //
+//          % **, unary signs, calls, members, indices and slices, lists, tuples, dictionaries,
+//          strings, numbers, True, False, None.
+// Refused  with a sentence: lambda, comprehensions, assignments, f-strings, bit operators.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/xacro/value.h"
+
+namespace gsv::formats::xacro {
+
+struct Expression {
+  enum class Kind {
+    kLiteral,  // value
+    kName,     // text
+    kMember,   // parts[0] . text
+    kIndex,    // parts[0] [ parts[1] ]
+    kSlice,    // parts[0] [ parts[1] : parts[2] ], absent ends are null
+    kCall,     // parts[0] ( the other parts ); keywords name the last of these
+    kList,
+    kTuple,
+    kDictionary,  // key, value, key, value, …
+    kUnary,       // text: "-", "+" or "not"
+    kBinary,      // text: the operator
+    kCompare,     // parts: operands; words: the operators between them
+    kAnd,
+    kOr,
+    kTernary,  // parts: condition, then, else
+  };
+  Kind kind = Kind::kLiteral;
+  std::string text;
+  Value value;
+  std::vector<std::unique_ptr<Expression>> parts;
+  std::vector<std::string> words;
+};
+
+// kBadModel with what is wrong; the place is the caller's to add.
+base::Result<std::unique_ptr<Expression>> ParseExpression(const std::string& text);
+
+}  // namespace gsv::formats::xacro

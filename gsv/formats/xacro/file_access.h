@@ -1,0 +1,41 @@
+// The files that a xacro file may name, and no others.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/files/read_limits.h"
+#include "gsv/formats/files/resource_finder.h"
+#include "gsv/formats/xacro/node.h"
+#include "gsv/formats/xacro/value.h"
+
+namespace gsv::formats::xacro {
+
+class FileAccess {
+ public:
+  FileAccess(const ResourceFinder& finder, const ReadLimits& limits)
+      : finder_(finder), limits_(limits) {}
+
+  // The root of an included file, and the values of a YAML file; `name` stands in the file `in`.
+  base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
+  base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);
+  base::Result<std::filesystem::path> Package(const std::string& name,
+                                              const std::filesystem::path& in);
+
+ private:
+  base::Result<std::filesystem::path> Find(const std::string& name,
+                                           const std::filesystem::path& in) const;
+  bool IsInPackage(const std::filesystem::path& file) const;
+
+  const ResourceFinder& finder_;
+  const ReadLimits& limits_;
+  std::map<std::string, std::filesystem::path> packages_;
+  std::map<std::filesystem::path, NodePtr> included_;
+  std::map<std::filesystem::path, Value> yaml_;
+  std::size_t bytes_ = 0;  // read so far
+  int includes_ = 0;
+};
+
+}  // namespace gsv::formats::xacro

@@ -1,0 +1,37 @@
+// A file's elements and texts, each with the place where it stands.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tinyxml2.h>
+
+namespace gsv::formats::xacro {
+
+struct Node {
+  bool is_element = true;
+  std::string text;  // the element's name, or the text
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<std::shared_ptr<const Node>> children;
+  std::shared_ptr<const std::filesystem::path> file;
+  int line = 0;
+
+  // Null where there is none.
+  const std::string* attribute(const std::string& name) const;
+  std::string place() const;  // "file:line"
+};
+
+using NodePtr = std::shared_ptr<const Node>;
+
+// Comments are left out, and texts of blanks only.
+NodePtr ToNode(const tinyxml2::XMLElement& element,
+               const std::shared_ptr<const std::filesystem::path>& file);
+
+// XML in which each element stands on its node's line, or below where that would be going back.
+// Ends soon after `max_bytes`: nodes may share children, so that few nodes may be very long a text.
+std::string ToXml(const Node& node, std::size_t max_bytes);
+
+}  // namespace gsv::formats::xacro

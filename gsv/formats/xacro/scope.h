@@ -1,0 +1,75 @@
+// Scopes of properties, blocks and macros; each scope sees those around it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/xacro/macro.h"
+#include "gsv/formats/xacro/value.h"
+
+namespace gsv::formats::xacro {
+
+class Scope;
+
+// A property. A lazy one holds a text, which is evaluated where it was defined when it is first
+// asked for.
+struct Property {
+  Value value;
+  NodePtr defined_at;
+  bool is_lazy = false;
+  bool is_resolving = false;  // to find properties that need themselves
+};
+
+// The nodes that <xacro:insert_block> inserts.
+struct Block {
+  std::vector<NodePtr> nodes;
+  bool is_expanded = false;
+};
+
+using Resolve = std::function<base::Result<Value>(const std::string& text, const Node& at, Scope&)>;
+
+class Scope final : public Names {
+ public:
+  // `parent` outlives this scope; null: the outermost.
+  Scope(Scope* parent, const Resolve& resolve) : parent_(parent), resolve_(resolve) {}
+
+  Scope* parent() { return parent_; }
+  Scope& outermost() { return parent_ == nullptr ? *this : parent_->outermost(); }
+
+  // A text becomes a number or truth value where it is one.
+  void Set(const std::string& name, const Value& value, const NodePtr& at, bool is_lazy);
+  void Remove(const std::string& name) { properties_.erase(name); }
+  bool Has(const std::string& name) const;
+  base::Result<std::optional<Value>> Find(const std::string& name);
+  std::optional<Value> Member(const std::string& name) const override;
+
+  void SetBlock(const std::string& name, Block block) { blocks_[name] = std::move(block); }
+  const Block* FindBlock(const std::string& name) const;
+
+ private:
+  Scope* const parent_;
+  const Resolve& resolve_;
+  std::map<std::string, Property> properties_;
+  std::map<std::string, Block> blocks_;
+};
+
+// Macros, and the namespaces of included files. Members stay where they are.
+struct Space {
+  Space(Space* outer_space, Scope* outer_scope, const Resolve& resolve)
+      : outer(outer_space), scope(outer_scope, resolve) {}
+
+  // The macro of that name, such as "wheel" or "arm.gripper", and the space that it is in.
+  std::pair<const Macro*, Space*> FindMacro(const std::string& name);
+
+  Space* const outer;
+  Scope scope;
+  std::map<std::string, Macro> macros;
+  std::map<std::string, std::unique_ptr<Space>> spaces;
+};
+
+}  // namespace gsv::formats::xacro

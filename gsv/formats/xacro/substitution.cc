@@ -1,0 +1,97 @@
+#include "gsv/formats/xacro/substitution.h"
+
+namespace gsv::formats::xacro {
+namespace {
+
+constexpr std::size_t kLongestSubstitution = 1u << 20;
+constexpr int kDeepestSubstitution = 8;  // ${…} in $(…) in ${…}
+
+// Where the bracket at `open` closes, strings and inner brackets apart; npos: nowhere.
+std::size_t ClosingOf(const std::string& text, std::size_t open) {
+  const char opening = text[open], closing = opening == '{' ? '}' : ')';
+  int depth = 0;
+  char quote = 0;
+  for (std::size_t i = open; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != 0) {
+      if (c == '\\') ++i;
+      if (c == quote) quote = 0;
+    } else if (opening == '{' && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == opening) {
+      ++depth;
+    } else if (c == closing && --depth == 0) {
+      return i;
+    }
+  }
+  // An apostrophe in an expression is a mistake, and not the end of the world.
+  return quote == 0 ? std::string::npos : text.find(closing, open);
+}
+
+class Substitution {
+ public:
+  Substitution(const Surroundings& surroundings, const Command& command)
+      : surroundings_(surroundings), command_(command) {}
+
+  base::Result<Value> Of(const std::string& text, int depth) {
+    if (depth > kDeepestSubstitution) return Refuse("${…} and $(…) are nested too deep");
+    std::string joined;
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t dollar = text.find('$', at);
+      joined += text.substr(at, dollar - at);
+      if (joined.size() > kLongestSubstitution) return Refuse("a text is too long");
+      if (dollar == std::string::npos) break;
+      std::size_t bracket = text.find_first_not_of('$', dollar);
+      const bool has_bracket =
+          bracket != std::string::npos && (text[bracket] == '{' || text[bracket] == '(');
+      if (!has_bracket || bracket - dollar > 1) {
+        // One of several dollars in front of a bracket is taken away.
+        if (bracket == std::string::npos) bracket = text.size();
+        const std::size_t first = has_bracket ? dollar + 1 : dollar;
+        const std::size_t end = has_bracket ? bracket + 1 : bracket;
+        joined += text.substr(first, end - first);
+        at = end;
+        continue;
+      }
+      const std::size_t end = ClosingOf(text, bracket);
+      if (end == std::string::npos) return Refuse("a bracket does not close in \"" + text + "\"");
+      auto value = Bracket(text[bracket], text.substr(bracket + 1, end - bracket - 1), depth);
+      if (!value) return value;
+      if (dollar == 0 && end + 1 == text.size()) return value;
+      joined += ToText(*value);
+      at = end + 1;
+    }
+    return Value{joined};
+  }
+
+ private:
+  static tl::unexpected<base::Error> Refuse(const std::string& why) {
+    return base::Fail(base::ErrorCode::kBadModel, why);
+  }
+
+  base::Result<Value> Bracket(char bracket, const std::string& content, int depth) {
+    const auto inner = Of(content, depth + 1);
+    if (!inner) return inner;
+    const std::string text = ToText(*inner);
+    auto value = bracket == '{' ? Evaluate(text, surroundings_) : command_(text);
+    if (value) return value;
+    base::Error error = value.error();
+    if (error.where.empty() && error.message.find(" in ${") == std::string::npos &&
+        bracket == '{') {
+      error.message += " in ${" + text + "}";
+    }
+    return base::Fail(error);
+  }
+
+  const Surroundings& surroundings_;
+  const Command& command_;
+};
+
+}  // namespace
+
+base::Result<Value> Substitute(const std::string& text, const Surroundings& surroundings,
+                               const Command& command) {
+  return Substitution(surroundings, command).Of(text, 0);
+}
+
+}  // namespace gsv::formats::xacro

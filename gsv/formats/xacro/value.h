@@ -1,0 +1,71 @@
+// Values of xacro's expressions: those of Python that robot descriptions use.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace gsv::formats::xacro {
+
+struct Value;
+using List = std::vector<Value>;
+using Dictionary = std::vector<std::pair<Value, Value>>;  // in the order of insertion
+
+// The namespace of an included file, into which `name.member` looks.
+class Names {
+ public:
+  virtual ~Names() = default;
+  virtual std::optional<Value> Member(const std::string& name) const = 0;
+};
+
+struct Tuple {
+  std::shared_ptr<const List> items;
+};
+
+struct Value {
+  using Content = std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                               std::shared_ptr<const List>, Tuple,
+                               std::shared_ptr<const Dictionary>, const Names*>;
+  Content content;  // monostate is None
+
+  template <typename T>
+  const T* as() const {
+    return std::get_if<T>(&content);
+  }
+  // Of a list or tuple; else null.
+  const List* items() const;
+  const Dictionary* dictionary() const;
+  bool is_number() const;  // bool, int or float
+};
+
+Value MakeList(List items);
+Value MakeTuple(List items);
+Value MakeDictionary(Dictionary entries);
+
+// "int", "str", … for messages.
+const char* TypeName(const Value& value);
+
+// As Python's str(): floats as the shortest text that reads back as the same number.
+std::string ToText(const Value& value);
+std::string FloatText(double value);
+
+bool IsTrue(const Value& value);
+// As Python's ==: numbers by value, other types differ.
+bool AreEqual(const Value& a, const Value& b);
+
+// A property's or a parameter's text as a number or truth value where it is one: "2" is 2, "2.0" a
+// float, "true" a bool. A text in single quotes loses them; one with "_" stays a text.
+Value FromLiteral(const std::string& text);
+
+// Python's int() and float() of a text; none where that would fail.
+std::optional<std::int64_t> ParseInteger(const std::string& text);
+std::optional<double> ParseFloat(const std::string& text);
+
+// The truth value of a condition as <xacro:if> takes it; none if it is neither true nor false.
+std::optional<bool> ConditionOf(const Value& value);
+
+}  // namespace gsv::formats::xacro

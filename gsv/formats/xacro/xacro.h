@@ -1,0 +1,44 @@
+// Expands xacro files: macros, properties, conditions, includes and expressions become plain XML.
+//
+// Supported  property (value, default, remove, scope parent and global, lazy_eval; blocks), macro
+//            with parameters (defaults, ^ forwarding, *block, **block), calls of macros and of
+//            xacro:call, insert_block, include (relative, $(find package), ns, optional), if, unless,
+//            arg, element, attribute; $(arg), $(find), $(eval), $(dirname), $(optenv) by its default;
+//            xacro.load_yaml. The old form without the prefix "xacro:" as well.
+// Refused    $(env), $(anon), $(cwd), patterns in the names of included files, and what
+//            expression_parser.h and operators.h do not know: with a sentence, file and line.
+// Limits     1,000,000 steps, 500 levels, 512 includes; sizes and depth as of ReadLimits.
+// Source     the behaviour of ros/xacro, processing in order.
+// Threads    may run concurrently. Nothing but the files read decides on the outcome.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include <tinyxml2.h>
+
+#include "gsv/base/error.h"
+#include "gsv/formats/files/read_limits.h"
+#include "gsv/formats/files/resource_finder.h"
+
+namespace gsv::formats::xacro {
+
+// Whether a file is to be expanded: it is named so, or has elements of xacro other than properties
+// and arguments with literal values.
+bool NeedsExpansion(const tinyxml2::XMLElement& root, const std::filesystem::path& file);
+
+struct ExpandOptions {
+  const ResourceFinder& finder;
+  const ReadLimits& limits;
+  std::map<std::string, std::string> arguments;  // over the defaults of <xacro:arg>
+};
+
+// Returns XML in which an element stands on the line of `file` that it came from. An element of a
+// macro or of an included file stands on the line of the call. kBadModel with file and line
+// otherwise.
+base::Result<std::string> Expand(const tinyxml2::XMLElement& root,
+                                 const std::filesystem::path& file, const ExpandOptions& options,
+                                 base::Problems& problems);
+
+}  // namespace gsv::formats::xacro
