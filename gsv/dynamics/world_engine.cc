@@ -5,6 +5,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/dynamics/motion/attached_layout.h"
+#include "gsv/dynamics/people/actor_mover.h"
 #include "gsv/dynamics/planar/planar_joints.h"
 #include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/planar/planar_pushes.h"
@@ -35,6 +36,7 @@ class WorldEngine final : public Engine {
     if (rigid_->has_bodies()) {
       MoveAll(step, state, contacts);
     } else {
+      actors_.Move(step, state, nullptr);
       planar_->Step(step, state, contacts);
     }
     MovePlanarJoints(*layout_, base::ToSeconds(step), state);
@@ -59,6 +61,7 @@ class WorldEngine final : public Engine {
   base::Status UseLayout(std::shared_ptr<const world::Layout> layout) {
     if (auto ok = planar_->SetLayout(layout); !ok) return ok;
     layout_ = layout;
+    actors_.SetLayout(layout);
     if (auto ok = pushes_.SetLayout(layout); !ok) return ok;
     return rigid_->SetLayout(std::move(layout));
   }
@@ -68,10 +71,12 @@ class WorldEngine final : public Engine {
     if (auto layout = attached_.TakeChanged()) GSV_CHECK(UseLayout(std::move(layout)));
   }
 
-  // Planar bodies move first, past rigid ones that stand still. Where that stopped any, they push,
+  // Actors move first: they make way for nobody. Of the others, planar bodies move
+  // first, past rigid ones that stand still. Where that stopped any, they push,
   // and are moved once more past the rigid bodies as they are then.
   void MoveAll(base::SimTime step, world::State& state, std::vector<world::Contact>& contacts) {
     before_ = state;
+    actors_.Move(step, state, &before_);
     planar_->Step(step, state, contacts);
     const std::span<Push> pushes = pushes_.Find(step, before_, state, contacts);
     rigid_->Step(step, before_, pushes, state, rigid_contacts_);
@@ -121,6 +126,7 @@ class WorldEngine final : public Engine {
 
   AttachedLayout attached_;
   std::shared_ptr<const world::Layout> layout_;  // with what is attached
+  ActorMover actors_;
   std::unique_ptr<PlanarMover> planar_;
   std::unique_ptr<RigidEngine> rigid_;
   PlanarPushes pushes_;

@@ -9,6 +9,7 @@
 #include "gsv/formats/sdf/model_store.h"
 #include "gsv/formats/sdf/world_reader.h"
 #include "gsv/formats/xacro/arguments.h"
+#include "gsv/model/script.h"
 
 namespace gsv::formats {
 namespace {
@@ -111,7 +112,9 @@ class ModelLibrary::Reader {
     for (const model::PlacedModel& other : world->models) {
       if (other.name == name) name += "_1";
     }
-    world->models.push_back({name, *model, (*model)->default_pose, (*model)->is_static});
+    const auto& script = (*model)->script;
+    const geometry::Pose start = script == nullptr ? geometry::Pose{} : model::StartPose(*script);
+    world->models.push_back({name, *model, (*model)->default_pose * start, (*model)->is_static});
     return world;
   }
 

@@ -5,6 +5,7 @@
 // Sharing one Model is read once and placed many times; it is immutable once built.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -110,6 +111,8 @@ enum class Movement {
   kRigid,   // forces: its wheels roll, it climbs, tips, is pushed
 };
 
+struct Script;  // gsv/model/script.h
+
 struct Model {
   std::string name;    // as the file says
   std::string source;  // the file it was read from, for messages
@@ -123,6 +126,7 @@ struct Model {
   std::vector<ControlSystem> control_systems;
   std::optional<Drive> drive;             // present: a robot that can be given a behaviour
   Movement movement = Movement::kPlanar;  // of a model with a drive
+  std::shared_ptr<const Script> script;   // of an actor, which it moves; null: the model is none
 };
 
 // The radius about the model's origin, in its xy plane, of a circle that holds the boxes around

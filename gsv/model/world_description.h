@@ -45,6 +45,8 @@ struct GeodeticOrigin {
   double heading = 0;                  // rad from east to the world's x axis, counter-clockwise
 };
 
+struct PedestrianGroup;  // gsv/model/pedestrian_group.h
+
 struct WorldDescription {
   std::string name;
   std::string source;
@@ -57,6 +59,7 @@ struct WorldDescription {
   SceneLook scene;
   std::vector<Light> lights;
   std::vector<PlacedModel> models;
+  std::vector<std::shared_ptr<const PedestrianGroup>> pedestrians;  // never null
 };
 
 }  // namespace gsv::model

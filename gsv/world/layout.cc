@@ -7,6 +7,7 @@
 namespace gsv::world {
 
 BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement) {
+  if (model.script != nullptr) return BodyKind::kActor;
   if (is_static) return BodyKind::kStatic;
   const bool collides =
       std::any_of(model.links.begin(), model.links.end(),

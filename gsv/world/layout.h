@@ -22,7 +22,11 @@ enum class BodyKind : std::uint8_t {
   kPlanarBase,  // its drive, by planar kinematics
   kAvatar,      // a person, by planar kinematics
   kRigidBody,   // rigid-body dynamics: it falls, tips, is pushed, its joints move
+  kActor,       // its script alone: nothing stops it, and it stops whatever runs into it
+  kPedestrian,  // the social force model, by planar kinematics
 };
+
+struct Pedestrian;  // gsv/world/pedestrian.h
 
 // Who moves a body of this model, unless a person does. `movement` is that of a model with a drive;
 // without one a body can only be moved by rigid-body dynamics.
@@ -37,14 +41,19 @@ struct Body {
   std::shared_ptr<const model::Model> model;
   geometry::Pose initial_pose;  // world_from_model when the simulation starts
   BodyKind kind = BodyKind::kUnmoved;
+  std::shared_ptr<const Pedestrian> pedestrian;  // of kPedestrian; else null
 
   bool is_static() const { return kind == BodyKind::kStatic; }
   bool is_avatar() const { return kind == BodyKind::kAvatar; }
   bool is_rigid() const { return kind == BodyKind::kRigidBody; }
+  bool is_actor() const { return kind == BodyKind::kActor; }
+  bool is_pedestrian() const { return kind == BodyKind::kPedestrian; }
   // Moved by planar kinematics.
-  bool is_planar() const { return kind == BodyKind::kPlanarBase || is_avatar(); }
+  bool is_planar() const { return kind == BodyKind::kPlanarBase || is_avatar() || is_pedestrian(); }
   // May be given a behaviour, or is steered by a person.
-  bool is_robot() const { return is_planar() || (is_rigid() && model->drive.has_value()); }
+  bool is_robot() const {
+    return kind == BodyKind::kPlanarBase || is_avatar() || (is_rigid() && model->drive.has_value());
+  }
 
   int first_joint = 0;
   int first_link = 0;

@@ -44,6 +44,10 @@ State InitialState(const Layout& layout) {
   }
   state.joint_positions.assign(layout.joint_count, 0.0);
   state.joint_velocities.assign(layout.joint_count, 0.0);
+  if (std::any_of(layout.bodies.begin(), layout.bodies.end(),
+                  [](const Body& body) { return body.is_pedestrian(); })) {
+    state.goals.assign(layout.bodies.size(), 0);
+  }
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
     if (!layout.bodies[i].is_rigid()) continue;
     for (const model::JointTarget& target : layout.bodies[i].model->joint_targets) {
@@ -119,6 +123,7 @@ void AddToHash(const Layout& layout, const State& state, base::Hash& hash) {
     hash.Add(static_cast<std::uint64_t>(command.kind));
     hash.Add(command.value);
   }
+  for (const std::uint32_t goals : state.goals) hash.Add(std::uint64_t{goals});
   if (state.devices != nullptr) AddToHash(*state.devices, hash);
   if (state.engine != nullptr) state.engine->AddToHash(hash);
 }

@@ -1,7 +1,7 @@
 // An engine of rigid-body dynamics, as WorldEngine uses it. rigid/ implements it with Bullet.
 //
 // Bodies       those of kind kRigidBody are its own. It finds all others in the states that it is
-//              given: planar bodies move during a step, the rest stands.
+//              given: planar bodies and actors move during a step, the rest stands.
 // Attachments  reach it as another layout, in which the shapes of the held body belong to the link
 //              that holds it and the held body is static (AttachedLayout).
 // Threads      one thread at a time.

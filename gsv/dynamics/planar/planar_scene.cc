@@ -77,7 +77,7 @@ base::Status PlanarScene::SetLayout(std::shared_ptr<const world::Layout> layout)
                         "the pose holds a number that is not finite", body.name);
     }
     if (!body.is_planar()) {
-      (body.is_rigid() ? loose : standing).push_back(static_cast<int>(i));
+      (body.is_rigid() || body.is_actor() ? loose : standing).push_back(static_cast<int>(i));
       continue;
     }
     const Quaternion tilt = TiltOf(body.initial_pose.orientation);

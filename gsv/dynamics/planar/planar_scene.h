@@ -7,7 +7,7 @@
 //          point. So a floor that a robot stands on, a ground plane and a door sill are no
 //          obstacles, and a table is one only to what reaches its top or its legs. Beyond
 //          kMaxLevels distinct intervals, their ends are rounded up to a grid just coarse enough.
-// Loose    rigid bodies are obstacles of their own: those in some mover's sight are sliced, anew
+// Loose    rigid bodies and actors are obstacles of their own: those in some mover's sight are sliced, anew
 //          whenever one has moved. What reaches less than kRides below the top of a piece lies on
 //          the robot and is no obstacle to it.
 // Caching  slices are kept while obstacles and the heights of robots stay where they are; nothing
@@ -101,7 +101,7 @@ class PlanarScene {
   std::vector<geometry::Pose> standing_poses_;  // as sliced
   std::vector<double> heights_;                 // of movers, as sliced
   std::vector<ObstacleField> fields_;
-  std::vector<int> loose_;           // bodies that are rigid
+  std::vector<int> loose_;           // bodies that are rigid, and actors
   std::vector<double> loose_radii_;  // theirs
   std::vector<int> seen_;            // those of them that are sliced
   std::vector<double> loose_state_;  // as sliced: who they are, their poses and joints

@@ -128,6 +128,19 @@ void RigidScene::AddPlanar(int index) {
   planar_.push_back(builder.Finish());
 }
 
+void RigidScene::AddActor(int index) {
+  SolidBuilder builder(index, shapes_.Compound());
+  for (const model::Link& link : layout_->bodies[index].model->links) {
+    for (const model::Collision& collision : link.collisions) {
+      const Pose pose = link.model_from_link * collision.link_from_collision;
+      for (btCollisionShape* shape : shapes_.Moving(collision.shape)) {
+        builder.Add(ToBullet(pose), shape, collision.surface);
+      }
+    }
+  }
+  planar_.push_back(builder.Finish());
+}
+
 base::Status RigidScene::SetLayout(std::shared_ptr<const world::Layout> layout) {
   layout_ = std::move(layout);
   bodies_.clear();
@@ -143,6 +156,8 @@ base::Status RigidScene::SetLayout(std::shared_ptr<const world::Layout> layout) 
       if (auto ok = AddRigid(i); !ok) return ok;
     } else if (bodies[i].is_planar()) {
       AddPlanar(i);
+    } else if (bodies[i].is_actor()) {
+      AddActor(i);
     } else {
       AddStanding(i);
     }

@@ -59,13 +59,15 @@ class RigidScene {
   const world::Layout& layout() const { return *layout_; }
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   const std::vector<StandingBody>& standing() const { return standing_; }
-  // What planar kinematics moves: obstacles to others, in the shapes of their footprints.
+  // What planar kinematics and scripts move: obstacles to others, in the shapes of their footprints
+  // or, of actors, in those of their collisions.
   const std::vector<Solid>& planar() const { return planar_; }
 
  private:
   base::Status AddRigid(int index);
   void AddStanding(int index);
   void AddPlanar(int index);
+  void AddActor(int index);
 
   std::shared_ptr<const world::Layout> layout_;
   RigidShapes shapes_;

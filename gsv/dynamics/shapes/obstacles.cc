@@ -60,9 +60,10 @@ std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world:
   std::vector<Obstacle> obstacles;
   std::vector<ConvexPiece> pieces;
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
-    if (layout.bodies[i].is_planar() || layout.bodies[i].is_rigid()) continue;
+    const world::Body& body = layout.bodies[i];
+    if (body.is_planar() || body.is_rigid() || body.is_actor()) continue;
     pieces.clear();
-    SliceBody(layout.bodies[i], state.bodies[i].world_from_model, heights, pieces);
+    SliceBody(body, state.bodies[i].world_from_model, heights, pieces);
     AddObstacles(pieces, static_cast<int>(i), obstacles);
   }
   return obstacles;
@@ -91,8 +92,10 @@ std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const w
 }
 
 double LooseRadius(const world::Body& body) {
-  if (!body.model->joints.empty()) return std::numeric_limits<double>::infinity();
-  const std::vector<Pose> model_from_link = world::LinkPoses(*body.model, {});
+  // What an actor collides with is fixed to its frame.
+  if (!body.model->joints.empty() && !body.is_actor()) return std::numeric_limits<double>::infinity();
+  const std::vector<double> zero(body.model->joints.size(), 0.0);
+  const std::vector<Pose> model_from_link = world::LinkPoses(*body.model, zero);
   double radius = 0;
   for (std::size_t l = 0; l < model_from_link.size(); ++l) {
     for (const model::Collision& collision : body.model->links[l].collisions) {

@@ -16,11 +16,12 @@ namespace gsv::dynamics {
 std::vector<Obstacle> CollectObstacles(const world::Layout& layout, const world::State& state,
                                        Interval heights);
 
-// The same of `bodies`, which are rigid, with joints as they are. Of a plane nothing is taken.
+// The same of `bodies`, which are rigid or actors, with joints as they are. Of a plane nothing is taken.
 std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const world::State& state,
                                             std::span<const int> bodies, Interval heights);
 
-// No part of the rigid body is ever farther from its origin; infinite where it has joints.
+// No part of the rigid body or actor that anything collides with is ever farther from its origin;
+// infinite where a rigid body has joints.
 double LooseRadius(const world::Body& body);
 
 }  // namespace gsv::dynamics

@@ -60,6 +60,10 @@ class TestWorld {
                 const geometry::Pose& pose) {
     Add(name, std::move(model), pose, world::BodyKind::kRigidBody);
   }
+  void AddActor(const std::string& name, std::shared_ptr<const model::Model> model,
+                const geometry::Pose& pose) {
+    Add(name, std::move(model), pose, world::BodyKind::kActor);
+  }
   void AddRobot(const std::string& name, std::shared_ptr<const model::Model> model,
                 const geometry::Pose& pose) {
     const bool has_drive = model->drive.has_value();

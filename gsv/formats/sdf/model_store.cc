@@ -6,6 +6,7 @@
 
 #include "gsv/formats/sdf/include_scan.h"
 #include "gsv/formats/sdf/ros2_control.h"
+#include "gsv/formats/sdf/sdf_actor.h"
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/urdf_text.h"
@@ -59,6 +60,11 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   }
   XMLElement* content = xml->root->FirstChildElement("model");
   if (content == nullptr) content = xml->root->FirstChildElement("light");
+  std::shared_ptr<const model::Script> script;
+  if (content == nullptr) {
+    content = xml->root->FirstChildElement("actor");
+    if (content != nullptr) script = MakeModelOfActor(*content, ContextFor(file, stored.problems));
+  }
   if (content == nullptr) {
     const bool world = xml->root->FirstChildElement("world") != nullptr;
     return Fail(
@@ -75,7 +81,9 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   printer.Element(*content);
   printer.Text("</sdf>");
   auto read = FromText(printer.Take(), file, includes.files(), std::move(stored));
-  if (read) Complete(*content, file, false, *read);
+  if (!read) return read;
+  if (script != nullptr) read->framed.model = ActorOf(*read->framed.model, script);
+  Complete(*content, file, false, *read);
   return read;
 }
 

@@ -13,6 +13,7 @@
 
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/include_scan.h"
+#include "gsv/formats/sdf/sdf_actor.h"
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/world_frames.h"
@@ -48,6 +49,7 @@ class WorldReader {
     if (const XMLElement* second = world->NextSiblingElement("world")) {
       context_.Warn("only the first world of a file is read", PlaceOf(file_.path, *second));
     }
+    TakeScripts(*world);
     if (auto status = TakeIncludes(*world); !status) return Fail(status.error());
     if (auto status = scan_.Scan(*world, file_.path); !status) return Fail(status.error());
     if (auto status = TakeParts(*world); !status) return Fail(status.error());
@@ -98,6 +100,15 @@ class WorldReader {
     if (pose) return *pose;
     context_.Complain(pose.error().message, Place(element));
     return {};
+  }
+
+  // From here on an actor is a model with a script.
+  void TakeScripts(XMLElement& world) {
+    for (auto* child = world.FirstChildElement("actor"); child != nullptr;) {
+      auto* const next = child->NextSiblingElement("actor");
+      scripts_[child] = MakeModelOfActor(*child, context_);
+      child = next;
+    }
   }
 
   // Includes are read from the store; those that are built in stay, as their text.
@@ -199,7 +210,7 @@ class WorldReader {
                  kind == "magnetic_field" || kind == "spherical_coordinates" ||
                  kind == "atmosphere") {
         surroundings_.push_back(child);
-      } else if (kind == "actor" || kind == "population" || kind == "road" || kind == "joint") {
+      } else if (kind == "population" || kind == "road" || kind == "joint") {
         context_.Warn("<" + kind + "> in a world is not supported and left out", Place(*child));
       }
     }
@@ -218,7 +229,10 @@ class WorldReader {
     element.DeleteAttribute("placement_frame");
 
     element.SetAttribute("name", "");
-    const auto [it, is_new] = distinct_by_text_.emplace(PrintCompact(element), distinct_.size());
+    const auto script = scripts_.find(&element);
+    const std::string own = script == scripts_.end() ? "" : placement.name;  // no two are alike
+    const auto [it, is_new] =
+        distinct_by_text_.emplace(PrintCompact(element) + own, distinct_.size());
     element.SetAttribute("name", placement.name.c_str());
     if (is_new) distinct_.push_back({&element, std::nullopt});
     placement.distinct = it->second;
@@ -301,6 +315,8 @@ class WorldReader {
     if (model == nullptr) return {};  // libsdformat has said why
     auto framed = formats::ReadModel(*model, context_);
     if (framed) {
+      const auto script = scripts_.find(distinct.element);
+      if (script != scripts_.end()) framed->model = ActorOf(*framed->model, script->second);
       distinct.framed = std::move(*framed);
     } else {
       context_.Complain(framed.error().message, Place(*distinct.element));
@@ -343,7 +359,10 @@ class WorldReader {
         context_.Complain(world_from_model.error().message + "; the origin is taken",
                           placement.place);
       }
-      world_.models.push_back({placement.name, framed->model, world_from_model.value_or(Pose{}),
+      const auto& script = framed->model->script;
+      const Pose start = script == nullptr ? Pose{} : model::StartPose(*script);
+      world_.models.push_back({placement.name, framed->model,
+                               world_from_model.value_or(Pose{}) * start,
                                placement.is_static.value_or(framed->model->is_static)});
     }
   }
@@ -367,6 +386,8 @@ class WorldReader {
   std::vector<Placement> placements_;
   std::deque<Distinct> distinct_;
   std::map<std::string, std::size_t> distinct_by_text_;
+  // Of those elements that were actors; never walked through.
+  std::map<const XMLElement*, std::shared_ptr<const model::Script>> scripts_;
   std::vector<PlacedLight> lights_;
   std::vector<XMLElement*> surroundings_;
   std::set<std::string> names_;

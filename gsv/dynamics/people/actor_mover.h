@@ -1,0 +1,36 @@
+// Moves the actors of a world along their scripts.
+//
+// Velocities    the mean over the step. An actor that jumps, because its script begins anew
+//               elsewhere, has none in that step, and hits nothing on its way.
+// Threads       one thread at a time.
+// Determinism   an actor's pose is a function of its initial pose, its script and the time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gsv/dynamics/people/script_pose.h"
+#include "gsv/world/state.h"
+
+namespace gsv::dynamics {
+
+class ActorMover {
+ public:
+  void SetLayout(const std::shared_ptr<const world::Layout>& layout);
+
+  // Writes where the actors are at state.time + step, and how they got there. `before`, unless it
+  // is null, is the state at the step's start: actors that jump are put where they arrive.
+  void Move(base::SimTime step, world::State& state, world::State* before) const;
+
+ private:
+  struct Actor {
+    int body = 0;
+    const model::Script* script = nullptr;
+    geometry::Pose world_from_trajectory;
+  };
+
+  std::shared_ptr<const world::Layout> layout_;  // keeps the scripts
+  std::vector<Actor> actors_;
+};
+
+}  // namespace gsv::dynamics

@@ -1,0 +1,117 @@
+// Actors among robots and loose things.
+#include <gtest/gtest.h>
+
+#include "gsv/dynamics/testing/test_rigid_world.h"
+#include "gsv/model/script.h"
+
+namespace gsv::dynamics {
+namespace {
+
+using geometry::PlanarPose;
+using testing::TestWorld;
+
+constexpr double kActorStep = 0.01;
+
+// Walks from x = 0 to 4 in 4 s, and back if it loops.
+std::shared_ptr<model::Model> WalkerOf(bool loops) {
+  auto model = testing::ModelOf(geometry::Cylinder{0.3, 1.8}, PlanarPose(0, 0, 0.9, 0));
+  auto script = std::make_shared<model::Script>();
+  script->loops = loops;
+  model::Trajectory& way = script->trajectories.emplace_back();
+  way.waypoints = {{base::SimTime{0}, {}},
+                   {base::FromSeconds(4), PlanarPose(4, 0, 0, 0)},
+                   {base::FromSeconds(8), PlanarPose(0, 0, 0, 0)}};
+  if (!loops) way.waypoints.pop_back();
+  model->script = std::move(script);
+  return model;
+}
+
+TEST(ActorMover, TakesAnActorAlongItsWay) {
+  TestWorld world(MakeWorldEngine());
+  world.AddActor("walker", WalkerOf(true), PlanarPose(10, 5, 0, 0));
+  ASSERT_TRUE(world.Start());
+  world.Run(2, kActorStep);
+  // Both tangents of the first segment are zero: that of the closed end, (4 - 4) / 2, and that of
+  // the turn, (0 - 0) / 2. So it is 4 (3 u² - 2 u³) long.
+  EXPECT_NEAR(world.position("walker").x, 12, 1e-9);
+  EXPECT_NEAR(world.position("walker").y, 5, 1e-12);
+  EXPECT_NEAR(world.body("walker").linear_velocity.x, 4 * 1.5 / 4, 1e-4);
+  world.Run(14, kActorStep);
+  EXPECT_NEAR(world.position("walker").x, 10, 1e-9);
+  EXPECT_NEAR(world.body("walker").distance, 16, 1e-9);
+}
+
+TEST(ActorMover, TakesAnActorWithNoSpeedFromTheEndToTheStart) {
+  auto model = WalkerOf(false);
+  auto script = std::make_shared<model::Script>(*model->script);
+  script->loops = true;
+  model->script = script;
+  TestWorld world(MakeWorldEngine());
+  world.AddActor("walker", model, {});
+  ASSERT_TRUE(world.Start());
+  world.Run(4, kActorStep);
+  EXPECT_NEAR(world.position("walker").x, 0, 1e-9);
+  EXPECT_EQ(world.body("walker").linear_velocity, geometry::Vector3{});
+  EXPECT_NEAR(world.body("walker").distance, 4, 0.02);
+}
+
+TEST(ActorMover, StopsARobotThatRunsIntoIt) {
+  TestWorld world(MakeWorldEngine());
+  world.AddActor("walker", WalkerOf(false), {});
+  world.AddRobot("robot", testing::DiscRobot(), PlanarPose(8, 0, 0, 3.14159265358979323846));
+  ASSERT_TRUE(world.Start());
+  world.Command("robot", {0.5, 0, 0});
+  std::vector<world::Contact> contacts;
+  for (int i = 0; i < 900; ++i) contacts = world.Step(kActorStep);
+  // Radii: 0.3 m and 0.2 m.
+  EXPECT_NEAR(world.position("robot").x, 4.5, 1e-5);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(world.body("robot").collisions, 1u);
+}
+
+TEST(ActorMover, WalksIntoARobotThatStandsInItsWay) {
+  TestWorld world(MakeWorldEngine());
+  world.AddActor("walker", WalkerOf(false), {});
+  world.AddRobot("robot", testing::DiscRobot(), PlanarPose(4.3, 0, 0, 0));
+  ASSERT_TRUE(world.Start());
+  world.Run(5, kActorStep);
+  const auto contacts = world.Step(kActorStep);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(contacts[0].depth, 0.2, 1e-6);
+  EXPECT_EQ(world.body("robot").collisions, 1u);
+  // It gets no further in, but can leave.
+  world.Command("robot", {-0.5, 0, 0});
+  world.Run(1, kActorStep);
+  EXPECT_NEAR(world.position("robot").x, 4.3, 1e-5);
+  world.Command("robot", {0.5, 0, 0});
+  world.Run(1, kActorStep);
+  EXPECT_NEAR(world.position("robot").x, 4.8, 1e-5);
+}
+
+TEST(ActorMover, PushesWhatForcesMove) {
+  TestWorld world = testing::WorldOnGround();
+  world.AddActor("walker", WalkerOf(false), {});
+  world.AddRigid("box", testing::SolidOf(geometry::Box{{0.4, 0.4, 0.4}}, 5),
+                 testing::At(2, 0, 0.2));
+  ASSERT_TRUE(world.Start());
+  world.Run(6, kActorStep);
+  EXPECT_NEAR(world.position("walker").x, 4, 1e-9);
+  EXPECT_GE(world.position("box").x, 4.5 - 0.02);
+  EXPECT_LE(world.position("box").x, 5.5);
+}
+
+TEST(ActorMover, RepeatsToTheBit) {
+  const auto digest = [] {
+    TestWorld world = testing::WorldOnGround();
+    world.AddActor("walker", WalkerOf(true), PlanarPose(0.1, 0.2, 0, 0.3));
+    world.AddRobot("robot", testing::DiscRobot(), PlanarPose(3, 1, 0, 2));
+    EXPECT_TRUE(world.Start());
+    world.Command("robot", {0.5, 0, 0.3});
+    world.Run(10, kActorStep);
+    return world.Digest();
+  };
+  EXPECT_EQ(digest(), digest());
+}
+
+}  // namespace
+}  // namespace gsv::dynamics

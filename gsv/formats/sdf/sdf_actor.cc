@@ -1,0 +1,248 @@
+#include "gsv/formats/sdf/sdf_actor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gsv/formats/sdf/sdf_xml.h"
+#include "gsv/formats/sdf/world_frames.h"
+
+namespace gsv::formats {
+namespace {
+
+using base::SimTime;
+using geometry::Pose;
+using geometry::Vector3;
+using tinyxml2::XMLElement;
+
+constexpr double kLongestScript = 1e8;  // s
+
+std::string TextOf(const XMLElement* element) {
+  return element == nullptr || element->GetText() == nullptr ? "" : element->GetText();
+}
+
+std::string TextOf(const XMLElement& parent, const char* child) {
+  return TextOf(parent.FirstChildElement(child));
+}
+
+// Reads the elements of one actor.
+class ActorReader {
+ public:
+  ActorReader(XMLElement& actor, const ReadingContext& context)
+      : actor_(actor), context_(context) {}
+
+  std::shared_ptr<const model::Script> Read() {
+    ReadAnimations();
+    auto script = std::make_shared<model::Script>(ReadScript());
+    AddSkin(model::StartPose(*script));
+    for (const char* part : {"skin", "animation", "script"}) {
+      while (XMLElement* element = actor_.FirstChildElement(part)) actor_.DeleteChild(element);
+    }
+    actor_.SetName("model");
+    return script;
+  }
+
+ private:
+  std::string Place(const XMLElement& element) const { return PlaceOf(context_.source, element); }
+
+  // A number from 0 to the longest script, or `otherwise` with a problem.
+  double NumberOf(const XMLElement& parent, const char* name, double otherwise) const {
+    const XMLElement* element = parent.FirstChildElement(name);
+    if (element == nullptr) return otherwise;
+    double value = 0;
+    if (element->QueryDoubleText(&value) == tinyxml2::XML_SUCCESS && value >= 0 &&
+        value <= kLongestScript) {
+      return value;
+    }
+    context_.Complain("<" + std::string(name) + "> must be a number from 0 to 1e8, found \"" +
+                          TextOf(element) + "\"; " + std::to_string(otherwise) + " is taken",
+                      Place(*element));
+    return otherwise;
+  }
+
+  static bool FlagOf(const XMLElement& parent, const char* name, bool otherwise) {
+    const XMLElement* element = parent.FirstChildElement(name);
+    return element == nullptr ? otherwise : element->BoolText(otherwise);
+  }
+
+  void ReadAnimations() {
+    for (auto* animation = actor_.FirstChildElement("animation"); animation != nullptr;
+         animation = animation->NextSiblingElement("animation")) {
+      const char* name = animation->Attribute("name");
+      follows_way_[name == nullptr ? "" : name] = FlagOf(*animation, "interpolate_x", false);
+      context_.Warn("the animation \"" + std::string(name == nullptr ? "" : name) +
+                        "\" is not carried out: the actor keeps the shape of its skin",
+                    Place(*animation));
+    }
+  }
+
+  model::Script ReadScript() const {
+    model::Script script;
+    const XMLElement* element = actor_.FirstChildElement("script");
+    if (element == nullptr) {
+      script.starts_by_itself = false;
+      return script;
+    }
+    script.loops = FlagOf(*element, "loop", true);
+    script.delay = base::FromSeconds(NumberOf(*element, "delay_start", 0));
+    script.starts_by_itself = FlagOf(*element, "auto_start", true);
+    if (!script.starts_by_itself) {
+      context_.Warn("<auto_start> is false, and nothing else starts the script: the actor stands",
+                    Place(*element));
+    }
+    std::vector<std::pair<int, model::Trajectory>> trajectories;
+    for (auto* child = element->FirstChildElement("trajectory"); child != nullptr;
+         child = child->NextSiblingElement("trajectory")) {
+      model::Trajectory trajectory = ReadTrajectory(*child);
+      if (trajectory.waypoints.empty()) continue;
+      trajectories.emplace_back(child->IntAttribute("id"), std::move(trajectory));
+    }
+    std::stable_sort(trajectories.begin(), trajectories.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& each : trajectories) script.trajectories.push_back(std::move(each.second));
+    return script;
+  }
+
+  model::Trajectory ReadTrajectory(const XMLElement& element) const {
+    model::Trajectory trajectory;
+    trajectory.tension = element.DoubleAttribute("tension", 0);
+    if (!(trajectory.tension >= 0 && trajectory.tension <= 1)) {
+      context_.Complain("the tension must lie between 0 and 1; 0 is taken", Place(element));
+      trajectory.tension = 0;
+    }
+    const char* type = element.Attribute("type");
+    const auto animation = follows_way_.find(type == nullptr ? "" : type);
+    trajectory.animated_by_distance = animation != follows_way_.end() && animation->second;
+    // Of two at one time the later in the file counts, as in Gazebo.
+    std::map<SimTime, Pose> waypoints;
+    for (auto* child = element.FirstChildElement("waypoint"); child != nullptr;
+         child = child->NextSiblingElement("waypoint")) {
+      auto pose = ReadPose(*child);
+      if (!pose) {
+        context_.Complain("the waypoint is left out: " + pose.error().message, Place(*child));
+        continue;
+      }
+      waypoints[base::FromSeconds(NumberOf(*child, "time", 0))] = pose->pose;
+    }
+    if (!waypoints.empty()) waypoints.emplace(SimTime{0}, waypoints.begin()->second);
+    for (const auto& [time, pose] : waypoints) trajectory.waypoints.push_back({time, pose});
+    return trajectory;
+  }
+
+  XMLElement& FirstLink() {
+    if (XMLElement* link = actor_.FirstChildElement("link")) return *link;
+    XMLElement* link = actor_.InsertNewChildElement("link");
+    link->SetAttribute("name", "link");
+    return *link;
+  }
+
+  void AddSkin(const Pose& start) {
+    const XMLElement* skin = actor_.FirstChildElement("skin");
+    const std::string file = skin == nullptr ? "" : TextOf(*skin, "filename");
+    if (file.empty()) {
+      const bool has_parts = actor_.FirstChildElement("link") != nullptr ||
+                             actor_.FirstChildElement("include") != nullptr;
+      if (!has_parts) AddFigure(start);
+      return;
+    }
+    if (!context_.finder.Find(file, context_.source)) {
+      context_.Warn("the skin " + file +
+                        " is not found: the actor is shown as a simple figure. Use --model-path",
+                    Place(*skin));
+      AddFigure(start);
+      return;
+    }
+    XMLElement* visual = FirstLink().InsertNewChildElement("visual");
+    visual->SetAttribute("name", "skin");
+    XMLElement* mesh = visual->InsertNewChildElement("geometry")->InsertNewChildElement("mesh");
+    mesh->InsertNewChildElement("uri")->SetText(file.c_str());
+    const std::string scale = std::to_string(std::max(1e-6, NumberOf(*skin, "scale", 1)));
+    mesh->InsertNewChildElement("scale")->SetText((scale + " " + scale + " " + scale).c_str());
+  }
+
+  // A cylinder with a head, 1.75 m tall. Skins such as Gazebo's have their origin in the hip, and
+  // waypoints at its height: then the figure's feet are as far below the first one.
+  void AddFigure(const Pose& start) {
+    const double height = start.position.z;
+    const double feet = height > 0.5 && height < 1.5 ? -height : 0;
+    XMLElement& link = FirstLink();
+    AddShape(link, "body", "<cylinder><radius>0.22</radius><length>1.45</length></cylinder>",
+             feet + 0.725, "0.16 0.4 0.6 1");
+    AddShape(link, "head", "<sphere><radius>0.15</radius></sphere>", feet + 1.6, "0.87 0.7 0.57 1");
+  }
+
+  static void AddShape(XMLElement& link, const char* name, const char* shape, double z,
+                       const char* colour) {
+    char text[512];
+    std::snprintf(text, sizeof text,
+                  "<visual name='%s'><pose>0 0 %.6f 0 0 0</pose><geometry>%s</geometry>"
+                  "<material><ambient>%s</ambient><diffuse>%s</diffuse></material></visual>",
+                  name, z, shape, colour, colour);
+    tinyxml2::XMLDocument document;
+    document.Parse(text);
+    link.InsertEndChild(document.RootElement()->DeepClone(link.GetDocument()));
+  }
+
+  XMLElement& actor_;
+  const ReadingContext& context_;
+  std::map<std::string, bool> follows_way_;  // by animation: interpolate_x
+};
+
+// The box around all visuals, in the model's frame; nothing if there are none.
+bool BoundsOfVisuals(const model::Model& model, geometry::Bounds& bounds) {
+  bool any = false;
+  for (const model::Link& link : model.links) {
+    for (const model::Visual& visual : link.visuals) {
+      if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
+      const geometry::Bounds own = geometry::BoundsOf(visual.shape);
+      const Pose pose = link.model_from_link * visual.link_from_visual;
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vector3 p = pose * Vector3{(corner & 1) != 0 ? own.max.x : own.min.x,
+                                         (corner & 2) != 0 ? own.max.y : own.min.y,
+                                         (corner & 4) != 0 ? own.max.z : own.min.z};
+        if (!any) bounds = {p, p};
+        any = true;
+        bounds.min = {std::min(bounds.min.x, p.x), std::min(bounds.min.y, p.y),
+                      std::min(bounds.min.z, p.z)};
+        bounds.max = {std::max(bounds.max.x, p.x), std::max(bounds.max.y, p.y),
+                      std::max(bounds.max.z, p.z)};
+      }
+    }
+  }
+  return any;
+}
+
+}  // namespace
+
+std::shared_ptr<const model::Script> MakeModelOfActor(XMLElement& actor,
+                                                      const ReadingContext& context) {
+  return ActorReader(actor, context).Read();
+}
+
+std::shared_ptr<const model::Model> ActorOf(const model::Model& model,
+                                            std::shared_ptr<const model::Script> script) {
+  auto actor = std::make_shared<model::Model>(model);
+  actor->script = std::move(script);
+  const bool collides =
+      std::any_of(model.links.begin(), model.links.end(),
+                  [](const model::Link& link) { return !link.collisions.empty(); });
+  geometry::Bounds bounds;
+  if (collides || !BoundsOfVisuals(model, bounds)) return actor;
+  const Vector3 size = bounds.max - bounds.min;
+  const double radius = std::min(size.x, size.y) / 2;
+  if (!(radius > 1e-3) || !(size.z > 1e-3)) return actor;
+  model::Link& link = actor->links[0];
+  model::Collision collision;
+  collision.name = "around";
+  collision.shape = geometry::Cylinder{radius, size.z};
+  collision.link_from_collision =
+      Inverse(link.model_from_link) * Pose{(bounds.min + bounds.max) * 0.5, {}};
+  link.collisions.push_back(std::move(collision));
+  return actor;
+}
+
+}  // namespace gsv::formats

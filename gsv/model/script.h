@@ -1,0 +1,51 @@
+// How an actor moves: SDFormat's <script>, with its animation.
+//
+// Frames  waypoints are poses of the actor's frame in the frame of its trajectory, which is where
+//         its <pose> puts it in the world.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gsv/base/sim_time.h"
+#include "gsv/geometry/pose.h"
+
+namespace gsv::model {
+
+struct Waypoint {
+  base::SimTime time{0};  // since the trajectory's start
+  geometry::Pose pose;
+};
+
+struct Trajectory {
+  std::vector<Waypoint> waypoints;    // by time, ascending, each time once, the first at 0
+  double tension = 0;                 // in [0, 1]; 1: it is linear between waypoints
+  bool animated_by_distance = false;  // interpolate_x: the gait follows the way, not the time
+};
+
+// Joint positions of a model over time: a gait.
+struct Animation {
+  base::SimTime length{0};  // above zero; then it starts again
+  double distance = 0;      // m that the gait covers in its length; 0: unknown
+  int joint_count = 0;
+  std::vector<double> positions;  // keyframes, evenly over `length`, of joint_count values each
+  int frame_count() const {
+    return joint_count == 0 ? 0 : static_cast<int>(positions.size()) / joint_count;
+  }
+};
+
+struct Script {
+  bool loops = true;
+  base::SimTime delay{0};  // not below zero: before each time that it starts
+  bool starts_by_itself = true;
+  std::vector<Trajectory> trajectories;        // one after the other; may be empty
+  std::shared_ptr<const Animation> animation;  // null: the body is stiff
+};
+
+// Where a script's actor stands before it starts, in the trajectory's frame.
+inline geometry::Pose StartPose(const Script& script) {
+  return script.trajectories.empty() ? geometry::Pose{}
+                                     : script.trajectories.front().waypoints.front().pose;
+}
+
+}  // namespace gsv::model
