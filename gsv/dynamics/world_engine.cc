@@ -6,6 +6,7 @@
 #include "gsv/base/check.h"
 #include "gsv/dynamics/motion/attached_layout.h"
 #include "gsv/dynamics/people/actor_mover.h"
+#include "gsv/dynamics/people/crowd.h"
 #include "gsv/dynamics/planar/planar_joints.h"
 #include "gsv/dynamics/planar/planar_mover.h"
 #include "gsv/dynamics/planar/planar_pushes.h"
@@ -17,7 +18,7 @@ namespace {
 class WorldEngine final : public Engine {
  public:
   WorldEngine(std::shared_ptr<base::ThreadTeam> team, std::unique_ptr<RigidEngine> rigid)
-      : planar_(MakePlanarMover(std::move(team))), rigid_(std::move(rigid)) {}
+      : crowd_(team), planar_(MakePlanarMover(team)), rigid_(std::move(rigid)) {}
 
   base::Status SetLayout(std::shared_ptr<const world::Layout> layout) override {
     attached_.Reset(layout);
@@ -33,6 +34,7 @@ class WorldEngine final : public Engine {
   void Step(base::SimTime step, world::State& state,
             std::vector<world::Contact>& contacts) override {
     UseAttachments();
+    crowd_.Decide(step, state);
     if (rigid_->has_bodies()) {
       MoveAll(step, state, contacts);
     } else {
@@ -62,6 +64,7 @@ class WorldEngine final : public Engine {
     if (auto ok = planar_->SetLayout(layout); !ok) return ok;
     layout_ = layout;
     actors_.SetLayout(layout);
+    crowd_.SetLayout(layout);
     if (auto ok = pushes_.SetLayout(layout); !ok) return ok;
     return rigid_->SetLayout(std::move(layout));
   }
@@ -127,6 +130,7 @@ class WorldEngine final : public Engine {
   AttachedLayout attached_;
   std::shared_ptr<const world::Layout> layout_;  // with what is attached
   ActorMover actors_;
+  Crowd crowd_;
   std::unique_ptr<PlanarMover> planar_;
   std::unique_ptr<RigidEngine> rigid_;
   PlanarPushes pushes_;
@@ -139,6 +143,7 @@ class WorldEngine final : public Engine {
 std::unique_ptr<Engine> MakeWorldEngine(std::shared_ptr<base::ThreadTeam> team,
                                         std::unique_ptr<RigidEngine> rigid) {
   if (rigid == nullptr) rigid = MakeBulletEngine();
+  if (team == nullptr) team = std::make_shared<base::ThreadTeam>(1);
   return std::make_unique<WorldEngine>(std::move(team), std::move(rigid));
 }
 

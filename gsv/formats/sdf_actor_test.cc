@@ -5,6 +5,7 @@
 
 #include "gsv/base/test_folder.h"
 #include "gsv/formats/sdf_reader.h"
+#include "gsv/formats/testing/bending_dae.h"
 #include "gsv/model/script.h"
 
 namespace gsv::formats {
@@ -122,6 +123,36 @@ TEST_F(SdfActor, StandsInAFileThatIsIncluded) {
   EXPECT_EQ(world.models[0].model, world.models[1].model);
   ASSERT_NE(world.models[1].model->script, nullptr);
   EXPECT_EQ(world.models[1].world_from_model.position, (Vector3{1, 0, 1}));
+}
+
+TEST_F(SdfActor, MovesTheBonesOfItsSkin) {
+  folder_.Write("bending.dae", kBendingDae);
+  const auto world = World(R"(<actor name='a'><skin><filename>bending.dae</filename></skin>
+      <animation name='bend'><filename>bending.dae</filename><interpolate_x>true</interpolate_x>
+      </animation><script><trajectory id='0' type='bend'>
+      <waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint>
+      <waypoint><time>1</time><pose>1 0 0 0 0 0</pose></waypoint></trajectory></script></actor>)");
+  EXPECT_THAT(Sentences(), IsEmpty());
+  ASSERT_EQ(world.models.size(), 1u);
+  const model::Model& actor = *world.models[0].model;
+  EXPECT_EQ(actor.links.size(), 1u + 2 * 6);
+  ASSERT_EQ(actor.joints.size(), 2u * 6);
+  EXPECT_TRUE(actor.script->trajectories.at(0).animated_by_distance);
+  ASSERT_NE(actor.script->animation, nullptr);
+  const model::Animation& animation = *actor.script->animation;
+  EXPECT_EQ(animation.length, std::chrono::seconds(1));
+  ASSERT_EQ(animation.frame_count(), 30);
+  // Half way bone B is turned by 45 degrees about x.
+  EXPECT_NEAR(animation.positions[15 * 12 + 11], 3.14159265358979323846 / 4, 1e-5);
+}
+
+TEST_F(SdfActor, KeepsTheShapeOfASkinWithoutBones) {
+  WriteSkin();
+  const auto world = World(R"(<actor name='a'><skin><filename>skin.obj</filename></skin>
+      <animation name='bend'><filename>skin.obj</filename></animation></actor>)");
+  EXPECT_THAT(Sentences(), Contains(HasSubstr("the animation is not carried out")));
+  ASSERT_EQ(world.models.size(), 1u);
+  EXPECT_EQ(world.models[0].model->links.at(0).visuals.size(), 1u);
 }
 
 TEST_F(SdfActor, LeavesOutWaypointsThatMakeNoSense) {

@@ -60,6 +60,36 @@ base::Result<RobotEntry> ParseRobot(const std::string& text) {
   return robot;
 }
 
+base::Result<model::PedestrianGroup> ParsePedestrians(const std::string& text) {
+  const auto refuse = [&](const std::string& why) {
+    return base::Fail(
+        base::ErrorCode::kInvalidArgument,
+        why + "; expected COUNT@x,y[,radius][:x,y[,radius]...], such as 20@-4,0,1:4,0,1", text);
+  };
+  model::PedestrianGroup group;
+  const std::size_t at = text.find('@');
+  const auto count = ParseNumber(std::string_view(text).substr(0, at));
+  if (!count || *count != std::floor(*count) || *count < 1 || *count > model::kMaxPedestrians) {
+    return refuse("the count must be a whole number from 1 to 100,000");
+  }
+  group.count = static_cast<int>(*count);
+  if (at == std::string::npos) return refuse("there is no route");
+  std::string_view rest = std::string_view(text).substr(at + 1);
+  while (true) {
+    const std::size_t end = rest.find(':');
+    const auto parts = SplitAtCommas(rest.substr(0, end));
+    if (parts.size() < 2 || parts.size() > 3) return refuse("a goal has two or three numbers");
+    const auto x = ParseNumber(parts[0]), y = ParseNumber(parts[1]);
+    const auto radius = parts.size() == 3 ? ParseNumber(parts[2]) : 0.0;
+    if (!x || !y || !radius) return refuse("a goal is not made of numbers");
+    group.route.push_back({*x, *y, *radius});
+    if (end == std::string_view::npos) break;
+    rest.remove_prefix(end + 1);
+  }
+  if (auto ok = model::Check(group); !ok) return refuse(ok.error().message);
+  return group;
+}
+
 Scenario DefaultScenario() {
   constexpr double kQuarter = std::numbers::pi / 2;
   return {.world = "office",

@@ -11,6 +11,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/model/model.h"
+#include "gsv/model/pedestrian_group.h"
 #include "gsv/scenario/expectation.h"
 #include "gsv/scenario/fault.h"
 
@@ -34,7 +35,8 @@ struct Scenario {
   std::string world;  // a file, folder or name
   std::vector<RobotEntry> robots;
   std::vector<RobotEntry> avatars;  // without behaviour and movement
-  std::string name;                 // of the simulation
+  std::vector<model::PedestrianGroup> pedestrians;
+  std::string name;  // of the simulation
   std::optional<std::uint64_t> seed;
   std::optional<bool> lockstep;          // else in real time
   std::optional<double> factor;          // simulated seconds a wall second, > 0
@@ -55,6 +57,9 @@ struct Scenario {
 
 // Reads "MODEL[@x,y[,yaw]]": metres; yaw in radians, or in degrees when it ends in "deg".
 base::Result<RobotEntry> ParseRobot(const std::string& text);
+
+// Reads "COUNT@x,y[,radius][:x,y[,radius]…]": so many pedestrians, and the goals of their route.
+base::Result<model::PedestrianGroup> ParsePedestrians(const std::string& text);
 
 // A finite number, whole; nothing if the text is anything else.
 std::optional<double> ParseNumber(std::string_view text);

@@ -112,6 +112,12 @@ TEST(ScenarioFile, WhatIsWrittenIsReadBackToTheBit) {
       {"", "null", {}, "wander", "", {}},
       {"~", "", {}, "", "", model::Movement::kRigid}};
   scenario.avatars = {{"avatar", "Ann", Place{1, 2, {}, 3}, "", "", {}}};
+  model::PedestrianGroup group;
+  group.name = "no one";
+  group.count = 40;
+  group.route = {{-1.0 / 3, 2, 0.1}, {4, 1e-300, 0}};
+  group.speed = 1.1;
+  scenario.pedestrians = {group, group};
   scenario.record = "no";
   scenario.record_topics = {"/gsv/", "/a b"};
   scenario.record_rates = {{"beams", 0.001}};
@@ -155,6 +161,17 @@ TEST(ScenarioFile, EachMistakeIsNamedWithLineAndColumn) {
                   "y, z, yaw",
                   "room.yaml:14:16: record_topics must be a list, found \"/clock\"",
                   HasSubstr("room.yaml:2:1: there is no key \"wrold\" here; known are world, ")));
+}
+
+TEST(ScenarioFile, NamesWhatIsWrongWithPedestrians) {
+  EXPECT_THAT(Complaints("pedestrians:\n"
+                         "  - {count: 3}\n"
+                         "  - {route: [{x: 1}], speed: 11}\n"
+                         "  - {route: [{x: 1, y: 2}], count: 1000000}\n"),
+              ElementsAre("room.yaml:2:5: pedestrians need a route of at least one goal",
+                          "room.yaml:3:14: a goal needs both x and y",
+                          HasSubstr("room.yaml:3:30: speed must be a number from 0.01 to 10"),
+                          "room.yaml:4:5: a group has 1 to 100,000 pedestrians"));
 }
 
 TEST(ScenarioFile, AStepOfZeroIsTheWorlds) {

@@ -7,6 +7,7 @@ namespace gsv::scenario {
 namespace {
 
 constexpr std::size_t kMostRobots = 100'000;
+constexpr std::size_t kMostGroups = 1000, kMostGoals = 1000;
 constexpr double kMostFactor = 1e6;
 constexpr double kLeastStep = 1e-6;                       // s
 constexpr double kLeastRate = 0.001, kMostRate = 10'000;  // Hz
@@ -52,6 +53,44 @@ std::vector<RobotEntry> ReadRobots(YamlMapping& mapping, const std::string& key)
     robots.push_back(ReadRobotKeys(robot, are_avatars));
   });
   return robots;
+}
+
+std::vector<model::PedestrianGoal> ReadRoute(YamlMapping& mapping) {
+  std::vector<model::PedestrianGoal> route;
+  mapping.Each("route", kMostGoals, [&](const YAML::Node& node, std::string field) {
+    YamlMapping goal(node, std::move(field), mapping.place());
+    const auto x = goal.Number("x", -kFarthest, kFarthest);
+    const auto y = goal.Number("y", -kFarthest, kFarthest);
+    const double radius = goal.Number("radius", 0, kFarthest).value_or(0);
+    if (!goal.Had("x") || !goal.Had("y")) goal.Complain("a goal needs both x and y");
+    if (x && y) route.push_back({*x, *y, radius});
+  });
+  return route;
+}
+
+std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
+  std::vector<model::PedestrianGroup> groups;
+  mapping.Each("pedestrians", kMostGroups, [&](const YAML::Node& node, std::string field) {
+    YamlMapping keys(node, std::move(field), mapping.place());
+    const std::size_t complaints = mapping.place().complaints();
+    model::PedestrianGroup group;
+    group.name = keys.Text("name").value_or(group.name);
+    group.count = static_cast<int>(
+        std::min<std::uint64_t>(keys.Count("count").value_or(1), model::kMaxPedestrians + 1));
+    group.route = ReadRoute(keys);
+    group.z = keys.Number("z", -kFarthest, kFarthest).value_or(group.z);
+    group.speed = keys.Number("speed", 0.01, 10).value_or(group.speed);
+    group.speed_deviation = keys.Number("speed_deviation", 0, 5).value_or(group.speed_deviation);
+    group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
+    group.height = keys.Number("height", 0.2, 3).value_or(group.height);
+    const auto ok = model::Check(group);
+    // What is said already is not said twice.
+    if (!ok && mapping.place().complaints() == complaints && keys.is_mapping()) {
+      keys.Complain(ok.error().message);
+    }
+    groups.push_back(std::move(group));
+  });
+  return groups;
 }
 
 std::map<std::string, double> ReadRates(YamlMapping& mapping) {
@@ -133,6 +172,7 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.model_path = mapping.Texts("model_path");
   scenario.robots = ReadRobots(mapping, "robots");
   scenario.avatars = ReadRobots(mapping, "avatars");
+  scenario.pedestrians = ReadPedestrianGroups(mapping);
   scenario.record = ReadRecord(mapping);
   scenario.record_topics = mapping.Texts("record_topics");
   scenario.record_rates = ReadRates(mapping);

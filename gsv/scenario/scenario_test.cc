@@ -41,5 +41,21 @@ TEST(ParseRobot, RefusesWhatIsNoPlaceWithTheExpectedForm) {
   }
 }
 
+TEST(ParsePedestrians, TakesACountAndARoute) {
+  const auto group = ParsePedestrians("20@-4,0,1.5:4,-1e1");
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->count, 20);
+  EXPECT_EQ(group->route, (std::vector<model::PedestrianGoal>{{-4, 0, 1.5}, {4, -10, 0}}));
+}
+
+TEST(ParsePedestrians, RefusesWhatIsNoRouteWithTheExpectedForm) {
+  for (const char* text : {"", "20", "20@", "0@1,2", "1.5@1,2", "20@1", "20@1,2,3,4",
+                           "20@1,2:", "20@1,2,-1", "x@1,2", "200000@1,2"}) {
+    const auto group = ParsePedestrians(text);
+    ASSERT_FALSE(group) << text;
+    EXPECT_NE(group.error().message.find("COUNT@x,y"), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace gsv::scenario

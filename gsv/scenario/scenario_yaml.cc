@@ -83,6 +83,11 @@ class Writer {
     yaml_ += std::string(key) + ":\n";
     for (const RobotEntry& robot : robots) yaml_ += "  - {" + Fields(robot) + "}\n";
   }
+  void PutPedestrians(const std::vector<model::PedestrianGroup>& groups) {
+    if (groups.empty()) return;
+    yaml_ += "pedestrians:\n";
+    for (const model::PedestrianGroup& group : groups) yaml_ += "  - {" + Fields(group) + "}\n";
+  }
   void PutFaults(const std::vector<Fault>& faults) {
     if (faults.empty()) return;
     yaml_ += "faults:\n";
@@ -118,6 +123,18 @@ class Writer {
     }
     if (!robot.drive.empty()) add("drive", Text(robot.drive));
     return fields;
+  }
+
+  static std::string Fields(const model::PedestrianGroup& group) {
+    std::string route;
+    for (const model::PedestrianGoal& goal : group.route) {
+      route += std::string(route.empty() ? "" : ", ") + "{x: " + Number(goal.x) +
+               ", y: " + Number(goal.y) + ", radius: " + Number(goal.radius) + "}";
+    }
+    return "name: " + Text(group.name) + ", count: " + std::to_string(group.count) + ", route: [" +
+           route + "], z: " + Number(group.z) + ", speed: " + Number(group.speed) +
+           ", speed_deviation: " + Number(group.speed_deviation) +
+           ", radius: " + Number(group.radius) + ", height: " + Number(group.height);
   }
 
   static std::string Fields(const Fault& fault) {
@@ -192,6 +209,7 @@ std::string ToYaml(const Scenario& scenario) {
   if (!scenario.model_path.empty()) writer.Put("model_path", List(scenario.model_path));
   writer.PutRobots("robots", scenario.robots);
   writer.PutRobots("avatars", scenario.avatars);
+  writer.PutPedestrians(scenario.pedestrians);
   writer.PutText("record", scenario.record);
   if (!scenario.record_topics.empty()) writer.Put("record_topics", List(scenario.record_topics));
   if (!scenario.record_rates.empty()) writer.Put("record_rates", Rates(scenario.record_rates));

@@ -6,6 +6,7 @@
 #include "gsv/base/check.h"
 #include "gsv/base/log.h"
 #include "gsv/dynamics/world_engine.h"
+#include "gsv/simulation/editing/crowd_placement.h"
 
 namespace gsv::simulation {
 namespace {
@@ -44,6 +45,19 @@ std::shared_ptr<const world::Layout> LayoutOf(
   return world::MakeLayout(1, std::move(bodies), world);
 }
 
+// With the pedestrians, and given to the engine.
+base::Result<std::shared_ptr<const world::Layout>> FirstLayout(const Specification& specification,
+                                                               dynamics::Engine& engine) {
+  auto layout = LayoutOf(specification.world);
+  auto groups = specification.world->pedestrians;
+  for (const model::PedestrianGroup& group : specification.pedestrians) {
+    groups.push_back(std::make_shared<const model::PedestrianGroup>(group));
+  }
+  if (!groups.empty()) return PlacePedestrians(*layout, groups, specification.seed, engine);
+  if (auto ok = engine.SetLayout(layout); !ok) return base::Fail(ok.error());
+  return layout;
+}
+
 std::shared_ptr<SharedState> MakeSharedState(const Specification& specification,
                                              std::shared_ptr<const sensing::SensorRegistry> sensors,
                                              const std::shared_ptr<const world::Layout>& layout) {
@@ -60,13 +74,13 @@ base::Result<std::shared_ptr<Simulation>> Simulation::Create(
   GSV_CHECK(specification.world != nullptr && sensors != nullptr);
   if (specification.step.count() == 0) specification.step = specification.world->max_step_size;
   if (auto ok = Check(specification); !ok) return base::Fail(ok.error());
-  auto layout = LayoutOf(specification.world);
   auto team = std::make_shared<base::ThreadTeam>(ThreadsFor(specification));
   auto engine = dynamics::MakeWorldEngine(team);
-  if (auto ok = engine->SetLayout(layout); !ok) return base::Fail(ok.error());
+  auto layout = FirstLayout(specification, *engine);
+  if (!layout) return base::Fail(layout.error());
   return std::shared_ptr<Simulation>(
       new SteppingSimulation(std::move(specification), std::move(sensors), std::move(team),
-                             std::move(engine), std::move(layout)),
+                             std::move(engine), *std::move(layout)),
       [](Simulation* simulation) {
         SteppingSimulation::Dispose(static_cast<SteppingSimulation*>(simulation));
       });

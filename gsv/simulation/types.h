@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gsv/base/sim_time.h"
+#include "gsv/model/pedestrian_group.h"
 #include "gsv/model/world_description.h"
 #include "gsv/scenario/fault.h"
 #include "gsv/sensing/reading.h"
@@ -44,8 +45,9 @@ struct Specification {
   FailurePolicy on_failure = FailurePolicy::kGoOn;
   // Wall time that an agent may run before it must wait; then it is unresponsive.
   std::chrono::milliseconds deadline{10'000};
-  bool keep = false;                    // survives its creator
-  std::vector<scenario::Fault> faults;  // that will happen; see faults.h
+  bool keep = false;                                // survives its creator
+  std::vector<model::PedestrianGroup> pedestrians;  // besides the world's own
+  std::vector<scenario::Fault> faults;              // that will happen; see faults.h
   // That move bodies and run local behaviours; 0: as many as processors in lockstep, else one.
   int threads = 0;
 };

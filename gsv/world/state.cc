@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gsv/base/check.h"
+#include "gsv/model/script.h"
 
 namespace gsv::world {
 namespace {
@@ -47,6 +48,12 @@ State InitialState(const Layout& layout) {
   if (std::any_of(layout.bodies.begin(), layout.bodies.end(),
                   [](const Body& body) { return body.is_pedestrian(); })) {
     state.goals.assign(layout.bodies.size(), 0);
+  }
+  for (const Body& body : layout.bodies) {
+    if (!body.is_actor() || body.model->script->animation == nullptr) continue;
+    const model::Animation& animation = *body.model->script->animation;
+    std::copy_n(animation.positions.begin(), animation.joint_count,
+                state.joint_positions.begin() + body.first_joint);
   }
   for (std::size_t i = 0; i < layout.bodies.size(); ++i) {
     if (!layout.bodies[i].is_rigid()) continue;

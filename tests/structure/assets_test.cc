@@ -59,7 +59,8 @@ TEST_F(Assets, EveryFileReadsWithoutAWarning) {
     EXPECT_EQ(world->max_step_size, std::chrono::milliseconds(10));
     worlds.push_back(world->name);
   }
-  EXPECT_THAT(worlds, UnorderedElementsAre("office", "maze", "warehouse", "yard", "playground"));
+  EXPECT_THAT(worlds,
+              UnorderedElementsAre("office", "hall", "maze", "warehouse", "yard", "playground"));
   for (const auto& entry : fs::directory_iterator(AssetsFolder() / "models")) {
     if (fs::exists(entry.path() / "model.sdf")) Robot(entry.path().filename());
   }

@@ -42,6 +42,8 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
       ->capture_default_str();
   command.add_option("--avatar", a.avatars,
                      "MODEL[@x,y[,yaw]]: a person in the world, steered from the viewer");
+  command.add_option("--pedestrians", a.pedestrians,
+                     "COUNT@x,y[,radius][:x,y[,radius]...]: people who walk from place to place");
   CLI::Option* lockstep = command.add_flag(
       "--lockstep", a.lockstep,
       "as fast as possible and reproducible: every step waits for every behaviour");
@@ -270,6 +272,7 @@ void UnderstandSpecification(const RunArguments& a, const scenario::Scenario& sc
                                  ? simulation::FailurePolicy::kFail
                                  : simulation::FailurePolicy::kGoOn;
   specification.faults = scenario.faults;
+  specification.pedestrians = scenario.pedestrians;
   specification.keep = true;
   specification.threads = a.threads;
 }
@@ -286,6 +289,11 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
     return base::Fail(ok.error());
   if (auto ok = UnderstandRobots(a.avatars, options.scenario.avatars); !ok)
     return base::Fail(ok.error());
+  for (const std::string& text : a.pedestrians) {
+    auto group = scenario::ParsePedestrians(text);
+    if (!group) return base::Fail(group.error());
+    options.scenario.pedestrians.push_back(*std::move(group));
+  }
   if (auto ok = UnderstandBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());
   if (auto ok = UnderstandMovements(a.movements, options); !ok) return base::Fail(ok.error());
   if (auto ok = UnderstandDrives(a.drives, options); !ok) return base::Fail(ok.error());

@@ -47,7 +47,7 @@ struct RunOptions {
 // The options as they stand on the command line, before they are understood.
 struct RunArguments {
   std::string world;
-  std::vector<std::string> robots, avatars, behaviours, movements, drives, model_path,
+  std::vector<std::string> robots, avatars, pedestrians, behaviours, movements, drives, model_path,
       sensor_plugins;
   formats::ReadLimits limits;
   ServerLimits server_limits;

@@ -38,6 +38,7 @@ simulation::Specification SpecificationOf(const scenario::Scenario& scenario) {
   specification.step = base::FromSeconds(scenario.step.value_or(0));
   specification.duration = base::FromSeconds(scenario.duration.value_or(0));
   specification.seed = scenario.seed.value_or(0);
+  specification.pedestrians = scenario.pedestrians;
   specification.keep = true;  // the page that created it may be closed
   return specification;
 }

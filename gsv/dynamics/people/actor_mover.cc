@@ -1,11 +1,11 @@
 #include "gsv/dynamics/people/actor_mover.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gsv::dynamics {
 namespace {
 
-using geometry::Pose;
 using geometry::Vector3;
 
 // The angular velocity (world axes) that turns `from` into `to` in so many seconds.
@@ -19,7 +19,62 @@ Vector3 RateBetween(const geometry::Quaternion& from, const geometry::Quaternion
   return axis * (2 * std::atan2(sine, turn.w) / (sine * seconds));
 }
 
+// Of a trajectory: how far the actor has come at each of kSamples instants between two waypoints,
+// and at the last.
+constexpr int kSamples = 32;
+
+std::vector<double> WaysAlong(const model::Trajectory& trajectory) {
+  std::vector<double> ways{0};
+  Vector3 last = trajectory.waypoints[0].pose.position;
+  for (std::size_t i = 0; i + 1 < trajectory.waypoints.size(); ++i) {
+    const base::SimTime start = trajectory.waypoints[i].time;
+    const base::SimTime span = trajectory.waypoints[i + 1].time - start;
+    for (int k = 1; k <= kSamples; ++k) {
+      const Vector3 at = PoseOn(trajectory, start + span * k / kSamples).position;
+      ways.push_back(ways.back() + geometry::Norm(at - last));
+      last = at;
+    }
+  }
+  return ways;
+}
+
+double WayAt(const model::Trajectory& trajectory, const std::vector<double>& ways,
+             base::SimTime since) {
+  const auto& points = trajectory.waypoints;
+  std::size_t i = 0;
+  while (i + 1 < points.size() && points[i + 1].time <= since) ++i;
+  if (i + 1 == points.size()) return ways.back();
+  const double part = base::ToSeconds(since - points[i].time) /
+                      base::ToSeconds(points[i + 1].time - points[i].time) * kSamples;
+  const double whole = std::floor(part);
+  const std::size_t at = i * kSamples + static_cast<std::size_t>(whole);
+  return ways[at] + (part - whole) * (ways[std::min(at + 1, ways.size() - 1)] - ways[at]);
+}
+
+// The frame of an animation that is shown, from 0.
+int FrameAt(const model::Animation& animation, double share) {
+  const int count = animation.frame_count();
+  return std::min(count - 1, static_cast<int>((share - std::floor(share)) * count));
+}
+
 }  // namespace
+
+void ActorMover::Pose(const Actor& actor, const ScriptInstant& instant, world::State& state) {
+  const model::Animation* animation = actor.script->animation.get();
+  if (animation == nullptr || animation->frame_count() == 0) return;
+  double share = base::ToSeconds(instant.since) / base::ToSeconds(animation->length);
+  if (instant.trajectory < actor.ways.size() && animation->distance > 0) {
+    const model::Trajectory& trajectory = actor.script->trajectories[instant.trajectory];
+    if (trajectory.animated_by_distance) {
+      share =
+          WayAt(trajectory, actor.ways[instant.trajectory], instant.since) / animation->distance;
+    }
+  }
+  const auto from =
+      animation->positions.begin() +
+      static_cast<std::ptrdiff_t>(FrameAt(*animation, share)) * animation->joint_count;
+  std::copy_n(from, animation->joint_count, state.joint_positions.begin() + actor.first_joint);
+}
 
 void ActorMover::SetLayout(const std::shared_ptr<const world::Layout>& layout) {
   layout_ = layout;
@@ -28,8 +83,14 @@ void ActorMover::SetLayout(const std::shared_ptr<const world::Layout>& layout) {
     const world::Body& body = layout->bodies[i];
     if (!body.is_actor()) continue;
     const model::Script* script = body.model->script.get();
-    actors_.push_back(
-        {static_cast<int>(i), script, body.initial_pose * Inverse(model::StartPose(*script))});
+    actors_.push_back({static_cast<int>(i),
+                       script,
+                       body.initial_pose * Inverse(model::StartPose(*script)),
+                       body.first_joint,
+                       {}});
+    for (const model::Trajectory& trajectory : script->trajectories) {
+      actors_.back().ways.push_back(WaysAlong(trajectory));
+    }
   }
 }
 
@@ -39,8 +100,9 @@ void ActorMover::Move(base::SimTime step, world::State& state, world::State* bef
     const ScriptInstant now = InstantOf(*actor.script, state.time);
     const ScriptInstant then = InstantOf(*actor.script, state.time + step);
     world::BodyState& body = state.bodies[static_cast<std::size_t>(actor.body)];
-    const Pose start = body.world_from_model;
+    const geometry::Pose start = body.world_from_model;
     body.world_from_model = actor.world_from_trajectory * then.pose;
+    Pose(actor, then, state);
     body.linear_velocity = body.angular_velocity = {};
     const bool jumps = now.cycle != then.cycle || now.trajectory != then.trajectory;
     const Vector3 way = body.world_from_model.position - start.position;

@@ -1,5 +1,8 @@
 // Moves the actors of a world along their scripts.
 //
+// Animations    the joints have the positions of the frame whose time has come; by distance, of the
+//               share that the way since the trajectory's start is of the one that the animation
+//               covers.
 // Velocities    the mean over the step. An actor that jumps, because its script begins anew
 //               elsewhere, has none in that step, and hits nothing on its way.
 // Threads       one thread at a time.
@@ -27,7 +30,10 @@ class ActorMover {
     int body = 0;
     const model::Script* script = nullptr;
     geometry::Pose world_from_trajectory;
+    int first_joint = 0;
+    std::vector<std::vector<double>> ways;  // by trajectory: see WaysAlong()
   };
+  static void Pose(const Actor& actor, const ScriptInstant& instant, world::State& state);
 
   std::shared_ptr<const world::Layout> layout_;  // keeps the scripts
   std::vector<Actor> actors_;

@@ -100,6 +100,50 @@ TEST(ActorMover, PushesWhatForcesMove) {
   EXPECT_LE(world.position("box").x, 5.5);
 }
 
+// One joint, which goes through the frames 0, 1, 2, 3 in 2 s, or in 1 m of the way.
+std::shared_ptr<model::Model> AnimatedWalker(bool by_distance) {
+  auto model = WalkerOf(false);
+  model->links.emplace_back().name = "limb";
+  model::Joint& joint = model->joints.emplace_back();
+  joint.kind = model::JointKind::kContinuous;
+  joint.parent = 0;
+  joint.child = 1;
+  auto script = std::make_shared<model::Script>(*model->script);
+  script->trajectories[0].animated_by_distance = by_distance;
+  auto animation = std::make_shared<model::Animation>();
+  animation->length = base::FromSeconds(2);
+  animation->distance = 1;
+  animation->joint_count = 1;
+  animation->positions = {0, 1, 2, 3};
+  script->animation = std::move(animation);
+  model->script = std::move(script);
+  return model;
+}
+
+TEST(ActorMover, ShowsTheFrameWhoseTimeHasCome) {
+  TestWorld world(MakeWorldEngine());
+  world.AddActor("walker", AnimatedWalker(false), {});
+  ASSERT_TRUE(world.Start());
+  world.Run(0.74, kActorStep);
+  EXPECT_EQ(world.joint("walker", 0), 1);
+  world.Run(2, kActorStep);  // 2.74 s: again
+  EXPECT_EQ(world.joint("walker", 0), 1);
+}
+
+TEST(ActorMover, ShowsTheFrameOfTheDistanceWalked) {
+  TestWorld world(MakeWorldEngine());
+  world.AddActor("walker", AnimatedWalker(true), {});
+  ASSERT_TRUE(world.Start());
+  // x(t) = 6 u² - 4 u³ + 2 u with u = t / 4.
+  for (int i = 1; i <= 390; ++i) {
+    world.Step(kActorStep);
+    const double u = i * kActorStep / 4, x = 6 * u * u - 4 * u * u * u + 2 * u;
+    const double frames = 4 * (x - std::floor(x));
+    if (std::abs(frames - std::round(frames)) < 0.02) continue;  // at a frame's edge
+    ASSERT_EQ(world.joint("walker", 0), std::floor(frames)) << x;
+  }
+}
+
 TEST(ActorMover, RepeatsToTheBit) {
   const auto digest = [] {
     TestWorld world = testing::WorldOnGround();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gsv/dynamics/motion/engine.h"
+#include "gsv/world/pedestrian.h"
 #include "gsv/world/snapshot.h"
 
 namespace gsv::dynamics::testing {
@@ -63,6 +64,11 @@ class TestWorld {
   void AddActor(const std::string& name, std::shared_ptr<const model::Model> model,
                 const geometry::Pose& pose) {
     Add(name, std::move(model), pose, world::BodyKind::kActor);
+  }
+  void AddPedestrian(const std::string& name, const world::Pedestrian& pedestrian,
+                     const geometry::Pose& pose) {
+    Add(name, model::PedestrianModel(*pedestrian.group, 0), pose, world::BodyKind::kPedestrian);
+    bodies_.back().pedestrian = std::make_shared<const world::Pedestrian>(pedestrian);
   }
   void AddRobot(const std::string& name, std::shared_ptr<const model::Model> model,
                 const geometry::Pose& pose) {

@@ -60,10 +60,10 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   }
   XMLElement* content = xml->root->FirstChildElement("model");
   if (content == nullptr) content = xml->root->FirstChildElement("light");
-  std::shared_ptr<const model::Script> script;
+  ActorParts actor;
   if (content == nullptr) {
     content = xml->root->FirstChildElement("actor");
-    if (content != nullptr) script = MakeModelOfActor(*content, ContextFor(file, stored.problems));
+    if (content != nullptr) actor = MakeModelOfActor(*content, ContextFor(file, stored.problems));
   }
   if (content == nullptr) {
     const bool world = xml->root->FirstChildElement("world") != nullptr;
@@ -82,7 +82,7 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   printer.Text("</sdf>");
   auto read = FromText(printer.Take(), file, includes.files(), std::move(stored));
   if (!read) return read;
-  if (script != nullptr) read->framed.model = ActorOf(*read->framed.model, script);
+  if (actor.script != nullptr) read->framed.model = ActorOf(*read->framed.model, actor);
   Complete(*content, file, false, *read);
   return read;
 }

@@ -1,8 +1,10 @@
 #include "gsv/formats/sdf/sdf_actor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,6 +22,7 @@ using geometry::Vector3;
 using tinyxml2::XMLElement;
 
 constexpr double kLongestScript = 1e8;  // s
+constexpr int kFreedoms = 6;            // of a bone
 
 std::string TextOf(const XMLElement* element) {
   return element == nullptr || element->GetText() == nullptr ? "" : element->GetText();
@@ -35,7 +38,7 @@ class ActorReader {
   ActorReader(XMLElement& actor, const ReadingContext& context)
       : actor_(actor), context_(context) {}
 
-  std::shared_ptr<const model::Script> Read() {
+  ActorParts Read() {
     ReadAnimations();
     auto script = std::make_shared<model::Script>(ReadScript());
     AddSkin(model::StartPose(*script));
@@ -43,7 +46,7 @@ class ActorReader {
       while (XMLElement* element = actor_.FirstChildElement(part)) actor_.DeleteChild(element);
     }
     actor_.SetName("model");
-    return script;
+    return {std::move(script), std::move(skin_)};
   }
 
  private:
@@ -74,9 +77,6 @@ class ActorReader {
          animation = animation->NextSiblingElement("animation")) {
       const char* name = animation->Attribute("name");
       follows_way_[name == nullptr ? "" : name] = FlagOf(*animation, "interpolate_x", false);
-      context_.Warn("the animation \"" + std::string(name == nullptr ? "" : name) +
-                        "\" is not carried out: the actor keeps the shape of its skin",
-                    Place(*animation));
     }
   }
 
@@ -149,19 +149,68 @@ class ActorReader {
       if (!has_parts) AddFigure(start);
       return;
     }
-    if (!context_.finder.Find(file, context_.source)) {
+    const auto found = context_.finder.Find(file, context_.source);
+    if (!found) {
       context_.Warn("the skin " + file +
                         " is not found: the actor is shown as a simple figure. Use --model-path",
                     Place(*skin));
       AddFigure(start);
       return;
     }
+    const double scale = std::max(1e-6, NumberOf(*skin, "scale", 1));
+    if (const XMLElement* animation = AnimationToShow()) {
+      if (ReadSkin(*animation, *found, scale)) return;
+    }
     XMLElement* visual = FirstLink().InsertNewChildElement("visual");
     visual->SetAttribute("name", "skin");
     XMLElement* mesh = visual->InsertNewChildElement("geometry")->InsertNewChildElement("mesh");
     mesh->InsertNewChildElement("uri")->SetText(file.c_str());
-    const std::string scale = std::to_string(std::max(1e-6, NumberOf(*skin, "scale", 1)));
-    mesh->InsertNewChildElement("scale")->SetText((scale + " " + scale + " " + scale).c_str());
+    const std::string number = std::to_string(scale);
+    mesh->InsertNewChildElement("scale")->SetText((number + " " + number + " " + number).c_str());
+  }
+
+  // That of the first trajectory's type, else the first. Null: there is none.
+  const XMLElement* AnimationToShow() const {
+    const XMLElement* script = actor_.FirstChildElement("script");
+    const XMLElement* trajectory =
+        script == nullptr ? nullptr : script->FirstChildElement("trajectory");
+    const char* type = trajectory == nullptr ? nullptr : trajectory->Attribute("type");
+    const XMLElement* chosen = actor_.FirstChildElement("animation");
+    for (auto* each = chosen; each != nullptr; each = each->NextSiblingElement("animation")) {
+      const char* name = each->Attribute("name");
+      if (type != nullptr && name != nullptr && std::string(type) == name) {
+        chosen = each;
+        break;
+      }
+    }
+    for (auto* each = actor_.FirstChildElement("animation"); each != nullptr;
+         each = each->NextSiblingElement("animation")) {
+      if (each == chosen) continue;
+      context_.Warn("an actor has one animation; this one is left out", Place(*each));
+    }
+    return chosen;
+  }
+
+  // False, with a warning: the skin keeps its shape.
+  bool ReadSkin(const XMLElement& animation, const std::filesystem::path& skin, double scale) {
+    const auto refuse = [&](const std::string& why) {
+      context_.Warn("the animation is not carried out, and the skin keeps its shape: " + why,
+                    Place(animation));
+      return false;
+    };
+    std::filesystem::path motion = skin;
+    const std::string file = TextOf(animation, "filename");
+    if (!file.empty()) {
+      const auto found = context_.finder.Find(file, context_.source);
+      if (!found) return refuse(found.error().message);
+      motion = *found;
+    }
+    auto mesh =
+        ReadSkinnedMesh(skin, motion, scale, context_.limits, context_.textures, context_.problems);
+    if (!mesh) return refuse(mesh.error().message);
+    skin_ = std::make_shared<const SkinnedMesh>(*std::move(mesh));
+    (void)FirstLink();
+    return true;
   }
 
   // A cylinder with a head, 1.75 m tall. Skins such as Gazebo's have their origin in the hip, and
@@ -190,7 +239,84 @@ class ActorReader {
   XMLElement& actor_;
   const ReadingContext& context_;
   std::map<std::string, bool> follows_way_;  // by animation: interpolate_x
+  std::shared_ptr<const SkinnedMesh> skin_;
 };
+
+// Hangs a bone's triangles from the first link, by joints that slide along x, y and z, and then turn
+// about z, y and x.
+void AddBone(const SkinnedMesh& skin, const SkinnedMesh::Bone& bone, model::Model& actor) {
+  struct Freedom {
+    const char* name;
+    model::JointKind kind;
+    Vector3 axis;
+  };
+  static constexpr std::array<Freedom, kFreedoms> kJoints{
+      {{"x", model::JointKind::kPrismatic, {1, 0, 0}},
+       {"y", model::JointKind::kPrismatic, {0, 1, 0}},
+       {"z", model::JointKind::kPrismatic, {0, 0, 1}},
+       {"yaw", model::JointKind::kContinuous, {0, 0, 1}},
+       {"pitch", model::JointKind::kContinuous, {0, 1, 0}},
+       {"roll", model::JointKind::kContinuous, {1, 0, 0}}}};
+  int parent = 0;
+  for (const Freedom& freedom : kJoints) {
+    model::Joint joint;
+    joint.name = bone.name + "_" + freedom.name;
+    joint.kind = freedom.kind;
+    joint.axis = freedom.axis;
+    joint.parent = parent;
+    joint.child = parent = static_cast<int>(actor.links.size());
+    actor.joints.push_back(std::move(joint));
+    model::Link link;
+    link.name = bone.name + "_" + freedom.name;
+    actor.links.push_back(std::move(link));
+  }
+  model::Visual visual;
+  visual.name = "skin";
+  visual.shape = geometry::Mesh{bone.triangles, {1, 1, 1}};
+  if (!skin.materials.empty()) visual.materials = skin.materials;
+  actor.links.back().name = bone.name;
+  actor.links.back().visuals.push_back(std::move(visual));
+}
+
+// The lowest corner of any bone's box, in the skin, at the first frame.
+double LowestOf(const SkinnedMesh& skin) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const SkinnedMesh::Bone& bone : skin.bones) {
+    for (const Vector3& position : bone.triangles->positions) {
+      lowest = std::min(lowest, (bone.skin_from_bone[0] * position).z);
+    }
+  }
+  return lowest;
+}
+
+// Along a trajectory the root bone keeps to the actor's frame. Only its height stays where the feet
+// are then nearer to the ground, the world's z = 0: some skins have their origin at the feet, and
+// waypoints there.
+std::shared_ptr<const model::Animation> AnimationOf(const SkinnedMesh& skin,
+                                                    const model::Script& script, int first_joint) {
+  const bool follows = !script.trajectories.empty();
+  const double feet = model::StartPose(script).position.z + LowestOf(skin);
+  const bool keeps_height = std::abs(feet) <= std::abs(feet - skin.root[0].z);
+  auto animation = std::make_shared<model::Animation>();
+  animation->length = base::FromSeconds(skin.length);
+  const Vector3 covered = skin.root.back() - skin.root.front();
+  const auto frames = static_cast<double>(skin.root.size());
+  animation->distance = std::hypot(covered.x, covered.y) * frames / (frames - 1);
+  animation->joint_count = first_joint + kFreedoms * static_cast<int>(skin.bones.size());
+  for (std::size_t f = 0; f < skin.root.size(); ++f) {
+    animation->positions.insert(animation->positions.end(), static_cast<std::size_t>(first_joint),
+                                0.0);
+    Vector3 shift = follows ? skin.root[f] : Vector3{};
+    if (keeps_height) shift.z = 0;
+    for (const SkinnedMesh::Bone& bone : skin.bones) {
+      const Vector3 p = bone.skin_from_bone[f].position - shift;
+      const auto angles = geometry::ToRollPitchYaw(bone.skin_from_bone[f].orientation);
+      animation->positions.insert(animation->positions.end(),
+                                  {p.x, p.y, p.z, angles.yaw, angles.pitch, angles.roll});
+    }
+  }
+  return animation;
+}
 
 // The box around all visuals, in the model's frame; nothing if there are none.
 bool BoundsOfVisuals(const model::Model& model, geometry::Bounds& bounds) {
@@ -216,22 +342,48 @@ bool BoundsOfVisuals(const model::Model& model, geometry::Bounds& bounds) {
   return any;
 }
 
+// Widens `bounds` by the skin at its first frame.
+void Include(const SkinnedMesh& skin, const model::Animation& animation, int first_joint, bool& any,
+             geometry::Bounds& bounds) {
+  for (std::size_t b = 0; b < skin.bones.size(); ++b) {
+    const double* q = animation.positions.data() + first_joint + kFreedoms * static_cast<int>(b);
+    const Pose pose{{q[0], q[1], q[2]}, geometry::FromRollPitchYaw({q[5], q[4], q[3]})};
+    for (const Vector3& position : skin.bones[b].triangles->positions) {
+      const Vector3 p = pose * position;
+      if (!any) bounds = {p, p};
+      any = true;
+      bounds.min = {std::min(bounds.min.x, p.x), std::min(bounds.min.y, p.y),
+                    std::min(bounds.min.z, p.z)};
+      bounds.max = {std::max(bounds.max.x, p.x), std::max(bounds.max.y, p.y),
+                    std::max(bounds.max.z, p.z)};
+    }
+  }
+}
+
 }  // namespace
 
-std::shared_ptr<const model::Script> MakeModelOfActor(XMLElement& actor,
-                                                      const ReadingContext& context) {
+ActorParts MakeModelOfActor(XMLElement& actor, const ReadingContext& context) {
   return ActorReader(actor, context).Read();
 }
 
-std::shared_ptr<const model::Model> ActorOf(const model::Model& model,
-                                            std::shared_ptr<const model::Script> script) {
+std::shared_ptr<const model::Model> ActorOf(const model::Model& model, const ActorParts& parts) {
   auto actor = std::make_shared<model::Model>(model);
-  actor->script = std::move(script);
+  geometry::Bounds bounds;
+  bool is_seen = BoundsOfVisuals(model, bounds);
+  if (parts.skin != nullptr) {
+    auto script = std::make_shared<model::Script>(*parts.script);
+    const auto first_joint = static_cast<int>(actor->joints.size());
+    script->animation = AnimationOf(*parts.skin, *script, first_joint);
+    for (const SkinnedMesh::Bone& bone : parts.skin->bones) AddBone(*parts.skin, bone, *actor);
+    Include(*parts.skin, *script->animation, first_joint, is_seen, bounds);
+    actor->script = std::move(script);
+  } else {
+    actor->script = parts.script;
+  }
   const bool collides =
       std::any_of(model.links.begin(), model.links.end(),
                   [](const model::Link& link) { return !link.collisions.empty(); });
-  geometry::Bounds bounds;
-  if (collides || !BoundsOfVisuals(model, bounds)) return actor;
+  if (collides || !is_seen) return actor;
   const Vector3 size = bounds.max - bounds.min;
   const double radius = std::min(size.x, size.y) / 2;
   if (!(radius > 1e-3) || !(size.z > 1e-3)) return actor;

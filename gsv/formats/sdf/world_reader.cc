@@ -15,6 +15,7 @@
 #include "gsv/formats/sdf/include_scan.h"
 #include "gsv/formats/sdf/sdf_actor.h"
 #include "gsv/formats/sdf/sdf_document.h"
+#include "gsv/formats/sdf/sdf_pedestrians.h"
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/world_frames.h"
 
@@ -204,6 +205,8 @@ class WorldReader {
         if (auto status = TakeModel(*child); !status) return status;
       } else if (kind == "light") {
         TakeLight(*child);
+      } else if (kind == "gsv:pedestrians") {
+        if (auto group = ReadPedestrians(*child, context_)) world_.pedestrians.push_back(group);
       } else if (kind == "frame") {
         TakeFrame(*child);
       } else if (kind == "physics" || kind == "gravity" || kind == "scene" ||
@@ -387,7 +390,7 @@ class WorldReader {
   std::deque<Distinct> distinct_;
   std::map<std::string, std::size_t> distinct_by_text_;
   // Of those elements that were actors; never walked through.
-  std::map<const XMLElement*, std::shared_ptr<const model::Script>> scripts_;
+  std::map<const XMLElement*, ActorParts> scripts_;
   std::vector<PlacedLight> lights_;
   std::vector<XMLElement*> surroundings_;
   std::set<std::string> names_;

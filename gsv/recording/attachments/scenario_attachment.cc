@@ -41,6 +41,7 @@ scenario::Scenario ScenarioOf(const Simulation& simulation) {
   scenario.duration = ShortSeconds(specification.duration);
   scenario.deadline = ShortSeconds(specification.deadline);
   scenario.faults = specification.faults;
+  scenario.pedestrians = specification.pedestrians;
   scenario.fails_with_behaviour = specification.on_failure == simulation::FailurePolicy::kFail;
 
   std::map<std::string, std::string> behaviours;  // by robot

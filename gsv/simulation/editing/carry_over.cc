@@ -16,6 +16,9 @@ void CarryBody(const world::Layout& old_layout, const world::State& old_state, i
   };
   carry(old_state.joint_positions, state.joint_positions);
   carry(old_state.joint_velocities, state.joint_velocities);
+  if (!state.goals.empty() && !old_state.goals.empty()) {
+    state.goals[static_cast<std::size_t>(now)] = old_state.goals[static_cast<std::size_t>(old)];
+  }
   if (old_state.joint_commands.empty()) return;
   state.joint_commands.resize(static_cast<std::size_t>(layout.joint_count));
   carry(old_state.joint_commands, state.joint_commands);

@@ -140,12 +140,14 @@ base::Result<world::Body> WorldEditor::BodyOf(const ObjectSpecification& object)
   } else if (const int index = layout.Find(object.copy_of); index >= 0) {
     body.model = layout.bodies[static_cast<std::size_t>(index)].model;
     body.kind = layout.bodies[static_cast<std::size_t>(index)].kind;
+    body.pedestrian = layout.bodies[static_cast<std::size_t>(index)].pedestrian;
   } else if (const auto removed =
                  std::find_if(removed_.rbegin(), removed_.rend(),
                               [&](const world::Body& each) { return each.name == object.copy_of; });
              removed != removed_.rend()) {
     body.model = removed->model;
     body.kind = removed->kind;
+    body.pedestrian = removed->pedestrian;
   } else if (const auto* placed = FindInWorld(layout, object.copy_of)) {
     body.model = placed->model;
     body.kind = world::KindOf(*placed);

@@ -1,0 +1,84 @@
+// Decides for the pedestrians of a world how they want to move in the next step, by the social
+// force model (social_force.h). Planar kinematics then moves them, so that they enter neither each
+// other nor anything else.
+//
+// Others        all that planar kinematics moves, actors, and rigid bodies no wider than
+//               kWidestOther about their origin: as discs about their origins, on the same floor.
+// Walls         the bodies that stand still, sliced between kStep above a pedestrian's feet and
+//               its top: the nearest point of each, but of those that lie within 60 degrees of a
+//               nearer one none, so that a wall of many pieces is one wall.
+// Goals         one is reached within kArrival of it. Nobody looks for a way round.
+// Heading       the body turns to where it walks.
+// Threads       one thread at a time, which a team helps.
+// Determinism   the outcome is a function of the layout, the state and the step.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gsv/base/thread_team.h"
+#include "gsv/dynamics/shapes/obstacle_field.h"
+#include "gsv/dynamics/shapes/silhouette.h"
+#include "gsv/world/pedestrian.h"
+#include "gsv/world/state.h"
+
+namespace gsv::dynamics {
+
+class Crowd {
+ public:
+  static constexpr double kWidestOther = 1.5;  // m
+  static constexpr double kStep = 0.15;        // m
+  static constexpr double kArrival = 1;        // m
+
+  explicit Crowd(std::shared_ptr<base::ThreadTeam> team) : team_(std::move(team)) {}
+
+  void SetLayout(std::shared_ptr<const world::Layout> layout);
+
+  // Writes the commands of all pedestrians for a step from state.time on, and counts the goals that
+  // they have reached.
+  void Decide(base::SimTime step, world::State& state);
+
+ private:
+  struct Walker {
+    int body = 0;
+    const world::Pedestrian* pedestrian = nullptr;
+    std::size_t level = 0;  // of walls
+    // Its goal after `reached` others, kept so that it is drawn once.
+    bool has_goal = false;
+    std::uint32_t reached = 0;
+    Vector2 goal;
+  };
+  struct Other {
+    int body = 0;
+    double radius = 0, height = 0;
+    Vector2 at, velocity;
+    double z = 0;
+  };
+
+  void SliceWalls(const world::State& state);
+  void SortOthers(const world::State& state);
+  void DecideFor(Walker& walker, double seconds, world::State& state) const;
+  Vector2 ForceOfOthers(const Walker& walker, const world::BodyState& body, Vector2 wanted) const;
+  Vector2 ForceOfWalls(const Walker& walker, Vector2 at) const;
+
+  const std::shared_ptr<base::ThreadTeam> team_;
+  std::shared_ptr<const world::Layout> layout_;
+  std::vector<Walker> walkers_;  // by body
+
+  std::vector<Interval> levels_;       // heights at which walls are sliced
+  std::vector<ObstacleField> walls_;   // by level
+  std::vector<int> standing_;          // bodies that are walls
+  std::vector<geometry::Pose> poses_;  // theirs, as sliced
+  bool is_sliced_ = false;
+
+  std::vector<Other> others_;  // by body
+  // A grid of cells, no narrower than others reach; of each the run in sorted_.
+  double left_ = 0, bottom_ = 0, per_cell_ = 1;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::uint32_t> cell_of_, cell_start_;
+  std::vector<Other> sorted_;
+};
+
+}  // namespace gsv::dynamics

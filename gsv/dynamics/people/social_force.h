@@ -1,0 +1,53 @@
+// The social force model: how a pedestrian wants to move next.
+//
+// Source     D. Helbing, P. Molnár, "Social force model for pedestrian dynamics", Physical Review
+//            E 51, 4282 (1995), with that paper's parameters. A pedestrian is at x, has the
+//            velocity v, and wants to walk at v0 in the direction e. It accelerates by
+//              dv/dt = (v0 e - v) / tau + sum of w(e, f) f over the others + sum of f over walls,
+//            and is never faster than 1.3 v0.
+// Others     f = -grad V0 exp(-b / sigma), where 2 b = sqrt((|r| + |r - s|)² - |s|²) is the smaller
+//            diameter of an ellipse through the pedestrian, r = x - x_other, and s the other's
+//            velocity times dt, the length of a stride as it is seen ahead.
+//              V0 = 2.1 m²/s², sigma = 0.3 m, dt = 2 s
+// Sight      w is 1 for who is within 100 degrees of e, and 0.5 behind.
+// Walls      f = (U0 / R) exp(-d / R) away from the wall's nearest point, d away.
+//              U0 = 10 m²/s², R = 0.2 m
+// Driving    tau = 0.5 s. The driving term is integrated exactly, the forces by Euler's method: a
+//            pedestrian alone has the speed v0 (1 - exp(-t / tau)) at time t, whatever the step.
+// Ours       Instead of the paper's fluctuations each force of another is turned by kAside to the
+//            right, so that two who meet head on pass on each other's left instead of standing.
+//            The radii of both shorten the distance: see Apart().
+// Units      metres, seconds. Vectors in the plane of the world.
+#pragma once
+
+#include "gsv/geometry/vector3.h"
+
+namespace gsv::dynamics {
+
+inline constexpr double kRelaxationTime = 0.5;  // s
+inline constexpr double kFastest = 1.3;         // of the desired speed
+inline constexpr double kAside = 0.1;           // rad
+inline constexpr double kOthersReach = 3;   // m between centres: beyond it others count for nothing
+inline constexpr double kWallsReach = 1.2;  // m: the same of walls
+inline constexpr double kPaperRadius = 0.1;  // m: see Apart()
+
+// From another to the pedestrian: `between` (from centre to centre), shortened by as much as both
+// are thicker than the paper's pedestrians, but never shorter than 5 cm. Those are points, whose
+// drive balances the force of one who stands at 0.29 m: as if each had a radius of 0.14 m. With
+// less, kPaperRadius, people of any size keep a hand's breadth between them.
+geometry::Vector2 Apart(geometry::Vector2 between, double radius, double other_radius);
+
+// The acceleration by one other, without w. `apart` is not zero.
+geometry::Vector2 RepulsionByOther(geometry::Vector2 apart, geometry::Vector2 other_velocity);
+
+// With w: that of a force, for who wants to go in the direction `wanted` (unit length, or zero).
+geometry::Vector2 AsSeen(geometry::Vector2 force, geometry::Vector2 wanted);
+
+// The acceleration by a wall at `distance`; `away` is the direction from it, of unit length.
+geometry::Vector2 RepulsionByWall(geometry::Vector2 away, double distance);
+
+// The velocity after so many seconds under a constant force. `wanted` is v0 e.
+geometry::Vector2 NextVelocity(geometry::Vector2 velocity, geometry::Vector2 wanted,
+                               geometry::Vector2 force, double speed, double seconds);
+
+}  // namespace gsv::dynamics
