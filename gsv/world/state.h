@@ -81,7 +81,7 @@ struct State {
   std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
   // Those of a ball joint are its angular velocity about its three axes, as the child carries them.
   std::vector<double> joint_velocities;
-  std::vector<JointCommand> joint_commands;     // as joint_positions; empty: none was ever given
+  std::vector<JointCommand> joint_commands;  // as joint_positions; empty: none was ever given
   // How many goals each pedestrian has reached, as `bodies`; empty: there are no pedestrians.
   std::vector<std::uint32_t> goals;
   std::shared_ptr<const DeviceStates> devices;  // null: none has ever had a state

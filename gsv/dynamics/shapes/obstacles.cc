@@ -93,7 +93,8 @@ std::vector<Obstacle> CollectLooseObstacles(const world::Layout& layout, const w
 
 double LooseRadius(const world::Body& body) {
   // What an actor collides with is fixed to its frame.
-  if (!body.model->joints.empty() && !body.is_actor()) return std::numeric_limits<double>::infinity();
+  if (!body.model->joints.empty() && !body.is_actor())
+    return std::numeric_limits<double>::infinity();
   const std::vector<double> zero(body.model->joints.size(), 0.0);
   const std::vector<Pose> model_from_link = world::LinkPoses(*body.model, zero);
   double radius = 0;
