@@ -280,6 +280,22 @@ TEST_F(SdfRobotTest, ReadsWhatSdformatHasNoElementForByOurPrefix) {
   EXPECT_EQ(model::TextOr(feel, "angular_velocity.x.noise.type", ""), "gaussian");
 }
 
+TEST_F(SdfRobotTest, AContactSensorNamesItsCollisions) {
+  const auto model = Read(
+      "<sdf version='1.9'><model name='r'><link name='a'>"
+      "<collision name='front'><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
+      "<collision name='back'><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
+      "<sensor name='both' type='contact'><contact><collision>front</collision>"
+      "<collision>back</collision></contact></sensor>"
+      "<sensor name='numb' type='contact'><contact><collision>nose</collision></contact></sensor>"
+      "</link></model></sdf>");
+  ASSERT_THAT(model->sensors, SizeIs(2));
+  EXPECT_EQ(model::TextOr(model->sensors[0].parameters, "collision", ""), "front\nback");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_EQ(problems_[0].severity, base::Problem::Severity::kWarning);
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("numb names the collision \"nose\""));
+}
+
 TEST_F(SdfRobotTest, GivesSensorsOfOneNameDifferentNames) {
   const auto model = Read(
       "<sdf version='1.9'><model name='r'><link name='a'><sensor name='s' type='imu'/></link>"

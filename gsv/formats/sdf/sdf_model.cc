@@ -20,6 +20,7 @@
 #include "gsv/formats/sdf/sdf_joint_target.h"
 #include "gsv/formats/sdf/sdf_link.h"
 #include "gsv/formats/sdf/sdf_sensor.h"
+#include "gsv/model/collision_names.h"
 
 namespace gsv::formats {
 namespace {
@@ -175,6 +176,17 @@ class ModelReader {
     }
   }
 
+  // A contact sensor feels the collisions that it names, so that a wrong name makes it numb.
+  void CheckCollisionNames(const model::SensorDescription& sensor, const std::string& place) const {
+    if (sensor.type != "contact" && sensor.type != "bumper") return;
+    for (const std::string& name : model::CollisionNamesOf(sensor)) {
+      if (model::FindCollision(model_, sensor.link, name)) continue;
+      context_.Warn("the contact sensor " + sensor.name + " names the collision \"" + name +
+                        "\", which the model does not have; it feels nothing there",
+                    place);
+    }
+  }
+
   // `frame` is the link or the joint that holds the sensor; a joint's sensor sits on its child.
   void AddSensor(const sdf::ElementPtr& element, const std::string& frame) {
     model::SensorDescription sensor = ReadSensor(element);
@@ -200,6 +212,7 @@ class ModelReader {
     }
     sensor.name = UniqueSensorName(sensor.name, frame);
     Check(sensor, place);
+    CheckCollisionNames(sensor, place);
     model_.sensors.push_back(std::move(sensor));
   }
 

@@ -7,6 +7,8 @@
 
 #include <sdf/Param.hh>
 
+#include "gsv/model/collision_names.h"
+
 namespace gsv::formats {
 namespace {
 
@@ -58,6 +60,16 @@ bool IsDefined(const sdf::Element& element) {
   return parent != nullptr && parent->HasElementDescription(element.GetName());
 }
 
+// Of repeated elements the first counts, except for the collisions of a contact sensor, all of
+// whose names it feels.
+void AddParameter(const std::string& path, ParameterValue value, Parameters& parameters) {
+  const auto [known, is_new] = parameters.emplace(path, value);
+  if (is_new || path != model::kCollisionNames) return;
+  auto* const names = std::get_if<std::string>(&known->second);
+  const auto* const name = std::get_if<std::string>(&value);
+  if (names != nullptr && name != nullptr) *names += "\n" + *name;
+}
+
 void Flatten(const sdf::ElementPtr& element, const std::string& prefix, Parameters& parameters) {
   for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
     std::string name = child->GetName();
@@ -67,7 +79,7 @@ void Flatten(const sdf::ElementPtr& element, const std::string& prefix, Paramete
     const bool wraps = prefix.empty() && IsWrapper(name);
     const std::string inner = wraps ? "" : path;
     if (child->GetFirstElement() == nullptr && child->GetValue() != nullptr) {
-      parameters.emplace(path, ValueOf(*child->GetValue(), IsDefined(*child)));
+      AddParameter(path, ValueOf(*child->GetValue(), IsDefined(*child)), parameters);
     }
     for (const auto& attribute : child->GetAttributes()) {
       if (!attribute->GetSet() || (wraps && attribute->GetKey() == "name")) continue;

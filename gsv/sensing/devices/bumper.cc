@@ -1,9 +1,13 @@
 #include "gsv/sensing/devices/bumper.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "gsv/geometry/distance.h"
 #include "gsv/messages/gsv_msgs.h"
+#include "gsv/model/collision_names.h"
 #include "gsv/sensing/sensor_type.h"
 
 namespace gsv::sensing {
@@ -13,9 +17,51 @@ using geometry::Vector3;
 
 constexpr double kGroundSlope = -0.70;  // of a normal that points down within 45 degrees
 constexpr double kNormalLength = 0.3;   // m
+// Collisions that are as near to the point of a contact, but for this much, share it (m).
+constexpr double kSamePlace = 1e-3;
 
 readings::Vector ToVector(const Vector3& v) { return {v.x, v.y, v.z}; }
 Vector3 FromVector(const readings::Vector& v) { return {v.x, v.y, v.z}; }
+
+// Which contacts touch one of the collisions that a bumper names: those whose point is as near to
+// it as to any other of the robot. An engine reports points of bodies, not of their collisions.
+class NamedCollisions {
+ public:
+  NamedCollisions(const model::SensorDescription& sensor, std::vector<std::string> names)
+      : link_(sensor.link), names_(std::move(names)) {}
+
+  bool Touch(const world::Snapshot& snapshot, int body, const Vector3& point_in_world) const {
+    if (names_.empty()) return true;
+    const model::Model& model = *snapshot.layout->bodies[static_cast<std::size_t>(body)].model;
+    const std::vector<geometry::Pose> world_from_link = world::LinkPoses(snapshot, body);
+    const auto distance_to = [&](int link, const model::Collision& collision) {
+      const geometry::Pose world_from_collision =
+          world_from_link[static_cast<std::size_t>(link)] * collision.link_from_collision;
+      return geometry::DistanceTo(collision.shape, Inverse(world_from_collision) * point_in_world);
+    };
+    double nearest_named = std::numeric_limits<double>::infinity();
+    for (const std::string& name : names_) {
+      const auto found = model::FindCollision(model, link_, name);
+      if (!found) continue;
+      const auto& collisions = model.links[static_cast<std::size_t>(found->link)].collisions;
+      nearest_named = std::min(
+          nearest_named,
+          distance_to(found->link, collisions[static_cast<std::size_t>(found->collision)]));
+    }
+    if (!std::isfinite(nearest_named)) return false;
+    for (std::size_t link = 0; link < model.links.size(); ++link) {
+      for (const model::Collision& collision : model.links[link].collisions) {
+        const double distance = distance_to(static_cast<int>(link), collision);
+        if (distance < nearest_named - kSamePlace) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const int link_;
+  const std::vector<std::string> names_;
+};
 
 class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bumper> {
  public:
@@ -23,7 +69,8 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
       : SensorOf(description),
         half_view_(reader.Number("field_of_view", 2 * std::numbers::pi, 0, 2 * std::numbers::pi) /
                    2),
-        feels_ground_(reader.Flag("ground", false)) {}
+        feels_ground_(reader.Flag("ground", false)),
+        collisions_(description, NamesIn(description, reader)) {}
 
   base::Result<Reading> Sample(const Sampling& sampling) const override {
     const world::Snapshot& snapshot = *sampling.snapshot();
@@ -34,6 +81,7 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
       if (!is_first && contact.second != sampling.body()) continue;
       const Vector3 outwards = is_first ? contact.normal : -contact.normal;
       if (!feels_ground_ && outwards.z < kGroundSlope) continue;
+      if (!collisions_.Touch(snapshot, sampling.body(), contact.point)) continue;
       const Vector3 point = sensor_from_world * contact.point;
       if (std::abs(std::atan2(point.y, point.x)) > half_view_) continue;
       const Vector3 normal = sensor_from_world.orientation * outwards;
@@ -50,6 +98,12 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
   }
 
  private:
+  static std::vector<std::string> NamesIn(const model::SensorDescription& description,
+                                          ParameterReader& reader) {
+    (void)reader.Text(model::kCollisionNames, "");  // refuses what is no text
+    return model::CollisionNamesOf(description);
+  }
+
   Message ToMessage(const Values& felt, const Reading&, const std::string&) const override {
     Message message;
     for (const readings::Touch& touch : felt.touches) {
@@ -74,6 +128,7 @@ class Bumper final : public SensorOf<readings::Contact, messages::gsv_msgs::Bump
 
   const double half_view_;
   const bool feels_ground_;
+  const NamedCollisions collisions_;
 };
 
 }  // namespace

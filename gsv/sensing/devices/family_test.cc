@@ -226,6 +226,58 @@ TEST_F(FamilyTest, ABumperFeelsWhereItIsTouched) {
   EXPECT_NEAR(lines[0].from.x, 0.3, 1e-12);
 }
 
+// A body with a plate before it and one behind it, which meets a wall with its front.
+class NamedCollisionsTest : public ::testing::Test {
+ protected:
+  NamedCollisionsTest() {
+    auto robot = std::make_shared<model::Model>();
+    robot->links.resize(1);
+    const auto add = [&](const char* name, const geometry::Vector3& size, double x) {
+      model::Collision collision;
+      collision.name = name;
+      collision.link_from_collision = {{x, 0, 0.1}, {}};
+      collision.shape = geometry::Box{size};
+      robot->links[0].collisions.push_back(collision);
+    };
+    add("body", {0.4, 0.3, 0.2}, 0), add("front", {0.02, 0.3, 0.1}, 0.21);
+    add("rear", {0.02, 0.3, 0.1}, -0.21);
+    snapshot_ = testing::MakeSnapshot(
+        {{"robot", robot, PlanarPose(1, 0, 0, 0), false},
+         {"wall", testing::ModelOf(geometry::Box{{1, 8, 1}}), PlanarPose(1.72, 0, 0, 0), true}});
+    const int body = snapshot_->layout->Find("robot"), wall = snapshot_->layout->Find("wall");
+    snapshot_->contacts = {{body, wall, {1.22, 0.1, 0.1}, {1, 0, 0}, 0.001}};
+  }
+
+  std::size_t ContactsOf(const std::string& collisions) {
+    const auto description = DescriptionOf("contact", {{"collision", collisions}});
+    const auto bumper = BuiltInSensors().Find("contact")->create(description);
+    EXPECT_TRUE(bumper);
+    const auto reading =
+        (*bumper)->Sample(Sampling(snapshot_, snapshot_->layout->Find("robot"), 1, rays_));
+    return reading->labels->size();
+  }
+
+  std::shared_ptr<world::Snapshot> snapshot_;
+  RaySceneCache rays_;
+};
+
+TEST_F(NamedCollisionsTest, ABumperFeelsTheCollisionsThatItNames) {
+  EXPECT_EQ(ContactsOf("front"), 1u);
+  EXPECT_EQ(ContactsOf("rear"), 0u);
+  EXPECT_EQ(ContactsOf("body"), 0u);
+  EXPECT_EQ(ContactsOf("rear\nfront"), 1u);
+  EXPECT_EQ(ContactsOf("robot::front"), 0u);  // no link has that name
+}
+
+TEST_F(NamedCollisionsTest, ABumperThatNamesNoneFeelsThemAll) {
+  EXPECT_EQ(ContactsOf(""), 1u);
+  EXPECT_EQ(ContactsOf("__default__"), 1u);
+}
+
+TEST_F(NamedCollisionsTest, ABumperOfACollisionThatIsNotThereFeelsNothing) {
+  EXPECT_EQ(ContactsOf("bumper"), 0u);
+}
+
 TEST_F(FamilyTest, JointEncodersCountTheirTurns) {
   snapshot_->state.joint_positions[0] = 1.0;
   snapshot_->state.joint_velocities[0] = -0.5;

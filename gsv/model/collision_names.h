@@ -1,0 +1,32 @@
+// How a contact sensor names the collisions that it feels.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/model/model.h"
+
+namespace gsv::model {
+
+// Indices in Model::links and in Link::collisions.
+struct CollisionIndex {
+  int link = 0;
+  int collision = 0;
+  friend bool operator==(const CollisionIndex&, const CollisionIndex&) = default;
+};
+
+// The parameter of a contact sensor that holds the names, one a line; empty: all collisions.
+inline constexpr const char* kCollisionNames = "collision";
+
+// The names that the sensor's description holds. SDFormat's "__default__" is none.
+std::vector<std::string> CollisionNamesOf(const SensorDescription& sensor);
+
+// The collision of that name for a sensor on `link`: of that link, else of another. The name may
+// be scoped ("base::bumper", "robot::base::bumper"), and may be one that Gazebo gives to a
+// collision of a link which its URDF reader has merged into another
+// ("base_fixed_joint_lump__bumper_collision_1"). Nothing if no collision has it.
+std::optional<CollisionIndex> FindCollision(const Model& model, int link, std::string_view name);
+
+}  // namespace gsv::model
