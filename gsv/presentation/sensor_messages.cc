@@ -58,9 +58,11 @@ std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulati
   std::vector<std::string> names;
   for (const model::SensorDescription& description : simulation.sensors(robot)) {
     const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
-    if (type == nullptr || type->schema == nullptr) continue;
+    if (type == nullptr) continue;
+    const sensing::SensorMessages sent = type->MessagesOf(description);
+    if (sent.schema == nullptr) continue;
     names.push_back(SensorTopic(robot, description.name));
-    if (type->companion) names.push_back(CompanionTopic(names.back(), *type->companion));
+    if (sent.companion) names.push_back(CompanionTopic(names.back(), *sent.companion));
   }
   return names;
 }

@@ -26,6 +26,9 @@ class ForwardingSensor : public Sensor {
   Bytes EncodeCompanion(base::SimTime time, const std::string& frame_id) const override {
     return sensor_->EncodeCompanion(time, frame_id);
   }
+  Bytes EncodeCompanionOf(const Reading& reading, const std::string& frame_id) const override {
+    return sensor_->EncodeCompanionOf(reading, frame_id);
+  }
   std::vector<Segment> Beams(const Reading& reading) const override {
     return sensor_->Beams(reading);
   }

@@ -20,12 +20,20 @@ namespace gsv::sensing {
 // What a viewer draws of a reading.
 enum class Overlay { kNone, kLines, kPoints, kPicture };
 
-// A message that goes with a reading and hangs on how the sensor is made, not on what it reads: how
-// a camera's picture is to be understood. On the topic /ROBOT/SENSOR/`topic`, at the reading's
-// instant; Sensor::EncodeCompanion() makes it.
+// A second message that goes with a reading, at the reading's instant, on the topic
+// /ROBOT/SENSOR/`topic`. Sensor::EncodeCompanionOf() makes it.
 struct Companion {
   std::string topic;
   const messages::Schema* schema = nullptr;
+  // It depends on what was read (the points of a lidar), not only on how the sensor is made (the
+  // lens of a camera).
+  bool of_readings = false;
+};
+
+// What a sensor sends. `schema` is that of Sensor::Encode(); null: there is no message.
+struct SensorMessages {
+  const messages::Schema* schema = nullptr;
+  std::optional<Companion> companion;
 };
 
 struct SensorType {
@@ -39,6 +47,13 @@ struct SensorType {
   readings::Layout layout;                   // of the readings; empty: nobody says
   std::optional<Companion> companion;  // of cameras alone, which have an optical frame as well
   Overlay overlay = Overlay::kNone;
+
+  // Of a type whose messages depend on the sensor's description; empty: they are those above.
+  std::function<SensorMessages(const model::SensorDescription&)> messages_of;
+
+  SensorMessages MessagesOf(const model::SensorDescription& description) const {
+    return messages_of ? messages_of(description) : SensorMessages{schema, companion};
+  }
 };
 
 class SensorRegistry {

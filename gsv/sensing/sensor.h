@@ -111,8 +111,9 @@ class Sensor {
 
   const model::SensorDescription& description() const { return description_; }
 
-  // May take long (a picture) and must not be called from the stepping thread. Fails only where the
-  // means are missing: a camera without a renderer.
+  // May take long (an image): called on the stepping thread, as by the judge of a verdict, it
+  // delays the next step by as much. Fails only where the means are missing: a camera without a
+  // renderer.
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
   // Sample() waits for something outside of the caller's thread, such as a renderer.
   virtual bool TakesLong() const { return false; }
@@ -131,6 +132,11 @@ class Sensor {
   // The same of the message that goes beside it, of a type with a companion.
   virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {
     return {};
+  }
+  // That message of a type whose companion goes with each reading (Companion::of_readings). Of
+  // other types it is the same for every reading of one instant.
+  virtual Bytes EncodeCompanionOf(const Reading& reading, const std::string& frame_id) const {
+    return EncodeCompanion(reading.time, frame_id);
   }
   // What a viewer draws of a reading; a point at each end for types that are drawn as points.
   virtual std::vector<Segment> Beams(const Reading& /*reading*/) const { return {}; }

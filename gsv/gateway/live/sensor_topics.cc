@@ -31,14 +31,20 @@ struct SensorTopics::Sensor {
       : robot(std::move(its_robot)),
         description(std::move(its_description)),
         type(its_type),
+        messages(type->MessagesOf(description)),
         made(std::move(its_made)),
         pacing(type->overlay == sensing::Overlay::kPicture ? kPicturesRate : kReadingsRate) {}
 
   const std::string robot;
   const model::SensorDescription description;
   const sensing::SensorType* const type;
+  const sensing::SensorMessages messages;
   const Made made;  // which writes its messages
   std::string frame() const { return presentation::FrameOf(robot, description.name); }
+  // The companion is read with the sensor, not only once by whoever comes.
+  bool has_companion_of_readings() const {
+    return messages.companion && messages.companion->of_readings;
+  }
 
   foxglove::ChannelId channel = 0;            // 0: none
   foxglove::ChannelId companion_channel = 0;  // the same
@@ -155,20 +161,20 @@ void SensorTopics::Advertise(Sensors& found) {
   std::vector<std::pair<std::shared_ptr<Sensor>, foxglove::ChannelId Sensor::*>> fresh;
   bool is_all = true;
   for (const auto& [topic, sensor] : found) {
-    if (sensor->channel != 0 || sensor->type->schema == nullptr) continue;
+    if (sensor->channel != 0 || sensor->messages.schema == nullptr) continue;
     sensor->is_wanted = wanted_.Contains(sensor->robot);
     if (!sensor->is_wanted && topics_ >= kMostSensorTopics) {
       is_all = false;
       continue;
     }
-    channels.push_back(ChannelFor(topic, *sensor->type->schema));
+    channels.push_back(ChannelFor(topic, *sensor->messages.schema));
     fresh.emplace_back(sensor, &Sensor::channel);
-    if (const auto& companion = sensor->type->companion) {
+    if (const auto& companion = sensor->messages.companion) {
       channels.push_back(
           ChannelFor(presentation::CompanionTopic(topic, *companion), *companion->schema));
       fresh.emplace_back(sensor, &Sensor::companion_channel);
     }
-    if (!sensor->is_wanted) topics_ += sensor->type->companion ? 2 : 1;
+    if (!sensor->is_wanted) topics_ += sensor->messages.companion ? 2 : 1;
   }
   const std::vector<foxglove::ChannelId> ids = hub_->Advertise(std::move(channels));
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -193,7 +199,7 @@ void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simula
     const auto found = by_channel_.find(channel);
     if (found == by_channel_.end()) continue;
     const std::shared_ptr<Sensor>& sensor = found->second;
-    if (channel == sensor->companion_channel) {
+    if (channel == sensor->companion_channel && !sensor->has_companion_of_readings()) {
       WelcomeToCompanion(*snapshot, *sensor);
     } else {
       PublishReading(simulation, *snapshot, now, sensor);
@@ -228,13 +234,18 @@ void SensorTopics::WelcomeToCompanion(const world::Snapshot& snapshot, const Sen
   hub_->Welcome(sensor.companion_channel, {&message, 1});
 }
 
+bool SensorTopics::HasNewcomers(const Sensor& sensor) const {
+  return hub_->HasNewcomers(sensor.channel) ||
+         (sensor.has_companion_of_readings() && hub_->HasNewcomers(sensor.companion_channel));
+}
+
 void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
                                   const world::Snapshot& snapshot, WallTime now,
                                   const std::shared_ptr<Sensor>& sensor) {
   if (sensor->is_busy) return;
   const bool is_due = sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now) &&
                       now - sensor->asked_at >= kShareOfProcessors * sensor->took.load();
-  if (!is_due && !hub_->HasNewcomers(sensor->channel)) return;
+  if (!is_due && !HasNewcomers(*sensor)) return;
   sensor->is_busy = true;
   const bool accepted = workers_.Submit([self = shared_from_this(), simulation, sensor] {
     const auto began = std::chrono::steady_clock::now();
@@ -254,6 +265,7 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
 void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& sensor) {
   const auto refuse = [&](const base::Error& error) {
     hub_->Welcome(sensor.channel, {});  // or they would be asked for every round
+    if (sensor.has_companion_of_readings()) hub_->Welcome(sensor.companion_channel, {});
     if (sensor.has_complained.exchange(true)) return;
     hub_->SendStatus(foxglove::StatusLevel::kWarning, error.Sentence());
   };
@@ -262,17 +274,25 @@ void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& senso
   if (!reading) return refuse(reading.error());
   if (!sensor.made) return refuse(sensor.made.error());
   const bool is_new = sensor.published_step.exchange(reading->step) != reading->step;
-  if (!is_new && !hub_->HasNewcomers(sensor.channel)) return;
+  if (!is_new && !HasNewcomers(sensor)) return;
   const sensing::Sensor& its = **sensor.made;
   auto encoded = its.Encode(*reading, sensor.frame());
   if (!encoded) return refuse(encoded.error());
   const std::uint64_t time = base::NanosecondsOf(reading->time);
   const Hub::Message message{time, SharedBytes(*std::move(encoded))};
-  if (!is_new) return hub_->Welcome(sensor.channel, {&message, 1});
-  hub_->Publish(sensor.channel, message);
+  if (is_new) {
+    hub_->Publish(sensor.channel, message);
+  } else {
+    hub_->Welcome(sensor.channel, {&message, 1});
+  }
   if (sensor.companion_channel == 0 || !hub_->IsSubscribed(sensor.companion_channel)) return;
-  hub_->Publish(sensor.companion_channel,
-                {time, SharedBytes(its.EncodeCompanion(reading->time, sensor.frame()))});
+  if (!is_new && !sensor.has_companion_of_readings()) return;
+  const Hub::Message companion{time, SharedBytes(its.EncodeCompanionOf(*reading, sensor.frame()))};
+  if (is_new) {
+    hub_->Publish(sensor.companion_channel, companion);
+  } else {
+    hub_->Welcome(sensor.companion_channel, {&companion, 1});
+  }
 }
 
 void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& simulation,

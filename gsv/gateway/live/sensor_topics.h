@@ -60,6 +60,8 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
 
   void PublishTransforms(const world::Snapshot& snapshot);
   void WelcomeToCompanion(const world::Snapshot& snapshot, const Sensor& sensor);
+  // Somebody has subscribed to its readings since they were last sent.
+  bool HasNewcomers(const Sensor& sensor) const;
   void PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
                       const world::Snapshot& snapshot, WallTime now,
                       const std::shared_ptr<Sensor>& sensor);

@@ -29,6 +29,7 @@ base::SimTime PeriodOf(const model::SensorDescription& description, double rate)
 struct SensorRecorder::Sensor {
   std::string robot;
   const sensing::SensorType* type = nullptr;
+  sensing::SensorMessages messages;
   std::shared_ptr<const sensing::Sensor> sensor;
   Instants instants;
   bool is_wanted = true;                       // its readings are
@@ -78,12 +79,14 @@ void SensorRecorder::Mount(const SensorLists& lists, const world::Snapshot& snap
 std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
     const std::string& robot, const model::SensorDescription& description) {
   const sensing::SensorType* type = types_->Find(description.type);
-  if (type == nullptr || type->schema == nullptr) return nullptr;
+  if (type == nullptr) return nullptr;
+  sensing::SensorMessages sent = type->MessagesOf(description);
+  if (sent.schema == nullptr) return nullptr;
   const std::string topic = presentation::SensorTopic(robot, description.name);
   const bool is_wanted = options_.selection.Has(topic);
   const bool has_companion =
-      is_wanted && type->companion &&
-      options_.selection.Has(presentation::CompanionTopic(topic, *type->companion));
+      is_wanted && sent.companion &&
+      options_.selection.Has(presentation::CompanionTopic(topic, *sent.companion));
   const bool has_beams = beams_.is_wanted() && presentation::HasLines(*type, description);
   if (!is_wanted && !has_beams) return nullptr;
   auto sensor = made_.Of(description);
@@ -94,6 +97,7 @@ std::shared_ptr<SensorRecorder::Sensor> SensorRecorder::Make(
   const double rate = (*sensor)->TakesLong() ? options_.rates.pictures : options_.rates.readings;
   return std::make_shared<Sensor>(Sensor{.robot = robot,
                                          .type = type,
+                                         .messages = std::move(sent),
                                          .sensor = *std::move(sensor),
                                          .instants = Instants(PeriodOf(description, rate)),
                                          .is_wanted = is_wanted,
@@ -132,7 +136,7 @@ void SensorRecorder::Take(const std::shared_ptr<const world::Snapshot>& snapshot
   sample.reading = sensor.sensor->Sample({snapshot, sample.body, seed_, rays_});
   if (!sample.reading) return;
   if (sensor.has_companion) {
-    sample.companion = sensor.sensor->EncodeCompanion(sample.reading->time, sensor.frame());
+    sample.companion = sensor.sensor->EncodeCompanionOf(*sample.reading, sensor.frame());
   }
   if (!sensor.is_wanted) return;
   auto message = Encode(sensor, *sample.reading);
@@ -151,7 +155,7 @@ void SensorRecorder::Write(Sample& sample) {
   }
   const base::SimTime time = sample.reading->time;
   if (sensor.is_wanted) {
-    if (!sensor.channel) sensor.channel = AddChannel(*sample.topic, *sensor.type->schema);
+    if (!sensor.channel) sensor.channel = AddChannel(*sample.topic, *sensor.messages.schema);
     if (!sensor.channel) {
       sensor.has_failed = true;
       return;
@@ -159,7 +163,7 @@ void SensorRecorder::Write(Sample& sample) {
     writer_.Write(*sensor.channel, time, std::as_bytes(std::span(sample.message)));
   }
   if (sensor.has_companion) {
-    const sensing::Companion& type = *sensor.type->companion;
+    const sensing::Companion& type = *sensor.messages.companion;
     if (!sensor.companion_channel) {
       sensor.companion_channel =
           AddChannel(presentation::CompanionTopic(*sample.topic, type), *type.schema);
@@ -182,7 +186,7 @@ std::optional<ChannelId> SensorRecorder::AddChannel(const std::string& topic,
 base::Result<std::vector<std::uint8_t>> SensorRecorder::Encode(
     const Sensor& sensor, const sensing::Reading& reading) const {
   using messages::sensor_msgs::CompressedImage;
-  const bool is_picture = sensor.type->schema == &messages::SchemaOf<CompressedImage>() &&
+  const bool is_picture = sensor.messages.schema == &messages::SchemaOf<CompressedImage>() &&
                           reading.picture != nullptr && options_.write_png;
   if (is_picture) {
     if (auto png = options_.write_png(*reading.picture)) {

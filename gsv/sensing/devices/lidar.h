@@ -12,7 +12,9 @@
 //             range.max (10). noise (m), see noise.h: a bias is each beam's own, a dropout reads as
 //             nothing hit, and what lies within the limits is kept there. Of range.resolution
 //             nothing is made, as in Gazebo.
-// Message     sensor_msgs/LaserScan: of several fans the one nearest to the horizontal.
+// Message     with one fan a sensor_msgs/LaserScan. With several a gsv_msgs/LidarScan, which holds
+//             all ranges, and beside it (/ROBOT/SENSOR/points) a sensor_msgs/PointCloud2, see
+//             lidar_messages.h.
 #pragma once
 
 #include "gsv/sensing/registry.h"

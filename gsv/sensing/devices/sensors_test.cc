@@ -1,10 +1,12 @@
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "gsv/geometry/constants.h"
 #include "gsv/messages/cdr.h"
 #include "gsv/messages/geometry_msgs.h"
+#include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/sensor_msgs.h"
 #include "gsv/sensing/devices/built_in.h"
 #include "gsv/sensing/registry.h"
@@ -135,11 +137,72 @@ TEST_F(SensorTest, LidarScansRowsFromTheLowest) {
   ASSERT_EQ(reading.values.size(), 3u);
   EXPECT_NEAR(reading.values[0], 3.8 / std::cos(0.2), 1e-9);
   EXPECT_NEAR(reading.values[1], 3.8 / std::cos(0.05), 1e-9);
-  // The message has the row nearest to the horizontal.
-  const auto scan =
-      Decoded<messages::sensor_msgs::LaserScan>(DescriptionOf("lidar", parameters), reading);
-  ASSERT_EQ(scan.ranges.size(), 1u);
-  EXPECT_FLOAT_EQ(scan.ranges[0], static_cast<float>(3.8 / std::cos(0.05)));
+}
+
+TEST_F(SensorTest, LidarOfOneRowBecomesALaserScan) {
+  const auto description = DescriptionOf("lidar", Scan(5, -kPi / 2, kPi / 2));
+  const SensorMessages sent = BuiltInSensors().Find("lidar")->MessagesOf(description);
+  EXPECT_EQ(sent.schema->name, "sensor_msgs/msg/LaserScan");
+  EXPECT_FALSE(sent.companion);
+  const auto scan = Decoded<messages::sensor_msgs::LaserScan>(description, Sample(description));
+  ASSERT_EQ(scan.ranges.size(), 5u);
+  EXPECT_FLOAT_EQ(scan.ranges[2], 3.8f);
+}
+
+// Three rows of two beams, of which the middle one is level: to the wall 3.8 m ahead, and 45° to
+// its side, beyond 5 m.
+model::Parameters ThreeRows() {
+  auto parameters = Scan(2, 0, kPi / 4);
+  parameters["scan.vertical.samples"] = 3.0;
+  parameters["scan.vertical.min_angle"] = -0.1;
+  parameters["scan.vertical.max_angle"] = 0.1;
+  return parameters;
+}
+
+TEST_F(SensorTest, LidarOfSeveralRowsSendsThemAll) {
+  const auto description = DescriptionOf("gpu_lidar", ThreeRows());
+  const SensorMessages sent = BuiltInSensors().Find("lidar")->MessagesOf(description);
+  EXPECT_EQ(sent.schema->name, "gsv_msgs/msg/LidarScan");
+  const auto scan = Decoded<messages::gsv_msgs::LidarScan>(description, Sample(description));
+  EXPECT_EQ(scan.header.frame_id, "robot/front");
+  EXPECT_EQ(scan.beams, 2u);
+  EXPECT_EQ(scan.rows, 3u);
+  EXPECT_FLOAT_EQ(scan.vertical_angle_min, -0.1f);
+  EXPECT_FLOAT_EQ(scan.vertical_angle_increment, 0.1f);
+  EXPECT_FLOAT_EQ(scan.angle_increment, static_cast<float>(kPi / 4));
+  ASSERT_EQ(scan.ranges.size(), 6u);
+  for (const std::size_t row : {0u, 1u, 2u}) {
+    const double elevation = 0.1 * (static_cast<double>(row) - 1);
+    EXPECT_NEAR(scan.ranges[2 * row], 3.8 / std::cos(elevation), 1e-6) << row;
+    EXPECT_EQ(scan.ranges[2 * row + 1], INFINITY) << row;
+  }
+}
+
+TEST_F(SensorTest, LidarOfSeveralRowsSendsItsPointsBesides) {
+  const auto description = DescriptionOf("lidar", ThreeRows());
+  const SensorMessages sent = BuiltInSensors().Find("lidar")->MessagesOf(description);
+  ASSERT_TRUE(sent.companion);
+  EXPECT_EQ(sent.companion->topic, "points");
+  EXPECT_TRUE(sent.companion->of_readings);
+  const auto bytes = (*Make(description))->EncodeCompanionOf(Sample(description), "robot/front");
+  const auto cloud =
+      messages::Decode<messages::sensor_msgs::PointCloud2>(std::as_bytes(std::span(bytes)));
+  ASSERT_TRUE(cloud);
+  EXPECT_EQ(cloud->height, 3u);
+  EXPECT_EQ(cloud->width, 2u);
+  ASSERT_EQ(cloud->data.size(), std::size_t{cloud->row_step} * cloud->height);
+  const auto value = [&](std::size_t point, std::size_t offset, auto number) {
+    std::memcpy(&number, &cloud->data[point * cloud->point_step + offset], sizeof number);
+    return number;
+  };
+  for (const std::size_t row : {0u, 1u, 2u}) {
+    const double elevation = 0.1 * (static_cast<double>(row) - 1);
+    EXPECT_NEAR(value(2 * row, 0, 0.0f), 3.8, 1e-6);
+    EXPECT_NEAR(value(2 * row, 4, 0.0f), 0, 1e-6);
+    EXPECT_NEAR(value(2 * row, 8, 0.0f), 3.8 * std::tan(elevation), 1e-6);
+    EXPECT_EQ(value(2 * row, cloud->fields.at(3).offset, std::uint16_t{9}), row);
+    EXPECT_TRUE(std::isnan(value(2 * row + 1, 0, 0.0f)));
+  }
 }
 
 TEST_F(SensorTest, LidarNoiseHangsOnSeedAndStepAndHasItsDeviation) {

@@ -10,6 +10,22 @@ test("a scan's points lie where its beams ended; beams that met nothing have non
   points.forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 6));
 });
 
+test("a scan of several rows has points above each other", () => {
+  const rows = {
+    ...SCAN,
+    beams: 2,
+    rows: 2,
+    angle_min: 0,
+    vertical_angle_min: 0,
+    vertical_angle_increment: Math.PI / 6,
+    ranges: new Float32Array([1, 2, 4, Infinity]),
+  };
+  const points = pointsOf(rows);
+  const expected = [1, 0, 0, 0, 2, 0, 4 * Math.cos(Math.PI / 6), 0, 2];
+  expect(points).toHaveLength(expected.length);
+  points.forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 5));
+});
+
 function cloud(points: number[][], more: object = {}) {
   const data = new Uint8Array(16 * points.length);
   const view = new DataView(data.buffer);

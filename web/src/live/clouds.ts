@@ -9,6 +9,14 @@ export interface LaserScan {
   ranges: Float32Array;
 }
 
+// Of a lidar with several rows: beam i of row r is ranges[r * beams + i].
+export interface LidarScan extends LaserScan {
+  beams: number;
+  rows: number;
+  vertical_angle_min: number;
+  vertical_angle_increment: number;
+}
+
 export interface PointCloud {
   height: number;
   width: number;
@@ -27,6 +35,7 @@ const FLOAT64 = 8;
 // x y z of each point; empty when the message is neither, or broken.
 export function pointsOf(message: unknown): Float32Array {
   if (typeof message !== "object" || message === null) return new Float32Array(0);
+  if ("ranges" in message && "beams" in message) return pointsOfRows(message as LidarScan);
   if ("ranges" in message) return pointsOfScan(message as LaserScan);
   if ("point_step" in message) return pointsOfCloud(message as PointCloud);
   return new Float32Array(0);
@@ -39,6 +48,21 @@ function pointsOfScan({ angle_min, angle_increment, range_min, range_max, ranges
     if (!(range >= range_min && range <= range_max)) continue;
     const angle = angle_min + i * angle_increment;
     points.add(range * Math.cos(angle), range * Math.sin(angle), 0);
+  }
+  return points.taken();
+}
+
+function pointsOfRows(scan: LidarScan): Float32Array {
+  const { angle_min, angle_increment, range_min, range_max, ranges, beams } = scan;
+  if (!(beams > 0)) return new Float32Array(0);
+  const points = new PointList(ranges.length);
+  for (let i = 0; i < ranges.length; i += points.stride) {
+    const range = ranges[i]!;
+    if (!(range >= range_min && range <= range_max)) continue;
+    const azimuth = angle_min + (i % beams) * angle_increment;
+    const elevation = scan.vertical_angle_min + Math.floor(i / beams) * scan.vertical_angle_increment;
+    const level = range * Math.cos(elevation);
+    points.add(level * Math.cos(azimuth), level * Math.sin(azimuth), range * Math.sin(elevation));
   }
   return points.taken();
 }

@@ -1,0 +1,31 @@
+// The parameters of a lidar (lidar.h), read and checked.
+#pragma once
+
+#include <optional>
+
+#include "gsv/sensing/noise.h"
+#include "gsv/sensing/parameters.h"
+
+namespace gsv::sensing {
+
+// Beams at evenly spaced angles, both ends included.
+struct Angles {
+  int count = 1;
+  double first = 0, last = 0;
+
+  double increment() const { return count > 1 ? (last - first) / (count - 1) : 0; }
+  double angle(int i) const { return first + i * increment(); }
+};
+
+// Angles in rad, ranges in m.
+struct LidarSettings {
+  Angles horizontal, vertical;
+  double min = 0, max = 0;
+  double noise_mean = 0, noise_stddev = 0;  // of white noise alone, drawn beam after beam
+  std::optional<NoiseModel> full_noise;     // any other
+};
+
+// Refuses by the reader.
+LidarSettings ReadLidarSettings(ParameterReader& reader);
+
+}  // namespace gsv::sensing
