@@ -63,9 +63,38 @@ int Recover(const RecordingArguments& arguments) {
   return kOk;
 }
 
+// A part that cannot hold anything, because its ends or its topics are wrong.
+base::Status CheckSelection(const RecordingArguments& arguments,
+                            const recording::McapReader& reader) {
+  if (arguments.from > arguments.to) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "is after --to, so that no message lies between them", "--from");
+  }
+  for (const std::string& topic : arguments.topics) {
+    const recording::Selection one{{topic}};
+    const auto& channels = reader.summary().channels;
+    if (std::any_of(channels.begin(), channels.end(),
+                    [&](const auto& each) { return one.Has(each.second.topic); })) {
+      continue;
+    }
+    return base::Fail(base::ErrorCode::kNotFound,
+                      "the recording has no such topic; see `gsv rec info`", topic);
+  }
+  return {};
+}
+
+void WarnIfEmpty(std::uint64_t messages, const std::string& file) {
+  if (messages > 0) return;
+  std::fprintf(stderr, "gsv: warning: %s: no message lies in the selected part\n", file.c_str());
+}
+
 int Filter(const RecordingArguments& arguments) {
+  const auto reader = recording::McapReader::Open(arguments.file);
+  if (!reader) return Refuse(reader.error());
+  if (auto ok = CheckSelection(arguments, **reader); !ok) return Refuse(ok.error());
   const auto filtered = recording::Recover(arguments.file, arguments.output, arguments.Selection());
   if (!filtered) return Refuse(filtered.error());
+  WarnIfEmpty(filtered->messages, arguments.file);
   std::fputs((recording::ToJson(*filtered) + "\n").c_str(), stdout);
   return kOk;
 }
@@ -74,19 +103,32 @@ int Filter(const RecordingArguments& arguments) {
 int Cat(const RecordingArguments& arguments) {
   const auto reader = recording::McapReader::Open(arguments.file);
   if (!reader) return Refuse(reader.error());
+  if (auto ok = CheckSelection(arguments, **reader); !ok) return Refuse(ok.error());
   auto messages = recording::DecodedMessages::Open(**reader, arguments.Selection());
   if (!messages) return Refuse(messages.error());
+  std::uint64_t printed = 0;
   for (;;) {
     auto message = messages->Next();
     if (!message) return Refuse(message.error());
-    if (!*message) return kOk;
-    const nlohmann::ordered_json line{{"time_s", base::ToSeconds((*message)->time)},
-                                      {"topic", (*message)->topic},
-                                      {"type", (*message)->type},
-                                      {"message", std::move((*message)->content)}};
+    if (!*message) {
+      WarnIfEmpty(printed, arguments.file);
+      return kOk;
+    }
+    ++printed;
+    const nlohmann::ordered_json line{
+        {"time_s", base::ToSeconds((*message)->time)},
+        {"topic", (*message)->topic},
+        {"type", (*message)->type},
+        {"message", recording::WithTextsForInfinities(std::move((*message)->content))}};
     std::puts(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     if (std::ferror(stdout) != 0) return kInfrastructure;  // nobody reads on
   }
+}
+
+bool IsRecording(const std::string& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) &&
+         recording::McapReader::Open(file).has_value();
 }
 
 int Video(const RecordingArguments& arguments, const recording::McapReader& reader) {
@@ -106,9 +148,17 @@ int Video(const RecordingArguments& arguments, const recording::McapReader& read
 int Export(const RecordingArguments& arguments) {
   const auto reader = recording::McapReader::Open(arguments.file);
   if (!reader) return Refuse(reader.error());
+  if (auto ok = CheckSelection(arguments, **reader); !ok) return Refuse(ok.error());
+  if (IsRecording(arguments.output)) {
+    return Complain({base::ErrorCode::kInvalidArgument,
+                     "is a recording and is not overwritten; give the table another name",
+                     arguments.output});
+  }
   if (arguments.video) return Video(arguments, **reader);
   const auto csv = recording::ToCsv(**reader, arguments.Selection());
   if (!csv) return Refuse(csv.error());
+  const bool has_rows = csv->find('\n') + 1 < csv->size();
+  WarnIfEmpty(has_rows ? 1 : 0, arguments.file);
   if (arguments.output.empty()) {
     std::fputs(csv->c_str(), stdout);
     return kOk;

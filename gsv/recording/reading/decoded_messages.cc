@@ -1,5 +1,7 @@
 #include "gsv/recording/reading/decoded_messages.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "gsv/recording/reading/content_hash.h"
@@ -23,7 +25,14 @@ base::Result<messages::Definition> DefinitionOf(const Summary& summary,
   return messages::Definition::Parse(schema->second.name, schema->second.data);
 }
 
+bool IsInfinite(const ordered_json& json) {
+  return json.is_number_float() && std::isinf(json.get<double>());
+}
+
 std::string Text(const ordered_json& json) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>())) {
+    return fmt::format("{}", json.get<double>());  // inf, -inf, nan
+  }
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
@@ -222,6 +231,15 @@ base::Result<std::optional<DecodedMessage>> DecodedMessages::Next() {
     return DecodedMessage{topic->second.name, topic->second.type, (*message)->log_time,
                           *std::move(content)};
   }
+}
+
+nlohmann::ordered_json WithTextsForInfinities(nlohmann::ordered_json content) {
+  if (content.is_structured()) {
+    for (ordered_json& below : content) below = WithTextsForInfinities(std::move(below));
+  } else if (IsInfinite(content)) {
+    content = content.get<double>() > 0 ? "Infinity" : "-Infinity";
+  }
+  return content;
 }
 
 nlohmann::ordered_json ToJson(const Difference& difference) {

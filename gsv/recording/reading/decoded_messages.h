@@ -20,6 +20,11 @@ struct DecodedMessage {
   nlohmann::ordered_json content;
 };
 
+// A message's content as JSON can write it: JSON has no infinite numbers, so they become the texts
+// "Infinity" and "-Infinity", which JavaScript's Number() and Python's float() read. NaN is written
+// as null.
+nlohmann::ordered_json WithTextsForInfinities(nlohmann::ordered_json content);
+
 class DecodedMessages {
  public:
   // In the order of times. The reader must outlive this. Fails when a topic of the selection is not
@@ -67,7 +72,8 @@ base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
                                                         Gaps gaps = Gaps::kNone);
 
 // A table of one topic: a row a message, a column a number or text of it ("ranges.0"), the columns
-// in the order in which they first appear; RFC 4180.
+// in the order in which they first appear; RFC 4180. Numbers that are not finite are written "inf",
+// "-inf" and "nan".
 base::Result<std::string> ToCsv(const McapReader& reader, const Selection& selection);
 
 }  // namespace gsv::recording

@@ -1,9 +1,11 @@
 #include "gsv/recording/reading/decoded_messages.h"
 
+#include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "gsv/messages/sensor_msgs.h"
 #include "gsv/recording/reading/recover.h"
 #include "gsv/recording/testing/test_recording.h"
 
@@ -135,6 +137,42 @@ TEST(ToCsv, HasARowForEachMessageAndAColumnForEachValue) {
             "time_s,clock.sec,clock.nanosec\r\n"
             "0.000000000,0,0\r\n"
             "0.010000000,0,10000000\r\n");
+}
+
+// A range too near, one of nothing, and one that is no number.
+Bytes Infinities() {
+  const messages::Schema& schema = messages::SchemaOf<messages::sensor_msgs::LaserScan>();
+  Bytes bytes, scan;
+  MemorySink sink(bytes);
+  McapFileWriter writer(sink, {});
+  (void)writer.AddSchema(
+      {1, std::string(schema.name), std::string(schema.encoding), std::string(schema.text)});
+  (void)writer.AddChannel(ChannelOf(0, "/scan"));
+  messages::sensor_msgs::LaserScan message;
+  message.ranges = {-INFINITY, INFINITY, NAN, 1.5f};
+  messages::Encode(message, scan);
+  (void)writer.Write({0, 0, 0ms, 0ms, scan});
+  (void)writer.Close();
+  return bytes;
+}
+
+TEST(ToCsv, TellsNumbersThatAreNotFiniteApart) {
+  const Bytes bytes = Infinities();
+  const auto csv = ToCsv(**Open(bytes), {{"/scan"}});
+  ASSERT_TRUE(csv);
+  EXPECT_TRUE(csv->ends_with(",-inf,inf,nan,1.5\r\n")) << *csv;
+}
+
+TEST(DecodedMessages, BecomeJsonInWhichInfinitiesAreTexts) {
+  const Bytes bytes = Infinities();
+  const auto reader = Open(bytes);
+  auto messages = DecodedMessages::Open(**reader, {{"/scan"}});
+  ASSERT_TRUE(messages);
+  const auto message = messages->Next();
+  ASSERT_TRUE(message && *message);
+  const nlohmann::ordered_json json = WithTextsForInfinities((*message)->content);
+  EXPECT_EQ(json["ranges"].dump(), R"(["-Infinity","Infinity",null,1.5])");
+  EXPECT_EQ(json["angle_min"], 0);
 }
 
 }  // namespace

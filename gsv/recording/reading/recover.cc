@@ -7,7 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/recording/mcap/bag_folder.h"
 #include "gsv/recording/mcap/mcap_file_writer.h"
+#include "gsv/recording/reading/lasting_messages.h"
 
 namespace gsv::recording {
 namespace {
@@ -32,6 +34,7 @@ class Copier {
     }
     for (const MetadataIndexRecord& index : summary.metadata) CopyMetadata(index);
     for (const AttachmentIndexRecord& index : summary.attachments) CopyAttachment(index);
+    if (selection_.from > summary.start) CopyLasting();
     for (const MessageBlock& block : summary.blocks) CopyMessages(block);
     if (base::Status status = file_.Close(); !status) return Fail(std::move(status.error()));
     return std::move(recovery_);
@@ -51,6 +54,18 @@ class Copier {
     file_.Attach({attachment->log_time, attachment->create_time, attachment->name,
                   attachment->media_type, attachment->data});
     ++recovery_.attachments;
+  }
+
+  // They are told at the start of the part, with the time at which they were published.
+  void CopyLasting() {
+    LastingMessages lasting = FindLastingMessages(reader_, selection_.from);
+    for (const LastingMessage& message : lasting.messages) {
+      if (!selected_.contains(message.channel_id)) continue;
+      file_.Write({message.channel_id, message.sequence, selection_.from, message.publish_time,
+                   message.data});
+      ++recovery_.messages;
+    }
+    // A block that cannot be read is a problem of CopyMessages(), too, and told once.
   }
 
   void CopyMessages(const MessageBlock& block) {
@@ -91,15 +106,8 @@ class PartialFile {
   std::string path_;
 };
 
-}  // namespace
-
-base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink,
-                               const Selection& selection) {
-  return Copier(reader, sink, selection).Run();
-}
-
-base::Result<Recovery> Recover(const std::string& input, const std::string& output,
-                               const Selection& selection, const Limits& limits) {
+base::Result<Recovery> RecoverToFile(const std::string& input, const std::string& output,
+                                     const Selection& selection, const Limits& limits) {
   const auto reader = McapReader::Open(input, limits);
   if (!reader) return Fail(reader.error());
   std::error_code ignored;
@@ -110,7 +118,7 @@ base::Result<Recovery> Recover(const std::string& input, const std::string& outp
   const PartialFile partial(output + ".partial");
   auto sink = FileSink::Create(partial.path(), true);
   if (!sink) return Fail(std::move(sink.error()));
-  base::Result<Recovery> recovery = Recover(**reader, **sink, selection);
+  base::Result<Recovery> recovery = Copier(**reader, **sink, selection).Run();
   if (!recovery) return recovery;
   std::error_code error;
   std::filesystem::rename(partial.path(), output, error);
@@ -118,6 +126,35 @@ base::Result<Recovery> Recover(const std::string& input, const std::string& outp
     return Fail(ErrorCode::kUnavailable, "cannot name the new file: " + error.message(), output);
   }
   return recovery;
+}
+
+// As a recording's folder is: a file and its metadata.yaml.
+base::Result<Recovery> RecoverToFolder(const std::string& input, const std::string& output,
+                                       const Selection& selection, const Limits& limits) {
+  const auto file = MakeBagFolder(output);
+  if (!file) return Fail(file.error());
+  auto recovery = RecoverToFile(input, *file, selection, limits);
+  const base::Status complete = recovery ? WriteBagMetadata(*file) : base::Status();
+  if (recovery && complete) return recovery;
+  std::error_code ignored;
+  std::filesystem::remove_all(output, ignored);
+  return Fail(recovery ? complete.error() : recovery.error());
+}
+
+}  // namespace
+
+base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink,
+                               const Selection& selection) {
+  return Copier(reader, sink, selection).Run();
+}
+
+base::Result<Recovery> Recover(const std::string& input, const std::string& output,
+                               const Selection& selection, const Limits& limits) {
+  std::error_code none;
+  const bool to_folder = std::filesystem::is_directory(input, none) &&
+                         std::filesystem::path(output).extension() != ".mcap";
+  return to_folder ? RecoverToFolder(input, output, selection, limits)
+                   : RecoverToFile(input, output, selection, limits);
 }
 
 std::string ToText(const Recovery& recovery) {

@@ -17,12 +17,14 @@ struct Recovery {
 };
 
 // Copies all that can be read to `sink`: every chunk, attachment and metadata record that is
-// whole, and of the messages those that are selected. They keep their order. An error is one of
-// writing.
+// whole, and of the messages those that are selected. They keep their order. Where the selection
+// begins after the recording does, the messages of selected topics that still hold then
+// (lasting_messages.h) come first, logged at that instant. An error is one of writing.
 [[nodiscard]] base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink,
                                              const Selection& selection = {});
 
-// The same for files. `output` appears only when it is complete; one that is there is an error.
+// The same for files. `output` appears only when it is complete; one that is there is an error. From
+// a recording's folder it is a folder, too (bag_folder.h), unless its name ends in .mcap.
 [[nodiscard]] base::Result<Recovery> Recover(const std::string& input, const std::string& output,
                                              const Selection& selection = {},
                                              const Limits& limits = {});
