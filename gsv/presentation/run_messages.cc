@@ -58,7 +58,7 @@ DiagnosticStatus Diagnosis(const simulation::SimulationStatus& status) {
       {"late steps", std::to_string(status.late_steps)},
       {"mean step (us)",
        fmt::format("{:.4g}", 1e-3 * static_cast<double>(status.mean_step_time.count()))},
-      {"robots", std::to_string(status.robots.size())}};
+      {"robots", std::to_string(status.CountRobots())}};
   return diagnosis;
 }
 

@@ -13,6 +13,7 @@
 #include "gsv/presentation/pose_list.h"
 #include "gsv/presentation/sensor_messages.h"
 #include "gsv/sensing/sensor_set.h"
+#include "gsv/world/station.h"
 
 namespace gsv::presentation {
 namespace {
@@ -81,7 +82,7 @@ Json LookJson(const model::SceneLook& look) {
 // `known` gives the sensors' frustums.
 Json SensorsJson(const SceneSource& source, const world::Body& body, sensing::SensorSet& known) {
   Json sensors = Json::array();
-  if (!body.is_robot()) return sensors;
+  if (!world::HasAgent(body)) return sensors;
   for (const model::SensorDescription& sensor : source.sensors(body.name)) {
     const sensing::SensorType* type = source.sensor_types.Find(sensor.type);
     const bool has_link =
@@ -154,6 +155,7 @@ Json BodyJson(const SceneSource& source, const world::Body& body, const Pose& po
             {"pose", PoseJson(pose)},
             {"links", std::move(links)},
             {"sensors", SensorsJson(source, body, known)}};
+  if (world::IsStation(body)) json["is_station"] = true;
   if (body.is_static() && !IsFixed(*source.snapshot.layout, body)) json["is_fixed"] = false;
   if (body.is_robot() && IsOfWorld(*source.snapshot.layout, body)) json["is_of_world"] = true;
   if (const std::string id = source.identify_collisions(body.model); !id.empty()) {

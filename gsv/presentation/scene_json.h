@@ -16,7 +16,7 @@ using IdentifyModel = std::function<std::string(const std::shared_ptr<const mode
 struct SceneSource {
   const world::Snapshot& snapshot;
   const sensing::SensorRegistry& sensor_types;
-  // Those on a robot or avatar of the snapshot.
+  // Those on a robot, avatar or station of the snapshot.
   std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
   IdentifyModel identify;
   // Of what the model collides with, as CollisionModel() gives it; empty: there is nothing.

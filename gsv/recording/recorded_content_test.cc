@@ -6,6 +6,7 @@
 
 #include "gsv/messages/gsv_msgs.h"
 #include "gsv/messages/sensor_msgs.h"
+#include "gsv/messages/tf2_msgs.h"
 #include "gsv/messages/visualization_msgs.h"
 #include "gsv/presentation/model_identity.h"
 #include "gsv/recording/testing/recorder_fixture.h"
@@ -124,6 +125,51 @@ TEST_F(SimulationRecorderTest, ReadingsAreThoseOfTheirInstant) {
     EXPECT_NEAR(readings[i].range, 2.9 - 0.05 * static_cast<double>(i), 1e-6) << i;
     EXPECT_EQ(readings[i].header.frame_id, "robot/front");
   }
+}
+
+TEST_F(SimulationRecorderTest, ALidarOfSeveralRowsIsRecordedWithAllOfThemAndAsPoints) {
+  auto simulation = simulation::Make(simulation::Lockstep(100ms));
+  simulation::RobotSpecification robot = Robot("robot", 0, nullptr);
+  model::Model model = *robot.model;
+  model.sensors.resize(1);
+  model.sensors[0].name = "rows";
+  model.sensors[0].type = "lidar";
+  model.sensors[0].parameters = {{"scan.horizontal.samples", 5.0}, {"scan.vertical.samples", 3.0}};
+  robot.model = std::make_shared<const model::Model>(std::move(model));
+  ASSERT_TRUE(simulation->AddRobot(robot));
+  auto recorder = Start(simulation);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE(recorder->Stop());
+  const auto scans = Read<messages::gsv_msgs::LidarScan>("/robot/rows");
+  ASSERT_FALSE(scans.empty());
+  EXPECT_EQ(scans[0].ranges.size(), 15u);
+  const auto clouds = Read<messages::sensor_msgs::PointCloud2>("/robot/rows/points");
+  ASSERT_EQ(clouds.size(), scans.size());
+  EXPECT_EQ(clouds[0].width * clouds[0].height, 15u);
+}
+
+// The sensors of what stands in the world without a drive.
+TEST_F(SimulationRecorderTest, AStationsSensorsAreRecordedLikeARobots) {
+  simulation::Specification specification = simulation::Lockstep(100ms);
+  auto world = std::make_shared<model::WorldDescription>(*specification.world);
+  auto post = std::make_shared<model::Model>(*simulation::Disc(0.1));
+  post->name = "post";
+  post->drive.reset();
+  world->models.push_back({"post", post, simulation::PlanarPose(0, 2, 0, 0), true});
+  specification.world = world;
+  auto simulation = simulation::Make(specification);
+  auto recorder = Start(simulation);
+  ASSERT_EQ(RunToEnd(*simulation), Phase::kFinished);
+  ASSERT_TRUE(recorder->Stop());
+  const auto readings = Read<messages::sensor_msgs::Range>("/post/front");
+  ASSERT_FALSE(readings.empty());
+  EXPECT_NEAR(readings[0].range, 2.9, 1e-6);
+  const auto frames = Read<messages::tf2_msgs::TFMessage>("/tf_static");
+  ASSERT_FALSE(frames.empty());
+  EXPECT_EQ(frames[0].transforms.at(0).header.frame_id, "post");
+  const nlohmann::json scene = Scene(Attachments("scene.json").back());
+  EXPECT_EQ(scene["bodies"][0]["is_station"], true);
+  EXPECT_EQ(scene["bodies"][0]["sensors"].size(), 1u);
 }
 
 TEST_F(SimulationRecorderTest, TheSceneSaysWhatThePosesMean) {

@@ -6,6 +6,7 @@
 
 #include "gsv/simulation/editing/placement.h"
 #include "gsv/simulation/stepping_simulation.h"
+#include "gsv/world/station.h"
 
 namespace gsv::simulation {
 namespace {
@@ -172,6 +173,12 @@ base::Status SteppingSimulation::PlaceRobots(std::vector<RobotSpecification>& ro
 base::Status SteppingSimulation::RemoveRobot(const std::string& name) {
   const base::MutexLock control(control_mutex_);
   if (const auto found = RequireAgent(name); !found) return base::Fail(found.error());
+  const auto snapshot = shared_->history.latest();
+  const int body = snapshot->layout->Find(name);
+  if (body >= 0 && world::IsStation(snapshot->layout->bodies[static_cast<std::size_t>(body)])) {
+    return base::Fail(base::ErrorCode::kInvalidArgument,
+                      "it is no robot, so it is to be removed as an object", name);
+  }
   AwaitTurns();
   return RemoveRobots({name});
 }
@@ -191,6 +198,14 @@ base::Status SteppingSimulation::RemoveRobots(const std::vector<std::string>& na
   return {};
 }
 
+void SteppingSimulation::AddStation(const std::string& name) {
+  const world::Layout& layout = *world_.layout();
+  const world::Body& body = layout.bodies[static_cast<std::size_t>(layout.Find(name))];
+  if (!world::IsStation(body)) return;
+  const SimulationLock lock(*shared_);
+  agents_.Add(name, body.model, false, nullptr);
+}
+
 base::Result<std::string> SteppingSimulation::AddObject(ObjectSpecification object) {
   const base::MutexLock control(control_mutex_);
   if (auto ok = CheckFinite(object.world_from_object, object.name); !ok)
@@ -200,6 +215,7 @@ base::Result<std::string> SteppingSimulation::AddObject(ObjectSpecification obje
   if (auto ok = CheckMayEdit(world_guard); !ok) return base::Fail(ok.error());
   auto name = editor_.AddObject(object);
   if (!name) return name;
+  AddStation(*name);
   AssignBodies();
   RecordEdit(EditOf(object, *name), "object_added", "at " + PlaceText(world_.PoseOf(*name)));
   return name;
@@ -211,6 +227,10 @@ base::Status SteppingSimulation::RemoveObject(const std::string& name) {
   const WorldGuard world_guard(world_.lock());
   if (auto ok = CheckMayEdit(world_guard); !ok) return base::Fail(ok.error());
   if (auto ok = editor_.RemoveObject(name); !ok) return ok;
+  {
+    const SimulationLock lock(*shared_);
+    agents_.Remove(name);  // of a station
+  }
   AssignBodies();
   RecordEdit(RemovalOf(name), "object_removed");
   return {};

@@ -67,6 +67,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // The same for many at once: all stand, or none does.
   virtual base::Result<std::vector<std::string>> AddRobots(
       std::vector<RobotSpecification> robots) = 0;
+  // Fails for stations, which are objects.
   virtual base::Status RemoveRobot(const std::string& name) = 0;
   // Puts a thing that is no robot into the world, at rest, while the simulation is created or
   // paused, and gives the name under which it stands. Fails when the place or the name is taken, or
@@ -129,7 +130,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   virtual Phase WaitForPhase(const std::vector<Phase>& phases,
                              std::chrono::milliseconds timeout) const = 0;
 
-  // The agent of a robot or avatar; null if there is none of that name.
+  // The agent of a robot, an avatar or a station (world/station.h); null if there is none of that
+  // name.
   virtual std::shared_ptr<Agent> agent(const std::string& robot) const = 0;
 
   // A reading for a viewer: the one that the robot's own behaviour gets at that snapshot. It leaves

@@ -7,6 +7,7 @@
 #include "gsv/base/log.h"
 #include "gsv/dynamics/world_engine.h"
 #include "gsv/simulation/editing/crowd_placement.h"
+#include "gsv/world/station.h"
 
 namespace gsv::simulation {
 namespace {
@@ -116,7 +117,7 @@ SteppingSimulation::SteppingSimulation(Specification specification,
   const SteppingWorldGuard world_guard(world_.lock());
   const SimulationLock lock(*shared_);
   for (const world::Body& body : world_.layout()->bodies) {
-    if (body.is_robot()) agents_.Add(body.name, body.model, false, nullptr);
+    if (world::HasAgent(body)) agents_.Add(body.name, body.model, false, nullptr);
   }
   agents_.AssignBodies(*world_.layout());
 }

@@ -90,6 +90,8 @@ class SteppingSimulation final : public Simulation {
   // Emits the event of an edit that has been made.
   void RecordEdit(Edit edit, const char* event, const std::string& detail = {})
       GSV_REQUIRES(world_mutex);
+  // Gives an object with sensors its agent.
+  void AddStation(const std::string& name) GSV_REQUIRES(world_mutex);
   base::Status PlaceRobots(std::vector<RobotSpecification>& robots);
   base::Status RemoveRobots(const std::vector<std::string>& names);
 

@@ -1,6 +1,7 @@
 // The plain data that goes into a simulation and comes out of it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -61,6 +62,7 @@ struct RobotStatus {
   std::string model;
   std::string behaviour;  // empty: none
   bool is_avatar = false;
+  bool is_station = false;  // nobody drives it; it has sensors (world/station.h)
   AgentPhase phase = AgentPhase::kNone;
   std::string detail;  // why it is dead or unresponsive
   geometry::Pose world_from_robot;
@@ -84,7 +86,12 @@ struct SimulationStatus {
   std::string waiting_for;          // "robot_3 (wander on host:pid) since 2.1 s"; empty: nobody
   std::string failure;              // why it failed
   std::uint64_t events = 0;         // how many lifecycle events there were so far
-  std::vector<RobotStatus> robots;  // by name
+  std::vector<RobotStatus> robots;  // by name; avatars and stations among them
+
+  std::size_t CountRobots() const {  // stations are none
+    return static_cast<std::size_t>(std::count_if(
+        robots.begin(), robots.end(), [](const RobotStatus& each) { return !each.is_station; }));
+  }
 };
 
 // Something that happened at a step: a start, a pause, a death, a robot added.

@@ -51,8 +51,8 @@ class EditMaker {
       case Edit::Kind::kAddObject:
         return AddObject(edit);
       case Edit::Kind::kRemove:
-        return simulation_.agent(edit.body) != nullptr ? simulation_.RemoveRobot(edit.body)
-                                                       : simulation_.RemoveObject(edit.body);
+        return IsRobot(edit.body) ? simulation_.RemoveRobot(edit.body)
+                                  : simulation_.RemoveObject(edit.body);
       case Edit::Kind::kPlace:
         return simulation_.PlaceBody(edit.body, edit.world_from_body, edit.on_ground);
       case Edit::Kind::kCommand:
@@ -62,6 +62,12 @@ class EditMaker {
   }
 
  private:
+  bool IsRobot(const std::string& name) const {
+    const auto snapshot = simulation_.snapshot();
+    const int body = snapshot->layout->Find(name);
+    return body >= 0 && snapshot->layout->bodies[static_cast<std::size_t>(body)].is_robot();
+  }
+
   base::Status Apply(const Edit& edit) {
     const simulation::Command* const command = simulation::FindCommand(edit.command);
     if (command == nullptr) {

@@ -11,22 +11,29 @@ using nlohmann::ordered_json;
 
 double Seconds(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) * 1e-9; }
 
+const char* BehaviourText(const simulation::RobotStatus& robot) {
+  if (!robot.behaviour.empty()) return robot.behaviour.c_str();
+  return robot.is_station ? "(station)" : "-";
+}
+
 ordered_json RobotJson(const simulation::RobotStatus& robot) {
   const geometry::Pose& pose = robot.world_from_robot;
   ordered_json readings = ordered_json::object();
   for (const auto& [type, count] : robot.readings) readings[type] = count;
-  return {{"name", robot.name},
-          {"model", robot.model},
-          {"behaviour", robot.behaviour},
-          {"agent", ToString(robot.phase)},
-          {"pose",
-           {{"x_m", pose.position.x},
-            {"y_m", pose.position.y},
-            {"z_m", pose.position.z},
-            {"yaw_rad", geometry::Yaw(pose.orientation)}}},
-          {"distance_m", robot.distance},
-          {"collisions", robot.collisions},
-          {"readings", std::move(readings)}};
+  ordered_json json{{"name", robot.name},
+                    {"model", robot.model},
+                    {"behaviour", robot.behaviour},
+                    {"agent", ToString(robot.phase)},
+                    {"pose",
+                     {{"x_m", pose.position.x},
+                      {"y_m", pose.position.y},
+                      {"z_m", pose.position.z},
+                      {"yaw_rad", geometry::Yaw(pose.orientation)}}},
+                    {"distance_m", robot.distance},
+                    {"collisions", robot.collisions},
+                    {"readings", std::move(readings)}};
+  if (robot.is_station) json["is_station"] = true;
+  return json;
 }
 
 ordered_json FindingJson(const verdict::Finding& finding) {
@@ -85,8 +92,7 @@ std::string TextReport(const simulation::Simulation& simulation,
   std::string text = line;
   for (const auto& robot : status.robots) {
     std::snprintf(line, sizeof line, "  %-20.64s %-14.64s %-12s %7.2f m  %llu collisions\n",
-                  robot.name.c_str(), robot.behaviour.empty() ? "-" : robot.behaviour.c_str(),
-                  ToString(robot.phase), robot.distance,
+                  robot.name.c_str(), BehaviourText(robot), ToString(robot.phase), robot.distance,
                   static_cast<unsigned long long>(robot.collisions));
     text += line;
   }

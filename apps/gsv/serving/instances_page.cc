@@ -20,7 +20,7 @@ nlohmann::ordered_json ToJson(const RemoteInstance& instance, const std::string&
                            {"mode", ToString(status.mode)},
                            {"time_s", base::ToSeconds(status.time)},
                            {"real_time_factor", status.real_time_factor},
-                           {"robots", status.robots.size()}});
+                           {"robots", status.CountRobots()}});
   }
   return {{"name", instance.server.name},
           {"place", instance.server.place},

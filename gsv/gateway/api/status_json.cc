@@ -14,19 +14,21 @@ std::string Dump(const OrderedJson& json) {
 
 OrderedJson RobotJson(const simulation::RobotStatus& robot) {
   const geometry::Vector3& position = robot.world_from_robot.position;
-  return {{"name", robot.name},
-          {"model", robot.model},
-          {"behaviour", robot.behaviour},
-          {"is_avatar", robot.is_avatar},
-          {"agent_phase", simulation::ToString(robot.phase)},
-          {"detail", robot.detail},
-          {"pose",
-           {{"x_m", position.x},
-            {"y_m", position.y},
-            {"z_m", position.z},
-            {"yaw_rad", geometry::Yaw(robot.world_from_robot.orientation)}}},
-          {"distance_m", robot.distance},
-          {"collisions", robot.collisions}};
+  OrderedJson json{{"name", robot.name},
+                   {"model", robot.model},
+                   {"behaviour", robot.behaviour},
+                   {"is_avatar", robot.is_avatar},
+                   {"agent_phase", simulation::ToString(robot.phase)},
+                   {"detail", robot.detail},
+                   {"pose",
+                    {{"x_m", position.x},
+                     {"y_m", position.y},
+                     {"z_m", position.z},
+                     {"yaw_rad", geometry::Yaw(robot.world_from_robot.orientation)}}},
+                   {"distance_m", robot.distance},
+                   {"collisions", robot.collisions}};
+  if (robot.is_station) json["is_station"] = true;
+  return json;
 }
 
 OrderedJson ToJson(const simulation::SimulationStatus& status) {
@@ -86,7 +88,7 @@ std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& 
                     {"mode", simulation::ToString(status.mode)},
                     {"time_s", base::ToSeconds(status.time)},
                     {"real_time_factor", status.real_time_factor},
-                    {"robots", status.robots.size()}});
+                    {"robots", status.CountRobots()}});
   }
   return Dump(list);
 }

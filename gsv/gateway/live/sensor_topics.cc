@@ -8,6 +8,7 @@
 #include "gsv/gateway/foxglove/channels.h"
 #include "gsv/presentation/state_messages.h"
 #include "gsv/presentation/topics.h"
+#include "gsv/world/station.h"
 
 namespace gsv::gateway {
 namespace {
@@ -98,7 +99,7 @@ SensorTopics::Sensors SensorTopics::Found(simulation::Simulation& simulation,
   if (!made_) made_.emplace(simulation.sensor_types());
   Sensors found;
   for (const world::Body& body : layout.bodies) {
-    if (!body.is_robot()) continue;
+    if (!world::HasAgent(body)) continue;
     for (model::SensorDescription& description : simulation.sensors(body.name)) {
       const sensing::SensorType* type = simulation.sensor_types().Find(description.type);
       if (type == nullptr) continue;

@@ -26,7 +26,7 @@ void PutSimulations(SimulationDirectory& directory, Exposition& out) {
   for (const auto& each : directory.List()) {
     const simulation::SimulationStatus status = each->status();
     ++by_phase[static_cast<std::size_t>(status.phase)];
-    robots += status.robots.size();
+    robots += status.CountRobots();
     if (status.phase == Phase::kRunning) factors.push_back(status.real_time_factor);
   }
   out.Begin("gsv_simulations", kGauge, "Simulations that there are, by phase.");

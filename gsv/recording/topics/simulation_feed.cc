@@ -1,5 +1,7 @@
 #include "gsv/recording/topics/simulation_feed.h"
 
+#include "gsv/world/station.h"
+
 namespace gsv::recording {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr std::size_t kMostEvents = 10'000;
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout) {
   SensorLists lists;
   for (const world::Body& body : layout.bodies) {
-    if (body.is_robot()) lists.emplace(body.name, simulation.sensors(body.name));
+    if (world::HasAgent(body)) lists.emplace(body.name, simulation.sensors(body.name));
   }
   return lists;
 }

@@ -25,7 +25,7 @@ namespace gsv::recording {
 
 using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;  // by robot
 
-// The sensors of all robots and avatars that stand in `layout`.
+// The sensors of all robots, avatars and stations that stand in `layout`.
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout);
 
 struct Observation {

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "gsv/world/station.h"
+
 namespace gsv::simulation {
 
 void AgentPopulation::Add(const std::string& name, std::shared_ptr<const model::Model> model,
@@ -127,6 +129,7 @@ std::vector<RobotStatus> AgentPopulation::Statuses(const world::Snapshot& snapsh
     agent->FillStatus(status);
     const int body = snapshot.layout->Find(name);
     if (body < 0) continue;
+    status.is_station = world::IsStation(snapshot.layout->bodies[static_cast<std::size_t>(body)]);
     const world::BodyState& state = snapshot.state.bodies[static_cast<std::size_t>(body)];
     status.world_from_robot = state.world_from_model;
     status.distance = state.distance;

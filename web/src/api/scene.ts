@@ -48,6 +48,7 @@ export interface SceneBody {
   isRobot: boolean;
   isOfWorld: boolean; // a robot that came with the world, not from a model of its own
   isAvatar: boolean;
+  isStation: boolean; // an object with sensors, which nobody drives
   pose: PoseNumbers;
   links: string[];
   sensors: SceneSensor[];
@@ -101,8 +102,13 @@ export function parseScene(json: unknown): SceneDescription {
   };
 }
 
+// Who has sensors: robots, avatars and stations.
 export function robotsOf(scene: SceneDescription | null): SceneBody[] {
-  return scene ? scene.bodies.filter((body) => body.isRobot || body.isAvatar) : [];
+  return scene ? scene.bodies.filter(hasAgent) : [];
+}
+
+export function hasAgent({ isRobot, isAvatar, isStation }: SceneBody): boolean {
+  return isRobot || isAvatar || isStation;
 }
 
 export interface CameraChoice {
@@ -129,6 +135,7 @@ function parseBody(value: unknown, where: string): SceneBody {
     isRobot: body.is_robot === true,
     isOfWorld: body.is_of_world === true,
     isAvatar: body.is_avatar === true,
+    isStation: body.is_station === true,
     pose: numbersAt(body.pose, 7, `${where}.pose`),
     links: listAt(body.links ?? [], `${where}.links`).map((link) => textAt(link, `${where}.links`)),
     sensors: listAt(body.sensors ?? [], `${where}.sensors`).map((sensor, i) =>

@@ -93,6 +93,29 @@ test("what a camera sees is a pyramid of its own angles", () => {
   [9, 2, 1.5].forEach((value, i) => expect(ends.getComponent(0, i)).toBeCloseTo(value, 5));
 });
 
+test("a camera is known by what it reads, not by the name of its type", () => {
+  const { overlays, lines, segments } = layers(only("cameras"));
+  const view = { horizontalFov: 1, aspect: 1 };
+  const sensors = [
+    sensor("scan", "camera_like_lidar", { overlay: "points" }),
+    sensor("bumper", "seer", { overlay: "picture", view }),
+    sensor("eye", "frustum", { view }),
+  ];
+  overlays.setScene(new BodyLayer({ ...SCENE, bodies: [body("a", { links: ["base", "arm"], sensors })] }));
+  overlays.place(new Vector3());
+  expect(segments(lines)).toBe(2 * 8);
+});
+
+test("what hangs on a station is placed by the station's own frame", () => {
+  const { overlays, lines, segments } = layers(only("cameras"));
+  const camera = sensor("eye", "camera", { view: { horizontalFov: 1, aspect: 1 }, topic: "/post/eye" });
+  const post = body("post", { isRobot: false, isStatic: true, isStation: true, sensors: [camera] });
+  overlays.setScene(new BodyLayer(scene({ bodies: [post], poses: [{ body: 0, link: null }] })));
+  overlays.takeFrames({ transforms: [frame("post", "post/eye")] });
+  overlays.place(new Vector3());
+  expect(segments(lines)).toBe(8);
+});
+
 test("contacts are drawn while they last", () => {
   const { overlays, lines, segments } = layers(only("contacts"));
   const contact = { other: "wall", point: { x: 0, y: 0, z: 0 }, normal: { x: 1, y: 0, z: 0 }, depth: 0 };

@@ -184,7 +184,9 @@ export class OverlayLayers {
 
   private drawViews(bodies: BodyLayer): void {
     const cameras = [...this.sensors.values()].filter(
-      ({ robot, type }) => type.includes("camera") && (this.selection ?? robot) === robot,
+      // By what a sensor reads, whatever its type is called: images, or what lies in its view.
+      ({ robot, overlay, view }) =>
+        (overlay === "picture" || view !== null) && (this.selection ?? robot) === robot,
     );
     for (const { topic, view } of cameras.slice(0, MOST_VIEWS)) {
       const frame = this.worldFromSensor(topic, bodies);

@@ -1,6 +1,7 @@
 // Where the robots of a scene are, as they are shown now: for labels, views and clicks.
 import { Vector3 } from "three";
 import type { SceneBody, SceneSensor } from "../api/scene";
+import { hasAgent } from "../api/scene";
 import type { BodyLayer } from "./BodyLayer";
 import type { Subject } from "./CameraRig";
 import type { Eye } from "./eye";
@@ -18,8 +19,8 @@ export class RobotPlaces {
     private readonly bodies: BodyLayer,
     private readonly frames: SensorFrames,
   ) {
-    this.robots = bodies.scene.bodies.flatMap(({ name, isRobot, isAvatar }, body) =>
-      isRobot || isAvatar ? [{ name, body }] : [],
+    this.robots = bodies.scene.bodies.flatMap((each, body) =>
+      hasAgent(each) ? [{ name: each.name, body }] : [],
     );
   }
 

@@ -5,7 +5,7 @@ import type { TransformsMessage } from "../protocol/messages";
 import type { BodyLayer } from "./BodyLayer";
 
 interface Mount {
-  parent: string; // "ROBOT/base_link" or, of a link that moves, "ROBOT/LINK"
+  parent: string; // "ROBOT/base_link", "STATION" or, of a link that moves, "ROBOT/LINK"
   parentFromSensor: Matrix4;
 }
 
@@ -37,7 +37,7 @@ export class SensorFrames {
     const body = bodies.indexOf(robot);
     if (!mount || body < 0) return null;
     const link = mount.parent.slice(robot.length + 1);
-    const parent = link === BASE ? bodies.poseOf(body) : bodies.linkPoseOf(body, link);
+    const parent = link === BASE || link === "" ? bodies.poseOf(body) : bodies.linkPoseOf(body, link);
     return parent && new Matrix4().multiplyMatrices(parent, mount.parentFromSensor);
   }
 }

@@ -12,6 +12,7 @@ export function body(name: string, more: Partial<SceneBody> = {}): SceneBody {
     isRobot: true,
     isOfWorld: false,
     isAvatar: false,
+    isStation: false,
     pose: HERE,
     links: ["chassis", "wheel"],
     sensors: [],

@@ -31,7 +31,7 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
   ports.state.watch(
     ({ status }) => status?.robots ?? [],
     (statuses) => {
-      setText(heading, statuses.length > 0 ? count(statuses.length, "robot") : "Robots");
+      setText(heading, headingFor(statuses, stationsOf(ports)));
       updateRows(ports, robots, rows, statuses);
     },
     (a, b) => a.length === b.length && a.every((robot, i) => shallowEqual(robot, b[i])),
@@ -53,7 +53,9 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
     ({ scene }) => scene,
     (scene) => {
       showWorld(ports, world, scene);
-      updateRows(ports, robots, rows, ports.state.get().status?.robots ?? []); // who is an avatar
+      const statuses = ports.state.get().status?.robots ?? [];
+      setText(heading, headingFor(statuses, stationsOf(ports)));
+      updateRows(ports, robots, rows, statuses); // who is an avatar or a station
     },
   );
   ports.state.watch(
@@ -63,11 +65,25 @@ export function createSceneTree(ports: Ports, pages: HTMLElement): HTMLElement {
   return tree;
 }
 
+function stationsOf(ports: Ports): Set<string> {
+  return new Set(robotsOf(ports.state.get().scene).flatMap(({ name, isStation }) => (isStation ? [name] : [])));
+}
+
+// "3 robots", "1 robot, 2 stations", "Robots".
+function headingFor(statuses: RobotStatus[], stations: Set<string>): string {
+  const fixed = statuses.filter(({ name }) => stations.has(name)).length;
+  const robots = statuses.length - fixed;
+  const parts = [robots > 0 ? count(robots, "robot") : "", fixed > 0 ? count(fixed, "station") : ""];
+  return parts.filter((part) => part !== "").join(", ") || "Robots";
+}
+
+type Kind = "robot" | "avatar" | "station";
+
 // One robot. A row that is out of sight (and so not laid out, style/panels.css) is written when it comes
 // into sight: a thousand rows that change five times a second would keep the page from answering.
 class RobotRow {
   readonly item: HTMLLIElement;
-  private latest: { robot: RobotStatus; isAvatar: boolean } | null = null;
+  private latest: { robot: RobotStatus; kind: Kind } | null = null;
   private isInSight = true; // until the browser says otherwise
   private readonly button: HTMLButtonElement;
   private readonly dot = element("span", { class: "dot" });
@@ -98,8 +114,8 @@ class RobotRow {
     this.setSelected(ports.state.get().selection === robot);
   }
 
-  update(robot: RobotStatus, isAvatar: boolean): void {
-    this.latest = { robot, isAvatar };
+  update(robot: RobotStatus, kind: Kind): void {
+    this.latest = { robot, kind };
     this.write();
   }
 
@@ -109,14 +125,16 @@ class RobotRow {
 
   private write(): void {
     if (!this.latest || !this.isInSight) return;
-    const { robot, isAvatar } = this.latest;
+    const { robot, kind } = this.latest;
     const label = agentLabel(robot);
     setAttribute(this.dot, "data-phase", robot.agentPhase);
     setAttribute(this.dot, "title", label);
     setText(this.name, robot.name);
     const avatar = this.ports.state.get().replay ? "avatar" : "avatar · W A S D"; // what was recorded stays so
-    setText(this.behaviour, isAvatar ? avatar : `${robot.behaviour || "no behaviour"} · ${label}`);
-    setText(this.distance, formatDistance(robot.distance));
+    const behaviour = `${robot.behaviour || "no behaviour"} · ${label}`;
+    const station = robot.behaviour ? `station · ${behaviour}` : "station";
+    setText(this.behaviour, kind === "avatar" ? avatar : kind === "station" ? station : behaviour);
+    setText(this.distance, kind === "station" ? "" : formatDistance(robot.distance));
     setText(this.collisions, robot.collisions > 0 ? count(robot.collisions, "collision") : "");
     setAttribute(this.button, "title", robot.detail);
   }
@@ -127,6 +145,7 @@ function updateRows(ports: Ports, list: HTMLElement, rows: Map<string, RobotRow>
   const avatars = new Set(
     robotsOf(ports.state.get().scene).flatMap(({ name, isAvatar }) => (isAvatar ? [name] : [])),
   );
+  const stations = stationsOf(ports);
   for (const [name, row] of [...rows]) {
     if (names.has(name)) continue;
     row.item.remove();
@@ -139,7 +158,8 @@ function updateRows(ports: Ports, list: HTMLElement, rows: Map<string, RobotRow>
       rows.set(status.name, row);
       list.append(row.item);
     }
-    row.update(status, avatars.has(status.name));
+    const kind = avatars.has(status.name) ? "avatar" : stations.has(status.name) ? "station" : "robot";
+    row.update(status, kind);
   }
 }
 
