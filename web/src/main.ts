@@ -72,6 +72,7 @@ function createWorld(host: HTMLElement, inSoftware: boolean): World3D | null {
         onModelsMissing: (modelsMissing) => store.set({ modelsMissing }),
         onProblem: (sentence) => notify(store, "error", sentence),
         onFrameRate: (framesPerSecond) => store.set({ framesPerSecond }),
+        onGraphics: (isThere) => store.set({ view: isThere ? "open" : "interrupted" }),
       },
     );
   } catch (error) {

@@ -28,3 +28,9 @@ test("the notice of a lost connection stays while the next attempt is under way"
 test("without WebGL the page says so once a simulation is there", () => {
   expect(situationOf({ ...open, simulation: "house", view: "none", scene: scene() })).toBe("no-webgl");
 });
+
+test("while the browser has taken WebGL away the page says so, and no longer once it is back", () => {
+  const shown = { ...open, simulation: "house", scene: scene() };
+  expect(situationOf({ ...shown, view: "interrupted" })).toBe("webgl-lost");
+  expect(situationOf({ ...shown, view: "open" })).toBe("none");
+});

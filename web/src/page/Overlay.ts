@@ -5,18 +5,22 @@ import { shallowEqual } from "../state/Store";
 import { element } from "../ui/element";
 import { createTokenForm } from "../ui/tokenForm";
 
-type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl";
+type Situation = "refused" | "missing" | "none" | "connecting" | "unreachable" | "lost" | "no-simulation" | "loading" | "no-webgl" | "webgl-lost";
 
 export function situationOf(state: State): Situation {
   const { connection, simulations, simulation, view, setUp, missing, refusal } = state;
   const scene = view === "starting" ? null : state.scene; // as good as not there yet
   if (refusal !== "") return "refused";
   if (missing !== "") return "missing";
-  if (setUp) return view === "none" ? "no-webgl" : scene ? "none" : "loading";
+  if (setUp) {
+    if (view === "none") return "no-webgl";
+    return view === "interrupted" ? "webgl-lost" : scene ? "none" : "loading";
+  }
   if (connection.phase !== "open" && state.scene) return "lost";
   if (connection.phase === "waiting") return "unreachable";
   if (simulations !== null && simulations.length === 0 && simulation === null) return "no-simulation";
   if (view === "none") return "no-webgl";
+  if (view === "interrupted") return "webgl-lost";
   if (scene) return "none";
   return simulation === null ? "connecting" : "loading";
 }
@@ -57,6 +61,14 @@ function content(app: App, situation: Situation): Node[] {
         message(
           "This browser cannot draw in 3D",
           "WebGL 2 is not available here. The buttons and lists work all the same; for the picture, use another browser or turn on graphics acceleration.",
+        ),
+      ];
+    case "webgl-lost":
+      return [
+        message(
+          "The 3D view has stopped",
+          "The browser took the graphics card away. The view comes back by itself as soon as the browser returns it; the simulation continues, and the buttons and lists work.",
+          element("button", { class: "button", type: "button", onclick: () => location.reload() }, "Reload the page"),
         ),
       ];
     case "no-simulation":

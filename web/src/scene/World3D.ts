@@ -3,6 +3,7 @@
 import type { Matrix4, WebGLRenderer } from "three";
 import { Scene } from "three";
 import type { SceneDescription } from "../api/scene";
+import { hasAgent } from "../api/scene";
 import type { MarkerArrayMessage, PosesMessage, TransformsMessage } from "../protocol/messages";
 import type { Shown } from "../state/overlays";
 import { FIRST_SHOWN } from "../state/overlays";
@@ -41,6 +42,7 @@ export interface WorldEvents extends Pick<ArrangerEvents, "onPlace"> {
   onModelsMissing(count: number): void;
   onProblem(sentence: string): void;
   onFrameRate(framesPerSecond: number): void;
+  onGraphics(isThere: boolean): void; // the browser has taken WebGL away, or given it back
 }
 
 export interface WorldOptions {
@@ -69,6 +71,7 @@ export class World3D {
   private width = 1;
   private height = 1;
   private isResized = false; // since the last frame
+  private hasGraphics = true;
   private readonly frameRate: FrameRate;
   private readonly shadows = new ShadowPace();
 
@@ -107,7 +110,9 @@ export class World3D {
     for (const press of ["pointerdown", "pointerup", "keydown"] as const) {
       addEventListener(press, (event) => "repeat" in event && event.repeat ? undefined : this.loop.holdBack(), { capture: true });
     }
-    canvas.addEventListener("webglcontextrestored", () => this.refresh());
+    // three.js itself asks for the context back, and sets it up anew.
+    canvas.addEventListener("webglcontextlost", () => this.setGraphics(false));
+    canvas.addEventListener("webglcontextrestored", () => this.setGraphics(true));
     onClick(canvas, (place) => this.click(place));
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
@@ -300,6 +305,12 @@ export class World3D {
     this.loop.request();
   }
 
+  private setGraphics(isThere: boolean): void {
+    this.hasGraphics = isThere;
+    this.events.onGraphics(isThere);
+    if (isThere) this.refresh();
+  }
+
   private resize(): void {
     this.width = Math.max(1, this.host.clientWidth);
     this.height = Math.max(1, this.host.clientHeight);
@@ -322,6 +333,7 @@ export class World3D {
   }
 
   private draw(now: number): boolean {
+    if (!this.hasGraphics) return false;
     if (!this.arranger.holds && this.poses.show(now)) {
       this.shadows.moved();
       this.watch.move();
@@ -366,7 +378,7 @@ export class World3D {
   private robotAt(place: ScreenPlace): string | null {
     if (!this.bodies) return null;
     const hit = this.bodies.pick(rayThrough(place, this.host.getBoundingClientRect(), this.rig.camera));
-    if (hit && (hit.isRobot || hit.isAvatar)) return hit.name;
+    if (hit && hasAgent(hit)) return hit.name;
     return nearest(
       place,
       (this.watch.robots?.names ?? []).map((name) => ({ name, at: this.screenPosition(name) })),

@@ -35,7 +35,7 @@ export interface RobotPose {
 }
 
 // Whether the browser draws in 3D.
-export type View = "starting" | "open" | "none";
+export type View = "starting" | "open" | "interrupted" | "none"; // interrupted: the browser took WebGL away
 
 // How the eye moves: by hand; along with the selected robot; along and turning with it; as its eye.
 export type ViewMode = "orbit" | "follow" | "chase" | "eye";
