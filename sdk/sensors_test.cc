@@ -79,6 +79,8 @@ class ReadsAll final : public Behaviour {
     values["positioning"] = Numbers(position_->Locate());
     const Imu::Motion motion = imu_->Feel();
     values["imu"] = Numbers(motion.specific_force);
+    const readings::Quaternion turn = motion.world_from_sensor.value();
+    values["imu orientation"] = {turn.w, turn.x, turn.y, turn.z};
     const Odometer::Estimate estimate = odometer_->Reckon();
     values["odometry"] = {estimate.x, estimate.y, estimate.yaw, estimate.linear, estimate.angular};
     const SatelliteReceiver::Position fix = satellites_->Fix();
@@ -271,6 +273,11 @@ void CheckInterfaces(sba::SensorFactory_ptr factory, const Read& read) {
   const sba::ImuReading felt = Opened<sba::Imu>(factory, "imu")->feel();
   EXPECT_EQ(felt.specific_force_m_s2.x, values.at("imu")[0]);
   EXPECT_EQ(felt.time_ns, 50'000'000);
+  const sba::OrientedImuReading oriented = Opened<sba::Imu>(factory, "imu")->read();
+  EXPECT_EQ(oriented.specific_force_m_s2.x, values.at("imu")[0]);
+  EXPECT_TRUE(oriented.has_orientation);
+  const sba::Rotation& q = oriented.world_from_sensor;
+  EXPECT_EQ(std::vector<double>({q.w, q.x, q.y, q.z}), values.at("imu orientation"));
   EXPECT_EQ(Opened<sba::Odometer>(factory, "odometry")->reckon().x_m, values.at("odometry")[0]);
   EXPECT_EQ(Opened<sba::SatelliteReceiver>(factory, "navsat")->fix().latitude_deg,
             values.at("navsat")[0]);

@@ -79,6 +79,17 @@ class ImuServant final : public SensorServant<POA_sba::Imu> {
     return {reading.time.count(), VectorToIdl(motion.angular_velocity),
             VectorToIdl(motion.specific_force)};
   }
+  sba::OrientedImuReading read() override {
+    const Reading reading = Read();
+    const auto motion = In<readings::Imu>(reading);
+    const readings::Quaternion q =
+        motion.world_from_sensor.value_or(readings::Quaternion{.w = 1, .x = 0, .y = 0, .z = 0});
+    return {reading.time.count(),
+            VectorToIdl(motion.angular_velocity),
+            VectorToIdl(motion.specific_force),
+            motion.world_from_sensor.has_value(),
+            {q.w, q.x, q.y, q.z}};
+  }
 };
 
 class OdometerServant final : public SensorServant<POA_sba::Odometer> {

@@ -42,16 +42,19 @@ class Controller(Behaviour):
 
     period = 0.05
 
-    def control(self, readings: dict[str, _native.Reading]) -> Tuple[float, float]:
-        """The command for the next period, m/s and rad/s, from the readings of all open sensors."""
+    def control(self, readings: dict[str, _native.Reading]) -> Tuple[float, ...]:
+        """The command for the next period, from the readings of all open sensors: m/s forward and
+        rad/s, and for a base that can move sideways a third number, m/s to the left."""
         raise NotImplementedError("a controller needs a method control(self, readings)")
 
     def run(self, robot: _native.Robot) -> None:
         start, cycle = robot.now(), 0
-        command = (0.0, 0.0)
+        command: Tuple[float, ...] = (0.0, 0.0)
         while True:
             cycle += 1  # instants are multiples of the period: sums would drift
-            readings = robot.exchange(*command, until=start + cycle * self.period)
+            linear, angular, *sideways = command
+            readings = robot.exchange(linear, angular, until=start + cycle * self.period,
+                                      lateral=sideways[0] if sideways else 0.0)
             if readings is None:
                 return
             command = self.control(readings)
@@ -80,7 +83,8 @@ class Offer(_native.Offer):
 def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.ArgumentParser] = None, *,
           time_managed: bool = True) -> None:
     """What a program that offers a behaviour ends with. Reads the command line (--broker, --name,
-    --help), offers the behaviour, serves until SIGINT or SIGTERM and exits: with 0, with 2 for a
+    --help), offers the behaviour, serves until SIGINT, SIGTERM or SIGHUP (a second one ends the
+    program at once, where a behaviour does not return) and exits: with 0, with 2 for a
     usage error, with 5 when the broker cannot be reached.
 
     A behaviour with options of its own hands over a `parser` that has them; `make` is then called
@@ -117,24 +121,30 @@ def serve(name: str, make: Callable[..., Any], parser: Optional[argparse.Argumen
 
 
 class _Signals:
-    """SIGINT and SIGTERM, whichever thread of the process they come to."""
+    """SIGINT, SIGTERM and SIGHUP, whichever thread of the process they come to."""
 
-    _WANTED = (signal.SIGINT, signal.SIGTERM)
+    def __init__(self) -> None:
+        self._wanted = [signal.SIGINT, signal.SIGTERM]
+        if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # nohup ignores it
+            self._wanted.append(signal.SIGHUP)
 
     def __enter__(self) -> _Signals:
         self._received, written = socket.socketpair()
         written.setblocking(False)
         self._written = written  # the interpreter writes the number of a signal here
         self._fd = signal.set_wakeup_fd(written.fileno())
-        self._handlers = [signal.signal(each, lambda *_: None) for each in self._WANTED]
+        self._handlers = [signal.signal(each, lambda *_: None) for each in self._wanted]
         return self
 
     def wait(self) -> None:
-        while self._received.recv(1)[0] not in self._WANTED:
+        while self._received.recv(1)[0] not in self._wanted:
             pass
+        # From here on Python's threads may be stuck, and a second signal ends the process itself.
+        for each in self._wanted:
+            signal.signal(each, signal.SIG_DFL)
 
     def __exit__(self, *_: Any) -> None:
-        for each, handler in zip(self._WANTED, self._handlers):
+        for each, handler in zip(self._wanted, self._handlers):
             signal.signal(each, handler)
         signal.set_wakeup_fd(self._fd)
         self._received.close()

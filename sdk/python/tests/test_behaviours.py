@@ -73,6 +73,34 @@ def test_a_controller_drives_as_a_loop_of_exchanges_does(simulate):
     assert hash_of(simulate, Controlled) == hash_of(simulate, Looping)
 
 
+SLIDER = """<sdf version='1.9'><model name='slider'><link name='base'>
+    <collision name='c'><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link>
+  <plugin filename='gz-sim-velocity-control-system' name='gz::sim::systems::VelocityControl'/>
+</model></sdf>"""
+
+
+class Sideways(gsv.Behaviour):
+    def run(self, robot):
+        robot.drive(0.0, 0.0, lateral=0.5)
+        robot.sleep_for(2.0)
+
+
+class ControlledSideways(gsv.Controller):
+    def control(self, readings):
+        return 0.0, 0.0, 0.5
+
+
+@pytest.mark.parametrize("behaviour", [Sideways, ControlledSideways])
+def test_a_base_that_can_moves_sideways(simulate, tmp_path, behaviour):
+    (tmp_path / "slider.sdf").write_text(SLIDER)
+    simulation = simulate("playground")
+    simulation.add(str(tmp_path / "slider.sdf"), behaviour=behaviour)
+    simulation.run_until(1.0)
+    slider = simulation.state().robots["slider"]
+    assert slider.distance == pytest.approx(0.5, abs=0.05)
+    assert slider.place.y == pytest.approx(0.5, abs=0.05)
+
+
 def test_one_instance_drives_one_robot(simulate):
     instances = []
 

@@ -111,6 +111,8 @@ def test_poses_and_forces_have_names(simulate, world):
         lambda robot, them: (them[0].locate(), them[1].feel(), them[2].reckon()))
     assert (place.x, place.y, place.yaw) == pytest.approx((0, 0, 0))
     assert tuple(motion.specific_force) == pytest.approx((0, 0, 9.8), abs=1e-6)
+    turn = motion.world_from_sensor
+    assert (turn.w, turn.x, turn.y, turn.z) == pytest.approx((1, 0, 0, 0), abs=1e-9)
     assert (estimate.x, estimate.linear) == (0, 0)
 
 
