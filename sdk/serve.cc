@@ -28,12 +28,16 @@ int Complain(const base::Error& error) {
   return error.code == base::ErrorCode::kInvalidArgument ? kUsage : kInfrastructure;
 }
 
-// SIGINT and SIGTERM are blocked from here on, in this and all later threads, for sigwait().
+// SIGINT, SIGTERM and SIGHUP (unless it is ignored, as by nohup) are blocked from here on, in this
+// and all later threads, for sigwait().
 sigset_t BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  struct sigaction hang_up {};
+  sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
 }
@@ -51,6 +55,9 @@ int Serve(const Arguments& arguments, const BehaviourModule& module, BehaviourFa
   if (arguments.exit_with_parent) dup2(STDERR_FILENO, STDOUT_FILENO);
   int signal = 0;
   sigwait(&signals, &signal);
+  // A behaviour that never returns from its run would hold up the end: a second signal ends the
+  // program at once.
+  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   return 0;
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/gsv/commands/commands.h"
 #include "apps/gsv/process/exit_code.h"
+#include "apps/gsv/process/standard_output.h"
 #include "gsv/base/log.h"
 #include "gsv/simulation/simulation.h"
 
@@ -145,10 +146,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kUsage;
+    return EndOutput(stdout, app.exit(error) == 0 ? kOk : kUsage);
   } catch (const std::exception& exception) {
     return Complain({gsv::base::ErrorCode::kUnavailable, exception.what(), "unexpected"});
   }
+  exit_code = EndOutput(stdout, exit_code);
   if (gsv::simulation::Simulation::LeftToThemselves() > 0) {
     // A behaviour is still at work on what a return from here would destroy.
     std::fflush(nullptr);

@@ -31,6 +31,9 @@ bool EndWith(pid_t parent) {
 // what was lost, and coverage what ran, when all is taken down.
 int End(Broker& broker, int exit_code) {
   broker.Close();
+  // Whoever waited for its reference did not get it.
+  const bool is_lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (is_lost && exit_code == kOk) exit_code = kInfrastructure;
 #if !defined(GSV_SANITIZED) && !defined(GSV_COVERAGE)
   std::fflush(nullptr);
   std::_Exit(exit_code);
@@ -47,6 +50,9 @@ int BrokerMain(const BrokerCommand& command) {
   sigemptyset(&ends);
   sigaddset(&ends, SIGINT);
   sigaddset(&ends, SIGTERM);
+  struct sigaction hang_up {};
+  sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN) sigaddset(&ends, SIGHUP);  // nohup ignores it
   pthread_sigmask(SIG_BLOCK, &ends, nullptr);
   if (command.parent != 0 && !EndWith(command.parent)) return kOk;
 

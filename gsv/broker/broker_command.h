@@ -16,7 +16,7 @@ struct BrokerCommand {
   pid_t parent = 0;
 };
 
-// Prints the reference as one line on stdout, then serves until SIGINT, SIGTERM, or the end of
+// Prints the reference as one line on stdout, then serves until SIGINT, SIGTERM, SIGHUP, or the end of
 // `parent`. The calling thread must be the process's only one.
 // Returns the exit code: 0, 130 after SIGINT, or after saying on stderr what is wrong 5, and 2
 // where it is what was asked for.

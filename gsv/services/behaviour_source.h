@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gsv/base/error.h"
+#include "gsv/services/end_patience.h"
 #include "gsv/simulation/robots/behaviour_port.h"
 
 namespace gsv::services {
@@ -19,6 +20,9 @@ class BehaviourSource {
   // long as a few remote calls.
   virtual base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(
       const std::string& constraint) = 0;
+
+  // The patience that its behaviours share; null if they have none.
+  virtual std::shared_ptr<EndPatience> end_patience() const { return nullptr; }
 };
 
 // The constraint for a behaviour by its name: name == 'wander'. Quotes in the name are escaped.

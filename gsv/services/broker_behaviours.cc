@@ -52,7 +52,9 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
       if (CORBA::is_nil(factory)) throw sba::Failed("the offer is no AgentBehaviourFactory");
       return sba::AgentBehaviour_var(factory->create());
     });
-    if (behaviour) return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_);
+    if (behaviour) {
+      return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_, end_patience_);
+    }
     CountRobot(identity.place, -1);
     error = behaviour.error();
     error.code = base::ErrorCode::kBehaviour;

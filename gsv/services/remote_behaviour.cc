@@ -1,5 +1,6 @@
 #include "gsv/services/remote_behaviour.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "gsv/orb/errors.h"
@@ -9,8 +10,10 @@ namespace gsv::services {
 namespace {
 
 // Wall time that a behaviour has to answer a call; init may read files.
-constexpr std::chrono::milliseconds kCallTimeout{10'000};
-constexpr CORBA::ULong kPingTimeoutMs = 1500;
+constexpr std::chrono::milliseconds kCallTimeout = EndPatience::kUsual;
+// For destroy() of one that did not answer stop(): the call reaches it, but it may never answer.
+constexpr std::chrono::milliseconds kFarewell{200};
+constexpr std::chrono::milliseconds kPingTimeout{1500};
 
 // Limits the calls of this thread for as long as it lives.
 class ThreadTimeout {
@@ -18,8 +21,8 @@ class ThreadTimeout {
   omni_thread::ensure_self self_;
 
  public:
-  explicit ThreadTimeout(CORBA::ULong milliseconds) {
-    omniORB::setClientThreadCallTimeout(milliseconds);
+  explicit ThreadTimeout(std::chrono::milliseconds limit) {
+    omniORB::setClientThreadCallTimeout(static_cast<CORBA::ULong>(limit.count()));
   }
   ~ThreadTimeout() { omniORB::setClientThreadCallTimeout(0); }
 };
@@ -27,10 +30,13 @@ class ThreadTimeout {
 }  // namespace
 
 RemoteBehaviour::RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
-                                 PortableServer::POA_ptr poa)
+                                 PortableServer::POA_ptr poa,
+                                 std::shared_ptr<const EndPatience> end_patience)
     : identity_(std::move(identity)),
       behaviour_(sba::AgentBehaviour::_duplicate(behaviour)),
-      poa_(PortableServer::POA::_duplicate(poa)) {
+      poa_(PortableServer::POA::_duplicate(poa)),
+      end_patience_(end_patience != nullptr ? std::move(end_patience)
+                                            : std::make_shared<const EndPatience>()) {
   orb::LimitCalls(behaviour_, kCallTimeout);
 }
 
@@ -66,7 +72,12 @@ base::Status RemoteBehaviour::Start() {
 }
 
 base::Status RemoteBehaviour::Stop() {
-  return Call("stop", [this] { behaviour_->stop(); });
+  // The reference's own limit goes before that of a thread.
+  orb::LimitCalls(behaviour_, end_patience_->limit());
+  auto stopped = Call("stop", [this] { behaviour_->stop(); });
+  orb::LimitCalls(behaviour_, kCallTimeout);
+  has_not_stopped_ = !stopped;
+  return stopped;
 }
 
 base::Status RemoteBehaviour::Pause() {
@@ -78,12 +89,14 @@ base::Status RemoteBehaviour::Resume() {
 }
 
 void RemoteBehaviour::Destroy() {
+  const auto limit = end_patience_->limit();
+  orb::LimitCalls(behaviour_, has_not_stopped_ ? std::min(kFarewell, limit) : limit);
   (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone already
   ReplaceHardware(nullptr);
 }
 
 bool RemoteBehaviour::IsDead() {
-  const ThreadTimeout timeout(kPingTimeoutMs);
+  const ThreadTimeout timeout(kPingTimeout);
   // A connection that broke tells nothing about a process that may accept another: ask twice.
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {

@@ -115,7 +115,8 @@ std::string SimulationServant::Add(const sba::RobotSpecification& robot, bool is
   if (!CORBA::is_nil(robot.behaviour)) {
     out.behaviour = std::make_shared<RemoteBehaviour>(
         robot.behaviour, BehaviourIdentity{"given", orb::AddressOf(robot.behaviour), true},
-        service_.poa());
+        service_.poa(),
+        service_.behaviours() != nullptr ? service_.behaviours()->end_patience() : nullptr);
   } else if (const std::string constraint(robot.behaviour_constraint); !constraint.empty()) {
     if (service_.behaviours() == nullptr)
       throw sba::Refused("this server has no broker to ask for behaviours");

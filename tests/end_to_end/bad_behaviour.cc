@@ -30,6 +30,7 @@ class BadBehaviour final : public Behaviour {
     if (fault_ == "never-wait") {
       while (robot.IsRunning()) usleep(1000);  // busy with itself: it never tells the simulation
     }
+    while (fault_ == "never-end") usleep(1000);  // not even when the run is over
     while (fault_ == "flood" && robot.IsRunning()) (void)sonar_->Range();
     const bool goes_on = robot.SleepFor(200ms);
     if (goes_on && fault_ == "die") raise(SIGKILL);

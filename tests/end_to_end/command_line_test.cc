@@ -1,5 +1,7 @@
 // The command line as a user types it, with the real programs.
+#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -261,6 +263,127 @@ TEST(CommandLine, LimitsAreRaisedByName) {
             "exit code 0");
   EXPECT_EQ(RunProgram("gsv", {"world", "check", "office", "--limit", "xml=1"}).ending,
             "exit code 2");
+}
+
+TEST(CommandLine, OutputThatFindsNoSpaceIsNoSuccess) {
+  base::testing::TestFolder folder;
+  const std::string recording = folder.path() / "run.mcap";
+  ASSERT_EQ(RunProgram("gsv", RunArguments({"--robot", "pebble@0,0", "--duration", "0.2",
+                                            "--record", recording}))
+                .ending,
+            "exit code 0");
+  const Strings commands[] = {
+      RunArguments({"--robot", "pebble@0,0", "--duration", "0.2"}),
+      {"world", "check", "playground"},
+      {"rec", "info", recording},
+      {"rec", "cat", recording},
+      {"rec", "export", recording, "--topic", "/clock"},
+      {"--help"},
+  };
+  for (const Strings& command : commands) {
+    Strings arguments{"-c", "exec \"$@\" > /dev/full", "sh", Program("gsv")};
+    arguments.insert(arguments.end(), command.begin(), command.end());
+    const Outcome outcome = RunProgram("/bin/sh", arguments);
+    EXPECT_EQ(outcome.ending, "exit code 5") << command[0] << command[1 % command.size()];
+    EXPECT_THAT(outcome.err, HasSubstr("could be written to standard output")) << command[0];
+  }
+}
+
+TEST(CommandLine, AClosedTerminalEndsCleanly) {
+  base::testing::TestFolder folder;
+  const auto bag = folder.path() / "bag";
+  Running run("gsv", {"run", "playground", "--port", "0", "--robot", "pebble", "--record", bag});
+  run.AwaitLine("viewer: ");
+  run.process().Signal(SIGHUP);
+  EXPECT_EQ(run.AwaitEnd().ending, "exit code 130");
+  EXPECT_TRUE(std::filesystem::exists(bag / "metadata.yaml"));
+  EXPECT_EQ(RunProgram("gsv", {"rec", "info", bag, "--json"}).LastLine()["warnings"].size(), 0u);
+}
+
+TEST(CommandLine, APartOfARecordingKeepsTheFramesOfSensors) {
+  base::testing::TestFolder folder;
+  const std::string bag = folder.path() / "bag", part = folder.path() / "part";
+  ASSERT_EQ(
+      RunProgram("gsv", RunArguments({"--robot", "pebble@0,0", "--duration", "2", "--record", bag}))
+          .ending,
+      "exit code 0");
+  const Outcome cut = RunProgram("gsv", {"rec", "filter", bag, "-o", part, "--from", "1"});
+  ASSERT_EQ(cut.ending, "exit code 0") << cut.err;
+  EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(part) / "metadata.yaml"));
+  const Outcome frames = RunProgram("gsv", {"rec", "cat", part, "--topic", "/tf_static"});
+  EXPECT_EQ(frames.ending, "exit code 0") << frames.err;
+  EXPECT_EQ(frames.LastLine()["time_s"], 1.0);
+}
+
+TEST(CommandLine, SelectionsThatHoldNothingAreNamed) {
+  base::testing::TestFolder folder;
+  const std::string recording = folder.path() / "run.mcap", part = folder.path() / "part.mcap";
+  ASSERT_EQ(RunProgram("gsv", RunArguments({"--robot", "pebble@0,0", "--duration", "0.2",
+                                            "--record", recording}))
+                .ending,
+            "exit code 0");
+  const Outcome turned =
+      RunProgram("gsv", {"rec", "filter", recording, "-o", part, "--from", "2", "--to", "1"});
+  EXPECT_EQ(turned.ending, "exit code 2");
+  EXPECT_THAT(turned.err, HasSubstr("--from: is after --to"));
+  const Outcome unknown =
+      RunProgram("gsv", {"rec", "filter", recording, "-o", part, "--topic", "/nowhere"});
+  EXPECT_EQ(unknown.ending, "exit code 5");
+  EXPECT_THAT(unknown.err, HasSubstr("/nowhere: the recording has no such topic"));
+  const Outcome late = RunProgram("gsv", {"rec", "cat", recording, "--from", "100"});
+  EXPECT_THAT(late.err, HasSubstr("no message lies in the selected part"));
+  const Outcome itself =
+      RunProgram("gsv", {"rec", "export", recording, "--topic", "/clock", "-o", recording});
+  EXPECT_EQ(itself.ending, "exit code 2");
+  EXPECT_EQ(RunProgram("gsv", {"rec", "info", recording}).ending, "exit code 0");
+}
+
+TEST(CommandLine, WhatIsTakenButMostLikelyNotMeantIsNamed) {
+  const auto warnings = [](const Strings& more) {
+    const Outcome outcome = RunProgram("gsv", RunArguments(more));
+    EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+    return outcome.LastLine()["warnings"].dump();
+  };
+  EXPECT_THAT(warnings({"--robot", "pebble@0,0,90", "--duration", "0.1"}),
+              HasSubstr("heading of 90 rad"));
+  EXPECT_THAT(warnings({"--robot", "pebble@500,0", "--duration", "0.1"}),
+              HasSubstr("away from everything"));
+  EXPECT_THAT(warnings({"--model-path", "/nowhere", "--duration", "0.1"}),
+              HasSubstr("--model-path /nowhere: there is no such folder"));
+  EXPECT_THAT(warnings({"--behaviour", "wander", "--duration", "0.1"}),
+              HasSubstr("there is no robot"));
+  EXPECT_THAT(warnings({"--factor", "2", "--duration", "0.1"}),
+              HasSubstr("--factor: has no effect with --lockstep"));
+  EXPECT_EQ(warnings({"--robot", "pebble@0,0,90deg", "--duration", "0.1"}), "[]");
+}
+
+TEST(CommandLine, ABehavioursProgramThatCannotBeExecutedIsNamed) {
+  base::testing::TestFolder folder;
+  const std::string program = folder.path() / "gsv-unready";
+  std::ofstream(program) << "#!/bin/sh\n";
+  const Outcome outcome =
+      Running("gsv", RunArguments({"--robot", "pebble", "--behaviour", "unready"}),
+              {"env", "PATH=" + folder.path().string() + ":/usr/bin:/bin"})
+          .AwaitEnd();
+  EXPECT_EQ(outcome.ending, "exit code 4");
+  EXPECT_THAT(outcome.err, HasSubstr(program + " cannot be executed"));
+}
+
+// Its program is killed, and nobody waits for the answers that it does not give.
+TEST(CommandLine, ABehaviourThatNeverWaitsDoesNotHoldUpTheEnd) {
+  base::testing::TestFolder folder;
+  std::filesystem::create_symlink(std::filesystem::absolute(Program("../tests/bad_behaviour")),
+                                  folder.path() / "gsv-never-ends");
+  Running run("gsv",
+              {"run", "playground", "--headless", "--lockstep", "--robot", "pebble", "--behaviour",
+               "never-ends --fault never-end"},
+              {"env", "PATH=" + folder.path().string() + ":/usr/bin:/bin"});
+  run.AwaitLine("broker: ");
+  const auto start = std::chrono::steady_clock::now();
+  run.process().Signal(SIGTERM);
+  EXPECT_EQ(run.AwaitEnd().ending, "exit code 130");
+  // Far below the twenty seconds that the calls of its end may take otherwise.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8) * base::kTimesAsSlow);
 }
 
 // It cannot be interrupted, and must not hold up the end of the run.

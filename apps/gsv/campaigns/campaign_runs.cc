@@ -78,8 +78,12 @@ std::optional<RunResult> RunTaker::Take(std::int64_t run,
 TestResult RunTaker::RunHere(std::int64_t run, const std::string& scenario,
                              const std::atomic<bool>& is_cancelled) const {
   const fs::path file = folder_ / fmt::format("run_{:06}.yaml", run);
-  std::ofstream(file) << scenario;
-  TestResult result = RunTestCase({file, file.stem().string()}, options_, is_cancelled);
+  TestResult result;
+  if (std::ofstream out(file); out << scenario << std::flush) {
+    result = RunTestCase({file, file.stem().string()}, options_, is_cancelled);
+  } else {
+    result.message = "the scenario cannot be written to " + file.string();
+  }
   std::error_code ignored;
   fs::remove(file, ignored);
   return result;

@@ -118,7 +118,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
     options.limits = arguments->limits;
     options.model_path.assign(arguments->model_path.begin(), arguments->model_path.end());
     formats::ModelLibrary library(std::move(options));
-    base::Problems problems;
+    base::Problems problems = CheckModelPath(arguments->model_path);
     Notes notes;
     const base::Status status = read(library, arguments->file, problems, notes);
     line.exit_code = Report(*arguments, problems, notes, status);

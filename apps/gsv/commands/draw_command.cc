@@ -13,6 +13,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/picture.h"
+#include "apps/gsv/scenes/framing.h"
 #include "apps/gsv/scenes/moving_scene.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "gsv/formats/sdf_reader.h"
@@ -50,30 +51,11 @@ std::shared_ptr<const world::Snapshot> FirstInstant(model::WorldDescription desc
   return snapshot;
 }
 
-// The corners of the boxes around all that can be seen but planes, which know no end.
-std::vector<Vector3> CornersIn(const world::Snapshot& snapshot) {
-  std::vector<Vector3> corners;
-  for (int b = 0; b < static_cast<int>(snapshot.layout->bodies.size()); ++b) {
-    const std::vector<Pose> world_from_link = world::LinkPoses(snapshot, b);
-    const model::Model& model = *snapshot.layout->bodies[static_cast<std::size_t>(b)].model;
-    for (std::size_t l = 0; l < model.links.size(); ++l) {
-      for (const model::Visual& visual : model.links[l].visuals) {
-        if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
-        const Pose world_from_visual = world_from_link[l] * visual.link_from_visual;
-        for (const Vector3& corner : geometry::CornersOf(geometry::BoundsOf(visual.shape))) {
-          corners.push_back(world_from_visual * corner);
-        }
-      }
-    }
-  }
-  if (corners.empty()) corners = {{-1, -1, 0}, {1, 1, 1}};
-  return corners;
-}
-
 // From the front, the right and above, as near as shows all.
 rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
   constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
   constexpr double kFieldOfView = 0.8;
+  constexpr double kFarthest = 1e6;  // m that a renderer takes
   const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
   const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
   constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -95,8 +77,8 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
   camera.width = width;
   camera.height = height;
   camera.horizontal_fov = kFieldOfView;
-  camera.near = std::max(1e-3, 1e-2 * back);
-  camera.far = 10 * back + 10;
+  camera.far = std::min(10 * back + 10, kFarthest);
+  camera.near = std::clamp(1e-2 * back, 1e-3, camera.far / 10);
   return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
 }
 
@@ -107,17 +89,21 @@ int Run(const DrawArguments& arguments) {
   options.limits = arguments.limits;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
   formats::ModelLibrary library(std::move(options));
-  base::Problems problems;
+  base::Problems problems = CheckModelPath(arguments.model_path);
+  for (const base::Problem& problem : problems) {
+    std::fprintf(stderr, "gsv: warning: %s\n", problem.Sentence().c_str());
+  }
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t processor_start = std::clock();
   auto world = library.ReadWorld(*file, problems);
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   const double processor = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
   if (!world) return Complain(world.error());
+  if (IsModelAlone(*world)) StandModelOnGround(*world);
   const auto snapshot = FirstInstant(*std::move(world));
   auto renderer = rendering::Renderer::Start();
   if (!renderer) return Complain(renderer.error());
-  const auto view = ViewOfAll(CornersIn(*snapshot), arguments.width, arguments.height);
+  const auto view = ViewOfAll(CornersToShow(*snapshot), arguments.width, arguments.height);
   const auto picture = (*renderer)->Draw(snapshot, view, std::chrono::minutes(1));
   if (!picture) return Complain(picture.error());
   if (auto written = WritePicture(**picture, arguments.picture); !written) {

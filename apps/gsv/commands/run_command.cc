@@ -64,7 +64,7 @@ bool WasStopped(const Simulation& simulation) {
 }
 
 // Until the run is over or somebody interrupts it; gives the exit code so far.
-int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
+int Await(Runtime& runtime, Simulation& simulation, const RunOptions& options, Signals& signals) {
   using Clock = std::chrono::steady_clock;
   const auto give_up = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::chrono::duration<double>(options.wall_timeout));
@@ -77,12 +77,14 @@ int Await(Simulation& simulation, const RunOptions& options, Signals& signals) {
     if (phase == Phase::kFailed) return kBehaviourFailed;
     if (phase == Phase::kStopped && ends_when_stopped && WasStopped(simulation)) return kOk;
     if (signals.WaitFor(0) != 0) {
+      runtime.EndSoon();
       (void)simulation.Stop();
       return kInterrupted;
     }
     if (options.wall_timeout > 0 && Clock::now() > give_up) {
       std::fprintf(stderr, "gsv: given up after %g s of wall time (--wall-timeout)\n",
                    options.wall_timeout);
+      runtime.EndSoon();
       (void)simulation.Stop();
       return kTimedOut;
     }
@@ -178,6 +180,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   if (!told) return base::Fail(told.error());
 
   if (TellErrors(problems)) return kBadModel;
+  problems.insert(problems.begin(), options.problems.begin(), options.problems.end());
   auto warnings = Sentences(problems, base::Problem::Severity::kWarning);
   Warn(warnings);
 
@@ -212,7 +215,7 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   }
   const auto started = RunWithEdits(**runtime, **simulation, options, signals);
   if (!started || *started != kOk) return started;
-  int exit_code = JudgeBehaviours(**simulation, Await(**simulation, options, signals));
+  int exit_code = JudgeBehaviours(**simulation, Await(**runtime, **simulation, options, signals));
   std::vector<verdict::Finding> findings;
   exit_code = JudgeExpectations(**judge, options, findings, exit_code);
   if (auto ok = (*runtime)->recordings().StopAll(); !ok) exit_code = Complain(ok.error());

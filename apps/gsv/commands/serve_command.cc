@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/gsv/commands/commands.h"
+#include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/serving/runtime.h"
@@ -22,6 +23,9 @@ struct ServeArguments {
 };
 
 int Serve(const ServeArguments& arguments, Signals& signals) {
+  for (const base::Problem& problem : CheckModelPath(arguments.model_path)) {
+    std::fprintf(stderr, "gsv: warning: %s\n", problem.Sentence().c_str());
+  }
   RuntimeOptions options;
   options.broker = arguments.broker;
   options.model_path.assign(arguments.model_path.begin(), arguments.model_path.end());
@@ -40,6 +44,7 @@ int Serve(const ServeArguments& arguments, Signals& signals) {
   std::printf("broker: %s\n", (*runtime)->broker().reference().c_str());
   std::fflush(stdout);
   signals.Wait();
+  (*runtime)->EndSoon();
   return kOk;
 }
 

@@ -43,6 +43,19 @@ base::Result<std::string> FindWorld(const std::string& world) {
                     "there is no such file, and no world of this name; there are " + names, world);
 }
 
+base::Problems CheckModelPath(const std::vector<std::string>& model_path) {
+  base::Problems problems;
+  for (const std::string& folder : model_path) {
+    std::error_code ignored;
+    if (fs::is_directory(folder, ignored)) continue;
+    problems.push_back({base::Problem::Severity::kWarning,
+                        fs::exists(folder, ignored) ? "is no folder; no model is looked for there"
+                                                    : "there is no such folder",
+                        "--model-path " + folder});
+  }
+  return problems;
+}
+
 std::vector<std::string> SplitWords(const std::string& text) {
   std::istringstream stream(text);
   return {std::istream_iterator<std::string>(stream), {}};

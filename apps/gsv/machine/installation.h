@@ -21,6 +21,9 @@ std::vector<std::string> OurWorlds();
 // complains.
 base::Result<std::string> FindWorld(const std::string& world);
 
+// A warning for each folder of a model path that is not there, or is no folder.
+base::Problems CheckModelPath(const std::vector<std::string>& model_path);
+
 // "wander --no-pictures" as its words, cut at blanks.
 std::vector<std::string> SplitWords(const std::string& text);
 

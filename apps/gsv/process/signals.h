@@ -1,4 +1,5 @@
-// SIGINT and SIGTERM as something to ask for: no handler interrupts anything.
+// The signals that end a program (SIGINT, SIGTERM, and SIGHUP of a terminal that is closed) as
+// something to ask for: no handler interrupts anything.
 #pragma once
 
 #include <csignal>
@@ -7,7 +8,8 @@ namespace gsv::app {
 
 class Signals {
  public:
-  // Blocks them for this thread and all that it starts later: call first in main().
+  // Blocks them for this thread and all that it starts later: call first in main(). SIGHUP stays
+  // ignored where it is, as by nohup.
   Signals();
   // The signal that has come; 0: none within `milliseconds`.
   int WaitFor(int milliseconds);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "apps/gsv/machine/installation.h"
 #include "apps/gsv/serving/limit_option.h"
 #include "apps/gsv/simulations/sensor_types.h"
 #include "gsv/model/drive_choice.h"
@@ -65,8 +66,10 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
                   "when a behaviour dies or hangs: go_on or fail")
       ->check(CLI::IsMember({"go_on", "fail"}))
       ->default_str("go_on");
-  command.add_option("--wall-timeout", a.wall_timeout,
-                     "wall seconds after which the run is given up with exit code 124");
+  command
+      .add_option("--wall-timeout", a.wall_timeout,
+                  "wall seconds after which the run is given up with exit code 124")
+      ->check(CLI::NonNegativeNumber);
   command
       .add_option("--record", a.record,
                   "write a recording: NAME.mcap is a bare file, NAME a folder that rosbag2 opens")
@@ -225,6 +228,26 @@ void Override(scenario::Scenario& scenario, const RunArguments& a) {
   if (!a.record_pictures.empty()) scenario.record_png = a.record_pictures == "png";
 }
 
+// Options that have no effect with the others. A scenario's file may say what they go with.
+base::Problems CheckOptions(const RunArguments& a, const scenario::Scenario& scenario) {
+  base::Problems problems = CheckModelPath(scenario.model_path);
+  const auto warn = [&](bool is_given, const char* option, const char* why) {
+    if (!is_given) return;
+    problems.push_back({base::Problem::Severity::kWarning, why, option});
+  };
+  const bool is_lockstep = scenario.lockstep.value_or(false);
+  warn(is_lockstep && a.factor, "--factor",
+       "has no effect with --lockstep, which runs as fast as it can");
+  warn(a.headless && a.open, "--open", "has no effect with --headless: there is no viewer");
+  warn(a.headless && a.web.port >= 0, "--port",
+       "has no effect with --headless: there is no viewer");
+  warn(a.headless && !a.web.names.empty(), "--allow-host",
+       "has no effect with --headless: there is no viewer");
+  warn(!a.failure_picture.empty() && scenario.expect.empty(), "--failure-picture",
+       "has no effect: only a scenario with expectations can fail one");
+  return problems;
+}
+
 base::Status UnderstandTimes(const scenario::Scenario& scenario,
                              simulation::Specification& specification) {
   const auto duration = Time(scenario.duration.value_or(0), "--duration");
@@ -285,6 +308,9 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
   if (!scenario) return base::Fail(scenario.error());
   options.scenario = *std::move(scenario);
   Override(options.scenario, a);
+  for (base::Problem& problem : CheckOptions(a, options.scenario)) {
+    options.problems.push_back(std::move(problem));
+  }
   if (auto ok = UnderstandRobots(a.robots, options.scenario.robots); !ok)
     return base::Fail(ok.error());
   if (auto ok = UnderstandRobots(a.avatars, options.scenario.avatars); !ok)

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "apps/gsv/running/start_checks.h"
 #include "apps/gsv/simulations/in_process.h"
 #include "apps/gsv/simulations/population.h"
 #include "gsv/formats/xacro/arguments.h"
@@ -119,6 +120,21 @@ class RunBehaviours {
   const base::SimTime from_;
 };
 
+// Robots that no place was asked for stand where there was room.
+scenario::Scenario StartsOf(const Population& population, const scenario::Scenario& asked) {
+  scenario::Scenario starts;
+  const auto add = [](const std::vector<PlacedRobot>& placed,
+                      const std::vector<scenario::RobotEntry>& entries,
+                      std::vector<scenario::RobotEntry>& out) {
+    for (const PlacedRobot& robot : placed) {
+      if (robot.index < entries.size() && entries[robot.index].start) out.push_back(robot.entry);
+    }
+  };
+  add(population.robots, asked.robots, starts.robots);
+  add(population.avatars, asked.avatars, starts.avatars);
+  return starts;
+}
+
 // The scenario as it came to be.
 scenario::Scenario Told(const Simulation& simulation, const RunOptions& options,
                         const Population& population) {
@@ -165,14 +181,28 @@ base::Result<scenario::Scenario> PopulateRun(Runtime& runtime, Simulation& simul
                                              const RunOptions& options, base::Problems& problems) {
   formats::ModelLibrary& library = runtime.host().library();
   std::vector<std::string> of_world;
-  for (const auto& robot : simulation.status().robots) of_world.push_back(robot.name);
+  for (const auto& robot : simulation.status().robots) {
+    // A behaviour for all is for robots; a station gets one by its name.
+    if (!robot.is_station || options.behaviour_of.contains(robot.name)) {
+      of_world.push_back(robot.name);
+    }
+  }
   scenario::Scenario scenario = options.scenario;
   if (auto ok = OverrideMovements(options, simulation, library, problems, scenario); !ok)
     return base::Fail(ok.error());
   auto population = Populate(simulation, library, scenario, problems);
   if (!population) return base::Fail(population.error().error);
+  for (base::Problem& problem :
+       CheckStarts(simulation.snapshot(), StartsOf(*population, options.scenario))) {
+    problems.push_back(std::move(problem));
+  }
   AddThoseOfTheWorld(simulation, population->robots, of_world);
   if (auto ok = OverrideBehaviours(options, population->robots); !ok) return base::Fail(ok.error());
+  if (!options.behaviour.empty() && population->robots.empty()) {
+    problems.push_back({base::Problem::Severity::kWarning,
+                        "has no effect: there is no robot; add one with --robot MODEL",
+                        "--behaviour " + options.behaviour});
+  }
   RunBehaviours behaviours(runtime, options);
   if (auto ok = behaviours.Ensure(population->robots); !ok) return base::Fail(ok.error());
   const auto given = GiveBehaviours(simulation, population->robots,

@@ -125,12 +125,15 @@ class ScenarioRunServant final : public POA_sba::ScenarioRun {
       result.message = folder.error().Sentence();
     } else {
       const std::filesystem::path file = folder->path() / "scenario.yaml";
-      std::ofstream(file) << scenario_;
       TestOptions options;
       options.timeout = timeout_;
       options.record = false;
       options.threads = 1;
-      result = RunTestCase({file, "scenario"}, options, is_cancelled_);
+      if (std::ofstream out(file); out << scenario_ << std::flush) {
+        result = RunTestCase({file, "scenario"}, options, is_cancelled_);
+      } else {
+        result.message = "the scenario cannot be written to " + file.string();
+      }
     }
     const base::MutexLock lock(mutex_);
     result_ = std::move(result);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -19,9 +20,14 @@ namespace fs = std::filesystem;
 constexpr std::chrono::seconds kStartTimeout{60};
 constexpr int kMaxPrograms = 64;
 
-// Empty when there is none.
-std::string FindProgram(const std::string& name) {
-  if (name.find('/') != std::string::npos) return {};
+struct FoundProgram {
+  std::string path;         // empty: there is none that can be started
+  std::string unstartable;  // the first of that name that cannot be executed
+};
+
+FoundProgram FindProgram(const std::string& name) {
+  FoundProgram found;
+  if (name.find('/') != std::string::npos) return found;
   std::vector<fs::path> folders{ProgramFolder()};
   if (const char* path = std::getenv("PATH"); path != nullptr) {
     std::istringstream stream(path);
@@ -29,12 +35,44 @@ std::string FindProgram(const std::string& name) {
   }
   for (const fs::path& folder : folders) {
     const fs::path program = folder / ("gsv-" + name);
-    if (access(program.c_str(), X_OK) == 0) return program;
+    std::error_code ignored;
+    if (fs::is_directory(program, ignored)) continue;
+    if (access(program.c_str(), X_OK) == 0) {
+      found.path = program;
+      return found;
+    }
+    if (found.unstartable.empty() && access(program.c_str(), F_OK) == 0) {
+      found.unstartable = program;
+    }
   }
-  return {};
+  return found;
+}
+
+base::Error NoProgram(const std::string& behaviour, const std::string& name,
+                      const FoundProgram& found, const std::string& broker) {
+  const std::string program = found.unstartable.empty()
+                                  ? "and there is no program gsv-" + name + " to start"
+                                  : "and the program " + found.unstartable +
+                                        " cannot be executed: make it executable with chmod +x";
+  return {base::ErrorCode::kBehaviour,
+          "no such behaviour is offered at " + broker + ", " + program +
+              "; see `gsv offers`, or start your program with --broker " + broker,
+          behaviour};
 }
 
 }  // namespace
+
+BehaviourLauncher::~BehaviourLauncher() {
+  const auto give_up = std::chrono::steady_clock::now() + patience_;
+  for (const auto& child : children_) child->Signal(SIGTERM);
+  for (const auto& child : children_) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        give_up - std::chrono::steady_clock::now());
+    if (child->AwaitEnd(std::max(left, std::chrono::milliseconds(0))).empty()) {
+      child->Signal(SIGKILL);
+    }
+  }
+}
 
 base::Status BehaviourLauncher::Ensure(const std::string& behaviour, int programs) {
   if (auto ok = broker_.EnsureServiceType(broker::AgentBehaviourFactoryType()); !ok) return ok;
@@ -44,15 +82,11 @@ base::Status BehaviourLauncher::Ensure(const std::string& behaviour, int program
   if (!offers->empty()) return {};
   const std::vector<std::string> words = SplitWords(behaviour);
   const std::string name = words.empty() ? "" : words.front();
-  const std::string program = FindProgram(name);
-  if (program.empty()) {
-    return base::Fail(base::ErrorCode::kBehaviour,
-                      "no such behaviour is offered at " + broker_.reference() +
-                          ", and there is no program gsv-" + name +
-                          " to start; see `gsv offers`, or start your program with --broker " +
-                          broker_.reference(),
-                      behaviour);
+  const FoundProgram found = FindProgram(name);
+  if (found.path.empty()) {
+    return base::Fail(NoProgram(behaviour, name, found, broker_.reference()));
   }
+  const std::string& program = found.path;
   std::vector<std::string> command{program,  "--broker", broker_.reference(),
                                    "--name", behaviour,  "--exit-with-parent"};
   command.insert(command.end(), words.begin() + 1, words.end());

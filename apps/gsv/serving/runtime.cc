@@ -29,6 +29,8 @@ namespace {
 
 // It takes 0.1 s. What counts is that a machine which is very busy gets the same verdict.
 constexpr std::chrono::seconds kBrokerStartTimeout{60};
+// For behaviours' programs to end where somebody waits for it.
+constexpr std::chrono::milliseconds kHurriedPrograms{500};
 
 std::vector<broker::Property> WithLoad(std::vector<broker::Property> properties,
                                        services::ServerLoad& load) {
@@ -218,6 +220,11 @@ base::Status Runtime::OfferScenarios(const std::string& name, int scenarios) {
   if (!exported) return base::Fail(exported.error());
   offers_.push_back(*exported);
   return {};
+}
+
+void Runtime::EndSoon() {
+  behaviours_->end_patience()->Hurry();
+  launcher_->SetPatience(kHurriedPrograms);
 }
 
 Runtime::~Runtime() {

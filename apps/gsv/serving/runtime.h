@@ -58,6 +58,9 @@ class Runtime {
   // for so many `scenarios` at once, if there are any.
   base::Status OfferService(const std::string& name, int scenarios = 0);
 
+  // The process is told to end: behaviours that do not return have a second from now on.
+  void EndSoon();
+
  private:
   Runtime() = default;
   base::Status StartBroker(const RuntimeOptions& options);

@@ -160,7 +160,10 @@ void KeepFailure(const fs::path& folder, const TestOptions& options, const Child
           Quoted(file), failed, select);
     }
   }
-  std::ofstream(kept / "README.txt") << text;
+  if (std::ofstream readme(kept / "README.txt"); !(readme << text << std::flush)) {
+    result.message += "\nWhat shows the failure cannot be kept in " + kept.string() +
+                      "; check the free space of its disk";
+  }
   result.folder = kept;
 }
 

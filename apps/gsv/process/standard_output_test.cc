@@ -1,0 +1,81 @@
+#include "apps/gsv/process/standard_output.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/gsv/process/exit_code.h"
+
+namespace gsv::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+File OpenToWrite(const char* path) { return {std::fopen(path, "w"), &std::fclose}; }
+
+struct Ending {
+  int exit_code = 0;
+  std::string errors;
+};
+
+Ending EndOf(std::FILE* output, int exit_code) {
+  testing::internal::CaptureStderr();
+  Ending ending;
+  ending.exit_code = EndOutput(output, exit_code);
+  ending.errors = testing::internal::GetCapturedStderr();
+  return ending;
+}
+
+TEST(StandardOutput, ThatIsWrittenKeepsTheExitCode) {
+  const File output = OpenToWrite("/dev/null");
+  std::fputs("text\n", output.get());
+  const Ending ending = EndOf(output.get(), kOk);
+  EXPECT_EQ(ending.exit_code, kOk);
+  EXPECT_THAT(ending.errors, IsEmpty());
+}
+
+TEST(StandardOutput, ThatFindsNoSpaceIsNoSuccess) {
+  const File output = OpenToWrite("/dev/full");
+  std::fputs("text", output.get());
+  const Ending ending = EndOf(output.get(), kOk);
+  EXPECT_EQ(ending.exit_code, kInfrastructure);
+  EXPECT_THAT(ending.errors, HasSubstr("No space left on device"));
+}
+
+TEST(StandardOutput, ThatWasLostEarlierIsNoSuccess) {
+  const File output = OpenToWrite("/dev/full");
+  std::fputs("text\n", output.get());
+  EXPECT_NE(std::fflush(output.get()), 0);
+  const Ending ending = EndOf(output.get(), kOk);
+  EXPECT_EQ(ending.exit_code, kInfrastructure);
+  EXPECT_THAT(ending.errors, HasSubstr("not all of the output could be written"));
+}
+
+TEST(StandardOutput, ThatIsLostKeepsTheExitCodeOfAnotherFailure) {
+  const File output = OpenToWrite("/dev/full");
+  std::fputs("text\n", output.get());
+  EXPECT_EQ(EndOf(output.get(), kAssertionFailed).exit_code, kAssertionFailed);
+}
+
+TEST(StandardOutput, ThatNobodyReadsFailsWithoutASentence) {
+  std::signal(SIGPIPE, SIG_IGN);
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  close(ends[0]);
+  const File output(fdopen(ends[1], "w"), &std::fclose);
+  std::fputs("text\n", output.get());
+  const Ending ending = EndOf(output.get(), kOk);
+  EXPECT_EQ(ending.exit_code, kInfrastructure);
+  EXPECT_THAT(ending.errors, IsEmpty());
+}
+
+}  // namespace
+}  // namespace gsv::app

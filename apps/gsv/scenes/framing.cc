@@ -1,0 +1,174 @@
+#include "apps/gsv/scenes/framing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "gsv/geometry/box_corners.h"
+
+namespace gsv::app {
+namespace {
+
+using geometry::Bounds;
+using geometry::Pose;
+using geometry::Vector3;
+
+constexpr double kBoundless = std::numeric_limits<double>::infinity();
+// A body is too far away if it lies beyond so many radii of all that is nearer, and so many metres.
+constexpr double kFarRadii = 20, kFarMetres = 100;
+// What is this much flatter than wide is ground, if it covers so many times more than all that
+// stands.
+constexpr double kFlat = 0.02, kMuchMore = 4;
+
+Bounds Nothing() {
+  return {{kBoundless, kBoundless, kBoundless}, {-kBoundless, -kBoundless, -kBoundless}};
+}
+
+void Grow(Bounds& bounds, const Vector3& p) {
+  bounds.min = {std::min(bounds.min.x, p.x), std::min(bounds.min.y, p.y),
+                std::min(bounds.min.z, p.z)};
+  bounds.max = {std::max(bounds.max.x, p.x), std::max(bounds.max.y, p.y),
+                std::max(bounds.max.z, p.z)};
+}
+
+void Grow(Bounds& bounds, const Bounds& other) {
+  Grow(bounds, other.min);
+  Grow(bounds, other.max);
+}
+
+// Of one visual, in the world.
+struct Seen {
+  std::vector<Vector3> corners;
+  Bounds bounds = Nothing();
+
+  bool is_flat() const {
+    const Vector3 size = bounds.max - bounds.min;
+    return size.z <= kFlat * std::max(size.x, size.y);
+  }
+};
+
+double AreaOf(const Bounds& bounds) {
+  const Vector3 size = bounds.max - bounds.min;
+  return size.x > 0 && size.y > 0 ? size.x * size.y : 0;
+}
+
+std::vector<Seen> SeenOf(const world::Snapshot& snapshot, int body) {
+  std::vector<Seen> seen;
+  const std::vector<Pose> world_from_link = world::LinkPoses(snapshot, body);
+  const model::Model& model = *snapshot.layout->bodies[static_cast<std::size_t>(body)].model;
+  for (std::size_t link = 0; link < model.links.size(); ++link) {
+    for (const model::Visual& visual : model.links[link].visuals) {
+      if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
+      const Pose world_from_visual = world_from_link[link] * visual.link_from_visual;
+      Seen each;
+      for (const Vector3& corner : geometry::CornersOf(geometry::BoundsOf(visual.shape))) {
+        each.corners.push_back(world_from_visual * corner);
+        Grow(each.bounds, each.corners.back());
+      }
+      seen.push_back(std::move(each));
+    }
+  }
+  return seen;
+}
+
+struct SeenBody {
+  std::vector<Seen> visuals;
+  Bounds bounds = Nothing();
+
+  Vector3 centre() const { return (bounds.min + bounds.max) * 0.5; }
+  double radius() const { return Norm(bounds.max - bounds.min) / 2; }
+};
+
+// The median of their centres, axis by axis; of fewer than three bodies the origin.
+Vector3 MiddleOf(const std::vector<SeenBody>& bodies) {
+  if (bodies.size() < 3) return {};
+  const auto median = [&](double Vector3::*axis) {
+    std::vector<double> values;
+    for (const SeenBody& body : bodies) values.push_back(body.centre().*axis);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  return {median(&Vector3::x), median(&Vector3::y), median(&Vector3::z)};
+}
+
+void DropFarAway(std::vector<SeenBody>& bodies) {
+  const Vector3 middle = MiddleOf(bodies);
+  const auto distance = [&](const SeenBody& body) { return Norm(body.centre() - middle); };
+  std::stable_sort(bodies.begin(), bodies.end(),
+                   [&](const SeenBody& a, const SeenBody& b) { return distance(a) < distance(b); });
+  double radius = 0;  // about the middle, of the bodies so far
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double nearest = distance(bodies[i]) - bodies[i].radius();
+    // Those that are nearer must not be the few.
+    if (nearest > kFarRadii * radius + kFarMetres && 2 * i >= bodies.size()) {
+      bodies.resize(i);
+      return;
+    }
+    radius = std::max(radius, distance(bodies[i]) + bodies[i].radius());
+  }
+}
+
+// Without ground, where there is more than ground.
+std::vector<const Seen*> WhatStands(const std::vector<SeenBody>& bodies) {
+  std::vector<const Seen*> all, standing;
+  Bounds of_all = Nothing(), of_standing = Nothing();
+  for (const SeenBody& body : bodies) {
+    for (const Seen& seen : body.visuals) {
+      all.push_back(&seen);
+      Grow(of_all, seen.bounds);
+      if (seen.is_flat()) continue;
+      standing.push_back(&seen);
+      Grow(of_standing, seen.bounds);
+    }
+  }
+  const bool is_ground_large = AreaOf(of_all) > kMuchMore * AreaOf(of_standing);
+  return standing.empty() || !is_ground_large ? all : standing;
+}
+
+// In the model's frame, at zero joint positions.
+double LowestToSee(const model::Model& model) {
+  double lowest = kBoundless;
+  for (const model::Link& link : model.links) {
+    for (const model::Visual& visual : link.visuals) {
+      if (std::holds_alternative<geometry::Plane>(visual.shape)) continue;
+      const Pose model_from_visual = link.model_from_link * visual.link_from_visual;
+      for (const Vector3& corner : geometry::CornersOf(geometry::BoundsOf(visual.shape))) {
+        lowest = std::min(lowest, (model_from_visual * corner).z);
+      }
+    }
+  }
+  return lowest;
+}
+
+}  // namespace
+
+std::vector<Vector3> CornersToShow(const world::Snapshot& snapshot) {
+  std::vector<SeenBody> bodies;
+  for (int body = 0; body < static_cast<int>(snapshot.layout->bodies.size()); ++body) {
+    SeenBody seen{SeenOf(snapshot, body)};
+    for (const Seen& each : seen.visuals) Grow(seen.bounds, each.bounds);
+    if (!seen.visuals.empty()) bodies.push_back(std::move(seen));
+  }
+  DropFarAway(bodies);
+  std::vector<Vector3> corners;
+  for (const Seen* seen : WhatStands(bodies)) {
+    corners.insert(corners.end(), seen->corners.begin(), seen->corners.end());
+  }
+  if (corners.empty()) corners = {{-1, -1, 0}, {1, 1, 1}};
+  return corners;
+}
+
+bool IsModelAlone(const model::WorldDescription& world) {
+  return !world.models.empty() && world.models.size() <= 2 &&
+         world.models.back().model->name == world.name;
+}
+
+void StandModelOnGround(model::WorldDescription& world) {
+  model::PlacedModel& placed = world.models.back();
+  const double lowest = LowestToSee(*placed.model);
+  if (std::isfinite(lowest)) placed.world_from_model.position.z = -lowest;
+}
+
+}  // namespace gsv::app

@@ -1,0 +1,86 @@
+#include "apps/gsv/scenes/framing.h"
+
+#include <gtest/gtest.h>
+
+namespace gsv::app {
+namespace {
+
+using geometry::Vector3;
+
+world::Body BoxAt(const char* name, const Vector3& size, const Vector3& centre) {
+  auto model = std::make_shared<model::Model>();
+  model->name = name;
+  model->links.resize(1);
+  model::Visual visual;
+  visual.shape = geometry::Box{size};
+  model->links[0].visuals.push_back(visual);
+  world::Body body;
+  body.name = name;
+  body.model = model;
+  body.initial_pose = {centre, {}};
+  return body;
+}
+
+// What is shown of these, as the smallest and the largest corner.
+geometry::Bounds Shown(std::vector<world::Body> bodies) {
+  world::Snapshot snapshot;
+  snapshot.layout =
+      world::MakeLayout(1, std::move(bodies), std::make_shared<const model::WorldDescription>());
+  snapshot.state = world::InitialState(*snapshot.layout);
+  const auto corners = CornersToShow(snapshot);
+  geometry::Bounds bounds{corners.at(0), corners.at(0)};
+  for (const Vector3& p : corners) {
+    bounds.min = {std::min(bounds.min.x, p.x), std::min(bounds.min.y, p.y),
+                  std::min(bounds.min.z, p.z)};
+    bounds.max = {std::max(bounds.max.x, p.x), std::max(bounds.max.y, p.y),
+                  std::max(bounds.max.z, p.z)};
+  }
+  return bounds;
+}
+
+TEST(Framing, ShowsAllThatStandsThere) {
+  const auto shown =
+      Shown({BoxAt("a", {1, 1, 1}, {2, 0, 0.5}), BoxAt("b", {1, 1, 1}, {-30, 0, 0.5})});
+  EXPECT_EQ(shown.min, (Vector3{-30.5, -0.5, 0}));
+  EXPECT_EQ(shown.max, (Vector3{2.5, 0.5, 1}));
+}
+
+TEST(Framing, LeavesOutABodyFarAway) {
+  const auto two =
+      Shown({BoxAt("a", {1, 1, 1}, {2, 0, 0.5}), BoxAt("far", {1, 1, 1}, {0, 0, 343582})});
+  EXPECT_EQ(two.max, (Vector3{2.5, 0.5, 1}));
+  const auto more =
+      Shown({BoxAt("a", {1, 1, 1}, {500'000, 0, 0.5}), BoxAt("b", {1, 1, 1}, {500'004, 0, 0.5}),
+             BoxAt("c", {1, 1, 1}, {500'002, 3, 0.5}), BoxAt("far", {1, 1, 1}, {0, 0, 0.5})});
+  EXPECT_EQ(more.min, (Vector3{499'999.5, -0.5, 0}));
+}
+
+TEST(Framing, LeavesOutGroundThatReachesFarBeyondWhatStandsOnIt) {
+  const auto shown =
+      Shown({BoxAt("ground", {100, 100, 0.1}, {0, 0, -0.05}), BoxAt("a", {2, 2, 2}, {1, 1, 1})});
+  EXPECT_EQ(shown.min, (Vector3{0, 0, 0}));
+  EXPECT_EQ(shown.max, (Vector3{2, 2, 2}));
+}
+
+TEST(Framing, ShowsGroundThatIsAsLargeAsWhatStandsOnIt) {
+  const auto shown =
+      Shown({BoxAt("floor", {10, 10, 0.1}, {0, 0, -0.05}), BoxAt("a", {8, 8, 2}, {0, 0, 1})});
+  EXPECT_EQ(shown.max.x, 5);
+  EXPECT_EQ(Shown({BoxAt("ground", {100, 100, 0.1}, {0, 0, -0.05})}).max.x, 50);
+}
+
+TEST(Framing, StandsAModelOnItsGroundWhereverItsOriginIs) {
+  model::WorldDescription world;
+  world.name = "walker";
+  const world::Body body = BoxAt("walker", {0.4, 0.4, 1.6}, {});
+  world.models.push_back({"ground_plane", BoxAt("ground_plane", {1, 1, 1}, {}).model, {}, true});
+  world.models.push_back({"walker", body.model, {{0, 0, 0.3}, {}}, false});
+  ASSERT_TRUE(IsModelAlone(world));
+  StandModelOnGround(world);
+  EXPECT_DOUBLE_EQ(world.models.back().world_from_model.position.z, 0.8);
+  world.name = "hall";
+  EXPECT_FALSE(IsModelAlone(world));
+}
+
+}  // namespace
+}  // namespace gsv::app
