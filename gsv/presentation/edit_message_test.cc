@@ -42,6 +42,19 @@ TEST(EditMessage, TellsAllThatTheEditIsMadeOf) {
   EXPECT_FALSE(back->on_ground);
 }
 
+TEST(EditMessage, KeepsAChosenDriveWithAndWithoutAMovement) {
+  Edit edit = AddedRobot();
+  edit.drive = "diff,left=a b,radius=0.1";
+  EXPECT_EQ(EditMessage(edit).movement, "rigid drive diff,left=a b,radius=0.1");
+  for (const bool has_movement : {true, false}) {
+    if (!has_movement) edit.movement.reset();
+    const auto back = EditFrom(EditMessage(edit));
+    ASSERT_TRUE(back) << back.error().Sentence();
+    EXPECT_EQ(back->drive, edit.drive);
+    EXPECT_EQ(back->movement, edit.movement);
+  }
+}
+
 TEST(EditMessage, KeepsACommandAndItsArguments) {
   Edit edit;
   edit.kind = Edit::Kind::kCommand;

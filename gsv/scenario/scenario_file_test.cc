@@ -53,7 +53,7 @@ robots:
     y: 0.5
     yaw: 90deg
     behaviour: goto --goal-x 3
-  - {model: pebble, movement: rigid}
+  - {model: pebble, movement: rigid, drive: "skid,left=a,right=b,radius=0.2"}
   - {name: turtlebot, behaviour: wander}
 avatars:
   - {model: avatar, x: 1, y: 1}
@@ -76,6 +76,7 @@ record_pictures: png
   EXPECT_NEAR(scenario.robots[0].start->yaw, 1.5707963267948966, 1e-15);
   EXPECT_EQ(scenario.robots[1].start, std::nullopt);
   EXPECT_EQ(scenario.robots[1].movement, model::Movement::kRigid);
+  EXPECT_EQ(scenario.robots[1].drive, "skid,left=a,right=b,radius=0.2");
   EXPECT_EQ(scenario.robots[2].model, "");
   EXPECT_EQ(scenario.avatars.at(0).start, (Place{1, 1, {}, 0}));
   EXPECT_EQ(scenario.record, "run.mcap");

@@ -52,9 +52,9 @@ TEST(RunOptions, WithoutAnyItIsTheDefaultScenarioInRealTime) {
 }
 
 TEST(RunOptions, OneBehaviourIsForAllRobotsOrForOne) {
-  const auto options =
-      Parse({"maze", "--robot", "pebble@1,2,90deg", "--robot", "b21r", "--behaviour", "wander",
-             "--behaviour", "pebble=goto --goal-x=3", "--movement", "pebble=rigid"});
+  const auto options = Parse({"maze", "--robot", "pebble@1,2,90deg", "--robot", "b21r",
+                              "--behaviour", "wander", "--behaviour", "pebble=goto --goal-x=3",
+                              "--movement", "pebble=rigid", "--drive", "b21r=diff,left=a,right=b"});
   ASSERT_TRUE(options) << options.error().Sentence();
   EXPECT_EQ(options->scenario.world, "maze");
   ASSERT_THAT(options->scenario.robots, SizeIs(2));
@@ -64,6 +64,7 @@ TEST(RunOptions, OneBehaviourIsForAllRobotsOrForOne) {
   EXPECT_EQ(options->behaviour, "wander");
   EXPECT_THAT(options->behaviour_of, ElementsAre(Pair("pebble", "goto --goal-x=3")));
   EXPECT_THAT(options->movement_of, ElementsAre(Pair("pebble", model::Movement::kRigid)));
+  EXPECT_THAT(options->drive_of, ElementsAre(Pair("b21r", "diff,left=a,right=b")));
 }
 
 TEST(RunOptions, TheCommandLineGoesBeforeTheScenarioFile) {
@@ -103,6 +104,8 @@ TEST(RunOptions, EachMistakeNamesItsOption) {
       {{"--behaviour", "=wander"}, "--behaviour =wander: expected NAME or ROBOT=NAME"},
       {{"--behaviour", "r="}, "--behaviour r=: expected NAME or ROBOT=NAME"},
       {{"--movement", "rigid"}, "--movement rigid: expected ROBOT=rigid or ROBOT=planar"},
+      {{"--drive", "diff"}, "--drive diff: expected ROBOT=KIND"},
+      {{"--drive", "r=hover"}, "--drive r=hover: there is no drive \"hover\""},
       {{"--movement", "=rigid"}, "--movement =rigid: expected"},
       {{"--movement", "r=flying"}, "--movement r=flying: expected"},
       {{"--robot", "pebble@1"}, "pebble@1"},
