@@ -90,6 +90,34 @@ TEST(Faults, OneThatCannotHappenFailsTheRunWithItsPlace) {
   EXPECT_THAT(simulation->status().failure, HasSubstr("t.yaml:1:1: the fault cannot happen: "));
 }
 
+// A box with an arm on a joint, which forces move.
+RobotSpecification RobotWithAnArm() {
+  auto model = std::make_shared<model::Model>(*Disc(0.2));
+  model->links.emplace_back().name = "arm";
+  model::Joint joint;
+  joint.name = "hinge";
+  joint.kind = model::JointKind::kRevolute;
+  joint.parent = 0;
+  joint.child = 1;
+  model->joints.push_back(joint);
+  RobotSpecification robot = Robot("r", 0, 0);
+  robot.model = model;
+  robot.movement = model::Movement::kRigid;
+  return robot;
+}
+
+TEST(Faults, TheMotorOfAJointThatIsGoneFailsTheRunWithItsPlace) {
+  const auto simulation = WithFault(At(1, Fault::Kind::kMotorFails, "r", "hinge"));
+  ASSERT_TRUE(simulation->AddRobot(RobotWithAnArm()));
+  ASSERT_TRUE(simulation->RunUntil(500ms));
+  ASSERT_EQ(simulation->WaitForPhase({Phase::kPaused}, 20s), Phase::kPaused);
+  ASSERT_TRUE(simulation->RemoveRobot("r"));
+  ASSERT_TRUE(simulation->AddRobot(Robot("r", 0, 0)));
+  ASSERT_TRUE(simulation->Resume());
+  EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished, Phase::kFailed}, 20s), Phase::kFailed);
+  EXPECT_THAT(simulation->status().failure, HasSubstr("the joint is gone: hinge"));
+}
+
 TEST(Faults, OfWhoIsNotThereTheStartIsRefused) {
   for (const Fault& fault :
        {At(1, Fault::Kind::kMotorFails, "nobody"), At(1, Fault::Kind::kMotorFails, "wall"),
