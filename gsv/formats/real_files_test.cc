@@ -1,4 +1,5 @@
 // The worlds and robots other people made load, with warnings only for what is truly absent.
+#include <algorithm>
 #include <chrono>
 #include <set>
 
@@ -23,12 +24,13 @@ class RealFilesTest : public testing::Test {
   }
 };
 
+// Missing files, and what gsv does not carry out; nothing is misspelt or misplaced in these files.
 bool IsKnownToBeAbsent(const base::Problem& problem) {
   if (problem.severity != base::Problem::Severity::kWarning) return false;
   for (const char* absent :
        {"bases/burger_base.stl", "bases/waffle_base.stl", "bases/waffle_pi_base.stl",
         "sensors/astra.dae", "models/Construction Cone", "models/Mecanum lift",
-        "inertial auto=\"true\""}) {
+        " is not carried out", "more elements are unknown or not carried out"}) {
     if (problem.message.find(absent) != std::string::npos) return true;
   }
   return false;
@@ -98,7 +100,7 @@ TEST_F(RealFilesTest, TurtleBot3HouseAndBurgerLackOneMesh) {
   const fs::path turtlebot3 = RealFolder() / "turtlebot3";
   const auto world = library.ReadWorld(turtlebot3 / "worlds/turtlebot3_house.world", problems);
   ASSERT_TRUE(world.has_value());
-  EXPECT_THAT(problems, IsEmpty());
+  ExpectOnlyAbsentThings(problems, "turtlebot3_house.world");
   EXPECT_FALSE(world->scene.shadows);
   EXPECT_EQ(world->max_step_size, std::chrono::milliseconds(1));
   ASSERT_THAT(world->models, SizeIs(2));
@@ -120,9 +122,11 @@ TEST_F(RealFilesTest, TurtleBot3HouseAndBurgerLackOneMesh) {
   const auto burger =
       library.ReadModel("turtlebot3_burger", problems, turtlebot3 / "worlds/x.world");
   ASSERT_TRUE(burger.has_value());
-  ASSERT_THAT(problems, SizeIs(1));
-  EXPECT_EQ(problems[0].severity, base::Problem::Severity::kWarning);
-  EXPECT_THAT(problems[0].message, HasSubstr("turtlebot3_common/meshes/bases/burger_base.stl"));
+  ExpectOnlyAbsentThings(problems, "turtlebot3_burger");
+  EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const base::Problem& problem) {
+    return problem.message.find("turtlebot3_common/meshes/bases/burger_base.stl") !=
+           std::string::npos;
+  }));
   EXPECT_EQ((*burger)->links[0].name, "base_footprint");
   ASSERT_TRUE((*burger)->drive.has_value());
   EXPECT_EQ((*burger)->drive->wheel_separation, 0.160);
@@ -173,7 +177,7 @@ TEST_F(RealFilesTest, CafeAndWillowGarageAreEnvironments) {
     base::Problems problems;
     const auto world = ModelLibrary().ReadWorld(RealFolder() / "gazebo_models" / name, problems);
     ASSERT_TRUE(world.has_value()) << world.error().Sentence();
-    EXPECT_THAT(problems, IsEmpty());
+    ExpectOnlyAbsentThings(problems, name);
     ASSERT_THAT(world->models, SizeIs(2));
     EXPECT_EQ(world->models[0].name, "ground_plane");
     const auto& visual = world->models[1].model->links.at(0).visuals.at(0);

@@ -8,6 +8,7 @@
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/model_store.h"
 #include "gsv/formats/sdf/world_reader.h"
+#include "gsv/formats/support/naming_rules.h"
 #include "gsv/formats/xacro/arguments.h"
 #include "gsv/model/script.h"
 
@@ -51,6 +52,7 @@ class ModelLibrary::Reader {
     auto xml = ReadXml(*file, store_.finder(), store_.limits(), problems);
     if (!xml) return Fail(xml.error());
     if (xml->root->FirstChildElement("world") != nullptr) {
+      ReportUnsupported(*xml, problems);
       return formats::ReadWorld(*xml, store_, problems);
     }
     return ReadEnvironment(*file, problems);
@@ -63,6 +65,15 @@ class ModelLibrary::Reader {
     auto file = FileOf(name, named_in);
     if (!file) return Fail(file.error());
     return ReadStored(*file, problems);
+  }
+
+  void CheckRulesOf(const std::string& name, base::Problems& problems) {
+    const base::MutexLock lock(mutex_);
+    const auto file = FileOf(name, {});
+    if (!file) return;
+    base::Problems reported_by_reading;
+    const auto xml = ReadXml(*file, store_.finder(), store_.limits(), reported_by_reading);
+    if (xml) CheckNamingRules({xml->path, xml->root, xml->minor_version}, problems);
   }
 
  private:
@@ -128,6 +139,10 @@ ModelLibrary::~ModelLibrary() = default;
 base::Result<WorldDescription> ModelLibrary::ReadWorld(const fs::path& path,
                                                        base::Problems& problems) {
   return reader_->ReadWorldAt(path, problems);
+}
+
+void ModelLibrary::CheckRules(const std::string& name_or_path, base::Problems& problems) {
+  reader_->CheckRulesOf(name_or_path, problems);
 }
 
 base::Result<std::shared_ptr<const Model>> ModelLibrary::ReadModel(const std::string& name_or_path,

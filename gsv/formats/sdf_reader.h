@@ -1,4 +1,4 @@
-// Reads worlds and robots: SDFormat 1.3 to 1.9 (newer with warnings), URDF.
+// Reads worlds and robots: SDFormat 1.3 to 1.12, URDF.
 //
 // A ModelLibrary reads each model file once and hands out the same Model ever after; meshes and
 // textures are shared between all models of one library.
@@ -10,7 +10,8 @@
 // Errors   kBadModel with one sentence when nothing usable could be read: no such file, malformed
 //          XML, no world or model inside, includes that go round, a file too large. Everything
 //          else is appended to `problems`: a warning for what can be lived with (a missing mesh, a
-//          model on the web, a sensor of a type nobody knows), an error for what makes the
+//          model on the web, a sensor of a type nobody knows, an element that is unknown or not
+//          carried out), an error for what makes the
 //          simulation unfaithful (a negative mass, an axis of length zero, inverted limits, a
 //          sensor whose parameters are refused).
 // Threads  all members may be called concurrently; one file is read at a time.
@@ -37,6 +38,11 @@ class ModelLibrary {
   // world holds that model, a sun, and a ground plane unless the model has a plane to collide with.
   base::Result<model::WorldDescription> ReadWorld(const std::filesystem::path& path,
                                                   base::Problems& problems);
+
+  // Errors for each rule of SDFormat that a file breaks by its names and references, see
+  // gsv/formats/support/naming_rules.h. Reading repairs these; a check refuses them. `path` is as of
+  // ReadWorld(), or a model's name; what cannot be read is not reported.
+  void CheckRules(const std::string& name_or_path, base::Problems& problems);
 
   // A model's file (SDFormat or URDF), its folder, or its name, which is looked for as model://NAME
   // from `named_in` (a file, or the current folder).

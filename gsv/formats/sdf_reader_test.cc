@@ -379,7 +379,8 @@ TEST_F(SdfReaderTest, ReadsTemperaturesOfTheAirAndOfVisuals) {
   EXPECT_EQ(model->links[0].visuals[1].temperature, 350);
   EXPECT_EQ(model->links[0].visuals[2].temperature, 310.5);
   EXPECT_EQ(model->links[0].visuals[3].temperature, std::nullopt);
-  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("<temperature> must be a number of kelvins")));
+  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("the plugin f is not carried out"),
+                                       HasSubstr("<temperature> must be a number of kelvins")));
 }
 
 TEST_F(SdfReaderTest, AModelIsAnEnvironmentWithSunAndGround) {
@@ -485,6 +486,79 @@ TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {
   EXPECT_NEAR(drive.wheel_separation, 0.4, 1e-9);
   EXPECT_NEAR(drive.wheel_radius, 0.07, 1e-9);
   EXPECT_THAT(Sentences(), IsEmpty());
+}
+
+// SDFormat's cone (1.11), <light_on> (1.9) and <screw_thread_pitch> (1.10), by no reader of 1.9.
+TEST_F(SdfReaderTest, ReadsWhatVersionsSince110Bring) {
+  for (const char* version : {"1.10", "1.11", "1.12"}) {
+    problems_.clear();
+    const auto world = World(R"(<world name='w'>
+      <light name='off' type='point'><light_on>false</light_on></light>
+      <light name='on' type='point'><light_on>true</light_on></light>
+      <model name='m'><link name='a'><collision name='c'><geometry><cone><radius>0.2</radius>
+        <length>0.6</length></cone></geometry></collision></link><link name='b'/>
+        <joint name='j' type='screw'><parent>a</parent><child>b</child>
+          <screw_thread_pitch>0.01</screw_thread_pitch>
+          <axis><xyz>0 0 1</xyz><limit><lower>-inf</lower><upper>inf</upper></limit></axis></joint>
+      </model></world>)",
+                             version);
+    EXPECT_THAT(Sentences(), IsEmpty()) << version;
+    ASSERT_THAT(world.lights, SizeIs(2));
+    EXPECT_EQ(world.lights[0].intensity, 0);
+    EXPECT_EQ(world.lights[1].intensity, 1);
+    ASSERT_THAT(world.models, SizeIs(1));
+    const auto& model = *world.models[0].model;
+    EXPECT_EQ(std::get<geometry::Cone>(model.links.at(0).collisions.at(0).shape).length, 0.6);
+    EXPECT_NEAR(model.joints.at(0).thread_pitch, 0.01 / (2 * std::numbers::pi), 1e-12);
+  }
+}
+
+TEST_F(SdfReaderTest, NamesWhatIsNewAndNotCarriedOut) {
+  (void)World(R"(<world name='w'><model name='m'><link name='a'>
+    <inertial auto='true'><density>100</density><fluid_added_mass><xx>2</xx></fluid_added_mass>
+    </inertial></link><link name='b'/><joint name='j' type='revolute'><parent>a</parent>
+    <child>b</child><axis><xyz>0 0 1</xyz><mimic joint='k'><multiplier>2</multiplier></mimic></axis>
+    </joint></model></world>)",
+              "1.12");
+  EXPECT_THAT(Sentences(), testing::IsSupersetOf({HasSubstr("attribute \"auto\" of <inertial>"),
+                                                  HasSubstr("<density> is not carried out"),
+                                                  HasSubstr("<fluid_added_mass> is not carried"),
+                                                  HasSubstr("<mimic> is not carried out")}));
+  problems_.clear();
+  (void)World("<world name='w'/>", "1.13");
+  EXPECT_THAT(Sentences(), ElementsAre(HasSubstr("SDFormat 1.13 is newer than 1.12")));
+}
+
+TEST_F(SdfReaderTest, ReportsElementsOfIncludedFilesInTheirFile) {
+  folder_.Write("models/box/model.sdf",
+                Sdf("<model name='box'><statik>1</statik><link name='l'/></model>"));
+  folder_.Write("models/box/model.config",
+                "<model><name>box</name><sdf version='1.9'>model.sdf</sdf></model>");
+  folder_.Write("models/pair/model.sdf",
+                Sdf("<model name='pair'><link name='l'/><include><uri>model://box</uri></include>"
+                    "</model>"));
+  ReadOptions options;
+  options.model_path = {folder_.path() / "models"};
+  const auto world = ModelLibrary(options).ReadWorld(
+      folder_.Write("w.sdf", Sdf("<world name='w'><include><uri>model://pair</uri></include>"
+                                 "</world>")),
+      problems_);
+  ASSERT_TRUE(world.has_value());
+  EXPECT_THAT(Sentences(),
+              testing::Contains(testing::AllOf(HasSubstr("box/model.sdf:3: model[box]/statik"),
+                                               HasSubstr("Did you mean <static>?"))));
+}
+
+TEST_F(SdfReaderTest, ChecksRulesOfNamesApartFromReading) {
+  const auto file = folder_.Write(
+      "rules.sdf", Sdf("<world name='w'><frame name='f' attached_to='nowhere'/></world>"));
+  base::Problems problems;
+  ModelLibrary library;
+  library.CheckRules(file.string(), problems);
+  ASSERT_THAT(problems, SizeIs(1));
+  EXPECT_EQ(problems[0].severity, base::Problem::Severity::kError);
+  EXPECT_THAT(problems[0].Sentence(), HasSubstr("world/frame[f]: its attached_to names"));
+  EXPECT_TRUE(library.ReadWorld(file, problems).has_value());
 }
 
 }  // namespace

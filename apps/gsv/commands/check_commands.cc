@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <map>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -53,32 +55,49 @@ Notes RobotNotes(const std::shared_ptr<const model::Model>& model) {
   return notes;
 }
 
-// Prints each problem; gives the exit code: 3 when the simulation would not be faithful.
+// Places of one message that are printed in text; JSON has all.
+constexpr std::size_t kPlacesPrinted = 10;
+
+void Print(const CheckArguments& arguments, const char* severity, const std::string& where,
+           const std::string& message) {
+  if (arguments.json) {
+    const nlohmann::ordered_json line = {
+        {"severity", severity}, {"where", where}, {"message", message}};
+    std::printf("%s\n",
+                line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  } else {
+    std::printf("%s: %s%s%s\n", severity, where.c_str(), where.empty() ? "" : ": ",
+                message.c_str());
+  }
+}
+
+const char* SeverityName(bool is_error) { return is_error ? "error" : "warning"; }
+
+// Prints each problem once; gives the exit code: 3 when the simulation would not be faithful.
 int Report(const CheckArguments& arguments, const base::Problems& problems, const Notes& notes,
            const base::Status& read) {
   int errors = read ? 0 : 1;
   int warnings = 0;
-  const auto print = [&](const char* severity, const std::string& where,
-                         const std::string& message) {
-    if (arguments.json) {
-      const nlohmann::ordered_json line = {
-          {"severity", severity}, {"where", where}, {"message", message}};
-      std::printf("%s\n",
-                  line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-    } else {
-      std::printf("%s: %s%s%s\n", severity, where.c_str(), where.empty() ? "" : ": ",
-                  message.c_str());
-    }
-  };
-  for (const std::string& note : notes) print("note", "", note);
+  for (const std::string& note : notes) Print(arguments, "note", "", note);
+  std::map<std::pair<bool, std::string>, std::set<std::string>> places;
   for (const base::Problem& problem : problems) {
-    const bool is_error = problem.severity == base::Problem::Severity::kError;
+    const bool is_error = problem.severity == base::Problem::Severity::kError || arguments.strict;
+    auto& of_message = places[{is_error, problem.message}];
+    if (!of_message.insert(problem.where).second) continue;
     ++(is_error ? errors : warnings);
-    print(is_error ? "error" : "warning", problem.where, problem.message);
+    if (arguments.json || of_message.size() <= kPlacesPrinted) {
+      Print(arguments, SeverityName(is_error), problem.where, problem.message);
+    }
   }
-  if (!read) print("error", read.error().where, read.error().message);
+  for (const auto& [what, where] : places) {
+    if (arguments.json || where.size() <= kPlacesPrinted) continue;
+    Print(arguments, SeverityName(what.first),
+          std::to_string(where.size() - kPlacesPrinted) + " more places (--json lists them)",
+          what.second);
+  }
+  if (!read) Print(arguments, "error", read.error().where, read.error().message);
   if (!arguments.json) std::printf("%d errors, %d warnings\n", errors, warnings);
-  return errors > 0 || (arguments.strict && warnings > 0) ? kBadModel : kOk;
+  return errors > 0 ? kBadModel : kOk;
 }
 
 template <typename Read>
@@ -93,7 +112,8 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
   AddSensorPluginOption(*command, arguments->sensor_plugins);
   AddLimitOption(*command, arguments->limits);
   command->add_flag("--json", arguments->json, "one JSON object a line");
-  command->add_flag("--strict", arguments->strict, "warnings count as errors");
+  command->add_flag("--strict", arguments->strict,
+                    "make every warning an error, such as what is not carried out");
   // For TryToRead(), and in no help.
   command->add_option("--confined-memory", arguments->confinement.memory_bytes)->group("");
   command->add_option("--confined-time", arguments->confined_seconds)->group("");
@@ -134,6 +154,7 @@ void AddCheckCommands(const CommandLine& line) {
              const auto found = FindWorld(file);
              if (!found) return base::Status(base::Fail(found.error()));
              const auto world = library.ReadWorld(*found, problems);
+             library.CheckRules(*found, problems);
              return world ? base::Status() : base::Fail(world.error());
            });
   AddCheck(line, "model", "a model",
@@ -141,6 +162,7 @@ void AddCheckCommands(const CommandLine& line) {
               Notes& notes) {
              const auto model = library.ReadModel(file, problems);
              if (!model) return base::Status(base::Fail(model.error()));
+             library.CheckRules(file, problems);
              notes = RobotNotes(*model);
              return base::Status();
            });

@@ -10,6 +10,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "apps/gsv/running/drive_options.h"
+#include "apps/gsv/process/problem_report.h"
 #include "apps/gsv/running/edit_repetition.h"
 #include "apps/gsv/running/picture.h"
 #include "apps/gsv/running/run.h"
@@ -27,21 +28,11 @@ namespace {
 using simulation::Phase;
 using simulation::Simulation;
 
-// Each problem once, in order; errors come first.
-std::vector<std::string> Sentences(const base::Problems& problems,
-                                   base::Problem::Severity severity) {
-  std::vector<std::string> sentences;
-  for (const base::Problem& problem : problems) {
-    if (problem.severity != severity) continue;
-    const std::string sentence = problem.Sentence();
-    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
-      sentences.push_back(sentence);
-  }
-  return sentences;
-}
+// Kinds of warnings that are printed; `gsv world check` has all.
+constexpr std::size_t kWarningsPrinted = 10;
 
 bool TellErrors(const base::Problems& problems) {
-  const auto errors = Sentences(problems, base::Problem::Severity::kError);
+  const auto errors = GroupedSentences(problems, base::Problem::Severity::kError);
   for (const std::string& error : errors) std::fprintf(stderr, "gsv: error: %s\n", error.c_str());
   return !errors.empty();
 }
@@ -181,8 +172,9 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
 
   if (TellErrors(problems)) return kBadModel;
   problems.insert(problems.begin(), options.problems.begin(), options.problems.end());
-  auto warnings = Sentences(problems, base::Problem::Severity::kWarning);
-  Warn(warnings);
+  auto warnings = GroupedSentences(problems, base::Problem::Severity::kWarning);
+  Warn(Shortened(warnings, kWarningsPrinted,
+                 "to see all: gsv world check " + options.scenario.world));
 
   for (const simulation::Event& event : (*simulation)->events(0)) {
     if (event.kind == "robot_moved" && !is_quiet)

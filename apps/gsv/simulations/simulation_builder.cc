@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "apps/gsv/machine/installation.h"
+#include "apps/gsv/process/problem_report.h"
 #include "apps/gsv/simulations/model_list.h"
 #include "apps/gsv/simulations/robot_drives.h"
 #include "gsv/broker/client/gsv_service_types.h"
@@ -20,12 +21,13 @@ namespace fs = std::filesystem;
 constexpr std::size_t kWorldsKept = 4;
 constexpr std::size_t kMostOffers = 200;
 
-// Each once, in order.
+// Each once, in order; the same in many places is told once.
 void AddSentences(const base::Problems& problems, std::vector<std::string>& sentences) {
-  for (const base::Problem& problem : problems) {
-    std::string sentence = problem.Sentence();
-    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
-      sentences.push_back(std::move(sentence));
+  for (const auto severity : {base::Problem::Severity::kError, base::Problem::Severity::kWarning}) {
+    for (std::string& sentence : GroupedSentences(problems, severity)) {
+      if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+        sentences.push_back(std::move(sentence));
+    }
   }
 }
 

@@ -84,6 +84,7 @@ base::Status IncludeScan::Enter(const fs::path& file) {
   base::Problems ignored;  // libsdformat reads the file and says what is wrong with it
   auto xml = ReadXml(path, finder_, limits_, ignored);
   if (!xml) return Fail(xml.error());
+  ReportUnsupported(*xml, problems_);
   open_.push_back(path);
   auto status = Visit(*xml->root, path);
   open_.pop_back();

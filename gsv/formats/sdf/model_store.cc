@@ -54,10 +54,12 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   if (xml->dialect == XmlDialect::kUrdf) {
     auto text = UrdfText(*xml);
     if (!text) return Fail(text.error());
+    ReportUnsupported(*xml, stored.problems);
     auto robot = FromText(*text, file, {}, std::move(stored));
     if (robot) Complete(*xml->root, file, true, *robot);
     return robot;
   }
+  ReportUnsupported(*xml, stored.problems);
   XMLElement* content = xml->root->FirstChildElement("model");
   if (content == nullptr) content = xml->root->FirstChildElement("light");
   ActorParts actor;

@@ -48,8 +48,12 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
   take(surface.friction2, {"surface", "friction", "bullet", "friction2"});
   take(surface.friction, {"surface", "friction", "ode", "mu"});
   take(surface.friction2, {"surface", "friction", "ode", "mu2"});
-  const auto direction =
+  auto direction =
       ValueAt<ignition::math::Vector3d>(collision, {"surface", "friction", "ode", "fdir1"});
+  if (!direction) {
+    direction =
+        ValueAt<ignition::math::Vector3d>(collision, {"surface", "friction", "bullet", "fdir1"});
+  }
   if (direction && geometry::IsFinite(FromIgnition(*direction)) && direction->Length() > 0) {
     surface.friction_direction = geometry::Normalized(FromIgnition(*direction));
   }

@@ -75,6 +75,11 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
   }
   light.diffuse = FromIgnition(source.Diffuse());
   light.intensity = std::max(source.Intensity(), 0.0);
+  // SDFormat has <light_on> since 1.9; libsdformat 12 keeps the element as it stands.
+  if (source.Element() != nullptr && source.Element()->HasElement("light_on") &&
+      !source.Element()->Get<bool>("light_on", true).first) {
+    light.intensity = 0;
+  }
   light.range = source.AttenuationRange();
   light.constant_attenuation = source.ConstantAttenuationFactor();
   light.linear_attenuation = source.LinearAttenuationFactor();

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <system_error>
 
+#include "gsv/formats/support/element_audit.h"
 #include "gsv/formats/xacro/arguments.h"
 #include "gsv/formats/xacro/xacro.h"
 
@@ -19,7 +19,9 @@ using tinyxml2::XMLElement;
 using tinyxml2::XMLNode;
 
 constexpr int kOldestVersion = 103;
-constexpr int kNewestVersion = 109;
+constexpr int kNewestVersion = 109;  // of libsdformat
+constexpr int kNewestKnownMinor = 12;
+constexpr int kNewestKnown = 100 + kNewestKnownMinor;
 
 base::Result<std::string> ReadText(const std::filesystem::path& path, std::size_t limit) {
   std::error_code error;
@@ -50,32 +52,6 @@ int Depth(const XMLElement& element, int limit) {
   return deepest + 1;
 }
 
-// Elements that SDFormat 1.10 to 1.12 brought and that this program cannot honour.
-void CollectNewElements(const XMLElement& element, std::set<std::string>& found) {
-  const std::string name = element.Name();
-  if (name == "auto_inertia_params" || name == "mimic" || name == "shader" || name == "projector") {
-    found.insert("<" + name + ">");
-  }
-  if (name == "inertial" && element.BoolAttribute("auto", false)) {
-    found.insert("<inertial auto=\"true\">");
-  }
-  for (auto* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
-    CollectNewElements(*child, found);
-  }
-}
-
-void NameWhatIsNew(const XmlFile& file, base::Problems& problems) {
-  std::set<std::string> found;
-  CollectNewElements(*file.root, found);
-  if (found.empty()) return;
-  std::string list;
-  for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
-  problems.push_back({Problem::Severity::kWarning,
-                      "of SDFormat " + file.version + " " + list + " is not supported and left out",
-                      PlaceOf(file.path, *file.root)});
-}
-
 base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
   const char* version = file.root->Attribute("version");
   int major = 0, minor = 0;
@@ -90,8 +66,14 @@ base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
                 "SDFormat " + file.version + " is too old to read; convert it to 1.4 or newer",
                 PlaceOf(file.path, *file.root));
   }
+  file.minor_version = major == 1 ? minor : kNewestKnownMinor;
+  if (number > kNewestKnown) {
+    problems.push_back({Problem::Severity::kWarning,
+                        "SDFormat " + file.version +
+                            " is newer than 1.12, the newest that is known; what it brings is lost",
+                        PlaceOf(file.path, *file.root)});
+  }
   if (number > kNewestVersion) {
-    NameWhatIsNew(file, problems);
     file.version = "1.9";
     file.root->SetAttribute("version", "1.9");
   }
@@ -150,6 +132,10 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
     if (auto status = CheckVersion(file, problems); !status) return Fail(status.error());
   }
   return file;
+}
+
+void ReportUnsupported(const XmlFile& file, base::Problems& problems) {
+  AuditElements({file.path, file.root, file.minor_version}, problems);
 }
 
 void LineKeepingPrinter::AdvanceTo(int line) {

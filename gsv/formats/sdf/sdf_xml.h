@@ -20,14 +20,19 @@ struct XmlFile {
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;
-  std::string version;  // of <sdf>, no newer than 1.9
+  std::string version;    // of <sdf>, no newer than 1.9
+  int minor_version = 0;  // 11 of an <sdf> that says 1.11; 0 of <robot>
 };
 
-// Reads and checks the frame of a file: its size, its XML, its root and version. What a newer
-// version than 1.9 brings is named in a warning. A xacro file is expanded (xacro/xacro.h); its
-// arguments may stand in the path (xacro/arguments.h).
+// Reads and checks the frame of a file: its size, its XML, its root and version. A newer version
+// than 1.9 is read as 1.9: ReportUnsupported() names what that loses. A xacro file is expanded
+// (xacro/xacro.h); its arguments may stand in the path (xacro/arguments.h).
 base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ResourceFinder& finder,
                               const ReadLimits& limits, base::Problems& problems);
+
+// Adds a warning for each element and attribute that is unknown or not carried out, see
+// gsv/formats/support/element_audit.h. Call it before the file's elements are changed.
+void ReportUnsupported(const XmlFile& file, base::Problems& problems);
 
 // "file:line" of an element.
 std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);

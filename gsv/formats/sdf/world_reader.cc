@@ -213,8 +213,6 @@ class WorldReader {
                  kind == "magnetic_field" || kind == "spherical_coordinates" ||
                  kind == "atmosphere") {
         surroundings_.push_back(child);
-      } else if (kind == "population" || kind == "road" || kind == "joint") {
-        context_.Warn("<" + kind + "> in a world is not supported and left out", Place(*child));
       }
     }
     return {};

@@ -1,0 +1,264 @@
+#include "gsv/formats/support/element_audit.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gsv/formats/support/element_path.h"
+#include "gsv/formats/support/plugin_audit.h"
+#include "gsv/formats/support/same_text.h"
+#include "gsv/formats/support/spelling.h"
+#include "gsv/formats/support/support_table.h"
+
+namespace gsv::formats {
+namespace {
+
+using tinyxml2::XMLAttribute;
+using tinyxml2::XMLElement;
+
+bool IsNamespaced(std::string_view name) { return name.find(':') != std::string_view::npos; }
+
+std::string Tag(std::string_view name) { return "<" + std::string(name) + ">"; }
+
+std::string Spaced(const std::string& sentence) { return sentence.empty() ? "" : " " + sentence; }
+
+// A sensor of a type that SDFormat does not have takes whatever elements its type defines.
+bool IsSensorOfOurs(const XMLElement& element) {
+  static constexpr std::string_view kTypes[] = {"air_flow",
+                                                "air_pressure",
+                                                "air_speed",
+                                                "altimeter",
+                                                "boundingbox",
+                                                "boundingbox_camera",
+                                                "camera",
+                                                "contact",
+                                                "depth",
+                                                "depth_camera",
+                                                "force_torque",
+                                                "gps",
+                                                "gpu_lidar",
+                                                "gpu_ray",
+                                                "imu",
+                                                "lidar",
+                                                "logical_camera",
+                                                "magnetometer",
+                                                "multicamera",
+                                                "navsat",
+                                                "ray",
+                                                "rfid",
+                                                "rfidtag",
+                                                "rgbd",
+                                                "rgbd_camera",
+                                                "segmentation",
+                                                "segmentation_camera",
+                                                "sonar",
+                                                "thermal",
+                                                "thermal_camera",
+                                                "wideanglecamera",
+                                                "wireless_receiver",
+                                                "wireless_transmitter"};
+  const char* type = element.Attribute("type");
+  return std::string_view(element.Name()) == "sensor" && type != nullptr &&
+         std::find(std::begin(kTypes), std::end(kTypes), type) == std::end(kTypes);
+}
+
+class ElementAudit {
+ public:
+  ElementAudit(const AuditedFile& file, base::Problems& problems)
+      : file_(file), problems_(problems) {}
+
+  void Run() {
+    const SupportTable& table = SupportTable::Get();
+    if (file_.minor_version == 0) {
+      Visit(*file_.root, table.urdf());
+    } else {
+      VisitRoot(table.sdf());
+    }
+    if (unreported_ > 0) {
+      problems_.push_back({base::Problem::Severity::kWarning,
+                           std::to_string(unreported_) +
+                               " more elements are unknown or not carried out in this file",
+                           file_.path.string()});
+    }
+  }
+
+ private:
+  void Report(std::string message, const XMLElement& element) {
+    if (reported_ == kMostFindings) {
+      ++unreported_;
+      return;
+    }
+    ++reported_;
+    problems_.push_back({base::Problem::Severity::kWarning, std::move(message),
+                         file_.path.string() + ":" + std::to_string(element.GetLineNum()) + ": " +
+                             PathOf(element)});
+  }
+
+  // The reader takes the first world, else the first model, else a light.
+  void VisitRoot(const ElementSupport& root) {
+    const XMLElement* taken = nullptr;
+    for (const char* kind : {"world", "model", "light"}) {
+      if (taken == nullptr) taken = file_.root->FirstChildElement(kind);
+    }
+    VisitAttributes(*file_.root, root);
+    for (auto* child = file_.root->FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      const std::string_view name = child->Name();
+      const ElementSupport* known = root.Child(name);
+      if (IsNamespaced(name)) continue;
+      if (known == nullptr) {
+        ReportUnknown(*child, *file_.root, root);
+      } else if (child == taken) {
+        Visit(*child, *known);
+      } else if (name != "world" && taken != nullptr) {  // the reader reports worlds
+        Report(Tag(name) + " beside a " + Tag(taken->Name()) + " is left out" +
+                   (std::string_view(taken->Name()) == "world" ? ". It belongs in <world>."
+                                                               : "; a file holds one model"),
+               *child);
+      }
+    }
+  }
+
+  void Visit(const XMLElement& element, const ElementSupport& support) {
+    above_.push_back({&element, &support});
+    VisitAttributes(element, support);
+    const XMLElement* shape = nullptr;
+    for (auto* child = element.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      VisitChild(*child, element, support);
+      if (support.definition == nullptr || support.name != "geometry") continue;
+      if (shape == nullptr) {
+        shape = child;
+      } else if (std::string_view(shape->Name()) != child->Name() && !IsNamespaced(child->Name())) {
+        Report("a second shape in <geometry>, " + Tag(child->Name()) +
+                   ", is left out; a geometry holds one",
+               *child);
+      }
+    }
+    above_.pop_back();
+  }
+
+  void VisitAttributes(const XMLElement& element, const ElementSupport& support) {
+    for (const XMLAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
+         attribute = attribute->Next()) {
+      const std::string_view name = attribute->Name();
+      if (IsNamespaced(name) || name == "xmlns") continue;
+      const ElementSupport* known = support.Attribute(name);
+      if (known == nullptr) {
+        Report(Tag(element.Name()) + " has no attribute \"" + std::string(name) +
+                   "\"; it is ignored." + Spaced(AdviceForAttribute(name, support)),
+               element);
+      } else if (known->support == Support::kNone && !SaysDefault(attribute->Value(), *known)) {
+        Report("the attribute \"" + std::string(name) + "\" of " + Tag(element.Name()) +
+                   " is not carried out" + NoteOf(*known),
+               element);
+      }
+    }
+  }
+
+  void VisitChild(const XMLElement& child, const XMLElement& parent,
+                  const ElementSupport& support) {
+    const std::string_view name = child.Name();
+    if (IsNamespaced(name)) {
+      if (auto sentence = AboutOurElement(name); !sentence.empty()) Report(sentence, child);
+      return;
+    }
+    if (name == "plugin" && support.Child(name) != nullptr) {
+      for (const std::string& sentence : AboutPlugin(child)) Report(sentence, child);
+      return;
+    }
+    const ElementSupport* known = support.Child(name);
+    if (known == nullptr) {
+      if (!IsSensorOfOurs(parent)) ReportUnknown(child, parent, support);
+    } else if (known->until != 0 && file_.minor_version > known->until) {
+      Report(Tag(name) + " in " + Tag(parent.Name()) + " ended with SDFormat 1." +
+                 std::to_string(known->until) + "; it is ignored in a file of 1." +
+                 std::to_string(file_.minor_version),
+             child);
+    } else if (!known->is_repeatable && child.PreviousSiblingElement(child.Name()) != nullptr) {
+      Report("a second " + Tag(name) + " in " + Tag(parent.Name()) + " is ignored; the first holds",
+             child);
+    } else {
+      VisitKnown(child, *known);
+    }
+  }
+
+  void VisitKnown(const XMLElement& element, const ElementSupport& support) {
+    if (support.support == Support::kNoEffect) return;
+    if (support.support != Support::kFull && !SaysNothing(element, support)) {
+      Report(Tag(element.Name()) +
+                 (support.support == Support::kNone ? " is not carried out"
+                                                    : " is carried out in part") +
+                 NoteOf(support),
+             element);
+    }
+    if (support.support != Support::kNone) Visit(element, support);
+  }
+
+  void ReportUnknown(const XMLElement& element, const XMLElement& parent,
+                     const ElementSupport& support) {
+    const std::string_view name = element.Name();
+    std::string advice = AdviceForElement(name, support, parent.Name());
+    if (advice.empty()) advice = AdviceFromAbove(name);
+    Report(
+        Tag(name) + " is no element of " + Tag(parent.Name()) + "; it is ignored." + Spaced(advice),
+        element);
+  }
+
+  std::string AdviceFromAbove(std::string_view name) const {
+    for (auto each = above_.rbegin(); each != above_.rend(); ++each) {
+      if (each->support->Child(name) != nullptr) {
+        return "It belongs in " + Tag(each->element->Name()) + ".";
+      }
+    }
+    return {};
+  }
+
+  static std::string NoteOf(const ElementSupport& support) {
+    return support.note.empty() ? std::string() : ": " + std::string(support.note);
+  }
+
+  static bool SaysDefault(const char* text, const ElementSupport& support) {
+    return support.otherwise && SaysTheSame(text == nullptr ? "" : text, *support.otherwise);
+  }
+
+  // Whether all that the element and what is in it say holds without it, too.
+  static bool SaysNothing(const XMLElement& element, const ElementSupport& support) {
+    for (const XMLAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
+         attribute = attribute->Next()) {
+      const ElementSupport* known = support.Attribute(attribute->Name());
+      if (known == nullptr) return false;
+      if (known->support == Support::kNone && !SaysDefault(attribute->Value(), *known))
+        return false;
+    }
+    const XMLElement* child = element.FirstChildElement();
+    if (child == nullptr) {
+      const char* text = element.GetText();
+      return text == nullptr || SaysDefault(text, support);
+    }
+    for (; child != nullptr; child = child->NextSiblingElement()) {
+      const ElementSupport* known = support.Child(child->Name());
+      if (known == nullptr || !SaysNothing(*child, *known)) return false;
+    }
+    return true;
+  }
+
+  struct Above {
+    const XMLElement* element;
+    const ElementSupport* support;
+  };
+
+  const AuditedFile& file_;
+  base::Problems& problems_;
+  std::vector<Above> above_;
+  int reported_ = 0, unreported_ = 0;
+};
+
+}  // namespace
+
+void AuditElements(const AuditedFile& file, base::Problems& problems) {
+  ElementAudit(file, problems).Run();
+}
+
+}  // namespace gsv::formats

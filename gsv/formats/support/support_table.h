@@ -1,0 +1,72 @@
+// The tables of element_tables.h as a tree: the support of each element of SDFormat and URDF.
+//
+// Threads  immutable once built.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gsv::formats {
+
+enum class Support {
+  kFull,
+  kPartial,
+  kNone,
+  kNoEffect,  // says nothing that a simulation could carry out, such as settings of a window
+};
+
+// An element or attribute, and what may stand below it.
+struct ElementSupport {
+  std::string name;  // without "@"
+  Support support = Support::kFull;
+  int since = 0, until = 0;  // minor versions of SDFormat 1; until 0: there to this day
+  bool is_repeatable = false;
+  std::optional<std::string_view> otherwise;  // text that says the same as no element
+  std::string_view note;
+
+  // The element or attribute of that name; null if SDFormat has none there.
+  const ElementSupport* Child(std::string_view child) const;
+  const ElementSupport* Attribute(std::string_view attribute) const;
+
+  using ByName = std::map<std::string, std::unique_ptr<ElementSupport>, std::less<>>;
+  ByName children, attributes;
+  const ElementSupport* definition = nullptr;  // that lists what stands below, too
+
+  // Of a definition that takes whatever others have (URDF's <gazebo>).
+  std::vector<const ElementSupport*> borrowed;
+};
+
+struct PluginSupport {
+  Support support;
+  std::string_view part;  // of its file's or class's name, in lower case without "-" and "_"
+  std::string_view note;
+};
+
+class SupportTable {
+ public:
+  // The one table. Aborts if a row cannot be read.
+  static const SupportTable& Get();
+
+  const ElementSupport& sdf() const { return Definition("root"); }
+  const ElementSupport& urdf() const { return Definition("robot"); }
+  const ElementSupport& Definition(std::string_view name) const;
+
+  // The row of a plugin of that file and class; null if none is known.
+  const PluginSupport* Plugin(std::string_view file_name, std::string_view class_name) const;
+
+ private:
+  SupportTable();
+  ElementSupport& DefinitionToFill(std::string_view name);
+  void ReadElements(std::string_view table);
+  void ReadRow(std::string_view line, ElementSupport& definition);
+  void ReadPlugins(std::string_view table);
+
+  ElementSupport::ByName definitions_;
+  std::vector<PluginSupport> plugins_;
+};
+
+}  // namespace gsv::formats
