@@ -1,5 +1,7 @@
 #include "gsv/formats/images/texture_reader.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -8,6 +10,7 @@
 #include <turbojpeg.h>
 
 #include "gsv/formats/images/stb_copy.h"
+#include "gsv/formats/images/tiff_reader.h"
 
 // Several parts of the program may decode pictures: this copy is private to this file.
 #define STB_IMAGE_STATIC
@@ -55,14 +58,52 @@ bool IsJpeg(const unsigned char* bytes, std::size_t size) {
   return size > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
+// Of what is larger than the limit, this much is decoded before it is scaled down.
+constexpr std::int64_t kMostOversizedPixels = 128 << 20;
+
+// A picture beyond the limit is decoded none the less, to be scaled down, unless it is huge.
 base::Status CheckSize(int width, int height, const std::string& source, const ReadLimits& limits) {
-  if (width > 0 && height > 0 && width <= limits.texture_side && height <= limits.texture_side) {
-    return {};
-  }
+  const bool is_small = width <= limits.texture_side && height <= limits.texture_side;
+  const std::int64_t pixels = static_cast<std::int64_t>(width) * height;
+  if (width > 0 && height > 0 && (is_small || pixels <= kMostOversizedPixels)) return {};
   return Fail(ErrorCode::kBadModel,
               "the picture claims " + std::to_string(width) + " x " + std::to_string(height) +
-                  " pixels; the limit is " + std::to_string(limits.texture_side),
+                  " pixels; the limit is " + std::to_string(limits.texture_side) +
+                  " a side, and larger ones are scaled down up to " +
+                  std::to_string(kMostOversizedPixels >> 20) + " million",
               source);
+}
+
+// Every pixel the mean of a square of them, so that no side is longer than the limit.
+std::shared_ptr<Image> ScaledDown(std::shared_ptr<Image> image, const ReadLimits& limits) {
+  const int longest = std::max(image->width, image->height);
+  if (longest <= limits.texture_side) return image;
+  const int square = (longest + limits.texture_side - 1) / limits.texture_side;
+  auto small = std::make_shared<Image>(Image{std::max(image->width / square, 1),
+                                             std::max(image->height / square, 1),
+                                             image->channels,
+                                             {},
+                                             image->source});
+  for (int y = 0; y < small->height; ++y) {
+    for (int x = 0; x < small->width; ++x) {
+      for (int channel = 0; channel < image->channels; ++channel) {
+        unsigned sum = 0, count = 0;
+        for (int row = y * square; row < std::min((y + 1) * square, image->height); ++row) {
+          for (int column = x * square; column < std::min((x + 1) * square, image->width);
+               ++column) {
+            sum += image->pixels[(static_cast<std::size_t>(row) *
+                                      static_cast<std::size_t>(image->width) +
+                                  static_cast<std::size_t>(column)) *
+                                     static_cast<std::size_t>(image->channels) +
+                                 static_cast<std::size_t>(channel)];
+            ++count;
+          }
+        }
+        small->pixels.push_back(static_cast<std::uint8_t>((sum + count / 2) / count));
+      }
+    }
+  }
+  return small;
 }
 
 base::Result<std::shared_ptr<const Image>> DecodeJpeg(const unsigned char* bytes, std::size_t size,
@@ -85,7 +126,7 @@ base::Result<std::shared_ptr<const Image>> DecodeJpeg(const unsigned char* bytes
     return Fail(ErrorCode::kBadModel,
                 std::string("the picture is damaged: ") + tjGetErrorStr2(decoder.get()), source);
   }
-  return image;
+  return ScaledDown(std::move(image), limits);
 }
 
 base::Result<std::shared_ptr<const Image>> DecodeOther(const unsigned char* bytes, std::size_t size,
@@ -94,7 +135,7 @@ base::Result<std::shared_ptr<const Image>> DecodeOther(const unsigned char* byte
   int width = 0, height = 0, channels = 0;
   const int length = static_cast<int>(size);
   if (stbi_info_from_memory(bytes, length, &width, &height, &channels) == 0) {
-    return Fail(ErrorCode::kBadModel, "this is no PNG, JPEG, TGA or BMP picture", source);
+    return Fail(ErrorCode::kBadModel, "this is no PNG, JPEG, TGA, BMP or TIFF picture", source);
   }
   if (auto status = CheckSize(width, height, source, limits); !status) return Fail(status.error());
   const int wanted = channels == 4 || channels == 2 ? 4 : 3;
@@ -112,7 +153,7 @@ base::Result<std::shared_ptr<const Image>> DecodeOther(const unsigned char* byte
   } else {
     image->pixels.assign(decoded.get(), decoded.get() + pixels * static_cast<std::size_t>(wanted));
   }
-  return image;
+  return ScaledDown(std::move(image), limits);
 }
 
 }  // namespace
@@ -125,6 +166,11 @@ base::Result<std::shared_ptr<const Image>> DecodeImage(const unsigned char* byte
                 "the picture is larger than the limit of " + std::to_string(limits.texture_bytes) +
                     " bytes",
                 source);
+  }
+  if (IsTiff(bytes, size)) {
+    auto image = DecodeTiff(bytes, size, source, limits);
+    if (!image) return Fail(image.error());
+    return ScaledDown(*std::move(image), limits);
   }
   return IsJpeg(bytes, size) ? DecodeJpeg(bytes, size, source, limits)
                              : DecodeOther(bytes, size, source, limits);

@@ -1,7 +1,9 @@
-// Reads pictures (PNG, JPEG, TGA, BMP) and keeps each for all who use it.
+// Reads pictures (PNG, JPEG, TGA, BMP, TIFF) and keeps each for all who use it. A picture with sides
+// beyond the limit is scaled down.
 //
 // Errors   a sentence for a file that is absent, larger than the limits, or not a picture. The size
-//          a picture claims is checked before memory is taken.
+//          a picture claims is checked before memory is taken: at most 128 million pixels of one that
+//          is to be scaled down.
 // Threads  one at a time.
 #pragma once
 

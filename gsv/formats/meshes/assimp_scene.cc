@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -17,6 +18,7 @@
 #include <assimp/postprocess.h>
 
 #include "gsv/formats/meshes/collada_check.h"
+#include "gsv/formats/meshes/collada_repair.h"
 #include "gsv/formats/meshes/gltf_check.h"
 
 namespace gsv::formats {
@@ -108,16 +110,44 @@ base::Result<std::string> ReadBytes(const fs::path& path, std::size_t limit) {
   return bytes;
 }
 
-// A binary STL says in its header how many triangles follow, 50 bytes each.
-bool LiesAboutItsLength(const std::string& stl) {
-  constexpr std::size_t kHeader = 84, kTriangle = 50;
-  if (stl.size() < kHeader || stl.compare(0, 5, "solid") == 0) return false;
+// A binary STL says in its header how many triangles follow, 50 bytes each. Where fewer do, the
+// header is made to say so.
+void CountTriangles(std::string& stl, std::vector<std::string>& changes) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50, kCount = 80;
+  if (stl.size() < kHeader || stl.compare(0, 5, "solid") == 0) return;
   std::uint32_t claimed = 0;
-  std::memcpy(&claimed, stl.data() + 80, sizeof claimed);
-  return (stl.size() - kHeader) / kTriangle < claimed;
+  std::memcpy(&claimed, stl.data() + kCount, sizeof claimed);
+  const std::size_t held = (stl.size() - kHeader) / kTriangle;
+  if (held >= claimed) return;
+  changes.push_back("its header claims more triangles than the file holds; " +
+                    std::to_string(held) + " of " + std::to_string(claimed) + " are read");
+  const auto count = static_cast<std::uint32_t>(held);
+  std::memcpy(stl.data() + kCount, &count, sizeof count);
 }
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// Reads `bytes` as the file; gives the reason where that fails, and then leaves the scene null.
+std::string Import(const fs::path& path, const std::string& bytes, AssimpScene& result) {
+  result.importer = std::make_unique<Assimp::Importer>();
+  KeepOnlyNamedImporters(*result.importer);
+  result.importer->SetIOHandler(new MeshFolder(path, bytes));
+  result.importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  result.importer->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  result.importer->SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                      aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  try {
+    result.scene = result.importer->ReadFile(
+        path.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenNormals |
+                           aiProcess_JoinIdenticalVertices);
+  } catch (const std::exception& exception) {
+    result.scene = nullptr;
+    return FirstLine(exception.what());
+  }
+  if (result.scene != nullptr && result.scene->mRootNode != nullptr) return "";
+  result.scene = nullptr;
+  return FirstLine(result.importer->GetErrorString());
+}
 
 }  // namespace
 
@@ -132,7 +162,11 @@ base::Result<AssimpScene> OpenScene(const fs::path& given, const ReadLimits& lim
   }
   auto bytes = ReadBytes(path, limits.mesh_bytes);
   if (!bytes) return Fail(bytes.error());
+  AssimpScene result;
   if (extension == ".dae") {
+    ColladaRepair repair = RepairCollada(*bytes);
+    result.changes = std::move(repair.changes);
+    result.ids_of = std::move(repair.ids_of);
     if (auto status = CheckCollada(*bytes, path.string()); !status) return Fail(status.error());
     MoveBlanksOutOfColours(*bytes);
   }
@@ -142,23 +176,20 @@ base::Result<AssimpScene> OpenScene(const fs::path& given, const ReadLimits& lim
   }
   // assimp's OBJ reader runs past a last line that does not end.
   if (extension == ".obj") *bytes += '\n';
-  if (extension == ".stl" && LiesAboutItsLength(*bytes)) {
-    return Fail(ErrorCode::kBadModel, "the mesh's header claims more triangles than the file holds",
-                path.string());
+  if (extension == ".stl") CountTriangles(*bytes, result.changes);
+  std::string reason = Import(path, *bytes, result);
+  static constexpr const char* kSimplified[] = {"its animations, cameras and lights",
+                                                "its materials"};
+  for (int level = 1; level <= 2 && result.scene == nullptr && extension == ".dae"; ++level) {
+    if (!SimplifyCollada(*bytes, level)) continue;
+    const std::string again = Import(path, *bytes, result);
+    if (result.scene != nullptr) {
+      result.changes.push_back("it is read without " + std::string(kSimplified[level - 1]) +
+                               ", which cannot be read (" + reason + ")");
+    }
+    reason = again;
   }
-
-  AssimpScene result{std::make_unique<Assimp::Importer>(), nullptr};
-  KeepOnlyNamedImporters(*result.importer);
-  result.importer->SetIOHandler(new MeshFolder(path, std::move(*bytes)));
-  result.importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  result.importer->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  result.importer->SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                                      aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  result.scene = result.importer->ReadFile(
-      path.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenNormals |
-                         aiProcess_JoinIdenticalVertices);
-  if (result.scene == nullptr || result.scene->mRootNode == nullptr) {
-    const std::string reason = FirstLine(result.importer->GetErrorString());
+  if (result.scene == nullptr) {
     return Fail(ErrorCode::kBadModel,
                 "the mesh cannot be read" + (reason.empty() ? "" : " (" + reason + ")"),
                 path.string());

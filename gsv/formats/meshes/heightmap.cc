@@ -7,33 +7,41 @@ namespace {
 
 using geometry::Vector3;
 
-// The first channel in [0, 1], between pixels by bilinear interpolation.
-double Grey(const model::Image& picture, double x, double y) {
+// Between the grid's points by bilinear interpolation.
+double HeightAt(const HeightGrid& grid, double x, double y) {
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, picture.width - 1), y1 = std::min(y0 + 1, picture.height - 1);
-  const auto pixel = [&](int column, int row) {
-    return picture.pixels[static_cast<std::size_t>((row * picture.width + column) *
-                                                   picture.channels)] /
-           255.0;
+  const int x1 = std::min(x0 + 1, grid.width - 1), y1 = std::min(y0 + 1, grid.height - 1);
+  const auto point = [&](int column, int row) {
+    return grid.heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) +
+                        static_cast<std::size_t>(column)];
   };
   const double u = x - x0, v = y - y0;
-  return (1 - v) * ((1 - u) * pixel(x0, y0) + u * pixel(x1, y0)) +
-         v * ((1 - u) * pixel(x0, y1) + u * pixel(x1, y1));
+  return (1 - v) * ((1 - u) * point(x0, y0) + u * point(x1, y0)) +
+         v * ((1 - u) * point(x0, y1) + u * point(x1, y1));
 }
 
-}  // namespace
+// The first channel in [0, 1].
+HeightGrid GreysOf(const model::Image& picture) {
+  HeightGrid grid{picture.width, picture.height, {}, {}};
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  for (std::size_t i = 0; i < picture.pixels.size(); i += channels) {
+    grid.heights.push_back(picture.pixels[i] / 255.0);
+  }
+  return grid;
+}
 
-geometry::TriangleMesh HeightmapMesh(const model::Image& picture, const Vector3& size,
-                                     int most_vertices) {
-  const int columns = std::clamp(picture.width, 2, most_vertices);
-  const int rows = std::clamp(picture.height, 2, most_vertices);
+// `scale` times the height above `lowest`.
+geometry::TriangleMesh MeshOf(const HeightGrid& grid, const Vector3& size, double lowest,
+                              double scale, int most_vertices) {
+  const int columns = std::clamp(grid.width, 2, most_vertices);
+  const int rows = std::clamp(grid.height, 2, most_vertices);
   geometry::TriangleMesh mesh;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const double u = static_cast<double>(column) / (columns - 1);
       const double v = static_cast<double>(row) / (rows - 1);
-      const double grey = Grey(picture, u * (picture.width - 1), v * (picture.height - 1));
-      mesh.positions.push_back({(u - 0.5) * size.x, (0.5 - v) * size.y, grey * size.z});
+      const double height = HeightAt(grid, u * (grid.width - 1), v * (grid.height - 1));
+      mesh.positions.push_back({(u - 0.5) * size.x, (0.5 - v) * size.y, (height - lowest) * scale});
       mesh.texture_coordinates.push_back({u, 1 - v});
     }
   }
@@ -56,6 +64,27 @@ geometry::TriangleMesh HeightmapMesh(const model::Image& picture, const Vector3&
   for (Vector3& normal : mesh.normals) normal = geometry::Normalized(normal);
   mesh.parts.push_back({"", 0, static_cast<std::uint32_t>(mesh.triangles.size()), 0});
   return mesh;
+}
+
+}  // namespace
+
+geometry::TriangleMesh HeightmapMesh(const model::Image& picture, const Vector3& size,
+                                     int most_vertices) {
+  return MeshOf(GreysOf(picture), size, 0, size.z, most_vertices);
+}
+
+geometry::TriangleMesh HeightmapMesh(const HeightGrid& grid, const Vector3& size,
+                                     int most_vertices) {
+  const auto [lowest, highest] = std::minmax_element(grid.heights.begin(), grid.heights.end());
+  const double range = *highest - *lowest;
+  return MeshOf(grid, size, *lowest, range > 0 ? size.z / range : 0, most_vertices);
+}
+
+Vector3 TrueSize(const HeightGrid& grid) {
+  const auto [lowest, highest] = std::minmax_element(grid.heights.begin(), grid.heights.end());
+  const geometry::Vector2 spacing = grid.spacing.value_or(geometry::Vector2{1, 1});
+  return {std::max(grid.width - 1, 1) * spacing.x, std::max(grid.height - 1, 1) * spacing.y,
+          *highest - *lowest};
 }
 
 }  // namespace gsv::formats

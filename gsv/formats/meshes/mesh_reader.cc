@@ -1,6 +1,7 @@
 #include "gsv/formats/meshes/mesh_reader.h"
 
 #include <cmath>
+#include <set>
 
 #include "gsv/formats/meshes/assimp_scene.h"
 #include "gsv/formats/meshes/mesh_materials.h"
@@ -28,8 +29,11 @@ bool IsDegenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
 // Gathers the meshes of a scene's nodes, one part each, into one mesh in the file's root frame.
 class Gatherer {
  public:
-  Gatherer(const aiScene& scene, const std::string& submesh, const ReadLimits& limits)
-      : scene_(scene), submesh_(submesh), limits_(limits) {}
+  Gatherer(const AssimpScene& opened, const std::string& submesh, const ReadLimits& limits)
+      : scene_(*opened.scene), submesh_(submesh), limits_(limits) {
+    const auto [first, last] = opened.ids_of.equal_range(submesh);
+    for (auto id = first; id != last; ++id) submesh_ids_.insert(id->second);
+  }
 
   base::Result<TriangleMesh> Gather() {
     if (!Visit(*scene_.mRootNode, aiMatrix4x4(), kDeepestNode)) {
@@ -69,7 +73,11 @@ class Gatherer {
   }
 
   bool IsWanted(const aiNode& node, const aiMesh& part) const {
-    return submesh_.empty() || submesh_ == part.mName.C_Str() || submesh_ == node.mName.C_Str();
+    if (submesh_.empty()) return true;
+    const auto is_wanted = [&](const char* name) {
+      return submesh_ == name || submesh_ids_.count(name) != 0;
+    };
+    return is_wanted(part.mName.C_Str()) || is_wanted(node.mName.C_Str());
   }
 
   void Add(const aiMesh& part, const aiMatrix4x4& root_from_node) {
@@ -140,6 +148,7 @@ class Gatherer {
 
   const aiScene& scene_;
   const std::string& submesh_;
+  std::set<std::string> submesh_ids_;  // of what has that name
   const ReadLimits& limits_;
   TriangleMesh mesh_;
   bool all_have_normals_ = true;
@@ -157,8 +166,12 @@ base::Result<MeshFile> ReadMesh(const std::filesystem::path& path, const std::st
                                 base::Problems& problems) {
   auto opened = OpenScene(path, limits);
   if (!opened) return Fail(opened.error());
-  auto mesh = Gatherer(*opened->scene, submesh, limits).Gather();
+  auto mesh = Gatherer(*opened, submesh, limits).Gather();
   if (!mesh) return Fail(mesh.error().code, mesh.error().message, path.string());
+  for (const std::string& change : opened->changes) {
+    problems.push_back(
+        {base::Problem::Severity::kWarning, "of the mesh: " + change, path.string()});
+  }
   if (centred) Centre(*mesh);
   MeshFile file;
   file.materials = ReadMeshMaterials(*opened->scene, path, textures, limits, problems);

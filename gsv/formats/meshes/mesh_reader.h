@@ -34,7 +34,8 @@ class MeshReader {
       : limits_(limits), textures_(textures) {}
 
   // `submesh` empty: all of it; `centred`: moved so that the box around it has its middle at the
-  // origin. Textures that cannot be read are warnings.
+  // origin. A submesh is named by the name or id of its node or geometry. Textures that cannot be
+  // read, and what was left out of the mesh, are warnings.
   base::Result<MeshFile> Read(const std::filesystem::path& path, const std::string& submesh,
                               bool centred, base::Problems& problems);
 

@@ -225,12 +225,60 @@ TEST_F(MeshReaderTest, ReadsEachFileOnce) {
   EXPECT_EQ(reader.Read(path, "", false, problems_)->triangles, first->triangles);
 }
 
+TEST_F(MeshReaderTest, ReadsTheTrianglesThatACutOffStlHolds) {
+  const auto mesh = Read("cut.stl", BinaryStl(1'000'000'000, {{0, 0, 0, 1, 0, 0, 0, 1, 0}}));
+  ASSERT_TRUE(mesh.has_value()) << mesh.error().Sentence();
+  EXPECT_THAT(mesh->triangles->triangles, SizeIs(1));
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].message, HasSubstr("claims more triangles than the file holds; 1 of"));
+}
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST_F(MeshReaderTest, ReadsColladaWithAFlawThatAssimpRefuses) {
+  const std::string sound = Collada("<unit meter='1'/>", "1 0 0 1");
+  const std::string animation =
+      "<library_animations><animation id='a'><source id='t'><float_array id='ta' count='1'>x"
+      "</float_array></source><channel source='#none' target='n/matrix'/></animation>"
+      "</library_animations>";
+  const std::pair<const char*, std::string> flawed[] = {
+      {"comment.dae", Replaced(sound, "<vertices id=\"v\">", "<vertices id='v'><!-- flat -->")},
+      {"image.dae", Replaced(sound, "<library_effects>",
+                             "<library_images><image id='i'><!-- lost --></image></library_images>"
+                             "<library_effects>")},
+      {"holes.dae",
+       Replaced(Replaced(sound, "<triangles count=\"1\"", "<polygons count=\"1\""),
+                "<p>0 1 2</p></triangles>", "<ph><p>0 1 2</p><h>0 1 2</h></ph></polygons>")},
+      {"animation.dae",
+       Replaced(sound, "<library_geometries>", animation + "<library_geometries>")},
+      {"second.dae",
+       Replaced(sound, "</geometry></library_geometries>",
+                "</geometry><geometry id='h'><mesh><triangles><p>0 one 2</p></triangles></mesh>"
+                "</geometry></library_geometries>")}};
+  for (const auto& [name, content] : flawed) {
+    const auto mesh = Read(name, content);
+    ASSERT_TRUE(mesh.has_value()) << name << ": " << mesh.error().Sentence();
+    EXPECT_THAT(mesh->triangles->triangles, SizeIs(1)) << name;
+  }
+}
+
+TEST_F(MeshReaderTest, FindsASubmeshByTheNameOrIdOfItsNodeOrGeometry) {
+  const std::string content = Collada("<unit meter='1'/>", "1 0 0 1");
+  for (const char* submesh : {"body", "n", "part", "g"}) {
+    EXPECT_TRUE(Read("a.dae", content, submesh).has_value()) << submesh;
+  }
+  EXPECT_FALSE(Read("a.dae", content, "nobody").has_value());
+}
+
 TEST_F(MeshReaderTest, RefusesWhatIsDamagedOrBeyondTheLimits) {
   const struct {
     const char *name, *says;
     std::string content;
   } cases[] = {
-      {"lie.stl", "claims more triangles", BinaryStl(1'000'000'000, {{0, 0, 0, 1, 0, 0, 0, 1, 0}})},
       {"none.stl", "", BinaryStl(0, {})},
       {"flat.stl", "no triangles", BinaryStl(1, {{0, 0, 0, 1, 0, 0, 2, 0, 0}})},
       {"cut.dae", "cannot be read", Collada("<unit meter='1'/>", "1 0 0 1").substr(0, 900)},
