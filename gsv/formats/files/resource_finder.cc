@@ -17,6 +17,9 @@ using base::ErrorCode;
 
 constexpr int kParentsSearched = 5;
 constexpr std::size_t kLongestName = 4096;
+constexpr int kPackageParents = 4;       // folders around a file that may belong to its workspace
+constexpr std::size_t kMaxGroups = 200;  // folders looked into beside each of these
+constexpr std::uintmax_t kLargestPackageFile = 1u << 20;
 
 bool StartsWith(std::string_view text, std::string_view prefix) {
   return text.substr(0, prefix.size()) == prefix;
@@ -109,6 +112,69 @@ std::string WithoutLeadingSlashes(std::string path) {
   return path;
 }
 
+std::string Trimmed(std::string_view text) {
+  constexpr char kBlanks[] = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
+}
+
+// Of https://fuel.gazebosim.org/1.0/OWNER/models/NAME[/VERSION[/files/REST]]: "NAME/REST". Empty for
+// other addresses.
+std::string ModelOfWebAddress(const std::string& address) {
+  constexpr char kModels[] = "/models/";
+  const std::size_t models = address.find(kModels);
+  if (models == std::string::npos) return "";
+  std::string path = address.substr(models + sizeof kModels - 1);
+  const std::size_t name_end = std::min(path.find('/'), path.size());
+  const std::string name = path.substr(0, name_end);
+  constexpr char kFiles[] = "/files/";
+  const std::size_t files = path.find(kFiles);
+  if (files == std::string::npos) return name;
+  return name + "/" + path.substr(files + sizeof kFiles - 1);
+}
+
+// The name that a folder's package.xml gives it; empty without one.
+std::string PackageName(const fs::path& folder) {
+  const fs::path file = folder / "package.xml";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kLargestPackageFile) {
+    return "";
+  }
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) return "";
+  const auto* root = document.RootElement();
+  const auto* name = root == nullptr ? nullptr : root->FirstChildElement("name");
+  return name == nullptr || name->GetText() == nullptr ? "" : Trimmed(name->GetText());
+}
+
+// "PACKAGE/REST" in the ROS package around the naming file whose package.xml has that name, whatever
+// its folder is called, or in a package beside one of the folders around it.
+std::optional<fs::path> FindInPackage(const fs::path& path, const fs::path& naming_file) {
+  if (naming_file.empty() || path.empty()) return std::nullopt;
+  const fs::path package = *path.begin();
+  const fs::path rest = path.lexically_relative(package);
+  std::error_code error;
+  fs::path folder = fs::absolute(naming_file, error).lexically_normal().parent_path();
+  for (int level = 0; level < kPackageParents && folder.has_relative_path(); ++level) {
+    if (PackageName(folder) == package.string()) {
+      if (auto found = FindBelow(folder, rest)) return found;
+    }
+    std::vector<fs::path> groups;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (groups.size() >= kMaxGroups) break;
+      if (entry.is_directory(error)) groups.push_back(entry.path());
+    }
+    std::sort(groups.begin(), groups.end());
+    for (const fs::path& group : groups) {
+      if (!Exists(group / package)) continue;
+      if (auto found = FindBelow(group, path)) return found;
+    }
+    folder = folder.parent_path();
+  }
+  return std::nullopt;
+}
+
 // Version "1.5" as 105; 0 if it is none.
 int VersionNumber(const char* text) {
   int major = 0, minor = 0;
@@ -143,11 +209,15 @@ ResourceFinder::ResourceFinder(std::vector<fs::path> search_path, bool allow_abs
 
 base::Result<fs::path> ResourceFinder::Find(std::string_view name,
                                             const fs::path& naming_file) const {
-  std::string path(name);
+  std::string path = Trimmed(name);
   if (path.empty() || path.size() > kLongestName || path.find('\0') != std::string::npos) {
     return Fail(ErrorCode::kNotFound, "the name of a file is empty or too long");
   }
   if (IsWebAddress(path)) {
+    const std::string model = ModelOfWebAddress(path);
+    if (!model.empty()) {
+      if (auto found = FindInModels(model, naming_file)) return found;
+    }
     return Fail(ErrorCode::kNotFound,
                 path + " is on the web, which is not looked at; put a copy on the model path");
   }
@@ -163,12 +233,18 @@ base::Result<fs::path> ResourceFinder::Find(std::string_view name,
 
 base::Result<fs::path> ResourceFinder::FindInModels(const std::string& path,
                                                     const fs::path& naming_file) const {
-  if (ClimbsOut(path)) {
+  const std::string decoded = PercentDecoded(path);
+  if (ClimbsOut(path) || ClimbsOut(decoded) || decoded.find('\0') != std::string::npos) {
     return Fail(ErrorCode::kNotFound, "model://" + path + " climbs out of the model folders");
   }
-  for (const fs::path& folder : FoldersFor(naming_file)) {
-    if (auto found = FindBelow(folder, path)) return *found;
+  const std::vector<fs::path> folders = FoldersFor(naming_file);
+  for (const std::string& each : {path, decoded}) {
+    for (const fs::path& folder : folders) {
+      if (auto found = FindBelow(folder, each)) return *found;
+    }
+    if (path == decoded) break;
   }
+  if (auto found = FindInPackage(decoded, naming_file)) return *found;
   return Fail(ErrorCode::kNotFound,
               "cannot find model://" + path + " beside the file or on the model path");
 }

@@ -8,7 +8,10 @@
 //   2. on the search path the caller gave;
 //   3. on GZ_SIM_RESOURCE_PATH, SDF_PATH, IGN_GAZEBO_RESOURCE_PATH and GAZEBO_MODEL_PATH;
 //   4. among the models that ship with this program.
-// Backslashes count as slashes; where no name fits exactly, one that differs only in case does.
+//   5. in the ROS package of that name (package.xml) around the naming file, or in one that lies in a
+//      folder beside it.
+// "%20" and the like are decoded where no name fits as written. Of an address on the web the model's
+// name is looked for as model://NAME. Backslashes count as slashes; where no name fits exactly, one that differs only in case does.
 //
 // Safety   a name that climbs out of the folder it is looked for in (`..`) is refused; a relative
 //          path may climb as far as the parent of the naming file's folder, where sibling models
