@@ -20,8 +20,8 @@ class BadInputTest : public testing::Test {
     EXPECT_EQ(world.error().code, ErrorCode::kBadModel);
     return world.error();
   }
-  // The errors, not warnings, of a model that is read none the less.
-  std::vector<std::string> ErrorsIn(const std::string& model_content) {
+  // The warnings, and no errors, of a model that is read none the less.
+  std::vector<std::string> WarningsIn(const std::string& model_content) {
     problems_.clear();
     const auto model =
         ModelLibrary().ReadModel(folder_
@@ -30,11 +30,12 @@ class BadInputTest : public testing::Test {
                                      .string(),
                                  problems_);
     EXPECT_TRUE(model.has_value()) << model.error().Sentence();
-    std::vector<std::string> errors;
+    std::vector<std::string> warnings;
     for (const auto& problem : problems_) {
-      if (problem.severity == base::Problem::Severity::kError) errors.push_back(problem.Sentence());
+      EXPECT_EQ(problem.severity, base::Problem::Severity::kWarning) << problem.Sentence();
+      warnings.push_back(problem.Sentence());
     }
-    return errors;
+    return warnings;
   }
 
   base::testing::TestFolder folder_;
@@ -74,34 +75,34 @@ TEST_F(BadInputTest, RefusesFilesBeyondTheLimits) {
               HasSubstr("limit of 1 models"));
 }
 
-TEST_F(BadInputTest, RefusesIncludesThatGoRound) {
+TEST_F(BadInputTest, LeavesOutTheIncludeThatClosesACircle) {
   const auto including = [](const std::string& other) {
     return "<sdf version='1.9'><model name='m'><link name='l'/><include><uri>model://" + other +
            "</uri></include></model></sdf>";
   };
   folder_.Write("a/model.sdf", including("b"));
   folder_.Write("b/model.sdf", including("a"));
-  EXPECT_THAT(ErrorOf("<sdf version='1.9'><world "
-                      "name='w'><include><uri>model://a</uri></include></world></sdf>")
-                  .Sentence(),
-              HasSubstr("the includes go round"));
-  EXPECT_THAT(ErrorOf(including("a")).Sentence(), HasSubstr("the includes go round"));
-}
-
-TEST_F(BadInputTest, RefusesValuesThatAreNoNumbersWithTheirLine) {
-  EXPECT_THAT(ErrorOf("<sdf version='1.9'>\n<world name='w'>\n<model name='m'>\n<link name='l'>\n"
-                      "<inertial>\n<mass>heavy</mass></inertial></link></model></world></sdf>")
-                  .Sentence(),
-              HasSubstr("w.sdf:6: /sdf/world[@name=\"w\"]/model[@name=\"m\"]"));
+  const auto world = ModelLibrary().ReadWorld(
+      folder_.Write("w.sdf",
+                    "<sdf version='1.9'><world "
+                    "name='w'><include><uri>model://a</uri></include></world></sdf>"),
+      problems_);
+  ASSERT_TRUE(world.has_value()) << world.error().Sentence();
+  ASSERT_EQ(world->models.size(), 1u);
+  EXPECT_EQ(world->models[0].model->links.size(), 2u);
+  ASSERT_EQ(problems_.size(), 1u);
+  EXPECT_THAT(problems_[0].Sentence(),
+              AllOf(HasSubstr("b/model.sdf:1"), HasSubstr("the includes go round")));
 }
 
 TEST_F(BadInputTest, ComplainsOfMassesAndInertiasThatNoBodyHas) {
-  EXPECT_THAT(ErrorsIn("<link name='l'>\n<inertial><mass>-1</mass></inertial></link>"),
+  EXPECT_THAT(WarningsIn("<link name='l'>\n<inertial><mass>-1</mass></inertial></link>"),
               Contains(AllOf(HasSubstr("m.sdf:4"), HasSubstr("mass must be above zero"))));
-  EXPECT_THAT(ErrorsIn("<link "
-                       "name='l'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>-1</iyy><izz>1</"
-                       "izz></inertia></inertial></link>"),
-              Contains(HasSubstr("not positive definite")));
+  EXPECT_THAT(
+      WarningsIn("<link "
+                 "name='l'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>-1</iyy><izz>1</"
+                 "izz></inertia></inertial></link>"),
+      Contains(HasSubstr("not positive definite")));
 }
 
 TEST_F(BadInputTest, ComplainsOfJointsThatCannotBe) {
@@ -110,11 +111,11 @@ TEST_F(BadInputTest, ComplainsOfJointsThatCannotBe) {
            "type='revolute'><parent>a</parent><child>b</child><axis>" +
            content + "</axis></joint>";
   };
-  EXPECT_FALSE(ErrorsIn(joint("<xyz>0 0 0</xyz>")).empty());
-  EXPECT_THAT(ErrorsIn(joint("<xyz>0 0 1</xyz><limit><lower>1</lower><upper>-1</upper></limit>")),
+  EXPECT_FALSE(WarningsIn(joint("<xyz>0 0 0</xyz>")).empty());
+  EXPECT_THAT(WarningsIn(joint("<xyz>0 0 1</xyz><limit><lower>1</lower><upper>-1</upper></limit>")),
               Contains(AllOf(HasSubstr("m.sdf:4"), HasSubstr("above its <upper>"))));
-  EXPECT_FALSE(ErrorsIn("<link name='a'/><joint name='j' "
-                        "type='fixed'><parent>a</parent><child>nowhere</child></joint>")
+  EXPECT_FALSE(WarningsIn("<link name='a'/><joint name='j' "
+                          "type='fixed'><parent>a</parent><child>nowhere</child></joint>")
                    .empty());
 }
 
@@ -123,8 +124,8 @@ TEST_F(BadInputTest, ComplainsOfShapesWithoutSize) {
        {"<box><size>1 0 1</size></box>", "<sphere><radius>-1</radius></sphere>",
         "<cylinder><radius>0</radius><length>1</length></cylinder>",
         "<polyline><point>0 0</point><point>1 1</point><height>1</height></polyline>"}) {
-    EXPECT_THAT(ErrorsIn("<link name='l'><collision name='c'><geometry>" + std::string(shape) +
-                         "</geometry></collision></link>"),
+    EXPECT_THAT(WarningsIn("<link name='l'><collision name='c'><geometry>" + std::string(shape) +
+                           "</geometry></collision></link>"),
                 Contains(HasSubstr("the collision is left out")))
         << shape;
   }

@@ -1,4 +1,5 @@
-// Each limit of what files may ask for: met, a file is read; one less, and it is refused.
+// Each limit of what files may ask for: met, a file is read; one less, and it is refused, or what is
+// beyond it left out.
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -34,7 +35,11 @@ class FileLimitsTest : public testing::Test {
       options.limits = limits;
       base::Problems problems;
       const auto world = ModelLibrary(options).ReadWorld(folder_.Write("w.sdf", content), problems);
-      return world ? base::Status() : base::Fail(world.error());
+      if (!world) return base::Fail(world.error());
+      for (const base::Problem& problem : problems) {
+        return base::Fail(base::ErrorCode::kBadModel, problem.message, problem.where);
+      }
+      return {};
     };
   }
   Reads Mesh(const std::string& name, const std::string& content) const {
@@ -89,7 +94,10 @@ TEST_F(FileLimitsTest, OfPicturesAreMetAndNotPassed) {
   const auto reads = [&](const ReadLimits& limits) -> base::Status {
     TextureReader reader(limits);
     const auto image = reader.Read(folder_.Write("a.tga", picture));
-    return image ? base::Status() : base::Fail(image.error());
+    if (!image) return base::Fail(image.error());
+    if ((*image)->width == 3) return {};
+    return base::Fail(base::ErrorCode::kBadModel,
+                      "scaled down to at most " + std::to_string(limits.texture_side));
   };
   ExpectLimit("texture_bytes", picture.size(), reads);
   ExpectLimit("texture_side", 3, reads);

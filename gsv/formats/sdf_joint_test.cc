@@ -117,7 +117,7 @@ TEST_F(SdfJointTest, ComplainsOfControllersOfJointsThatAreNotThere) {
       "<link name='a'/>\n<plugin filename='gz-sim-joint-controller-system' name='x'>"
       "<joint_name>nowhere</joint_name></plugin>");
   ASSERT_THAT(problems_, SizeIs(1));
-  EXPECT_EQ(problems_[0].severity, base::Problem::Severity::kError);
+  EXPECT_EQ(problems_[0].severity, base::Problem::Severity::kWarning);
   EXPECT_THAT(problems_[0].Sentence(), AllOf(HasSubstr("m.sdf:2"), HasSubstr("\"nowhere\"")));
 }
 

@@ -4,7 +4,8 @@
 #include <system_error>
 
 #include "gsv/formats/sdf/builtin_models.h"
-#include "gsv/formats/sdf/sdf_xml.h"
+#include "gsv/formats/sdf/urdf_text.h"
+#include "gsv/formats/sdf/value_repair.h"
 
 namespace gsv::formats {
 namespace {
@@ -13,6 +14,9 @@ namespace fs = std::filesystem;
 using base::ErrorCode;
 using base::Problem;
 using tinyxml2::XMLElement;
+
+// Begins the names that libsdformat asks for.
+constexpr char kIncluded[] = "gsv-included://";
 
 bool IsModelPart(const XMLElement& element) {
   const std::string name = element.Name();
@@ -31,7 +35,7 @@ std::string UriOf(const XMLElement& include) {
 
 std::string IncludeLeftOut(const std::string& uri, const base::Error& error) {
   return "the include of " + (uri.empty() ? std::string("nothing") : uri) +
-         " is left out: " + error.message;
+         " is left out: " + error.Sentence();
 }
 
 base::Result<fs::path> IncludeScan::FileOf(const std::string& uri, const fs::path& naming_file) {
@@ -43,52 +47,75 @@ base::Result<fs::path> IncludeScan::FileOf(const std::string& uri, const fs::pat
   return found_.emplace(key, std::move(found)).first->second;
 }
 
-base::Status IncludeScan::Scan(XMLElement& element, const fs::path& file) {
+void IncludeScan::Scan(XMLElement& element, const fs::path& file) {
   open_ = {fs::absolute(file).lexically_normal()};
-  return Visit(element, file);
+  Visit(element, file);
 }
 
-base::Status IncludeScan::Visit(XMLElement& element, const fs::path& file) {
+void IncludeScan::Visit(XMLElement& element, const fs::path& file) {
   XMLElement* next = nullptr;
   for (auto* child = element.FirstChildElement(); child != nullptr; child = next) {
     next = child->NextSiblingElement();
     if (std::string(child->Name()) != "include") {
-      if (!IsModelPart(*child)) continue;
-      if (auto status = Visit(*child, file); !status) return status;
+      if (IsModelPart(*child)) Visit(*child, file);
       continue;
     }
     const std::string uri = UriOf(*child);
-    auto included = FileOf(uri, file);
-    if (!included) {
-      ReplaceOrRemove(*child, uri, included.error(), file);
-      continue;
+    const auto included = FileOf(uri, file);
+    const auto name =
+        included ? Enter(*included) : base::Result<std::string>(Fail(included.error()));
+    if (name) {
+      child->FirstChildElement("uri")->SetText(name->c_str());
+    } else {
+      ReplaceOrRemove(*child, uri, name.error(), file);
     }
-    files_.emplace(uri, *included);
-    if (auto status = Enter(*included); !status) return status;
   }
-  return {};
 }
 
-base::Status IncludeScan::Enter(const fs::path& file) {
+base::Result<std::string> IncludeScan::Enter(const fs::path& file) {
   const fs::path path = fs::absolute(file).lexically_normal();
   if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
     return Fail(ErrorCode::kBadModel, "the includes go round: this file includes itself",
                 path.string());
   }
+  if (const auto known = done_.find(path); known != done_.end()) return known->second;
   if (open_.size() > static_cast<std::size_t>(limits_.include_depth)) {
     return Fail(ErrorCode::kBadModel,
                 "files include each other deeper than " + std::to_string(limits_.include_depth),
                 path.string());
   }
-  if (!done_.emplace(path, true).second) return {};
-  base::Problems ignored;  // libsdformat reads the file and says what is wrong with it
-  auto xml = ReadXml(path, finder_, limits_, ignored);
-  if (!xml) return Fail(xml.error());
-  ReportUnsupported(*xml, problems_);
+  auto xml = ReadXml(path, finder_, limits_, problems_);
+  if (xml) ReportUnsupported(*xml, problems_);
   open_.push_back(path);
-  auto status = Visit(*xml->root, path);
+  auto text = xml ? TextOf(*xml) : base::Result<std::string>(Fail(xml.error()));
   open_.pop_back();
-  return status;
+  if (!text) return done_.emplace(path, Fail(text.error())).first->second;
+  const std::string name = kIncluded + std::to_string(files_.size() + 1);
+  files_[name] = {path, std::move(*text)};
+  return done_.emplace(path, name).first->second;
+}
+
+// The text of a file that is included, without what cannot be read in it.
+base::Result<std::string> IncludeScan::TextOf(XmlFile& file) {
+  if (file.dialect == XmlDialect::kUrdf) {
+    return UrdfText(file, problems_);
+  }
+  XMLElement* model = file.root->FirstChildElement("model");
+  if (model == nullptr) {
+    const XMLElement* content = file.root->FirstChildElement();
+    return Fail(ErrorCode::kBadModel,
+                content == nullptr ? std::string("there is no model inside")
+                                   : "it holds <" + std::string(content->Name()) +
+                                         ">, and only a model can be part of a model",
+                file.path.string());
+  }
+  RepairValues(*model, file.path, problems_);
+  Visit(*model, file.path);
+  LineKeepingPrinter printer;
+  printer.Text("<sdf version='" + file.version + "'>");
+  printer.Element(*model);
+  printer.Text("</sdf>");
+  return printer.Take();
 }
 
 void IncludeScan::ReplaceOrRemove(XMLElement& include, const std::string& uri,

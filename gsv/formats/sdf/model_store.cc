@@ -10,6 +10,7 @@
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/urdf_text.h"
+#include "gsv/formats/sdf/value_repair.h"
 #include "gsv/model/drive_guess.h"
 
 namespace gsv::formats {
@@ -52,10 +53,10 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   auto xml = ReadXml(file, finder_, limits_, stored.problems);
   if (!xml) return Fail(xml.error());
   if (xml->dialect == XmlDialect::kUrdf) {
-    auto text = UrdfText(*xml);
-    if (!text) return Fail(text.error());
     ReportUnsupported(*xml, stored.problems);
-    auto robot = FromText(*text, file, {}, std::move(stored));
+    auto text = UrdfText(*xml, stored.problems);
+    if (!text) return Fail(text.error());
+    auto robot = FromText({file, *std::move(text)}, {}, std::move(stored));
     if (robot) Complete(*xml->root, file, true, *robot);
     return robot;
   }
@@ -74,15 +75,16 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
         world ? "the file holds a world, where a model is wanted" : "there is no model inside",
         PlaceOf(file, *xml->root));
   }
+  RepairValues(*content, file, stored.problems);
   IncludeScan includes(finder_, limits_, stored.problems);
-  if (auto status = includes.Scan(*content, file); !status) return Fail(status.error());
+  includes.Scan(*content, file);
   if (std::string(content->Name()) == "model") Append(plugins, *content);
 
   LineKeepingPrinter printer;
   printer.Text("<sdf version='" + xml->version + "'>");
   printer.Element(*content);
   printer.Text("</sdf>");
-  auto read = FromText(printer.Take(), file, includes.files(), std::move(stored));
+  auto read = FromText({file, printer.Take()}, includes.files(), std::move(stored));
   if (!read) return read;
   if (actor.script != nullptr) read->framed.model = ActorOf(*read->framed.model, actor);
   Complete(*content, file, false, *read);
@@ -103,12 +105,11 @@ void ModelStore::Complete(const XMLElement& element, const std::filesystem::path
   stored.framed.model = std::make_shared<const model::Model>(std::move(model));
 }
 
-base::Result<StoredFile> ModelStore::FromText(
-    const std::string& text, const std::filesystem::path& file,
-    const std::map<std::string, std::filesystem::path>& includes, StoredFile stored) {
-  auto document = ParseSdf(text, file, includes, stored.problems);
+base::Result<StoredFile> ModelStore::FromText(const SdfText& text, const IncludedFiles& includes,
+                                              StoredFile stored) {
+  auto document = ParseSdf(text, includes, stored.problems);
   if (!document) return Fail(document.error());
-  const ReadingContext context = ContextFor(file, stored.problems);
+  const ReadingContext context = ContextFor(text.path, stored.problems);
   if (const sdf::Model* model = document->root->Model()) {
     auto framed = formats::ReadModel(*model, context);
     if (!framed) return Fail(framed.error());
@@ -117,7 +118,7 @@ base::Result<StoredFile> ModelStore::FromText(
     stored.light = ReadLight(*light, context);
     stored.world_from_light = FromIgnition(light->RawPose());
   } else {
-    return Fail(ErrorCode::kBadModel, "there is no model inside", file.string());
+    return Fail(ErrorCode::kBadModel, "there is no model inside", text.path.string());
   }
   return stored;
 }

@@ -12,6 +12,7 @@
 #include "gsv/base/error.h"
 #include "gsv/formats/files/resource_finder.h"
 #include "gsv/formats/meshes/mesh_reader.h"
+#include "gsv/formats/sdf/included_files.h"
 #include "gsv/formats/sdf/reading_context.h"
 #include "gsv/formats/sdf/sdf_model.h"
 #include "gsv/formats/sdf/sdf_xml.h"
@@ -51,8 +52,7 @@ class ModelStore {
   // Adds what libsdformat does not read: <ros2_control>, and a robot description's guessed drive.
   static void Complete(const tinyxml2::XMLElement& element, const std::filesystem::path& file,
                        bool is_robot, StoredFile& stored);
-  base::Result<StoredFile> FromText(const std::string& text, const std::filesystem::path& file,
-                                    const std::map<std::string, std::filesystem::path>& includes,
+  base::Result<StoredFile> FromText(const SdfText& text, const IncludedFiles& includes,
                                     StoredFile stored);
 
   ResourceFinder finder_;

@@ -1,40 +1,115 @@
 #include "gsv/formats/sdf/sdf_document.h"
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
 #include <console_bridge/console.h>
 #include <sdf/Console.hh>
 #include <sdf/Element.hh>
 #include <sdf/Error.hh>
+#include <sdf/Exception.hh>
 #include <sdf/ParserConfig.hh>
 
-#include "gsv/base/mutex.h"
+#include "gsv/formats/sdf/document_repair.h"
 
 namespace gsv::formats {
 namespace {
 
 using base::Problem;
 
+constexpr int kMaxRepairs = 64;  // of one document, each of which takes another reading
+constexpr std::size_t kLongestMessage = 300;
+
 // libsdformat names text that came from no file "<data-string>" or "<urdf-string>", and numbers no
 // lines of the latter.
 bool IsNoFile(const std::string& file) { return file.empty() || file.front() == '<'; }
 
-void SilenceConsoles() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    sdf::Console::Instance()->SetQuiet(true);
-    console_bridge::noOutputHandler();
-  });
+// Keeps what urdfdom says is wrong with a robot: libsdformat does not pass it on.
+class ReasonKeeper : public console_bridge::OutputHandler {
+ public:
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && reasons.size() < kMaxReasons) {
+      reasons.push_back(text);
+    }
+  }
+  std::vector<std::string> reasons;
+
+ private:
+  static constexpr std::size_t kMaxReasons = 20;
+};
+
+ReasonKeeper& Reasons() {
+  static ReasonKeeper keeper;
+  return keeper;
 }
 
-sdf::ParserConfig ConfigFor(const std::map<std::string, std::filesystem::path>& includes) {
-  sdf::ParserConfig config;
-  config.SetFindCallback([includes](const std::string& uri) {
-    const auto it = includes.find(uri);
-    return it == includes.end() ? std::string() : it->second.string();
-  });
+std::string Shortened(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  if (text.size() > kLongestMessage) text = text.substr(0, kLongestMessage) + "…";
+  return text;
+}
+
+// One reading of the texts as they stand.
+struct Reading {
+  std::unique_ptr<sdf::Root> root = std::make_unique<sdf::Root>();
+  sdf::Errors errors;
+  std::string exception;  // what libsdformat threw
+
+  bool HasContent() const {
+    return root->WorldCount() > 0 || root->Model() != nullptr || root->Light() != nullptr ||
+           root->Actor() != nullptr;
+  }
+};
+
+// Below the first include libsdformat 12 forgets the configuration it was given, and asks the
+// global one.
+void ConfigureBy(IncludedFileServer& server) {
+  sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
+  config.SetFindCallback([&server](const std::string& uri) { return server.Find(uri); });
   config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::LOG);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::LOG);
-  return config;
+}
+
+// An element of a text in memory is said to stand in the file that the text came from.
+void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& server) {
+  if (element == nullptr) return;
+  if (const auto* source = server.SourceOf(element->FilePath())) {
+    element->SetFilePath(source->string());
+  }
+  for (auto child = element->GetFirstElement(); child != nullptr; child = child->GetNextElement()) {
+    NameSources(child, server);
+  }
+}
+
+Reading ReadOnce(const std::string& text, const IncludedFiles& includes) {
+  Reading reading;
+  IncludedFileServer server(includes);
+  ConfigureBy(server);
+  Reasons().reasons.clear();
+  try {
+    reading.errors = reading.root->LoadSdfString(text, sdf::ParserConfig::GlobalConfig());
+  } catch (const sdf::Exception& exception) {  // no std::exception
+    reading.exception = exception.GetErrorStr();
+  } catch (const std::exception& exception) {
+    reading.exception = exception.what();
+  } catch (...) {
+    reading.exception = "an unknown exception";
+  }
+  if (!reading.exception.empty() && !reading.HasContent()) {
+    reading.root = std::make_unique<sdf::Root>();
+  }
+  for (sdf::Error& error : reading.errors) {
+    if (!error.FilePath()) continue;
+    if (const auto* source = server.SourceOf(*error.FilePath())) {
+      error.SetFilePath(source->string());
+    }
+  }
+  NameSources(reading.root->Element(), server);
+  sdf::ParserConfig::GlobalConfig().SetFindCallback({});
+  return reading;
 }
 
 std::string ErrorPlace(const sdf::Error& error, const std::filesystem::path& source) {
@@ -46,51 +121,101 @@ std::string ErrorPlace(const sdf::Error& error, const std::filesystem::path& sou
   return place;
 }
 
-// What libsdformat complains of but this program lives with or finds out by itself: sensors of
-// types that it does not know are welcome.
+bool BreaksFrames(const sdf::Error& error) {
+  const sdf::ErrorCode code = error.Code();
+  return code == sdf::ErrorCode::FRAME_ATTACHED_TO_GRAPH_ERROR ||
+         code == sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR;
+}
+
+// What libsdformat complains of but this program lives with, or finds out by itself: sensors of
+// types that it does not know are welcome, a script needs no <uri>, summaries say nothing.
 bool IsChecked(const sdf::Error& error) {
   const sdf::ErrorCode code = error.Code();
-  return error.Message().rfind("Attempting to load a Sensor", 0) == 0 ||
-         code == sdf::ErrorCode::VERSION_DEPRECATED || code == sdf::ErrorCode::ELEMENT_DEPRECATED ||
+  for (const char* start : {"Attempting to load a Sensor", "Failed to load a",
+                            "A <script> element is missing", "Error reading element <sdf>"}) {
+    if (error.Message().rfind(start, 0) == 0) return true;
+  }
+  return code == sdf::ErrorCode::VERSION_DEPRECATED || code == sdf::ErrorCode::ELEMENT_DEPRECATED ||
          code == sdf::ErrorCode::ATTRIBUTE_DEPRECATED ||
-         code == sdf::ErrorCode::LINK_INERTIA_INVALID;
+         code == sdf::ErrorCode::LINK_INERTIA_INVALID ||
+         code == sdf::ErrorCode::MODEL_WITHOUT_LINK ||
+         code == sdf::ErrorCode::STRING_READ;  // holds the whole text
 }
 
 void Collect(const sdf::Errors& errors, const std::filesystem::path& source,
              base::Problems& problems) {
+  std::set<std::string> told;
   for (const sdf::Error& error : errors) {
     if (IsChecked(error)) continue;
-    const bool absent = error.Code() == sdf::ErrorCode::URI_LOOKUP;
-    problems.push_back({absent ? Problem::Severity::kWarning : Problem::Severity::kError,
-                        error.Message(), ErrorPlace(error, source)});
+    Problem problem{Problem::Severity::kWarning, Shortened(error.Message()),
+                    ErrorPlace(error, source)};
+    if (told.insert(problem.Sentence()).second) problems.push_back(std::move(problem));
+  }
+}
+
+// Why nothing could be read.
+tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesystem::path& source) {
+  constexpr auto kBadModel = base::ErrorCode::kBadModel;
+  std::string reasons;
+  for (const std::string& reason : Reasons().reasons) {
+    reasons += (reasons.empty() ? "" : "; ") + Shortened(reason);
+  }
+  if (!reasons.empty()) {
+    return base::Fail(kBadModel, "the robot cannot be read: " + Shortened(reasons),
+                      source.string());
+  }
+  if (!reading.exception.empty()) {
+    return base::Fail(kBadModel, "the file cannot be read: " + Shortened(reading.exception),
+                      source.string());
+  }
+  for (const sdf::Error& error : reading.errors) {
+    if (IsChecked(error)) continue;
+    return base::Fail(kBadModel, Shortened(error.Message()), ErrorPlace(error, source));
+  }
+  return base::Fail(kBadModel, "there is no world or model inside", source.string());
+}
+
+// Repairs and reads again, until nothing is wrong that can be repaired.
+void ReadRepaired(SdfText document, IncludedFiles includes, Reading& reading,
+                  base::Problems& problems) {
+  for (int round = 0; round < kMaxRepairs; ++round) {
+    const bool is_repaired = reading.exception.empty()
+                                 ? RepairAfter(reading.errors, document, includes, problems)
+                                 : SeparateNames(document, includes, problems);
+    if (!is_repaired) break;
+    reading = ReadOnce(document.text, includes);
   }
 }
 
 }  // namespace
 
-base::Result<SdfDocument> ParseSdf(const std::string& text, const std::filesystem::path& source,
-                                   const std::map<std::string, std::filesystem::path>& includes,
+base::Mutex& SdformatMutex() {
+  static base::Mutex mutex;
+  return mutex;
+}
+
+void SilenceConsoles() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    sdf::Console::Instance()->SetQuiet(true);
+    console_bridge::useOutputHandler(&Reasons());
+  });
+}
+
+base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles& includes,
                                    base::Problems& problems) {
-  static base::Mutex one_at_a_time;
-  const base::MutexLock lock(one_at_a_time);
+  const base::MutexLock lock(SdformatMutex());
   SilenceConsoles();
-  SdfDocument document{std::make_unique<sdf::Root>(), source};
-  sdf::Errors errors;
-  try {
-    errors = document.root->LoadSdfString(text, ConfigFor(includes));
-  } catch (const std::exception& exception) {
-    return Fail(base::ErrorCode::kBadModel, exception.what(), source.string());
+  Reading reading = ReadOnce(document.text, includes);
+  if (!reading.errors.empty() || !reading.exception.empty()) {
+    ReadRepaired(document, includes, reading, problems);
   }
-  Collect(errors, source, problems);
-  if (document.root->WorldCount() == 0 && document.root->Model() == nullptr &&
-      document.root->Light() == nullptr) {
-    if (errors.empty()) {
-      return Fail(base::ErrorCode::kBadModel, "there is no world or model inside", source.string());
-    }
-    return Fail(base::ErrorCode::kBadModel, errors.front().Message(),
-                ErrorPlace(errors.front(), source));
-  }
-  return document;
+  if (!reading.HasContent()) return Refusal(reading, document.path);
+  Collect(reading.errors, document.path, problems);
+  SdfDocument result{std::move(reading.root), document.path, false};
+  result.has_broken_frames =
+      std::any_of(reading.errors.begin(), reading.errors.end(), BreaksFrames);
+  return result;
 }
 
 std::filesystem::path FileOf(const sdf::Element& element, const std::filesystem::path& source) {

@@ -1,14 +1,16 @@
-// libsdformat behind one wall: its console silenced, its errors turned into problems.
+// libsdformat behind one wall: its console silenced, its exceptions caught, its errors turned into
+// problems.
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
 #include <sdf/Root.hh>
 
 #include "gsv/base/error.h"
+#include "gsv/base/mutex.h"
+#include "gsv/formats/sdf/included_files.h"
 
 namespace gsv::formats {
 
@@ -16,13 +18,19 @@ namespace gsv::formats {
 struct SdfDocument {
   std::unique_ptr<sdf::Root> root;
   std::filesystem::path source;
+  // Poses cannot be resolved, maybe of more elements than the one that is wrong.
+  bool has_broken_frames = false;
 };
 
-// Parses SDFormat or URDF text. `includes` maps each <uri> of an <include> to the file to read.
-// libsdformat has global state: calls wait for each other.
-base::Result<SdfDocument> ParseSdf(const std::string& text, const std::filesystem::path& source,
-                                   const std::map<std::string, std::filesystem::path>& includes,
+// Parses SDFormat or URDF text. What libsdformat refuses in SDFormat is repaired or left out, and
+// named in a warning each (document_repair.h); the rest is read. Fails with one sentence when
+// nothing is left. libsdformat has global state: calls wait for each other.
+base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles& includes,
                                    base::Problems& problems);
+
+// Hold it to call libsdformat's functions that read.
+base::Mutex& SdformatMutex();
+void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 
 // The file in which an element stands, and "file:line: element path" for messages about it.
 std::filesystem::path FileOf(const sdf::Element& element, const std::filesystem::path& source);

@@ -1,10 +1,12 @@
 #include "gsv/formats/sdf/sdf_geometry.h"
 
+#include <cctype>
 #include <cmath>
 
 #include <sdf/Box.hh>
 #include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
+#include <sdf/Element.hh>
 #include <sdf/Ellipsoid.hh>
 #include <sdf/Heightmap.hh>
 #include <sdf/Mesh.hh>
@@ -43,20 +45,38 @@ base::Result<SdfShape> ReadMesh(const sdf::Mesh& mesh, const std::filesystem::pa
   return SdfShape{geometry::Mesh{read->triangles, scale}, {}, read->materials};
 }
 
+bool IsElevationModel(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".tif" || extension == ".tiff";
+}
+
+// A picture, or as Gazebo has it an elevation model in TIFF, which may give its own size.
 base::Result<SdfShape> ReadHeightmap(const sdf::Heightmap& heightmap,
                                      const std::filesystem::path& file,
                                      const ReadingContext& context) {
-  const Vector3 size = FromIgnition(heightmap.Size());
-  if (!(size.x > 0 && size.y > 0 && size.z > 0)) {
+  Vector3 size = FromIgnition(heightmap.Size());
+  const bool has_size = heightmap.Element() != nullptr && heightmap.Element()->HasElement("size");
+  if (!(size.x > 0 && size.y > 0 && size.z > 0) || !geometry::IsFinite(size)) {
     return Fail(ErrorCode::kBadModel, "a heightmap's size must be above zero");
   }
   auto path = context.finder.Find(heightmap.Uri(), file);
   if (!path) return Fail(path.error());
-  auto picture = context.textures.Read(*path);
-  if (!picture) return Fail(ErrorCode::kBadModel, picture.error().Sentence());
-  auto mesh = std::make_shared<const geometry::TriangleMesh>(
-      HeightmapMesh(**picture, size, context.limits.heightmap_side));
-  return SdfShape{geometry::Mesh{std::move(mesh)}, {FromIgnition(heightmap.Position()), {}}, {}};
+  geometry::TriangleMesh mesh;
+  if (IsElevationModel(*path)) {
+    const auto grid = ReadTiffHeights(*path, context.limits);
+    if (!grid) return Fail(ErrorCode::kBadModel, grid.error().Sentence());
+    if (!has_size) size = TrueSize(*grid);
+    mesh = HeightmapMesh(*grid, size, context.limits.heightmap_side);
+  } else {
+    const auto picture = context.textures.Read(*path);
+    if (!picture) return Fail(ErrorCode::kBadModel, picture.error().Sentence());
+    mesh = HeightmapMesh(**picture, size, context.limits.heightmap_side);
+  }
+  SdfShape shape{geometry::Mesh{std::make_shared<const geometry::TriangleMesh>(std::move(mesh))},
+                 {FromIgnition(heightmap.Position()), {}},
+                 {}};
+  return shape;
 }
 
 base::Result<SdfShape> ReadPolyline(const sdf::ElementPtr& geometry) {

@@ -28,13 +28,13 @@ void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const Readin
   ignition::math::Vector3d xyz;
   if (!axis.ResolveXyz(xyz).empty() || !geometry::IsFinite(FromIgnition(xyz)) ||
       !(xyz.Length() > 0) || !std::isfinite(xyz.Length())) {
-    context.Complain("the joint's axis has no direction; z is taken", place);
+    context.Warn("the joint's axis has no direction; z is taken", place);
     xyz = {0, 0, 1};
   }
   joint.axis = geometry::Normalized(FromIgnition(xyz));
   joint.position_limits = {LimitOrInfinity(axis.Lower()), LimitOrInfinity(axis.Upper())};
   if (!(joint.position_limits.min <= joint.position_limits.max)) {
-    context.Complain("the joint's <lower> limit is above its <upper>; both are dropped", place);
+    context.Warn("the joint's <lower> limit is above its <upper>; both are dropped", place);
     joint.position_limits = {};
   }
   if (joint.kind == JointKind::kRevolute && std::isinf(joint.position_limits.min) &&
@@ -47,8 +47,8 @@ void ReadAxis(const sdf::JointAxis& axis, const std::string& place, const Readin
   joint.friction = axis.Friction();
   if (!(joint.damping >= 0) || !(joint.friction >= 0) || std::isinf(joint.damping) ||
       std::isinf(joint.friction)) {
-    context.Complain("a joint's damping and friction must be finite and not negative; 0 is taken",
-                     place);
+    context.Warn("a joint's damping and friction must be finite and not negative; 0 is taken",
+                 place);
     joint.damping = joint.friction = 0;
   }
 }
@@ -84,7 +84,7 @@ std::vector<Joint> InARow(const sdf::Joint& source, const Joint& joint, const st
     if (const sdf::JointAxis* axis = source.Axis(i)) {
       ReadAxis(*axis, place, context, row.back());
     } else if (has_two) {
-      context.Complain("the joint needs two axes", place);
+      context.Warn("the joint needs two axes", place);
       row.back().axis = i == 0 ? geometry::Vector3{1, 0, 0} : geometry::Vector3{0, 1, 0};
     }
   }
@@ -127,7 +127,7 @@ void AddJoint(const sdf::Joint& source, Joint joint, const std::string& place,
   if (joint.kind == JointKind::kScrew) {
     joint.thread_pitch = ThreadPitch(source);
     if (!std::isfinite(joint.thread_pitch)) {
-      context.Complain("a screw's thread must have a pitch; the joint is fixed", place);
+      context.Warn("a screw's thread must have a pitch; the joint is fixed", place);
       joint.kind = JointKind::kFixed;
       joint.thread_pitch = 0;
     }

@@ -48,8 +48,7 @@ class TargetReader {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (end != text.c_str() && std::isfinite(value)) return value;
-    context_.Complain(std::string("<") + name + "> must be a number, not \"" + text + "\"",
-                      Place());
+    context_.Warn(std::string("<") + name + "> must be a number, not \"" + text + "\"", Place());
     return otherwise;
   }
 
@@ -79,7 +78,7 @@ void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
   const bool is_position = *kind == JointTarget::Kind::kPosition;
   const double value = reader.Number(is_position ? "initial_position" : "initial_velocity", 0);
   if (!plugin->HasElement("joint_name")) {
-    context.Complain("the controller names no joint", reader.Place());
+    context.Warn("the controller names no joint", reader.Place());
     return;
   }
   for (auto element = plugin->GetElement("joint_name"); element != nullptr;
@@ -88,8 +87,8 @@ void ReadJointTargets(const sdf::ElementPtr& plugin, const std::string& scope,
     const auto joint = std::find_if(model.joints.begin(), model.joints.end(),
                                     [&](const Joint& j) { return j.name == name; });
     if (joint == model.joints.end() || !model::TakesCommands(joint->kind)) {
-      context.Complain("the controller names \"" + name + "\", which is no joint that moves",
-                       reader.Place());
+      context.Warn("the controller names \"" + name + "\", which is no joint that moves",
+                   reader.Place());
       continue;
     }
     if (is_position) reader.Limit(*joint);

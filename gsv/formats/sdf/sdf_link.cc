@@ -21,6 +21,7 @@ using model::Material;
 using model::Visual;
 
 constexpr double kMissingMeshGrey = 0.5;
+constexpr std::size_t kLongestReason = 200;
 
 // A child's value along a path of elements, if each is there.
 template <typename T>
@@ -40,8 +41,8 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
     if (*value >= 0) {
       target = *value;
     } else {
-      context.Complain("friction and bounce must not be negative",
-                       PlaceOf(*collision, context.source));
+      context.Warn("friction and bounce must not be negative; the default is taken",
+                   PlaceOf(*collision, context.source));
     }
   };
   take(surface.friction, {"surface", "friction", "bullet", "friction"});
@@ -72,7 +73,8 @@ bool IsPositiveDefinite(const model::Inertial& i) {
   return i.ixx > 0 && second > 0 && determinant > 0;
 }
 
-model::Inertial ReadInertial(const sdf::Link& link, const ReadingContext& context) {
+// Of a link that never moves nothing is used, and nothing can be wrong.
+model::Inertial ReadInertial(const sdf::Link& link, bool is_static, const ReadingContext& context) {
   model::Inertial inertial;
   const sdf::ElementPtr element = link.Element();
   if (element == nullptr || !element->HasElement("inertial")) return inertial;
@@ -85,11 +87,14 @@ model::Inertial ReadInertial(const sdf::Link& link, const ReadingContext& contex
   inertial.ixy = products.X(), inertial.ixz = products.Y(), inertial.iyz = products.Z();
   const std::string place = PlaceOf(*element->GetElement("inertial"), context.source);
   if (!(inertial.mass > 0) || !std::isfinite(inertial.mass)) {
-    context.Complain("the mass must be above zero; 1 kg is taken", place);
+    if (!is_static) context.Warn("the mass must be above zero; 1 kg is taken", place);
     return {};
   }
+  if (!geometry::IsFinite(inertial.link_from_com)) inertial.link_from_com = {};
   if (!IsPositiveDefinite(inertial)) {
-    context.Complain("the inertia is not positive definite; that of a ball is taken", place);
+    if (!is_static) {
+      context.Warn("the inertia is not positive definite; that of a ball is taken", place);
+    }
     const double moment = 0.4 * inertial.mass * 0.1 * 0.1;
     inertial.ixx = inertial.iyy = inertial.izz = moment;
     inertial.ixy = inertial.ixz = inertial.iyz = 0;
@@ -110,12 +115,8 @@ void ReadCollisions(const sdf::Link& source, model::Link& link, const ReadingCon
     if (geometry == nullptr || geometry->HasElement("empty")) continue;
     const std::string place = PlaceOf(*element, context.source);
     auto shape = ReadGeometry(*collision.Geom(), geometry, context);
-    if (!shape && shape.error().code == ErrorCode::kNotFound) {
-      context.Warn("the collision is left out: " + shape.error().message, place);
-      continue;
-    }
     if (!shape) {
-      context.Complain("the collision is left out: " + shape.error().message, place);
+      context.Warn("the collision is left out: " + shape.error().message, place);
       continue;
     }
     link.collisions.push_back(
@@ -168,8 +169,8 @@ std::optional<double> TemperatureOf(const sdf::ElementPtr& visual, const Reading
     if (!name.ends_with("::systems::Thermal") || !plugin->HasElement("temperature")) continue;
     const auto [kelvin, is_number] = plugin->Get<double>("temperature", -1.0);
     if (is_number && kelvin >= 0 && std::isfinite(kelvin)) return kelvin;
-    context.Complain("<temperature> must be a number of kelvins, at least 0",
-                     PlaceOf(*plugin, context.source));
+    context.Warn("<temperature> must be a number of kelvins, at least 0; it is ignored",
+                 PlaceOf(*plugin, context.source));
   }
   return std::nullopt;
 }
@@ -206,20 +207,22 @@ geometry::Pose Resolve(const sdf::SemanticPose& semantic, const std::string& res
   ignition::math::Pose3d resolved;
   const sdf::Errors errors = semantic.Resolve(resolved, resolve_to);
   if (!errors.empty()) {
-    context.Complain("the pose cannot be resolved: " + errors.front().Message(), place);
-    return {};
+    context.Warn("the pose cannot be resolved, and is taken as it is written: " +
+                     errors.front().Message().substr(0, kLongestReason),
+                 place);
+    resolved = semantic.RawPose();
   }
   const geometry::Pose pose = FromIgnition(resolved);
   if (!geometry::IsFinite(pose)) {
-    context.Complain("the pose is not finite", place);
+    context.Warn("the pose is not finite; the origin is taken", place);
     return {};
   }
   return pose;
 }
 
-model::Link ReadLink(const sdf::Link& source, const ReadingContext& context) {
+model::Link ReadLink(const sdf::Link& source, bool is_static, const ReadingContext& context) {
   model::Link link;
-  link.inertial = ReadInertial(source, context);
+  link.inertial = ReadInertial(source, is_static, context);
   link.has_gravity = ValueAt<bool>(source.Element(), {"gravity"}).value_or(true);
   ReadCollisions(source, link, context);
   ReadVisuals(source, link, context);

@@ -9,11 +9,12 @@
 namespace gsv::formats {
 
 // The name and the pose are the caller's. A visual whose mesh is absent is replaced by the link's
-// collision shapes in grey, once; a collision whose mesh is absent is left out.
-model::Link ReadLink(const sdf::Link& source, const ReadingContext& context);
+// collision shapes in grey, once; a collision whose mesh is absent is left out. `is_static`: its
+// inertia is of no use, so that nothing in it is wrong.
+model::Link ReadLink(const sdf::Link& source, bool is_static, const ReadingContext& context);
 
 // A pose resolved by libsdformat in the frame of its parent element, or in `resolve_to`. One that
-// cannot be resolved or is not finite is an error, and the identity.
+// cannot be resolved is a warning, and taken as written; one that is not finite is the identity.
 geometry::Pose Resolve(const sdf::SemanticPose& pose, const std::string& resolve_to,
                        const std::string& place, const ReadingContext& context);
 

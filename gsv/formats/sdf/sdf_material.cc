@@ -105,6 +105,9 @@ class MaterialOfVisual {
   std::shared_ptr<const Image> Texture(const std::string& name) {
     if (name.empty()) return nullptr;
     auto path = context_.finder.Find(name, file_);
+    if (!path) {
+      if (auto beside = FindBesideScripts(name)) path = *beside;
+    }
     auto image = path ? context_.textures.Read(*path)
                       : base::Result<std::shared_ptr<const Image>>(Fail(path.error()));
     if (image) return *image;
@@ -117,7 +120,7 @@ class MaterialOfVisual {
     const sdf::ElementPtr script = element_->GetElement("script");
     const std::string name = script->Get<std::string>("name", "").first;
     if (name.empty() || name == "__default__") return false;
-    std::vector<fs::path> places;
+    std::vector<fs::path>& places = script_places_;
     if (script->HasElement("uri")) {
       for (auto uri = script->GetElement("uri"); uri != nullptr; uri = uri->GetNextElement("uri")) {
         if (auto place = context_.finder.Find(uri->Get<std::string>(), file_)) {
@@ -126,7 +129,7 @@ class MaterialOfVisual {
       }
     }
     if (const auto ogre = FindInScripts(name, places)) {
-      Apply(*ogre, places);
+      Apply(*ogre);
       return true;
     }
     if (auto known = GazeboMaterial(name)) {
@@ -165,7 +168,20 @@ class MaterialOfVisual {
     return scripts;
   }
 
-  void Apply(const OgreMaterial& ogre, const std::vector<fs::path>& places) {
+  // A picture in the folders of the visual's script, as OGRE finds it: by its name alone.
+  std::optional<fs::path> FindBesideScripts(const std::string& name) const {
+    for (const fs::path& place : script_places_) {
+      for (const fs::path& folder : {place, place.parent_path(), place / "../textures",
+                                     place.parent_path() / "../textures"}) {
+        std::error_code error;
+        const fs::path file = (folder / fs::path(name).filename()).lexically_normal();
+        if (fs::is_regular_file(file, error)) return file;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void Apply(const OgreMaterial& ogre) {
     if (ogre.diffuse)
       material_.base_colour = *ogre.diffuse;
     else if (ogre.ambient)
@@ -175,26 +191,23 @@ class MaterialOfVisual {
     if (ogre.texture.empty()) return;
     // A picture without a colour beside it shows as it is.
     if (!ogre.diffuse) material_.base_colour = {};
-    for (const fs::path& place : places) {
-      for (const fs::path& folder : {place, place.parent_path(), place / "../textures",
-                                     place.parent_path() / "../textures"}) {
-        std::error_code error;
-        const fs::path file = (folder / fs::path(ogre.texture).filename()).lexically_normal();
-        if (!fs::is_regular_file(file, error)) continue;
-        if (auto image = context_.textures.Read(file)) {
-          material_.base_colour_map = *image;
-          return;
-        }
-      }
+    const auto file = FindBesideScripts(ogre.texture);
+    const auto image =
+        file ? context_.textures.Read(*file)
+             : base::Result<std::shared_ptr<const Image>>(base::Fail(
+                   base::ErrorCode::kNotFound, "there is no such picture beside its script"));
+    if (image) {
+      material_.base_colour_map = *image;
+    } else {
+      context_.Warn("texture " + ogre.texture + ": " + image.error().message, place_);
     }
-    context_.Warn("texture " + ogre.texture + ": there is no such picture beside its script",
-                  place_);
   }
 
   const sdf::Material& source_;
   sdf::ElementPtr element_;
   fs::path file_;
   std::string place_;
+  std::vector<fs::path> script_places_;  // files and folders that its <script> names
   const ReadingContext& context_;
   Material material_;
 };

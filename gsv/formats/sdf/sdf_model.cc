@@ -40,13 +40,14 @@ class ModelReader {
     model_.name = source.Name();
     model_.source = context_.source.string();
     model_.is_static = source.Static();
-    AddParts(source, "", Pose{}, kDeepestNesting);
+    AddParts(source, "", Pose{}, kDeepestNesting, false);
     if (model_.links.empty()) {
       return Fail(ErrorCode::kBadModel, "the model \"" + source.Name() + "\" has no links",
                   context_.source.string());
     }
     PutFirst(source.CanonicalLinkAndRelativeName().second);
     for (const auto& [joint, scope, place] : pending_joints_) AddJoint(*joint, scope, place);
+    FixStaticLinks();
     ReportLoops(MakeForest(model_.links.size(), model_.joints));
     for (const auto& [sensor, scope] : pending_sensors_) AddSensor(sensor, scope);
     for (const auto& [plugin, scope] : pending_plugins_) {
@@ -68,13 +69,15 @@ class ModelReader {
 
   // Links, frames and nested models; what refers to links waits until all are there.
   void AddParts(const sdf::Model& source, const std::string& scope, const Pose& root_from_model,
-                int levels_left) {
+                int levels_left, bool is_in_static) {
     if (levels_left == 0) {
-      context_.Complain("models are nested too deep", PlaceOfElement(source.Element()));
+      context_.Warn("models are nested too deep; this one is left out",
+                    PlaceOfElement(source.Element()));
       return;
     }
+    const bool is_static = is_in_static || source.Static();
     for (std::uint64_t i = 0; i < source.LinkCount(); ++i) {
-      AddLink(*source.LinkByIndex(i), scope, root_from_model);
+      AddLink(*source.LinkByIndex(i), scope, root_from_model, is_static);
     }
     for (std::uint64_t i = 0; i < source.FrameCount(); ++i) {
       const sdf::Frame& frame = *source.FrameByIndex(i);
@@ -97,7 +100,11 @@ class ModelReader {
           root_from_model *
           Resolve(inner.SemanticPose(), "__model__", PlaceOfElement(inner.Element()), context_);
       frames_[scope + inner.Name()] = root_from_inner;
-      AddParts(inner, scope + inner.Name() + "::", root_from_inner, levels_left - 1);
+      if (inner.LinkCount() == 0 && inner.ModelCount() == 0) {
+        context_.Warn("the model \"" + inner.Name() + "\" has no links; it is left out",
+                      PlaceOfElement(inner.Element()));
+      }
+      AddParts(inner, scope + inner.Name() + "::", root_from_inner, levels_left - 1, is_static);
     }
     if (source.Element() == nullptr || !source.Element()->HasElement("plugin")) return;
     for (auto plugin = source.Element()->GetElement("plugin"); plugin != nullptr;
@@ -106,9 +113,11 @@ class ModelReader {
     }
   }
 
-  void AddLink(const sdf::Link& source, const std::string& scope, const Pose& root_from_model) {
-    model::Link link = ReadLink(source, context_);
+  void AddLink(const sdf::Link& source, const std::string& scope, const Pose& root_from_model,
+               bool is_static) {
+    model::Link link = ReadLink(source, is_static, context_);
     link.name = scope + source.Name();
+    if (is_static) static_links_.insert(link.name);
     link.model_from_link = root_from_model * Resolve(source.SemanticPose(), "__model__",
                                                      PlaceOfElement(source.Element()), context_);
     frames_[link.name] = link.model_from_link;
@@ -139,15 +148,15 @@ class ModelReader {
   // The link an end of a joint belongs to; it may be named by a frame that hangs on it.
   void AddJoint(const sdf::Joint& source, const std::string& scope, const std::string& place) {
     std::string parent, child;
-    if (!source.ResolveParentLink(parent).empty() || !source.ResolveChildLink(child).empty()) {
-      return;  // libsdformat has said so
-    }
+    if (!source.ResolveParentLink(parent).empty()) parent = source.ParentLinkName();
+    if (!source.ResolveChildLink(child).empty()) child = source.ChildLinkName();
     Joint joint;
     joint.name = scope + source.Name();
     joint.parent = parent == "world" ? -1 : LinkIndex(scope + parent);
     joint.child = LinkIndex(scope + child);
     if (joint.child < 0 || (joint.parent < 0 && parent != "world")) {
-      context_.Complain("the joint names a link that is not there", place);
+      context_.Warn(
+          "the joint \"" + joint.name + "\" names a link that is not there; it is left out", place);
       return;
     }
     joint.model_from_joint = frames_[joint.name];
@@ -155,9 +164,37 @@ class ModelReader {
     formats::AddJoint(source, std::move(joint), place, context_, model_);
   }
 
+  // Links of a nested model that is static stand in the world as this model places them.
+  void FixStaticLinks() {
+    if (model_.is_static || static_links_.empty()) return;
+    if (static_links_.size() == model_.links.size()) {
+      model_.is_static = true;
+      return;
+    }
+    const auto is_static = [&](int link) {
+      return link < 0 ||
+             static_links_.count(model_.links[static_cast<std::size_t>(link)].name) != 0;
+    };
+    std::erase_if(model_.joints, [&](const Joint& joint) {
+      return is_static(joint.parent) && is_static(joint.child);
+    });
+    std::vector<Joint> to_world;
+    for (std::size_t i = 0; i < model_.links.size(); ++i) {
+      if (!is_static(static_cast<int>(i))) continue;
+      Joint joint;
+      joint.name = model_.links[i].name + "::static";
+      joint.kind = model::JointKind::kFixed;
+      joint.parent = -1;
+      joint.child = static_cast<int>(i);
+      joint.model_from_joint = model_.links[i].model_from_link;
+      to_world.push_back(std::move(joint));
+    }
+    model_.joints.insert(model_.joints.begin(), to_world.begin(), to_world.end());
+  }
+
   void ReportLoops(const std::vector<std::string>& loops) {
     for (const std::string& name : loops) {
-      context_.Complain(
+      context_.Warn(
           "the joint \"" + name + "\" closes a loop, which is not supported; it is left out",
           context_.source.string());
     }
@@ -169,11 +206,7 @@ class ModelReader {
     if (checked) return;
     const std::string sentence =
         "the " + sensor.type + " " + sensor.name + " gives no readings: " + checked.error().message;
-    if (checked.error().code == base::ErrorCode::kNotFound) {
-      context_.Warn(sentence, place);
-    } else {
-      context_.Complain(sentence, place);
-    }
+    context_.Warn(sentence, place);
   }
 
   // A contact sensor feels the collisions that it names, so that a wrong name makes it numb.
@@ -203,11 +236,11 @@ class ModelReader {
     sensor.link_from_sensor = geometry::Inverse(model_.links[link].model_from_link) *
                               model_from_owner * owner_from_sensor;
     if (!(sensor.update_rate >= 0) || !std::isfinite(sensor.update_rate)) {
-      context_.Complain("a sensor's update rate must not be negative; 0 is taken", place);
+      context_.Warn("a sensor's update rate must not be negative; 0 is taken", place);
       sensor.update_rate = 0;
     }
     if (sensor.type.empty() || sensor.type == "__default__") {
-      context_.Complain("the sensor has no type and is left out", place);
+      context_.Warn("the sensor has no type and is left out", place);
       return;
     }
     sensor.name = UniqueSensorName(sensor.name, frame);
@@ -222,7 +255,7 @@ class ModelReader {
     const sdf::ElementPtr pose = element->GetElement("pose");
     const Pose raw = FromIgnition(pose->Get<ignition::math::Pose3d>());
     if (!geometry::IsFinite(raw)) {
-      context_.Complain("the sensor's pose is not finite", place);
+      context_.Warn("the sensor's pose is not finite; it sits where its link is", place);
       return {};
     }
     const auto relative_to = pose->Get<std::string>("relative_to", "").first;
@@ -236,8 +269,9 @@ class ModelReader {
     }
     const auto it = frames_.find(scope + relative_to);
     if (it == frames_.end()) {
-      context_.Complain(
-          "the sensor's pose is relative to \"" + relative_to + "\", which is not there", place);
+      context_.Warn("the sensor's pose is relative to \"" + relative_to +
+                        "\", which is not there; it is taken as relative to its link",
+                    place);
       return raw;
     }
     return geometry::Inverse(model_from_owner) * it->second * raw;
@@ -270,8 +304,8 @@ class ModelReader {
     if (text == "rigid") {
       model_.movement = model::Movement::kRigid;
     } else if (text != "planar") {
-      context_.Complain("<gsv:movement> must be planar or rigid, not \"" + text + "\"",
-                        PlaceOfElement(element));
+      context_.Warn("<gsv:movement> must be planar or rigid, not \"" + text + "\"",
+                    PlaceOfElement(element));
     }
   }
 
@@ -285,7 +319,8 @@ class ModelReader {
       }
     }
     if (!geometry::IsFinite(model_.default_pose)) {
-      context_.Complain("the model's pose is not finite", PlaceOfElement(source.Element()));
+      context_.Warn("the model's pose is not finite; the origin is taken",
+                    PlaceOfElement(source.Element()));
       model_.default_pose = {};
     }
   }
@@ -303,6 +338,7 @@ class ModelReader {
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_sensors_;
   std::vector<std::pair<sdf::ElementPtr, std::string>> pending_plugins_;
   std::set<std::string> sensor_names_;
+  std::set<std::string> static_links_;  // of static models within this one, or of this one
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ void ReadPhysics(const sdf::Physics& physics, const ReadingContext& context,
   if (step >= 1e-6 && step <= 1) {
     world.max_step_size = base::SimTime(std::llround(step * 1e9));
   } else {
-    context.Complain("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is taken", place);
+    context.Warn("<max_step_size> must lie between 1e-6 s and 1 s; 0.001 s is taken", place);
   }
   // Not above zero: as fast as it goes, which is the caller's to choose.
   if (physics.RealTimeFactor() > 0) world.real_time_factor = physics.RealTimeFactor();
@@ -53,8 +53,10 @@ void ReadOrigin(const ignition::math::SphericalCoordinates& coordinates,
       std::abs(origin.latitude) <= std::numbers::pi / 2) {
     world.origin = origin;
   } else {
-    context.Complain(
-        "<spherical_coordinates> must be finite, with a latitude of at most 90 degrees",
+    context.Warn(
+        "<spherical_coordinates> must be finite, with a latitude of at most 90 degrees; the world "
+        "has no "
+        "place on Earth",
         context.source.string());
   }
 }
@@ -69,9 +71,9 @@ model::Light ReadLight(const sdf::Light& source, const ReadingContext& context) 
   if (geometry::IsFinite(direction) && geometry::Norm(direction) > 0) {
     light.direction = geometry::Normalized(direction);
   } else if (light.kind != Light::Kind::kPoint) {
-    context.Complain("the light's <direction> has no length; straight down is taken",
-                     source.Element() == nullptr ? context.source.string()
-                                                 : PlaceOf(*source.Element(), context.source));
+    context.Warn("the light's <direction> has no length; straight down is taken",
+                 source.Element() == nullptr ? context.source.string()
+                                             : PlaceOf(*source.Element(), context.source));
   }
   light.diffuse = FromIgnition(source.Diffuse());
   light.intensity = std::max(source.Intensity(), 0.0);
@@ -96,13 +98,13 @@ void ReadSurroundings(const sdf::World& source, const ReadingContext& context,
   if (geometry::IsFinite(gravity)) {
     world.gravity = gravity;
   } else {
-    context.Complain("<gravity> must be finite", context.source.string());
+    context.Warn("<gravity> must be finite; Earth's is taken", context.source.string());
   }
   const Vector3 magnetic_field = FromIgnition(source.MagneticField());
   if (geometry::IsFinite(magnetic_field)) {
     world.magnetic_field = magnetic_field;
   } else {
-    context.Complain("<magnetic_field> must be finite", context.source.string());
+    context.Warn("<magnetic_field> must be finite; the default is taken", context.source.string());
   }
   if (const auto* coordinates = source.SphericalCoordinates()) {
     ReadOrigin(*coordinates, context, world);
@@ -112,7 +114,8 @@ void ReadSurroundings(const sdf::World& source, const ReadingContext& context,
     if (std::isfinite(kelvin) && kelvin >= 0) {
       world.temperature = kelvin;
     } else {
-      context.Complain("<atmosphere><temperature> must be at least 0 K", context.source.string());
+      context.Warn("<atmosphere><temperature> must be at least 0 K; the default is taken",
+                   context.source.string());
     }
   }
   if (const sdf::Physics* physics = source.PhysicsDefault()) ReadPhysics(*physics, context, world);

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "gsv/formats/sdf/urdf_repair.h"
+
 namespace gsv::formats {
 namespace {
 
@@ -65,12 +67,13 @@ void Fill(XMLElement& element, const Values& values) {
 
 }  // namespace
 
-base::Result<std::string> UrdfText(const XmlFile& file) {
+base::Result<std::string> UrdfText(const XmlFile& file, base::Problems& problems) {
   Values values;
   if (auto status = CollectValues(*file.root, file.path, values); !status) {
     return Fail(status.error());
   }
   Fill(*file.root, values);
+  RepairUrdf(*file.root, file.path, problems);
   LineKeepingPrinter printer;
   printer.Text("<?xml version='1.0'?>");
   printer.Element(*file.root);

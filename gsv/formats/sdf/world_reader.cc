@@ -17,6 +17,7 @@
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_pedestrians.h"
 #include "gsv/formats/sdf/sdf_world.h"
+#include "gsv/formats/sdf/value_repair.h"
 #include "gsv/formats/sdf/world_frames.h"
 
 namespace gsv::formats {
@@ -51,10 +52,11 @@ class WorldReader {
       context_.Warn("only the first world of a file is read", PlaceOf(file_.path, *second));
     }
     TakeScripts(*world);
+    RepairValues(*world, file_.path, problems_);
     if (auto status = TakeIncludes(*world); !status) return Fail(status.error());
-    if (auto status = scan_.Scan(*world, file_.path); !status) return Fail(status.error());
+    scan_.Scan(*world, file_.path);
     if (auto status = TakeParts(*world); !status) return Fail(status.error());
-    if (auto status = ParseDocuments(); !status) return Fail(status.error());
+    ParseDocuments();
     PlaceModels();
     PlaceLights();
     return std::move(world_);
@@ -99,7 +101,7 @@ class WorldReader {
   WrittenPose PoseOf(const XMLElement& element) {
     auto pose = ReadPose(element);
     if (pose) return *pose;
-    context_.Complain(pose.error().message, Place(element));
+    context_.Warn(pose.error().message, Place(element));
     return {};
   }
 
@@ -153,7 +155,10 @@ class WorldReader {
       plugins += PrintCompact(*plugin);
     }
     auto stored = store_.Read(found, plugins);
-    if (!stored) return Fail(stored.error());
+    if (!stored) {
+      context_.Warn(IncludeLeftOut(UriOf(include), stored.error()), Place(include));
+      return {};
+    }
     if (reported_.insert(stored->get()).second) {
       problems_.insert(problems_.end(), (*stored)->problems.begin(), (*stored)->problems.end());
     }
@@ -257,28 +262,58 @@ class WorldReader {
     if (const char* name = element.Attribute("name")) frames_.Add(name, at);
   }
 
-  base::Status ParseDocuments() {
+  void ParseDocuments() {
     for (std::size_t first = 0; first == 0 || first < distinct_.size();
          first += kModelsPerDocument) {
-      const std::size_t end = std::min(distinct_.size(), first + kModelsPerDocument);
-      auto document = ParseSdf(Document(first, end), file_.path, scan_.files(), problems_);
-      if (!document) return Fail(document.error());
-      const sdf::World* world = document->root->WorldByIndex(0);
-      if (world == nullptr) {
-        return Fail(ErrorCode::kBadModel, "the world cannot be read", file_.path.string());
-      }
-      if (first == 0) TakeSurroundings(*world);
-      for (std::size_t i = first; i < end; ++i) {
-        if (auto status = TakeParsed(*world, distinct_[i]); !status) return status;
-      }
+      ParseModels(first, std::min(distinct_.size(), first + kModelsPerDocument));
     }
-    return {};
+  }
+
+  // What is wrong with one model must not reach the others: then each is read by itself.
+  void ParseModels(std::size_t first, std::size_t end) {
+    base::Problems problems;
+    const auto document =
+        ParseSdf({file_.path, Document(first, end, first == 0)}, scan_.files(), problems);
+    const bool is_sound = document && !document->has_broken_frames;
+    if (is_sound || end - first <= 1) {
+      Take(document, first, end, first == 0, problems);
+      return;
+    }
+    for (std::size_t i = first; i < end; ++i) {
+      problems.clear();
+      const bool has_surroundings = i == 0;
+      Take(ParseSdf({file_.path, Document(i, i + 1, has_surroundings)}, scan_.files(), problems), i,
+           i + 1, has_surroundings, problems);
+    }
+  }
+
+  void Take(const base::Result<SdfDocument>& document, std::size_t first, std::size_t end,
+            bool has_surroundings, const base::Problems& problems) {
+    problems_.insert(problems_.end(), problems.begin(), problems.end());
+    const sdf::World* world = document ? document->root->WorldByIndex(0) : nullptr;
+    if (world == nullptr) {
+      const base::Error error =
+          document ? base::Error{ErrorCode::kBadModel, "nothing can be read of it", ""}
+                   : document.error();
+      for (std::size_t i = first; i < end; ++i) {
+        context_.Warn("the model \"" + NameOf(distinct_[i]) + "\" is left out: " + error.Sentence(),
+                      Place(*distinct_[i].element));
+      }
+      return;
+    }
+    if (has_surroundings) TakeSurroundings(*world);
+    for (std::size_t i = first; i < end; ++i) TakeParsed(*world, distinct_[i]);
+  }
+
+  static std::string NameOf(const Distinct& distinct) {
+    const char* name = distinct.element->Attribute("name");
+    return name == nullptr ? "" : name;
   }
 
   // The elements in the order of their lines, as the printer wants them.
-  std::string Document(std::size_t first, std::size_t end) const {
+  std::string Document(std::size_t first, std::size_t end, bool with_surroundings) const {
     std::vector<const XMLElement*> elements;
-    if (first == 0) elements.assign(surroundings_.begin(), surroundings_.end());
+    if (with_surroundings) elements.assign(surroundings_.begin(), surroundings_.end());
     for (std::size_t i = first; i < end; ++i) elements.push_back(distinct_[i].element);
     std::stable_sort(elements.begin(), elements.end(), [](const auto* a, const auto* b) {
       return a->GetLineNum() < b->GetLineNum();
@@ -311,18 +346,20 @@ class WorldReader {
     return nullptr;
   }
 
-  base::Status TakeParsed(const sdf::World& world, Distinct& distinct) {
-    const sdf::Model* model = world.ModelByName(distinct.element->Attribute("name"));
-    if (model == nullptr) return {};  // libsdformat has said why
+  void TakeParsed(const sdf::World& world, Distinct& distinct) {
+    const sdf::Model* model = world.ModelByName(NameOf(distinct));
+    if (model == nullptr) {
+      context_.Warn("the model \"" + NameOf(distinct) + "\" is left out", Place(*distinct.element));
+      return;
+    }
     auto framed = formats::ReadModel(*model, context_);
     if (framed) {
       const auto script = scripts_.find(distinct.element);
       if (script != scripts_.end()) framed->model = ActorOf(*framed->model, script->second);
       distinct.framed = std::move(*framed);
     } else {
-      context_.Complain(framed.error().message, Place(*distinct.element));
+      context_.Warn(framed.error().message + "; it is left out", Place(*distinct.element));
     }
-    return {};
   }
 
   const FramedModel* FramedOf(const Placement& placement) const {
@@ -336,7 +373,8 @@ class WorldReader {
     if (placement.placement_frame.empty()) return {};
     const auto it = framed.model_from_frame.find(placement.placement_frame);
     if (it != framed.model_from_frame.end()) return geometry::Inverse(it->second);
-    context_.Complain(
+    if (placement.placement_frame == "__model__") return {};
+    context_.Warn(
         "there is no frame \"" + placement.placement_frame + "\" in the model to place it by",
         placement.place);
     return {};
@@ -357,8 +395,7 @@ class WorldReader {
       if (framed == nullptr) continue;
       auto world_from_model = frames_.WorldFrom(placement.name);
       if (!world_from_model) {
-        context_.Complain(world_from_model.error().message + "; the origin is taken",
-                          placement.place);
+        context_.Warn(world_from_model.error().message + "; the origin is taken", placement.place);
       }
       const auto& script = framed->model->script;
       const Pose start = script == nullptr ? Pose{} : model::StartPose(*script);
@@ -371,7 +408,7 @@ class WorldReader {
   void PlaceLights() {
     for (PlacedLight& placed : lights_) {
       auto world_from_light = frames_.WorldFrom(placed.at);
-      if (!world_from_light) context_.Complain(world_from_light.error().message, placed.place);
+      if (!world_from_light) context_.Warn(world_from_light.error().message, placed.place);
       placed.light.world_from_light = world_from_light.value_or(placed.at.pose);
       world_.lights.push_back(std::move(placed.light));
     }

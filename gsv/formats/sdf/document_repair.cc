@@ -1,0 +1,393 @@
+#include "gsv/formats/sdf/document_repair.h"
+
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tinyxml2.h>
+#include <sdf/Error.hh>
+
+#include "gsv/formats/sdf/sdf_xml.h"
+
+namespace gsv::formats {
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr char kScope[] = "::";
+
+// A text as elements, and whether they were changed.
+struct Tree {
+  SdfText* text;
+  std::unique_ptr<tinyxml2::XMLDocument> document;
+  bool is_changed = false;
+
+  XMLElement* root() const { return document->RootElement(); }
+};
+
+std::vector<Tree> TreesOf(SdfText& document, IncludedFiles& includes) {
+  std::vector<Tree> trees;
+  const auto add = [&](SdfText& text) {
+    auto parsed = std::make_unique<tinyxml2::XMLDocument>();
+    if (parsed->Parse(text.text.data(), text.text.size()) != tinyxml2::XML_SUCCESS) return;
+    const XMLElement* root = parsed->RootElement();
+    if (root == nullptr || std::strcmp(root->Name(), "sdf") != 0) return;
+    trees.push_back({&text, std::move(parsed)});
+  };
+  add(document);
+  for (auto& [uri, text] : includes) add(text);
+  return trees;
+}
+
+bool WriteChanged(const std::vector<Tree>& trees) {
+  bool is_any = false;
+  for (const Tree& tree : trees) {
+    if (!tree.is_changed) continue;
+    LineKeepingPrinter printer;
+    printer.Element(*tree.root());
+    tree.text->text = printer.Take();
+    is_any = true;
+  }
+  return is_any;
+}
+
+void ForEach(XMLElement* element, const std::function<void(XMLElement&)>& visit) {
+  for (; element != nullptr; element = element->NextSiblingElement()) {
+    visit(*element);
+    ForEach(element->FirstChildElement(), visit);
+  }
+}
+
+bool IsNamed(const XMLElement& element, const std::string& kind, const std::string& name) {
+  const char* own = element.Attribute("name");
+  return own != nullptr && name == own && kind == element.Name();
+}
+
+std::string NameIn(const XMLElement& element) {
+  const char* name = element.Attribute("name");
+  return "<" + std::string(element.Name()) + ">" +
+         (name == nullptr ? "" : " \"" + std::string(name) + "\"");
+}
+
+// The texts between brackets: "link with name[a] already exists" has "a".
+std::vector<std::string> Bracketed(const std::string& message) {
+  std::vector<std::string> texts;
+  for (std::size_t open = message.find('['); open != std::string::npos;
+       open = message.find('[', open + 1)) {
+    const std::size_t close = message.find(']', open);
+    if (close == std::string::npos) break;
+    texts.push_back(message.substr(open + 1, close - open - 1));
+  }
+  return texts;
+}
+
+// The word before `after`: "specified by link with name[" has "link" before " with name[".
+std::string WordBefore(const std::string& message, const std::string& after, std::size_t from = 0) {
+  const std::size_t end = message.find(after, from);
+  if (end == std::string::npos) return "";
+  const std::size_t blank = message.rfind(' ', end == 0 ? 0 : end - 1);
+  const std::size_t start = blank == std::string::npos ? 0 : blank + 1;
+  return message.substr(start, end - start);
+}
+
+std::string WithoutScope(const std::string& name) {
+  const std::size_t scope = name.rfind(kScope);
+  return scope == std::string::npos ? name : name.substr(scope + std::strlen(kScope));
+}
+
+class DocumentRepair {
+ public:
+  DocumentRepair(SdfText& document, IncludedFiles& includes, base::Problems& problems)
+      : trees_(TreesOf(document, includes)), problems_(problems) {}
+
+  bool After(const sdf::Errors& errors) {
+    if (trees_.empty()) return false;
+    for (const sdf::Error& error : errors) AfterMeaning(error.Message());
+    // An element that cannot be read stops the reading: the first such error names it.
+    for (const sdf::Error& error : errors) {
+      if (error.XmlPath() && !error.XmlPath()->empty() && LeaveOut(error)) break;
+    }
+    return WriteChanged(trees_);
+  }
+
+ private:
+  void Warn(const Tree& tree, const XMLElement& element, const std::string& message) {
+    problems_.push_back(
+        {base::Problem::Severity::kWarning, message, PlaceOf(tree.text->path, element)});
+  }
+
+  // Calls `change` for the elements of a kind and name; it says whether it changed something.
+  void ForNamed(const std::string& kind, const std::string& name,
+                const std::function<bool(Tree&, XMLElement&)>& change) {
+    for (Tree& tree : trees_) {
+      std::vector<XMLElement*> found;
+      ForEach(tree.root(), [&](XMLElement& element) {
+        if (IsNamed(element, kind, name)) found.push_back(&element);
+      });
+      for (XMLElement* element : found) {
+        if (change(tree, *element)) tree.is_changed = true;
+      }
+    }
+  }
+
+  void AfterMeaning(const std::string& message) {
+    const std::vector<std::string> names = Bracketed(message);
+    const auto says = [&](const char* text) { return message.find(text) != std::string::npos; };
+    if (names.size() >= 3 && says("attached_to name[") && says("specified by frame")) {
+      Detach(names[1], names[0]);
+    } else if (names.size() >= 3 && says("relative_to name[") && says("specified by ")) {
+      const std::size_t by = message.find("specified by ");
+      MakeOwn(WordBefore(message, " with name[", by), names[1], names[0]);
+    } else if (names.size() >= 3 && says("rame with name[") && says("specified by joint")) {
+      LeaveOutJoint(names[1], "it names " + names[0] + ", which is not there");
+    } else if (names.size() >= 2 && says("Joint with name[") && says("must specify different")) {
+      LeaveOutJoint(names[0], "its parent is its child");
+    } else if (names.size() >= 4 && says("joint with name[") && says("both resolve to")) {
+      LeaveOutJoint(names[0], "its parent is its child");
+    } else if (names.size() >= 2 && says("canonical_link with name[")) {
+      DropCanonicalLink(names[1], names[0]);
+    } else if (names.size() == 1 && says(" with name[") && says("already exists")) {
+      NameApart(WordBefore(message, " with name["), names[0]);
+    } else if (names.size() == 1 && says("The supplied ") && says("is reserved")) {
+      Rename(WordBefore(message, " name ["), names[0]);
+    } else if (names.size() == 1 && says("cycle detected, already visited")) {
+      BreakCircle(WithoutScope(names[0]));
+    } else if (names.size() == 1 && says("unable to find unique frame with name")) {
+      DropPlacementFrame(names[0]);
+    }
+  }
+
+  void Detach(const std::string& frame, const std::string& missing) {
+    ForNamed("frame", frame, [&](Tree& tree, XMLElement& element) {
+      const char* attached = element.Attribute("attached_to");
+      if (attached == nullptr || missing != attached) return false;
+      Warn(tree, element,
+           NameIn(element) + " is attached to " + missing +
+               ", which is not there; it is attached to what it stands in");
+      element.DeleteAttribute("attached_to");
+      return true;
+    });
+  }
+
+  // A pose relative to something that is not there is taken as relative to what holds it.
+  void MakeOwn(const std::string& kind, const std::string& name, const std::string& missing) {
+    ForNamed(kind, name, [&](Tree& tree, XMLElement& element) {
+      XMLElement* pose = element.FirstChildElement("pose");
+      const char* other = pose == nullptr ? nullptr : pose->Attribute("relative_to");
+      if (pose != nullptr && other == nullptr) other = pose->Attribute("frame");
+      if (other == nullptr || missing != other) return false;
+      Warn(tree, *pose,
+           "the pose of " + NameIn(element) + " is relative to " + missing +
+               ", which is not there; it is taken as relative to what holds it");
+      pose->DeleteAttribute("relative_to");
+      pose->DeleteAttribute("frame");
+      return true;
+    });
+  }
+
+  void LeaveOutJoint(const std::string& name, const std::string& reason) {
+    ForNamed("joint", name, [&](Tree& tree, XMLElement& element) {
+      Warn(tree, element, "the joint \"" + name + "\" is left out: " + reason);
+      element.Parent()->DeleteChild(&element);
+      return true;
+    });
+  }
+
+  void DropCanonicalLink(const std::string& model, const std::string& link) {
+    ForNamed("model", model, [&](Tree& tree, XMLElement& element) {
+      const char* own = element.Attribute("canonical_link");
+      if (own == nullptr || link != own) return false;
+      Warn(tree, element,
+           "the canonical link " + link + " of " + NameIn(element) +
+               " is not there; its first link is taken");
+      element.DeleteAttribute("canonical_link");
+      return true;
+    });
+  }
+
+  // Gives all but the first of those beside each other that share a name one of their own.
+  void NameApart(const std::string& kind, const std::string& name) {
+    for (Tree& tree : trees_) {
+      std::set<const tinyxml2::XMLNode*> parents;
+      ForEach(tree.root(), [&](XMLElement& element) {
+        if (!IsNamed(element, kind, name)) return;
+        if (parents.insert(element.Parent()).second) return;
+        SetFreeName(tree, element, "there is a second " + NameIn(element));
+      });
+    }
+  }
+
+  void Rename(const std::string& kind, const std::string& name) {
+    ForNamed(kind, name, [&](Tree& tree, XMLElement& element) {
+      const std::string free =
+          SetFreeName(tree, element, "the name of " + NameIn(element) + " is reserved");
+      ForEach(element.Parent()->FirstChildElement(), [&](XMLElement& other) {
+        const bool refers =
+            std::strcmp(other.Name(), "parent") == 0 || std::strcmp(other.Name(), "child") == 0;
+        if (refers && other.GetText() != nullptr && name == other.GetText()) {
+          other.SetText(free.c_str());
+        }
+        for (const char* attribute : {"relative_to", "attached_to", "canonical_link"}) {
+          const char* value = other.Attribute(attribute);
+          if (value != nullptr && name == value) other.SetAttribute(attribute, free.c_str());
+        }
+      });
+      return true;
+    });
+  }
+
+  std::string SetFreeName(Tree& tree, XMLElement& element, const std::string& reason) {
+    std::set<std::string> taken;
+    for (const auto* each = element.Parent()->FirstChildElement(); each != nullptr;
+         each = each->NextSiblingElement()) {
+      if (const char* name = each->Attribute("name")) taken.insert(name);
+    }
+    const std::string old = element.Attribute("name");
+    std::string name = old + "_1";
+    for (int i = 2; taken.count(name) != 0; ++i) name = old + "_" + std::to_string(i);
+    Warn(tree, element, reason + "; it is named " + name);
+    element.SetAttribute("name", name.c_str());
+    tree.is_changed = true;
+    return name;
+  }
+
+  void BreakCircle(const std::string& name) {
+    for (const char* kind : {"link", "frame", "joint", "model"}) {
+      ForNamed(kind, name, [&](Tree& tree, XMLElement& element) {
+        XMLElement* pose = element.FirstChildElement("pose");
+        if (pose == nullptr || pose->Attribute("relative_to") == nullptr) return false;
+        Warn(tree, *pose,
+             "the pose of " + NameIn(element) +
+                 " is relative to itself in a circle; it is taken as relative to what holds it");
+        pose->DeleteAttribute("relative_to");
+        return true;
+      });
+    }
+  }
+
+  void DropPlacementFrame(const std::string& name) {
+    for (Tree& tree : trees_) {
+      ForEach(tree.root(), [&](XMLElement& element) {
+        const char* attribute = element.Attribute("placement_frame");
+        XMLElement* child = element.FirstChildElement("placement_frame");
+        const bool has_child =
+            child != nullptr && child->GetText() != nullptr && name == child->GetText();
+        if (!has_child && (attribute == nullptr || name != attribute)) return;
+        Warn(tree, element,
+             "there is no frame \"" + name + "\" to place " + NameIn(element) +
+                 " by; its own is taken");
+        element.DeleteAttribute("placement_frame");
+        if (has_child) element.DeleteChild(child);
+        tree.is_changed = true;
+      });
+    }
+  }
+
+  // "/sdf/world[@name="w"]/model[@name="m"]/link": the element, or the nearest around it that is
+  // there.
+  static XMLElement* Follow(XMLElement* root, const std::string& path, int line) {
+    XMLElement* at = nullptr;
+    std::size_t from = 0;
+    while (from < path.size()) {
+      const std::size_t name_end = path.find_first_of("/[", from + 1);
+      const std::string kind = path.substr(from + 1, name_end - from - 1);
+      std::optional<std::string> name;
+      from = name_end;
+      if (from != std::string::npos && path[from] == '[') {
+        const std::size_t open = path.find('"', from);
+        const std::size_t close = path.find("\"]", open + 1);
+        if (open == std::string::npos || close == std::string::npos) return nullptr;
+        name = path.substr(open + 1, close - open - 1);
+        from = close + 2;
+      }
+      XMLElement* child = at == nullptr ? root : at->FirstChildElement(kind.c_str());
+      const auto fits = [&](const XMLElement& element) {
+        const char* own = element.Attribute("name");
+        return !name || (own != nullptr && *name == own);
+      };
+      while (child != nullptr && !fits(*child)) child = child->NextSiblingElement(kind.c_str());
+      if (child == nullptr) return at;
+      at = child;
+      if (from == std::string::npos) break;
+    }
+    // Of several that are alike, the one on the line.
+    for (XMLElement* same = at; same != nullptr && line > 0;
+         same = same->NextSiblingElement(at->Name())) {
+      if (same->GetLineNum() == line) return same;
+    }
+    return at;
+  }
+
+  bool LeaveOut(const sdf::Error& error) {
+    for (Tree& tree : trees_) {
+      const std::string file = error.FilePath().value_or("");
+      const bool is_here = file.empty() || file.front() == '<' ? &tree == &trees_.front()
+                                                               : file == tree.text->path.string();
+      if (!is_here) continue;
+      XMLElement* element = Follow(tree.root(), *error.XmlPath(), error.LineNumber().value_or(0));
+      if (element == nullptr || IsTop(*element)) continue;
+      Warn(tree, *element,
+           NameIn(*element) + " cannot be read and is left out: " + error.Message().substr(0, 200));
+      element->Parent()->DeleteChild(element);
+      tree.is_changed = true;
+      return true;
+    }
+    return false;
+  }
+
+  // Without these nothing is left.
+  static bool IsTop(const XMLElement& element) {
+    const auto* parent = element.Parent()->ToElement();
+    return parent == nullptr || std::strcmp(parent->Name(), "sdf") == 0;
+  }
+
+  std::vector<Tree> trees_;
+  base::Problems& problems_;
+};
+
+}  // namespace
+
+bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& includes,
+                 base::Problems& problems) {
+  if (errors.empty()) return false;
+  return DocumentRepair(document, includes, problems).After(errors);
+}
+
+bool SeparateNames(SdfText& document, IncludedFiles& includes, base::Problems& problems) {
+  std::vector<Tree> trees = TreesOf(document, includes);
+  const auto without_scope = [](std::string text) {
+    for (std::size_t at = text.find(kScope); at != std::string::npos; at = text.find(kScope, at)) {
+      text.replace(at, std::strlen(kScope), ".");
+    }
+    return text;
+  };
+  for (Tree& tree : trees) {
+    ForEach(tree.root(), [&](XMLElement& element) {
+      for (const char* key : {"name", "relative_to", "attached_to", "frame", "expressed_in"}) {
+        const char* value = element.Attribute(key);
+        if (value == nullptr || std::strstr(value, kScope) == nullptr) continue;
+        element.SetAttribute(key, without_scope(value).c_str());
+        tree.is_changed = true;
+      }
+      const bool refers =
+          std::strcmp(element.Name(), "parent") == 0 || std::strcmp(element.Name(), "child") == 0;
+      if (!refers || element.GetText() == nullptr) return;
+      const std::string text = without_scope(element.GetText());
+      if (text != element.GetText()) element.SetText(text.c_str());
+    });
+    if (!tree.is_changed) continue;
+    problems.push_back(
+        {base::Problem::Severity::kWarning,
+         "names with \"::\" cannot be taken apart, since poses there are relative to "
+         "what lies outside; they are read with \".\" instead",
+         tree.text->path.string()});
+  }
+  return WriteChanged(trees);
+}
+
+}  // namespace gsv::formats
