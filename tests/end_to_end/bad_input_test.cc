@@ -101,7 +101,7 @@ std::string RobotWithSensor(const std::string& sensor) {
          "name='gz::sim::systems::VelocityControl'/></model></sdf>";
 }
 
-TEST(BadInput, SensorWhoseParametersAreRefusedIsAnErrorWithItsLine) {
+TEST(BadInput, SensorWhoseParametersAreRefusedIsAWarningWithItsLineAndTheRestRuns) {
   const std::pair<const char*, const char*> cases[] = {
       {"<sensor name='eye' type='camera'><camera><image><width>0</width></image></camera></sensor>",
        "image.width is 0"},
@@ -121,13 +121,31 @@ TEST(BadInput, SensorWhoseParametersAreRefusedIsAnErrorWithItsLine) {
   for (const auto& [sensor, part] : cases) {
     const auto robot = folder.Write("r.sdf", RobotWithSensor(sensor));
     const Outcome checked = RunProgram("gsv", {"model", "check", robot.string(), "--json"});
-    EXPECT_EQ(checked.ending, "exit code 3") << checked.out;
+    EXPECT_EQ(checked.ending, "exit code 0") << checked.out;
     const auto line = checked.LastLine();
-    EXPECT_EQ(line["severity"], "error") << sensor;
+    EXPECT_EQ(line["severity"], "warning") << sensor;
     EXPECT_THAT(line["where"].get<std::string>(), HasSubstr("r.sdf:3"));
     EXPECT_THAT(line["message"].get<std::string>(), AllOf(HasSubstr("eye"), HasSubstr(part)));
-    ExpectOneSentence(Headless(kPlayground, {"--robot", robot.string() + "@0,0"}), 3, part);
+    ExpectOneSentence(Headless(kPlayground, {"--robot", robot.string() + "@0,0", "--strict"}), 3,
+                      part);
   }
+  const Outcome outcome =
+      Headless(kPlayground, {"--robot", (folder.path() / "r.sdf").string() + "@0,0"});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("gsv: warning: "));
+}
+
+TEST(BadInput, ModelThatCanBeRepairedRunsUnlessStrictRefusesIt) {
+  base::testing::TestFolder folder;
+  const auto world = folder.Write(
+      "w.sdf",
+      "<sdf version='1.9'><world name='w'><model name='box'><link name='l'><inertial><mass>-1"
+      "</mass></inertial></link></model></world></sdf>");
+  const Outcome outcome = Headless(world.string(), {});
+  EXPECT_EQ(outcome.ending, "exit code 0") << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the mass must be above zero; 1 kg is taken"));
+  ExpectOneSentence(Headless(world.string(), {"--strict"}), 3,
+                    "the run is refused because of --strict");
 }
 
 TEST(BadInput, SensorOfATypeNobodyKnowsIsAWarningAndTheRestRuns) {

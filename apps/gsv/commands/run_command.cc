@@ -175,6 +175,11 @@ base::Result<int> Run(const RunOptions& given, Signals& signals, bool is_quiet) 
   auto warnings = GroupedSentences(problems, base::Problem::Severity::kWarning);
   Warn(Shortened(warnings, kWarningsPrinted,
                  "to see all: gsv world check " + options.scenario.world));
+  if (options.is_strict && !warnings.empty()) {
+    std::fprintf(stderr, "gsv: the run is refused because of --strict: %zu warnings\n",
+                 warnings.size());
+    return kBadModel;
+  }
 
   for (const simulation::Event& event : (*simulation)->events(0)) {
     if (event.kind == "robot_moved" && !is_quiet)

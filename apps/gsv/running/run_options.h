@@ -42,6 +42,7 @@ struct RunOptions {
   std::string failure_picture;  // a file to draw the first violation to; empty: none
   bool open_browser = false;
   bool json = false;
+  bool is_strict = false;  // warnings about the files refuse the run
 };
 
 // The options as they stand on the command line, before they are understood.
@@ -60,7 +61,7 @@ struct RunArguments {
   int threads = 0;
   ViewerOptions web;
   bool lockstep = false, real_time = false, headless = false, json = false, open = false,
-       in_process = false;
+       in_process = false, strict = false;
 };
 
 void AddRunOptions(CLI::App& command, RunArguments& arguments);
