@@ -1,5 +1,6 @@
 # `make run` shows GSV at work, `make test` runs every test. Both first install what is missing
 # (tools/setup) and build what they need: `make run` no tests.
+# `make docs` builds the documentation site, build/release/share/gsv/docs, which gsv serves at /docs/.
 # `make install` installs into PREFIX (/usr/local), `make deb` makes Debian packages in build/release/packages.
 # `make soak` repeats the determinism matrix many times and compares a debug build (a quarter of an hour, and the debug build);
 # it also runs a campaign of 500 runs by a Slurm of its own, has a viewer's tab stand still for three minutes,
@@ -19,14 +20,17 @@ CHAOS_SECONDS ?= 3600
 CHAOS_SEED ?= 1
 BUILD := build/$(PRESET)
 
-.PHONY: run test install deb soak chaos build configure setup asan tsan ubsan coverage fuzz format clean
+.PHONY: run test docs install deb soak chaos build configure setup asan tsan ubsan coverage fuzz format clean
 
 run: configure
-	cmake --build $(BUILD) --target programs --parallel $(JOBS)
+	cmake --build $(BUILD) --target programs docs --parallel $(JOBS)
 	$(BUILD)/bin/gsv run $(ARGS)
 
 test: build
 	tools/run_tests $(BUILD)
+
+docs: configure
+	cmake --build $(BUILD) --target docs
 
 # Programs, the SDK, the Python module: into PREFIX (/usr/local), or as Debian packages.
 PREFIX ?= /usr/local

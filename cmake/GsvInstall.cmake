@@ -2,7 +2,7 @@
 # their worlds, models, plug-ins and pages from where they lie, so a prefix may be moved as a whole:
 #
 #   bin/                programs                     lib/gsv/       plug-ins
-#   share/gsv/          worlds, models, the viewer   share/idl/gsv  the contracts
+#   share/gsv/          worlds, models, the viewer, the documentation   share/idl/gsv  the contracts
 #   lib/libgsv.so       the SDK                      lib/libgsv-behaviour.a  what plug-ins need of it
 #   include/gsv/        headers, by the paths they have here
 #   lib/cmake/gsv/, lib/pkgconfig/gsv.pc             for find_package and pkg-config
@@ -37,6 +37,7 @@ install(TARGETS ${GSV_PROGRAMS} RUNTIME DESTINATION bin COMPONENT gsv)
 install(TARGETS ${GSV_PLUGINS} LIBRARY DESTINATION lib/gsv COMPONENT gsv)
 install(DIRECTORY assets/models assets/worlds ${CMAKE_BINARY_DIR}/share/gsv/web
   DESTINATION share/gsv COMPONENT gsv)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/share/gsv/docs DESTINATION share/gsv COMPONENT gsv OPTIONAL)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/gsv COMPONENT gsv)
 install(FILES docs/gsv.1 DESTINATION share/man/man1 COMPONENT gsv)
 
@@ -86,7 +87,7 @@ install(FILES ${CMAKE_BINARY_DIR}/package/METADATA
 
 # Everything above, and nothing of the tests.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
-add_custom_target(installed DEPENDS ${GSV_PROGRAMS} ${GSV_PLUGINS} gsv_web gsv_shared_sdk gsv_plugin_sdk gsv_python)
+add_custom_target(installed DEPENDS docs ${GSV_PROGRAMS} ${GSV_PLUGINS} gsv_web gsv_shared_sdk gsv_plugin_sdk gsv_python)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME gsv)

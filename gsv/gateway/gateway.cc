@@ -18,6 +18,7 @@ class LocalGateway final : public Gateway, private Handler {
   LocalGateway(const GatewayOptions& options, metrics::MetricsSources sources,
                std::size_t readers = kReaderThreads)
       : files_(options.web_root),
+        documentation_(options.docs_root),
         monitor_(std::move(sources)),
         readers_(readers, kWaitingRequests) {}
 
@@ -29,6 +30,7 @@ class LocalGateway final : public Gateway, private Handler {
     set_ = std::move(set);
     std::vector<Route> routes = set_->Routes();
     Append(routes, monitor_.Routes());
+    Append(routes, documentation_.Routes());
     Append(routes, files_.Routes());
     router_.emplace(std::move(routes));
     options.traffic = monitor_.traffic();
@@ -63,6 +65,7 @@ class LocalGateway final : public Gateway, private Handler {
 
   // In the order in which the threads may start; Stop() ends them in the opposite sense.
   const StaticFiles files_;
+  const Documentation documentation_;
   const metrics::Monitor monitor_;
   WorkerPool readers_;
   WorkerPool commanders_{kCommanderThreads, kWaitingRequests};

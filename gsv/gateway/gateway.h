@@ -1,6 +1,6 @@
-// Simulations, a recording or another instance on the web: the viewer's files, an HTTP API, and
-// live data over the Foxglove WebSocket protocol at /ws. See docs/formats/live.md and
-// docs/api.yaml.
+// Simulations, a recording or another instance on the web: the viewer's files, the documentation
+// at /docs/, an HTTP API, and live data over the Foxglove WebSocket protocol at /ws. See
+// docs/formats/live.md and docs/api.yaml.
 //
 // There is one gateway, with one of three sets of routes: of the simulations of this program, of a
 // recording that is replayed (the same addresses and messages, so that the same viewer shows it),
@@ -30,7 +30,8 @@ struct GatewayOptions : ServerOptions {
   std::string version;  // of the program, for /metrics
   // Null: /metrics says nothing of the broker.
   std::function<metrics::BrokerCalls()> broker_calls{};
-  std::filesystem::path web_root;  // the viewer's files; may be absent
+  std::filesystem::path web_root;     // the viewer's files; may be absent
+  std::filesystem::path docs_root{};  // the documentation's files; may be absent
   // Null: nothing is recorded. Outlives the gateway.
   RecordingSwitch* recordings = nullptr;
   // Null: nobody can create a simulation here. Outlives the gateway.

@@ -120,6 +120,20 @@ TEST_F(GatewayTest, ServesTheViewersFiles) {
   EXPECT_EQ(Fetch(port(), "GET", "/../../../../etc/passwd").status, 404);
 }
 
+TEST_F(GatewayTest, ServesTheDocumentation) {
+  EXPECT_EQ(Fetch(port(), "GET", "/docs/").status, 404);
+  const base::testing::TestFolder root;
+  root.Write("index.html", "<p>documentation");
+  GatewayOptions options;
+  options.docs_root = root.path();
+  Start(options);
+  const HttpReply page = Fetch(port(), "GET", "/docs/");
+  EXPECT_EQ(page.body, "<p>documentation");
+  EXPECT_EQ(page.headers.at("content-security-policy"), "frame-ancestors 'self'");
+  EXPECT_EQ(Fetch(port(), "GET", "/").headers.at("content-security-policy"),
+            "frame-ancestors 'none'");
+}
+
 TEST_F(GatewayTest, AViewerSeesTheRobotsMove) {
   Viewer viewer(port());
   viewer.Subscribe(1, "/gsv/poses");

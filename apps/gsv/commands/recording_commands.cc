@@ -264,6 +264,7 @@ base::Result<std::unique_ptr<gateway::Gateway>> StartGateway(const ReplayArgumen
                                                              gateway::ReplayPlayer& player) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
+  options.docs_root = ShareFolder() / "docs";
   std::error_code error;
   // What was opened is there, and has a name.
   const std::filesystem::path file = std::filesystem::canonical(arguments.file, error);

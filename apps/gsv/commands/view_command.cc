@@ -30,6 +30,7 @@ base::Result<std::string> ViewerOf(const std::string& instance, const std::strin
 int View(const gateway::RelayedInstance& there, const ViewerOptions& web, Signals& signals) {
   gateway::GatewayOptions options;
   options.web_root = ShareFolder() / "web";
+  options.docs_root = ShareFolder() / "docs";
   auto relay = StartViewer(
       web, options, [&](const auto& here) { return gateway::Gateway::StartRelay(here, there); });
   if (!relay) return Complain(relay.error());

@@ -129,6 +129,7 @@ base::Status Runtime::StartBroker(const RuntimeOptions& options) {
 base::Status Runtime::StartGateway(const RuntimeOptions& options) {
   gateway::GatewayOptions gateway;
   gateway.web_root = ShareFolder() / "web";
+  gateway.docs_root = ShareFolder() / "docs";
   gateway.broker_calls = [] {
     const broker::CallCounts& counts = broker::ProcessCallCounts();
     return gateway::metrics::BrokerCalls{counts.made, counts.failed};

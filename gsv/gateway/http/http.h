@@ -33,6 +33,8 @@ struct Response {
   std::string etag;  // with its quotes; empty: none
   std::string cache_control = "no-store";
   std::string allow;  // 405: the methods that are allowed
+  // Whether pages of this server may show the response in a frame; pages of others never may.
+  bool allows_own_frames = false;
 };
 
 // May be called from any thread, exactly once.

@@ -73,6 +73,14 @@ std::string Page(const std::string& body) {
          body;
 }
 
+Response PageResponse(int status, const std::string& body) {
+  Response response;
+  response.status = status;
+  response.content_type = "text/html; charset=utf-8";
+  response.body = SharedBytes(Page(body));
+  return response;
+}
+
 std::string EscapedHtml(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -109,20 +117,15 @@ StaticFiles::StaticFiles(const fs::path& root) : given_(root) {
   if (!root.empty() && fs::is_directory(root, error)) root_ = fs::canonical(root, error);
 }
 
-Response StaticFiles::Get(const Request& request) const {
-  const std::vector<std::string>& segments = request.target.segments;
+std::optional<Response> StaticFiles::Find(const std::vector<std::string>& segments,
+                                          const std::string& if_none_match) const {
   const std::optional<fs::path> file = root_.empty() ? std::nullopt : Resolve(root_, segments);
-  if (!file) {
-    return segments.empty() ? Explain() : ErrorResponse(404, "there is nothing at this address");
-  }
+  if (!file) return std::nullopt;
   Response response;
   response.content_type = ContentTypeOf(*file);
   response.etag = TagOf(*file);
-  // The build gives files under assets/ names that change with their content.
-  response.cache_control = !segments.empty() && segments.front() == "assets"
-                               ? "public, max-age=31536000, immutable"
-                               : "no-cache";
-  if (Matches(request.if_none_match, response.etag)) {
+  response.cache_control = "no-cache";
+  if (Matches(if_none_match, response.etag)) {
     response.status = 304;
     return response;
   }
@@ -131,6 +134,19 @@ Response StaticFiles::Get(const Request& request) const {
   if (!in) return ErrorResponse(500, "the file could not be read");
   response.body = SharedBytes(std::move(bytes));
   return response;
+}
+
+Response StaticFiles::Get(const Request& request) const {
+  const std::vector<std::string>& segments = request.target.segments;
+  std::optional<Response> found = Find(segments, request.if_none_match);
+  if (!found) {
+    return segments.empty() ? Explain() : ErrorResponse(404, "there is nothing at this address");
+  }
+  // The build gives files under assets/ names that change with their content.
+  if (found->status < 400 && !segments.empty() && segments.front() == "assets") {
+    found->cache_control = "public, max-age=31536000, immutable";
+  }
+  return *std::move(found);
 }
 
 std::vector<Route> StaticFiles::Routes() const {
@@ -144,16 +160,40 @@ Response StaticFiles::Explain() const {
   const std::string place = given_.empty()
                                 ? "no directory was given for it"
                                 : "there is no index.html in " + EscapedHtml(given_.string());
-  Response response;
-  response.status = 404;
-  response.content_type = "text/html; charset=utf-8";
-  response.body = SharedBytes(Page(
+  return PageResponse(
+      404,
       "<h1>The viewer is not here</h1><p>gsv is running, but its viewer cannot be shown: " + place +
-      ". Build it with <code>npm ci &amp;&amp; npm run build</code> in <code>web/</code>, then "
-      "load "
-      "this page again.</p><p>The simulations can be reached without it: "
-      "<a href=\"/api/simulations\">/api/simulations</a>.</p>"));
-  return response;
+          ". Build it with <code>npm ci &amp;&amp; npm run build</code> in <code>web/</code>, then "
+          "load "
+          "this page again.</p><p>The simulations can be reached without it: "
+          "<a href=\"/api/simulations\">/api/simulations</a>.</p>");
+}
+
+Response Documentation::Get(const Request& request) const {
+  const std::vector<std::string>& all = request.target.segments;
+  const std::vector<std::string> segments(all.begin() + 1, all.end());
+  const std::string_view path =
+      std::string_view(request.raw_target).substr(0, request.raw_target.find('?'));
+  if (segments.empty() && !path.ends_with('/')) {
+    // The links of the pages are relative to "/docs/".
+    return PageResponse(200, "<meta http-equiv=\"refresh\" content=\"0; url=docs/\">");
+  }
+  if (std::optional<Response> found = files_.Find(segments, request.if_none_match)) {
+    found->allows_own_frames = true;  // doxygen's pages show what a search found in a frame
+    return *std::move(found);
+  }
+  if (!segments.empty()) return ErrorResponse(404, "the documentation has no such page");
+  return PageResponse(404,
+                      "<h1>The documentation is not installed</h1><p>Build it with <code>make "
+                      "docs</code> in the source tree, then load this page again. The pages are "
+                      "the files in the folder <code>docs</code> of the source tree.</p>");
+}
+
+std::vector<Route> Documentation::Routes() const {
+  const Route::Handler get = [this](const Request& request) { return Get(request); };
+  return {{"GET", "/docs", Permission::kNone, false, Pool::kReaders, get, "The documentation"},
+          {"GET", "/docs/{path...}", Permission::kNone, false, Pool::kReaders, get,
+           "The documentation's files"}};
 }
 
 }  // namespace gsv::gateway

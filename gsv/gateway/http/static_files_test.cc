@@ -81,6 +81,45 @@ TEST_F(StaticFilesTest, AnAbsentRootIsExplained) {
   EXPECT_NE(response.body.view().find("a&lt;b"), std::string_view::npos);
 }
 
+class DocumentationTest : public ::testing::Test {
+ protected:
+  Response Get(const std::string& target) const {
+    Request request;
+    request.raw_target = target;
+    request.target = ParseTarget(target).value();
+    return Documentation(folder_.path() / "docs").Get(request);
+  }
+
+  const base::testing::TestFolder folder_{};
+};
+
+TEST_F(DocumentationTest, ServesThePagesOfItsFolder) {
+  folder_.Write("docs/index.html", "<p>start");
+  folder_.Write("docs/tutorial/02.html", "<p>wander");
+  folder_.Write("secret.txt", "secret");
+  EXPECT_EQ(Get("/docs/").body.view(), "<p>start");
+  EXPECT_EQ(Get("/docs/?q=1").body.view(), "<p>start");
+  EXPECT_EQ(Get("/docs/tutorial/02.html").body.view(), "<p>wander");
+  EXPECT_EQ(Get("/docs/tutorial/02.html").cache_control, "no-cache");
+  EXPECT_TRUE(Get("/docs/tutorial/02.html").allows_own_frames);
+  EXPECT_EQ(Get("/docs/absent.html").status, 404);
+  EXPECT_EQ(Get("/docs/..%2fsecret.txt").status, 404);
+}
+
+TEST_F(DocumentationTest, TheAddressWithoutASlashLeadsToTheOneWithIt) {
+  folder_.Write("docs/index.html", "<p>start");
+  const Response response = Get("/docs");
+  EXPECT_EQ(response.status, 200);
+  EXPECT_NE(response.body.view().find("url=docs/"), std::string_view::npos);
+}
+
+TEST_F(DocumentationTest, AnAbsentFolderIsExplained) {
+  const Response response = Get("/docs/");
+  EXPECT_EQ(response.status, 404);
+  EXPECT_EQ(response.content_type, "text/html; charset=utf-8");
+  EXPECT_NE(response.body.view().find("make docs"), std::string_view::npos);
+}
+
 TEST(ContentTypeOf, KnowsTheViewersFiles) {
   EXPECT_EQ(ContentTypeOf("a/b.PNG"), "image/png");
   EXPECT_EQ(ContentTypeOf("x.wasm"), "application/wasm");

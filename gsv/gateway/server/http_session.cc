@@ -300,7 +300,8 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
     set(http::field::cache_control, response.cache_control);
     set(http::field::allow, response.allow);
     message.set("X-Content-Type-Options", "nosniff");
-    message.set("Content-Security-Policy", "frame-ancestors 'none'");
+    message.set("Content-Security-Policy",
+                response.allows_own_frames ? "frame-ancestors 'self'" : "frame-ancestors 'none'");
     message.set("Cross-Origin-Resource-Policy", "same-origin");
     message.keep_alive(keep_alive_);
     return message;

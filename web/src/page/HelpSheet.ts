@@ -77,13 +77,18 @@ export function createHelpSheet(app: App): HTMLElement {
   const gestures = GESTURES.map(([gesture, meaning]) => line([gesture], meaning));
   const close = element(
     "button",
-    { class: "button plain small", type: "button", "aria-label": "Close help" },
+    { class: "button plain small", type: "button", "aria-label": "Close help", autofocus: true },
     icon("close"),
+  );
+  const documentation = element(
+    "a",
+    { class: "button", href: "docs/", target: "_blank", rel: "noopener" },
+    "Open documentation",
   );
   const sheet = element(
     "dialog",
     { class: "card help", "aria-label": "Help" },
-    element("div", { class: "card-head" }, element("h2", {}, "Keys and gestures"), close),
+    element("div", { class: "card-head" }, element("h2", {}, "Keys and gestures"), documentation, close),
     singleKeysSetting(app),
     element("div", { class: "help-sections" }, ...keys, section("Mouse and touch", gestures)),
   );

@@ -220,6 +220,13 @@ test("panels are opened and closed by their buttons, whoever opened them", () =>
   expect(button.getAttribute("aria-pressed")).toBe("false");
 });
 
+test("the help sheet opens the documentation beside the viewer", () => {
+  const { app } = testApp();
+  const link = createHelpSheet(app).querySelector<HTMLAnchorElement>("a[href='docs/']")!;
+  expect(link.textContent).toBe("Open documentation");
+  expect(link.target).toBe("_blank");
+});
+
 test("single keys are turned off in the help sheet", () => {
   const { app, store } = testApp();
   document.body.replaceChildren(createHelpSheet(app));

@@ -1,0 +1,77 @@
+"""Prepares the public headers, the IDL and the Python module for doxygen, for tools/make_docs.
+
+The comments of this tree are plain ("//"); doxygen reads "///". A comment above a declaration
+documents it, a comment behind one documents what stands before it, and the first comment of a file is
+the file's.
+"""
+
+import re
+from pathlib import Path
+
+# What applications, behaviours and sensor plug-ins include; cmake/GsvInstall.cmake installs these and
+# what they need.
+CPP_FOLDERS = ("sdk", "sdk/behaviour", "sdk/testing", "gsv/base", "gsv/readings", "gsv/geometry", "gsv/broker/client",
+               "gsv/sensing", "gsv/services")
+REFERENCES = {"cpp": "GSV C++ reference", "idl": "GSV IDL reference", "python": "GSV Python reference"}
+MAIN_PAGES = {
+    "cpp": "[Documentation](../../index.html), [all classes](annotated.html).\n\nHeaders of the SDK (`sdk/`) and of the libraries that it uses. Behaviours begin at "
+           "gsv::sdk, sensor plug-ins at gsv::sensing.",
+    "idl": "[Documentation](../../index.html), [all interfaces](annotated.html).\n\nInterfaces of the CORBA services, module gsv::sba.",
+    "python": "[Documentation](../../index.html), [all classes](annotated.html).\n\nThe module `gsv`: behaviours, applications and fixtures for pytest.",
+}
+
+
+def escaped(comment):
+    """A comment whose characters mean themselves, but for code in backticks."""
+    parts = re.split(r"(`[^`]*`)", comment)
+    for index in range(0, len(parts), 2):
+        parts[index] = re.sub(r"([\\@#%])", r"\\\1", parts[index]).replace("<", "&lt;")
+    return "".join(parts)
+
+
+def documented(source):
+    """The source with its comments as doxygen reads them."""
+    lines, column, is_first = [], None, True
+    for line in source.splitlines():
+        found = re.match(r'((?:[^"/]|"(?:[^"\\]|\\.)*"|/(?![/*]))*)//(?!/)\s?(.*)', line)
+        if not found:
+            column = None
+            is_first = is_first and not line.strip()
+            lines.append(line)
+            continue
+        code, words = found.groups()
+        continues = column == len(code) and not code.strip()
+        if words.startswith(("namespace", "clang-format", "NOLINT")):
+            lines.append(line)
+        elif code.strip() or continues:
+            column = len(code)
+            lines.append(f"{code}///< {escaped(words)}")
+        else:
+            column = None
+            lines.append(f"{code}/// " + ("\\file\n/// " if is_first and not code else "") + escaped(words))
+            is_first = False
+    return "\n".join(lines) + "\n"
+
+
+def files_of(root, language):
+    root = Path(root)
+    if language == "cpp":
+        for folder in CPP_FOLDERS:
+            yield from sorted(file for file in (root / folder).glob("*.h") if not file.stem.startswith("test_"))
+    elif language == "idl":
+        yield from sorted((root / "idl").glob("*.idl"))
+    else:
+        yield from sorted((root / "sdk/python/gsv").glob("*.py*"))
+
+
+def prepare(root, language, folder):
+    """Copies what the reference of a language is made of into a folder, with a main page."""
+    for file in files_of(root, language):
+        text = file.read_text(encoding="utf-8")
+        there = Path(folder) / file.relative_to(root)
+        if language == "python":
+            there = Path(folder) / "gsv" / file.name.replace(".pyi", ".py")
+        there.parent.mkdir(parents=True, exist_ok=True)
+        there.write_text(text if language == "python" else documented(text), encoding="utf-8")
+    title = REFERENCES[language]
+    Path(folder, "main.md").write_text(f"# {title} {{#mainpage}}\n\n{MAIN_PAGES[language]}\n", encoding="utf-8")
