@@ -23,8 +23,7 @@ double To(const Box& box, const Vector3& p) {
 double To(const Sphere& sphere, const Vector3& p) { return Norm(p) - sphere.radius; }
 
 double To(const Cylinder& cylinder, const Vector3& p) {
-  return ToRectangle(std::hypot(p.x, p.y) - cylinder.radius,
-                     std::abs(p.z) - cylinder.length / 2);
+  return ToRectangle(std::hypot(p.x, p.y) - cylinder.radius, std::abs(p.z) - cylinder.length / 2);
 }
 
 double To(const Capsule& capsule, const Vector3& p) {
@@ -56,8 +55,7 @@ double To(const Cone& cone, const Vector3& p) {
   const Vector2 centre{0, -cone.length / 2}, rim{cone.radius, -cone.length / 2},
       apex{0, cone.length / 2};
   const double distance = std::min(ToSegment(point, centre, rim), ToSegment(point, rim, apex));
-  const double side =
-      cone.length * (point.x - cone.radius) + cone.radius * (point.y - centre.y);
+  const double side = cone.length * (point.x - cone.radius) + cone.radius * (point.y - centre.y);
   return point.y > centre.y && side < 0 ? -distance : distance;
 }
 

@@ -41,8 +41,8 @@ std::optional<CollisionIndex> Scoped(const Model& model, std::string_view name) 
 
 std::string_view WithoutNumber(std::string_view name) {
   const std::size_t last = name.find_last_not_of("0123456789");
-  const bool is_numbered = last != std::string_view::npos && last + 1 < name.size() &&
-                           last > 0 && name[last] == '_';
+  const bool is_numbered =
+      last != std::string_view::npos && last + 1 < name.size() && last > 0 && name[last] == '_';
   return is_numbered ? name.substr(0, last) : name;
 }
 

@@ -113,8 +113,7 @@ bool HasDiagonalRollers(const Model& model, const Wheel& wheel) {
   });
 }
 
-void AddSteering(const std::vector<Wheel>& fixed,
-                 const std::vector<Wheel>& steered, Drive& drive) {
+void AddSteering(const std::vector<Wheel>& fixed, const std::vector<Wheel>& steered, Drive& drive) {
   std::set<int> swivels;
   for (const Wheel& wheel : steered) swivels.insert(*wheel.swivel);
   drive.steered.assign(swivels.begin(), swivels.end());

@@ -7,7 +7,7 @@
 
 #include "gsv/base/error.h"
 #include "gsv/services/end_patience.h"
-#include "gsv/simulation/robots/behaviour_port.h"
+#include "gsv/simulation/behaviour_port.h"
 
 namespace gsv::services {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "gsv/services/servant_group.h"
-#include "gsv/simulation/robots/agent.h"
+#include "gsv/simulation/agent.h"
 
 namespace gsv::services {
 

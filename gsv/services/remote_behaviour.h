@@ -9,7 +9,7 @@
 #include "gsv/base/mutex.h"
 #include "gsv/services/end_patience.h"
 #include "gsv/services/hardware_servants.h"
-#include "gsv/simulation/robots/behaviour_port.h"
+#include "gsv/simulation/behaviour_port.h"
 #include "idl/behaviour.hh"
 
 namespace gsv::services {

@@ -13,7 +13,7 @@
 #include "gsv/readings/catalogue.h"
 #include "gsv/services/conversions.h"
 #include "gsv/services/servant_group.h"
-#include "gsv/simulation/robots/agent.h"
+#include "gsv/simulation/agent.h"
 
 namespace gsv::services {
 

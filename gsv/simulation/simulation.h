@@ -14,9 +14,9 @@
 
 #include "gsv/base/error.h"
 #include "gsv/sensing/registry.h"
+#include "gsv/simulation/agent.h"
+#include "gsv/simulation/behaviour_port.h"
 #include "gsv/simulation/observer.h"
-#include "gsv/simulation/robots/agent.h"
-#include "gsv/simulation/robots/behaviour_port.h"
 #include "gsv/simulation/types.h"
 #include "gsv/world/snapshot.h"
 

@@ -32,7 +32,8 @@ std::vector<std::string> OurWorlds() {
 
 base::Result<std::string> FindWorld(const std::string& world) {
   std::error_code ignored;
-  if (fs::exists(formats::xacro::FilePart(world), ignored) || world.find('/') != std::string::npos) return world;
+  if (fs::exists(formats::xacro::FilePart(world), ignored) || world.find('/') != std::string::npos)
+    return world;
   for (const char* suffix : {".sdf", ""}) {
     const fs::path ours = ShareFolder() / "worlds" / (world + suffix);
     if (fs::is_regular_file(ours, ignored)) return ours;

@@ -11,7 +11,7 @@
 #include "apps/gsv/serving/runtime.h"
 #include "apps/gsv/simulations/recordings.h"
 #include "gsv/scenario/scenario.h"
-#include "gsv/simulation/robots/behaviour_port.h"
+#include "gsv/simulation/behaviour_port.h"
 #include "gsv/simulation/types.h"
 
 namespace CLI {

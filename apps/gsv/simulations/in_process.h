@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gsv/base/error.h"
-#include "gsv/simulation/robots/behaviour_port.h"
+#include "gsv/simulation/behaviour_port.h"
 
 namespace gsv::app {
 

@@ -106,10 +106,10 @@ TEST(LastingMessages, OfAPartComeFirstAndAtItsStart) {
   }
   std::sort(lasting.begin(), lasting.end());
   using Each = std::tuple<std::string, base::SimTime>;
-  EXPECT_THAT(lasting, ElementsAre(Each("/gsv/commands", 30ms), Each("/gsv/commands", 40ms),
-                                   Each("/gsv/edits", 20ms), Each("/gsv/edits", 60ms),
-                                   Each("/map", 5ms), Each("/plan", 7ms),
-                                   Each("/tf_static", 10ms)));
+  EXPECT_THAT(lasting,
+              ElementsAre(Each("/gsv/commands", 30ms), Each("/gsv/commands", 40ms),
+                          Each("/gsv/edits", 20ms), Each("/gsv/edits", 60ms), Each("/map", 5ms),
+                          Each("/plan", 7ms), Each("/tf_static", 10ms)));
   EXPECT_THAT(commands, ElementsAre(2, 3));
 }
 

@@ -39,8 +39,7 @@ template <typename MessageType>
 class Lidar final : public SensorOf<readings::Lidar, MessageType> {
  public:
   Lidar(const model::SensorDescription& description, ParameterReader& reader)
-      : SensorOf<readings::Lidar, MessageType>(description),
-        settings_(ReadLidarSettings(reader)) {
+      : SensorOf<readings::Lidar, MessageType>(description), settings_(ReadLidarSettings(reader)) {
     if (reader.status()) directions_ = Directions(settings_);
   }
 
@@ -134,8 +133,8 @@ bool HasRows(const model::SensorDescription& description) {
 SensorType LidarType() {
   using OneRow = Lidar<LaserScan>;
   using Rows = Lidar<LidarScan>;
-  auto type =
-      MakeSensorType<OneRow>(readings::Lidar::kType, {"ray", "gpu_ray", "gpu_lidar"}, Overlay::kPoints);
+  auto type = MakeSensorType<OneRow>(readings::Lidar::kType, {"ray", "gpu_ray", "gpu_lidar"},
+                                     Overlay::kPoints);
   const auto rows = MakeSensorType<Rows>(readings::Lidar::kType);
   const SensorMessages of_rows{
       rows.schema, Companion{"points", &messages::SchemaOf<PointCloud2>(), /*of_readings=*/true}};

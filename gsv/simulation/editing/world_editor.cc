@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "gsv/sensing/rays/ground.h"
-#include "gsv/simulation/device_loop.h"
 #include "gsv/simulation/editing/body_names.h"
 #include "gsv/simulation/editing/carry_over.h"
 #include "gsv/simulation/editing/placement.h"
 #include "gsv/simulation/limits.h"
+#include "gsv/simulation/world/device_loop.h"
 
 namespace gsv::simulation {
 namespace {

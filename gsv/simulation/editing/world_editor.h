@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "gsv/simulation/event_log.h"
+#include "gsv/simulation/history/event_log.h"
 #include "gsv/simulation/robots/shared_state.h"
-#include "gsv/simulation/simulated_world.h"
 #include "gsv/simulation/simulation.h"
+#include "gsv/simulation/world/simulated_world.h"
 
 namespace gsv::simulation {
 

@@ -10,7 +10,7 @@
 
 #include "gsv/base/hash.h"
 #include "gsv/base/sim_time.h"
-#include "gsv/simulation/robots/agent.h"
+#include "gsv/simulation/agent.h"
 
 namespace gsv::simulation {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "gsv/simulation/event_log.h"
+#include "gsv/simulation/history/event_log.h"
 #include "gsv/simulation/robots/behaviour_caller.h"
 #include "gsv/simulation/robots/robot_agent.h"
 

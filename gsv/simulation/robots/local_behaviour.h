@@ -14,11 +14,11 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/sensing/sensor.h"
-#include "gsv/simulation/robots/agent.h"
-#include "gsv/simulation/robots/behaviour_port.h"
+#include "gsv/simulation/agent.h"
+#include "gsv/simulation/behaviour_port.h"
+#include "gsv/simulation/history/snapshot_history.h"
 #include "gsv/simulation/robots/mounted_sensor.h"
 #include "gsv/simulation/robots/robot_commands.h"
-#include "gsv/simulation/robots/snapshot_history.h"
 
 namespace gsv::simulation {
 

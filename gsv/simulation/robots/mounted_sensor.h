@@ -12,7 +12,7 @@
 
 #include "gsv/base/mutex.h"
 #include "gsv/sensing/registry.h"
-#include "gsv/simulation/robots/snapshot_history.h"
+#include "gsv/simulation/history/snapshot_history.h"
 
 namespace gsv::simulation {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <set>
 
+#include "gsv/simulation/agent.h"
 #include "gsv/simulation/pace/wall_clock.h"
-#include "gsv/simulation/robots/agent.h"
 #include "gsv/simulation/robots/agent_clocks.h"
 #include "gsv/simulation/robots/local_behaviour.h"
 #include "gsv/simulation/robots/robot_commands.h"

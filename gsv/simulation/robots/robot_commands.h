@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "gsv/sensing/device.h"
-#include "gsv/simulation/robots/agent.h"
+#include "gsv/simulation/agent.h"
 #include "gsv/simulation/robots/mounted_sensor.h"
 
 namespace gsv::simulation {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "gsv/base/mutex.h"
+#include "gsv/simulation/history/snapshot_history.h"
 #include "gsv/simulation/robots/sensor_rack.h"
-#include "gsv/simulation/robots/snapshot_history.h"
 #include "gsv/simulation/robots/wake_calendar.h"
 #include "gsv/simulation/types.h"
 

@@ -1,4 +1,4 @@
-#include "gsv/simulation/run_control.h"
+#include "gsv/simulation/stepping/run_control.h"
 
 #include <algorithm>
 #include <utility>

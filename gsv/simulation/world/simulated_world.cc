@@ -1,8 +1,8 @@
-#include "gsv/simulation/simulated_world.h"
+#include "gsv/simulation/world/simulated_world.h"
 
 #include <utility>
 
-#include "gsv/simulation/device_loop.h"
+#include "gsv/simulation/world/device_loop.h"
 
 namespace gsv::simulation {
 

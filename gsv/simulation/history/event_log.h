@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "gsv/base/mutex.h"
+#include "gsv/simulation/history/snapshot_history.h"
 #include "gsv/simulation/observer.h"
-#include "gsv/simulation/robots/snapshot_history.h"
 #include "gsv/simulation/types.h"
 
 namespace gsv::simulation {

@@ -1,4 +1,4 @@
-#include "gsv/simulation/watchdog.h"
+#include "gsv/simulation/stepping/watchdog.h"
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "gsv/simulation/device_loop.h"
+#include "gsv/simulation/world/device_loop.h"
 
 #include <algorithm>
 

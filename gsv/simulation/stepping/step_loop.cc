@@ -1,4 +1,4 @@
-#include "gsv/simulation/step_loop.h"
+#include "gsv/simulation/stepping/step_loop.h"
 
 #include <pthread.h>
 #include <sys/resource.h>

@@ -14,8 +14,8 @@
 
 #include "gsv/base/thread_team.h"
 #include "gsv/simulation/editing/robot_models.h"
-#include "gsv/simulation/step_loop.h"
-#include "gsv/simulation/watchdog.h"
+#include "gsv/simulation/stepping/step_loop.h"
+#include "gsv/simulation/stepping/watchdog.h"
 
 namespace gsv::simulation {
 

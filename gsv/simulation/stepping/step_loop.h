@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "gsv/base/thread_team.h"
-#include "gsv/simulation/device_loop.h"
 #include "gsv/simulation/faults/fault_injector.h"
-#include "gsv/simulation/life_cycle.h"
+#include "gsv/simulation/history/snapshot_pool.h"
 #include "gsv/simulation/robots/gate_opener.h"
-#include "gsv/simulation/snapshot_pool.h"
+#include "gsv/simulation/stepping/life_cycle.h"
+#include "gsv/simulation/world/device_loop.h"
 
 namespace gsv::simulation {
 

@@ -1,4 +1,4 @@
-#include "gsv/simulation/stepping_simulation.h"
+#include "gsv/simulation/stepping/stepping_simulation.h"
 
 #include <future>
 #include <utility>

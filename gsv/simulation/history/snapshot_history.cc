@@ -1,4 +1,4 @@
-#include "gsv/simulation/robots/snapshot_history.h"
+#include "gsv/simulation/history/snapshot_history.h"
 
 namespace gsv::simulation {
 

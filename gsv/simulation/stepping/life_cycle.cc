@@ -1,4 +1,4 @@
-#include "gsv/simulation/life_cycle.h"
+#include "gsv/simulation/stepping/life_cycle.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "gsv/simulation/editing/placement.h"
-#include "gsv/simulation/stepping_simulation.h"
+#include "gsv/simulation/stepping/stepping_simulation.h"
 #include "gsv/world/station.h"
 
 namespace gsv::simulation {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "gsv/dynamics/motion/engine.h"
-#include "gsv/simulation/attachments.h"
-#include "gsv/simulation/world_lock.h"
+#include "gsv/simulation/world/attachments.h"
+#include "gsv/simulation/world/world_lock.h"
 #include "gsv/world/wheel_odometry.h"
 
 namespace gsv::simulation {

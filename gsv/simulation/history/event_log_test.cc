@@ -1,4 +1,4 @@
-#include "gsv/simulation/event_log.h"
+#include "gsv/simulation/history/event_log.h"
 
 #include <gmock/gmock.h>
 

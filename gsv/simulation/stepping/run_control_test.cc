@@ -1,6 +1,6 @@
 // RunControl against the model of the life cycle: every sequence of requests and steps up to a
 // length, without threads.
-#include "gsv/simulation/run_control.h"
+#include "gsv/simulation/stepping/run_control.h"
 
 #include <cmath>
 

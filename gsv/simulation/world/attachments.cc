@@ -1,4 +1,4 @@
-#include "gsv/simulation/attachments.h"
+#include "gsv/simulation/world/attachments.h"
 
 #include <algorithm>
 

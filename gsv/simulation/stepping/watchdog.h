@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "gsv/simulation/life_cycle.h"
+#include "gsv/simulation/stepping/life_cycle.h"
 
 namespace gsv::simulation {
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "gsv/simulation/stepping_simulation.h"
+#include "gsv/simulation/stepping/stepping_simulation.h"
 
 namespace gsv::simulation {
 

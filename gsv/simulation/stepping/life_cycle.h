@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "gsv/simulation/event_log.h"
+#include "gsv/simulation/history/event_log.h"
 #include "gsv/simulation/pace/run_pace.h"
 #include "gsv/simulation/robots/agent_population.h"
-#include "gsv/simulation/run_control.h"
-#include "gsv/simulation/world_lock.h"
+#include "gsv/simulation/stepping/run_control.h"
+#include "gsv/simulation/world/world_lock.h"
 
 namespace gsv::simulation {
 
