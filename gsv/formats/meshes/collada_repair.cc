@@ -52,8 +52,11 @@ class ColladaText {
         is_changed_ = true;
       } else if (XMLElement* inner = child->ToElement()) {
         Visit(*inner);
-        if (IsElement(*inner, "ph")) CloseHoles(*inner);
-        if (IsElement(*inner, "image")) NameImage(*inner);
+        if (IsElement(*inner, "ph")) {
+          CloseHoles(*inner);
+        } else if (IsElement(*inner, "image")) {
+          NameImage(*inner);
+        }
       }
     }
   }
