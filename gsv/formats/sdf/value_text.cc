@@ -52,7 +52,8 @@ RepairedText RepairFlag(const std::string& text, const std::string& otherwise) {
     lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (lower == "true" || lower == "false" || lower == "1" || lower == "0") return {text, ""};
-  return {otherwise, "true or false is expected"};
+  // libsdformat writes its defaults as 1 and 0.
+  return {otherwise == "1" || otherwise == "true" ? "true" : "false", "true or false is expected"};
 }
 
 RepairedText RepairOne(const std::string& type, const std::string& text,
