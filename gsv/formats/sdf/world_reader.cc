@@ -51,8 +51,8 @@ class WorldReader {
     if (const XMLElement* second = world->NextSiblingElement("world")) {
       context_.Warn("only the first world of a file is read", PlaceOf(file_.path, *second));
     }
-    TakeScripts(*world);
     RepairValues(*world, file_.path, problems_);
+    TakeScripts(*world);
     if (auto status = TakeIncludes(*world); !status) return Fail(status.error());
     scan_.Scan(*world, file_.path);
     if (auto status = TakeParts(*world); !status) return Fail(status.error());
