@@ -30,9 +30,6 @@ struct ReadingContext {
   void Warn(std::string message, std::string where) const {
     problems.push_back({base::Problem::Severity::kWarning, std::move(message), std::move(where)});
   }
-  void Complain(std::string message, std::string where) const {
-    problems.push_back({base::Problem::Severity::kError, std::move(message), std::move(where)});
-  }
 };
 
 inline geometry::Vector3 FromIgnition(const ignition::math::Vector3d& v) {
