@@ -121,6 +121,19 @@ TEST_F(SdfJointTest, ComplainsOfControllersOfJointsThatAreNotThere) {
   EXPECT_THAT(problems_[0].Sentence(), AllOf(HasSubstr("m.sdf:2"), HasSubstr("\"nowhere\"")));
 }
 
+TEST_F(SdfJointTest, TakesTheFirstFrictionInEveryDirectionWithoutASecond) {
+  for (const char* friction :
+       {"<ode><mu>0.4</mu></ode>", "<bullet><friction>0.4</friction></bullet>"}) {
+    const auto model =
+        Read(std::string("<link name='a'><collision name='c'><geometry><sphere><radius>1</radius>"
+                         "</sphere></geometry><surface><friction>") +
+             friction + "</friction></surface></collision></link>");
+    const model::Surface& surface = model->links.at(0).collisions.at(0).surface;
+    EXPECT_EQ(surface.friction, 0.4);
+    EXPECT_EQ(surface.friction2, 0.4);
+  }
+}
+
 TEST_F(SdfJointTest, ReadsBothFrictionsAndTheirDirectionAndWhoHasNoGravity) {
   const auto model = Read(
       "<link name='a'><gravity>0</gravity><collision name='c'><geometry><sphere><radius>1</radius>"

@@ -103,8 +103,8 @@ TEST_F(GazeboValues, BoxesSlideDownAnInclineAsTheirFrictionLetsThem) {
     content += "<model name='box" + std::to_string(i) + "'><pose>" + std::to_string(2 * i) +
                " -0.8660254 0.5 -0.52359878 0 0</pose><link name='l'><pose>0 0 0.5 0 0 0</pose>" +
                Inertial("60", Moments("10", "10", "10")) + "<collision name='c'>" + Box("1 1 1") +
-               "<surface><friction><ode><mu>" + frictions[i] + "</mu><mu2>" + frictions[i] +
-               "</mu2></ode></friction></surface></collision></link></model>";
+               "<surface><friction><ode><mu>" + frictions[i] +
+               "</mu></ode></friction></surface></collision></link></model>";
   }
   Start(content);
   std::vector<Vector3> start;

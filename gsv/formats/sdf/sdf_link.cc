@@ -45,10 +45,17 @@ model::Surface ReadSurface(const sdf::ElementPtr& collision, const ReadingContex
                    PlaceOf(*collision, context.source));
     }
   };
-  take(surface.friction, {"surface", "friction", "bullet", "friction"});
-  take(surface.friction2, {"surface", "friction", "bullet", "friction2"});
-  take(surface.friction, {"surface", "friction", "ode", "mu"});
-  take(surface.friction2, {"surface", "friction", "ode", "mu2"});
+  // One that has no second friction has the first in every direction, as in gz-sim, whose own test
+  // of boxes on an incline gives <mu> alone.
+  const auto take_both = [&](const char* engine, const char* first, const char* second) {
+    take(surface.friction, {"surface", "friction", engine, first});
+    if (ValueAt<double>(collision, {"surface", "friction", engine, first})) {
+      surface.friction2 = surface.friction;
+    }
+    take(surface.friction2, {"surface", "friction", engine, second});
+  };
+  take_both("bullet", "friction", "friction2");
+  take_both("ode", "mu", "mu2");
   auto direction =
       ValueAt<ignition::math::Vector3d>(collision, {"surface", "friction", "ode", "fdir1"});
   if (!direction) {

@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using namespace life_cycle;
 
 constexpr SimTime kStepSize = 10ms;
-constexpr auto kPatience = 20s;  // wall time in which every expected change must have come
+constexpr auto kLongestChange = 20s;  // wall time in which every expected change must have come
 
 std::shared_ptr<const model::Model> VelocityDisc() {
   auto model = std::make_shared<model::Model>();
@@ -166,7 +166,7 @@ constexpr auto kRest = {Phase::kCreated, Phase::kPaused, Phase::kStopped, Phase:
 // What a fresh simulation comes to after `steps`, which must not pass its end.
 std::string HashAfter(Simulation& simulation, std::int64_t steps) {
   EXPECT_TRUE(simulation.RunUntil(steps * kStepSize));
-  EXPECT_EQ(simulation.WaitForPhase({Phase::kPaused}, kPatience), Phase::kPaused);
+  EXPECT_EQ(simulation.WaitForPhase({Phase::kPaused}, kLongestChange), Phase::kPaused);
   return simulation.state_hash();
 }
 
@@ -187,7 +187,7 @@ std::string PlayOneSequence(std::uint32_t seed) {
              (answer ? "accepted" : answer.error().Sentence());
     }
     if (dice.Below(2) == 0 && model.Settles()) {
-      simulation->WaitForPhase(kRest, kPatience);
+      simulation->WaitForPhase(kRest, kLongestChange);
       model.HasSettled();
       story += " settle";
     }
