@@ -62,8 +62,8 @@ class ActorReader {
       return value;
     }
     context_.Warn("<" + std::string(name) + "> must be a number from 0 to 1e8, found \"" +
-                          TextOf(element) + "\"; " + std::to_string(otherwise) + " is taken",
-                      Place(*element));
+                      TextOf(element) + "\"; " + std::to_string(otherwise) + " is taken",
+                  Place(*element));
     return otherwise;
   }
 

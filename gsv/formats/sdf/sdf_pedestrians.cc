@@ -50,7 +50,7 @@ std::shared_ptr<const model::PedestrianGroup> ReadPedestrians(const XMLElement& 
   ReadNumber(element, "gsv:height", group->height);
   if (auto ok = model::Check(*group); !ok) {
     context.Warn("the pedestrians are left out: " + ok.error().message,
-                     PlaceOf(context.source, element));
+                 PlaceOf(context.source, element));
     return nullptr;
   }
   return group;
