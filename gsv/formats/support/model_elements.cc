@@ -6,32 +6,32 @@ namespace gsv::formats {
 // clang-format off
 const std::string_view kModelElements = R"table(
 [actor]
-@name - 1.4-
+@name + 1.4-
 @static - 1.4-1.4 =false
-animation* - 1.4-
-animation/@name - 1.4-
-animation/filename - 1.4-
-animation/interpolate_x - 1.4- =false
-animation/scale - 1.4- =1.0
+animation* ~ 1.4- ; one animation moves an actor, the first that a trajectory names
+animation/@name + 1.4-
+animation/filename + 1.4-
+animation/interpolate_x + 1.4- =false
+animation/scale + 1.4- =1.0
 frame:frame* - 1.5-1.6
 joint:joint* - 1.4-
-link:link* - 1.4-
+link:link* + 1.4-
 plugin:plugin* - 1.4-
-pose:pose - 1.4- =0 0 0 0 0 0
-script - 1.4-
-script/auto_start - 1.4- =true
-script/delay_start - 1.4- =0.0
-script/loop - 1.4- =true
-script/trajectory* - 1.4-
-script/trajectory/@id - 1.4- =0
-script/trajectory/@tension - 1.6- =0.0
-script/trajectory/@type - 1.4-
-script/trajectory/waypoint* - 1.4-
-script/trajectory/waypoint/pose - 1.4- =0 0 0 0 0 0
-script/trajectory/waypoint/time - 1.4- =0.0
-skin - 1.4-
-skin/filename - 1.4-
-skin/scale - 1.4- =1.0
+pose:pose + 1.4- =0 0 0 0 0 0
+script + 1.4-
+script/auto_start + 1.4- =true
+script/delay_start + 1.4- =0.0
+script/loop + 1.4- =true
+script/trajectory* + 1.4-
+script/trajectory/@id + 1.4- =0
+script/trajectory/@tension + 1.6- =0.0
+script/trajectory/@type + 1.4-
+script/trajectory/waypoint* + 1.4-
+script/trajectory/waypoint/pose + 1.4- =0 0 0 0 0 0
+script/trajectory/waypoint/time + 1.4- =0.0
+skin + 1.4-
+skin/filename + 1.4-
+skin/scale + 1.4- =1.0
 static - 1.5-1.6 =true
 [model]
 @canonical_link + 1.7- =

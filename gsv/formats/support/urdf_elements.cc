@@ -13,7 +13,7 @@ joint:urdf_joint* +
 material:urdf_material* +
 gazebo:gazebo* +
 transmission* . ; joints are driven by behaviours; the drive is guessed, or given by a plugin
-ros2_control* .
+ros2_control* +
 sensor* - ; GSV reads sensors from <gazebo>
 [urdf_link]
 @name +

@@ -7,14 +7,14 @@ namespace gsv::formats {
 const std::string_view kWorldElements = R"table(
 [root]
 @version + 1.4- =1.9
-actor:actor - 1.4- ; an actor needs a world
+actor:actor + 1.4-
 light:light + 1.4-
 model:model + 1.4-
 world:world* + 1.4-
 [world]
 @name + 1.4-
 @namespace . 1.12- = ; topics are named by robot and sensor
-actor:actor* - 1.4- ; actors are left out
+actor:actor* + 1.4-
 atmosphere:atmosphere + 1.6-
 audio . 1.4- ; GSV plays no sound on the machine
 audio/device . 1.4- =default ; GSV plays no sound on the machine
