@@ -1,6 +1,5 @@
 #include "gsv/services/remote_behaviour.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "gsv/orb/errors.h"
@@ -11,8 +10,6 @@ namespace {
 
 // Wall time that a behaviour has to answer a call; init may read files.
 constexpr std::chrono::milliseconds kCallTimeout = EndPatience::kUsual;
-// For destroy() of one that did not answer stop(): the call reaches it, but it may never answer.
-constexpr std::chrono::milliseconds kFarewell{200};
 constexpr std::chrono::milliseconds kPingTimeout{1500};
 
 // Limits the calls of this thread for as long as it lives.
@@ -89,9 +86,12 @@ base::Status RemoteBehaviour::Resume() {
 }
 
 void RemoteBehaviour::Destroy() {
-  const auto limit = end_patience_->limit();
-  orb::LimitCalls(behaviour_, has_not_stopped_ ? std::min(kFarewell, limit) : limit);
-  (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone already
+  // The process ends, and the behaviour, which is still in its run, would not answer.
+  const bool is_of_no_use = has_not_stopped_ && end_patience_->is_hurried();
+  if (!is_of_no_use) {
+    orb::LimitCalls(behaviour_, end_patience_->limit());
+    (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone already
+  }
   ReplaceHardware(nullptr);
 }
 
