@@ -100,10 +100,8 @@ void AddRunOptions(CLI::App& command, RunArguments& a) {
   AddLimitOption(command, a.limits, a.server_limits);
   AddViewerOptions(command, a.web);
   AddRecordingsOption(command, a.web);
-  command.add_flag(
-      "--strict", a.strict,
-      "refuse to run when files of the world or its robots are repaired or not carried "
-      "out in full");
+  command.add_flag("--strict", a.strict,
+                   "refuse to run when files are repaired or not carried out in full");
   command.add_flag("--headless", a.headless, "without a viewer");
   command.add_flag("--open", a.open, "open the viewer in a browser");
   command.add_option("--failure-picture", a.failure_picture,

@@ -1,8 +1,8 @@
-// Reads pictures (PNG, JPEG, TGA, BMP, TIFF) and keeps each for all who use it. A picture with sides
+// Reads images (PNG, JPEG, TGA, BMP, TIFF) and keeps each for all who use it. An image with sides
 // beyond the limit is scaled down.
 //
-// Errors   a sentence for a file that is absent, larger than the limits, or not a picture. The size
-//          a picture claims is checked before memory is taken: at most 128 million pixels of one that
+// Errors   a sentence for a file that is absent, larger than the limits, or not an image. The size
+//          an image claims is checked before memory is taken: at most 128 million pixels of one that
 //          is to be scaled down.
 // Threads  one at a time.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace gsv::formats {
 
-// `source` is for messages. A picture none of whose pixels is see-through has 3 channels.
+// `source` is for messages. An image none of whose pixels is see-through has 3 channels.
 base::Result<std::shared_ptr<const model::Image>> DecodeImage(const unsigned char* bytes,
                                                               std::size_t size,
                                                               const std::string& source,
@@ -33,7 +33,7 @@ class TextureReader {
   std::shared_ptr<const model::Image> Combine(const std::shared_ptr<const model::Image>& roughness,
                                               const std::shared_ptr<const model::Image>& metalness);
 
-  // The same picture with 3 channels, for a material that does not let its alpha count.
+  // The same image with 3 channels, for a material that does not let its alpha count.
   std::shared_ptr<const model::Image> Opaque(const std::shared_ptr<const model::Image>& image);
 
  private:

@@ -1,4 +1,4 @@
-// Reads TIFF files: pictures, and heights (GeoTIFF, as digital elevation models are kept).
+// Reads TIFF files: images, and heights (GeoTIFF, as digital elevation models are kept).
 //
 // Not read  heights in more than one band (the first counts), in complex numbers, or in projections
 //           other than metres and degrees.

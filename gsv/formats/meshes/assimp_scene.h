@@ -19,13 +19,13 @@ namespace gsv::formats {
 struct AssimpScene {
   std::unique_ptr<Assimp::Importer> importer;  // owns the scene
   const aiScene* scene = nullptr;              // triangles only, never null
-  std::vector<std::string> changes;            // what was left out to read it, as sentences
+  std::vector<std::string> changes;            // a sentence for each thing that was left out
   // COLLADA: the ids under which assimp knows nodes and geometries, by their names.
   std::multimap<std::string, std::string> ids_of;
 };
 
-// What makes the file unreadable is repaired or left out where that is known to help: see
-// collada_repair.h; of a binary STL that ends early, the triangles that are there are read.
+// OpenScene repairs or leaves out what makes the file unreadable, where that is known to help: see
+// collada_repair.h. It reads the complete triangles of a binary STL that ends early.
 base::Result<AssimpScene> OpenScene(const std::filesystem::path& path, const ReadLimits& limits);
 
 }  // namespace gsv::formats

@@ -8,7 +8,7 @@
 namespace gsv::formats {
 
 struct ColladaRepair {
-  std::vector<std::string> changes;                // what was left out, as sentences
+  std::vector<std::string> changes;                // a sentence for each thing left out
   std::multimap<std::string, std::string> ids_of;  // by name: ids of nodes and geometries
 };
 

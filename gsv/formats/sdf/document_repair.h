@@ -8,10 +8,9 @@
 
 namespace gsv::formats {
 
-// Changes the document, or a file that it includes, so that libsdformat's errors go away: an element
-// that cannot be read is left out, a reference to a frame that is not there is dropped, a joint
-// between links that are not there is left out, a name that is taken or reserved is changed. Each
-// change is a warning. False when there was nothing that it could repair; URDF is never changed.
+// Changes the document, or a file that it includes, so that libsdformat's errors go away. It leaves
+// out elements that cannot be read and joints between missing links. It drops references to missing
+// frames, and changes names that are taken or reserved. Each change is a warning. False when there was nothing that it could repair; URDF is never changed.
 bool RepairAfter(const sdf::Errors& errors, SdfText& document, IncludedFiles& includes,
                  base::Problems& problems);
 

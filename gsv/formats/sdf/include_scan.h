@@ -48,7 +48,7 @@ class IncludeScan {
   IncludedFiles files_;
   std::map<std::pair<std::string, std::string>, base::Result<std::filesystem::path>> found_;
   std::vector<std::filesystem::path> open_;  // the chain of files being visited
-  // What became of each file: its name in files_, or why there is none.
+  // For each file: its name in files_, or why there is none.
   std::map<std::filesystem::path, base::Result<std::string>> done_;
 };
 

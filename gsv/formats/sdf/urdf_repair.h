@@ -12,7 +12,7 @@ namespace gsv::formats {
 
 // Changes what is below <robot>. Each change is a warning:
 //   links         that move by themselves and have no mass get one of 0.1 kg; those fixed to a link
-//                 with mass need none. Of two with one name the first is read
+//                 with mass need none. The first of two with one name is read
 //   joints        that name no two links of the robot, or close a loop, are left out; of a type that
 //                 is not known are fixed
 //   floating      and planar joints: the robot is free when they hold its root to an empty link such
