@@ -344,7 +344,7 @@ TEST(Sensors, ReadTheSameInProcessThroughCorbaAndThroughTheirInterfaces) {
   (*orb)->destroy();
   EXPECT_EQ(local.values, remote.values);
   EXPECT_EQ(local.names, remote.names);
-  EXPECT_EQ(local.values.size(), 19u);
+  EXPECT_EQ(local.values.size(), 20u);
 
   const auto& values = local.values;
   EXPECT_EQ(values.at("more")[1], 2);

@@ -155,16 +155,19 @@ TEST_F(SdfActor, KeepsTheShapeOfASkinWithoutBones) {
   EXPECT_EQ(world.models[0].model->links.at(0).visuals.size(), 1u);
 }
 
-TEST_F(SdfActor, LeavesOutWaypointsThatMakeNoSense) {
+TEST_F(SdfActor, ReadsWhatItCanOfWaypointsThatMakeNoSense) {
   const auto world = World(R"(<actor name='a'><script><auto_start>false</auto_start>
       <trajectory id='0' type='walk' tension='3'>
       <waypoint><time>0</time><pose>1 2 3 0 0 0</pose></waypoint>
       <waypoint><time>4</time><pose>1 two</pose></waypoint></trajectory></script></actor>)");
-  EXPECT_THAT(Sentences(), Contains(HasSubstr("the waypoint is left out")));
+  EXPECT_THAT(Sentences(), Contains(HasSubstr("<pose> holds \"1 two\"")));
   EXPECT_THAT(Sentences(), Contains(HasSubstr("tension")));
   EXPECT_THAT(Sentences(), Contains(HasSubstr("auto_start")));
   ASSERT_EQ(world.models.size(), 1u);
-  EXPECT_EQ(world.models[0].model->script->trajectories.at(0).waypoints.size(), 1u);
+  const auto& waypoints = world.models[0].model->script->trajectories.at(0).waypoints;
+  ASSERT_EQ(waypoints.size(), 2u);
+  EXPECT_EQ(waypoints[1].pose.position.x, 1);
+  EXPECT_EQ(waypoints[1].pose.position.y, 0);
 }
 
 }  // namespace

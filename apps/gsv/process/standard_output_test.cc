@@ -26,8 +26,10 @@ struct Ending {
   std::string errors;
 };
 
-Ending EndOf(std::FILE* output, int exit_code) {
+// Writes `text` only once standard error is captured, for capturing flushes every stream.
+Ending EndOf(std::FILE* output, const char* text, int exit_code) {
   testing::internal::CaptureStderr();
+  std::fputs(text, output);
   Ending ending;
   ending.exit_code = EndOutput(output, exit_code);
   ending.errors = testing::internal::GetCapturedStderr();
@@ -36,16 +38,14 @@ Ending EndOf(std::FILE* output, int exit_code) {
 
 TEST(StandardOutput, ThatIsWrittenKeepsTheExitCode) {
   const File output = OpenToWrite("/dev/null");
-  std::fputs("text\n", output.get());
-  const Ending ending = EndOf(output.get(), kOk);
+  const Ending ending = EndOf(output.get(), "text\n", kOk);
   EXPECT_EQ(ending.exit_code, kOk);
   EXPECT_THAT(ending.errors, IsEmpty());
 }
 
 TEST(StandardOutput, ThatFindsNoSpaceIsNoSuccess) {
   const File output = OpenToWrite("/dev/full");
-  std::fputs("text", output.get());
-  const Ending ending = EndOf(output.get(), kOk);
+  const Ending ending = EndOf(output.get(), "text", kOk);
   EXPECT_EQ(ending.exit_code, kInfrastructure);
   EXPECT_THAT(ending.errors, HasSubstr("No space left on device"));
 }
@@ -54,15 +54,14 @@ TEST(StandardOutput, ThatWasLostEarlierIsNoSuccess) {
   const File output = OpenToWrite("/dev/full");
   std::fputs("text\n", output.get());
   EXPECT_NE(std::fflush(output.get()), 0);
-  const Ending ending = EndOf(output.get(), kOk);
+  const Ending ending = EndOf(output.get(), "", kOk);
   EXPECT_EQ(ending.exit_code, kInfrastructure);
   EXPECT_THAT(ending.errors, HasSubstr("not all of the output could be written"));
 }
 
 TEST(StandardOutput, ThatIsLostKeepsTheExitCodeOfAnotherFailure) {
   const File output = OpenToWrite("/dev/full");
-  std::fputs("text\n", output.get());
-  EXPECT_EQ(EndOf(output.get(), kAssertionFailed).exit_code, kAssertionFailed);
+  EXPECT_EQ(EndOf(output.get(), "text\n", kAssertionFailed).exit_code, kAssertionFailed);
 }
 
 TEST(StandardOutput, ThatNobodyReadsFailsWithoutASentence) {
@@ -71,8 +70,7 @@ TEST(StandardOutput, ThatNobodyReadsFailsWithoutASentence) {
   ASSERT_EQ(pipe(ends), 0);
   close(ends[0]);
   const File output(fdopen(ends[1], "w"), &std::fclose);
-  std::fputs("text\n", output.get());
-  const Ending ending = EndOf(output.get(), kOk);
+  const Ending ending = EndOf(output.get(), "text\n", kOk);
   EXPECT_EQ(ending.exit_code, kInfrastructure);
   EXPECT_THAT(ending.errors, IsEmpty());
 }

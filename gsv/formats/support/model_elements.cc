@@ -8,7 +8,7 @@ const std::string_view kModelElements = R"table(
 [actor]
 @name + 1.4-
 @static - 1.4-1.4 =false
-animation* ~ 1.4- ; one animation moves an actor, the first that a trajectory names
+animation* + 1.4-
 animation/@name + 1.4-
 animation/filename + 1.4-
 animation/interpolate_x + 1.4- =false

@@ -132,7 +132,7 @@ trigger_topic - 1.9- = ; the camera takes images at its update rate
 triggered - 1.9- =false ; the camera takes images at its update rate
 visibility_mask - 1.7- =4294967295 ; every camera sees every visual
 [contact]
-collision + 1.4-
+collision* + 1.4-
 topic . 1.4- =__default_topic__ ; topics and frames are named by robot and sensor
 [forcetorque]
 force - 1.7-
