@@ -29,7 +29,7 @@ TEST_F(ActuatorsRun, GoTheSameOverCorbaAndInProcessWithAnyNumberOfThreads) {
 
 TEST_F(ActuatorsRun, ACheckSaysWhatIsWrongWithASpeaker) {
   const std::string file = folder_.Write("signaller.sdf", Signaller("1000")).string();
-  const Outcome check = Running("gsv", {"model", "check", file}).AwaitEnd();
+  const Outcome check = Running("gsv", {"model", "check", "--strict", file}).AwaitEnd();
   EXPECT_EQ(check.ending, "exit code 3");
   EXPECT_NE(check.out.find("loudness is 1000; it must lie between 0 and 200"), std::string::npos)
       << check.out;
