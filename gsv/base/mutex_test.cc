@@ -9,6 +9,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
+bool IsFree(Mutex& mutex) {
+  if (!mutex.try_lock()) return false;
+  mutex.unlock();
+  return true;
+}
+
 TEST(ConditionVariable, WakesAWaiterThatThenHoldsTheMutex) {
   Mutex mutex;
   ConditionVariable changed;
@@ -22,15 +28,11 @@ TEST(ConditionVariable, WakesAWaiterThatThenHoldsTheMutex) {
     MutexLock lock(mutex);
     changed.wait(lock, [&] { return is_ready; });
     bool is_free = true;
-    std::thread([&] {
-      is_free = mutex.try_lock();
-      if (is_free) mutex.unlock();
-    }).join();
+    std::thread([&] { is_free = IsFree(mutex); }).join();
     EXPECT_FALSE(is_free);
   }
   other.join();
-  EXPECT_TRUE(mutex.try_lock());
-  mutex.unlock();
+  EXPECT_TRUE(IsFree(mutex));
 }
 
 TEST(ConditionVariable, ReturnsThePredicateWhenTheTimeIsOver) {
@@ -46,13 +48,11 @@ TEST(MutexLock, ReleasesTheMutexBetweenUnlockAndLock) {
   {
     MutexLock lock(mutex);
     lock.unlock();
-    EXPECT_TRUE(mutex.try_lock());
-    mutex.unlock();
+    EXPECT_TRUE(IsFree(mutex));
     lock.lock();
     lock.unlock();
   }
-  EXPECT_TRUE(mutex.try_lock());  // the end of a lock that was unlocked releases nothing twice
-  mutex.unlock();
+  EXPECT_TRUE(IsFree(mutex));  // the end of a lock that was unlocked releases nothing twice
 }
 
 TEST(ReaderLock, LetsOtherReadersInAndNoWriter) {

@@ -29,7 +29,9 @@ class OwnSimulation {
   OwnSimulation& operator=(const OwnSimulation&) = delete;
 
   sba::Simulation_ptr operator->() const { return simulation_.in(); }
-  operator sba::Simulation_ptr() const { return simulation_.in(); }
+  operator sba::Simulation_ptr() const {  // NOLINT(google-explicit-constructor): as a _var does
+    return simulation_.in();
+  }
 
  private:
   const sba::Simulation_var simulation_;
