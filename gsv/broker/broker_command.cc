@@ -31,7 +31,7 @@ bool EndWith(pid_t parent) {
 // what was lost, and coverage what ran, when all is taken down.
 int End(Broker& broker, int exit_code) {
   broker.Close();
-  // Whoever waited for its reference did not get it.
+  // The broker's reference goes to stdout. A client that reads it there did not get it.
   const bool is_lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (is_lost && exit_code == kOk) exit_code = kInfrastructure;
 #if !defined(GSV_SANITIZED) && !defined(GSV_COVERAGE)

@@ -319,7 +319,11 @@ base::Result<RunOptions> Understand(const RunArguments& a) {
     return base::Fail(ok.error());
   for (const std::string& text : a.pedestrians) {
     auto group = scenario::ParsePedestrians(text);
-    if (!group) return base::Fail(group.error());
+    if (!group) {
+      base::Error error = group.error();
+      error.where = "--pedestrians " + text;
+      return base::Fail(std::move(error));
+    }
     options.scenario.pedestrians.push_back(*std::move(group));
   }
   if (auto ok = UnderstandBehaviours(a.behaviours, options); !ok) return base::Fail(ok.error());

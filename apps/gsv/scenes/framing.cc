@@ -15,10 +15,10 @@ using geometry::Pose;
 using geometry::Vector3;
 
 constexpr double kBoundless = std::numeric_limits<double>::infinity();
-// A body is too far away if it lies beyond so many radii of all that is nearer, and so many metres.
+// A body is too far away if its distance exceeds kFarRadii radii of all nearer bodies, and kFarMetres.
 constexpr double kFarRadii = 20, kFarMetres = 100;
-// What is this much flatter than wide is ground, if it covers so many times more than all that
-// stands.
+// A body is ground if its height is at most kFlat of its width, and its area at least kMuchMore times
+// that of the bodies that stand.
 constexpr double kFlat = 0.02, kMuchMore = 4;
 
 Bounds Nothing() {

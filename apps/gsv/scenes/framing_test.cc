@@ -21,7 +21,7 @@ world::Body BoxAt(const char* name, const Vector3& size, const Vector3& centre) 
   return body;
 }
 
-// What is shown of these, as the smallest and the largest corner.
+// The box that a picture of these bodies shows.
 geometry::Bounds Shown(std::vector<world::Body> bodies) {
   world::Snapshot snapshot;
   snapshot.layout =

@@ -303,8 +303,8 @@ void ImpulseRows::ChooseFree() {
   }
 }
 
-// What is missing in each of them, and by how much their impulses change it. The friction of what
-// slips grows with its normal impulse.
+// Writes the velocity error of each free row, and how much each impulse changes it. The friction of
+// a contact that slips grows with its normal impulse.
 void ImpulseRows::WriteEquations(bool shares_loads) {
   // Four contacts of a box are one too many: springs of this softness decide among them.
   constexpr double kRidge = 1e-9;

@@ -58,10 +58,10 @@ bool IsJpeg(const unsigned char* bytes, std::size_t size) {
   return size > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-// Of what is larger than the limit, this much is decoded before it is scaled down.
+// Images above the limit are decoded up to this many pixels, and then scaled down.
 constexpr std::int64_t kMostOversizedPixels = 128 << 20;
 
-// A picture beyond the limit is decoded none the less, to be scaled down, unless it is huge.
+// Fails for an image without pixels or with more than kMostOversizedPixels.
 base::Status CheckSize(int width, int height, const std::string& source, const ReadLimits& limits) {
   const bool is_small = width <= limits.texture_side && height <= limits.texture_side;
   const std::int64_t pixels = static_cast<std::int64_t>(width) * height;

@@ -315,7 +315,7 @@ class DocumentRepair {
       at = child;
       if (from == std::string::npos) break;
     }
-    // Of several that are alike, the one on the line.
+    // If several elements are alike, the error means the one on its line.
     for (XMLElement* same = at; same != nullptr && line > 0;
          same = same->NextSiblingElement(at->Name())) {
       if (same->GetLineNum() == line) return same;

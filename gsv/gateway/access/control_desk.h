@@ -36,7 +36,7 @@ class ControlDesk {
     std::string name;
     std::string simulation;  // that they look at; empty: none
     bool holds = false;      // control of it
-    std::size_t asks = 0;    // for it: the how manieth in the row, from 1; 0: does not
+    std::size_t asks = 0;    // position in the queue for it, from 1; 0: does not wait
     std::chrono::milliseconds
         left{};  // of the first in the row: until it passes to them unanswered
   };
