@@ -286,6 +286,18 @@ struct ThermalImage {
   bool IsWhole() const { return temperature.size() == std::size_t(1) * width * height; }
 };
 
+// Rows from the top. For each pixel the unit vector that is perpendicular to the visible surface and
+// points towards the camera: three values x, y, z in the sensor frame; NaN where it is unknown.
+struct NormalImage {
+  static constexpr const char* kType = "normals_camera";
+  int width = 0, height = 0;
+  std::span<const double> normals;
+  static constexpr auto kFields = std::make_tuple(Value("width", "px", &NormalImage::width),
+                                                  Value("height", "px", &NormalImage::height),
+                                                  Value("normals", "", &NormalImage::normals));
+  bool IsWhole() const { return normals.size() == std::size_t(3) * width * height; }
+};
+
 // Pixels from the image's upper left corner.
 struct BoundingBox {
   std::string name;

@@ -280,6 +280,23 @@ class ThermalCameraServant final : public SensorServant<POA_sba::ThermalCamera> 
   }
 };
 
+class NormalsCameraServant final : public SensorServant<POA_sba::NormalsCamera> {
+ public:
+  using SensorServant::SensorServant;
+  sba::NormalImage* take_normals() override {
+    const Reading reading = Read();
+    const auto values = In<readings::NormalImage>(reading);
+    sba::NormalImage_var image = new sba::NormalImage;
+    image->time_ns = reading.time.count();
+    image->width = static_cast<CORBA::ULong>(values.width);
+    image->height = static_cast<CORBA::ULong>(values.height);
+    image->normals.length(static_cast<CORBA::ULong>(values.normals.size()));
+    std::transform(values.normals.begin(), values.normals.end(), image->normals.get_buffer(),
+                   [](double component) { return static_cast<CORBA::Float>(component); });
+    return image._retn();
+  }
+};
+
 class BoundingBoxCameraServant final : public SensorServant<POA_sba::BoundingBoxCamera> {
  public:
   using SensorServant::SensorServant;
@@ -315,6 +332,7 @@ std::map<std::string, SensorServantMaker>& Makers() {
       {readings::SegmentedImage::kType, MakeSensorServant<SegmentationCameraServant>},
       {readings::BoundingBoxes::kType, MakeSensorServant<BoundingBoxCameraServant>},
       {readings::ThermalImage::kType, MakeSensorServant<ThermalCameraServant>},
+      {readings::NormalImage::kType, MakeSensorServant<NormalsCameraServant>},
       {readings::Microphone::kType, MakeSensorServant<MicrophoneServant>},
       {readings::Gripper::kType, MakeGripperServant},
       {readings::Lamp::kType, MakeLampServant},

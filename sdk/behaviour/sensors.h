@@ -326,6 +326,23 @@ class ThermalCamera : public Sensor {
   }
 };
 
+class NormalsCamera : public Sensor {
+ public:
+  static constexpr const char* kType = readings::NormalImage::kType;
+  using Sensor::Sensor;
+
+  struct Image {
+    int width = 0, height = 0;
+    // Three values x, y, z a pixel, rows from the top: the unit normal of the visible surface,
+    // towards the camera, in the sensor frame; NaN where it is unknown.
+    std::vector<double> normals;
+  };
+  Image TakeNormals() {
+    const auto image = MeasureAs<readings::NormalImage>();
+    return {image.width, image.height, {image.normals.begin(), image.normals.end()}};
+  }
+};
+
 class BoundingBoxCamera : public Sensor {
  public:
   static constexpr const char* kType = readings::BoundingBoxes::kType;

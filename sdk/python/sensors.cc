@@ -52,6 +52,12 @@ Doubles TakeTemperatures(ThermalCamera& camera) {
   return Doubles({image.height, image.width}, image.temperature.data(), reading);
 }
 
+Doubles TakeNormals(NormalsCamera& camera) {
+  const py::object reading = Measured(camera);
+  const auto image = ValuesIn<readings::NormalImage>(camera, reading.cast<const Reading&>());
+  return Doubles({image.height, image.width, 3}, image.normals.data(), reading);
+}
+
 py::tuple Segment(SegmentationCamera& camera) {
   const py::object reading = Measured(camera);
   const auto image = ValuesIn<readings::SegmentedImage>(camera, reading.cast<const Reading&>());
@@ -134,6 +140,11 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
   BindKind<ThermalCamera>(module, "ThermalCamera", sensor, "Measures how warm each pixel is.")
       .def("take_temperatures", &TakeTemperatures,
            "numpy.float64 of the shape (height, width): K, whole steps of the resolution");
+  BindKind<NormalsCamera>(module, "NormalsCamera", sensor,
+                          "Measures the surface normal at each pixel.")
+      .def("take_normals", &TakeNormals,
+           "numpy.float64 of the shape (height, width, 3): unit vectors towards the camera in the "
+           "sensor frame; NaN where the normal is unknown");
   BindKind<SegmentationCamera>(module, "SegmentationCamera", sensor, "Says what each pixel shows.")
       .def("segment", &Segment,
            "(labels, names): numpy.uint32 of the shape (height, width); a pixel of label n shows "

@@ -18,7 +18,7 @@ SENSORS = {"Sonar": "sonar", "Lidar": "lidar", "Camera": "camera", "PositioningS
            "LogicalCamera": "logical_camera", "Radio": "radio", "Microphone": "microphone",
            "DepthCamera": "depth_camera", "SegmentationCamera": "segmentation_camera",
            "BoundingBoxCamera": "boundingbox_camera",
-           "ThermalCamera": "thermal_camera", "Lamp": "lamp", "Gripper": "gripper", "Speaker": "speaker"}
+           "ThermalCamera": "thermal_camera", "NormalsCamera": "normals_camera", "Lamp": "lamp", "Gripper": "gripper", "Speaker": "speaker"}
 ACTS = {"sba::Lamp": {"values": [0.5, 1.0, 1.0, 1.0], "word": ""}, "sba::Gripper": {"values": [1.0], "word": ""},
         "sba::Speaker": {"values": [440.0, 0.1, 0.5], "word": "tone"}}
 PLACE = {"x_m": 0.0, "y_m": 0.0, "z_m": 0.2, "roll_rad": 0.0, "pitch_rad": 0.0, "yaw_rad": 0.0}

@@ -111,6 +111,15 @@ class DepthCamera final
   const sensing::NoiseModel noise_;
 };
 
+// The reading's image as PNG.
+messages::sensor_msgs::CompressedImage PngOf(const Reading& reading) {
+  messages::sensor_msgs::CompressedImage message;
+  message.format = "png";
+  if (reading.picture == nullptr) return message;
+  if (auto png = EncodePng(*reading.picture)) message.data = std::move(*png);
+  return message;
+}
+
 // An odd factor: no two labels below 2^24 have the same colour.
 std::uint32_t ColourOf(std::uint32_t label) { return (label * 0x9E3779u) & 0xFFFFFFu; }
 
@@ -143,11 +152,7 @@ class SegmentationCamera final
   }
 
   Message ToMessage(const Values&, const Reading& reading, const std::string&) const override {
-    Message message;
-    message.format = "png";
-    if (reading.picture == nullptr) return message;
-    if (auto png = EncodePng(*reading.picture)) message.data = std::move(*png);
-    return message;
+    return PngOf(reading);
   }
 };
 
@@ -288,6 +293,110 @@ class ThermalCamera final
   const sensing::NoiseModel noise_;
 };
 
+// Normals of the surfaces in a depth image. A tangent is the difference between a pixel's point and
+// an adjacent one of the same visual. Of two adjacent pixels, the one whose side of the pixel is
+// closer to a plane is taken, so that a normal near an edge belongs to the pixel's own face. Along a
+// line in the image of a plane the inverse depth is linear: its second difference measures this.
+class SurfaceNormals {
+ public:
+  SurfaceNormals(const GroundTruth& truth, const Optics& optics) : truth_(truth) {
+    points_.reserve(truth.depth.size());
+    for (std::size_t i = 0; i < truth.depth.size(); ++i) {
+      const auto ray = OneMetreOn(optics.RayOfPixel(i));
+      const bool is_hit = ray && truth.body[i] >= 0 && std::isfinite(truth.depth[i]);
+      points_.push_back(is_hit ? std::optional(truth.depth[i] * *ray) : std::nullopt);
+    }
+  }
+
+  // Towards the camera; nothing where it is unknown.
+  std::optional<Vector3> At(int x, int y) const {
+    if (!points_[Index(x, y)]) return std::nullopt;
+    const auto across = Tangent(x, y, 1, 0), down = Tangent(x, y, 0, 1);
+    if (!across || !down) return std::nullopt;
+    const Vector3 normal = Cross(*across, *down);
+    const double length = Norm(normal);
+    if (!(length > 0)) return std::nullopt;
+    return (Dot(normal, *points_[Index(x, y)]) > 0 ? -1 / length : 1 / length) * normal;
+  }
+
+ private:
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(truth_.width) +
+           static_cast<std::size_t>(x);
+  }
+
+  bool IsOfVisualAt(std::size_t pixel, int x, int y) const {
+    if (x < 0 || y < 0 || x >= truth_.width || y >= truth_.height) return false;
+    const std::size_t other = Index(x, y);
+    return points_[other] && truth_.body[other] == truth_.body[pixel] &&
+           truth_.visual[other] == truth_.visual[pixel];
+  }
+
+  // How far three pixels from (x, y) on are from lying on a plane; infinite where one is missing.
+  double Bend(int x, int y, int dx, int dy) const {
+    const std::size_t pixel = Index(x, y);
+    if (!IsOfVisualAt(pixel, x + 2 * dx, y + 2 * dy)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const auto inverse = [&](int k) { return 1.0 / truth_.depth[Index(x + k * dx, y + k * dy)]; };
+    return std::abs(inverse(0) - 2 * inverse(1) + inverse(2));
+  }
+
+  std::optional<Vector3> Tangent(int x, int y, int dx, int dy) const {
+    const std::size_t pixel = Index(x, y);
+    const bool has_next = IsOfVisualAt(pixel, x + dx, y + dy);
+    const bool has_previous = IsOfVisualAt(pixel, x - dx, y - dy);
+    if (!has_next && !has_previous) return std::nullopt;
+    const bool takes_next =
+        has_next && (!has_previous || Bend(x, y, dx, dy) <= Bend(x, y, -dx, -dy));
+    return takes_next ? *points_[Index(x + dx, y + dy)] - *points_[pixel]
+                      : *points_[pixel] - *points_[Index(x - dx, y - dy)];
+  }
+
+  const GroundTruth& truth_;
+  std::vector<std::optional<Vector3>> points_;  // in the sensor frame; nothing: nothing is hit
+};
+
+class NormalsCamera final
+    : public SurveySensor<readings::NormalImage, messages::sensor_msgs::CompressedImage> {
+ public:
+  using SurveySensor::SurveySensor;
+
+ private:
+  Reading Read(const sensing::Sampling& sampling, const GroundTruth& truth) const override {
+    const SurfaceNormals normals(truth, optics());
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> components;
+    components.reserve(3 * truth.depth.size());
+    for (int y = 0; y < truth.height; ++y) {
+      for (int x = 0; x < truth.width; ++x) {
+        const Vector3 n = normals.At(x, y).value_or(Vector3{unknown, unknown, unknown});
+        components.insert(components.end(), {n.x, n.y, n.z});
+      }
+    }
+    Reading reading = sampling.Stamped();
+    reading.picture = ImageOf(truth, components);
+    Fill(Values{truth.width, truth.height, components}, reading);
+    return reading;
+  }
+
+  static std::shared_ptr<model::Image> ImageOf(const GroundTruth& truth,
+                                               const std::vector<double>& components) {
+    auto image = std::make_shared<model::Image>();
+    image->width = truth.width, image->height = truth.height;
+    image->pixels.reserve(components.size());
+    for (const double c : components) {
+      image->pixels.push_back(
+          std::isfinite(c) ? static_cast<std::uint8_t>(std::lround(255 * (c + 1) / 2)) : 0);
+    }
+    return image;
+  }
+
+  Message ToMessage(const Values&, const Reading& reading, const std::string&) const override {
+    return PngOf(reading);
+  }
+};
+
 }  // namespace
 
 base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererResult& renderer) {
@@ -301,6 +410,8 @@ base::Status AddSurveySensors(sensing::SensorRegistry& registry, const RendererR
       MakeCameraType<BoundingBoxCamera>(readings::BoundingBoxes::kType, {"boundingbox"},
                                         Overlay::kLines, shared, renderer),
       MakeCameraType<ThermalCamera>(readings::ThermalImage::kType, {"thermal"}, Overlay::kPicture,
+                                    shared, renderer),
+      MakeCameraType<NormalsCamera>(readings::NormalImage::kType, {"normals"}, Overlay::kPicture,
                                     shared, renderer)};
   for (sensing::SensorType& type : types) {
     if (auto ok = registry.Add(std::move(type)); !ok) return ok;

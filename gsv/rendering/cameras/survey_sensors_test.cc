@@ -231,7 +231,8 @@ TEST(SurveySensors, SayWhyThereIsNoRenderer) {
   TestScene scene;
   scene.Add("robot", geometry::Sphere{0.2}, {}, Matt(1, 1, 1));
   sensing::RaySceneCache rays;
-  for (const std::string type : {"depth_camera", "segmentation_camera", "boundingbox_camera"}) {
+  for (const std::string type :
+       {"depth_camera", "segmentation_camera", "boundingbox_camera", "normals_camera"}) {
     model::SensorDescription description;
     description.type = type;
     const auto sensor = registry.Find(type)->create(description);
@@ -311,6 +312,83 @@ TEST_P(ThermalCameraTest, TakesItsResolutionAndTheAirFromTheWorld) {
   const Reading reading = Sample(description);
   EXPECT_EQ(reading.values[2], 0.5);
   EXPECT_EQ(reading.values[3], 300.5);
+}
+
+class NormalsCameraTest : public SurveyTest {
+ protected:
+  // NaN where the camera does not know.
+  Vector3 NormalAt(const Reading& reading, int x, int y) {
+    const auto image = sensing::ValuesOf<readings::NormalImage>(reading, "eye");
+    EXPECT_TRUE(image) << image.error().Sentence();
+    const auto first = static_cast<std::size_t>(3 * (y * kSurveyWidth + x));
+    return {image->normals[first], image->normals[first + 1], image->normals[first + 2]};
+  }
+};
+
+TEST_F(NormalsCameraTest, ShowsAPlanesNormalAtEveryPixel) {
+  const double yaw = 0.5;
+  const Vector3 normal{-std::cos(yaw), -std::sin(yaw), 0};
+  Add("wall", geometry::Box{{0.2, 60, 60}},
+      {Vector3{4, 0, 1} - 0.1 * normal, geometry::FromRollPitchYaw({0, 0, yaw})});
+  const Reading reading = Sample(Description("normals_camera"));
+  for (int y = 0; y < kSurveyHeight; ++y) {
+    for (int x = 0; x < kSurveyWidth; ++x) {
+      EXPECT_LT(Norm(NormalAt(reading, x, y) - normal), 1e-3) << x << " " << y;
+    }
+  }
+}
+
+TEST_F(NormalsCameraTest, KeepsTheFacesBesideAnEdgeApart) {
+  // A box that turns an edge towards the camera: of its faces two are visible.
+  Add("box", geometry::Box{{2, 2, 40}}, {{4, 0, 1}, geometry::FromRollPitchYaw({0, 0, M_PI / 4})});
+  const Reading reading = Sample(Description("normals_camera"));
+  const double half = std::sqrt(0.5);
+  int left = 0, right = 0;
+  for (int x = 0; x < kSurveyWidth; ++x) {
+    const Vector3 seen = NormalAt(reading, x, kSurveyHeight / 2);
+    if (std::isnan(seen.x)) continue;
+    const bool is_left = RayOf(x, 0).y > 0;
+    (is_left ? left : right) += 1;
+    EXPECT_LT(Norm(seen - Vector3{-half, is_left ? half : -half, 0}), 1e-3) << x;
+  }
+  EXPECT_GT(left, 8);
+  EXPECT_GT(right, 8);
+}
+
+TEST_F(NormalsCameraTest, FollowsASphereAndKnowsNothingOfTheSky) {
+  const Vector3 centre{4, 0, 1};
+  Add("ball", geometry::Sphere{1}, {centre, {}});
+  const Reading reading = Sample(Description("normals_camera"));
+  const auto depth = Sample(Description("depth_camera"));
+  int seen = 0;
+  for (int y = 0; y < kSurveyHeight; ++y) {
+    for (int x = 0; x < kSurveyWidth; ++x) {
+      const double d = depth.values[static_cast<std::size_t>(2 + y * kSurveyWidth + x)];
+      const Vector3 normal = NormalAt(reading, x, y);
+      if (!std::isfinite(d)) {
+        EXPECT_TRUE(std::isnan(normal.x)) << x << " " << y;
+        continue;
+      }
+      const Vector3 expected = Vector3{0.3, 0, 1} + d * RayOf(x, y) - centre;
+      // Facets of 0.1 rad and adjacent pixels 0.07 m apart: at most half of each, on both axes.
+      if (expected.x > -0.75) continue;
+      EXPECT_LT(Norm(normal - expected), 0.12) << x << " " << y;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 200);
+
+  const auto message =
+      Sent<messages::sensor_msgs::CompressedImage>(Description("normals_camera"), reading);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_memory(&png, message.data.data(), message.data.size()));
+  png.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
+  ASSERT_TRUE(png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr));
+  EXPECT_EQ(pixels[0] + pixels[1] + pixels[2], 0);
+  const std::size_t middle = 3 * (kSurveyHeight / 2 * kSurveyWidth + kSurveyWidth / 2);
+  EXPECT_LE(pixels[middle], 2);  // towards the camera: x = -1
 }
 
 }  // namespace

@@ -93,6 +93,10 @@ class ThermalCamera(Sensor):
     TYPE: str
     def take_temperatures(self) -> NDArray[numpy.float64]: ...
 
+class NormalsCamera(Sensor):
+    TYPE: str
+    def take_normals(self) -> NDArray[numpy.float64]: ...
+
 class BoundingBoxCamera(Sensor):
     class Box:
         @property

@@ -101,6 +101,15 @@ def test_temperatures_are_a_picture_of_kelvins(simulate, world):
     assert kelvins == pytest.approx(288.15)
 
 
+def test_normals_are_unit_vectors_towards_the_camera(simulate, world):
+    size = {"image.width": 32, "image.height": 24}
+    normals = in_run(simulate, world,
+                     lambda robot: robot.create(gsv.NormalsCamera, "n", gsv.Placement(z=0.5), size),
+                     lambda robot, camera: camera.take_normals())
+    assert normals.shape == (24, 32, 3) and isinstance(normals.base, gsv.Reading)
+    assert normals[12, 16] == pytest.approx((-1, 0, 0), abs=1e-3)
+
+
 def test_poses_and_forces_have_names(simulate, world):
     def prepare(robot):
         return (robot.create("positioning", "p"), robot.create("imu", "i"),
