@@ -39,7 +39,12 @@ install(DIRECTORY assets/models assets/worlds ${CMAKE_BINARY_DIR}/share/gsv/web
   DESTINATION share/gsv COMPONENT gsv)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/share/gsv/docs DESTINATION share/gsv COMPONENT gsv OPTIONAL)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/gsv COMPONENT gsv)
-install(FILES docs/gsv.1 DESTINATION share/man/man1 COMPONENT gsv)
+# The manual pages, made from the help texts of the program that is installed.
+set(GSV_MAN ${CMAKE_BINARY_DIR}/share/man/man1)
+install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY
+  COMMAND \"${CMAKE_SOURCE_DIR}/tools/make_man_pages\" \"${CMAKE_BINARY_DIR}/bin/gsv\"
+    \"${CMAKE_SOURCE_DIR}/docs/gsv.1.in\" \"${GSV_MAN}\")" COMPONENT gsv)
+install(DIRECTORY ${GSV_MAN} DESTINATION share/man COMPONENT gsv)
 
 # libgsv: the shared library alone. libgsv-dev: what compiles against it.
 install(TARGETS gsv_shared_sdk EXPORT gsvTargets
