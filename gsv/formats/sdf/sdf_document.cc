@@ -9,7 +9,10 @@
 #include <sdf/Element.hh>
 #include <sdf/Error.hh>
 #include <sdf/Exception.hh>
+#include <sdf/Param.hh>
 #include <sdf/ParserConfig.hh>
+#include <sdf/SDFImpl.hh>
+#include <sdf/parser.hh>
 
 #include "gsv/formats/sdf/document_repair.h"
 
@@ -84,13 +87,49 @@ void NameSources(const sdf::ElementPtr& element, const IncludedFileServer& serve
   }
 }
 
-Reading ReadOnce(const std::string& text, const IncludedFiles& includes) {
+// An <sdf> element without content, ready to be read into. Its descriptions are those of the
+// schema: libsdformat copies a description before it fills an element in.
+sdf::SDFPtr EmptyDocument(const sdf::Element& schema) {
+  const auto root = std::make_shared<sdf::Element>();
+  root->SetName(schema.GetName());
+  root->SetRequired(schema.GetRequired());
+  root->SetDescription(schema.GetDescription());
+  for (unsigned i = 0; i < schema.GetAttributeCount(); ++i) {
+    const sdf::ParamPtr attribute = schema.GetAttribute(i);
+    root->AddAttribute(attribute->GetKey(), attribute->GetTypeName(),
+                       attribute->GetDefaultAsString(), attribute->GetRequired(),
+                       attribute->GetDescription());
+  }
+  for (unsigned i = 0; i < schema.GetElementDescriptionCount(); ++i) {
+    root->AddElementDescription(schema.GetElementDescription(i));
+  }
+  const sdf::SDFPtr document(new sdf::SDF);
+  document->Root(root);
+  return document;
+}
+
+// As sdf::Root::LoadSdfString, which builds the schema again for each text.
+sdf::Errors Load(const std::string& text, sdf::Root& root) GSV_REQUIRES(SdformatMutex()) {
+  const sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
+  const sdf::SDFPtr document = EmptyDocument(*SdfSchema());
+  sdf::Errors errors;
+  if (!sdf::readString(text, config, document, errors)) {
+    errors.emplace_back(sdf::ErrorCode::STRING_READ, "");
+    return errors;
+  }
+  const sdf::Errors more = root.Load(document, config);
+  errors.insert(errors.end(), more.begin(), more.end());
+  return errors;
+}
+
+Reading ReadOnce(const std::string& text, const IncludedFiles& includes)
+    GSV_REQUIRES(SdformatMutex()) {
   Reading reading;
   IncludedFileServer server(includes);
   ConfigureBy(server);
   Reasons().reasons.clear();
   try {
-    reading.errors = reading.root->LoadSdfString(text, sdf::ParserConfig::GlobalConfig());
+    reading.errors = Load(text, *reading.root);
   } catch (const sdf::Exception& exception) {  // no std::exception
     reading.exception = exception.GetErrorStr();
   } catch (const std::exception& exception) {
@@ -177,7 +216,7 @@ tl::unexpected<base::Error> Refusal(const Reading& reading, const std::filesyste
 
 // Repairs and reads again, until nothing is wrong that can be repaired.
 void ReadRepaired(SdfText document, IncludedFiles includes, Reading& reading,
-                  base::Problems& problems) {
+                  base::Problems& problems) GSV_REQUIRES(SdformatMutex()) {
   for (int round = 0; round < kMaxRepairs; ++round) {
     const bool is_repaired = reading.exception.empty()
                                  ? RepairAfter(reading.errors, document, includes, problems)
@@ -200,6 +239,15 @@ void SilenceConsoles() {
     sdf::Console::Instance()->SetQuiet(true);
     console_bridge::useOutputHandler(&Reasons());
   });
+}
+
+sdf::ElementPtr SdfSchema() {
+  static const sdf::ElementPtr schema = [] {
+    const sdf::SDFPtr description(new sdf::SDF);
+    sdf::init(description);
+    return description->Root();
+  }();
+  return schema;
 }
 
 base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles& includes,

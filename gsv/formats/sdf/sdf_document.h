@@ -32,6 +32,10 @@ base::Result<SdfDocument> ParseSdf(const SdfText& document, const IncludedFiles&
 base::Mutex& SdformatMutex();
 void SilenceConsoles() GSV_REQUIRES(SdformatMutex());
 
+// The description of <sdf>, with those of all elements below it. Built once: this takes libsdformat
+// longer than reading a small file. Read only.
+sdf::ElementPtr SdfSchema() GSV_REQUIRES(SdformatMutex());
+
 // The file in which an element stands, and "file:line: element path" for messages about it.
 std::filesystem::path FileOf(const sdf::Element& element, const std::filesystem::path& source);
 std::string PlaceOf(const sdf::Element& element, const std::filesystem::path& source);

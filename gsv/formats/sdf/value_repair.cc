@@ -6,8 +6,6 @@
 
 #include <sdf/Element.hh>
 #include <sdf/Param.hh>
-#include <sdf/SDFImpl.hh>
-#include <sdf/parser.hh>
 
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_xml.h"
@@ -20,16 +18,10 @@ using tinyxml2::XMLElement;
 
 constexpr char kNoDefault[] = "__default__";
 
-// The description of <sdf>, with those of all elements below it.
 sdf::ElementPtr Schema() {
-  static const sdf::ElementPtr root = [] {
-    const base::MutexLock lock(SdformatMutex());
-    SilenceConsoles();
-    const sdf::SDFPtr description(new sdf::SDF);
-    sdf::init(description);
-    return description->Root();
-  }();
-  return root;
+  const base::MutexLock lock(SdformatMutex());
+  SilenceConsoles();
+  return SdfSchema();
 }
 
 // A model within a model is described as any other.
