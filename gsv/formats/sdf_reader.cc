@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 #include <variant>
 
 #include "gsv/base/mutex.h"
@@ -51,11 +52,17 @@ class ModelLibrary::Reader {
     if (!file) return Fail(file.error());
     auto xml = ReadXml(*file, store_.finder(), store_.limits(), problems);
     if (!xml) return Fail(xml.error());
-    if (xml->root->FirstChildElement("world") != nullptr) {
-      ReportUnsupported(*xml, problems);
-      return formats::ReadWorld(*xml, store_, problems);
+    if (xml->root->FirstChildElement("world") == nullptr) {
+      return ReadEnvironment(*std::move(xml), problems);
     }
-    return ReadEnvironment(*file, problems);
+    ReportUnsupported(*xml, problems);
+    base::Problems broken_rules;
+    if (store_.checks_rules()) {
+      CheckNamingRules({xml->path, xml->root, xml->minor_version}, broken_rules);
+    }
+    auto world = formats::ReadWorld(*xml, store_, problems);
+    problems.insert(problems.end(), broken_rules.begin(), broken_rules.end());
+    return world;
   }
 
   base::Result<std::shared_ptr<const Model>> ReadModelNamed(const std::string& name,
@@ -65,15 +72,6 @@ class ModelLibrary::Reader {
     auto file = FileOf(name, named_in);
     if (!file) return Fail(file.error());
     return ReadStored(*file, problems);
-  }
-
-  void CheckRulesOf(const std::string& name, base::Problems& problems) {
-    const base::MutexLock lock(mutex_);
-    const auto file = FileOf(name, {});
-    if (!file) return;
-    base::Problems reported_by_reading;
-    const auto xml = ReadXml(*file, store_.finder(), store_.limits(), reported_by_reading);
-    if (xml) CheckNamingRules({xml->path, xml->root, xml->minor_version}, problems);
   }
 
  private:
@@ -95,19 +93,27 @@ class ModelLibrary::Reader {
   base::Result<std::shared_ptr<const Model>> ReadStored(const fs::path& file,
                                                         base::Problems& problems)
       GSV_REQUIRES(mutex_) {
-    auto stored = store_.Read(file);
+    return ModelOf(store_.Read(file), file, problems);
+  }
+
+  static base::Result<std::shared_ptr<const Model>> ModelOf(
+      const base::Result<std::shared_ptr<const StoredFile>>& stored, const fs::path& file,
+      base::Problems& problems) {
     if (!stored) return Fail(stored.error());
-    problems.insert(problems.end(), (*stored)->problems.begin(), (*stored)->problems.end());
-    if ((*stored)->framed.model == nullptr) {
+    const StoredFile& read = **stored;
+    problems.insert(problems.end(), read.problems.begin(), read.problems.end());
+    problems.insert(problems.end(), read.broken_rules.begin(), read.broken_rules.end());
+    if (read.framed.model == nullptr) {
       return Fail(ErrorCode::kBadModel, "the file holds a light, where a model is wanted",
                   file.string());
     }
-    return (*stored)->framed.model;
+    return read.framed.model;
   }
 
-  base::Result<WorldDescription> ReadEnvironment(const fs::path& file, base::Problems& problems)
+  base::Result<WorldDescription> ReadEnvironment(XmlFile xml, base::Problems& problems)
       GSV_REQUIRES(mutex_) {
-    auto model = ReadStored(file, problems);
+    const fs::path file = xml.named;
+    auto model = ModelOf(store_.Take(std::move(xml), std::exchange(problems, {})), file, problems);
     if (!model) return Fail(model.error());
     XmlFile surroundings;
     surroundings.path = file;
@@ -139,10 +145,6 @@ ModelLibrary::~ModelLibrary() = default;
 base::Result<WorldDescription> ModelLibrary::ReadWorld(const fs::path& path,
                                                        base::Problems& problems) {
   return reader_->ReadWorldAt(path, problems);
-}
-
-void ModelLibrary::CheckRules(const std::string& name_or_path, base::Problems& problems) {
-  reader_->CheckRulesOf(name_or_path, problems);
 }
 
 base::Result<std::shared_ptr<const Model>> ModelLibrary::ReadModel(const std::string& name_or_path,

@@ -39,11 +39,6 @@ class ModelLibrary {
   base::Result<model::WorldDescription> ReadWorld(const std::filesystem::path& path,
                                                   base::Problems& problems);
 
-  // Errors for each rule of SDFormat that a file breaks by its names and references, see
-  // gsv/formats/support/naming_rules.h. Reading repairs these; a check refuses them. `path` is as of
-  // ReadWorld(), or a model's name; what cannot be read is not reported.
-  void CheckRules(const std::string& name_or_path, base::Problems& problems);
-
   // A model's file (SDFormat or URDF), its folder, or its name, which is looked for as model://NAME
   // from `named_in` (a file, or the current folder).
   base::Result<std::shared_ptr<const model::Model>> ReadModel(

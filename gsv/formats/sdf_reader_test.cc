@@ -461,6 +461,20 @@ TEST_F(SdfReaderTest, ExpandsXacroWithTheArgumentsInItsName) {
   EXPECT_THAT(broken.error().Sentence(), HasSubstr("broken.xacro:2: there is no macro \"none\""));
 }
 
+TEST_F(SdfReaderTest, NamesTheFileAndLineOfAMacroInWarnings) {
+  folder_.Write(
+      "part.xacro",
+      "<robot>\n<xacro:macro name='part' params='name'>\n<link name='${name}'><inertial>\n"
+      "<mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>\n"
+      "</inertial><colision/></link></xacro:macro></robot>");
+  const auto file = folder_.Write("robot.urdf.xacro",
+                                  "<robot name='r'>\n<xacro:include filename='part.xacro'/>\n"
+                                  "<xacro:part name='base'/>\n</robot>");
+  ASSERT_TRUE(ModelLibrary().ReadModel(file.string(), problems_).has_value());
+  EXPECT_THAT(Sentences(), testing::Contains(
+                               testing::AllOf(HasSubstr("part.xacro:5: "), HasSubstr("colision"))));
+}
+
 TEST_F(SdfReaderTest, TakesTwoFreeWheelsOfAUrdfAsADifferentialDrive) {
   const auto wheel = [](const std::string& name, const std::string& y) {
     return "<link name='" + name +
@@ -549,16 +563,21 @@ TEST_F(SdfReaderTest, ReportsElementsOfIncludedFilesInTheirFile) {
                                                HasSubstr("Did you mean <static>?"))));
 }
 
-TEST_F(SdfReaderTest, ChecksRulesOfNamesApartFromReading) {
+TEST_F(SdfReaderTest, ReportsBrokenRulesOfNamesOnlyWhenAsked) {
   const auto file = folder_.Write(
       "rules.sdf", Sdf("<world name='w'><frame name='f' attached_to='nowhere'/></world>"));
+  ReadOptions options;
+  options.check_rules = true;
   base::Problems problems;
-  ModelLibrary library;
-  library.CheckRules(file.string(), problems);
-  ASSERT_THAT(problems, SizeIs(1));
-  EXPECT_EQ(problems[0].severity, base::Problem::Severity::kError);
-  EXPECT_THAT(problems[0].Sentence(), HasSubstr("world/frame[f]: its attached_to names"));
-  EXPECT_TRUE(library.ReadWorld(file, problems).has_value());
+  EXPECT_TRUE(ModelLibrary(options).ReadWorld(file, problems).has_value());
+  const auto errors = std::count_if(problems.begin(), problems.end(), [](const auto& each) {
+    return each.severity == base::Problem::Severity::kError &&
+           each.message.find("its attached_to names") != std::string::npos;
+  });
+  EXPECT_EQ(errors, 1);
+  problems.clear();
+  EXPECT_TRUE(ModelLibrary().ReadWorld(file, problems).has_value());
+  for (const auto& each : problems) EXPECT_NE(each.severity, base::Problem::Severity::kError);
 }
 
 }  // namespace

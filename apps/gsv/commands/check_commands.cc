@@ -134,6 +134,7 @@ void AddCheck(const CommandLine& line, const char* group, const char* what, Read
       return;
     }
     formats::ReadOptions options;
+    options.check_rules = true;
     options.check_sensor = CheckBy(*std::move(types));
     options.limits = arguments->limits;
     options.model_path.assign(arguments->model_path.begin(), arguments->model_path.end());
@@ -154,7 +155,6 @@ void AddCheckCommands(const CommandLine& line) {
              const auto found = FindWorld(file);
              if (!found) return base::Status(base::Fail(found.error()));
              const auto world = library.ReadWorld(*found, problems);
-             library.CheckRules(*found, problems);
              return world ? base::Status() : base::Fail(world.error());
            });
   AddCheck(line, "model", "a model",
@@ -162,7 +162,6 @@ void AddCheckCommands(const CommandLine& line) {
               Notes& notes) {
              const auto model = library.ReadModel(file, problems);
              if (!model) return base::Status(base::Fail(model.error()));
-             library.CheckRules(file, problems);
              notes = RobotNotes(*model);
              return base::Status();
            });

@@ -5,6 +5,15 @@
 
 using namespace gsv;
 
+static std::size_t Elements(const tinyxml2::XMLElement& element) {
+  std::size_t count = 1;
+  for (auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    count += Elements(*child);
+  }
+  return count;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   tinyxml2::XMLDocument document;
   if (document.Parse(reinterpret_cast<const char*>(data), size) != tinyxml2::XML_SUCCESS ||
@@ -23,7 +32,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   tinyxml2::XMLDocument plain;
-  const auto status = plain.Parse(expanded->data(), expanded->size());
+  const auto status = plain.Parse(expanded->xml.data(), expanded->xml.size());
   GSV_CHECK(status == tinyxml2::XML_SUCCESS || status == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED);
+  if (status == tinyxml2::XML_SUCCESS) {
+    GSV_CHECK(Elements(*plain.RootElement()) == expanded->sources.size());
+  }
   return 0;
 }

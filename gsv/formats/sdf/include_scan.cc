@@ -97,9 +97,7 @@ base::Result<std::string> IncludeScan::Enter(const fs::path& file) {
 
 // The text of a file that is included, without what cannot be read in it.
 base::Result<std::string> IncludeScan::TextOf(XmlFile& file) {
-  if (file.dialect == XmlDialect::kUrdf) {
-    return UrdfText(file, problems_);
-  }
+  if (file.dialect == XmlDialect::kUrdf) return UrdfText(file, problems_);
   XMLElement* model = file.root->FirstChildElement("model");
   if (model == nullptr) {
     const XMLElement* content = file.root->FirstChildElement();

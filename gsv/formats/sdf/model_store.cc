@@ -11,6 +11,7 @@
 #include "gsv/formats/sdf/sdf_world.h"
 #include "gsv/formats/sdf/urdf_text.h"
 #include "gsv/formats/sdf/value_repair.h"
+#include "gsv/formats/support/naming_rules.h"
 #include "gsv/model/drive_guess.h"
 
 namespace gsv::formats {
@@ -34,46 +35,62 @@ void Append(const std::string& plugins, XMLElement& model) {
 
 base::Result<std::shared_ptr<const StoredFile>> ModelStore::Read(const std::filesystem::path& file,
                                                                  const std::string& plugins) {
+  return Keep(file, plugins, [&]() -> base::Result<StoredFile> {
+    base::Problems problems;
+    auto xml = ReadXml(file, finder_, limits_, problems);
+    if (!xml) return Fail(xml.error());
+    return ReadFresh(*xml, plugins, std::move(problems));
+  });
+}
+
+base::Result<std::shared_ptr<const StoredFile>> ModelStore::Take(XmlFile xml,
+                                                                 base::Problems problems) {
+  return Keep(xml.named, "", [&] { return ReadFresh(xml, "", std::move(problems)); });
+}
+
+base::Result<std::shared_ptr<const StoredFile>> ModelStore::Keep(
+    const std::filesystem::path& file, const std::string& plugins,
+    const std::function<base::Result<StoredFile>()>& read) {
   const auto name = std::make_pair(file.string(), plugins);
   if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
   std::error_code ignored;
   const auto key = std::make_pair(std::filesystem::weakly_canonical(file, ignored), plugins);
   auto& known = files_[key];
   if (known == nullptr) {
-    auto stored = ReadFresh(file, plugins);
+    auto stored = read();
     if (!stored) return Fail(stored.error());
     known = std::make_shared<const StoredFile>(std::move(*stored));
   }
   return by_name_[name] = known;
 }
 
-base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file,
-                                               const std::string& plugins) {
+base::Result<StoredFile> ModelStore::ReadFresh(XmlFile& xml, const std::string& plugins,
+                                               base::Problems problems) {
+  const std::filesystem::path& file = xml.named;
   StoredFile stored;
-  auto xml = ReadXml(file, finder_, limits_, stored.problems);
-  if (!xml) return Fail(xml.error());
-  if (xml->dialect == XmlDialect::kUrdf) {
-    ReportUnsupported(*xml, stored.problems);
-    auto text = UrdfText(*xml, stored.problems);
-    if (!text) return Fail(text.error());
-    auto robot = FromText({file, *std::move(text)}, {}, std::move(stored));
-    if (robot) Complete(*xml->root, file, true, *robot);
+  stored.problems = std::move(problems);
+  if (check_rules_) CheckNamingRules({xml.path, xml.root, xml.minor_version}, stored.broken_rules);
+  if (xml.dialect == XmlDialect::kUrdf) {
+    ReportUnsupported(xml, stored.problems);
+    std::string text = UrdfText(xml, stored.problems);
+    auto robot = FromText({file, std::move(text)}, {}, std::move(stored));
+    if (robot) Complete(*xml.root, file, true, *robot);
     return robot;
   }
-  ReportUnsupported(*xml, stored.problems);
-  XMLElement* content = xml->root->FirstChildElement("model");
-  if (content == nullptr) content = xml->root->FirstChildElement("light");
+  ReportUnsupported(xml, stored.problems);
+  XMLElement* content = xml.root->FirstChildElement("model");
+  if (content == nullptr) content = xml.root->FirstChildElement("light");
   ActorParts actor;
   if (content == nullptr) {
-    content = xml->root->FirstChildElement("actor");
+    content = xml.root->FirstChildElement("actor");
     if (content != nullptr) actor = MakeModelOfActor(*content, ContextFor(file, stored.problems));
   }
   if (content == nullptr) {
-    const bool world = xml->root->FirstChildElement("world") != nullptr;
+    const bool world = xml.root->FirstChildElement("world") != nullptr;
     return Fail(
         ErrorCode::kBadModel,
         world ? "the file holds a world, where a model is wanted" : "there is no model inside",
-        PlaceOf(file, *xml->root));
+        PlaceOf(file, *xml.root));
   }
   RepairValues(*content, file, stored.problems);
   IncludeScan includes(finder_, limits_, stored.problems);
@@ -81,7 +98,7 @@ base::Result<StoredFile> ModelStore::ReadFresh(const std::filesystem::path& file
   if (std::string(content->Name()) == "model") Append(plugins, *content);
 
   LineKeepingPrinter printer;
-  printer.Text("<sdf version='" + xml->version + "'>");
+  printer.Text("<sdf version='" + xml.version + "'>");
   printer.Element(*content);
   printer.Text("</sdf>");
   auto read = FromText({file, printer.Take()}, includes.files(), std::move(stored));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +27,7 @@ struct StoredFile {
   std::optional<model::Light> light;
   geometry::Pose world_from_light;  // as the file says
   base::Problems problems;
+  base::Problems broken_rules;  // as of ReadOptions::check_rules
 };
 
 class ModelStore {
@@ -33,6 +35,7 @@ class ModelStore {
   explicit ModelStore(const ReadOptions& options)
       : finder_(options.model_path, options.allow_absolute_paths),
         limits_(options.limits),
+        check_rules_(options.check_rules),
         check_sensor_(options.check_sensor),
         textures_(limits_),
         meshes_(limits_, textures_) {}
@@ -41,6 +44,10 @@ class ModelStore {
   base::Result<std::shared_ptr<const StoredFile>> Read(const std::filesystem::path& file,
                                                        const std::string& plugins = {});
 
+  // The same of a file whose XML is read already, with the problems of that.
+  base::Result<std::shared_ptr<const StoredFile>> Take(XmlFile xml, base::Problems problems);
+
+  bool checks_rules() const { return check_rules_; }
   const ResourceFinder& finder() const { return finder_; }
   const ReadLimits& limits() const { return limits_; }
   ReadingContext ContextFor(const std::filesystem::path& file, base::Problems& problems) {
@@ -48,7 +55,11 @@ class ModelStore {
   }
 
  private:
-  base::Result<StoredFile> ReadFresh(const std::filesystem::path& file, const std::string& plugins);
+  base::Result<StoredFile> ReadFresh(XmlFile& xml, const std::string& plugins,
+                                     base::Problems problems);
+  base::Result<std::shared_ptr<const StoredFile>> Keep(
+      const std::filesystem::path& file, const std::string& plugins,
+      const std::function<base::Result<StoredFile>()>& read);
   // Adds what libsdformat does not read: <ros2_control>, and a robot description's guessed drive.
   static void Complete(const tinyxml2::XMLElement& element, const std::filesystem::path& file,
                        bool is_robot, StoredFile& stored);
@@ -57,6 +68,7 @@ class ModelStore {
 
   ResourceFinder finder_;
   ReadLimits limits_;
+  bool check_rules_;
   SensorCheck check_sensor_;
   TextureReader textures_;
   MeshReader meshes_;

@@ -18,6 +18,9 @@ struct ReadOptions {
   std::vector<std::filesystem::path> model_path;  // as of --model-path
   bool allow_absolute_paths = true;               // in the names that files contain
   ReadLimits limits;
+  // Errors as well for each rule of SDFormat that a named file breaks by its names and references,
+  // see gsv/formats/support/naming_rules.h. Reading repairs these; a check refuses them.
+  bool check_rules = false;
   SensorCheck check_sensor;  // may be empty: then a sensor's parameters are taken as they are
 };
 

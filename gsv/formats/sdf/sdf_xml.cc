@@ -16,7 +16,6 @@ namespace {
 using base::ErrorCode;
 using base::Problem;
 using tinyxml2::XMLElement;
-using tinyxml2::XMLNode;
 
 constexpr int kOldestVersion = 103;
 constexpr int kNewestVersion = 109;  // of libsdformat
@@ -80,13 +79,33 @@ base::Status CheckVersion(XmlFile& file, base::Problems& problems) {
   return {};
 }
 
+// Gives each element, in the order of the document, its source as user data.
+void NameSources(XMLElement& element, std::vector<ElementSource>& sources, std::size_t& next) {
+  if (next == sources.size()) return;
+  element.SetUserData(&sources[next++]);
+  for (auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    NameSources(*child, sources, next);
+  }
+}
+
+base::Status TakeExpanded(xacro::Expansion expanded, XmlFile& file) {
+  if (file.document->Parse(expanded.xml.data(), expanded.xml.size()) != tinyxml2::XML_SUCCESS) {
+    return Fail(ErrorCode::kBadModel,
+                std::string("the expanded XML is malformed (") +
+                    tinyxml2::XMLDocument::ErrorIDToName(file.document->ErrorID()) + ")",
+                file.path.string());
+  }
+  file.root = file.document->RootElement();
+  file.sources = std::move(expanded.sources);
+  std::size_t next = 0;
+  NameSources(*file.root, file.sources, next);
+  return {};
+}
+
 bool ByteOrderMark(const std::string& text) { return text.compare(0, 3, "\xEF\xBB\xBF") == 0; }
 
 }  // namespace
-
-std::string PlaceOf(const std::filesystem::path& file, const XMLNode& node) {
-  return file.string() + ":" + std::to_string(node.GetLineNum());
-}
 
 base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const ResourceFinder& finder,
                               const ReadLimits& limits, base::Problems& problems) {
@@ -97,6 +116,7 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   if (ByteOrderMark(*text)) text->erase(0, 3);
   XmlFile file;
   file.path = path;
+  file.named = named;
   file.document = std::make_unique<tinyxml2::XMLDocument>();
   if (file.document->Parse(text->data(), text->size()) != tinyxml2::XML_SUCCESS) {
     return Fail(ErrorCode::kBadModel,
@@ -106,10 +126,11 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   }
   file.root = file.document->RootElement();
   if (file.root != nullptr && xacro::NeedsExpansion(*file.root, path)) {
-    const auto expanded = xacro::Expand(*file.root, path, {finder, limits, arguments}, problems);
+    auto expanded = xacro::Expand(*file.root, path, {finder, limits, arguments}, problems);
     if (!expanded) return Fail(expanded.error());
-    file.document->Parse(expanded->data(), expanded->size());
-    file.root = file.document->RootElement();
+    if (auto status = TakeExpanded(*std::move(expanded), file); !status) {
+      return Fail(status.error());
+    }
   }
   const std::string root = file.root == nullptr ? "" : file.root->Name();
   if (root == "gazebo") {

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <tinyxml2.h>
 
 #include "gsv/base/error.h"
 #include "gsv/formats/files/read_limits.h"
 #include "gsv/formats/files/resource_finder.h"
+#include "gsv/formats/support/element_path.h"
 
 namespace gsv::formats {
 
@@ -17,6 +19,8 @@ enum class XmlDialect { kSdf, kUrdf };
 
 struct XmlFile {
   std::filesystem::path path;
+  std::filesystem::path named;         // with the arguments for xacro that ReadXml() was given
+  std::vector<ElementSource> sources;  // of a xacro file: what the elements' user data point to
   std::unique_ptr<tinyxml2::XMLDocument> document;
   tinyxml2::XMLElement* root = nullptr;  // <sdf> or <robot>
   XmlDialect dialect = XmlDialect::kSdf;
@@ -33,9 +37,6 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& path, const ResourceF
 // Adds a warning for each element and attribute that is unknown or not carried out, see
 // gsv/formats/support/element_audit.h. Call it before the file's elements are changed.
 void ReportUnsupported(const XmlFile& file, base::Problems& problems);
-
-// "file:line" of an element.
-std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);
 
 // Writes elements so that each stands on the line it has in its file: what libsdformat says about
 // lines then holds. Elements must come in the order of their lines.

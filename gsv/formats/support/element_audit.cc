@@ -91,8 +91,7 @@ class ElementAudit {
     }
     ++reported_;
     problems_.push_back({base::Problem::Severity::kWarning, std::move(message),
-                         file_.path.string() + ":" + std::to_string(element.GetLineNum()) + ": " +
-                             PathOf(element)});
+                         PlaceOf(file_.path, element) + ": " + PathOf(element)});
   }
 
   // The reader takes the first world, else the first model, else a light.

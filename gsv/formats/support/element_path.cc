@@ -4,6 +4,12 @@
 
 namespace gsv::formats {
 
+std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node) {
+  const auto* source = static_cast<const ElementSource*>(node.GetUserData());
+  if (source != nullptr) return source->file->string() + ":" + std::to_string(source->line);
+  return file.string() + ":" + std::to_string(node.GetLineNum());
+}
+
 std::string PathOf(const tinyxml2::XMLElement& element) {
   std::string path;
   for (const tinyxml2::XMLNode* node = &element; node != nullptr; node = node->Parent()) {

@@ -1,11 +1,24 @@
 // Where an element stands, for messages.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 
 #include <tinyxml2.h>
 
 namespace gsv::formats {
+
+// Where an element was written. An element that a xacro file was expanded to may come from a macro
+// or from an included file; then its user data (XMLNode::GetUserData) points to its ElementSource.
+// Nothing else sets the user data of elements.
+struct ElementSource {
+  std::shared_ptr<const std::filesystem::path> file;
+  int line = 0;
+};
+
+// "file:line" of an element: that of its ElementSource, or else its line in `file`.
+std::string PlaceOf(const std::filesystem::path& file, const tinyxml2::XMLNode& node);
 
 // "world/model[box]/link[l]": names distinguish what stands beside each other.
 std::string PathOf(const tinyxml2::XMLElement& element);

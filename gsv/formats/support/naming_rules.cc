@@ -88,8 +88,7 @@ class NamingRules {
   void Report(std::string message, const XMLElement& element) {
     if (reported_++ >= kMostFindings) return;
     problems_.push_back({base::Problem::Severity::kError, std::move(message),
-                         file_.path.string() + ":" + std::to_string(element.GetLineNum()) + ": " +
-                             PathOf(element)});
+                         PlaceOf(file_.path, element) + ": " + PathOf(element)});
   }
 
   void CheckName(const XMLElement& element) {

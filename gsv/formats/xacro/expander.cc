@@ -79,8 +79,12 @@ base::Result<NodePtr> Expander::Run(const NodePtr& root) {
   Node document;
   Context context{main_.scope, main_, 0, most_included_};
   auto status = Plain(root->text, *root, document, context);
-  if (!status && status.error().where.empty()) status.error().where = root->place();
-  if (!status) return base::Fail(status.error());
+  if (!status) {
+    base::Error error = status.error();
+    if (error.where.empty()) error.where = root->place();
+    if (!missing_file_.empty()) error.message += " (" + missing_file_ + " is missing)";
+    return base::Fail(std::move(error));
+  }
   return document.children.front();
 }
 
@@ -155,8 +159,18 @@ base::Status Expander::Element(const NodePtr& node, Node& parent, Context& conte
   if (const Handler handler = HandlerOf(*node, takes_plain_names_)) {
     return (this->*handler)(node, parent, context);
   }
-  if (is_prefixed) return Unfit("there is no macro \"" + name + "\"");
+  if (is_prefixed) return UnknownMacro(name, *node);
   return Plain(node->text, *node, parent, context);
+}
+
+// A file that is missing may define the macro: then the call costs only itself.
+base::Status Expander::UnknownMacro(const std::string& name, const Node& call) {
+  if (missing_file_.empty()) return Unfit("there is no macro \"" + name + "\"");
+  problems_.push_back({base::Problem::Severity::kWarning,
+                       "the call of the macro \"" + name + "\" is left out: " + missing_file_ +
+                           ", which is missing, may define it",
+                       call.place()});
+  return {};
 }
 
 // Without the prefix a name alone says little: <camera> in a macro "camera" is an element.
@@ -181,7 +195,8 @@ base::Status Expander::Plain(const std::string& name, const Node& node, Node& pa
   auto element = std::make_shared<Node>();
   element->text = name;
   element->file = node.file;
-  element->line = context.line > 0 ? context.line : node.line;
+  element->line = node.line;
+  element->call_line = context.line > 0 ? context.line : node.line;
   for (const auto& [key, value] : node.attributes) {
     if (key.starts_with("xmlns") || key.starts_with("xacro:")) continue;
     const auto text = TextOf(value, node, context.scope);
@@ -265,9 +280,15 @@ base::Status Expander::OnInclude(const NodePtr& node, Node& parent, Context& con
   }
   const auto root = files_.ReadIncluded(*name, *node->file);
   if (!root) {
-    if (!*is_optional) return base::Fail(root.error());
+    if (!*is_optional && root.error().code != base::ErrorCode::kNotFound) {
+      return base::Fail(root.error());
+    }
+    if (!*is_optional) missing_file_ = *name;
     problems_.push_back({base::Problem::Severity::kWarning,
-                         "the optional file is left out: " + root.error().message, node->place()});
+                         (*is_optional ? "the optional file is left out: "
+                                       : "the include of " + *name + " is left out: ") +
+                             root.error().message,
+                         node->place()});
     return {};
   }
   Space* space = &context.space;
@@ -320,7 +341,7 @@ base::Status Expander::OnCall(const NodePtr& node, Node& parent, Context& contex
   const auto name = Needed(*node, "macro", context.scope);
   if (!name) return base::Fail(name.error());
   const auto [macro, home] = context.space.FindMacro(WithoutPrefix(*name));
-  if (macro == nullptr) return Unfit("there is no macro \"" + *name + "\"");
+  if (macro == nullptr) return UnknownMacro(*name, *node);
   auto call = std::make_shared<Node>(*node);
   std::erase_if(call->attributes, [](const auto& each) { return each.first == "macro"; });
   return CallMacro(*macro, *home, call, parent, context);
@@ -363,13 +384,14 @@ base::Status Expander::CallMacro(const Macro& macro, Space& home, const NodePtr&
 base::Status Expander::BindValues(const Macro& macro, const NodePtr& node, Context& context,
                                   Scope& inner) {
   std::map<std::string, Value> given;
-  for (const auto& [name, text] : node->attributes) {
+  for (const auto& attribute : node->attributes) {
+    const std::string& name = attribute.first;
     const bool is_taken =
         std::any_of(macro.parameters.begin(), macro.parameters.end(), [&](const auto& parameter) {
           return parameter.name == name && parameter.kind == Parameter::Kind::kValue;
         });
     if (!is_taken) return Unfit("the macro has no parameter \"" + name + "\"");
-    auto value = Evaluate(text, *node, context.scope);
+    auto value = Evaluate(attribute.second, *node, context.scope);
     if (!value) return base::Fail(value.error());
     given[name] = *std::move(value);
   }
@@ -469,8 +491,11 @@ base::Result<Value> Expander::Command(const std::string& command, const Node& at
   if (name == "arg") return ArgumentNamed(rest);
   if (name == "find" || name == "find-pkg-share") {
     const auto folder = files_.Package(rest, *at.file);
-    if (!folder) return base::Fail(folder.error());
-    return Value{folder->string()};
+    if (folder) return Value{folder->string()};
+    if (missing_packages_.insert(rest).second) {
+      problems_.push_back({base::Problem::Severity::kWarning, folder.error().message, at.place()});
+    }
+    return Value{"package://" + rest};  // what names a file in it then says what is missing
   }
   if (name == "dirname") return Value{at.file->parent_path().string()};
   if (name == "eval") {

@@ -35,6 +35,7 @@ class Expander {
   base::Status Element(const NodePtr& node, Node& parent, Context& context);
   static Handler HandlerOf(const Node& node, bool takes_plain_names);
   bool LooksLikeCall(const Node& node, const Macro& macro) const;
+  base::Status UnknownMacro(const std::string& name, const Node& call);
   base::Status Plain(const std::string& name, const Node& node, Node& parent, Context& context);
 
   base::Status OnProperty(const NodePtr& node, Node& parent, Context& context);
@@ -69,6 +70,8 @@ class Expander {
   Space main_;
   bool takes_plain_names_ = false;  // <macro> for <xacro:macro>, in descriptions of robots
   std::set<const Node*> active_;    // definitions of the macros that are being expanded
+  std::string missing_file_;        // the last include that was not found; empty if there was none
+  std::set<std::string> missing_packages_;
   int steps_ = 0, levels_ = 0, most_included_;
 };
 

@@ -23,7 +23,7 @@ class ExpanderTest : public testing::Test {
     const auto xml = Expand(*document.RootElement(), file, {finder, limits_, args}, problems_);
     if (!xml) return "refused: " + xml.error().Sentence();
     tinyxml2::XMLDocument plain;
-    EXPECT_EQ(plain.Parse(xml->c_str()), tinyxml2::XML_SUCCESS) << *xml;
+    EXPECT_EQ(plain.Parse(xml->xml.c_str()), tinyxml2::XML_SUCCESS) << xml->xml;
     tinyxml2::XMLPrinter printer(nullptr, true);
     for (auto* child = plain.RootElement()->FirstChild(); child != nullptr;
          child = child->NextSibling()) {
@@ -154,10 +154,45 @@ TEST_F(ExpanderTest, IncludesFilesBesideItAndInNamespaces) {
                      "<xacro:include filename='parts/wheel.xacro' ns='P'/>"
                      "<xacro:P.m/><a w='${w}' pw='${P.w}'/>"),
             "<tyre/><m w=\"2\"/><a w=\"1\" pw=\"2\"/>");
-  EXPECT_THAT(Expanded("\n<xacro:include filename='absent.xacro'/>"),
-              HasSubstr("robot.xacro:2: cannot find absent.xacro"));
   EXPECT_EQ(Expanded("<xacro:include filename='absent.xacro' optional='true'/><a/>"), "<a/>");
   EXPECT_THAT(problems_, SizeIs(1));
+}
+
+TEST_F(ExpanderTest, LeavesOutWhatAMissingFileWouldBring) {
+  EXPECT_EQ(Expanded("\n<xacro:include filename='absent.xacro'/>\n<xacro:lidar name='l'/><a/>"),
+            "<a/>");
+  ASSERT_THAT(problems_, SizeIs(2));
+  EXPECT_THAT(problems_[0].Sentence(),
+              HasSubstr("robot.xacro:2: the include of absent.xacro is left out: cannot find"));
+  EXPECT_THAT(problems_[1].Sentence(),
+              HasSubstr("robot.xacro:3: the call of the macro \"lidar\" is left out"));
+  // A value that is missing cannot be left out.
+  EXPECT_THAT(Expanded("<xacro:include filename='absent.xacro'/><a b='${height}'/>"),
+              HasSubstr("(absent.xacro is missing)"));
+}
+
+TEST_F(ExpanderTest, KeepsTheSourceOfEachElement) {
+  const auto part = folder_.Write("part.xacro",
+                                  "<robot>\n<xacro:macro name='m' params='*block'>\n<b/>\n"
+                                  "<xacro:insert_block name='block'/>\n</xacro:macro>\n</robot>");
+  const auto file = folder_.Write("robot.xacro",
+                                  "<robot>\n<xacro:include filename='part.xacro'/>\n<a/>\n"
+                                  "<xacro:m>\n<c/>\n</xacro:m>\n</robot>");
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.LoadFile(file.c_str()), tinyxml2::XML_SUCCESS);
+  const ResourceFinder finder;
+  const auto expanded = Expand(*document.RootElement(), file, {finder, limits_, {}}, problems_);
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().Sentence();
+  std::vector<std::string> places;
+  for (const ElementSource& source : expanded->sources) {
+    places.push_back(source.file->filename().string() + ":" + std::to_string(source.line));
+  }
+  EXPECT_EQ(places, (std::vector<std::string>{"robot.xacro:1", "robot.xacro:3", "part.xacro:3",
+                                              "robot.xacro:5"}));
+  // In the text <b/> stands on the line of the call.
+  tinyxml2::XMLDocument plain;
+  ASSERT_EQ(plain.Parse(expanded->xml.c_str()), tinyxml2::XML_SUCCESS);
+  EXPECT_EQ(plain.RootElement()->FirstChildElement("b")->GetLineNum(), 4);
 }
 
 TEST_F(ExpanderTest, FindsPackagesByTheirFolderAndByTheirManifest) {
@@ -166,8 +201,10 @@ TEST_F(ExpanderTest, FindsPackagesByTheirFolderAndByTheirManifest) {
   const std::string folder = (folder_.path() / "other_folder").string();
   EXPECT_EQ(Expanded("<xacro:include filename='$(find my_parts)/urdf/a.xacro'/>"),
             "<a f=\"" + folder + "/x\"/>");
-  EXPECT_THAT(Expanded("<a f='$(find nowhere_to_be_found)'/>"),
-              HasSubstr("cannot find the package \"nowhere_to_be_found\""));
+  EXPECT_EQ(Expanded("<a f='$(find nowhere_to_be_found)/m.stl' g='$(find nowhere_to_be_found)'/>"),
+            "<a f=\"package://nowhere_to_be_found/m.stl\" g=\"package://nowhere_to_be_found\"/>");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].message, HasSubstr("cannot find the package \"nowhere_to_be_found\""));
 }
 
 TEST_F(ExpanderTest, RefusesFilesThatIncludeThemselves) {
@@ -178,7 +215,9 @@ TEST_F(ExpanderTest, RefusesFilesThatIncludeThemselves) {
 
 TEST_F(ExpanderTest, ReachesNoFileOutsideWhereAbsolutePathsAreNotAllowed) {
   allows_absolute_paths_ = false;
-  EXPECT_THAT(Expanded("<xacro:include filename='/etc/hostname'/>"), HasSubstr("refused"));
+  EXPECT_EQ(Expanded("<xacro:include filename='/etc/hostname'/>"), "");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].message, HasSubstr("the include of /etc/hostname is left out"));
   EXPECT_THAT(Expanded("<a b=\"${xacro.load_yaml('../../../etc/passwd')}\"/>"),
               HasSubstr("climbs out"));
 }

@@ -20,6 +20,11 @@ tl::unexpected<base::Error> NoFile(const std::string& why, const std::string& wh
   return base::Fail(base::ErrorCode::kBadModel, why, where);
 }
 
+// Of a file that is not there; all other refusals are kBadModel.
+tl::unexpected<base::Error> Missing(const std::string& why) {
+  return base::Fail(base::ErrorCode::kNotFound, why);
+}
+
 }  // namespace
 
 bool FileAccess::IsInPackage(const fs::path& file) const {
@@ -37,15 +42,15 @@ base::Result<fs::path> FileAccess::Find(const std::string& name, const fs::path&
   const fs::path path(plain);
   if (path.is_absolute() && IsInPackage(path)) {
     if (fs::is_regular_file(path, ignored)) return path.lexically_normal();
-    return NoFile("there is no file " + plain);
+    return Missing("there is no file " + plain);
   }
   const fs::path beside = fs::absolute(in, ignored).parent_path() / path;
   if (finder_.allows_absolute_paths() && fs::is_regular_file(beside, ignored)) {
     return beside.lexically_normal();
   }
   auto found = finder_.Find(plain, in);
-  if (!found) return NoFile(found.error().message);
-  if (!fs::is_regular_file(*found, ignored)) return NoFile(plain + " is not a file");
+  if (!found) return Missing(found.error().message);
+  if (!fs::is_regular_file(*found, ignored)) return Missing(plain + " is not a file");
   return found;
 }
 
@@ -85,7 +90,7 @@ base::Result<Value> FileAccess::ReadYaml(const std::string& name, const fs::path
 base::Result<fs::path> FileAccess::Package(const std::string& name, const fs::path& in) {
   if (const auto known = packages_.find(name); known != packages_.end()) return known->second;
   auto found = FindPackage(name, in, finder_);
-  if (!found) return NoFile(found.error().message);
+  if (!found) return Missing(found.error().message);
   return packages_[name] = found->lexically_normal();
 }
 

@@ -19,6 +19,7 @@ class FileAccess {
       : finder_(finder), limits_(limits) {}
 
   // The root of an included file, and the values of a YAML file; `name` stands in the file `in`.
+  // kNotFound: there is no such file or package; kBadModel: it cannot be used.
   base::Result<NodePtr> ReadIncluded(const std::string& name, const std::filesystem::path& in);
   base::Result<Value> ReadYaml(const std::string& name, const std::filesystem::path& in);
   base::Result<std::filesystem::path> Package(const std::string& name,

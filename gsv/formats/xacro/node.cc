@@ -31,13 +31,15 @@ void AppendEscaped(const std::string& text, std::string& xml) {
   }
 }
 
-void AppendXml(const Node& node, std::size_t max_bytes, int& line, std::string& xml) {
+void AppendXml(const Node& node, std::size_t max_bytes, int& line, Expansion& expansion) {
+  std::string& xml = expansion.xml;
   if (xml.size() > max_bytes) return;
   if (!node.is_element) {
     AppendEscaped(node.text, xml);
     return;
   }
-  for (; line < node.line; ++line) xml += '\n';
+  expansion.sources.push_back({node.file, node.line});
+  for (; line < node.call_line; ++line) xml += '\n';
   xml += "<" + node.text;
   for (const auto& [name, value] : node.attributes) {
     xml += " " + name + "=\"";
@@ -45,7 +47,7 @@ void AppendXml(const Node& node, std::size_t max_bytes, int& line, std::string& 
     xml += '"';
   }
   xml += '>';
-  for (const NodePtr& child : node.children) AppendXml(*child, max_bytes, line, xml);
+  for (const NodePtr& child : node.children) AppendXml(*child, max_bytes, line, expansion);
   xml += "</" + node.text + ">";
 }
 
@@ -64,7 +66,7 @@ NodePtr ToNode(const tinyxml2::XMLElement& element,
   auto node = std::make_shared<Node>();
   node->text = element.Name();
   node->file = file;
-  node->line = element.GetLineNum();
+  node->line = node->call_line = element.GetLineNum();
   for (auto* attribute = element.FirstAttribute(); attribute != nullptr;
        attribute = attribute->Next()) {
     node->attributes.emplace_back(attribute->Name(), attribute->Value());
@@ -79,18 +81,18 @@ NodePtr ToNode(const tinyxml2::XMLElement& element,
       leaf->is_element = false;
       leaf->text = content;
       leaf->file = file;
-      leaf->line = text->GetLineNum();
+      leaf->line = leaf->call_line = text->GetLineNum();
       node->children.push_back(std::move(leaf));
     }
   }
   return node;
 }
 
-std::string ToXml(const Node& node, std::size_t max_bytes) {
-  std::string xml = "<?xml version='1.0'?>";
+Expansion ToXml(const Node& node, std::size_t max_bytes) {
+  Expansion expansion{"<?xml version='1.0'?>", {}};
   int line = 1;
-  AppendXml(node, max_bytes, line, xml);
-  return xml;
+  AppendXml(node, max_bytes, line, expansion);
+  return expansion;
 }
 
 }  // namespace gsv::formats::xacro

@@ -9,6 +9,8 @@
 
 #include <tinyxml2.h>
 
+#include "gsv/formats/xacro/xacro.h"
+
 namespace gsv::formats::xacro {
 
 struct Node {
@@ -17,7 +19,8 @@ struct Node {
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<std::shared_ptr<const Node>> children;
   std::shared_ptr<const std::filesystem::path> file;
-  int line = 0;
+  int line = 0;       // in `file`
+  int call_line = 0;  // in the main file: its own, or that of the call or include it came by
 
   // Null where there is none.
   const std::string* attribute(const std::string& name) const;
@@ -30,8 +33,9 @@ using NodePtr = std::shared_ptr<const Node>;
 NodePtr ToNode(const tinyxml2::XMLElement& element,
                const std::shared_ptr<const std::filesystem::path>& file);
 
-// XML in which each element stands on its node's line, or below where that would be going back.
-// Ends soon after `max_bytes`: nodes may share children, so that few nodes may be very long a text.
-std::string ToXml(const Node& node, std::size_t max_bytes);
+// XML in which each element stands on its node's call line, or below where that would be going
+// back, and the source of each element in the order of the document. Ends soon after `max_bytes`:
+// nodes may share children, so that few nodes may be very long a text.
+Expansion ToXml(const Node& node, std::size_t max_bytes);
 
 }  // namespace gsv::formats::xacro

@@ -1,5 +1,7 @@
 #include "gsv/formats/xacro/xacro.h"
 
+#include <string_view>
+
 #include "gsv/formats/xacro/expander.h"
 
 namespace gsv::formats::xacro {
@@ -8,29 +10,25 @@ bool NeedsExpansion(const tinyxml2::XMLElement& root, const std::filesystem::pat
   if (file.extension() == ".xacro") return true;
   for (auto* child = root.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
-    const std::string name = child->Name();
-    const bool is_literal =
-        (name == "xacro:property" && child->Attribute("value") != nullptr) || name == "xacro:arg";
-    if (name.starts_with("xacro:") && !is_literal) return true;
+    if (std::string_view(child->Name()).starts_with("xacro:")) return true;
     if (NeedsExpansion(*child, file)) return true;
   }
   return false;
 }
 
-base::Result<std::string> Expand(const tinyxml2::XMLElement& root,
-                                 const std::filesystem::path& file, const ExpandOptions& options,
-                                 base::Problems& problems) {
+base::Result<Expansion> Expand(const tinyxml2::XMLElement& root, const std::filesystem::path& file,
+                               const ExpandOptions& options, base::Problems& problems) {
   Expander expander(options, problems);
   const auto expanded = expander.Run(ToNode(root, std::make_shared<std::filesystem::path>(file)));
   if (!expanded) return base::Fail(expanded.error());
-  std::string xml = ToXml(**expanded, options.limits.xml_bytes);
-  if (xml.size() > options.limits.xml_bytes) {
+  Expansion expansion = ToXml(**expanded, options.limits.xml_bytes);
+  if (expansion.xml.size() > options.limits.xml_bytes) {
     return base::Fail(base::ErrorCode::kBadModel,
                       "the expanded file is larger than the limit of " +
                           std::to_string(options.limits.xml_bytes) + " bytes",
                       file.string());
   }
-  return xml;
+  return expansion;
 }
 
 }  // namespace gsv::formats::xacro

@@ -15,17 +15,18 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <tinyxml2.h>
 
 #include "gsv/base/error.h"
 #include "gsv/formats/files/read_limits.h"
 #include "gsv/formats/files/resource_finder.h"
+#include "gsv/formats/support/element_path.h"
 
 namespace gsv::formats::xacro {
 
-// Whether a file is to be expanded: it is named so, or has elements of xacro other than properties
-// and arguments with literal values.
+// Whether a file is to be expanded: its name ends in .xacro, or it has elements of xacro.
 bool NeedsExpansion(const tinyxml2::XMLElement& root, const std::filesystem::path& file);
 
 struct ExpandOptions {
@@ -34,11 +35,16 @@ struct ExpandOptions {
   std::map<std::string, std::string> arguments;  // over the defaults of <xacro:arg>
 };
 
-// Returns XML in which an element stands on the line of `file` that it came from. An element of a
-// macro or of an included file stands on the line of the call. kBadModel with file and line
-// otherwise.
-base::Result<std::string> Expand(const tinyxml2::XMLElement& root,
-                                 const std::filesystem::path& file, const ExpandOptions& options,
-                                 base::Problems& problems);
+struct Expansion {
+  // An element stands on the line of the main file that it came from; an element of a macro or of
+  // an included file on the line of the call.
+  std::string xml;
+  // Where each element was written, in the order of the document.
+  std::vector<ElementSource> sources;
+};
+
+// Expands the elements below `root`, those of `file`. Errors: kBadModel with file and line.
+base::Result<Expansion> Expand(const tinyxml2::XMLElement& root, const std::filesystem::path& file,
+                               const ExpandOptions& options, base::Problems& problems);
 
 }  // namespace gsv::formats::xacro
