@@ -4,9 +4,11 @@
   generate.py MSG_ROOT OUT PACKAGE/NAME...     the message types, and OUT/all.h
   generate.py --samples MSG_ROOT OUT PACKAGE/NAME...   OUT/samples.h, for tests
 
-MSG_ROOT holds PACKAGE/NAME.msg. Every type that is used must be listed. What a definition may hold:
-fields of primitive and message types, fixed and unbounded arrays of them, constants, and defaults
-of numbers. Anything else is refused with its file and line.
+MSG_ROOT holds PACKAGE/NAME.msg. PACKAGE/NAME.srv names a service, whose definition is
+MSG_ROOT/../srv/PACKAGE/NAME.srv: it becomes the types NAMERequest and NAMEResponse. Every type that is
+used must be listed. What a definition may hold: fields of primitive and message types, arrays of them
+(fixed, bounded, unbounded), constants, and defaults of numbers. Anything else is refused with its file
+and line. The bound of an array is in the definition only: the C++ type is a vector without one.
 """
 import pathlib
 import re
@@ -19,7 +21,7 @@ PRIMITIVES = {
     "float32": ("float", 4), "float64": ("double", 8),
     **{f"{u}int{8 * n}": (f"std::{u}int{8 * n}_t", n) for u in ("", "u") for n in (1, 2, 4, 8)},
 }
-FIELD = re.compile(r"^([\w/]+)(\[(\d*)\])?\s+([a-z][a-z0-9_]*)(?:\s+(-?[\d.]+))?$")
+FIELD = re.compile(r"^([\w/]+)(\[((?:<=)?\d*)\])?\s+([a-z][a-z0-9_]*)(?:\s+(-?[\d.]+))?$")
 CONSTANT = re.compile(r"^(\w+)\s+([A-Z][A-Z0-9_]*)\s*=\s*(-?[\d.]+)$")
 SEPARATOR = "=" * 80
 
@@ -41,6 +43,7 @@ class Message:
     package: str
     name: str
     text: str
+    ros_name: str  # "sensor_msgs/msg/Range", "rcl_interfaces/srv/GetParameters_Request"
     fields: list = field(default_factory=list)
     constants: list = field(default_factory=list)  # (type, name, value)
 
@@ -50,9 +53,26 @@ class Message:
 
 
 def parse(root, key):
+    """The message of a key, or request and response of a service."""
     package, name = key.split("/")
-    path = root / package / f"{name}.msg"
-    message = Message(package, name, path.read_text())
+    if not name.endswith(".srv"):
+        path = root / package / f"{name}.msg"
+        return [parse_text(path, Message(package, name, path.read_text(), f"{package}/msg/{name}"))]
+    path = root.parent / "srv" / package / name
+    name = name.removesuffix(".srv")
+    halves = re.split(r"^---\n", path.read_text(), flags=re.MULTILINE)
+    if len(halves) != 2:
+        sys.exit(f"{path}: expected one line '---' between request and response")
+    messages = []
+    for half, text in zip(("Request", "Response"), halves):
+        # As rosidl does: a struct of IDL cannot be empty.
+        text = text or "uint8 structure_needs_at_least_one_member\n"
+        message = Message(package, name + half, text, f"{package}/srv/{name}_{half}")
+        messages.append(parse_text(path, message))
+    return messages
+
+
+def parse_text(path, message):
     for number, line in enumerate(message.text.splitlines(), 1):
         line = line.split("#")[0].strip()
         if not line:
@@ -60,14 +80,14 @@ def parse(root, key):
         if found := CONSTANT.match(line):
             message.constants.append(found.groups())
         elif found := FIELD.match(line):
-            type_, array, _, field_name, default = found.groups()
+            type_, array, bound, field_name, default = found.groups()
             if type_ not in PRIMITIVES and type_ != "string" and "/" not in type_:
-                type_ = f"{package}/{type_}"
+                type_ = f"{message.package}/{type_}"
+            if bound and bound.startswith("<="):
+                array = "[]"
             message.fields.append(Field(type_, field_name, array or "", default or ""))
         else:
             sys.exit(f"{path}:{number}: expected a field or a constant, found '{line}'")
-        if message.fields and message.fields[-1].type == "bool" and message.fields[-1].array:
-            sys.exit(f"{path}:{number}: arrays of bool are not supported; use uint8")
     if not message.fields:
         sys.exit(f"{path}: a message needs at least one field")
     return message
@@ -75,7 +95,8 @@ def parse(root, key):
 
 class MessageSet:
     def __init__(self, root, keys):
-        self.messages = {key: parse(root, key) for key in keys}
+        parsed = [message for key in keys for message in parse(root, key)]
+        self.messages = {message.key: message for message in parsed}
         for message in self.messages.values():
             self.dependencies(message)  # checks that all are there, and that none is cyclic
 
@@ -104,6 +125,9 @@ class MessageSet:
 
     def packages(self):
         return sorted({message.package for message in self.messages.values()})
+
+    def sorted_keys(self):
+        return sorted(self.messages, key=lambda key: self.messages[key].ros_name)
 
     def schema_text(self, message):
         parts = [message.text]
@@ -136,11 +160,16 @@ def cpp_type(type_):
     return PRIMITIVES[type_][0] if type_ in PRIMITIVES else type_.replace("/", "::")
 
 
+def element_type(f):
+    """A bool in an array is a byte: a vector of bool is packed."""
+    return "std::uint8_t" if f.type == "bool" else cpp_type(f.type)
+
+
 def field_declaration(f):
     if f.array == "[]":
-        return f"  std::vector<{cpp_type(f.type)}> {f.name};"
+        return f"  std::vector<{element_type(f)}> {f.name};"
     if f.array:
-        return f"  std::array<{cpp_type(f.type)}, {f.length}> {f.name}{{}};"
+        return f"  std::array<{element_type(f)}, {f.length}> {f.name}{{}};"
     if f.type not in PRIMITIVES:
         return f"  {cpp_type(f.type)} {f.name};"
     value = f.default or ("false" if f.type == "bool" else "0")
@@ -230,7 +259,7 @@ def source(messages, package):
     lines += [f"}}  // namespace gsv::messages::{package}", "", "namespace gsv::messages {", ""]
     for m in ordered:
         lines += ["template <>", f"const Schema& SchemaOf<{package}::{m.name}>() {{",
-                  f'  static constexpr Schema kSchema{{"{package}/msg/{m.name}", "ros2msg",',
+                  f'  static constexpr Schema kSchema{{"{m.ros_name}", "ros2msg",',
                   f'      R"msg({messages.schema_text(m)})msg"}};',
                   "  return kSchema;", "}", ""]
     return lines + ["}  // namespace gsv::messages"]
@@ -249,7 +278,7 @@ def all_source(messages):
     return (['#include "gsv/messages/all.h"', "", "namespace gsv::messages {", "",
              f"const std::array<Schema, {len(messages.messages)}>& AllSchemas() {{",
              f"  static const std::array<Schema, {len(messages.messages)}> kSchemas{{"] +
-            [f"      SchemaOf<{key.replace('/', '::')}>()," for key in sorted(messages.messages)] +
+            [f"      SchemaOf<{key.replace('/', '::')}>()," for key in messages.sorted_keys()] +
             ["  };", "  return kSchemas;", "}", "", "}  // namespace gsv::messages"])
 
 
@@ -268,6 +297,8 @@ def samples(messages):
         for f in messages.messages[key].fields:
             value = f"message.{f.name}"
             one = "Fill({}, filler)" if "/" in f.type else "filler.Value({})"
+            if f.type == "bool" and f.array:
+                one = "{{ bool value; filler.Value(value); {} = value ? 1 : 0; }}"
             if f.array == "[]":
                 lines += [f"  {value}.resize(filler.Count());"]
             lines += [f"  for (auto& element : {value}) {one.format('element')};" if f.array else
@@ -275,7 +306,7 @@ def samples(messages):
         lines += ["}", ""]
     lines += ["// Calls visit(SchemaOf<T>(), T{}) for every type T.",
               "template <typename Visitor>", "void ForEachType(Visitor&& visit) {"]
-    for key in sorted(messages.messages):
+    for key in messages.sorted_keys():
         type_ = key.replace("/", "::")
         lines += [f"  visit(SchemaOf<{type_}>(), {type_}{{}});"]
     return lines + ["}", "", "}  // namespace gsv::messages"]

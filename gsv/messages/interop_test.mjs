@@ -63,8 +63,8 @@ function plain(value) {
 }
 
 function assertIsHumbles(name, definition) {
-  // The common messages hold neither ours nor those of these two packages.
-  if (/^(gsv_msgs|ros_gz_interfaces|vision_msgs)\//.test(name)) return;
+  // The common messages hold no services, and neither ours nor those of these packages.
+  if (/^(gsv_msgs|ros_gz_interfaces|vision_msgs|simulation_interfaces|service_msgs)\/|\/srv\//.test(name)) return;
   const humbles = ros2humble[name.replace("/msg/", "/")];
   const fields = ({ definitions }) =>
     definitions.map(({ type, name, isArray = false, arrayLength, isConstant = false, value }) =>
