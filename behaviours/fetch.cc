@@ -43,12 +43,12 @@ class Fetch final : public Behaviour {
   }
 
   void Run(Robot& robot) override {
-    (void)led_->Shine(kYellow);
+    (void)led_->Set(kYellow);
     if (!Approach(robot) || !Take(robot)) return;
-    if (gripper_->Feel().held.empty()) return Say(kRed, 220);
+    if (gripper_->Read().held.empty()) return Say(kRed, 220);
     Say(kGreen, 880);
     if (!CarryToGoal(robot)) return;
-    (void)gripper_->LetGo();
+    (void)gripper_->Open();
     if (!robot.SleepFor(700ms)) return;
     for (double way = 0; way < kBackOff; way += 0.05 * kBackOffSpeed) {
       robot.Drive(-kBackOffSpeed, 0);
@@ -70,10 +70,10 @@ class Fetch final : public Behaviour {
 
   // Until the jaws hold something or are shut.
   bool Take(Robot& robot) {
-    (void)gripper_->Grip();
+    (void)gripper_->Grasp();
     for (;;) {
       if (!robot.SleepFor(50ms)) return false;
-      const Gripper::Jaws jaws = gripper_->Feel();
+      const Gripper::State jaws = gripper_->Read();
       if (!jaws.held.empty() || jaws.opening <= 0) return true;
     }
   }
@@ -95,7 +95,7 @@ class Fetch final : public Behaviour {
   }
 
   void Say(const Colour& colour, double frequency) {
-    (void)led_->Shine(colour);
+    (void)led_->Set(colour);
     (void)speaker_->Beep(frequency);
   }
 

@@ -31,7 +31,7 @@ class Wander final : public Behaviour {
       const DriveCommand command = rule_.Decide(robot.footprint_radius(), sonars_.Read());
       robot.Drive(command.linear, command.angular);
       if (camera_ != nullptr && robot.Now() >= next_picture) {
-        camera_->TakePicture();
+        camera_->TakeImage();
         next_picture += 1s;
         if (!robot.SleepFor(20ms)) return;
       }

@@ -162,7 +162,7 @@ class SimulationProxy final : public RemoteSimulation {
     return Ask([this] { simulation_->reset(); });
   }
 
-  base::Status SetFactor(double factor) override {
+  base::Status SetRealTimeFactor(double factor) override {
     return Ask([this, factor] { simulation_->set_factor(factor); });
   }
 

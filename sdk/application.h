@@ -77,7 +77,10 @@ class RemoteSimulation {
   virtual base::Status Reset() = 0;
   // In real time: simulated seconds a wall second from the next step on; above 0, at most 1e6. It
   // outlives a reset. Fails with kInvalidArgument in lockstep, which goes as fast as it can.
-  virtual base::Status SetFactor(double factor) = 0;
+  virtual base::Status SetRealTimeFactor(double factor) = 0;
+  [[deprecated("use SetRealTimeFactor()")]] base::Status SetFactor(double factor) {
+    return SetRealTimeFactor(factor);
+  }
   // Any command of the server by its name, also those that this library does not know: see
   // `gsv --help`, or sba::Simulation::commands(). Values are written as in "-1.62" or "true". Fails
   // with kInvalidArgument when there is no such command, or an argument does not fit it.

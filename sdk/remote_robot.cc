@@ -87,16 +87,16 @@ class RemotePort final : public SensorPort {
     });
   }
 
-  Picture TakePicture() override {
-    Picture picture;
+  Image TakeImage() override {
+    Image image;
     robot_.Try([&] {
       const sba::Measurement_var taken = sensor_->measure();
-      picture.width = static_cast<int>(taken->image_width);
-      picture.height = static_cast<int>(taken->image_height);
+      image.width = static_cast<int>(taken->image_width);
+      image.height = static_cast<int>(taken->image_height);
       const sba::Octets& rgb = taken->image;
-      picture.rgb.assign(rgb.get_buffer(), rgb.get_buffer() + rgb.length());
+      image.rgb.assign(rgb.get_buffer(), rgb.get_buffer() + rgb.length());
     });
-    return picture;
+    return image;
   }
 
   base::Status Send(const std::string& receiver, const std::string& content) override {
@@ -110,7 +110,7 @@ class RemotePort final : public SensorPort {
     });
   }
 
-  base::Status Act(const std::vector<double>& values, const std::string& word) override {
+  base::Status CommandDevice(const std::vector<double>& values, const std::string& word) override {
     return robot_.Ask([&] {
       const sba::Actuator_var actuator = sba::Actuator::_narrow(sensor_);
       if (CORBA::is_nil(actuator)) throw sba::Refused("a sensor cannot be told anything");

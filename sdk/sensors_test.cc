@@ -64,11 +64,11 @@ class ReadsAll final : public Behaviour {
     // The hardware's sentence, wherever it comes through.
     const std::string why = refused ? "" : refused.error().Sentence();
     read_.names["refused"] = {why.substr(std::min(why.size(), why.find("a message of")))};
-    for (const base::Status& told : {gripper_->Grip(), lamp_->Shine({1, 0.5, 0}, 0.25),
-                                     speaker_->Play("chirp", 440, 2, 0.5)}) {
+    for (const base::Status& told :
+         {gripper_->Grasp(), lamp_->Set({1, 0.5, 0}, 0.25), speaker_->Play("chirp", 440, 2, 0.5)}) {
       if (!told) read_.error = told.error().message;
     }
-    const auto too_bright = lamp_->Shine({}, 2);
+    const auto too_bright = lamp_->Set({}, 2);
     const std::string how = too_bright ? "" : too_bright.error().Sentence();
     read_.names["too bright"] = {how.substr(std::min(how.size(), how.find("the brightness")))};
     if (!robot.SleepFor(50ms)) return;
@@ -77,13 +77,13 @@ class ReadsAll final : public Behaviour {
     values["more"] = {created_->Range(), created_->max_range()};
     values["lidar"] = lidar_->Ranges();
     values["positioning"] = Numbers(position_->Locate());
-    const Imu::Motion motion = imu_->Feel();
+    const Imu::Motion motion = imu_->Read();
     values["imu"] = Numbers(motion.specific_force);
     const readings::Quaternion turn = motion.world_from_sensor.value();
     values["imu orientation"] = {turn.w, turn.x, turn.y, turn.z};
-    const Odometer::Estimate estimate = odometer_->Reckon();
+    const Odometer::Estimate estimate = odometer_->Read();
     values["odometry"] = {estimate.x, estimate.y, estimate.yaw, estimate.linear, estimate.angular};
-    const SatelliteReceiver::Position fix = satellites_->Fix();
+    const GnssReceiver::Position fix = satellites_->Fix();
     values["navsat"] = {fix.latitude_deg, fix.longitude_deg, fix.altitude, fix.east};
     values["magnetometer"] = Numbers(magnetometer_->Field());
     const Altimeter::Height height = altimeter_->Measured();
@@ -99,7 +99,7 @@ class ReadsAll final : public Behaviour {
     }
     const Battery::Charge charge = battery_->Level();
     values["battery"] = {charge.voltage, charge.current, charge.charge, charge.fraction};
-    for (const LogicalCamera::Sighting& sighting : logical_camera_->Look()) {
+    for (const LogicalCamera::Sighting& sighting : logical_camera_->Read()) {
       read_.names["logical_camera"].push_back(sighting.name);
       values["logical_camera"] = Numbers(sighting.sensor_from_model);
     }
@@ -108,9 +108,9 @@ class ReadsAll final : public Behaviour {
       read_.names["radio"].push_back(message.content);
       values["radio"] = {base::ToSeconds(message.sent), message.strength};
     }
-    const Lamp::Glow glow = lamp_->Look();
+    const Lamp::Glow glow = lamp_->Read();
     values["lamp"] = {glow.brightness, glow.colour.red, glow.colour.green, glow.colour.blue};
-    const Gripper::Jaws jaws = gripper_->Feel();
+    const Gripper::State jaws = gripper_->Read();
     values["gripper"] = {jaws.opening, jaws.told_to_open ? 1.0 : 0.0};
     read_.names["gripper"] = {jaws.held};
     const Speaker::Sound sound = speaker_->Playing();
@@ -130,7 +130,7 @@ class ReadsAll final : public Behaviour {
   std::unique_ptr<PositioningSystem> position_;
   std::unique_ptr<Imu> imu_;
   std::unique_ptr<Odometer> odometer_;
-  std::unique_ptr<SatelliteReceiver> satellites_;
+  std::unique_ptr<GnssReceiver> satellites_;
   std::unique_ptr<Magnetometer> magnetometer_;
   std::unique_ptr<Altimeter> altimeter_;
   std::unique_ptr<Bumper> bumper_;
@@ -427,7 +427,7 @@ TEST(Sensors, AReadingOfTheWrongSizeEndsTheRunWithAnErrorThatNamesTheSensor) {
       return {};
     }
     void Run(gsv::Robot& robot) override {
-      (void)imu_->Feel();
+      (void)imu_->Read();
       EXPECT_FALSE(robot.IsRunning());
       errors_.push_back(robot.error());
     }
@@ -462,10 +462,10 @@ TEST(Sensors, SidewaysMotionIsCommandedAndReadBack) {
     void Run(gsv::Robot& robot) override {
       robot.DriveSideways(0.25, 0.5, 0);
       if (!robot.SleepFor(40ms)) return;
-      estimates_.push_back(odometer_->Reckon());
+      estimates_.push_back(odometer_->Read());
       std::vector<Reading> readings;
       robot.Exchange({.linear = 0, .lateral = -1}, robot.Now() + 20ms, readings);
-      estimates_.push_back(odometer_->Reckon());
+      estimates_.push_back(odometer_->Read());
     }
 
    private:

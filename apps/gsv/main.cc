@@ -80,7 +80,7 @@ void UseCorbaOptions(const CorbaArguments& corba) {
 void StartLog(const LogArguments& log, bool verbose) {
   if (!log.level.empty()) setenv("GSV_LOG_LEVEL", log.level.c_str(), 1);
   if (!log.format.empty()) setenv("GSV_LOG_FORMAT", log.format.c_str(), 1);
-  gsv::base::LogOptions options = gsv::base::LogOptionsOfEnvironment(spdlog::level::warn);
+  gsv::base::LogOptions options = gsv::base::LogOptionsFromEnvironment(spdlog::level::warn);
   options.lines_per_second = log.lines;
   if (verbose && log.level.empty()) options.level = spdlog::level::debug;
   gsv::base::InitLogging(options);
@@ -151,7 +151,7 @@ int main(int argc, char** argv) {
     return Complain({gsv::base::ErrorCode::kUnavailable, exception.what(), "unexpected"});
   }
   exit_code = EndOutput(stdout, exit_code);
-  if (gsv::simulation::Simulation::LeftToThemselves() > 0) {
+  if (gsv::simulation::Simulation::AbandonedSimulations() > 0) {
     // A behaviour is still at work on what a return from here would destroy.
     std::fflush(nullptr);
     std::_Exit(exit_code);

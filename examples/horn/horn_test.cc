@@ -32,7 +32,7 @@ std::shared_ptr<Simulation> MakeWithHorns(SimTime duration) {
 TEST(Horn, IsHeardForAsLongAsItHonks) {
   auto simulation = MakeWithHorns(0s);
   auto honks = std::make_shared<ThreadBehaviour>([](Agent& agent, ClockId clock) {
-    ASSERT_TRUE(agent.Act("horn", {{0.2}, ""}));
+    ASSERT_TRUE(agent.CommandDevice("horn", {{0.2}, ""}));
     while (SleepFor(agent, clock, 1s)) {
     }
   });
@@ -59,7 +59,7 @@ TEST(Horn, MakesADifferenceToTheHash) {
   const auto hash_of = [](double duration) {
     auto simulation = MakeWithHorns(100ms);
     auto honks = std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId) {
-      ASSERT_TRUE(agent.Act("horn", {{duration}, ""}));
+      ASSERT_TRUE(agent.CommandDevice("horn", {{duration}, ""}));
     });
     EXPECT_TRUE(simulation->AddRobot(RobotWith("horn", "car", 0, honks)));
     EXPECT_EQ(RunToEnd(*simulation), Phase::kFinished);
@@ -73,7 +73,7 @@ TEST(Horn, RefusesWhatItCannotDo) {
   auto simulation = MakeWithHorns(20ms);
   std::string why;
   auto honks = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
-    const auto status = agent.Act("horn", {{61}, ""});
+    const auto status = agent.CommandDevice("horn", {{61}, ""});
     ASSERT_FALSE(status);
     why = status.error().Sentence();
   });

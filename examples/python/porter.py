@@ -40,16 +40,16 @@ class Porter(gsv.Behaviour):
             pass  # an order that came after the end of the run
 
     def fetch(self, robot):
-        self.led.shine(YELLOW)
+        self.led.set(YELLOW)
         if not self.approach(robot) or not self.take(robot):
             return
-        if not self.gripper.feel().held:
+        if not self.gripper.read().held:
             self.say(RED, 220)
             return
         self.say(GREEN, 880)
         if not self.carry_to_goal(robot):
             return
-        self.gripper.let_go()
+        self.gripper.open()
         if not robot.sleep_for(0.7):
             return
         way = 0.0
@@ -70,11 +70,11 @@ class Porter(gsv.Behaviour):
         return robot.is_running
 
     def take(self, robot):
-        """Until the jaws hold something or are shut."""
-        self.gripper.grip()
+        """Until the fingers hold something or are shut."""
+        self.gripper.grasp()
         while robot.sleep_for(0.05):
-            jaws = self.gripper.feel()
-            if jaws.held or jaws.opening <= 0:
+            state = self.gripper.read()
+            if state.held or state.opening <= 0:
                 return True
         return False
 
@@ -96,7 +96,7 @@ class Porter(gsv.Behaviour):
         return robot.sleep_for(0.5)
 
     def say(self, colour, frequency):
-        self.led.shine(colour)
+        self.led.set(colour)
         self.speaker.beep(frequency)
 
 

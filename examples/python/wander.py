@@ -73,7 +73,7 @@ class Wander(gsv.Behaviour):
         while True:
             robot.drive(*self.rule.decide(robot.footprint_radius, self.sonars.read()))
             if self.camera and robot.now() >= next_picture:
-                self.camera.take_picture()
+                self.camera.take_image()
                 next_picture += 1.0
                 if not robot.sleep_for(0.02):
                     return

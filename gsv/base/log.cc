@@ -12,7 +12,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/stdout_sinks.h>
 
-#include "gsv/base/line_budget.h"
+#include "gsv/base/log_rate_limiter.h"
 #include "gsv/base/log_text.h"
 #include "gsv/base/mutex.h"
 
@@ -68,7 +68,7 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
   void sink_it_(const spdlog::details::log_msg& message) override {
     // What floods the log must not hide that something failed.
     const bool is_error = message.level >= spdlog::level::err;
-    LineBudget& budget = is_error ? errors_ : others_;
+    LogRateLimiter& budget = is_error ? errors_ : others_;
     if (!budget.Take(message.time.time_since_epoch())) {
       ++TheLog().suppressed;
       return;
@@ -106,7 +106,7 @@ class BoundedSink final : public spdlog::sinks::base_sink<std::mutex> {
   const std::shared_ptr<spdlog::sinks::sink> out_;
   const LogOptions options_;
   spdlog::log_clock::time_point next_telling_{};
-  LineBudget errors_{options_.lines_per_second}, others_{options_.lines_per_second};
+  LogRateLimiter errors_{options_.lines_per_second}, others_{options_.lines_per_second};
 };
 
 }  // namespace
@@ -127,7 +127,7 @@ Result<LogFormat> ParseLogFormat(const std::string& text) {
   return Fail(ErrorCode::kInvalidArgument, "a format of the log is text or json");
 }
 
-LogOptions LogOptionsOfEnvironment(spdlog::level::level_enum level) {
+LogOptions LogOptionsFromEnvironment(spdlog::level::level_enum level) {
   LogOptions options;
   options.level = level;
   if (const char* text = std::getenv("GSV_LOG_LEVEL")) {
@@ -155,12 +155,12 @@ void InitLogging(const LogOptions& options) {
   spdlog::set_default_logger(std::move(logger));
 }
 
-void HideInLog(const std::string& secret) {
+void RedactInLog(const std::string& secret) {
   if (secret.empty()) return;
   const MutexLock lock(TheLog().mutex);
   TheLog().secrets.push_back(secret);
 }
 
-LogCounts CountsOfLog() { return {TheLog().written, TheLog().suppressed}; }
+LogCounts ProcessLogCounts() { return {TheLog().written, TheLog().suppressed}; }
 
 }  // namespace gsv::base

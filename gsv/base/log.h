@@ -3,7 +3,7 @@
 // Text    12:03:04.567 warning: text
 // JSON    {"time":"2024-05-06T12:03:04.567Z","level":"warning","message":"text","pid":1,"thread":2}
 // One line  whatever a message holds: control characters are written as \n, \t, \x1b.
-// Bounded   lines of a length, and so many a second (see LineBudget); what was left out is counted
+// Bounded   lines of a length, and so many a second (see LogRateLimiter); what was left out is counted
 //           and told.
 // Secrets   that were hidden are replaced wherever they occur.
 // Threads   any, but for InitLogging().
@@ -35,22 +35,22 @@ Result<LogFormat> ParseLogFormat(const std::string& text);
 
 // As the variables GSV_LOG_LEVEL and GSV_LOG_FORMAT say; `level` where they say nothing, or
 // nonsense.
-LogOptions LogOptionsOfEnvironment(spdlog::level::level_enum level);
+LogOptions LogOptionsFromEnvironment(spdlog::level::level_enum level);
 
 // Makes spdlog's default logger this log. Call once in main().
 void InitLogging(const LogOptions& options);
 inline void InitLogging(spdlog::level::level_enum level) {
-  InitLogging(LogOptionsOfEnvironment(level));
+  InitLogging(LogOptionsFromEnvironment(level));
 }
 
 // From now on nothing that is logged shows `secret`.
-void HideInLog(const std::string& secret);
+void RedactInLog(const std::string& secret);
 
 // Since the process started.
 struct LogCounts {
   std::uint64_t written = 0;
   std::uint64_t suppressed = 0;
 };
-LogCounts CountsOfLog();
+LogCounts ProcessLogCounts();
 
 }  // namespace gsv::base

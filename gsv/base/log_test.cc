@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gsv/base/line_budget.h"
+#include "gsv/base/log_rate_limiter.h"
 #include "gsv/base/log_text.h"
 
 namespace gsv::base {
@@ -44,9 +44,9 @@ TEST(LogLine, ShowsNoSecret) {
 
 TEST(JsonText, QuotesWhatJsonQuotes) { EXPECT_EQ(JsonText(R"(say "a\b")"), R"("say \"a\\b\"")"); }
 
-TEST(LineBudget, AllowsSoManyAtOnceAndSoManyASecond) {
-  const LineBudget::Time start{};
-  LineBudget budget(2);
+TEST(LogRateLimiter, AllowsSoManyAtOnceAndSoManyASecond) {
+  const LogRateLimiter::Time start{};
+  LogRateLimiter budget(2);
   int at_once = 0;
   while (budget.Take(start)) ++at_once;
   EXPECT_EQ(at_once, 100);
@@ -59,9 +59,9 @@ TEST(LineBudget, AllowsSoManyAtOnceAndSoManyASecond) {
   EXPECT_EQ(budget.TakeSuppressed(), 0u);
 }
 
-TEST(LineBudget, IsNotMovedByAClockThatIsSetBack) {
-  const LineBudget::Time start = LineBudget::Time{} + seconds(1000);
-  LineBudget budget(1);
+TEST(LogRateLimiter, IsNotMovedByAClockThatIsSetBack) {
+  const LogRateLimiter::Time start = LogRateLimiter::Time{} + seconds(1000);
+  LogRateLimiter budget(1);
   while (budget.Take(start)) {
   }
   EXPECT_FALSE(budget.Take(start - seconds(900)));
@@ -73,7 +73,7 @@ TEST(Log, SuppressesAFloodAndTellsHowMuch) {
   options.level = spdlog::level::info;
   options.lines_per_second = 1;
   const auto before = spdlog::default_logger();
-  const LogCounts counts = CountsOfLog();
+  const LogCounts counts = ProcessLogCounts();
   ::testing::internal::CaptureStderr();
   InitLogging(options);
   for (int i = 0; i < 1000; ++i) spdlog::info("line {}", i);
@@ -84,7 +84,7 @@ TEST(Log, SuppressesAFloodAndTellsHowMuch) {
   EXPECT_EQ(log.find("line 999\n"), std::string::npos);
   EXPECT_NE(log.find("this matters\n"), std::string::npos);
   EXPECT_NE(log.find(" more lines were suppressed"), std::string::npos) << log;
-  const LogCounts after = CountsOfLog();
+  const LogCounts after = ProcessLogCounts();
   // Every line is counted: as written or as suppressed; the count of them is a line as well.
   const std::uint64_t lines = static_cast<std::uint64_t>(std::count(log.begin(), log.end(), '\n'));
   EXPECT_EQ(after.written - counts.written, lines);

@@ -50,14 +50,14 @@ std::string WithoutSecrets(std::string text, const std::vector<std::string>& sec
 
 }  // namespace
 
-std::string LogLine(std::string_view message, std::size_t most_bytes,
+std::string LogLine(std::string_view message, std::size_t max_bytes,
                     const std::vector<std::string>& secrets) {
   // Before anything is cut: half a secret is one as well.
   const std::string whole = WithoutSecrets(std::string(message), secrets);
   std::string_view rest = whole;
   std::string line;
   while (!rest.empty()) {
-    if (line.size() >= most_bytes) return line + fmt::format(" (and {} bytes more)", rest.size());
+    if (line.size() >= max_bytes) return line + fmt::format(" (and {} bytes more)", rest.size());
     const std::size_t length = SequenceLength(rest);
     const auto first = static_cast<unsigned char>(rest[0]);
     // 0x80 to 0x9F are control characters, too.

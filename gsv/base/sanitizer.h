@@ -16,14 +16,14 @@ inline constexpr bool kHasThreadSanitizer = false;
 #endif
 
 // They reserve terabytes of addresses, and use little of them: a bound on addresses cannot hold.
-inline constexpr bool kTakesAllAddresses = kHasAddressSanitizer || kHasThreadSanitizer;
+inline constexpr bool kReservesAddressSpace = kHasAddressSanitizer || kHasThreadSanitizer;
 
 // How much longer than usual to wait for a program: it takes two to ten times as long. (GCC 12 does
 // not say that UndefinedBehaviorSanitizer is there, so the build does.)
 #if defined(GSV_SANITIZED)
-inline constexpr int kTimesAsSlow = 5;
+inline constexpr int kSlowdown = 5;
 #else
-inline constexpr int kTimesAsSlow = 1;
+inline constexpr int kSlowdown = 1;
 #endif
 
 }  // namespace gsv::base

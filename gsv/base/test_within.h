@@ -19,55 +19,55 @@
 
 namespace gsv::base::testing {
 
-inline std::string Written(double value) {
+inline std::string FormatNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 
 // Keeps the error with the running test, unless it keeps a larger one of this bound and unit.
-inline void KeepLargest(double error, double bound, const std::string& unit) {
-  const std::string key = "within " + Written(bound) + " " + unit;
+inline void RecordLargestError(double error, double bound, const std::string& unit) {
+  const std::string key = "within " + FormatNumber(bound) + " " + unit;
   const ::testing::TestInfo* const test = ::testing::UnitTest::GetInstance()->current_test_info();
   for (int i = 0; i < test->result()->test_property_count(); ++i) {
     const ::testing::TestProperty& kept = test->result()->GetTestProperty(i);
     if (kept.key() == key && !(error > std::strtod(kept.value(), nullptr))) return;
   }
-  ::testing::Test::RecordProperty(key, Written(error));
+  ::testing::Test::RecordProperty(key, FormatNumber(error));
 }
 
 // `error` is in the unit, as `bound` is; the texts are what stands in the source.
-inline ::testing::AssertionResult Judged(double error, double bound, const std::string& unit,
-                                         const char* measured_text, double measured,
-                                         const char* expected_text, double expected) {
-  KeepLargest(error, bound, unit);
+inline ::testing::AssertionResult CheckError(double error, double bound, const std::string& unit,
+                                             const char* measured_text, double measured,
+                                             const char* expected_text, double expected) {
+  RecordLargestError(error, bound, unit);
   if (error <= bound) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()
-         << measured_text << " is " << ::testing::PrintToString(measured) << ", " << Written(error)
-         << " " << unit << " from " << expected_text << ", which is "
-         << ::testing::PrintToString(expected) << "; at most " << Written(bound) << " " << unit
+         << measured_text << " is " << ::testing::PrintToString(measured) << ", "
+         << FormatNumber(error) << " " << unit << " from " << expected_text << ", which is "
+         << ::testing::PrintToString(expected) << "; at most " << FormatNumber(bound) << " " << unit
          << " are allowed";
 }
 
 inline ::testing::AssertionResult Within(const char* measured_text, const char* expected_text,
                                          const char*, const char*, double measured, double expected,
                                          double bound, const std::string& unit) {
-  return Judged(std::abs(measured - expected), bound, unit, measured_text, measured, expected_text,
-                expected);
+  return CheckError(std::abs(measured - expected), bound, unit, measured_text, measured,
+                    expected_text, expected);
 }
 
 inline ::testing::AssertionResult WithinPercent(const char* measured_text,
                                                 const char* expected_text, const char*,
                                                 double measured, double expected, double percent) {
-  return Judged(100 * std::abs((measured - expected) / expected), percent, "%", measured_text,
-                measured, expected_text, expected);
+  return CheckError(100 * std::abs((measured - expected) / expected), percent, "%", measured_text,
+                    measured, expected_text, expected);
 }
 
 inline ::testing::AssertionResult Within3Sigma(const char* measured_text, const char* expected_text,
                                                const char*, double measured, double expected,
                                                double sigma) {
-  return Judged(std::abs(measured - expected) / sigma, 3, "σ", measured_text, measured,
-                expected_text, expected);
+  return CheckError(std::abs(measured - expected) / sigma, 3, "σ", measured_text, measured,
+                    expected_text, expected);
 }
 
 }  // namespace gsv::base::testing

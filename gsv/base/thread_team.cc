@@ -16,7 +16,7 @@ constexpr int kLooks = 400;
 }  // namespace
 
 int ThreadTeam::DefaultThreads() {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostByDefault);
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDefaultThreads);
 }
 
 ThreadTeam::ThreadTeam(int threads) : parts_(static_cast<std::size_t>(std::max(threads, 1))) {
@@ -46,12 +46,12 @@ void ThreadTeam::Run(const Job& job) {
     state_.store(kOpen, std::memory_order_release);
   }
   called_.notify_all();
-  TakePieces(0);
-  AwaitWorkers();
+  RunPieces(0);
+  WaitForWorkers();
 }
 
 // They are mostly about to be done; but one whose piece lasts must not cost a second processor.
-void ThreadTeam::AwaitWorkers() {
+void ThreadTeam::WaitForWorkers() {
   for (int i = 0; i < kLooks; ++i) {
     if (state_.load(std::memory_order_acquire) == 0) return;
     std::this_thread::yield();
@@ -61,7 +61,7 @@ void ThreadTeam::AwaitWorkers() {
   }
 }
 
-void ThreadTeam::TakePieces(std::size_t self) {
+void ThreadTeam::RunPieces(std::size_t self) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[(self + i) % parts_.size()];
     for (;;) {
@@ -97,7 +97,7 @@ bool ThreadTeam::Join() {
 
 void ThreadTeam::Work(std::size_t self) {
   while (Join()) {
-    TakePieces(self);
+    RunPieces(self);
     state_.fetch_sub(1, std::memory_order_release);
     state_.notify_one();
   }

@@ -1,6 +1,6 @@
 // Threads that share out one range of work at a time and wait for each other.
 //
-// Threads      one caller of Share() at a time; it works along.
+// Threads      one caller of ParallelFor() at a time; it works along.
 // Determinism  which thread takes which piece is not determined: pieces must not depend on each
 //              other, and what they write must not depend on how the range is cut.
 #pragma once
@@ -17,11 +17,11 @@ namespace gsv::base {
 
 class ThreadTeam {
  public:
-  // As many as the machine has processors, but not more than `kMostByDefault`.
+  // As many as the machine has processors, but not more than `kMaxDefaultThreads`.
   static int DefaultThreads();
-  static constexpr int kMostByDefault = 16;
+  static constexpr int kMaxDefaultThreads = 16;
 
-  // `threads` >= 1, the caller of Share() among them.
+  // `threads` >= 1, the caller of ParallelFor() among them.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -31,9 +31,9 @@ class ThreadTeam {
 
   // Calls work(begin, end) for pieces of at most `grain` that together are [0, count), and returns
   // when all are done. A single piece is done by the caller alone: small work pays for no thread.
-  // `work` does not throw and does not share out anything itself.
+  // `work` does not throw and calls no ParallelFor() itself.
   template <class Work>
-  void Share(std::size_t count, std::size_t grain, const Work& work) {
+  void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
     if (count <= grain || workers_.empty()) {
       if (count > 0) work(std::size_t{0}, count);
       return;
@@ -52,8 +52,8 @@ class ThreadTeam {
 
   void Run(const Job& job);
   void Work(std::size_t self);
-  void AwaitWorkers();
-  void TakePieces(std::size_t self);
+  void WaitForWorkers();
+  void RunPieces(std::size_t self);
   // Waits for a job that is open and takes part in it; false at the end.
   bool Join();
   bool TryJoin();

@@ -23,7 +23,7 @@ TEST(ThreadTeam, EveryPlaceOfTheRangeIsVisitedOnce) {
     EXPECT_EQ(team.threads(), threads);
     for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 10'000u}) {
       std::vector<std::atomic<int>> visits(count);
-      team.Share(count, 64, [&](std::size_t begin, std::size_t end) {
+      team.ParallelFor(count, 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) ++visits[i];
       });
       for (const auto& times : visits) EXPECT_EQ(times, 1);
@@ -34,7 +34,7 @@ TEST(ThreadTeam, EveryPlaceOfTheRangeIsVisitedOnce) {
 TEST(ThreadTeam, APieceIsNoLongerThanTheGrain) {
   ThreadTeam team(3);
   std::atomic<std::size_t> longest{0};
-  team.Share(1000, 7, [&](std::size_t begin, std::size_t end) {
+  team.ParallelFor(1000, 7, [&](std::size_t begin, std::size_t end) {
     std::size_t known = longest;
     while (end - begin > known && !longest.compare_exchange_weak(known, end - begin)) {
     }
@@ -45,7 +45,8 @@ TEST(ThreadTeam, APieceIsNoLongerThanTheGrain) {
 TEST(ThreadTeam, SmallWorkStaysWithTheCaller) {
   ThreadTeam team(4);
   std::set<std::thread::id> threads;
-  team.Share(10, 10, [&](std::size_t, std::size_t) { threads.insert(std::this_thread::get_id()); });
+  team.ParallelFor(10, 10,
+                   [&](std::size_t, std::size_t) { threads.insert(std::this_thread::get_id()); });
   EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
 }
 
@@ -54,7 +55,7 @@ TEST(ThreadTeam, ManyJobsInARowAreAllDone) {
   std::uint64_t sum = 0;
   for (int job = 0; job < 20'000; ++job) {
     std::atomic<std::uint64_t> part{0};
-    team.Share(3, 1, [&](std::size_t begin, std::size_t) { part += begin + 1; });
+    team.ParallelFor(3, 1, [&](std::size_t begin, std::size_t) { part += begin + 1; });
     sum += part;
   }
   EXPECT_EQ(sum, 20'000u * 6);
@@ -81,7 +82,7 @@ TEST(ThreadTeam, AThreadWithoutAPieceSleeps) {
   std::latch begun(2), end(1);
   std::thread job([&] {
     ThreadTeam team(4);
-    team.Share(2, 1, [&](std::size_t, std::size_t) {
+    team.ParallelFor(2, 1, [&](std::size_t, std::size_t) {
       begun.count_down();
       end.wait();
     });

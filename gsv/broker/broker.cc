@@ -17,9 +17,9 @@
 #include "gsv/base/mutex.h"
 #include "gsv/broker/service/admin_servant.h"
 #include "gsv/broker/service/link_servant.h"
+#include "gsv/broker/service/liveness.h"
 #include "gsv/broker/service/lookup_servant.h"
 #include "gsv/broker/service/proxy_servant.h"
-#include "gsv/broker/service/pulse.h"
 #include "gsv/broker/service/register_servant.h"
 #include "gsv/broker/service/trading_objects.h"
 #include "gsv/broker/service/type_repository_servant.h"
@@ -191,7 +191,7 @@ class Broker::Impl {
     PortableServer::POAManager_var(poa->the_POAManager())->activate();
     liveness_.emplace(options.liveness, objects_.trader,
                       [this](const std::string& reference, std::chrono::milliseconds timeout) {
-                        return FeelPulse(objects_.orb, reference, timeout);
+                        return CheckLiveness(objects_.orb, reference, timeout);
                       });
     reaper_ = std::thread([this, period = options.limits.iterator_lifetime] { Reap(period); });
   }

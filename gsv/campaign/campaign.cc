@@ -18,8 +18,8 @@ namespace {
 using scenario::YamlMapping;
 using scenario::YamlPlace;
 
-constexpr double kMostNumber = 1e9;
-constexpr std::size_t kMostParameters = 64, kMostValues = 100'000;
+constexpr double kMaxNumber = 1e9;
+constexpr std::size_t kMaxParameters = 64, kMaxValues = 100'000;
 
 // Where "robots[0].x" leads to; the last key of a mapping may be new.
 bool SetAt(YAML::Node node, const std::string& path, const std::string& value) {
@@ -61,9 +61,9 @@ class ParameterReader {
 
   std::vector<Parameter> Read(const YAML::Node& node) {
     std::vector<Parameter> parameters;
-    if (!node.IsMap() || node.size() > kMostParameters) {
-      place_.Complain(node.Mark(), "parameters",
-                      "parameters must be a mapping of paths into the scenario, 64 at most");
+    if (!node.IsMap() || node.size() > kMaxParameters) {
+      place_.AddProblem(node.Mark(), "parameters",
+                        "parameters must be a mapping of paths into the scenario, 64 at most");
       return parameters;
     }
     for (const auto& entry : node) {
@@ -86,22 +86,22 @@ class ParameterReader {
         parameter.values.push_back(value.Tag() == "!" ? "\"" + value.Scalar() + "\""
                                                       : value.Scalar());
       } else {
-        place_.Complain(value.Mark(), parameter.path, "a value is a number or a text");
+        place_.AddProblem(value.Mark(), parameter.path, "a value is a number or a text");
       }
     }
-    if (list.size() == 0) place_.Complain(list.Mark(), parameter.path, "the list is empty");
+    if (list.size() == 0) place_.AddProblem(list.Mark(), parameter.path, "the list is empty");
   }
 
   void ReadRule(const YAML::Node& node, Parameter& parameter) const {
     YamlMapping mapping(node, parameter.path, place_);
-    const auto from = mapping.Number("from", -kMostNumber, kMostNumber);
-    const auto to = mapping.Number("to", -kMostNumber, kMostNumber);
-    const auto step = mapping.Number("step", 1e-9, kMostNumber);
+    const auto from = mapping.Number("from", -kMaxNumber, kMaxNumber);
+    const auto to = mapping.Number("to", -kMaxNumber, kMaxNumber);
+    const auto step = mapping.Number("step", 1e-9, kMaxNumber);
     const bool is_uniform = ReadPair(mapping, "uniform", parameter);
     const bool is_normal = ReadPair(mapping, "normal", parameter);
-    const bool is_range = mapping.Had("from") || mapping.Had("to") || mapping.Had("step");
+    const bool is_range = mapping.Has("from") || mapping.Has("to") || mapping.Has("step");
     if (mapping.is_mapping() && is_range + is_uniform + is_normal != 1) {
-      mapping.Complain(
+      mapping.AddProblem(
           "a parameter is a list, {from, to, step}, {uniform: [A, B]} or {normal: [MEAN, "
           "DEVIATION]}");
       return;
@@ -110,8 +110,8 @@ class ParameterReader {
     if (is_normal) parameter.kind = Parameter::Kind::kNormal;
     if (!is_range) return;
     const double stride = step.value_or(1);
-    if (!from || !to || *from > *to || (*to - *from) / stride >= kMostValues) {
-      mapping.Complain("from and to are needed, the smaller first, 100,000 values at most");
+    if (!from || !to || *from > *to || (*to - *from) / stride >= kMaxValues) {
+      mapping.AddProblem("from and to are needed, the smaller first, 100,000 values at most");
       return;
     }
     // To be spared the last bit of a sum: the end counts if it is met but for rounding.
@@ -122,10 +122,10 @@ class ParameterReader {
 
   static bool ReadPair(YamlMapping& mapping, const char* key, Parameter& parameter) {
     const std::vector<std::string> ends = mapping.Texts(key);
-    if (!mapping.Had(key)) return false;
+    if (!mapping.Has(key)) return false;
     const auto a = ends.size() == 2 ? scenario::ParseNumber(ends[0]) : std::nullopt;
     const auto b = ends.size() == 2 ? scenario::ParseNumber(ends[1]) : std::nullopt;
-    if (!a || !b) mapping.Complain(key, std::string(key) + " must be two numbers");
+    if (!a || !b) mapping.AddProblem(key, std::string(key) + " must be two numbers");
     parameter.a = a.value_or(0);
     parameter.b = b.value_or(0);
     return true;
@@ -160,7 +160,7 @@ void TryValues(const Campaign& campaign, const std::string& file, base::Problems
       } else if (!found.empty()) {
         problems.push_back({base::Problem::Severity::kError, found.front().message, where});
       }
-      if (problems.size() >= scenario::kMostComplaints) return;
+      if (problems.size() >= scenario::kMaxProblems) return;
     }
   }
 }
@@ -171,7 +171,7 @@ std::size_t Campaign::runs() const {
   std::size_t runs = draws;
   for (const Parameter& parameter : parameters) {
     if (parameter.kind != Parameter::Kind::kList) continue;
-    runs = std::min(kMostRuns + 1, runs * parameter.values.size());
+    runs = std::min(kMaxRuns + 1, runs * parameter.values.size());
   }
   return runs;
 }
@@ -234,22 +234,22 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
   if (!stream) {
     return base::Fail(base::ErrorCode::kNotFound, "the campaign's file cannot be opened", file);
   }
-  std::string text(scenario::kLargestScenario + 1, '\0');
+  std::string text(scenario::kMaxScenarioBytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   const YamlPlace place(YamlPlace::Naming::kLines, file, problems);
   Campaign campaign;
   std::string scenario_file;
   try {
-    if (text.size() > scenario::kLargestScenario)
+    if (text.size() > scenario::kMaxScenarioBytes)
       return base::Fail(base::ErrorCode::kBadModel, "a campaign has at most 4 MiB", file);
     YamlMapping mapping(YAML::Load(text), "", place);
     scenario_file = mapping.Text("scenario").value_or("");
     if (mapping.is_mapping() && scenario_file.empty())
-      mapping.Complain("scenario", "scenario is needed: the file that each run is a variant of");
+      mapping.AddProblem("scenario", "scenario is needed: the file that each run is a variant of");
     if (const auto node = mapping.Any("parameters"))
       campaign.parameters = ParameterReader(place).Read(*node);
-    campaign.draws = static_cast<std::size_t>(mapping.Number("draws", 1, kMostRuns).value_or(1));
+    campaign.draws = static_cast<std::size_t>(mapping.Number("draws", 1, kMaxRuns).value_or(1));
     campaign.draw_seed = mapping.Count("draw_seed").value_or(0);
     engine = ReadEngine(mapping, request);
   } catch (const YAML::Exception& error) {
@@ -264,7 +264,7 @@ base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Pro
                       scenario_file);
   }
   campaign.scenario = scenario::ToYaml(*scenario);
-  if (campaign.runs() > kMostRuns) {
+  if (campaign.runs() > kMaxRuns) {
     return base::Fail(base::ErrorCode::kBadModel, "a campaign has at most 1,000,000 runs", file);
   }
   if (problems.empty()) TryValues(campaign, file, problems);

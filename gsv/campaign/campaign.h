@@ -14,7 +14,7 @@
 
 namespace gsv::campaign {
 
-inline constexpr std::size_t kMostRuns = 1'000'000;
+inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct Engine;
 struct EngineRequest;
@@ -33,7 +33,7 @@ struct Campaign {
   std::size_t draws = 1;  // of random parameters, for each point of the grid of lists
   std::uint64_t draw_seed = 0;
 
-  std::size_t runs() const;  // at most kMostRuns
+  std::size_t runs() const;  // at most kMaxRuns
   // The values of a run, from 0 on, in the order of the parameters. The last list varies fastest,
   // and the draws before it.
   std::vector<std::string> ValuesOf(std::size_t run) const;

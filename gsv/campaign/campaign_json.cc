@@ -41,7 +41,7 @@ base::Result<Campaign> CampaignInJson(const std::string& text) {
   } catch (const nlohmann::json::exception&) {
     return base::Fail(base::ErrorCode::kCorrupt, "it is no campaign's plan");
   }
-  if (identity != campaign.Identity() || campaign.runs() > kMostRuns)
+  if (identity != campaign.Identity() || campaign.runs() > kMaxRuns)
     return base::Fail(base::ErrorCode::kCorrupt, "the plan is not as it was written");
   return campaign;
 }

@@ -66,14 +66,14 @@ Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request)
     if (is_chosen) node = WithOptions(*node, type, request);
     scenario::YamlMapping mapping(*node, type.name, campaign.place());
     MakeQueue make_queue = type.read(mapping);
-    const auto runs_a_task = static_cast<std::size_t>(
-        mapping.Number("runs_a_task", 1, static_cast<double>(kMostRuns)).value_or(0));
+    const auto runs_per_task = static_cast<std::size_t>(
+        mapping.Number("runs_a_task", 1, static_cast<double>(kMaxRuns)).value_or(0));
     if (!is_chosen) continue;
     engine.make_queue = std::move(make_queue);
-    engine.runs_a_task = request.runs_a_task > 0 ? request.runs_a_task : runs_a_task;
+    engine.runs_per_task = request.runs_per_task > 0 ? request.runs_per_task : runs_per_task;
   }
   if (engine.type == nullptr)
-    campaign.Complain("engine", "there is no engine \"" + name + "\"; take " + Names());
+    campaign.AddProblem("engine", "there is no engine \"" + name + "\"; take " + Names());
   return engine;
 }
 

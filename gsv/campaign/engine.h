@@ -40,7 +40,7 @@ struct EngineType {
   std::string title;  // in sentences: "Slurm"
   std::string help;
   std::vector<EngineOption> options;
-  std::chrono::milliseconds look_period{10'000};  // between questions to the queue
+  std::chrono::milliseconds poll_period{10'000};  // between questions to the queue
   bool outlives_driver = true;                    // whether tasks go on without the driver
   std::string after_interrupt;                    // a clause: what becomes of the tasks then
   // Reads the engine's mapping and complains of it, but asks no queue anything. Empty: this process
@@ -54,15 +54,15 @@ const std::vector<EngineType>& EngineTypes();
 // What the command line says about the engine; it goes before the campaign's file.
 struct EngineRequest {
   std::string name;                                         // empty: the file's
-  std::size_t runs_a_task = 0;                              // 0: the file's
+  std::size_t runs_per_task = 0;                            // 0: the file's
   std::map<std::string, std::vector<std::string>> options;  // values by the option's flag
 };
 
 // The engine of one campaign.
 struct Engine {
   const EngineType* type = nullptr;
-  std::size_t runs_a_task = 0;  // 0: the driver chooses
-  MakeQueue make_queue;         // empty: this process does the runs itself
+  std::size_t runs_per_task = 0;  // 0: the driver chooses
+  MakeQueue make_queue;           // empty: this process does the runs itself
 };
 
 // Reads the keys of a campaign's file that say where its runs are done: `engine`, and a mapping for

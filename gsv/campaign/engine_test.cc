@@ -39,16 +39,16 @@ TEST_F(EngineTest, FileNamesTheEngineAndItsKeys) {
   const Engine engine = Read("engine: slurm\nslurm: {partition: short, runs_a_task: 10}");
   EXPECT_EQ(engine.type->title, "Slurm");
   EXPECT_TRUE(engine.make_queue);
-  EXPECT_EQ(engine.runs_a_task, 10u);
+  EXPECT_EQ(engine.runs_per_task, 10u);
   EXPECT_EQ(Problems(), "");
 }
 
 TEST_F(EngineTest, CommandLineGoesBeforeTheFile) {
-  EngineRequest request{.name = "ssh", .runs_a_task = 3};
+  EngineRequest request{.name = "ssh", .runs_per_task = 3};
   request.options["--host"] = {"n2:4"};
   const Engine engine = Read("engine: slurm\nssh: {hosts: [n1], runs_a_task: 10}", request);
   EXPECT_EQ(engine.type->name, "ssh");
-  EXPECT_EQ(engine.runs_a_task, 3u);
+  EXPECT_EQ(engine.runs_per_task, 3u);
   EXPECT_EQ(Problems(), "");
   // With no mapping in the file, the command line's options are the whole of it.
   EXPECT_TRUE(Read("{}", request).make_queue);

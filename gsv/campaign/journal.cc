@@ -72,7 +72,7 @@ Attempt AttemptIn(const Json& json) {
 
 }  // namespace
 
-double WallSeconds() {
+double UnixSeconds() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
@@ -94,14 +94,14 @@ base::Result<std::unique_ptr<JournalWriter>> JournalWriter::Create(
 JournalWriter::~JournalWriter() { close(descriptor_); }
 
 base::Status JournalWriter::Begin(std::int64_t run) {
-  return Write({{"begun", run}, {"at", WallSeconds()}});
+  return Write({{"begun", run}, {"at", UnixSeconds()}});
 }
 
 base::Status JournalWriter::Add(const RunResult& result) {
-  return Write({{"result", ToJson(result)}, {"at", WallSeconds()}});
+  return Write({{"result", ToJson(result)}, {"at", UnixSeconds()}});
 }
 
-base::Status JournalWriter::End() { return Write({{"end", true}, {"at", WallSeconds()}}); }
+base::Status JournalWriter::End() { return Write({{"end", true}, {"at", UnixSeconds()}}); }
 
 base::Status JournalWriter::Write(const Json& json) {
   const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -120,7 +120,7 @@ base::Status JournalWriter::Write(const Json& json) {
   return base::Fail(base::ErrorCode::kUnavailable, "results cannot be written: " + why, file_);
 }
 
-base::Result<std::vector<RunResult>> JournalReader::ReadOn() {
+base::Result<std::vector<RunResult>> JournalReader::ReadNew() {
   if (is_over_) return std::vector<RunResult>();
   std::ifstream stream(file_, std::ios::binary);
   if (!stream) {

@@ -21,7 +21,7 @@
 namespace gsv::campaign {
 
 // Wall time in seconds since 1970: machines that share a queue have no other clock in common.
-double WallSeconds();
+double UnixSeconds();
 
 // Threads  any.
 class JournalWriter {
@@ -54,7 +54,7 @@ class JournalReader {
   explicit JournalReader(std::filesystem::path file) : file_(std::move(file)) {}
 
   // The results that have come since the last time.
-  base::Result<std::vector<RunResult>> ReadOn();
+  base::Result<std::vector<RunResult>> ReadNew();
   // As far as it was read; nothing before its first line.
   const std::optional<Attempt>& attempt() const { return attempt_; }
   bool is_over() const { return is_over_; }

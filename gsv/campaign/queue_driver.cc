@@ -15,15 +15,15 @@ using DriverClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kGatherPeriod{500};
 constexpr auto kSilence = std::chrono::seconds(30);  // after which it is said why nothing comes
 constexpr std::size_t kFewTasks = 1000;
-constexpr std::size_t kMostAttempts = 3;  // at a run during which its task ends
-constexpr int kGone = 2;                  // looks in a row that do not find a task
-constexpr std::size_t kMostOfLog = 1000;  // bytes that are shown of it
+constexpr std::size_t kMaxAttempts = 3;     // at a run during which its task ends
+constexpr int kGone = 2;                    // looks in a row that do not find a task
+constexpr std::size_t kMaxLogBytes = 1000;  // bytes that are shown of it
 
 std::string EndOf(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   std::string end = text.str();
-  if (end.size() > kMostOfLog) end = "…" + end.substr(end.size() - kMostOfLog);
+  if (end.size() > kMaxLogBytes) end = "…" + end.substr(end.size() - kMaxLogBytes);
   while (!end.empty() && end.back() == '\n') end.pop_back();
   return end;
 }
@@ -45,9 +45,9 @@ class Drive {
       if (DriverClock::now() >= next_look) {
         if (auto ok = LookAndHandOut(); !ok) return ok;
         if (!settings_.waits && IsAllHandedOut()) return {};
-        next_look = DriverClock::now() + settings_.look_period;
+        next_look = DriverClock::now() + settings_.poll_period;
       }
-      if (settings_.is_interrupted(std::min(kGatherPeriod, settings_.look_period))) return {};
+      if (settings_.is_interrupted(std::min(kGatherPeriod, settings_.poll_period))) return {};
       if (auto ok = TakeIn(); !ok) return ok;
     }
     return {};
@@ -182,7 +182,7 @@ class Drive {
     for (std::int64_t run = 0; run < static_cast<std::int64_t>(progress_.planned); ++run) {
       if (done_.contains(run) || queued.contains(run)) continue;
       if (const auto found = attempts.find(run);
-          found != attempts.end() && found->second >= kMostAttempts) {
+          found != attempts.end() && found->second >= kMaxAttempts) {
         given_up.push_back(GivenUp(run));
       } else {
         missing.push_back(run);
@@ -201,7 +201,7 @@ class Drive {
     result.message = fmt::format(
         "its task ended {} times while it ran; look at the queue's limits on memory and time, and "
         "at {}",
-        kMostAttempts, spool_.logs().string());
+        kMaxAttempts, spool_.logs().string());
     const auto values = spool_.campaign().ValuesOf(static_cast<std::size_t>(run));
     for (std::size_t i = 0; i < values.size(); ++i)
       result.parameters[spool_.campaign().parameters[i].path] = values[i];
@@ -212,11 +212,11 @@ class Drive {
     const auto most = settings_.queue.MaxTasks();
     if (!most) return base::Fail(most.error());
     const std::size_t tasks = std::min(*most, kFewTasks);
-    const std::size_t runs_a_task =
-        settings_.runs_a_task > 0 ? settings_.runs_a_task : (runs.size() + tasks - 1) / tasks;
-    for (std::size_t first = 0; first < runs.size(); first += *most * runs_a_task) {
-      const std::size_t end = std::min(runs.size(), first + *most * runs_a_task);
-      Batch batch = NewBatch(runs_a_task);
+    const std::size_t runs_per_task =
+        settings_.runs_per_task > 0 ? settings_.runs_per_task : (runs.size() + tasks - 1) / tasks;
+    for (std::size_t first = 0; first < runs.size(); first += *most * runs_per_task) {
+      const std::size_t end = std::min(runs.size(), first + *most * runs_per_task);
+      Batch batch = NewBatch(runs_per_task);
       batch.runs.assign(runs.begin() + static_cast<std::ptrdiff_t>(first),
                         runs.begin() + static_cast<std::ptrdiff_t>(end));
       if (auto ok = spool_.Put(batch); !ok) return ok;
@@ -245,14 +245,14 @@ class Drive {
     return {};
   }
 
-  Batch NewBatch(std::size_t runs_a_task) const {
+  Batch NewBatch(std::size_t runs_per_task) const {
     Batch batch;
     batch.number = batches_.empty() ? 1 : batches_.back().number + 1;
-    batch.submitted = WallSeconds();
+    batch.submitted = UnixSeconds();
     // Unlike any other, though somebody removes the spool and starts again.
     batch.name = fmt::format("gsv-{}-{}-{:x}", spool_.campaign().Identity().substr(0, 8),
                              batch.number, static_cast<std::int64_t>(1e3 * batch.submitted));
-    batch.runs_a_task = runs_a_task;
+    batch.runs_per_task = runs_per_task;
     batch.timeout = settings_.timeout;
     batch.failures = settings_.failures;
     return batch;

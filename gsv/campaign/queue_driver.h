@@ -18,12 +18,13 @@ namespace gsv::campaign {
 
 struct QueueDriver {
   JobQueue& queue;
-  std::string title;            // the queue's, in sentences
-  std::size_t runs_a_task = 0;  // 0: so many that 1,000 tasks take all, or fewer for a small queue
-  double timeout = 300;         // wall seconds a run may take
+  std::string title;  // the queue's, in sentences
+  std::size_t runs_per_task =
+      0;                 // 0: so many that 1,000 tasks take all, or fewer for a small queue
+  double timeout = 300;  // wall seconds a run may take
   std::string failures;  // a folder for what failed runs leave, as the nodes see it; or empty
   bool waits = true;     // else it only hands out
-  std::chrono::milliseconds look_period{10'000};  // between questions to the queue
+  std::chrono::milliseconds poll_period{10'000};  // between questions to the queue
   std::function<void(const Progress&)> tell;
   std::function<void(const std::string& sentence)> say;  // to whoever started it
   // Waits so long; true as soon as somebody wants it to stop.

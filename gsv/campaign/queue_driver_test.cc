@@ -81,8 +81,8 @@ class QueueDriverTest : public ::testing::Test {
 
   base::Status Drive(const std::function<void(QueueDriver&)>& set = {}) {
     QueueDriver driver{queue_, "The queue"};
-    driver.runs_a_task = 2;
-    driver.look_period = std::chrono::milliseconds(0);
+    driver.runs_per_task = 2;
+    driver.poll_period = std::chrono::milliseconds(0);
     driver.say = [this](const std::string& sentence) { said_.push_back(sentence); };
     driver.is_interrupted = [this](std::chrono::milliseconds) {
       if (events_.empty()) return true;
@@ -126,9 +126,9 @@ TEST_F(QueueDriverTest, RunsGoOutInBatchesOfAsManyTasksAsTheQueueTakes) {
 TEST_F(QueueDriverTest, RunsOfATaskAreChosenSoThatOneBatchTakesAll) {
   queue_.max_tasks = 3;
   Then([this] { DoAll(); });
-  ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.runs_a_task = 0; }));
+  ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.runs_per_task = 0; }));
   ASSERT_EQ(queue_.submitted.size(), 1u);
-  EXPECT_EQ(queue_.submitted[0].runs_a_task, 4u);  // ⌈10 / 3⌉
+  EXPECT_EQ(queue_.submitted[0].runs_per_task, 4u);  // ⌈10 / 3⌉
 }
 
 TEST_F(QueueDriverTest, RunsOfALostTaskGoOutAgainAfterTwoLooksThoseThatEndedATaskLast) {
@@ -157,7 +157,7 @@ TEST_F(QueueDriverTest, ARunThatEndsItsTaskThreeTimesIsAnError) {
     });
     Then([] {});
   }
-  ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.runs_a_task = 1; }));
+  ASSERT_TRUE(Drive([](QueueDriver& driver) { driver.runs_per_task = 1; }));
   EXPECT_EQ(queue_.submitted.size(), 3u);
   const auto all = results_->All();
   ASSERT_EQ(all->size(), 10u);

@@ -11,7 +11,7 @@
 namespace gsv::campaign {
 namespace {
 
-constexpr std::size_t kMostTasks = 1001;  // Slurm's own default for MaxArraySize
+constexpr std::size_t kMaxTasks = 1001;  // Slurm's own default for MaxArraySize
 
 struct SlurmOptions {
   std::string partition, time_limit;  // of a task, as sbatch has it; empty: the queue's own
@@ -60,7 +60,7 @@ class SlurmQueue final : public JobQueue {
     if (!text) return base::Fail(text.error());
     const std::size_t at = text->find("MaxArraySize");
     const std::size_t digits = text->find_first_of("0123456789", at);
-    std::size_t most = kMostTasks;
+    std::size_t most = kMaxTasks;
     if (at != std::string::npos && digits != std::string::npos)
       std::from_chars(&(*text)[digits], text->data() + text->size(), most);
     if (most < 2) {

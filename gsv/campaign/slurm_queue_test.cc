@@ -49,7 +49,7 @@ class SlurmQueueTest : public ::testing::Test {
     Batch batch;
     batch.number = number;
     batch.name = "gsv-x-" + std::to_string(number);
-    batch.runs_a_task = 2;
+    batch.runs_per_task = 2;
     batch.runs = {0, 1, 2, 3};
     return batch;
   }

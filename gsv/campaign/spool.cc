@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "gsv/base/whole_file.h"
+#include "gsv/base/atomic_file.h"
 
 namespace gsv::campaign {
 namespace {
@@ -36,8 +36,8 @@ base::Result<std::vector<fs::path>> FilesIn(const fs::path& folder, std::string_
 }  // namespace
 
 std::vector<std::int64_t> Batch::RunsOf(std::size_t task) const {
-  const std::size_t first = std::min(task * runs_a_task, runs.size());
-  const std::size_t end = std::min(first + runs_a_task, runs.size());
+  const std::size_t first = std::min(task * runs_per_task, runs.size());
+  const std::size_t end = std::min(first + runs_per_task, runs.size());
   return {runs.begin() + static_cast<std::ptrdiff_t>(first),
           runs.begin() + static_cast<std::ptrdiff_t>(end)};
 }
@@ -63,7 +63,7 @@ base::Result<Batch> ReadBatch(const fs::path& file) {
     batch.name = json.at("name");
     batch.job = json.at("job");
     batch.submitted = json.at("submitted");
-    batch.runs_a_task = std::max<std::size_t>(1, json.at("runs_a_task"));
+    batch.runs_per_task = std::max<std::size_t>(1, json.at("runs_a_task"));
     batch.runs = json.at("runs").get<std::vector<std::int64_t>>();
     batch.timeout = json.at("timeout_s");
     batch.failures = json.at("failures");
@@ -87,8 +87,8 @@ base::Result<Spool> Spool::Make(const fs::path& folder, const Campaign& campaign
   // Shards that start together write the same.
   const fs::path whole = fs::absolute(folder, error);
   if (!fs::exists(whole / "plan.json", error)) {
-    if (auto ok =
-            base::WriteWhole(whole / "plan.json", ToJson(campaign), base::Outlives::kPowerCut);
+    if (auto ok = base::WriteAtomically(whole / "plan.json", ToJson(campaign),
+                                        base::Durability::kPowerLoss);
         !ok) {
       return base::Fail(ok.error());
     }
@@ -141,11 +141,11 @@ base::Status Spool::Put(const Batch& batch) const {
                                     {"name", batch.name},
                                     {"job", batch.job},
                                     {"submitted", batch.submitted},
-                                    {"runs_a_task", batch.runs_a_task},
+                                    {"runs_a_task", batch.runs_per_task},
                                     {"timeout_s", batch.timeout},
                                     {"failures", batch.failures},
                                     {"runs", batch.runs}};
-  return base::WriteWhole(FileOf(batch), json.dump() + "\n", base::Outlives::kPowerCut);
+  return base::WriteAtomically(FileOf(batch), json.dump() + "\n", base::Durability::kPowerLoss);
 }
 
 void Spool::Remove(const Batch& batch) const {
@@ -162,7 +162,7 @@ base::Result<std::vector<RunResult>> Spool::Collect(const std::string& share) {
   }
   std::vector<RunResult> results;
   for (auto& [name, reader] : readers_) {
-    auto more = reader.ReadOn();
+    auto more = reader.ReadNew();
     if (!more) return base::Fail(more.error());
     std::move(more->begin(), more->end(), std::back_inserter(results));
   }

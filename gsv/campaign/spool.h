@@ -25,12 +25,12 @@ struct Batch {
   std::string name;      // of the queue's job, unlike all others
   std::string job;       // the queue's number; empty: not known
   double submitted = 0;  // s since 1970
-  std::size_t runs_a_task = 1;
+  std::size_t runs_per_task = 1;
   std::vector<std::int64_t> runs;
   double timeout = 300;  // wall seconds a run may take
   std::string failures;  // a folder for what failed runs leave; empty: nothing is kept
 
-  std::size_t tasks() const { return (runs.size() + runs_a_task - 1) / runs_a_task; }
+  std::size_t tasks() const { return (runs.size() + runs_per_task - 1) / runs_per_task; }
   std::vector<std::int64_t> RunsOf(std::size_t task) const;
   // The name of a task's share, in journals.
   std::string ShareOf(std::size_t task) const;

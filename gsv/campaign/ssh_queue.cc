@@ -28,7 +28,7 @@ constexpr std::size_t kMaxHosts = 1000;
 constexpr std::size_t kTasksPerSlot = 8;   // so that slots end at about the same time
 constexpr std::size_t kMaxConnecting = 8;  // to one host: sshd drops more (MaxStartups 10)
 constexpr int kMaxFailures = 3;            // in a row of every host; then there is no host left
-constexpr seconds kFirstRest{5}, kLongestRest{60};
+constexpr seconds kFirstRest{5}, kMaxRest{60};
 constexpr seconds kStartPatience{60};  // from the start of ssh to the begin of the task
 constexpr seconds kEndPatience{60};    // beyond the time that the task's runs may take
 
@@ -72,13 +72,13 @@ class SshQueue final : public JobQueue {
     TakeEnded();
     StartWaiting();
     if (IsWithoutHost()) {
-      std::string complaints;
+      std::string reasons;
       for (const Host& host : hosts_) {
-        if (complaints.size() < 1000)
-          complaints += fmt::format("; {}: {}", host.settings.name, host.complaint);
+        if (reasons.size() < 1000)
+          reasons += fmt::format("; {}: {}", host.settings.name, host.complaint);
       }
       return base::Fail(base::ErrorCode::kNotFound,
-                        "no host takes a task" + complaints + "; the same command goes on", "ssh");
+                        "no host takes a task" + reasons + "; the same command goes on", "ssh");
     }
     std::map<std::string, QueuedTask> tasks;
     for (const Running& running : running_) tasks[running.task.share] = {"RUNNING", ""};
@@ -151,7 +151,7 @@ class SshQueue final : public JobQueue {
   void Fail(Host& host, const std::string& complaint) {
     host.complaint = complaint;
     if (context_.now() < host.rests_until) return;
-    const auto rest = std::min(kLongestRest, kFirstRest * (1 << std::min(host.failures, 5)));
+    const auto rest = std::min(kMaxRest, kFirstRest * (1 << std::min(host.failures, 5)));
     ++host.failures;
     host.rests_until = context_.now() + rest;
     context_.say(fmt::format("host {} failed: {}; it gets no tasks for {} s", host.settings.name,
@@ -240,13 +240,13 @@ MakeQueue ReadSsh(scenario::YamlMapping& mapping) {
   SshOptions options;
   const std::vector<std::string> hosts = mapping.Texts("hosts");
   if (mapping.is_mapping() && (hosts.empty() || hosts.size() > kMaxHosts))
-    mapping.Complain("hosts", "hosts must be a list of 1 to 1,000 hosts, as [n1, user@n2:8]");
+    mapping.AddProblem("hosts", "hosts must be a list of 1 to 1,000 hosts, as [n1, user@n2:8]");
   for (const std::string& text : hosts) {
     if (auto host = HostIn(text)) {
       options.hosts.push_back(*std::move(host));
     } else {
-      mapping.Complain("hosts",
-                       "a host is HOST or HOST:SLOTS with 1 to 256 slots, found \"" + text + "\"");
+      mapping.AddProblem(
+          "hosts", "a host is HOST or HOST:SLOTS with 1 to 256 slots, found \"" + text + "\"");
     }
   }
   options.ssh = mapping.Text("program").value_or(options.ssh);
@@ -265,7 +265,7 @@ EngineType SshEngine() {
   type.title = "ssh";
   type.help = "on a list of hosts, by ssh";
   type.options = {{"--host", "hosts", "one more host, HOST or HOST:SLOTS (default: 1 slot)", true}};
-  type.look_period = std::chrono::milliseconds(500);
+  type.poll_period = std::chrono::milliseconds(500);
   type.outlives_driver = false;
   type.after_interrupt = "the tasks on the hosts end";
   type.read = &ReadSsh;

@@ -28,7 +28,7 @@ class LiveRoutes final : public RouteSet {
                publisher_.WantSensorsOf(simulation, robot);
              }),
         publisher_(std::move(directory), watchers_, commanders, options.recordings,
-                   &viewers_.desk()) {
+                   &viewers_.registry()) {
     if (options.factory != nullptr) uploads_.emplace(options.uploads);
     if (!options.recordings_folder.empty()) {
       recordings_.emplace(options.recordings_folder, options.only_recording, options.replays);

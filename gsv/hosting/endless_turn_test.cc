@@ -138,9 +138,9 @@ TEST_P(EndlessTurn, AResetThatWaitsForItIsRefused) {
 
 TEST_P(EndlessTurn, ItsSimulationIsLeftToItself) {
   GetStuck();
-  const int before = Simulation::LeftToThemselves();
+  const int before = Simulation::AbandonedSimulations();
   simulation_.reset();
-  EXPECT_EQ(Simulation::LeftToThemselves(), before + 1);
+  EXPECT_EQ(Simulation::AbandonedSimulations(), before + 1);
 }
 
 TEST_P(EndlessTurn, OneThatEndsAfterAllLetsTheSimulationBeReset) {
@@ -161,9 +161,9 @@ TEST_P(EndlessTurn, OneThatDoesNotHeedItsEndIsLeftBehind) {
   ASSERT_EQ(RunToEnd(*simulation_), Phase::kFinished);
   EXPECT_EQ(simulation_->state_hash().size(), 16u);
   EXPECT_FALSE(simulation_->Reset());
-  const int before = Simulation::LeftToThemselves();
+  const int before = Simulation::AbandonedSimulations();
   simulation_.reset();
-  EXPECT_EQ(Simulation::LeftToThemselves(), before + 1);
+  EXPECT_EQ(Simulation::AbandonedSimulations(), before + 1);
 }
 
 }  // namespace

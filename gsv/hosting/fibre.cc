@@ -15,7 +15,7 @@ constexpr std::size_t kStackBytes = 256u << 10;
 
 // Leaves the stack when the body has returned, or is unwound.
 struct Departure {
-  FollowedStack& stack;
+  SanitizerStack& stack;
   ~Departure() { stack.BeforeLeavingForGood(); }
 };
 
@@ -56,7 +56,7 @@ void Fibre::Resume() {
 void Fibre::Suspend() {
   // Also where an exception comes instead: the body is unwound.
   struct Arrival {
-    FollowedStack& stack;
+    SanitizerStack& stack;
     ~Arrival() { stack.AfterEntering(); }
   } const arrival{stack_};
   stack_.BeforeLeaving();

@@ -10,7 +10,7 @@
 #include <boost/context/fiber.hpp>
 #include <boost/context/stack_context.hpp>
 
-#include "gsv/hosting/followed_stack.h"
+#include "gsv/hosting/sanitizer_stack.h"
 
 namespace gsv::hosting {
 
@@ -35,7 +35,7 @@ class Fibre {
 
   std::function<void()> body_;
   bool has_ended_ = false;
-  FollowedStack stack_;
+  SanitizerStack stack_;
   boost::context::fiber inside_, outside_;
 };
 

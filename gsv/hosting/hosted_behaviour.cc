@@ -48,7 +48,7 @@ base::Status HostedBehaviour::Start() {
   if (!clock) return base::Fail(clock.error());
   clock_ = *clock;
   controller_ = dynamic_cast<Controller*>(behaviour_.get());
-  if (!robot_->HasOnlyQuickSensors()) controller_ = nullptr;
+  if (!robot_->HasOnlyFastSensors()) controller_ = nullptr;
   next_.reset();
   failure_.clear();
   if (controller_ != nullptr) return {};

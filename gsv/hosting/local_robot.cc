@@ -49,22 +49,22 @@ class LocalPort final : public SensorPort {
     return measured.has_value();
   }
 
-  Picture TakePicture() override {
-    Picture picture;
+  Image TakeImage() override {
+    Image image;
     const auto reading = robot_.Read(*sensor_);
-    if (!reading || reading->picture == nullptr) return picture;
-    picture.width = reading->picture->width;
-    picture.height = reading->picture->height;
-    picture.rgb = reading->picture->pixels;
-    return picture;
+    if (!reading || reading->picture == nullptr) return image;
+    image.width = reading->picture->width;
+    image.height = reading->picture->height;
+    image.rgb = reading->picture->pixels;
+    return image;
   }
 
   base::Status Send(const std::string& receiver, const std::string& content) override {
     return robot_.Send(*sensor_, receiver, content);
   }
 
-  base::Status Act(const std::vector<double>& values, const std::string& word) override {
-    return robot_.Act(*sensor_, {values, word});
+  base::Status CommandDevice(const std::vector<double>& values, const std::string& word) override {
+    return robot_.CommandDevice(*sensor_, {values, word});
   }
 
   void Fail(const base::Error& error) override { robot_.Note(error); }
@@ -108,10 +108,11 @@ base::Status LocalRobot::Send(const MountedSensor& radio, const std::string& rec
   return status;
 }
 
-base::Status LocalRobot::Act(const MountedSensor& actuator, world::DeviceCommand command) {
+base::Status LocalRobot::CommandDevice(const MountedSensor& actuator,
+                                       world::DeviceCommand command) {
   if (!is_running_) return base::Fail(base::ErrorCode::kEnded, "the run is over", name());
-  auto status = turn_ != nullptr ? turn_->Act(actuator, std::move(command))
-                                 : agent_->Act(actuator.name(), std::move(command));
+  auto status = turn_ != nullptr ? turn_->CommandDevice(actuator, std::move(command))
+                                 : agent_->CommandDevice(actuator.name(), std::move(command));
   if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
   return status;
 }
@@ -125,7 +126,7 @@ base::Result<sensing::Reading> LocalRobot::ReadBlocked(const MountedSensor& sens
   return is_running_ ? *reading : sensing::Reading();
 }
 
-bool LocalRobot::HasOnlyQuickSensors() const {
+bool LocalRobot::HasOnlyFastSensors() const {
   return std::none_of(open_.begin(), open_.end(),
                       [](const SensorPtr& sensor) { return sensor->takes_long(); });
 }

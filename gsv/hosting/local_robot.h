@@ -31,7 +31,7 @@ class LocalRobot final : public Robot {
   void Note(const base::Error& error);
 
   // What is read in an exchange, by name; true if all of it is there at once.
-  bool HasOnlyQuickSensors() const;
+  bool HasOnlyFastSensors() const;
   void ReadOpenSensors(std::vector<Reading>& readings);
 
   // Robot.
@@ -55,7 +55,8 @@ class LocalRobot final : public Robot {
   base::Status Send(const simulation::MountedSensor& radio, const std::string& receiver,
                     const std::string& content);
 
-  base::Status Act(const simulation::MountedSensor& actuator, world::DeviceCommand command);
+  base::Status CommandDevice(const simulation::MountedSensor& actuator,
+                             world::DeviceCommand command);
 
   // Of the robot's model, by index. Nothing comes of either when the run is over; a command that is
   // refused ends it.

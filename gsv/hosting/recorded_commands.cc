@@ -51,11 +51,11 @@ void RecordedCommands::TakeTurn(simulation::Turn& turn) {
 void RecordedCommands::Give(const TimedCommand& command, simulation::Turn& turn) const {
   if (const auto* drive = std::get_if<world::DriveCommand>(&command.command)) {
     turn.Command(*drive);
-  } else if (const auto* told = std::get_if<RecordedOrder>(&command.command)) {
+  } else if (const auto* told = std::get_if<RecordedDeviceCommand>(&command.command)) {
     if (const auto actuator = agent_->Mounted(told->actuator)) {
-      (void)turn.Act(**actuator, told->command);
+      (void)turn.CommandDevice(**actuator, told->command);
     }
-  } else if (const auto* sending = std::get_if<RecordedSending>(&command.command)) {
+  } else if (const auto* sending = std::get_if<RecordedTransmission>(&command.command)) {
     if (const auto radio = agent_->Mounted(sending->radio)) {
       (void)turn.Send(**radio, sending->receiver, sending->content);
     }

@@ -12,18 +12,18 @@
 
 namespace gsv::hosting {
 
-struct RecordedOrder {
+struct RecordedDeviceCommand {
   std::string actuator;
   world::DeviceCommand command;
 };
 
-struct RecordedSending {
+struct RecordedTransmission {
   std::string radio, receiver, content;
 };
 
 struct TimedCommand {
   base::SimTime time{0};
-  std::variant<world::DriveCommand, RecordedOrder, RecordedSending> command;
+  std::variant<world::DriveCommand, RecordedDeviceCommand, RecordedTransmission> command;
 };
 using TimedCommands = std::vector<TimedCommand>;  // times never fall
 

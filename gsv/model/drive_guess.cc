@@ -12,13 +12,13 @@ namespace {
 
 using geometry::Vector3;
 
-constexpr double kAcross = 0.9;        // cosine between an axis and the model's y axis
-constexpr double kIdlerRadius = 0.8;   // of the largest wheel's: smaller ones are not driven
-constexpr double kMiddle = 0.25;       // of the half track: wheels nearer to the middle are casters
-constexpr double kNarrowest = 0.01;    // m, half track
-constexpr double kTrail = 0.15;        // of the radius: how far a caster lags behind its swivel
-constexpr double kMostSteering = 1.4;  // rad
-constexpr double kFullTurn = 6.2;      // rad
+constexpr double kAcross = 0.9;       // cosine between an axis and the model's y axis
+constexpr double kIdlerRadius = 0.8;  // of the largest wheel's: smaller ones are not driven
+constexpr double kMiddle = 0.25;      // of the half track: wheels nearer to the middle are casters
+constexpr double kNarrowest = 0.01;   // m, half track
+constexpr double kTrail = 0.15;       // of the radius: how far a caster lags behind its swivel
+constexpr double kMaxSteeringAngle = 1.4;  // rad
+constexpr double kFullTurn = 6.2;          // rad
 
 const Joint& JointAt(const Model& model, int joint) {
   return model.joints[static_cast<std::size_t>(joint)];
@@ -152,7 +152,7 @@ void MeasureSteering(const Model& model, Drive& drive) {
     }
   }
   double sum = 0;
-  double limit = kMostSteering;
+  double limit = kMaxSteeringAngle;
   bool is_limited = false;
   for (const int joint : drive.steered) {
     const Joint& steered = JointAt(model, joint);

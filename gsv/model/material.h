@@ -26,7 +26,7 @@ struct Material {
   std::shared_ptr<const Image> metallic_roughness_map;  // G: roughness, B: metalness
   std::shared_ptr<const Image> emissive_map;
   // The map is cut out where its alpha is below one half, instead of blended.
-  bool alpha_cut_out = false;
+  bool alpha_mask = false;
   bool double_sided = false;
 };
 

@@ -6,7 +6,7 @@
 namespace gsv::model {
 namespace {
 
-constexpr double kFarthestGoal = 1e6;  // m
+constexpr double kMaxGoalCoordinate = 1e6;  // m
 
 bool IsWithin(double value, double low, double high) { return value >= low && value <= high; }
 
@@ -32,13 +32,14 @@ base::Status Check(const PedestrianGroup& group) {
   }
   if (group.route.empty()) return refuse("pedestrians need a route of at least one goal");
   for (const PedestrianGoal& goal : group.route) {
-    if (!IsWithin(goal.x, -kFarthestGoal, kFarthestGoal) ||
-        !IsWithin(goal.y, -kFarthestGoal, kFarthestGoal) ||
-        !IsWithin(goal.radius, 0, kFarthestGoal)) {
+    if (!IsWithin(goal.x, -kMaxGoalCoordinate, kMaxGoalCoordinate) ||
+        !IsWithin(goal.y, -kMaxGoalCoordinate, kMaxGoalCoordinate) ||
+        !IsWithin(goal.radius, 0, kMaxGoalCoordinate)) {
       return refuse("a goal's x and y must be numbers from -1e6 to 1e6, its radius from 0 to 1e6");
     }
   }
-  if (!IsWithin(group.z, -kFarthestGoal, kFarthestGoal)) return refuse("z must be a number");
+  if (!IsWithin(group.z, -kMaxGoalCoordinate, kMaxGoalCoordinate))
+    return refuse("z must be a number");
   if (!IsWithin(group.speed, 0.01, 10)) return refuse("the speed must lie between 0.01 and 10 m/s");
   if (!IsWithin(group.speed_deviation, 0, 5)) {
     return refuse("the speed's deviation must lie between 0 and 5 m/s");

@@ -15,7 +15,7 @@ using geometry::Vector3;
 
 constexpr int kDirections = 16;      // in which a wheel's extent is measured
 constexpr double kRoundness = 0.88;  // least extent over largest: a 12-sided mesh is round
-constexpr double kSmallestRadius = 0.005;
+constexpr double kMinRadius = 0.005;
 constexpr double kLevel = 0.35;    // sine of an axis' slope: wheels may have camber
 constexpr double kUpright = 0.9;   // cosine between a swivel and the vertical
 constexpr double kManyTurns = 20;  // rad
@@ -85,7 +85,7 @@ class Extent {
   double radius() const { return *std::max_element(across_.begin(), across_.end()); }
   bool is_round() const {
     const double least = *std::min_element(across_.begin(), across_.end());
-    return std::isfinite(radius()) && radius() > kSmallestRadius && least > kRoundness * radius();
+    return std::isfinite(radius()) && radius() > kMinRadius && least > kRoundness * radius();
   }
   // Halfway along the axis.
   Vector3 middle() const { return origin_ + (ahead_ - behind_) / 2 * axis_; }

@@ -23,7 +23,7 @@ constexpr const char* kTlsElsewhere = "* unix,ssl";
 
 }  // namespace
 
-CorbaAccess AccessOfEnvironment() {
+CorbaAccess AccessFromEnvironment() {
   CorbaAccess access;
   access.is_insecure = Variable("GSV_INSECURE_CORBA") == "1";
   const fs::path certificate = Variable("GSV_CORBA_CERTIFICATE");
@@ -58,7 +58,7 @@ bool IsLoopback(std::string_view host) {
 }
 
 base::Result<OrbAccess> PrepareAccess(const std::string& host, int port) {
-  const CorbaAccess access = AccessOfEnvironment();
+  const CorbaAccess access = AccessFromEnvironment();
   if (auto allowed = CheckListening(access, host); !allowed) return base::Fail(allowed.error());
   const bool is_ipv6 = host.find(':') != std::string::npos && !host.starts_with('[');
   const std::string address =

@@ -24,7 +24,7 @@ struct CorbaAccess {
   bool is_insecure = false;
 };
 
-CorbaAccess AccessOfEnvironment();
+CorbaAccess AccessFromEnvironment();
 
 // Whether a server may listen there. kInvalidArgument: what it takes.
 base::Status CheckListening(const CorbaAccess& access, const std::string& host);

@@ -21,14 +21,14 @@ class CorbaAccessTest : public ::testing::Test {
 };
 
 TEST_F(CorbaAccessTest, FindsKeyAndAuthorityBesideTheCertificate) {
-  EXPECT_FALSE(AccessOfEnvironment().certificate);
+  EXPECT_FALSE(AccessFromEnvironment().certificate);
   Set("GSV_CORBA_CERTIFICATE", "/tls/arm.left.pem");
   const CorbaCertificate beside{"/tls/arm.left.pem", "/tls/arm.left-key.pem", "/tls/ca.pem"};
-  EXPECT_EQ(AccessOfEnvironment().certificate, beside);
+  EXPECT_EQ(AccessFromEnvironment().certificate, beside);
   Set("GSV_CORBA_KEY", "/keys/arm");
   Set("GSV_CORBA_AUTHORITY", "/group.pem");
   const CorbaCertificate elsewhere{"/tls/arm.left.pem", "/keys/arm", "/group.pem"};
-  EXPECT_EQ(AccessOfEnvironment().certificate, elsewhere);
+  EXPECT_EQ(AccessFromEnvironment().certificate, elsewhere);
 }
 
 TEST_F(CorbaAccessTest, BeyondThisMachineTakesACertificateOrTheWord) {
@@ -38,11 +38,11 @@ TEST_F(CorbaAccessTest, BeyondThisMachineTakesACertificateOrTheWord) {
     EXPECT_TRUE(CheckListening({std::nullopt, true}, host)) << host;
   }
   EXPECT_TRUE(CheckListening({}, "127.0.0.1"));
-  EXPECT_FALSE(AccessOfEnvironment().is_insecure);
+  EXPECT_FALSE(AccessFromEnvironment().is_insecure);
   Set("GSV_INSECURE_CORBA", "0");
-  EXPECT_FALSE(AccessOfEnvironment().is_insecure);
+  EXPECT_FALSE(AccessFromEnvironment().is_insecure);
   Set("GSV_INSECURE_CORBA", "1");
-  EXPECT_TRUE(AccessOfEnvironment().is_insecure);
+  EXPECT_TRUE(AccessFromEnvironment().is_insecure);
 }
 
 TEST_F(CorbaAccessTest, KnowsLoopback) {

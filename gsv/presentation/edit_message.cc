@@ -14,7 +14,7 @@ namespace {
 
 using simulation::Edit;
 
-constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 62;
+constexpr std::uint64_t kMaxSteps = std::uint64_t{1} << 62;
 constexpr Edit::Kind kKinds[]{Edit::Kind::kAddRobot, Edit::Kind::kAddAvatar, Edit::Kind::kAddObject,
                               Edit::Kind::kRemove,   Edit::Kind::kPlace,     Edit::Kind::kCommand};
 constexpr Edit::Moment kMoments[]{Edit::Moment::kBeforeTurns, Edit::Moment::kAfterTurns,
@@ -91,7 +91,7 @@ base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message)
   edit.movement = Named(movement, kMovements);
   edit.world_from_body = {{p.x, p.y, p.z}, {q.w, q.x, q.y, q.z}};
   const double length = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-  if (!kind || !moment || message.body.empty() || message.step > kMostSteps ||
+  if (!kind || !moment || message.body.empty() || message.step > kMaxSteps ||
       (!edit.movement && !movement.empty()) || !geometry::IsFinite(edit.world_from_body) ||
       !(std::abs(length - 1) < 1e-6)) {
     return base::Fail(base::ErrorCode::kCorrupt,

@@ -86,7 +86,7 @@ class Identity {
     Add(material.normal_map);
     Add(material.metallic_roughness_map);
     Add(material.emissive_map);
-    Add(std::uint64_t{material.alpha_cut_out});
+    Add(std::uint64_t{material.alpha_mask});
     Add(std::uint64_t{material.double_sided});
   }
 

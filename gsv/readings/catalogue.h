@@ -258,7 +258,7 @@ struct DepthImage {
   static constexpr auto kFields = std::make_tuple(Value("width", "px", &DepthImage::width),
                                                   Value("height", "px", &DepthImage::height),
                                                   Value("depth", "m", &DepthImage::depth));
-  bool IsWhole() const { return depth.size() == std::size_t(1) * width * height; }
+  bool IsComplete() const { return depth.size() == std::size_t(1) * width * height; }
 };
 
 // Rows from the top. A pixel of label n shows names[n - 1], one of label 0 nothing.
@@ -270,7 +270,7 @@ struct SegmentedImage {
   static constexpr auto kFields = std::make_tuple(
       Value("width", "px", &SegmentedImage::width), Value("height", "px", &SegmentedImage::height),
       Value("pixels", "", &SegmentedImage::pixels), Value("names", "", &SegmentedImage::names));
-  bool IsWhole() const { return pixels.size() == std::size_t(1) * width * height; }
+  bool IsComplete() const { return pixels.size() == std::size_t(1) * width * height; }
 };
 
 // Rows from the top, whole steps of the camera's resolution.
@@ -283,7 +283,7 @@ struct ThermalImage {
       Value("width", "px", &ThermalImage::width), Value("height", "px", &ThermalImage::height),
       Value("resolution", "K", &ThermalImage::resolution),
       Value("temperature", "K", &ThermalImage::temperature));
-  bool IsWhole() const { return temperature.size() == std::size_t(1) * width * height; }
+  bool IsComplete() const { return temperature.size() == std::size_t(1) * width * height; }
 };
 
 // Rows from the top. For each pixel the unit vector that is perpendicular to the visible surface and
@@ -295,7 +295,7 @@ struct NormalImage {
   static constexpr auto kFields = std::make_tuple(Value("width", "px", &NormalImage::width),
                                                   Value("height", "px", &NormalImage::height),
                                                   Value("normals", "", &NormalImage::normals));
-  bool IsWhole() const { return normals.size() == std::size_t(3) * width * height; }
+  bool IsComplete() const { return normals.size() == std::size_t(3) * width * height; }
 };
 
 // Pixels from the image's upper left corner.

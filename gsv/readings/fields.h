@@ -203,9 +203,9 @@ template <typename Struct>
 void Describe(const Place& place, Layout& layout) {
   ForEachField<Struct>([&]<typename Of, typename Member>(const Field<Of, Member>& field) {
     Place inner = place.Inside(field.name, field.unit, field.path);
-    if (field.is_optional || kIsOptional<Member>) inner.occurs = Occurs::kPerhaps;
+    if (field.is_optional || kIsOptional<Member>) inner.occurs = Multiplicity::kOptional;
     if constexpr (kIsList<Member> || kIsAllValues<Member> || kIsAllLabels<Member>) {
-      inner.occurs = Occurs::kRepeatedly;
+      inner.occurs = Multiplicity::kRepeated;
     }
     if constexpr (kIsLabel<Member> || kIsAllLabels<Member>) {
       layout.AddLabel(inner);
@@ -247,7 +247,7 @@ base::Result<Struct> Decode(std::span<const double> values, std::span<const std:
   base::Result<Struct> decoded;
   internal::Read(cursor, *decoded);
   bool is_whole = cursor.is_exact();
-  if constexpr (requires { decoded->IsWhole(); }) is_whole = is_whole && decoded->IsWhole();
+  if constexpr (requires { decoded->IsComplete(); }) is_whole = is_whole && decoded->IsComplete();
   if (is_whole) return decoded;
   return base::Fail(WrongSize(LayoutOf<Struct>(), values.size(), labels.size(), where));
 }

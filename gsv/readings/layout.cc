@@ -11,7 +11,7 @@ std::string Joined(const std::string& outer, const std::string& inner) {
   return outer.empty() || inner.empty() ? outer + inner : outer + "." + inner;
 }
 
-std::size_t CountOf(const Columns& columns, Occurs occurs) {
+std::size_t CountOf(const Columns& columns, Multiplicity occurs) {
   return static_cast<std::size_t>(
       std::count_if(columns.begin(), columns.end(),
                     [&](const Layout::Column& column) { return column.occurs == occurs; }));
@@ -37,14 +37,14 @@ std::string Shortened(const std::string& name, const std::string& before) {
 }
 
 // The names, each unit once behind those that share it.
-std::string Listed(const Columns& columns, Occurs occurs) {
+std::string Listed(const Columns& columns, Multiplicity occurs) {
   std::string text, before;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Layout::Column& column = columns[i];
     if (column.occurs != occurs) continue;
     // Of a group, without the list's own name.
     std::string name = column.name;
-    if (occurs == Occurs::kRepeatedly) name = name.substr(name.find('.') + 1);
+    if (occurs == Multiplicity::kRepeated) name = name.substr(name.find('.') + 1);
     text += (text.empty() ? "" : ", ") + Shortened(name, before);
     before = name;
     const bool ends_unit = i + 1 == columns.size() || columns[i + 1].unit != column.unit ||
@@ -55,9 +55,9 @@ std::string Listed(const Columns& columns, Occurs occurs) {
 }
 
 std::string Listed(const Columns& columns) {
-  const std::string once = Listed(columns, Occurs::kOnce);
-  const std::string perhaps = Listed(columns, Occurs::kPerhaps);
-  const std::string repeatedly = Listed(columns, Occurs::kRepeatedly);
+  const std::string once = Listed(columns, Multiplicity::kOnce);
+  const std::string perhaps = Listed(columns, Multiplicity::kOptional);
+  const std::string repeatedly = Listed(columns, Multiplicity::kRepeated);
   std::string text = once;
   if (!perhaps.empty()) text += "; perhaps " + perhaps;
   if (!repeatedly.empty()) text += (text.empty() ? "each: " : "; then each: ") + repeatedly;
@@ -77,12 +77,12 @@ std::string Layout::Text() const {
 }
 
 std::string Layout::Sizes() const {
-  const std::size_t once = CountOf(values, Occurs::kOnce);
-  const std::size_t perhaps = CountOf(values, Occurs::kPerhaps);
-  std::string text = Counted(once, CountOf(labels, Occurs::kOnce));
+  const std::size_t once = CountOf(values, Multiplicity::kOnce);
+  const std::size_t perhaps = CountOf(values, Multiplicity::kOptional);
+  std::string text = Counted(once, CountOf(labels, Multiplicity::kOnce));
   if (perhaps > 0) text = std::to_string(once) + " or " + Counted(once + perhaps, 0);
   const std::string group =
-      Counted(CountOf(values, Occurs::kRepeatedly), CountOf(labels, Occurs::kRepeatedly));
+      Counted(CountOf(values, Multiplicity::kRepeated), CountOf(labels, Multiplicity::kRepeated));
   if (group.empty()) return text;
   return text.empty() ? "groups of " + group : text + ", then groups of " + group;
 }

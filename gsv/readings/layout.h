@@ -10,10 +10,10 @@
 
 namespace gsv::readings {
 
-enum class Occurs {
+enum class Multiplicity {
   kOnce,
-  kPerhaps,     // once, or missing at the end
-  kRepeatedly,  // any number of times, to the end
+  kOptional,  // once, or missing at the end
+  kRepeated,  // any number of times, to the end
 };
 
 // Where a field stands: in which others, and what it has from them.
@@ -21,7 +21,7 @@ struct Place {
   std::string name;  // "touches.point.x"
   std::string unit;  // of the innermost field that has one
   std::string path;  // in the message: "contacts.point.x"
-  Occurs occurs = Occurs::kOnce;
+  Multiplicity occurs = Multiplicity::kOnce;
 
   // `path` null: as the name.
   Place Inside(const char* field, const char* field_unit, const char* field_path) const;
@@ -32,7 +32,7 @@ struct Layout {
     std::string name;  // "angular_velocity.x"
     std::string unit;  // empty: none
     std::string path;  // in the type's message
-    Occurs occurs = Occurs::kOnce;
+    Multiplicity occurs = Multiplicity::kOnce;
   };
   // In the order of a reading: first those that occur once. Those that occur repeatedly form a
   // group, which is repeated as a whole.

@@ -27,14 +27,14 @@ namespace {
 constexpr int kMoments = 200;
 // Fewer where each is slow: those that wait for a processor too long do not count, the long lives
 // first.
-constexpr std::size_t kAtOnce = base::kTimesAsSlow > 1 ? 6 : 20;
+constexpr std::size_t kAtOnce = base::kSlowdown > 1 ? 6 : 20;
 constexpr std::int64_t kMillisecond = 1'000'000;  // ns
 constexpr std::int64_t kPromised = 1000 * kMillisecond;
-constexpr std::int64_t kLongestLife = 2500 * kMillisecond;
+constexpr std::int64_t kMaxLifetime = 2500 * kMillisecond;
 // A process that got no processor for so long cannot keep a promise about time: its moment is
 // tried again.
 constexpr std::int64_t kStall = 250 * kMillisecond;
-constexpr int kMostAgain = 200;
+constexpr int kMaxRepeats = 200;
 
 // One recording program, from its start to its end.
 class Victim {
@@ -164,7 +164,7 @@ class Killing {
 
  private:
   void Start() {
-    std::uniform_int_distribution<std::int64_t> life(0, kLongestLife);
+    std::uniform_int_distribution<std::int64_t> life(0, kMaxLifetime);
     std::uniform_int_distribution<int> dawdling(2'000, 50'000);
     const std::string name = "run_" + std::to_string(started_++) + ".mcap";
     victims_.push_back(std::make_unique<Victim>(folder_ / name, life(random_), dawdling(random_)));
@@ -194,7 +194,7 @@ class Killing {
         with_a_promise_ += victim->promised() ? 1 : 0;
         SCOPED_TRACE(victim->path());
         Judge(*victim);
-      } else if (again_ < kMostAgain) {
+      } else if (again_ < kMaxRepeats) {
         ++again_;
       }
       victim.reset();

@@ -164,7 +164,7 @@ void SimulationRecorder::Record(const Observation& observation) {
 // A replay ends with what was seen last.
 void SimulationRecorder::WriteEnd() {
   if (writer_->failed()) return;
-  states_.RecordAnyway(*latest_);
+  states_.RecordNow(*latest_);
   StringMap result = result_;
   result["dropped_snapshots"] = std::to_string(feed_->dropped());
   writer_->AddMetadata({"gsv.result", std::move(result)});

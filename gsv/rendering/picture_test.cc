@@ -157,7 +157,7 @@ TEST_F(PICTURE_SUITE, ATextureStandsUpright) {
 TEST_F(PICTURE_SUITE, ACutOutTextureShowsWhatIsBehindItsHoles) {
   model::Material material = Matt(1, 1, 1);
   material.base_colour_map = Quarters(4);
-  material.alpha_cut_out = true;
+  material.alpha_mask = true;
   scene_.Add("board", Box{{0.1, 1, 1}}, {{2, 0, 0}, {}}, material);
   scene_.Add("lamp", Box{{0.1, 4, 4}}, {{4, 0, 0}, {}}, Glowing(0, 0, 1));
   // The hole is the lower right quarter: the front's is seen through, and the back's behind the

@@ -8,8 +8,8 @@
 
 #include "gsv/base/check.h"
 #include "gsv/base/mutex.h"
-#include "gsv/rendering/opengl/gl_batch_painter.h"
-#include "gsv/rendering/raster/raster_batch_painter.h"
+#include "gsv/rendering/opengl/gl_batch_renderer.h"
+#include "gsv/rendering/raster/raster_batch_renderer.h"
 
 namespace gsv::rendering {
 namespace {
@@ -20,7 +20,7 @@ using base::Result;
 using Pictures = std::vector<std::shared_ptr<const model::Image>>;
 
 // Pictures drawn before other snapshots get their turn.
-constexpr std::size_t kMostInBatch = 64;
+constexpr std::size_t kMaxBatchSize = 64;
 // How long what nobody uses may stay on the card while no picture is asked for.
 constexpr std::chrono::seconds kIdleSweep{5};
 
@@ -74,8 +74,8 @@ class Renderer::RenderThread {
     return Await(request, request->pictures.get_future(), timeout);
   }
 
-  Result<Truths> Survey(std::shared_ptr<const world::Snapshot> snapshot,
-                        std::vector<CameraView> views, std::chrono::milliseconds timeout) {
+  Result<Truths> DrawGroundTruth(std::shared_ptr<const world::Snapshot> snapshot,
+                                 std::vector<CameraView> views, std::chrono::milliseconds timeout) {
     auto request = std::make_shared<Request>();
     request->snapshot = std::move(snapshot);
     request->views = std::move(views);
@@ -122,7 +122,7 @@ class Renderer::RenderThread {
     EglOptions egl = options_.egl;
     if (automatic && raster::CanRasterise()) egl.software = false;
     std::unique_ptr<EglContext> context;
-    std::unique_ptr<BatchPainter> painter;
+    std::unique_ptr<BatchRenderer> painter;
     if (options_.back_end != BackEnd::kRasteriser) {
       Result<std::unique_ptr<EglContext>> created = EglContext::Create(egl);
       if (!created && egl.software) {
@@ -131,7 +131,7 @@ class Renderer::RenderThread {
       }
       if (created) {
         context = *std::move(created);
-        painter = std::make_unique<GlBatchPainter>();
+        painter = std::make_unique<GlBatchRenderer>();
       }
     } else if (!raster::CanRasterise()) {
       started.set_value(Fail(ErrorCode::kUnavailable,
@@ -140,7 +140,7 @@ class Renderer::RenderThread {
       return;
     }
     if (painter == nullptr) {
-      painter = std::make_unique<raster::RasterBatchPainter>(base::ThreadTeam::DefaultThreads());
+      painter = std::make_unique<raster::RasterBatchRenderer>(base::ThreadTeam::DefaultThreads());
     }
     started.set_value(context != nullptr ? context->renderer_name() : raster::kRasteriserName);
     Serve(*painter);
@@ -148,7 +148,7 @@ class Renderer::RenderThread {
     EndAll();
   }
 
-  void Serve(BatchPainter& painter) {
+  void Serve(BatchRenderer& painter) {
     base::MutexLock lock(mutex_);
     while (!stopping_) {
       Batch batch = TakeBatch();
@@ -177,7 +177,7 @@ class Renderer::RenderThread {
     std::size_t views = 0;
     std::erase_if(queue_, [&](std::shared_ptr<Request>& request) {
       if (request->snapshot != snapshot) return false;
-      if (!batch.empty() && views + request->views.size() > kMostInBatch) return false;
+      if (!batch.empty() && views + request->views.size() > kMaxBatchSize) return false;
       views += request->views.size();
       batch.push_back(std::move(request));
       return true;
@@ -185,7 +185,7 @@ class Renderer::RenderThread {
     return batch;
   }
 
-  static void Serve(BatchPainter& painter, Batch batch) {
+  static void Serve(BatchRenderer& painter, Batch batch) {
     const auto surveys = std::stable_partition(
         batch.begin(), batch.end(), [](const auto& request) { return !request->is_survey; });
     const world::Snapshot& snapshot = *batch.front()->snapshot;
@@ -193,7 +193,7 @@ class Renderer::RenderThread {
     Result<Pictures> drawn;
     Result<Truths> surveyed;
     if (!pictures.empty()) drawn = painter.Draw(snapshot, ViewsOf(pictures));
-    if (!truths.empty()) surveyed = painter.Survey(snapshot, ViewsOf(truths));
+    if (!truths.empty()) surveyed = painter.DrawGroundTruth(snapshot, ViewsOf(truths));
     Serve(pictures, std::move(drawn), &Request::pictures);
     Serve(truths, std::move(surveyed), &Request::truths);
   }
@@ -275,14 +275,14 @@ Result<Pictures> Renderer::Draw(std::shared_ptr<const world::Snapshot> snapshot,
   return thread_->Draw(std::move(snapshot), views, timeout);
 }
 
-Result<Truths> Renderer::Survey(std::shared_ptr<const world::Snapshot> snapshot,
-                                const std::vector<CameraView>& views,
-                                std::chrono::milliseconds timeout) {
+Result<Truths> Renderer::DrawGroundTruth(std::shared_ptr<const world::Snapshot> snapshot,
+                                         const std::vector<CameraView>& views,
+                                         std::chrono::milliseconds timeout) {
   GSV_CHECK(snapshot != nullptr);
   for (const CameraView& view : views) {
     if (base::Status status = Check(view.parameters); !status) return Fail(status.error());
   }
-  return thread_->Survey(std::move(snapshot), views, timeout);
+  return thread_->DrawGroundTruth(std::move(snapshot), views, timeout);
 }
 
 DrawCopies Renderer::CountCopies() { return thread_->Count(); }

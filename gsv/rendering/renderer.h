@@ -65,7 +65,7 @@ class Renderer {
 
   // Distances and whose they are, truths[i] being views[i]'s; always by the rasteriser:
   // kUnavailable on processors without AVX2 and FMA.
-  [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> Survey(
+  [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = kPatience);
 

@@ -33,12 +33,12 @@ struct Quantity {
     kEnded,            // 1 when `first`'s behaviour has finished or died, else 0
     kTime,             // s
   };
-  enum class Take { kLeast, kMost, kMean, kOne };  // of a reading's values
+  enum class Take { kMin, kMax, kMean, kOne };  // of a reading's values
 
   Kind kind = Kind::kTime;
   std::string first, second;
   double x = 0, y = 0, yaw = 0;
-  Take take = Take::kLeast;
+  Take take = Take::kMin;
   int value = 0;  // which, for kOne
 };
 

@@ -11,7 +11,7 @@ namespace {
 using FormulaKind = Formula::Kind;
 using QuantityKind = Quantity::Kind;
 
-constexpr double kMost = 1e9;                   // of any measured number
+constexpr double kMax = 1e9;                    // of any measured number
 constexpr double kNear = 0.25;                  // m
 constexpr double kYawNear = 0.261799387799149;  // rad, 15 degrees
 
@@ -41,18 +41,18 @@ class FormulaReader {
   Formula Read(YamlMapping& mapping, int depth) {
     Formula formula;
     if (is_too_large()) return formula;
-    if (++count_ > kMostFormulas || depth > kDeepestFormula) {
-      count_ = kMostFormulas + 1;
-      mapping.Complain("expectations have at most 1000 parts, 16 deep");
+    if (++count_ > kMaxFormulas || depth > kMaxFormulaDepth) {
+      count_ = kMaxFormulas + 1;
+      mapping.AddProblem("expectations have at most 1000 parts, 16 deep");
       return formula;
     }
     std::string found;
     for (const Operator& each : kOperators) {
       const auto node = mapping.Any(each.key);
-      if (!mapping.Had(each.key)) continue;
+      if (!mapping.Has(each.key)) continue;
       if (!found.empty()) {
-        mapping.Complain(each.key, "there is one operator in a condition; here are " + found +
-                                       " and " + each.key);
+        mapping.AddProblem(each.key, "there is one operator in a condition; here are " + found +
+                                         " and " + each.key);
         continue;
       }
       found = each.key;
@@ -63,14 +63,14 @@ class FormulaReader {
       std::string known;
       for (const Operator& each : kOperators)
         known += (known.empty() ? "" : ", ") + std::string(each.key);
-      mapping.Complain("a condition has one operator of " + known);
+      mapping.AddProblem("a condition has one operator of " + known);
     }
     ReadWindow(mapping, formula);
     return formula;
   }
 
   // It has been told; there is no use in reading on.
-  bool is_too_large() const { return count_ > kMostFormulas; }
+  bool is_too_large() const { return count_ > kMaxFormulas; }
 
  private:
   using ReadOperator = Formula (FormulaReader::*)(const YAML::Node&, YamlMapping&,
@@ -87,21 +87,21 @@ class FormulaReader {
   }
 
   void ReadWindow(YamlMapping& mapping, Formula& formula) {
-    const auto from = mapping.Number("from", 0, kLongest);
-    const auto by = mapping.Number("by", 0, kLongest);
+    const auto from = mapping.Number("from", 0, kMaxDuration);
+    const auto by = mapping.Number("by", 0, kMaxDuration);
     const bool is_temporal = formula.kind == FormulaKind::kAlways ||
                              formula.kind == FormulaKind::kEventually ||
                              formula.kind == FormulaKind::kUntil;
     if ((from || by) && !is_temporal) {
-      mapping.Complain(from ? "from" : "by",
-                       "only what is about time has from and by: always, eventually, until, "
-                       "before, reaches, stays_within, never_collides, distance_at_least");
+      mapping.AddProblem(from ? "from" : "by",
+                         "only what is about time has from and by: always, eventually, until, "
+                         "before, reaches, stays_within, never_collides, distance_at_least");
       return;
     }
     formula.from = from.value_or(0);
     formula.by = by;
     if (by && *by < formula.from) {
-      mapping.Complain("by", "by lies before from, so that it holds whatever happens, or never");
+      mapping.AddProblem("by", "by lies before from, so that it holds whatever happens, or never");
     }
   }
 
@@ -119,8 +119,8 @@ class FormulaReader {
                                int depth, std::size_t exactly) {
     std::vector<Formula> parts;
     if (!node.IsSequence() || node.size() == 0 || (exactly > 0 && node.size() != exactly)) {
-      m.Complain(key, key + " must be a list of " +
-                          (exactly > 0 ? std::to_string(exactly) + " conditions" : "conditions"));
+      m.AddProblem(key, key + " must be a list of " +
+                            (exactly > 0 ? std::to_string(exactly) + " conditions" : "conditions"));
       parts.resize(exactly);
       return parts;
     }
@@ -155,29 +155,29 @@ class FormulaReader {
   std::string Body(YamlMapping& m) {
     const auto name = m.Text("robot");
     if (m.is_mapping() && (!name || name->empty()))
-      m.Complain("robot", "robot is needed: a robot's or an object's name");
+      m.AddProblem("robot", "robot is needed: a robot's or an object's name");
     return name.value_or("");
   }
 
   void ReadBounds(YamlMapping& m, Formula& atom) {
-    const auto least = m.Number("at_least", -kMost, kMost);
-    const auto most = m.Number("at_most", -kMost, kMost);
-    if (m.is_mapping() && !m.Had("at_least") && !m.Had("at_most")) {
-      m.Complain("at_least and at_most, or one of them, are needed");
+    const auto least = m.Number("at_least", -kMax, kMax);
+    const auto most = m.Number("at_most", -kMax, kMax);
+    if (m.is_mapping() && !m.Has("at_least") && !m.Has("at_most")) {
+      m.AddProblem("at_least and at_most, or one of them, are needed");
     }
     if (least) atom.least = *least;
     if (most) atom.most = *most;
-    if (atom.least > atom.most) m.Complain("at_most", "at_most lies below at_least");
+    if (atom.least > atom.most) m.AddProblem("at_most", "at_most lies below at_least");
   }
 
   Formula Near(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     YamlMapping near(node, m.FieldOf(key), place_);
     Formula atom = Atom(QuantityKind::kDistanceToPoint, Body(near), 0, kNear);
-    atom.quantity.x = near.Number("x", -kFarthest, kFarthest).value_or(0);
-    atom.quantity.y = near.Number("y", -kFarthest, kFarthest).value_or(0);
-    if (near.is_mapping() && !(near.Had("x") && near.Had("y")))
-      near.Complain(near.Had("x") ? "y" : "x", "a place needs both x and y");
-    atom.most = near.Number("within", 1e-6, kFarthest).value_or(kNear);
+    atom.quantity.x = near.Number("x", -kMaxCoordinate, kMaxCoordinate).value_or(0);
+    atom.quantity.y = near.Number("y", -kMaxCoordinate, kMaxCoordinate).value_or(0);
+    if (near.is_mapping() && !(near.Has("x") && near.Has("y")))
+      near.AddProblem(near.Has("x") ? "y" : "x", "a place needs both x and y");
+    atom.most = near.Number("within", 1e-6, kMaxCoordinate).value_or(kNear);
     const auto yaw = near.Angle("yaw");
     const auto yaw_within = near.Angle("yaw_within");
     if (!yaw) return atom;
@@ -190,14 +190,14 @@ class FormulaReader {
   void ReadRange(YamlMapping& m, const std::string& key, QuantityKind kind,
                  const std::string& robot, std::vector<Formula>& atoms) {
     const std::vector<YAML::Node> ends = m.List(key);
-    if (!m.Had(key)) return;
+    if (!m.Has(key)) return;
     const auto number = [&](const YAML::Node& node) {
       return node.IsScalar() ? ParseNumber(node.Scalar()) : std::nullopt;
     };
     const auto least = ends.size() == 2 ? number(ends[0]) : std::nullopt;
     const auto most = ends.size() == 2 ? number(ends[1]) : std::nullopt;
     if (!least || !most || *least > *most) {
-      m.Complain(key, key + " must be two numbers, the smaller first, as in [-1, 2.5]");
+      m.AddProblem(key, key + " must be two numbers, the smaller first, as in [-1, 2.5]");
       return;
     }
     atoms.push_back(Atom(kind, robot, *least, *most));
@@ -209,8 +209,8 @@ class FormulaReader {
     ReadRange(region, "x", QuantityKind::kX, robot, atoms);
     ReadRange(region, "y", QuantityKind::kY, robot, atoms);
     ReadRange(region, "z", QuantityKind::kZ, robot, atoms);
-    if (region.is_mapping() && !region.Had("x") && !region.Had("y") && !region.Had("z")) {
-      region.Complain("x, y or z is needed, as in x: [-1, 2.5]");
+    if (region.is_mapping() && !region.Has("x") && !region.Has("y") && !region.Has("z")) {
+      region.AddProblem("x, y or z is needed, as in x: [-1, 2.5]");
     }
     return Joined(FormulaKind::kAll, std::move(atoms));
   }
@@ -218,7 +218,7 @@ class FormulaReader {
   Formula Bounded(QuantityKind kind, const YAML::Node& node, YamlMapping& m,
                   const std::string& key) {
     YamlMapping of(node, m.FieldOf(key), place_);
-    Formula atom = Atom(kind, Body(of), -kMost, kMost);
+    Formula atom = Atom(kind, Body(of), -kMax, kMax);
     ReadBounds(of, atom);
     return atom;
   }
@@ -236,7 +236,7 @@ class FormulaReader {
     const std::vector<std::string> names = m.Texts("between");
     if (!m.is_mapping()) return;
     if (names.size() != 2 || names[0].empty() || names[1].empty() || names[0] == names[1]) {
-      m.Complain("between", "between must be two names, as in [scout, crate]");
+      m.AddProblem("between", "between must be two names, as in [scout, crate]");
       return;
     }
     quantity.first = names[0];
@@ -244,17 +244,17 @@ class FormulaReader {
   }
   Formula Distance(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     YamlMapping of(node, m.FieldOf(key), place_);
-    Formula atom = Atom(QuantityKind::kDistance, "", -kMost, kMost);
+    Formula atom = Atom(QuantityKind::kDistance, "", -kMax, kMax);
     ReadPair(of, atom.quantity);
     ReadBounds(of, atom);
     return atom;
   }
   Formula DistanceAtLeast(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     YamlMapping of(node, m.FieldOf(key), place_);
-    Formula atom = Atom(QuantityKind::kDistance, "", 0, kMost);
+    Formula atom = Atom(QuantityKind::kDistance, "", 0, kMax);
     ReadPair(of, atom.quantity);
-    const auto metres = of.Number("metres", 0, kFarthest);
-    if (of.is_mapping() && !of.Had("metres")) of.Complain("metres", "metres is needed");
+    const auto metres = of.Number("metres", 0, kMaxCoordinate);
+    if (of.is_mapping() && !of.Has("metres")) of.AddProblem("metres", "metres is needed");
     atom.least = metres.value_or(0);
     return Joined(FormulaKind::kAlways, {std::move(atom)});
   }
@@ -270,7 +270,7 @@ class FormulaReader {
     } else if (node.IsScalar()) {
       atom.quantity.first = node.Scalar();
     } else {
-      m.Complain(key, key + " must be a name, or two as in [scout, crate]");
+      m.AddProblem(key, key + " must be a name, or two as in [scout, crate]");
     }
     return atom;
   }
@@ -278,31 +278,31 @@ class FormulaReader {
     return Joined(FormulaKind::kAlways, {Not(Contact(node, m, key, depth))});
   }
   Formula Ended(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
-    if (!node.IsScalar()) m.Complain(key, key + " must be a robot's name");
+    if (!node.IsScalar()) m.AddProblem(key, key + " must be a robot's name");
     return Atom(QuantityKind::kEnded, node.IsScalar() ? node.Scalar() : "", 1, 1);
   }
 
   Formula Sensor(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     YamlMapping of(node, m.FieldOf(key), place_);
-    Formula atom = Atom(QuantityKind::kSensor, "", -kMost, kMost);
+    Formula atom = Atom(QuantityKind::kSensor, "", -kMax, kMax);
     const std::string name = of.Text("of").value_or("");
     const std::size_t slash = std::min(name.find('/'), name.size());
     atom.quantity.first = name.substr(0, slash);
     atom.quantity.second = name.substr(std::min(slash + 1, name.size()));
     if (of.is_mapping() && (atom.quantity.first.empty() || atom.quantity.second.empty()))
-      of.Complain("of", "of must be a sensor, as in scout/front");
+      of.AddProblem("of", "of must be a sensor, as in scout/front");
     const auto take = of.Text("take");
     const auto value = of.Number("value", 0, 1e6);
-    if (take && value) of.Complain("value", "take or value says which number is meant, not both");
+    if (take && value) of.AddProblem("value", "take or value says which number is meant, not both");
     if (value) {
       atom.quantity.take = Quantity::Take::kOne;
       atom.quantity.value = static_cast<int>(*value);
     } else if (take == "max") {
-      atom.quantity.take = Quantity::Take::kMost;
+      atom.quantity.take = Quantity::Take::kMax;
     } else if (take == "mean") {
       atom.quantity.take = Quantity::Take::kMean;
     } else if (take && take != "min") {
-      of.Complain("take", "take must be min, max or mean, found \"" + *take + "\"");
+      of.AddProblem("take", "take must be min, max or mean, found \"" + *take + "\"");
     }
     ReadBounds(of, atom);
     return atom;
@@ -310,7 +310,7 @@ class FormulaReader {
 
   Formula Time(const YAML::Node& node, YamlMapping& m, const std::string& key, int) {
     YamlMapping of(node, m.FieldOf(key), place_);
-    Formula atom = Atom(QuantityKind::kTime, "", 0, kMost);
+    Formula atom = Atom(QuantityKind::kTime, "", 0, kMax);
     ReadBounds(of, atom);
     return atom;
   }
@@ -356,24 +356,24 @@ const std::array<FormulaReader::Operator, 22> FormulaReader::kOperators = {{
 std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration) {
   std::vector<Expectation> expectations;
   FormulaReader reader(scenario.place());
-  scenario.Each("expect", kMostFormulas, [&](const YAML::Node& node, std::string field) {
+  scenario.Each("expect", kMaxFormulas, [&](const YAML::Node& node, std::string field) {
     if (reader.is_too_large()) return;
-    const std::size_t complaints = scenario.place().complaints();
+    const std::size_t problem_count = scenario.place().problem_count();
     YamlMapping mapping(node, std::move(field), scenario.place());
     Expectation expectation;
     const auto name = mapping.Text("name");
     expectation.source.text = mapping.Source();
     expectation.formula = reader.Read(mapping, 1);
     if (expectation.formula.by.value_or(0) > duration && duration > 0)
-      mapping.Complain("by", "by lies after the end of the run, at duration");
+      mapping.AddProblem("by", "by lies after the end of the run, at duration");
     if (expectation.formula.from > duration && duration > 0)
-      mapping.Complain("from", "from lies after the end of the run, at duration");
-    if (scenario.place().complaints() == complaints) expectation.yaml = OnOneLine(node);
+      mapping.AddProblem("from", "from lies after the end of the run, at duration");
+    if (scenario.place().problem_count() == problem_count) expectation.yaml = OneLineYaml(node);
     expectation.name = name.value_or(expectation.yaml);
     expectations.push_back(std::move(expectation));
   });
   if (!expectations.empty() && duration == 0) {
-    scenario.Complain("expect", "what is expected needs an end by which it is judged: duration");
+    scenario.AddProblem("expect", "what is expected needs an end by which it is judged: duration");
   }
   return expectations;
 }

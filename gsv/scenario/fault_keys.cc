@@ -22,58 +22,58 @@ void Split(const std::string& text, Fault& fault) {
 void ReadPlace(YamlMapping& mapping, Fault& fault) {
   const auto place = ReadPlaceKeys(mapping);
   if (place) fault.place = *place;
-  if (!place && !mapping.Had("x") && !mapping.Had("y")) {
-    mapping.Complain("x", "it says where to: x and y are needed");
+  if (!place && !mapping.Has("x") && !mapping.Has("y")) {
+    mapping.AddProblem("x", "it says where to: x and y are needed");
   }
 }
 
 void ReadTarget(YamlMapping& mapping, Fault& fault) {
-  constexpr double kMostOfTarget = 1e6;
+  constexpr double kMaxTarget = 1e6;
   const std::pair<const char*, Fault::Unit> units[]{{"position", Fault::Unit::kPosition},
                                                     {"velocity", Fault::Unit::kVelocity},
                                                     {"effort", Fault::Unit::kEffort}};
   int given = 0;
   for (const auto& [key, unit] : units) {
-    const auto target = mapping.Number(key, -kMostOfTarget, kMostOfTarget);
-    if (mapping.Had(key)) ++given;
+    const auto target = mapping.Number(key, -kMaxTarget, kMaxTarget);
+    if (mapping.Has(key)) ++given;
     if (!target) continue;
     fault.unit = unit;
     fault.target = *target;
   }
-  if (given != 1) mapping.Complain("a joint goes to one of position, velocity and effort");
+  if (given != 1) mapping.AddProblem("a joint goes to one of position, velocity and effort");
 }
 
 Fault ReadFault(YamlMapping& mapping) {
   Fault fault;
   fault.source.text = mapping.Source();
-  fault.at = mapping.Number("at", 0, kLongest).value_or(0);
-  if (mapping.is_mapping() && !mapping.Had("at")) {
-    mapping.Complain("at", "it says when: at is needed, in seconds");
+  fault.at = mapping.Number("at", 0, kMaxDuration).value_or(0);
+  if (mapping.is_mapping() && !mapping.Has("at")) {
+    mapping.AddProblem("at", "it says when: at is needed, in seconds");
   }
   std::optional<Subject> subject;
   int subjects = 0;
   for (const auto& [key, of_key] : kSubjects) {
     const auto text = mapping.Text(key);
-    if (!mapping.Had(key)) continue;
+    if (!mapping.Has(key)) continue;
     ++subjects;
     subject = of_key;
     Split(text.value_or(""), fault);
     const bool needs_part = of_key == Subject::kSensor || of_key == Subject::kJoint;
     const bool may_have_part = needs_part || of_key == Subject::kMotor;
     if (text && (fault.body.empty() || (needs_part && fault.part.empty()))) {
-      mapping.Complain(key, std::string(key) + " must be as in " +
-                                (needs_part ? "ROBOT/" + std::string(key) : "ROBOT"));
+      mapping.AddProblem(key, std::string(key) + " must be as in " +
+                                  (needs_part ? "ROBOT/" + std::string(key) : "ROBOT"));
     } else if (text && !may_have_part && !fault.part.empty()) {
-      mapping.Complain(key, std::string(key) + " must be one name, found \"" + *text + "\"");
+      mapping.AddProblem(key, std::string(key) + " must be one name, found \"" + *text + "\"");
     }
   }
   if (mapping.is_mapping() && subjects != 1) {
-    mapping.Complain("a fault is about one of sensor, behaviour, motor, move and joint");
+    mapping.AddProblem("a fault is about one of sensor, behaviour, motor, move and joint");
   }
   if (!subject) return fault;
   switch (*subject) {
     case Subject::kSensor:
-      fault.kind = mapping.IsSecond("fails", "silent", "error").value_or(false)
+      fault.kind = mapping.IsSecondOf("fails", "silent", "error").value_or(false)
                        ? Fault::Kind::kSensorError
                        : Fault::Kind::kSensorSilent;
       break;
@@ -99,7 +99,7 @@ Fault ReadFault(YamlMapping& mapping) {
 
 std::vector<Fault> ReadFaults(YamlMapping& scenario) {
   std::vector<Fault> faults;
-  scenario.Each("faults", kMostFaults, [&](const YAML::Node& node, std::string field) {
+  scenario.Each("faults", kMaxFaults, [&](const YAML::Node& node, std::string field) {
     YamlMapping mapping(node, std::move(field), scenario.place());
     faults.push_back(ReadFault(mapping));
   });

@@ -93,8 +93,8 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   const auto refuse = [&](std::string message, std::string where) {
     return base::Fail(base::ErrorCode::kBadModel, std::move(message), std::move(where));
   };
-  if (text.size() > kLargestScenario) {
-    return refuse("a scenario has at most " + std::to_string(kLargestScenario) + " bytes", file);
+  if (text.size() > kMaxScenarioBytes) {
+    return refuse("a scenario has at most " + std::to_string(kMaxScenarioBytes) + " bytes", file);
   }
   // A name of other bytes would come back as another name.
   if (const auto line = LineThatIsNotUtf8(text)) {
@@ -107,7 +107,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
   try {
     const YAML::Node document = YAML::Load(text);
     if (const auto second = SecondDocument(text)) {
-      place.Complain(*second, "", "a file holds one scenario; this is a second one");
+      place.AddProblem(*second, "", "a file holds one scenario; this is a second one");
     } else if (document.IsNull()) {
       return refuse("it is empty; a scenario is a mapping with keys such as world and robots",
                     file);
@@ -131,7 +131,7 @@ base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Pro
     return base::Fail(base::ErrorCode::kNotFound, "the scenario's file cannot be opened", file);
   }
   std::string text;
-  text.resize(kLargestScenario + 1);
+  text.resize(kMaxScenarioBytes + 1);
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   auto scenario = ParseScenario(text, file, problems);
@@ -145,7 +145,7 @@ base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Pro
   return scenario;
 }
 
-bool NamesAScenario(const std::string& name) {
+bool IsScenarioFileName(const std::string& name) {
   return name.ends_with(".yaml") || name.ends_with(".yml");
 }
 

@@ -1,7 +1,7 @@
 // Scenarios as YAML files (docs/formats/scenario.md). JSON is YAML, too.
 //
 // Units   metres, radians, seconds, Hz.
-// Input   hostile; bounded by kLargestScenario.
+// Input   hostile; bounded by kMaxScenarioBytes.
 // Errors  each problem names the file, the line and the column: room.yaml:7:5.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace gsv::scenario {
 
-inline constexpr std::size_t kLargestScenario = std::size_t{4} << 20;  // bytes
+inline constexpr std::size_t kMaxScenarioBytes = std::size_t{4} << 20;  // bytes
 
 // kBadModel when it is no YAML or no scenario at all; all else that is wrong is added to
 // `problems`, and left out. `file` is what problems name.
@@ -25,7 +25,7 @@ base::Result<Scenario> ParseScenario(const std::string& text, const std::string&
 base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Problems& problems);
 
 // Whether `name`, by its ending, is a scenario's file: ".yaml" or ".yml".
-bool NamesAScenario(const std::string& name);
+bool IsScenarioFileName(const std::string& name);
 
 // What ParseScenario() reads back as it is, number by number.
 std::string ToYaml(const Scenario& scenario);

@@ -214,7 +214,7 @@ TEST(ScenarioFile, WhatIsNoScenarioIsRefused) {
               ElementsAre("room.yaml:1:1: expected a mapping (key: value), found \"a text\""));
   EXPECT_THAT(Complaints("world: a\n---\nworld: b\n"),
               ElementsAre("room.yaml:2:1: a file holds one scenario; this is a second one"));
-  EXPECT_THAT(Complaints(std::string(kLargestScenario + 1, ' ')),
+  EXPECT_THAT(Complaints(std::string(kMaxScenarioBytes + 1, ' ')),
               ElementsAre(HasSubstr("at most 4194304 bytes")));
   EXPECT_THAT(Complaints(std::string(100'000, '[')), ElementsAre(HasSubstr("it is no YAML")));
 }
@@ -266,9 +266,9 @@ TEST(ScenarioFile, ASmallFileMakesNoLargeScenario) {
 
 TEST(ScenarioFile, IsTakenUpToItsLimitsAndNotBeyond) {
   const std::string padded = "world: a\n#";
-  EXPECT_THAT(Complaints(padded + std::string(kLargestScenario - padded.size(), 'x')),
+  EXPECT_THAT(Complaints(padded + std::string(kMaxScenarioBytes - padded.size(), 'x')),
               ElementsAre());
-  EXPECT_THAT(Complaints(padded + std::string(kLargestScenario + 1 - padded.size(), 'x')),
+  EXPECT_THAT(Complaints(padded + std::string(kMaxScenarioBytes + 1 - padded.size(), 'x')),
               ElementsAre(HasSubstr("at most 4194304 bytes")));
   std::string robots = "robots:\n  - &r {model: m}\n";
   for (int i = 1; i < 100'000; ++i) robots += "  - *r\n";

@@ -10,10 +10,10 @@ namespace {
 template <typename Read>
 auto ReadJson(const std::string& json, base::Problems& problems, const Read& read) {
   const YamlPlace place(YamlPlace::Naming::kFields, "", problems);
-  const auto refuse = [&](const std::string& message) { place.Complain({}, "", message); };
+  const auto refuse = [&](const std::string& message) { place.AddProblem({}, "", message); };
   YAML::Node node(YAML::NodeType::Map);
-  if (json.size() > kLargestScenario) {
-    refuse("a scenario has at most " + std::to_string(kLargestScenario) + " bytes");
+  if (json.size() > kMaxScenarioBytes) {
+    refuse("a scenario has at most " + std::to_string(kMaxScenarioBytes) + " bytes");
   } else {
     try {
       node = YAML::Load(json);
@@ -41,7 +41,7 @@ Place ParsePlaceJson(const std::string& json, base::Problems& problems) {
   return ReadJson(json, problems, [](const YAML::Node& node, const YamlPlace& place) {
     YamlMapping mapping(node, "", place);
     const auto read = ReadPlaceKeys(mapping);
-    if (!mapping.Had("x") && !mapping.Had("y")) mapping.Complain("x", "it is needed");
+    if (!mapping.Has("x") && !mapping.Has("y")) mapping.AddProblem("x", "it is needed");
     return read.value_or(Place());
   });
 }

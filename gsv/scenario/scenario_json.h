@@ -2,7 +2,7 @@
 // docs/formats/scenario.md.
 //
 // Units   metres, radians, seconds.
-// Input   a JSON object, of whatever content, of kLargestScenario bytes at most.
+// Input   a JSON object, of whatever content, of kMaxScenarioBytes bytes at most.
 // Errors  each problem names the field: "robots[1].x".
 #pragma once
 

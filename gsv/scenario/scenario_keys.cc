@@ -6,14 +6,14 @@
 namespace gsv::scenario {
 namespace {
 
-constexpr std::size_t kMostRobots = 100'000;
-constexpr std::size_t kMostGroups = 1000, kMostGoals = 1000;
-constexpr double kMostFactor = 1e6;
-constexpr double kLeastStep = 1e-6;                       // s
-constexpr double kLeastRate = 0.001, kMostRate = 10'000;  // Hz
+constexpr std::size_t kMaxRobots = 100'000;
+constexpr std::size_t kMaxGroups = 1000, kMaxGoals = 1000;
+constexpr double kMaxRealTimeFactor = 1e6;
+constexpr double kMinStep = 1e-6;                      // s
+constexpr double kMinRate = 0.001, kMaxRate = 10'000;  // Hz
 
 std::optional<model::Movement> ReadMovement(YamlMapping& mapping) {
-  const auto is_rigid = mapping.IsSecond("movement", "planar", "rigid");
+  const auto is_rigid = mapping.IsSecondOf("movement", "planar", "rigid");
   if (!is_rigid) return std::nullopt;
   return *is_rigid ? model::Movement::kRigid : model::Movement::kPlanar;
 }
@@ -23,32 +23,32 @@ std::string ReadDrive(YamlMapping& mapping) {
   if (drive.empty()) return {};
   const auto choice = model::ParseDriveChoice(drive);
   if (choice) return drive;
-  mapping.Complain("drive", choice.error().message);
+  mapping.AddProblem("drive", choice.error().message);
   return {};
 }
 
 void CheckRobot(const RobotEntry& robot, bool is_avatar, const YamlMapping& mapping) {
   if (!robot.behaviour.empty() && !robot.behaviour_constraint.empty()) {
-    mapping.Complain("behaviour_constraint",
-                     "a behaviour is chosen by name or by constraint, not both");
+    mapping.AddProblem("behaviour_constraint",
+                       "a behaviour is chosen by name or by constraint, not both");
   }
   if (!mapping.is_mapping() || !robot.model.empty()) return;
   if (is_avatar) {
-    mapping.Complain("model", "an avatar needs a model");
+    mapping.AddProblem("model", "an avatar needs a model");
   } else if (robot.name.empty()) {
-    mapping.Complain("model",
-                     "a robot needs a model, or the name of one that stands in the world's file");
+    mapping.AddProblem("model",
+                       "a robot needs a model, or the name of one that stands in the world's file");
   } else if (robot.start || robot.movement) {
-    mapping.Complain("model",
-                     "a robot without a model stands in the world's file, which says where it "
-                     "starts and how it moves");
+    mapping.AddProblem("model",
+                       "a robot without a model stands in the world's file, which says where it "
+                       "starts and how it moves");
   }
 }
 
 std::vector<RobotEntry> ReadRobots(YamlMapping& mapping, const std::string& key) {
   const bool are_avatars = key == "avatars";
   std::vector<RobotEntry> robots;
-  mapping.Each(key, kMostRobots, [&](const YAML::Node& node, std::string field) {
+  mapping.Each(key, kMaxRobots, [&](const YAML::Node& node, std::string field) {
     YamlMapping robot(node, std::move(field), mapping.place());
     robots.push_back(ReadRobotKeys(robot, are_avatars));
   });
@@ -57,12 +57,12 @@ std::vector<RobotEntry> ReadRobots(YamlMapping& mapping, const std::string& key)
 
 std::vector<model::PedestrianGoal> ReadRoute(YamlMapping& mapping) {
   std::vector<model::PedestrianGoal> route;
-  mapping.Each("route", kMostGoals, [&](const YAML::Node& node, std::string field) {
+  mapping.Each("route", kMaxGoals, [&](const YAML::Node& node, std::string field) {
     YamlMapping goal(node, std::move(field), mapping.place());
-    const auto x = goal.Number("x", -kFarthest, kFarthest);
-    const auto y = goal.Number("y", -kFarthest, kFarthest);
-    const double radius = goal.Number("radius", 0, kFarthest).value_or(0);
-    if (!goal.Had("x") || !goal.Had("y")) goal.Complain("a goal needs both x and y");
+    const auto x = goal.Number("x", -kMaxCoordinate, kMaxCoordinate);
+    const auto y = goal.Number("y", -kMaxCoordinate, kMaxCoordinate);
+    const double radius = goal.Number("radius", 0, kMaxCoordinate).value_or(0);
+    if (!goal.Has("x") || !goal.Has("y")) goal.AddProblem("a goal needs both x and y");
     if (x && y) route.push_back({*x, *y, radius});
   });
   return route;
@@ -70,23 +70,23 @@ std::vector<model::PedestrianGoal> ReadRoute(YamlMapping& mapping) {
 
 std::vector<model::PedestrianGroup> ReadPedestrianGroups(YamlMapping& mapping) {
   std::vector<model::PedestrianGroup> groups;
-  mapping.Each("pedestrians", kMostGroups, [&](const YAML::Node& node, std::string field) {
+  mapping.Each("pedestrians", kMaxGroups, [&](const YAML::Node& node, std::string field) {
     YamlMapping keys(node, std::move(field), mapping.place());
-    const std::size_t complaints = mapping.place().complaints();
+    const std::size_t problem_count = mapping.place().problem_count();
     model::PedestrianGroup group;
     group.name = keys.Text("name").value_or(group.name);
     group.count = static_cast<int>(
         std::min<std::uint64_t>(keys.Count("count").value_or(1), model::kMaxPedestrians + 1));
     group.route = ReadRoute(keys);
-    group.z = keys.Number("z", -kFarthest, kFarthest).value_or(group.z);
+    group.z = keys.Number("z", -kMaxCoordinate, kMaxCoordinate).value_or(group.z);
     group.speed = keys.Number("speed", 0.01, 10).value_or(group.speed);
     group.speed_deviation = keys.Number("speed_deviation", 0, 5).value_or(group.speed_deviation);
     group.radius = keys.Number("radius", 0.05, 1).value_or(group.radius);
     group.height = keys.Number("height", 0.2, 3).value_or(group.height);
     const auto ok = model::Check(group);
     // What is said already is not said twice.
-    if (!ok && mapping.place().complaints() == complaints && keys.is_mapping()) {
-      keys.Complain(ok.error().message);
+    if (!ok && mapping.place().problem_count() == problem_count && keys.is_mapping()) {
+      keys.AddProblem(ok.error().message);
     }
     groups.push_back(std::move(group));
   });
@@ -99,7 +99,7 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
   if (!node) return rates;
   YamlMapping kinds(*node, mapping.FieldOf("record_rates"), mapping.place());
   for (const char* kind : {"poses", "readings", "pictures", "beams"}) {
-    if (const auto rate = kinds.Number(kind, kLeastRate, kMostRate)) rates[kind] = *rate;
+    if (const auto rate = kinds.Number(kind, kMinRate, kMaxRate)) rates[kind] = *rate;
   }
   return rates;
 }
@@ -108,8 +108,8 @@ std::map<std::string, double> ReadRates(YamlMapping& mapping) {
 std::optional<double> ReadStep(YamlMapping& mapping) {
   const auto step = mapping.Number("step", 0, 10);
   if (step == 0.0) return std::nullopt;
-  if (step && *step < kLeastStep) {
-    mapping.Complain("step", "a step takes 1 microsecond at least, or 0 for the world's");
+  if (step && *step < kMinStep) {
+    mapping.AddProblem("step", "a step takes 1 microsecond at least, or 0 for the world's");
     return std::nullopt;
   }
   return step;
@@ -119,8 +119,8 @@ std::optional<double> ReadStep(YamlMapping& mapping) {
 std::string ReadRecord(YamlMapping& mapping) {
   const std::string record = mapping.Text("record").value_or("");
   if (record == "true" || record == "false") {
-    mapping.Complain("record",
-                     "record must be a file, NAME.mcap, or a folder, found \"" + record + "\"");
+    mapping.AddProblem("record",
+                       "record must be a file, NAME.mcap, or a folder, found \"" + record + "\"");
     return {};
   }
   return record;
@@ -129,14 +129,14 @@ std::string ReadRecord(YamlMapping& mapping) {
 }  // namespace
 
 std::optional<Place> ReadPlaceKeys(YamlMapping& mapping) {
-  const auto x = mapping.Number("x", -kFarthest, kFarthest);
-  const auto y = mapping.Number("y", -kFarthest, kFarthest);
-  const auto z = mapping.Number("z", -kFarthest, kFarthest);
+  const auto x = mapping.Number("x", -kMaxCoordinate, kMaxCoordinate);
+  const auto y = mapping.Number("y", -kMaxCoordinate, kMaxCoordinate);
+  const auto z = mapping.Number("z", -kMaxCoordinate, kMaxCoordinate);
   const auto yaw = mapping.Angle("yaw");
   if (x && y) return Place{*x, *y, z, yaw.value_or(0)};
-  const bool has_any = mapping.Had("x") || mapping.Had("y") || z || yaw;
-  if (has_any && !(mapping.Had("x") && mapping.Had("y"))) {
-    mapping.Complain(mapping.Had("x") ? "y" : "x", "a place needs both x and y");
+  const bool has_any = mapping.Has("x") || mapping.Has("y") || z || yaw;
+  if (has_any && !(mapping.Has("x") && mapping.Has("y"))) {
+    mapping.AddProblem(mapping.Has("x") ? "y" : "x", "a place needs both x and y");
   }
   return std::nullopt;
 }
@@ -162,12 +162,12 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.world = mapping.Text("world").value_or("");
   scenario.name = mapping.Text("name").value_or("");
   scenario.seed = mapping.Count("seed");
-  scenario.lockstep = mapping.IsSecond("mode", "real_time", "lockstep");
-  scenario.factor = mapping.Number("factor", 1e-6, kMostFactor);
+  scenario.lockstep = mapping.IsSecondOf("mode", "real_time", "lockstep");
+  scenario.factor = mapping.Number("factor", 1e-6, kMaxRealTimeFactor);
   scenario.step = ReadStep(mapping);
-  scenario.duration = mapping.Number("duration", 0, kLongest);
-  scenario.deadline = mapping.Number("deadline", 0, kLongest);
-  scenario.fails_with_behaviour = mapping.IsSecond("on_failure", "go_on", "fail");
+  scenario.duration = mapping.Number("duration", 0, kMaxDuration);
+  scenario.deadline = mapping.Number("deadline", 0, kMaxDuration);
+  scenario.fails_with_behaviour = mapping.IsSecondOf("on_failure", "go_on", "fail");
   scenario.in_process = mapping.Flag("in_process");
   scenario.model_path = mapping.Texts("model_path");
   scenario.robots = ReadRobots(mapping, "robots");
@@ -176,7 +176,7 @@ Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place) {
   scenario.record = ReadRecord(mapping);
   scenario.record_topics = mapping.Texts("record_topics");
   scenario.record_rates = ReadRates(mapping);
-  scenario.record_png = mapping.IsSecond("record_pictures", "jpeg", "png");
+  scenario.record_png = mapping.IsSecondOf("record_pictures", "jpeg", "png");
   scenario.faults = ReadFaults(mapping);
   scenario.expect = ReadExpectations(mapping, scenario.duration.value_or(0));
   return scenario;

@@ -7,8 +7,8 @@
 
 namespace gsv::scenario {
 
-inline constexpr double kFarthest = 1e6;  // m
-inline constexpr double kLongest = 1e9;   // s
+inline constexpr double kMaxCoordinate = 1e6;  // m
+inline constexpr double kMaxDuration = 1e9;    // s
 
 Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place);
 

@@ -179,7 +179,7 @@ std::string Rates(const std::map<std::string, double>& rates) {
 
 }  // namespace
 
-std::string OnOneLine(const YAML::Node& node) {
+std::string OneLineYaml(const YAML::Node& node) {
   if (node.IsScalar()) {
     // What looks like a number in quotes would not be one without.
     const bool is_number = node.Tag() != "!" && ParseNumber(node.Scalar());
@@ -188,7 +188,8 @@ std::string OnOneLine(const YAML::Node& node) {
   std::string list;
   for (const auto& entry : node) {
     if (!list.empty()) list += ", ";
-    list += node.IsMap() ? entry.first.Scalar() + ": " + OnOneLine(entry.second) : OnOneLine(entry);
+    list +=
+        node.IsMap() ? entry.first.Scalar() + ": " + OneLineYaml(entry.second) : OneLineYaml(entry);
   }
   if (node.IsMap()) return "{" + list + "}";
   return node.IsSequence() ? "[" + list + "]" : "~";

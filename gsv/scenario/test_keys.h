@@ -1,6 +1,6 @@
 // The keys `faults` and `expect` of a scenario (docs/testing.md).
 //
-// Bounded  by kMostFaults and kMostFormulas: aliases may make a small file large.
+// Bounded  by kMaxFaults and kMaxFormulas: aliases may make a small file large.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@
 
 namespace gsv::scenario {
 
-inline constexpr std::size_t kMostFaults = 1000;
-inline constexpr int kMostFormulas = 1000;
-inline constexpr int kDeepestFormula = 16;
+inline constexpr std::size_t kMaxFaults = 1000;
+inline constexpr int kMaxFormulas = 1000;
+inline constexpr int kMaxFormulaDepth = 16;
 
 std::vector<Fault> ReadFaults(YamlMapping& scenario);
 
@@ -22,6 +22,6 @@ std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration
 
 // A node whose size is bounded and whose keys are known, as YAML on one line that is read as the
 // same.
-std::string OnOneLine(const YAML::Node& node);
+std::string OneLineYaml(const YAML::Node& node);
 
 }  // namespace gsv::scenario

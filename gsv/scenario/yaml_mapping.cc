@@ -41,47 +41,47 @@ std::string YamlPlace::Of(const YAML::Mark& mark, const std::string& field) cons
   return file_ + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
 }
 
-void YamlPlace::Complain(const YAML::Mark& mark, const std::string& field,
-                         std::string message) const {
-  if (problems_.size() >= kMostComplaints) return;
+void YamlPlace::AddProblem(const YAML::Mark& mark, const std::string& field,
+                           std::string message) const {
+  if (problems_.size() >= kMaxProblems) return;
   problems_.push_back({base::Problem::Severity::kError, std::move(message), Of(mark, field)});
 }
 
 YamlMapping::YamlMapping(const YAML::Node& node, std::string field, const YamlPlace& place)
     : place_(place), field_(std::move(field)), mark_(node.Mark()), is_mapping_(node.IsMap()) {
   if (!is_mapping_) {
-    Complain("expected a mapping (key: value), found " + KindOf(node));
+    AddProblem("expected a mapping (key: value), found " + KindOf(node));
     return;
   }
-  if (node.size() > kMostKeys) {
-    Complain("a mapping has at most 64 keys here");
+  if (node.size() > kMaxKeys) {
+    AddProblem("a mapping has at most 64 keys here");
     return;
   }
   for (const auto& entry : node) {
     const YAML::Mark mark = entry.first.Mark();
     if (!entry.first.IsScalar()) {
-      place_.Complain(mark, field_, "a key is a word, found " + KindOf(entry.first));
+      place_.AddProblem(mark, field_, "a key is a word, found " + KindOf(entry.first));
       continue;
     }
     const std::string& key = entry.first.Scalar();
-    const bool is_new = left_.try_emplace(key, Entry{mark, entry.second}).second;
-    if (!is_new) place_.Complain(mark, FieldOf(key), "the key " + Quoted(key) + " comes twice");
+    const bool is_new = unread_.try_emplace(key, Entry{mark, entry.second}).second;
+    if (!is_new) place_.AddProblem(mark, FieldOf(key), "the key " + Quoted(key) + " comes twice");
   }
 }
 
 YamlMapping::~YamlMapping() {
-  if (left_.empty()) return;
+  if (unread_.empty()) return;
   std::string known;
   for (const std::string& key : known_) known += (known.empty() ? "" : ", ") + key;
-  for (const auto& [key, entry] : left_) {
-    place_.Complain(entry.mark, FieldOf(key.substr(0, kLongestQuote)),
-                    "there is no key " + Quoted(key) + " here; known are " + known);
+  for (const auto& [key, entry] : unread_) {
+    place_.AddProblem(entry.mark, FieldOf(key.substr(0, kLongestQuote)),
+                      "there is no key " + Quoted(key) + " here; known are " + known);
   }
 }
 
 std::optional<YAML::Node> YamlMapping::Any(const std::string& key) {
   known_.push_back(key);
-  const auto entry = left_.extract(key);
+  const auto entry = unread_.extract(key);
   if (entry.empty() || entry.mapped().value.IsNull()) return std::nullopt;
   marks_[key] = entry.mapped().value.Mark();
   return entry.mapped().value;
@@ -89,12 +89,12 @@ std::optional<YAML::Node> YamlMapping::Any(const std::string& key) {
 
 void YamlMapping::Expect(const std::string& key, const std::string& expected,
                          const std::string& found) {
-  Complain(key, key + " must be " + expected + ", found " + found);
+  AddProblem(key, key + " must be " + expected + ", found " + found);
 }
 
-void YamlMapping::Complain(const std::string& key, std::string message) const {
+void YamlMapping::AddProblem(const std::string& key, std::string message) const {
   const auto mark = marks_.find(key);
-  place_.Complain(mark == marks_.end() ? mark_ : mark->second, FieldOf(key), std::move(message));
+  place_.AddProblem(mark == marks_.end() ? mark_ : mark->second, FieldOf(key), std::move(message));
 }
 
 std::optional<std::string> YamlMapping::Scalar(const std::string& key,
@@ -158,8 +158,8 @@ std::optional<bool> YamlMapping::Flag(const std::string& key) {
   return std::nullopt;
 }
 
-std::optional<bool> YamlMapping::IsSecond(const std::string& key, const std::string& first,
-                                          const std::string& second) {
+std::optional<bool> YamlMapping::IsSecondOf(const std::string& key, const std::string& first,
+                                            const std::string& second) {
   const std::string expected = first + " or " + second;
   const auto text = Scalar(key, expected);
   if (!text) return std::nullopt;
@@ -182,8 +182,8 @@ std::vector<std::string> YamlMapping::Texts(const std::string& key) {
     if (node.IsScalar()) {
       texts.push_back(node.Scalar());
     } else {
-      place_.Complain(node.Mark(), FieldOf(key),
-                      key + " must be a list of texts, found " + KindOf(node));
+      place_.AddProblem(node.Mark(), FieldOf(key),
+                        key + " must be a list of texts, found " + KindOf(node));
     }
   }
   return texts;

@@ -1,7 +1,7 @@
 // Takes a YAML mapping apart, key by key, and complains of what it is not: with line and column,
 // or, where it came in a request, with the field, as in "robots[1].x".
 //
-// Bounded  a mapping has kMostKeys, and so many complaints are kept: aliases may make a small file
+// Bounded  a mapping has kMaxKeys, and so many complaints are kept: aliases may make a small file
 //          large.
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace gsv::scenario {
 
-inline constexpr std::size_t kMostKeys = 64;
-inline constexpr std::size_t kMostComplaints = 100;
+inline constexpr std::size_t kMaxKeys = 64;
+inline constexpr std::size_t kMaxProblems = 100;
 
 // Where complaints go, and how they say what they are about.
 class YamlPlace {
@@ -29,8 +29,8 @@ class YamlPlace {
 
   // "FILE:LINE:COLUMN", counted from 1, or the field.
   std::string Of(const YAML::Mark& mark, const std::string& field) const;
-  void Complain(const YAML::Mark& mark, const std::string& field, std::string message) const;
-  std::size_t complaints() const { return problems_.size(); }
+  void AddProblem(const YAML::Mark& mark, const std::string& field, std::string message) const;
+  std::size_t problem_count() const { return problems_.size(); }
 
  private:
   const Naming naming_;
@@ -55,8 +55,8 @@ class YamlMapping {
   std::optional<std::uint64_t> Count(const std::string& key);
   std::optional<bool> Flag(const std::string& key);
   // Whether it is the second of two words, rather than the first.
-  std::optional<bool> IsSecond(const std::string& key, const std::string& first,
-                               const std::string& second);
+  std::optional<bool> IsSecondOf(const std::string& key, const std::string& first,
+                                 const std::string& second);
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
   std::optional<YAML::Node> Any(const std::string& key);
@@ -65,8 +65,8 @@ class YamlMapping {
   void Each(const std::string& key, std::size_t most, const Read& read) {
     const std::vector<YAML::Node> list = List(key);
     if (list.size() > most) {
-      place_.Complain(list[most].Mark(), FieldOf(key),
-                      key + " has at most " + std::to_string(most) + " entries");
+      place_.AddProblem(list[most].Mark(), FieldOf(key),
+                        key + " has at most " + std::to_string(most) + " entries");
       return;
     }
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -75,7 +75,7 @@ class YamlMapping {
   }
 
   // Whether it was asked for and was there, whatever it was.
-  bool Had(const std::string& key) const { return marks_.contains(key); }
+  bool Has(const std::string& key) const { return marks_.contains(key); }
   bool is_mapping() const { return is_mapping_; }
   const YamlPlace& place() const { return place_; }
   std::string Source() const { return place_.Of(mark_, field_); }
@@ -83,8 +83,10 @@ class YamlMapping {
     return field_.empty() ? key : field_ + "." + key;
   }
   // Of the mapping; of a value that was there, or else is missing.
-  void Complain(std::string message) const { place_.Complain(mark_, field_, std::move(message)); }
-  void Complain(const std::string& key, std::string message) const;
+  void AddProblem(std::string message) const {
+    place_.AddProblem(mark_, field_, std::move(message));
+  }
+  void AddProblem(const std::string& key, std::string message) const;
 
  private:
   struct Entry {
@@ -100,7 +102,7 @@ class YamlMapping {
   const std::string field_;
   const YAML::Mark mark_;
   const bool is_mapping_;
-  std::map<std::string, Entry> left_;        // that nobody asked for yet
+  std::map<std::string, Entry> unread_;      // that nobody asked for yet
   std::map<std::string, YAML::Mark> marks_;  // of the values that were
   std::vector<std::string> known_;
 };

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSpeedOfLight = 299'792'458;  // m/s
 constexpr double kNearest = 0.01;              // m
 constexpr double kPastASurface = 1e-6;         // m
-constexpr int kMostCrossings = 64;
+constexpr int kMaxCrossings = 64;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenn
   if (left <= kPastASurface) return 0;
   world::Ray ray{from.position, (1 / left) * gap, left};
   int crossings = 0;
-  for (int i = 0; i < kMostCrossings; ++i) {
+  for (int i = 0; i < kMaxCrossings; ++i) {
     const auto hit = rays.Cast(ray, from.body);
     if (!hit) break;
     if (hit->body != to.body) ++crossings;

@@ -20,15 +20,15 @@ void Sampling::MoveTo(int body) {
 
 double Sampling::Range(const Ray& ray) const {
   const RayScene& scene = Rays();
-  if (has_gathered_ && surroundings_->Hold(ray)) return scene.Range(ray, body_, *surroundings_);
+  if (has_gathered_ && candidates_->Hold(ray)) return scene.Range(ray, body_, *candidates_);
   if (expected_rays_ < kFewRays) return scene.Range(ray, body_);
-  if (surroundings_ == nullptr) surroundings_ = std::make_unique<Surroundings>();
+  if (candidates_ == nullptr) candidates_ = std::make_unique<CandidateSet>();
   const geometry::Vector3& place = snapshot_->state.bodies[body_].world_from_model.position;
   const double reach = Norm(ray.origin - place) + ray.max_distance + kSpread;
-  has_gathered_ = scene.Gather(place, reach, body_, *surroundings_);
+  has_gathered_ = scene.Gather(place, reach, body_, *candidates_);
   // Where that did not work it is not tried again for each ray.
   if (!has_gathered_) expected_rays_ = 0;
-  return has_gathered_ ? scene.Range(ray, body_, *surroundings_) : scene.Range(ray, body_);
+  return has_gathered_ ? scene.Range(ray, body_, *candidates_) : scene.Range(ray, body_);
 }
 
 }  // namespace gsv::sensing

@@ -14,8 +14,8 @@
 
 #include "gsv/base/error.h"
 #include "gsv/base/random.h"
+#include "gsv/sensing/rays/candidate_set.h"
 #include "gsv/sensing/rays/ray_scene.h"
-#include "gsv/sensing/rays/surroundings.h"
 #include "gsv/sensing/reading.h"
 #include "gsv/world/snapshot.h"
 
@@ -83,8 +83,8 @@ class Sampling {
   RaySceneCache& rays_;
   mutable std::shared_ptr<const RayScene> scene_;  // null until it is asked for
   mutable std::size_t expected_rays_ = 0;
-  mutable bool has_gathered_ = false;  // surroundings_ are those of the body
-  mutable std::unique_ptr<Surroundings> surroundings_;
+  mutable bool has_gathered_ = false;  // candidates_ are those of the body
+  mutable std::unique_ptr<CandidateSet> candidates_;
   mutable int link_ = -1;  // whose pose is known
   mutable geometry::Pose world_from_link_;
 };

@@ -11,9 +11,9 @@ class LampServant final : public ActuatorServant<POA_sba::Lamp> {
  public:
   using ActuatorServant::ActuatorServant;
   void shine(CORBA::Double brightness, const sba::Rgb& colour) override {
-    Act({{brightness, colour.red, colour.green, colour.blue}, {}});
+    CommandDevice({{brightness, colour.red, colour.green, colour.blue}, {}});
   }
-  void switch_off() override { Act({{0, 1, 1, 1}, {}}, kSwitchingRaises); }
+  void switch_off() override { CommandDevice({{0, 1, 1, 1}, {}}, kSwitchingRaises); }
   sba::LampReading look() override {
     const Reading reading = Read();
     const auto [brightness, colour] = In<readings::Lamp>(reading);
@@ -24,8 +24,8 @@ class LampServant final : public ActuatorServant<POA_sba::Lamp> {
 class GripperServant final : public ActuatorServant<POA_sba::Gripper> {
  public:
   using ActuatorServant::ActuatorServant;
-  void grip() override { Act({{0}, {}}, kSwitchingRaises); }
-  void let_go() override { Act({{1}, {}}, kSwitchingRaises); }
+  void grip() override { CommandDevice({{0}, {}}, kSwitchingRaises); }
+  void let_go() override { CommandDevice({{1}, {}}, kSwitchingRaises); }
   sba::GripperReading* feel() override {
     const Reading reading = Read();
     sba::GripperReading_var feeling = new sba::GripperReading;
@@ -43,9 +43,9 @@ class SpeakerServant final : public ActuatorServant<POA_sba::Speaker> {
   using ActuatorServant::ActuatorServant;
   void play(const char* sound, CORBA::Double frequency_hz, CORBA::Double duration_s,
             CORBA::Double volume) override {
-    Act({{frequency_hz, duration_s, volume}, sound});
+    CommandDevice({{frequency_hz, duration_s, volume}, sound});
   }
-  void silence() override { Act({{20, 0, 0}, "tone"}, kSwitchingRaises); }
+  void silence() override { CommandDevice({{20, 0, 0}, "tone"}, kSwitchingRaises); }
   sba::SpeakerReading* playing() override {
     const Reading reading = Read();
     const auto sound = In<readings::Speaker>(reading);

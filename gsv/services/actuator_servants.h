@@ -16,12 +16,13 @@ class ActuatorServant : public SensorServant<Skeleton> {
 
   void act(const sba::Doubles& values, const char* word) override {
     const double* const begin = values.get_buffer();
-    Act({std::vector<double>(begin, begin + values.length()), word});
+    CommandDevice({std::vector<double>(begin, begin + values.length()), word});
   }
 
  protected:
-  void Act(world::DeviceCommand command, unsigned raises = orb::kAll) {
-    orb::ValueOrThrow(this->agent().Act(this->description().name, std::move(command)), raises);
+  void CommandDevice(world::DeviceCommand command, unsigned raises = orb::kAll) {
+    orb::ValueOrThrow(this->agent().CommandDevice(this->description().name, std::move(command)),
+                      raises);
   }
 };
 

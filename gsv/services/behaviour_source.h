@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gsv/base/error.h"
-#include "gsv/services/end_patience.h"
+#include "gsv/services/stop_timeout.h"
 #include "gsv/simulation/behaviour_port.h"
 
 namespace gsv::services {
@@ -22,7 +22,7 @@ class BehaviourSource {
       const std::string& constraint) = 0;
 
   // The patience that its behaviours share; null if they have none.
-  virtual std::shared_ptr<EndPatience> end_patience() const { return nullptr; }
+  virtual std::shared_ptr<StopTimeout> stop_timeout() const { return nullptr; }
 };
 
 // The constraint for a behaviour by its name: name == 'wander'. Quotes in the name are escaped.

@@ -53,7 +53,7 @@ base::Result<std::shared_ptr<simulation::BehaviourPort>> BrokerBehaviours::Get(
       return sba::AgentBehaviour_var(factory->create());
     });
     if (behaviour) {
-      return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_, end_patience_);
+      return std::make_shared<RemoteBehaviour>(*behaviour, identity, poa_, stop_timeout_);
     }
     CountRobot(identity.place, -1);
     error = behaviour.error();

@@ -20,14 +20,14 @@ class BrokerBehaviours final : public BehaviourSource {
   base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(
       const std::string& constraint) override;
 
-  std::shared_ptr<EndPatience> end_patience() const override { return end_patience_; }
+  std::shared_ptr<StopTimeout> stop_timeout() const override { return stop_timeout_; }
 
  private:
   void CountRobot(const std::string& place, int change);
 
   broker::BrokerClient& broker_;
   PortableServer::POA_var poa_;
-  const std::shared_ptr<EndPatience> end_patience_ = std::make_shared<EndPatience>();
+  const std::shared_ptr<StopTimeout> stop_timeout_ = std::make_shared<StopTimeout>();
   base::Mutex mutex_;
   std::map<std::string, int> robots_of_ GSV_GUARDED_BY(mutex_);  // by "host:pid" of the program
 };

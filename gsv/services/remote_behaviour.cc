@@ -9,7 +9,7 @@ namespace gsv::services {
 namespace {
 
 // Wall time that a behaviour has to answer a call; init may read files.
-constexpr std::chrono::milliseconds kCallTimeout = EndPatience::kUsual;
+constexpr std::chrono::milliseconds kCallTimeout = StopTimeout::kNormal;
 constexpr std::chrono::milliseconds kPingTimeout{1500};
 
 // Limits the calls of this thread for as long as it lives.
@@ -28,12 +28,12 @@ class ThreadTimeout {
 
 RemoteBehaviour::RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
                                  PortableServer::POA_ptr poa,
-                                 std::shared_ptr<const EndPatience> end_patience)
+                                 std::shared_ptr<const StopTimeout> stop_timeout)
     : identity_(std::move(identity)),
       behaviour_(sba::AgentBehaviour::_duplicate(behaviour)),
       poa_(PortableServer::POA::_duplicate(poa)),
-      end_patience_(end_patience != nullptr ? std::move(end_patience)
-                                            : std::make_shared<const EndPatience>()) {
+      stop_timeout_(stop_timeout != nullptr ? std::move(stop_timeout)
+                                            : std::make_shared<const StopTimeout>()) {
   orb::LimitCalls(behaviour_, kCallTimeout);
 }
 
@@ -70,7 +70,7 @@ base::Status RemoteBehaviour::Start() {
 
 base::Status RemoteBehaviour::Stop() {
   // The reference's own limit goes before that of a thread.
-  orb::LimitCalls(behaviour_, end_patience_->limit());
+  orb::LimitCalls(behaviour_, stop_timeout_->limit());
   auto stopped = Call("stop", [this] { behaviour_->stop(); });
   orb::LimitCalls(behaviour_, kCallTimeout);
   has_not_stopped_ = !stopped;
@@ -87,9 +87,9 @@ base::Status RemoteBehaviour::Resume() {
 
 void RemoteBehaviour::Destroy() {
   // The process ends, and the behaviour, which is still in its run, would not answer.
-  const bool is_of_no_use = has_not_stopped_ && end_patience_->is_hurried();
+  const bool is_of_no_use = has_not_stopped_ && stop_timeout_->is_shortened();
   if (!is_of_no_use) {
-    orb::LimitCalls(behaviour_, end_patience_->limit());
+    orb::LimitCalls(behaviour_, stop_timeout_->limit());
     (void)Call("destroy", [this] { behaviour_->destroy(); });  // it may be gone already
   }
   ReplaceHardware(nullptr);

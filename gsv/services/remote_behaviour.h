@@ -7,8 +7,8 @@
 #include <string>
 
 #include "gsv/base/mutex.h"
-#include "gsv/services/end_patience.h"
 #include "gsv/services/hardware_servants.h"
+#include "gsv/services/stop_timeout.h"
 #include "gsv/simulation/behaviour_port.h"
 #include "idl/behaviour.hh"
 
@@ -22,10 +22,10 @@ struct BehaviourIdentity {
 
 class RemoteBehaviour final : public simulation::BehaviourPort {
  public:
-  // Hardware is activated on `poa`. `end_patience` may be null: then it has as long as usual.
+  // Hardware is activated on `poa`. `stop_timeout` may be null: then it has as long as usual.
   RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
                   PortableServer::POA_ptr poa,
-                  std::shared_ptr<const EndPatience> end_patience = nullptr);
+                  std::shared_ptr<const StopTimeout> stop_timeout = nullptr);
   ~RemoteBehaviour() override;
 
   base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;
@@ -48,7 +48,7 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
   const BehaviourIdentity identity_;
   sba::AgentBehaviour_var behaviour_;
   PortableServer::POA_var poa_;
-  const std::shared_ptr<const EndPatience> end_patience_;
+  const std::shared_ptr<const StopTimeout> stop_timeout_;
   bool has_not_stopped_ = false;  // it did not answer stop in time; calls come one after the other
   base::Mutex mutex_;
   std::shared_ptr<ServantGroup> hardware_ GSV_GUARDED_BY(mutex_);

@@ -11,9 +11,9 @@ base::Result<std::string> SimulationHost::FreeName(std::string wanted) const {
     return std::any_of(simulations_.begin(), simulations_.end(),
                        [&](const auto& s) { return s->specification().name == name; });
   };
-  if (simulations_.size() >= most_simulations_) {
+  if (simulations_.size() >= max_simulations_) {
     return base::Fail(base::ErrorCode::kUnavailable, "this server already runs " +
-                                                         std::to_string(most_simulations_) +
+                                                         std::to_string(max_simulations_) +
                                                          " simulations; destroy one first, or "
                                                          "raise --limit simulations");
   }

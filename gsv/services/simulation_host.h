@@ -16,16 +16,16 @@
 namespace gsv::services {
 
 // So many simulations at once in one process, if nothing else is said.
-inline constexpr std::size_t kUsualMostSimulations = 64;
+inline constexpr std::size_t kDefaultMaxSimulations = 64;
 
 class SimulationHost {
  public:
   SimulationHost(std::shared_ptr<const sensing::SensorRegistry> sensors,
                  std::shared_ptr<formats::ModelLibrary> library,
-                 std::size_t most_simulations = kUsualMostSimulations)
+                 std::size_t max_simulations = kDefaultMaxSimulations)
       : sensors_(std::move(sensors)),
         library_(std::move(library)),
-        most_simulations_(most_simulations) {}
+        max_simulations_(max_simulations) {}
 
   // Reads the world, unless `specification.world` is given, and creates a simulation of it. An
   // empty name is chosen, a taken one is an error. What the files lack is added to `problems`.
@@ -50,7 +50,7 @@ class SimulationHost {
 
   const std::shared_ptr<const sensing::SensorRegistry> sensors_;
   const std::shared_ptr<formats::ModelLibrary> library_;
-  const std::size_t most_simulations_;
+  const std::size_t max_simulations_;
   mutable base::Mutex mutex_;
   std::vector<std::shared_ptr<simulation::Simulation>> simulations_ GSV_GUARDED_BY(mutex_);
 };

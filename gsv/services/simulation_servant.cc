@@ -116,7 +116,7 @@ std::string SimulationServant::Add(const sba::RobotSpecification& robot, bool is
     out.behaviour = std::make_shared<RemoteBehaviour>(
         robot.behaviour, BehaviourIdentity{"given", orb::AddressOf(robot.behaviour), true},
         service_.poa(),
-        service_.behaviours() != nullptr ? service_.behaviours()->end_patience() : nullptr);
+        service_.behaviours() != nullptr ? service_.behaviours()->stop_timeout() : nullptr);
   } else if (const std::string constraint(robot.behaviour_constraint); !constraint.empty()) {
     if (service_.behaviours() == nullptr)
       throw sba::Refused("this server has no broker to ask for behaviours");
@@ -160,7 +160,7 @@ void SimulationServant::run_until(CORBA::LongLong instant) {
 
 void SimulationServant::set_factor(CORBA::Double factor) {
   NoteContact();
-  orb::ValueOrThrow(simulation_->SetFactor(factor), orb::kRefused | orb::kEnded);
+  orb::ValueOrThrow(simulation_->SetRealTimeFactor(factor), orb::kRefused | orb::kEnded);
 }
 
 void SimulationServant::stop() {
@@ -241,7 +241,7 @@ SimulationServiceServant::SimulationServiceServant(PortableServer::POA_ptr poa,
       host_(host),
       behaviours_(behaviours),
       hooks_(std::move(hooks)),
-      janitor_([this] { KeepHouse(); }) {}
+      janitor_([this] { RunJanitor(); }) {}
 
 SimulationServiceServant::~SimulationServiceServant() {
   {
@@ -331,7 +331,7 @@ base::Status SimulationServiceServant::Destroy(const std::string& simulation) {
   return {};
 }
 
-void SimulationServiceServant::KeepHouse() {
+void SimulationServiceServant::RunJanitor() {
   constexpr int kTrimmingRounds = 30;
   int round = 0;
   base::MutexLock lock(mutex_);

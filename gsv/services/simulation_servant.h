@@ -95,7 +95,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
                                sba::SimulationSpecification specification);
   // Until it closes: stops simulations whose creators have gone, and gives back memory.
-  void KeepHouse();
+  void RunJanitor();
 
   PortableServer::POA_var poa_;
   SimulationHost& host_;

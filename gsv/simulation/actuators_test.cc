@@ -33,8 +33,8 @@ TEST(Actuators, ActFromTheInstantAtWhichTheyAreTold) {
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
     ASSERT_TRUE(agent.OpenSensor("lamp"));
     ASSERT_TRUE(SleepFor(agent, clock, 20ms));
-    ASSERT_TRUE(agent.Act("lamp", {{0.5, 1, 0, 0}, ""}));
-    ASSERT_TRUE(agent.Act("lamp", {{0.75, 0, 1, 0}, ""}));
+    ASSERT_TRUE(agent.CommandDevice("lamp", {{0.5, 1, 0, 0}, ""}));
+    ASSERT_TRUE(agent.CommandDevice("lamp", {{0.75, 0, 1, 0}, ""}));
     seen.push_back(agent.Read("lamp")->values[0]);
     ASSERT_TRUE(SleepFor(agent, clock, 10ms));
     seen.push_back(agent.Read("lamp")->values[0]);
@@ -52,8 +52,9 @@ TEST(Actuators, WhatCannotBeToldIsRefusedWithASentence) {
   std::vector<std::string> why;
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId) {
     for (const auto& status :
-         {agent.Act("lamp", {{2, 1, 1, 1}, ""}), agent.Act("front", {{1}, ""}),
-          agent.Act("siren", {{1}, ""}), agent.Act("speaker", {{440, 1, 1}, "song"})}) {
+         {agent.CommandDevice("lamp", {{2, 1, 1, 1}, ""}), agent.CommandDevice("front", {{1}, ""}),
+          agent.CommandDevice("siren", {{1}, ""}),
+          agent.CommandDevice("speaker", {{440, 1, 1}, "song"})}) {
       ASSERT_FALSE(status);
       why.push_back(status.error().Sentence());
     }
@@ -77,8 +78,8 @@ TEST(Actuators, LeaveTheSameHashWhoeverIsSlow) {
         do {
           std::this_thread::sleep_for(dawdling);
           brightness = 1 - brightness;
-          (void)agent.Act("lamp", {{brightness, 1, 0.5, 0}, ""});
-          (void)agent.Act("speaker", {{440, 0.1, brightness}, "tone"});
+          (void)agent.CommandDevice("lamp", {{brightness, 1, 0.5, 0}, ""});
+          (void)agent.CommandDevice("speaker", {{440, 0.1, brightness}, "tone"});
         } while (SleepFor(agent, clock, 30ms));
       });
     };
@@ -94,7 +95,7 @@ TEST(Actuators, LeaveTheSameHashWhoeverIsSlow) {
 TEST(Actuators, ALampCanBeOnFromTheStartAndAgainAfterAReset) {
   auto simulation = Make(Lockstep(50ms));
   auto behaviour = std::make_shared<ThreadBehaviour>([&](Agent& agent, ClockId clock) {
-    if (SleepFor(agent, clock, 20ms)) (void)agent.Act("lamp", {{0, 1, 1, 1}, ""});
+    if (SleepFor(agent, clock, 20ms)) (void)agent.CommandDevice("lamp", {{0, 1, 1, 1}, ""});
   });
   ASSERT_TRUE(simulation->AddRobot(RobotWithLamp("robot", 0, behaviour, {{"brightness", 0.5}})));
   EXPECT_EQ(BrightnessOf(*simulation, "robot"), 0.5);
@@ -119,7 +120,7 @@ TEST(Actuators, GoWithTheirRobotAndWithASensorThatIsTakenOff) {
     led.type = "led";
     led.parameters = {{"brightness", 1.0}};
     ASSERT_TRUE(agent.CreateSensor(led));
-    ASSERT_TRUE(agent.Act("lamp", {{1, 1, 1, 1}, ""}));
+    ASSERT_TRUE(agent.CommandDevice("lamp", {{1, 1, 1, 1}, ""}));
     if (!SleepFor(agent, clock, 20ms)) return;
     EXPECT_EQ(agent.Read("extra")->values[0], 1);
     ASSERT_TRUE(agent.CloseSensor("extra"));

@@ -102,7 +102,7 @@ class Agent {
   virtual base::Status Send(const std::string& radio, const std::string& receiver,
                             std::string content) = 0;
   // Commands an actuator, of the sensors, from this instant on.
-  virtual base::Status Act(const std::string& actuator, world::DeviceCommand command) = 0;
+  virtual base::Status CommandDevice(const std::string& actuator, world::DeviceCommand command) = 0;
   // For the turns of a local behaviour.
   virtual base::Result<std::shared_ptr<MountedSensor>> Mounted(const std::string& sensor) const = 0;
 };

@@ -20,9 +20,9 @@ Specification Slow() {
 TEST(Factor, ARunThatCrawlsIsMadeToHurry) {
   const auto simulation = Make(Slow());
   ASSERT_TRUE(simulation->Start());
-  ASSERT_TRUE(simulation->SetFactor(1000));
+  ASSERT_TRUE(simulation->SetRealTimeFactor(1000));
   EXPECT_EQ(simulation->WaitForPhase({Phase::kFinished}, kPatience), Phase::kFinished);
-  EXPECT_EQ(simulation->factor(), 1000);
+  EXPECT_EQ(simulation->real_time_factor(), 1000);
   EXPECT_EQ(simulation->status().target_factor, 1000);
   EXPECT_EQ(simulation->specification().factor, 0.001);
   const std::vector<Event> events = simulation->events(0);
@@ -30,19 +30,19 @@ TEST(Factor, ARunThatCrawlsIsMadeToHurry) {
   EXPECT_EQ(events[1].kind, "factor_set");
   EXPECT_EQ(events[1].detail, "1000");
   ASSERT_TRUE(simulation->Reset());
-  EXPECT_EQ(simulation->factor(), 1000);
+  EXPECT_EQ(simulation->real_time_factor(), 1000);
 }
 
 TEST(Factor, WhatCannotBeSetIsRefused) {
   const auto simulation = Make(Slow());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, 2e6, std::nan(""), kInfinity}) {
-    const base::Status set = simulation->SetFactor(bad);
+    const base::Status set = simulation->SetRealTimeFactor(bad);
     ASSERT_FALSE(set) << bad;
     EXPECT_EQ(set.error().code, base::ErrorCode::kInvalidArgument);
   }
-  EXPECT_EQ(simulation->factor(), 0.001);
-  const base::Status lockstep = Make(Lockstep(100ms))->SetFactor(2);
+  EXPECT_EQ(simulation->real_time_factor(), 0.001);
+  const base::Status lockstep = Make(Lockstep(100ms))->SetRealTimeFactor(2);
   ASSERT_FALSE(lockstep);
   EXPECT_NE(lockstep.error().message.find("no factor"), std::string::npos);
 }

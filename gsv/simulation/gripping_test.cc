@@ -60,14 +60,14 @@ void RunTo(Simulation& simulation, SimTime instant) {
 std::shared_ptr<ThreadBehaviour> Fetches(world::DriveCommand drive, bool opens = true,
                                          std::chrono::microseconds dawdling = 0us) {
   return std::make_shared<ThreadBehaviour>([=](Agent& agent, ClockId clock) {
-    ASSERT_TRUE(agent.Act("gripper", {{0}, ""}));
+    ASSERT_TRUE(agent.CommandDevice("gripper", {{0}, ""}));
     if (!SleepFor(agent, clock, 1s)) return;
     std::this_thread::sleep_for(dawdling);
     (void)agent.Command(drive);
     if (!SleepFor(agent, clock, 1s)) return;
     std::this_thread::sleep_for(dawdling);
     (void)agent.Command({});
-    if (opens) (void)agent.Act("gripper", {{1}, ""});
+    if (opens) (void)agent.CommandDevice("gripper", {{1}, ""});
     if (!SleepFor(agent, clock, 1s)) return;
     (void)agent.Command({-0.1, 0, 0});
     while (SleepFor(agent, clock, 1s)) {

@@ -77,10 +77,10 @@ TEST_F(LimitsTest, TenThousandEventsAreKeptAndTheOldestGo) {
   specification.mode = Mode::kRealTime;
   const auto simulation = Make(specification);
   ASSERT_TRUE(simulation->events(0).empty());
-  for (int i = 0; i < 10'000; ++i) ASSERT_TRUE(simulation->SetFactor(2 + i % 2));
+  for (int i = 0; i < 10'000; ++i) ASSERT_TRUE(simulation->SetRealTimeFactor(2 + i % 2));
   const auto all = simulation->events(0);
   ASSERT_EQ(all.size(), 10'000u);
-  ASSERT_TRUE(simulation->SetFactor(4));
+  ASSERT_TRUE(simulation->SetRealTimeFactor(4));
   const auto newest = simulation->events(0);
   ASSERT_EQ(newest.size(), 10'000u);
   // The first is gone, the second comes first; numbers count on.

@@ -58,7 +58,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   // behaviour in process does not return within the deadline is left to itself, with its threads.
   virtual ~Simulation() = default;
   // How many were; with such threads about a process must end without destroying what they use.
-  static int LeftToThemselves();
+  static int AbandonedSimulations();
 
   // Places a robot (beside a wall that it would touch, with an event "robot_moved") and initialises
   // its behaviour (blocks while that answers). Gives the name under which it stands. Fails when the
@@ -115,8 +115,8 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
 
   // In real time: how many simulated seconds pass in a wall second, from the next step on; above 0,
   // at most 1e6. It outlives a reset. Lockstep has no factor and refuses. Returns at once.
-  virtual base::Status SetFactor(double factor) = 0;
-  virtual double factor() const = 0;
+  virtual base::Status SetRealTimeFactor(double factor) = 0;
+  virtual double real_time_factor() const = 0;
 
   virtual const Specification& specification() const = 0;
   virtual SimulationStatus status() const = 0;

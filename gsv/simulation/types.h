@@ -33,7 +33,7 @@ const char* ToString(Mode mode);
 const char* ToString(Phase phase);
 
 // What becomes of the run when a behaviour crashes or does not answer.
-enum class FailurePolicy { kGoOn, kFail };
+enum class FailurePolicy { kContinue, kFail };
 
 struct Specification {
   std::string name = "simulation";
@@ -43,7 +43,7 @@ struct Specification {
   SimTime step{0};    // 0: the world's max_step_size
   std::uint64_t seed = 0;
   SimTime duration{0};  // 0: until stopped
-  FailurePolicy on_failure = FailurePolicy::kGoOn;
+  FailurePolicy on_failure = FailurePolicy::kContinue;
   // Wall time that an agent may run before it must wait; then it is unresponsive.
   std::chrono::milliseconds deadline{10'000};
   bool keep = false;                                // survives its creator

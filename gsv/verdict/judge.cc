@@ -5,7 +5,7 @@
 namespace gsv::verdict {
 namespace {
 
-constexpr std::size_t kMostToldAtoms = 4;
+constexpr std::size_t kMaxReportedAtoms = 4;
 
 std::string InWords(double number) {
   char text[32];
@@ -69,7 +69,7 @@ std::string Finding::Sentence() const {
   if (holds) return "holds";
   std::string text =
       "violated at " + InWords(base::ToSeconds(time)) + " s (step " + std::to_string(step) + ")";
-  for (std::size_t i = 0; i < std::min(atoms.size(), kMostToldAtoms); ++i) {
+  for (std::size_t i = 0; i < std::min(atoms.size(), kMaxReportedAtoms); ++i) {
     text += (i == 0 ? ": " : "; ") + Told(atoms[i]);
   }
   return text;
@@ -114,11 +114,12 @@ void Judge::JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot) {
     }
     pending.monitor.Step(snapshot->state.time, simulation_.specification().step,
                          [&](int atom) { return holds[static_cast<std::size_t>(atom)]; });
-    if (pending.monitor.verdict()) Settle(pending, snapshot);
+    if (pending.monitor.verdict()) RecordVerdict(pending, snapshot);
   }
 }
 
-void Judge::Settle(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot) {
+void Judge::RecordVerdict(Pending& pending,
+                          const std::shared_ptr<const world::Snapshot>& snapshot) {
   pending.finding.holds = *pending.monitor.verdict();
   pending.finding.step = snapshot->state.step;
   pending.finding.time = snapshot->state.time;
@@ -133,7 +134,7 @@ std::vector<Finding> Judge::Finish() {
   for (Pending& pending : pending_) {
     if (!pending.monitor.verdict()) {
       pending.monitor.End();
-      Settle(pending, latest_);
+      RecordVerdict(pending, latest_);
     }
     findings.push_back(pending.finding);
   }

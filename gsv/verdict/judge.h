@@ -59,7 +59,7 @@ class Judge final : public simulation::Observer {
   explicit Judge(simulation::Simulation& simulation)
       : simulation_(simulation), measure_(simulation) {}
   void JudgeState(const std::shared_ptr<const world::Snapshot>& snapshot);
-  void Settle(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot)
+  void RecordVerdict(Pending& pending, const std::shared_ptr<const world::Snapshot>& snapshot)
       GSV_REQUIRES(mutex_);
 
   simulation::Simulation& simulation_;

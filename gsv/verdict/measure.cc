@@ -112,9 +112,9 @@ std::optional<double> Measure::OfSensor(const scenario::Quantity& quantity) cons
   if (!reading || reading->values.empty()) return std::nullopt;
   const auto& values = reading->values;
   switch (quantity.take) {
-    case scenario::Quantity::Take::kLeast:
+    case scenario::Quantity::Take::kMin:
       return *std::min_element(values.begin(), values.end());
-    case scenario::Quantity::Take::kMost:
+    case scenario::Quantity::Take::kMax:
       return *std::max_element(values.begin(), values.end());
     case scenario::Quantity::Take::kMean:
       return std::accumulate(values.begin(), values.end(), 0.0) /

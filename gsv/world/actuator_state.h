@@ -1,5 +1,5 @@
 // An actuator that follows a command: the state of every device that behaviours command by
-// Agent::Act(). Types whose command alone says what they do need no class of their own.
+// Agent::CommandDevice(). Types whose command alone says what they do need no class of their own.
 #pragma once
 
 #include "gsv/world/device_state.h"

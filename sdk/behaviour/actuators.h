@@ -25,11 +25,15 @@ class Lamp : public Sensor {
 
   using Glow = readings::Lamp;
 
-  base::Status Shine(const Colour& colour, double brightness = 1) {
-    return port().Act({brightness, colour.red, colour.green, colour.blue}, {});
+  base::Status Set(const Colour& colour, double brightness = 1) {
+    return port().CommandDevice({brightness, colour.red, colour.green, colour.blue}, {});
   }
-  base::Status SwitchOff() { return Shine({}, 0); }
-  Glow Look() { return MeasureAs<Glow>(); }
+  base::Status SwitchOff() { return Set({}, 0); }
+  [[deprecated("use Set()")]] base::Status Shine(const Colour& colour, double brightness = 1) {
+    return Set(colour, brightness);
+  }
+  Glow Read() { return MeasureAs<Glow>(); }
+  [[deprecated("use Read()")]] Glow Look() { return Read(); }
 };
 
 class Gripper : public Sensor {
@@ -37,12 +41,17 @@ class Gripper : public Sensor {
   static constexpr const char* kType = readings::Gripper::kType;
   using Sensor::Sensor;
 
-  using Jaws = readings::Gripper;
+  using State = readings::Gripper;
+  using Jaws [[deprecated("use State")]] = State;
 
-  // Closes, on what is loose and between the jaws: that is held until they open.
-  base::Status Grip() { return port().Act({0}, {}); }
-  base::Status LetGo() { return port().Act({1}, {}); }
-  Jaws Feel() { return MeasureAs<Jaws>(); }
+  // Closes the fingers. They attach the dynamic body between them until they open.
+  base::Status Grasp() { return port().CommandDevice({0}, {}); }
+  // Opens the fingers and detaches the body.
+  base::Status Open() { return port().CommandDevice({1}, {}); }
+  State Read() { return MeasureAs<State>(); }
+  [[deprecated("use Grasp()")]] base::Status Grip() { return Grasp(); }
+  [[deprecated("use Open()")]] base::Status LetGo() { return Open(); }
+  [[deprecated("use Read()")]] State Feel() { return Read(); }
 };
 
 class Speaker : public Sensor {
@@ -55,7 +64,7 @@ class Speaker : public Sensor {
   // "tone", "buzz", "chirp" or "noise".
   base::Status Play(const std::string& sound, double frequency, double duration,
                     double volume = 1) {
-    return port().Act({frequency, duration, volume}, sound);
+    return port().CommandDevice({frequency, duration, volume}, sound);
   }
   base::Status Beep(double frequency = 880, double duration = 0.2) {
     return Play("tone", frequency, duration);

@@ -30,11 +30,13 @@ using base::SimTime;
 using readings::Placement;
 using readings::Vector;
 
-struct Picture {
+// An RGB image.
+struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;  // rows from the top, 3 bytes a pixel
+  std::vector<std::uint8_t> rgb;  // rows from the top, 3 bytes per pixel
 };
+using Picture [[deprecated("use gsv::Image")]] = Image;
 
 // Parameters by name; each sensor type documents its own.
 using Parameters = std::map<std::string, std::variant<double, bool, std::string>>;
@@ -64,11 +66,16 @@ class SensorPort {
   // has no values.
   virtual bool Measure(Reading& reading) = 0;
   // Empty in the same cases, and of sensors that take none.
-  virtual Picture TakePicture() = 0;
+  virtual Image TakeImage() = 0;
   // Of a radio: see Radio::Send(). An error of any other sensor.
   virtual base::Status Send(const std::string& receiver, const std::string& content) = 0;
-  // Of an actuator: tells it what to do, see actuators.h. An error of any other sensor.
-  virtual base::Status Act(const std::vector<double>& values, const std::string& word) = 0;
+  // Commands an actuator, see actuators.h. Any other sensor returns an error.
+  virtual base::Status CommandDevice(const std::vector<double>& values,
+                                     const std::string& word) = 0;
+  [[deprecated("use CommandDevice()")]] base::Status Act(const std::vector<double>& values,
+                                                         const std::string& word) {
+    return CommandDevice(values, word);
+  }
   // Ends the run with this error.
   virtual void Fail(const base::Error& error) = 0;
 };
@@ -148,7 +155,8 @@ class Camera : public Sensor {
 
   static bool Is(const std::string& type) { return type == kType || type == kWideAngleType; }
 
-  Picture TakePicture() { return port().TakePicture(); }
+  Image TakeImage() { return port().TakeImage(); }
+  [[deprecated("use TakeImage()")]] Image TakePicture() { return TakeImage(); }
 };
 
 class PositioningSystem : public Sensor {
@@ -165,7 +173,8 @@ class Imu : public Sensor {
   using Sensor::Sensor;
 
   using Motion = readings::Imu;
-  Motion Feel() { return MeasureAs<Motion>(); }
+  Motion Read() { return MeasureAs<Motion>(); }
+  [[deprecated("use Read()")]] Motion Feel() { return Read(); }
 };
 
 class Odometer : public Sensor {
@@ -174,10 +183,11 @@ class Odometer : public Sensor {
   using Sensor::Sensor;
 
   using Estimate = readings::Odometry;
-  Estimate Reckon() { return MeasureAs<Estimate>(); }
+  Estimate Read() { return MeasureAs<Estimate>(); }
+  [[deprecated("use Read()")]] Estimate Reckon() { return Read(); }
 };
 
-class SatelliteReceiver : public Sensor {
+class GnssReceiver : public Sensor {
  public:
   static constexpr const char* kType = readings::Navsat::kType;
   using Sensor::Sensor;
@@ -185,6 +195,7 @@ class SatelliteReceiver : public Sensor {
   using Position = readings::Navsat;
   Position Fix() { return MeasureAs<Position>(); }
 };
+using SatelliteReceiver [[deprecated("use gsv::GnssReceiver")]] = GnssReceiver;
 
 class Magnetometer : public Sensor {
  public:
@@ -237,7 +248,8 @@ class LogicalCamera : public Sensor {
   using Sensor::Sensor;
 
   using Sighting = readings::Sighting;
-  std::vector<Sighting> Look() { return MeasureAs<readings::LogicalCamera>().sightings; }
+  [[deprecated("use Read()")]] std::vector<Sighting> Look() { return Read(); }
+  std::vector<Sighting> Read() { return MeasureAs<readings::LogicalCamera>().sightings; }
 };
 
 // Sends to other robots and hears them. What is sent at an instant is heard with the next step, in

@@ -6,15 +6,15 @@
 namespace gsv::python {
 namespace {
 
-// Tells an actuator something without the GIL.
-template <typename Command>
-void Tell(const Command& command) {
-  base::Status told;
+// Commands an actuator without the GIL, and raises its error.
+template <typename Call>
+void RunCommand(const Call& call) {
+  base::Status status;
   {
     const py::gil_scoped_release release;
-    told = command();
+    status = call();
   }
-  ValueOrRaise(std::move(told));
+  ValueOrRaise(std::move(status));
 }
 
 void BindLamp(py::module_& module, py::class_<Sensor>& sensor) {
@@ -32,26 +32,34 @@ void BindLamp(py::module_& module, py::class_<Sensor>& sensor) {
       });
   auto lamp = BindKind<Lamp>(module, "Lamp", sensor, "A lamp, or an LED.");
   lamp.def(
-          "shine",
+          "set",
           [](Lamp& self, const Colour& colour, double brightness) {
-            Tell([&] { return self.Shine(colour, brightness); });
+            RunCommand([&] { return self.Set(colour, brightness); });
           },
           py::arg("colour") = Colour{}, py::arg("brightness") = 1.0, "brightness from 0 to 1")
-      .def("switch_off", [](Lamp& self) { Tell([&] { return self.SwitchOff(); }); })
-      .def("look", &Lamp::Look, LetOthersRun(), "how it glows");
+      .def("switch_off", [](Lamp& self) { RunCommand([&] { return self.SwitchOff(); }); })
+      .def("read", &Lamp::Read, LetOthersRun(), "its brightness and colour");
   BindReading<Lamp::Glow>(lamp, "Glow");
+  Deprecate(lamp, "shine", "set");
+  Deprecate(lamp, "look", "read");
 }
 
 void BindGripper(py::module_& module, py::class_<Sensor>& sensor) {
-  auto gripper =
-      BindKind<Gripper>(module, "Gripper", sensor, "Two jaws, which hold what is between them.");
+  auto gripper = BindKind<Gripper>(module, "Gripper", sensor,
+                                   "Two fingers that attach the body between them.");
   gripper
       .def(
-          "grip", [](Gripper& self) { Tell([&] { return self.Grip(); }); },
-          "Closes, on what is loose and between the jaws: that is held until they open.")
-      .def("let_go", [](Gripper& self) { Tell([&] { return self.LetGo(); }); })
-      .def("feel", &Gripper::Feel, LetOthersRun(), "how its jaws stand");
-  BindReading<Gripper::Jaws>(gripper, "Jaws");
+          "grasp", [](Gripper& self) { RunCommand([&] { return self.Grasp(); }); },
+          "Closes the fingers. They attach the dynamic body between them until they open.")
+      .def(
+          "open", [](Gripper& self) { RunCommand([&] { return self.Open(); }); },
+          "Opens the fingers and detaches the body.")
+      .def("read", &Gripper::Read, LetOthersRun(), "its opening and the body that it holds");
+  BindReading<Gripper::State>(gripper, "State");
+  Deprecate(gripper, "grip", "grasp");
+  Deprecate(gripper, "let_go", "open");
+  Deprecate(gripper, "feel", "read");
+  Deprecate(gripper, "Jaws", "State");
 }
 
 void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
@@ -61,17 +69,17 @@ void BindSound(py::module_& module, py::class_<Sensor>& sensor) {
           "play",
           [](Speaker& self, const std::string& sound, double frequency, double duration,
              double volume) {
-            Tell([&] { return self.Play(sound, frequency, duration, volume); });
+            RunCommand([&] { return self.Play(sound, frequency, duration, volume); });
           },
           py::arg("sound"), py::arg("frequency"), py::arg("duration"), py::arg("volume") = 1.0,
           "\"tone\", \"buzz\", \"chirp\" or \"noise\"; Hz, s, and a volume from 0 to 1.")
       .def(
           "beep",
           [](Speaker& self, double frequency, double duration) {
-            Tell([&] { return self.Beep(frequency, duration); });
+            RunCommand([&] { return self.Beep(frequency, duration); });
           },
           py::arg("frequency") = 880.0, py::arg("duration") = 0.2)
-      .def("silence", [](Speaker& self) { Tell([&] { return self.Silence(); }); })
+      .def("silence", [](Speaker& self) { RunCommand([&] { return self.Silence(); }); })
       .def("playing", &Speaker::Playing, LetOthersRun(), "what it plays");
   BindReading<Speaker::Sound>(speaker, "Sound");
   auto microphone = BindKind<Microphone>(module, "Microphone", sensor, "Hears what sounds.");

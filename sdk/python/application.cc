@@ -150,7 +150,8 @@ void BindApplications(py::module_& module) {
       .def("stop", Calling(&RemoteSimulation::Stop), LetOthersRun())
       .def("reset", Calling(&RemoteSimulation::Reset), LetOthersRun(),
            "Back to the start, with the same robots.")
-      .def("set_factor", Calling(&RemoteSimulation::SetFactor), py::arg("factor"), LetOthersRun(),
+      .def("set_factor", Calling(&RemoteSimulation::SetRealTimeFactor), py::arg("factor"),
+           LetOthersRun(),
            "In real time: simulated seconds a second from the next step on. Lockstep refuses.")
       .def("command", &Command, py::arg("name"),
            "Any command of the simulator by its name, with its arguments by theirs: "

@@ -39,6 +39,11 @@ py::class_<Struct> BindReading(py::handle scope, const char* name, const char* d
   return bound;
 }
 
+// Keeps the name `old` for what is called `name` now.
+inline void Deprecate(py::handle scope, const char* old, const char* name) {
+  scope.attr(old) = scope.attr(name);
+}
+
 void BindActuators(py::module_& module, py::class_<Sensor>& sensor);
 
 }  // namespace gsv::python

@@ -26,11 +26,10 @@ py::object Measured(Sensor& sensor) {
   return py::cast(std::move(reading));
 }
 
-py::array_t<std::uint8_t> ToArray(Picture picture) {
-  auto kept = std::make_unique<Picture>(std::move(picture));
-  const Picture& of = *kept;
-  const py::capsule owner(kept.release(),
-                          [](void* memory) { delete static_cast<Picture*>(memory); });
+py::array_t<std::uint8_t> ToArray(Image image) {
+  auto kept = std::make_unique<Image>(std::move(image));
+  const Image& of = *kept;
+  const py::capsule owner(kept.release(), [](void* memory) { delete static_cast<Image*>(memory); });
   return py::array_t<std::uint8_t>({of.height, of.width, 3}, of.rgb.data(), owner);
 }
 
@@ -121,18 +120,19 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
           "ranges", [](Lidar& lidar) { return AllValues(Measured(lidar)); },
           "numpy.float64, m, beam by beam; infinite where nothing was hit");
   SensorMakers()[Camera::kWideAngleType] = MakeSensorOf<Camera>;
-  BindKind<Camera>(module, "Camera", sensor, "Takes pictures.")
-      .def(
-          "take_picture",
-          [](Camera& camera) {
-            Picture picture;
-            {
-              const py::gil_scoped_release release;
-              picture = camera.TakePicture();
-            }
-            return ToArray(std::move(picture));
-          },
-          "numpy.uint8 of the shape (height, width, 3): RGB, rows from the top");
+  auto camera = BindKind<Camera>(module, "Camera", sensor, "Takes images.");
+  camera.def(
+      "take_image",
+      [](Camera& self) {
+        Image image;
+        {
+          const py::gil_scoped_release release;
+          image = self.TakeImage();
+        }
+        return ToArray(std::move(image));
+      },
+      "numpy.uint8 of the shape (height, width, 3): RGB, rows from the top");
+  Deprecate(camera, "take_picture", "take_image");
   BindKind<DepthCamera>(module, "DepthCamera", sensor, "Measures how far each pixel is.")
       .def("take_depth", &TakeDepth,
            "numpy.float64 of the shape (height, width): m along the view, infinite where nothing "
@@ -150,28 +150,33 @@ void BindRangeAndVision(py::module_& module, py::class_<Sensor>& sensor) {
            "(labels, names): numpy.uint32 of the shape (height, width); a pixel of label n shows "
            "names[n - 1], one of label 0 nothing");
   auto boxes = BindKind<BoundingBoxCamera>(module, "BoundingBoxCamera", sensor,
-                                           "Finds models in its picture.");
+                                           "Finds models in its image.");
   boxes.def("detect", &BoundingBoxCamera::Detect, LetOthersRun());
   BindReading<BoundingBoxCamera::Box>(boxes, "Box", "Pixels from the upper left corner.");
   auto logical =
       BindKind<LogicalCamera>(module, "LogicalCamera", sensor, "Finds models in its frustum.");
-  logical.def("look", &LogicalCamera::Look, LetOthersRun());
+  logical.def("read", &LogicalCamera::Read, LetOthersRun(), "the models in view");
+  Deprecate(logical, "look", "read");
   BindReading<LogicalCamera::Sighting>(logical, "Sighting");
 }
 
 void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
   BindKind<PositioningSystem>(module, "PositioningSystem", sensor, "Knows where it is.")
       .def("locate", &PositioningSystem::Locate, LetOthersRun(), "its pose in the world");
-  auto imu = BindKind<Imu>(module, "Imu", sensor, "Feels turning and force.");
-  imu.def("feel", &Imu::Feel, LetOthersRun());
+  auto imu = BindKind<Imu>(module, "Imu", sensor, "Measures angular velocity and specific force.");
+  imu.def("read", &Imu::Read, LetOthersRun());
+  Deprecate(imu, "feel", "read");
   BindReading<Imu::Motion>(imu, "Motion", "In the sensor's frame; at rest the force is upwards.");
-  auto odometer = BindKind<Odometer>(module, "Odometer", sensor, "Counts the wheels' turns.");
-  odometer.def("reckon", &Odometer::Reckon, LetOthersRun());
+  auto odometer = BindKind<Odometer>(module, "Odometer", sensor,
+                                     "Estimates the pose from the wheels (dead reckoning).");
+  odometer.def("read", &Odometer::Read, LetOthersRun());
+  Deprecate(odometer, "reckon", "read");
   BindReading<Odometer::Estimate>(odometer, "Estimate", "From where the robot started.");
-  auto satellites = BindKind<SatelliteReceiver>(module, "SatelliteReceiver", sensor,
-                                                "Receives satellites' signals.");
-  satellites.def("fix", &SatelliteReceiver::Fix, LetOthersRun());
-  BindReading<SatelliteReceiver::Position>(satellites, "Position", "WGS84; m, m/s.");
+  auto gnss = BindKind<GnssReceiver>(module, "GnssReceiver", sensor,
+                                     "Receives satellite navigation signals.");
+  gnss.def("fix", &GnssReceiver::Fix, LetOthersRun());
+  BindReading<GnssReceiver::Position>(gnss, "Position", "WGS84; m, m/s.");
+  Deprecate(module, "SatelliteReceiver", "GnssReceiver");
   BindKind<Magnetometer>(module, "Magnetometer", sensor, "Measures the magnetic field.")
       .def("field", &Magnetometer::Field, LetOthersRun(), "tesla, in the sensor's frame");
   auto altimeter = BindKind<Altimeter>(module, "Altimeter", sensor, "Measures its height.");
@@ -180,7 +185,7 @@ void BindMotion(py::module_& module, py::class_<Sensor>& sensor) {
 }
 
 void BindBody(py::module_& module, py::class_<Sensor>& sensor) {
-  auto bumper = BindKind<Bumper>(module, "Bumper", sensor, "Feels what the robot touches.");
+  auto bumper = BindKind<Bumper>(module, "Bumper", sensor, "Reports what the robot touches.");
   bumper.def("is_pressed", &Bumper::IsPressed, LetOthersRun())
       .def("touches", &Bumper::Touches, LetOthersRun());
   BindReading<Bumper::Touch>(bumper, "Touch", "In the sensor's frame; the normal points outwards.");

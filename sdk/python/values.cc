@@ -6,7 +6,7 @@
 namespace gsv::python {
 namespace {
 
-constexpr double kLongest = 9e9;  // s
+constexpr double kMaxSeconds = 9e9;  // s
 
 const char* ExceptionFor(base::ErrorCode code) {
   switch (code) {
@@ -42,7 +42,7 @@ void Raise(const base::Error& error) {
 }
 
 base::SimTime TimeFrom(double seconds) {
-  if (!(std::abs(seconds) < kLongest)) {
+  if (!(std::abs(seconds) < kMaxSeconds)) {
     throw py::value_error("expected a time in seconds, found " + std::to_string(seconds));
   }
   return base::FromSeconds(seconds);

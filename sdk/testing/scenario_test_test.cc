@@ -62,7 +62,7 @@ class Looks final : public Behaviour {
     return {};
   }
   void Run(Robot& robot) override {
-    if (robot.SleepFor(100ms)) seen_.set_value(camera_->TakePicture().width);
+    if (robot.SleepFor(100ms)) seen_.set_value(camera_->TakeImage().width);
   }
 
  private:

@@ -17,7 +17,7 @@ int Rounds() {
 
 base::Result<CORBA::ORB_var> StartPatientOrb() {
   orb::OrbOptions options;
-  options.call_timeout *= base::kTimesAsSlow;
+  options.call_timeout *= base::kSlowdown;
   return orb::StartOrb(options);
 }
 

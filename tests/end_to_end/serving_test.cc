@@ -128,7 +128,7 @@ TEST_F(StrangersWorld, ThatIsSoundIsShown) {
 }
 
 TEST_F(StrangersWorld, ThatTakesTooMuchMemoryIsASentenceAndTheServerGoesOn) {
-  if (base::kTakesAllAddresses) GTEST_SKIP() << "this sanitizer leaves no bound on addresses";
+  if (base::kReservesAddressSpace) GTEST_SKIP() << "this sanitizer leaves no bound on addresses";
   const Served server({"--limit", "reading_bytes=30000000"});
   const HttpReply refused = Show(server, WithMesh("none.stl"));
   EXPECT_GE(refused.status, 400) << refused.body;

@@ -26,7 +26,7 @@ class Signalling final : public Behaviour {
       const Microphone::Hearing hearing = ear_->Listen();
       heard = heard || !hearing.source.empty();
       if (robot.Now() >= 1s && !heard) throw std::runtime_error("it hears nobody");
-      Expect(lamp_->Shine({1, 0, static_cast<double>(cycle % 2)}, hearing.level > 60 ? 1 : 0.5));
+      Expect(lamp_->Set({1, 0, static_cast<double>(cycle % 2)}, hearing.level > 60 ? 1 : 0.5));
       if (cycle % 5 == 0) Expect(speaker_->Beep(own, 0.12));
       robot.Drive(0.005 * hearing.level, 0.001 * hearing.frequency);
       robot.SleepFor(50ms);

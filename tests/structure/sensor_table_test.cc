@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "gsv/rendering/cameras/camera_sensor.h"
-#include "gsv/rendering/cameras/survey_sensors.h"
+#include "gsv/rendering/cameras/ground_truth_sensors.h"
 #include "gsv/sensing/devices/built_in.h"
 
 namespace gsv {
@@ -62,7 +62,7 @@ TEST(SensorTable, ListsEveryTypeWithItsReadingMessageAndOverlay) {
   sensing::SensorRegistry registry;
   sensing::AddBuiltInSensors(registry);
   ASSERT_TRUE(rendering::AddCameraSensor(registry, nullptr));
-  ASSERT_TRUE(rendering::AddSurveySensors(registry, nullptr));
+  ASSERT_TRUE(rendering::AddGroundTruthSensors(registry, nullptr));
   const std::vector<std::string> lines = LinesOfPage();
   ASSERT_FALSE(lines.empty());
   for (const std::string& name : registry.names()) {

@@ -90,13 +90,13 @@ class PictureCheck {
  private:
   // Looks no further than it must: the time counts as that of drawing.
   static bool IsBlank(const std::shared_ptr<const model::Image>& picture) {
-    constexpr int kFewest = 8;
+    constexpr int kMinImages = 8;
     std::bitset<256> seen;
     int shades = 0;
     for (const std::uint8_t shade : picture->pixels) {
       if (seen[shade]) continue;
       seen.set(shade);
-      if (++shades == kFewest) return false;
+      if (++shades == kMinImages) return false;
     }
     return true;
   }

@@ -94,7 +94,7 @@ class Scanning {
 
   const Readings& Scan(const std::shared_ptr<const world::Snapshot>& snapshot) {
     const auto scene = rays_.At(snapshot, &team_);  // held until all have read
-    team_.Share(robots_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    team_.ParallelFor(robots_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const sensing::Sampling sampling(snapshot, snapshot->layout->Find(robots_[i]), 1, rays_);
         readings_[i] = *lidar_.Sample(sampling);

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSeparateCalls = "wander --no-pictures";
 constexpr const char* kExchange = "cruise";
-constexpr int kMostInTheOffice = 20;  // robots
+constexpr int kMaxOfficeRobots = 20;  // robots
 
 // Durations in milliseconds, from any thread.
 class Durations {
@@ -106,7 +106,7 @@ struct Row {
 
 // A few in the office, many on the square of `gsv bench crowd`, unless a world is given.
 base::Status PlaceRobots(const TypicalArguments& arguments, int robots, RunOptions& options) {
-  const bool on_the_square = arguments.world.empty() && robots > kMostInTheOffice;
+  const bool on_the_square = arguments.world.empty() && robots > kMaxOfficeRobots;
   if (on_the_square) {
     options.specification.world = CrowdWorld(robots, 1);
   } else {

@@ -176,13 +176,13 @@ int RunByQueue(const campaign::Campaign& campaign, campaign::Results& results,
   ChildCommands commands;
   const auto queue = options.engine.make_queue({commands, ProgramPath().string(), &Say});
   campaign::QueueDriver driver{*queue, type.title};
-  driver.runs_a_task = options.engine.runs_a_task;
+  driver.runs_per_task = options.engine.runs_per_task;
   driver.timeout = options.timeout;
   if (!options.failures.empty()) driver.failures = fs::absolute(options.failures);
   driver.waits = options.waits;
-  driver.look_period = options.poll > 0
+  driver.poll_period = options.poll > 0
                            ? std::chrono::milliseconds(static_cast<int>(1e3 * options.poll))
-                           : type.look_period;
+                           : type.poll_period;
   driver.tell = &TellProgress;
   driver.say = &Say;
   driver.is_interrupted = [&](std::chrono::milliseconds patience) {
@@ -207,7 +207,7 @@ int RunShard(const campaign::Campaign& campaign, const std::string& results_file
   Attempt attempt;
   attempt.share = campaign::ShardName(shard.index, shard.count);
   attempt.node = base::HostName();
-  attempt.submitted = attempt.started = campaign::WallSeconds();
+  attempt.submitted = attempt.started = campaign::UnixSeconds();
   EngineOptions here = options;
   if (here.jobs == 0) here.jobs = Processors();
   return TakeShare(*spool, attempt, runs, here, signals);
@@ -215,7 +215,7 @@ int RunShard(const campaign::Campaign& campaign, const std::string& results_file
 
 int RunTask(const TaskArguments& arguments, Signals& signals) {
   Attempt attempt;
-  attempt.started = campaign::WallSeconds();
+  attempt.started = campaign::UnixSeconds();
   const auto batch = campaign::ReadBatch(arguments.batch_file);
   if (!batch) return Complain(batch.error());
   auto spool = Spool::Open(fs::path(arguments.batch_file).parent_path());

@@ -14,7 +14,7 @@
 namespace gsv::app {
 namespace {
 
-constexpr double kLongestSeconds = 1e6;
+constexpr double kMaxSeconds = 1e6;
 
 std::chrono::milliseconds Milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
@@ -67,13 +67,13 @@ void AddBrokerCommand(const CommandLine& line) {
       ->add_option("--liveness-period", arguments->liveness_period_s,
                    "how often each offered service is asked whether it lives; 0: never. The "
                    "offer of a dead one is seen for two periods at most")
-      ->check(CLI::Range(0.0, kLongestSeconds))
+      ->check(CLI::Range(0.0, kMaxSeconds))
       ->type_name("SECONDS")
       ->capture_default_str();
   command
       ->add_option("--liveness-patience", arguments->liveness_patience_s,
                    "how long a service may be silent before its offers go")
-      ->check(CLI::Range(0.0, kLongestSeconds))
+      ->check(CLI::Range(0.0, kMaxSeconds))
       ->type_name("SECONDS")
       ->capture_default_str();
   command

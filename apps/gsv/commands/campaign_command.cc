@@ -184,9 +184,9 @@ CLI::Option* AddEngineOptions(CLI::App* run, const Arguments& arguments) {
       if (!option.is_list) added->take_last();
     }
   }
-  run->add_option("--runs-a-task", engine.runs_a_task,
+  run->add_option("--runs-a-task", engine.runs_per_task,
                   "runs of a task, one after another (default: so many that 1,000 tasks take all)")
-      ->check(CLI::Range(0, static_cast<int>(campaign::kMostRuns)))
+      ->check(CLI::Range(0, static_cast<int>(campaign::kMaxRuns)))
       ->group("Job queues");
   run->add_option("--poll", options.poll,
                   "seconds between questions to the queue (default: 10; ssh: 0.5)")

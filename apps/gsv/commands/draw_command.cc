@@ -55,7 +55,7 @@ std::shared_ptr<const world::Snapshot> FirstInstant(model::WorldDescription desc
 rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, int height) {
   constexpr double kYaw = 0.75 * std::numbers::pi, kPitch = 0.6, kMargin = 1.05;
   constexpr double kFieldOfView = 0.8;
-  constexpr double kFarthest = 1e6;  // m that a renderer takes
+  constexpr double kMaxCoordinate = 1e6;  // m that a renderer takes
   const geometry::Quaternion turn = geometry::FromRollPitchYaw({0, kPitch, kYaw});
   const double across = std::tan(kFieldOfView / 2) / kMargin, up = across * height / width;
   constexpr double kEndless = std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ rendering::CameraView ViewOfAll(const std::vector<Vector3>& corners, int width, 
   camera.width = width;
   camera.height = height;
   camera.horizontal_fov = kFieldOfView;
-  camera.far = std::min(10 * back + 10, kFarthest);
+  camera.far = std::min(10 * back + 10, kMaxCoordinate);
   camera.near = std::clamp(1e-2 * back, 1e-3, camera.far / 10);
   return {{turn * (middle - Vector3{back, 0, 0}), turn}, camera};
 }
@@ -140,10 +140,10 @@ void AddDrawCommand(const CommandLine& line) {
   AddLimitOption(*command, arguments->limits);
   command->add_option("--width", arguments->width, "pixels")
       ->capture_default_str()
-      ->check(CLI::Range(16, rendering::kMaxPictureSide));
+      ->check(CLI::Range(16, rendering::kMaxImageSide));
   command->add_option("--height", arguments->height, "pixels")
       ->capture_default_str()
-      ->check(CLI::Range(16, rendering::kMaxPictureSide));
+      ->check(CLI::Range(16, rendering::kMaxImageSide));
   command->add_flag("--json", arguments->json, "what was read, as one JSON object");
   command->callback([arguments, line] { line.exit_code = Run(*arguments); });
 }

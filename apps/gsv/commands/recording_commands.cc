@@ -119,7 +119,7 @@ int Cat(const RecordingArguments& arguments) {
         {"time_s", base::ToSeconds((*message)->time)},
         {"topic", (*message)->topic},
         {"type", (*message)->type},
-        {"message", recording::WithTextsForInfinities(std::move((*message)->content))}};
+        {"message", recording::WithInfinitiesAsText(std::move((*message)->content))}};
     std::puts(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     if (std::ferror(stdout) != 0) return kInfrastructure;  // nobody reads on
   }

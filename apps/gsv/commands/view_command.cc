@@ -69,7 +69,7 @@ void AddViewCommand(const CommandLine& line) {
                       "where that one speaks HTTPS; without it: whom this system trusts");
   AddViewerOptions(*command, arguments->web);
   command->callback([arguments, line] {
-    base::HideInLog(arguments->token);
+    base::RedactInLog(arguments->token);
     const auto url = ViewerOf(arguments->instance, arguments->broker);
     if (!url) {
       line.exit_code = Complain(url.error());

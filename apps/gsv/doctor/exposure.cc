@@ -15,7 +15,7 @@
 #include "apps/gsv/machine/installation.h"
 #include "apps/gsv/process/exit_code.h"
 #include "gsv/gateway/access/access_rule.h"
-#include "gsv/tls/stranger.h"
+#include "gsv/tls/server_probe.h"
 
 namespace gsv::app {
 namespace {
@@ -162,7 +162,7 @@ Exposure Probe(const Listener& listener) {
     exposure.speaks = Speaks::kHttps;
     const auto ask = [&](const std::string& request) {
       const Connection connection(listener);
-      return StatusOf(tls::ExchangeAsStranger(connection.descriptor(), request).answer);
+      return StatusOf(tls::ProbeServer(connection.descriptor(), request).answer);
     };
     exposure.watching_takes_token = TakesToken(ask(look));
     exposure.acting_takes_token = TakesToken(ask(act));
@@ -172,8 +172,8 @@ Exposure Probe(const Listener& listener) {
     exposure.acting_takes_token = TakesToken(StatusOf(Connection(listener).Exchange(act)));
   } else {
     const Connection connection(listener);
-    const tls::Reception reception =
-        tls::ExchangeAsStranger(connection.descriptor(), AskingForAnObject());
+    const tls::ProbeResult reception =
+        tls::ProbeServer(connection.descriptor(), AskingForAnObject());
     const bool is_answered = reception.answer.starts_with("GIOP");
     if (is_answered || reception.asks_for_certificate) exposure.speaks = Speaks::kCorbaTls;
     exposure.takes_certificate = !is_answered && reception.asks_for_certificate;

@@ -5,8 +5,8 @@
 #include <ctime>
 #include <utility>
 
+#include "gsv/base/atomic_file.h"
 #include "gsv/base/log.h"
-#include "gsv/base/whole_file.h"
 #include "gsv/recording/mcap/mcap_reader.h"
 
 namespace gsv::app {
@@ -63,7 +63,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
       lost.insert(lost.end(), list->begin(), list->end());
     }
     done.push_back(each.file);
-    done.push_back(base::DraftOf(each.file, each.note.pid));
+    done.push_back(base::DraftPath(each.file, each.note.pid));
   }
   Keep(std::move(lost));
   Write();
@@ -75,7 +75,7 @@ void LostSimulations::TakeOver(const fs::path& folder) {
 void LostSimulations::Keep(std::vector<LostSimulation> lost) {
   std::stable_sort(lost.begin(), lost.end(),
                    [](const auto& a, const auto& b) { return a.noted < b.noted; });
-  if (lost.size() > kMostKept) lost.erase(lost.begin(), lost.end() - kMostKept);
+  if (lost.size() > kMaxKept) lost.erase(lost.begin(), lost.end() - kMaxKept);
   const base::MutexLock lock(mutex_);
   for (LostSimulation& each : lost) lost_[next_++] = std::move(each);
 }

@@ -4,7 +4,7 @@
 //
 // Threads  any. A thread of its own writes the note when what is run has changed, up to twice a
 //          second; another looks into the recordings, which may take long.
-// Bounded  kMostKept, the newest.
+// Bounded  kMaxKept, the newest.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ namespace gsv::app {
 
 class LostSimulations {
  public:
-  static constexpr std::size_t kMostKept = 100;
+  static constexpr std::size_t kMaxKept = 100;
 
   struct Server {
     std::string name;    // in its offer

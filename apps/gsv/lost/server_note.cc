@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/gsv/machine/running_instances.h"
+#include "gsv/base/atomic_file.h"
 #include "gsv/base/host_name.h"
-#include "gsv/base/whole_file.h"
 
 namespace gsv::app {
 namespace {
@@ -22,10 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using NoteJson = nlohmann::json;
 
-constexpr std::streamsize kMostBytes = 8 << 20;  // of a note: 10,000 simulations with long names
-constexpr std::size_t kMostNotes = 1000;
-constexpr std::size_t kMostSimulations = 10'000;
-constexpr double kLongest = 1e12;  // s
+constexpr std::streamsize kMaxBytes = 8 << 20;  // of a note: 10,000 simulations with long names
+constexpr std::size_t kMaxNotes = 1000;
+constexpr std::size_t kMaxSimulations = 10'000;
+constexpr double kMaxTime = 1e12;  // s
 
 std::string LineOf(const fs::path& file) {
   std::ifstream stream(file);
@@ -64,7 +64,7 @@ class Fields {
   }
   double Time(const char* key) {
     const double time = Take<double>(key, &NoteJson::is_number);
-    if (!(std::abs(time) <= kLongest)) ok_ = false;
+    if (!(std::abs(time) <= kMaxTime)) ok_ = false;
     return time;
   }
   bool Has(const char* key) const { return ok_ && object_.contains(key); }
@@ -84,7 +84,7 @@ class Fields {
 std::vector<LostSimulation> Fields::List(const char* key) {
   std::vector<LostSimulation> list;
   ok_ = ok_ && object_.contains(key) && object_[key].is_array() &&
-        object_[key].size() <= kMostSimulations;
+        object_[key].size() <= kMaxSimulations;
   if (!ok_) return list;
   for (const NoteJson& each : object_[key]) {
     Fields fields(each);
@@ -189,9 +189,9 @@ base::Status WriteNote(const fs::path& file, const ServerNote& note) {
                          {"recordings", note.recordings},
                          {"simulations", ToJson(note.simulations)},
                          {"lost", ToJson(note.lost)}};
-  return base::WriteWhole(file,
-                          told.dump(-1, ' ', false, NoteJson::error_handler_t::replace) + "\n",
-                          base::Outlives::kProcess);
+  return base::WriteAtomically(file,
+                               told.dump(-1, ' ', false, NoteJson::error_handler_t::replace) + "\n",
+                               base::Durability::kProcess);
 }
 
 NotesFound ReadNotes(const fs::path& folder) {
@@ -200,10 +200,10 @@ NotesFound ReadNotes(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const fs::path& file = entry->path();
-    if (file.extension() != ".json" || found.notes.size() >= kMostNotes) continue;
+    if (file.extension() != ".json" || found.notes.size() >= kMaxNotes) continue;
     std::error_code gone;
     const bool is_file = fs::is_regular_file(fs::symlink_status(file, gone));
-    const bool is_small = is_file && fs::file_size(file, gone) <= kMostBytes;
+    const bool is_small = is_file && fs::file_size(file, gone) <= kMaxBytes;
     std::optional<ServerNote> note = is_small ? ReadNote(file) : std::nullopt;
     if (note) {
       found.notes.push_back({file, *std::move(note)});

@@ -64,7 +64,7 @@ bool Bound(__rlimit_resource resource, rlim_t most) {
 }  // namespace
 
 base::Status Confine(const Confinement& bounds) {
-  const bool is_bound = (base::kTakesAllAddresses || Bound(RLIMIT_AS, bounds.memory_bytes)) &&
+  const bool is_bound = (base::kReservesAddressSpace || Bound(RLIMIT_AS, bounds.memory_bytes)) &&
                         Bound(RLIMIT_CPU, static_cast<rlim_t>(bounds.processor_time.count())) &&
                         Bound(RLIMIT_FSIZE, 0) && Bound(RLIMIT_CORE, 0);
   // Libraries keep logs; what they write fails, and does not kill.

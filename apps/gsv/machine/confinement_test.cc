@@ -72,7 +72,7 @@ TEST(Confinement, WritesNoFile) {
 }
 
 TEST(Confinement, BoundsMemoryAndTime) {
-  if (!base::kTakesAllAddresses) {
+  if (!base::kReservesAddressSpace) {
     EXPECT_EQ(ExitCodeOf([] {
                 const std::vector<char> large(std::size_t{2} << 30);
                 return large.empty() ? 1 : 0;

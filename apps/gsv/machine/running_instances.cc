@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "gsv/base/atomic_file.h"
 #include "gsv/base/user_folder.h"
-#include "gsv/base/whole_file.h"
 
 namespace gsv::app {
 namespace {
@@ -56,7 +56,7 @@ base::Result<std::unique_ptr<InstanceRecord>> InstanceRecord::Write(const std::s
   const fs::path file = *folder / (std::to_string(getpid()) + ".json");
   const nlohmann::json json = {
       {"pid", getpid()}, {"started", ProcessStart(getpid()).value_or(0)}, {"broker", broker}};
-  if (auto ok = base::WriteWhole(file, json.dump() + "\n", base::Outlives::kProcess); !ok) {
+  if (auto ok = base::WriteAtomically(file, json.dump() + "\n", base::Durability::kProcess); !ok) {
     return base::Fail(ok.error());
   }
   return std::unique_ptr<InstanceRecord>(new InstanceRecord(file));

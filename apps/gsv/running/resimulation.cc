@@ -111,7 +111,7 @@ base::Status Take(const messages::gsv_msgs::ActuatorCommand& message, RecordedRo
   }
   robots[message.robot].commands.push_back(
       {messages::ToSimTime(message.stamp),
-       hosting::RecordedOrder{message.actuator, {message.values, message.word}}});
+       hosting::RecordedDeviceCommand{message.actuator, {message.values, message.word}}});
   return {};
 }
 
@@ -124,7 +124,7 @@ base::Status Take(const messages::gsv_msgs::Transmission& message, RecordedRobot
   sender.uses_radio = true;
   sender.commands.push_back(
       {sent,
-       hosting::RecordedSending{
+       hosting::RecordedTransmission{
            message.radio, message.receiver, {message.content.begin(), message.content.end()}}});
   for (const std::string& hearer : message.heard_by) robots[hearer].uses_radio = true;
   return {};
@@ -180,7 +180,7 @@ std::vector<std::string> TopicsWithoutPeople(const recording::McapReader& first,
   for (const auto* reader : {&first, &second}) {
     for (const auto& [id, channel] : reader->summary().channels) topics.insert(channel.topic);
   }
-  for (const std::string_view topic : recording::kTopicsOfPeople) topics.erase(std::string(topic));
+  for (const std::string_view topic : recording::kUserTopics) topics.erase(std::string(topic));
   return {topics.begin(), topics.end()};
 }
 

@@ -194,7 +194,7 @@ base::Status UnderstandRobots(const std::vector<std::string>& texts,
 base::Result<scenario::Scenario> ScenarioToStartFrom(const RunArguments& a,
                                                      base::Problems& problems) {
   scenario::Scenario scenario;
-  if (scenario::NamesAScenario(a.world)) {
+  if (scenario::IsScenarioFileName(a.world)) {
     auto read = scenario::ReadScenario(a.world, problems);
     if (!read) return read;
     scenario = *std::move(read);
@@ -295,7 +295,7 @@ void UnderstandSpecification(const RunArguments& a, const scenario::Scenario& sc
   specification.seed = scenario.seed.value_or(0);
   specification.on_failure = scenario.fails_with_behaviour.value_or(false)
                                  ? simulation::FailurePolicy::kFail
-                                 : simulation::FailurePolicy::kGoOn;
+                                 : simulation::FailurePolicy::kContinue;
   specification.faults = scenario.faults;
   specification.pedestrians = scenario.pedestrians;
   specification.keep = true;

@@ -25,9 +25,9 @@ constexpr double kRayHeight = 0.3;  // m above the floor, of rays that look for 
 constexpr int kDirections = 64;
 constexpr double kEnclosed = 0.9;  // of the directions end at a wall
 constexpr double kOutside = 0.75;
-constexpr double kDeepest = 100;   // m down to look for a floor
-constexpr double kSight = 1000;    // m
-constexpr int kMostChecked = 200;  // robots: of a crowd the first ones tell
+constexpr double kMaxDrop = 100;  // m down to look for a floor
+constexpr double kSight = 1000;   // m
+constexpr int kMaxChecked = 200;  // robots: of a crowd the first ones tell
 
 // The extent over the ground of all that stands in the world but robots, floors and planes.
 struct Extent {
@@ -79,7 +79,7 @@ class StartCheck {
                            entry.start->x, entry.start->y);
       CheckHeading(*entry.start);
       const int body = snapshot_->layout->Find(entry.name);
-      if (body < 0 || ++checked_ > kMostChecked) continue;
+      if (body < 0 || ++checked_ > kMaxChecked) continue;
       CheckPlace(*entry.start, body);
     }
   }
@@ -127,7 +127,7 @@ class StartCheck {
     const double z =
         snapshot_->state.bodies[static_cast<std::size_t>(body)].world_from_model.position.z;
     return std::isfinite(
-        Rays().Range({{start.x, start.y, z + kRayHeight}, {0, 0, -1}, kDeepest}, body));
+        Rays().Range({{start.x, start.y, z + kRayHeight}, {0, 0, -1}, kMaxDrop}, body));
   }
 
   // The part of the directions from there in which something stands.

@@ -24,7 +24,7 @@ using base::Fail;
 using messages::sensor_msgs::CompressedImage;
 
 // A bound on what a recording with a wild time stamp can ask for.
-constexpr std::uint64_t kMostFrames = 10'000'000;
+constexpr std::uint64_t kMaxFrames = 10'000'000;
 
 // ffmpeg, taking pictures from its standard input.
 class Encoder {
@@ -133,7 +133,7 @@ class Exporter {
                       "; export the times before and after with --from and --to");
     }
     const double due = base::ToSeconds(time - start_) * options_.frames_a_second;
-    if (due > static_cast<double>(kMostFrames)) {
+    if (due > static_cast<double>(kMaxFrames)) {
       return Fail(ErrorCode::kInvalidArgument,
                   "the video would be too long; narrow it by --from and --to");
     }

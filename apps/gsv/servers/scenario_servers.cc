@@ -16,8 +16,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::size_t kMostServers = 1000;
-constexpr int kMostLost = 5;  // servers, one after the other, with the same run
+constexpr std::size_t kMaxServers = 1000;
+constexpr int kMaxLostServers = 5;  // servers, one after the other, with the same run
 constexpr seconds kRefreshPeriod{1}, kSilence{10}, kAvoidLost{30}, kWithoutServers{60};
 constexpr milliseconds kServerCallTimeout{5000};  // a wait for the end is answered after two
 
@@ -88,7 +88,7 @@ ScenarioServers::~ScenarioServers() {
 
 base::Status ScenarioServers::Refresh() {
   auto offers =
-      broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load", kMostServers);
+      broker_.Query(broker::ScenarioServiceType().name, constraint_, "min load", kMaxServers);
   // A broker that no such server has ever registered with does not know the type.
   if (!offers && offers.error().code == base::ErrorCode::kNotFound) offers.emplace();
   const base::MutexLock lock(mutex_);
@@ -178,7 +178,7 @@ void ScenarioServers::Release(Server& server, Ending ending) {
 TestResult ScenarioServers::Run(const std::string& scenario, double timeout,
                                 const std::atomic<bool>& is_cancelled) {
   TestResult result;
-  for (int lost = 0; lost < kMostLost;) {
+  for (int lost = 0; lost < kMaxLostServers;) {
     const auto server = Acquire(is_cancelled);
     if (server == nullptr) {
       result.status = TestResult::Status::kInterrupted;
@@ -189,7 +189,8 @@ TestResult ScenarioServers::Run(const std::string& scenario, double timeout,
     if (ending == Ending::kDone) return result;
     lost += ending == Ending::kLost;
   }
-  result.message = fmt::format("{} servers were lost with it, one after the other", kMostLost);
+  result.message =
+      fmt::format("{} servers were lost with it, one after the other", kMaxLostServers);
   return result;
 }
 

@@ -24,7 +24,7 @@ using RunSeconds = std::chrono::duration<double>;
 
 constexpr std::chrono::milliseconds kRunLease{2000};
 constexpr double kDefaultTimeout = 300, kDefaultAbandoned = 60;  // s of wall time
-constexpr std::size_t kMostKept = 1000;  // runs, those included whose outcome nobody has fetched
+constexpr std::size_t kMaxKept = 1000;  // runs, those included whose outcome nobody has fetched
 
 // What a server runs for others; Refused says what is wrong with anything else.
 void RefuseUnlessRunnable(const std::string& text) {
@@ -180,7 +180,7 @@ sba::ScenarioRun_ptr ScenarioServiceServant::run(const char* scenario,
   if (closing_) throw sba::Failed("the server is ending");
   const auto busy = std::count_if(runs_.begin(), runs_.end(),
                                   [](const auto* run) { return run->is_under_way(); });
-  if (busy >= capacity_ || runs_.size() >= kMostKept) return sba::ScenarioRun::_nil();
+  if (busy >= capacity_ || runs_.size() >= kMaxKept) return sba::ScenarioRun::_nil();
   auto* run = new ScenarioRunServant(*this, scenario, timeout, abandoned);
   const PortableServer::ServantBase_var owned(run);
   const PortableServer::ObjectId_var id = poa_->activate_object(run);

@@ -224,7 +224,7 @@ base::Status Runtime::OfferScenarios(const std::string& name, int scenarios) {
 }
 
 void Runtime::EndSoon() {
-  behaviours_->end_patience()->Hurry();
+  behaviours_->stop_timeout()->Shorten();
   launcher_->SetPatience(kHurriedPrograms);
 }
 

@@ -12,7 +12,7 @@
 namespace gsv::app {
 
 struct ServerLimits {
-  std::size_t simulations = services::kUsualMostSimulations;
+  std::size_t simulations = services::kDefaultMaxSimulations;
   simulation::Limits simulation;
   TrialLimits reading;
   gateway::ServerLimits web;

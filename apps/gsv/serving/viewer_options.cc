@@ -13,7 +13,7 @@ std::function<void(const std::string&)> TakeToken(std::string& token) {
     if (const auto good = gateway::access::CheckToken(text); !good) {
       throw CLI::ValidationError(good.error().Sentence());
     }
-    base::HideInLog(text);
+    base::RedactInLog(text);
     token = text;
   };
 }
@@ -63,14 +63,14 @@ base::Result<std::unique_ptr<gateway::Gateway>> StartViewer(
     const ViewerOptions& options, gateway::GatewayOptions gateway,
     const std::function<
         base::Result<std::unique_ptr<gateway::Gateway>>(const gateway::GatewayOptions&)>& start) {
-  constexpr std::uint16_t kUsualPort = 8080;
+  constexpr std::uint16_t kDefaultPort = 8080;
   const bool is_given = options.port >= 0;
   gateway.version = GSV_VERSION;
   gateway.host = options.listen;
   gateway.allowed_hosts = options.names;
   gateway.tokens = options.tokens;
   gateway.tls = options.tls;
-  gateway.port = is_given ? static_cast<std::uint16_t>(options.port) : kUsualPort;
+  gateway.port = is_given ? static_cast<std::uint16_t>(options.port) : kDefaultPort;
   auto started = start(gateway);
   if (started || is_given) return started;
   gateway.port = 0;

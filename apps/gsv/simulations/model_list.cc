@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLargestFile = 4u << 20;
+constexpr std::uintmax_t kMaxFileBytes = 4u << 20;
 
 bool IsModelFile(const fs::path& file) {
   return file.extension() == ".sdf" || file.extension() == ".urdf" || file.extension() == ".xacro";
@@ -30,7 +30,7 @@ bool MayHaveDrive(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const fs::path& file = entry.path();
     if (!IsModelFile(file) || !entry.is_regular_file(ignored)) continue;
-    if (entry.file_size(ignored) > kLargestFile) continue;
+    if (entry.file_size(ignored) > kMaxFileBytes) continue;
     std::ifstream stream(file, std::ios::binary);
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     if (text.find("<plugin") != std::string::npos || file.extension() != ".sdf") return true;

@@ -72,7 +72,7 @@ recording::RecorderOptions Options(const RecordingChoice& choice) {
   return options;
 }
 
-constexpr double kLeastRate = 0.001, kMostRate = 10'000;
+constexpr double kMinRate = 0.001, kMaxRate = 10'000;
 
 // What is there and no folder is a file, or a device.
 bool NamesAFile(const std::string& path) {
@@ -85,12 +85,12 @@ bool NamesAFile(const std::string& path) {
 
 std::vector<std::string> ComplaintsAbout(const RecordingChoice& choice,
                                          const std::vector<std::string>& topics) {
-  constexpr std::size_t kMostListed = 24;
+  constexpr std::size_t kMaxListed = 24;
   std::vector<std::string> sentences;
-  for (const std::string& pattern : recording::PatternsWithout(topics, choice.topics)) {
+  for (const std::string& pattern : recording::UnmatchedPatterns(topics, choice.topics)) {
     // Whoever names a robot, or /gsv, means what is below.
-    const bool is_folder = recording::PatternsWithout(topics, {pattern + "/"}).empty();
-    const std::size_t listed = std::min(topics.size(), kMostListed);
+    const bool is_folder = recording::UnmatchedPatterns(topics, {pattern + "/"}).empty();
+    const std::size_t listed = std::min(topics.size(), kMaxListed);
     std::string there = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + listed, ", "));
     if (listed < topics.size()) there += fmt::format(" and {} more", topics.size() - listed);
     sentences.push_back(fmt::format(
@@ -115,7 +115,7 @@ base::Status SetRate(const std::string& text, RecordingChoice& choice) {
   double rate = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), rate);
   const bool is_number = error == std::errc() && end == number.data() + number.size();
-  if (kind == std::end(kinds) || !is_number || !(rate >= kLeastRate && rate <= kMostRate)) {
+  if (kind == std::end(kinds) || !is_number || !(rate >= kMinRate && rate <= kMaxRate)) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "expected poses=HZ, readings=HZ, pictures=HZ or beams=HZ, from 0.001 to "
                       "10000 of simulated time",

@@ -7,7 +7,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/rendering/cameras/camera_sensor.h"
-#include "gsv/rendering/cameras/survey_sensors.h"
+#include "gsv/rendering/cameras/ground_truth_sensors.h"
 #include "gsv/sensing/devices/built_in.h"
 #include "gsv/services/sensor_plugins.h"
 #include "gsv/simulation/robots/mounted_sensor.h"
@@ -31,7 +31,7 @@ base::Result<std::shared_ptr<const sensing::SensorRegistry>> MakeSensorTypes(
     const SensorTypeOptions& options, base::Result<std::shared_ptr<rendering::Renderer>> renderer) {
   auto types = std::make_shared<sensing::SensorRegistry>();
   sensing::AddBuiltInSensors(*types);
-  const auto surveys_added = rendering::AddSurveySensors(*types, renderer);
+  const auto surveys_added = rendering::AddGroundTruthSensors(*types, renderer);
   GSV_CHECK(surveys_added.has_value());
   sensing::SensorRegistry cameras;
   const auto cameras_added = rendering::AddCameraSensor(cameras, std::move(renderer));

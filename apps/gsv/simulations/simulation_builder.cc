@@ -19,7 +19,7 @@ using simulation::Simulation;
 namespace fs = std::filesystem;
 
 constexpr std::size_t kWorldsKept = 4;
-constexpr std::size_t kMostOffers = 200;
+constexpr std::size_t kMaxOffers = 200;
 
 // Each once, in order; the same in many places is told once.
 void AddSentences(const base::Problems& problems, std::vector<std::string>& sentences) {
@@ -87,7 +87,7 @@ base::Result<SimulationBuilder::Behaviours> SimulationBuilder::FindBehaviours(
     const std::string& constraint) {
   const broker::ServiceType& type = broker::AgentBehaviourFactoryType();
   if (auto ok = broker_.EnsureServiceType(type); !ok) return base::Fail(ok.error());
-  const auto offers = broker_.Query(type.name, constraint, "", kMostOffers);
+  const auto offers = broker_.Query(type.name, constraint, "", kMaxOffers);
   if (!offers) return base::Fail(offers.error());
   Behaviours found;
   found.broker = broker_.reference();

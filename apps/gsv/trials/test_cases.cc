@@ -18,7 +18,7 @@ base::Result<std::vector<std::string>> FilesOf(const std::string& name) {
   }
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(name, error)) {
-    if (scenario::NamesAScenario(entry.path().filename())) files.push_back(entry.path());
+    if (scenario::IsScenarioFileName(entry.path().filename())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   if (!files.empty()) return files;

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 using Seconds = std::chrono::duration<double>;
 using TestClock = std::chrono::steady_clock;
 
-constexpr auto kLookPeriod = std::chrono::milliseconds(100);
-constexpr double kSecondsAfter = 1;        // simulated, that a recording goes on behind the failure
-constexpr double kPatience = 30;           // wall seconds behind the child's own time-out
-constexpr std::size_t kMostErrors = 4000;  // characters of what the child complained of
+constexpr auto kPollPeriod = std::chrono::milliseconds(100);
+constexpr double kSecondsAfter = 1;  // simulated, that a recording goes on behind the failure
+constexpr double kPatience = 30;     // wall seconds behind the child's own time-out
+constexpr std::size_t kMaxErrorLength = 4000;  // characters of what the child complained of
 
 struct ChildOutcome {
   std::string ending;  // "exit code 0"; empty: it was cancelled
@@ -79,15 +79,15 @@ base::Result<ChildOutcome> RunChild(const TestCase& test, const TestOptions& opt
   const auto give_up = TestClock::now() + Seconds(options.timeout + kPatience);
   ChildOutcome outcome;
   while (outcome.ending.empty() && !is_cancelled && TestClock::now() < give_up) {
-    outcome.ending = (*child)->AwaitEnd(kLookPeriod);
+    outcome.ending = (*child)->AwaitEnd(kPollPeriod);
   }
   if (outcome.ending.empty() && !is_cancelled) {
     (*child)->Signal(SIGKILL);
     outcome.ending = "no end: it was killed";
   }
   outcome.errors = WholeText(folder / "stderr");
-  if (outcome.errors.size() > kMostErrors)
-    outcome.errors = "…" + outcome.errors.substr(outcome.errors.size() - kMostErrors);
+  if (outcome.errors.size() > kMaxErrorLength)
+    outcome.errors = "…" + outcome.errors.substr(outcome.errors.size() - kMaxErrorLength);
   outcome.report = LastLineOf(WholeText(folder / "stdout"));
   return outcome;
 }

@@ -15,7 +15,7 @@
 
 #include "gsv/broker/language/offer.h"
 #include "gsv/broker/language/property.h"
-#include "gsv/broker/offers/scan_turns.h"
+#include "gsv/broker/offers/scan_slots.h"
 
 namespace gsv::broker {
 
@@ -42,7 +42,7 @@ class DynamicValues {
   DynamicValues(DynamicEvaluator* evaluator, std::chrono::milliseconds budget);
 
   // Null, or whose turn is given up while a service is asked.
-  void set_turn(ScanTurn* turn) { turn_ = turn; }
+  void set_slot(ScanSlot* turn) { turn_ = turn; }
 
   // The property's value, asked for when it is dynamic. Null when there is none. The pointer holds
   // as long as this and the offer. It is found at once where offers that are asked for one after
@@ -61,7 +61,7 @@ class DynamicValues {
   const Value* FindStatic(const Offer& offer, std::string_view name);
 
   DynamicEvaluator* const evaluator_;
-  ScanTurn* turn_ = nullptr;
+  ScanSlot* turn_ = nullptr;
   const std::chrono::milliseconds budget_;
   std::optional<DynamicEvaluator::Clock::time_point> deadline_;  // from the first question on
   std::map<Key, std::optional<Value>> known_;

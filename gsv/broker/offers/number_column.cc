@@ -25,8 +25,8 @@ void NarrowBy(const Comparison& holds, const std::vector<double>& numbers,
 }  // namespace
 
 std::optional<double> ExactNumber(std::int64_t integer) {
-  constexpr std::int64_t kLargest = std::int64_t{1} << 53;
-  if (integer < -kLargest || integer > kLargest) return std::nullopt;
+  constexpr std::int64_t kMaxExactInteger = std::int64_t{1} << 53;
+  if (integer < -kMaxExactInteger || integer > kMaxExactInteger) return std::nullopt;
   return static_cast<double>(integer);
 }
 

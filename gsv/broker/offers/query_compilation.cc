@@ -20,8 +20,8 @@ DeclaredTypes TypesOf(const ServiceType& type) {
 
 }  // namespace
 
-Traded<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
-                                     const ExpressionLimits& limits) {
+TradingResult<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
+                                            const ExpressionLimits& limits) {
   const auto refuse = [&](const base::Error& error) {
     return Refuse(
         {.refusal = Refusal::kIllegalConstraint, .name = text, .detail = error.Sentence()});
@@ -33,8 +33,8 @@ Traded<Expression> CompileConstraint(const std::string& text, const ServiceType&
   return std::move(*constraint);
 }
 
-Traded<Preference> CompilePreference(const std::string& text, const ServiceType& type,
-                                     const ExpressionLimits& limits) {
+TradingResult<Preference> CompilePreference(const std::string& text, const ServiceType& type,
+                                            const ExpressionLimits& limits) {
   const auto refuse = [&](const base::Error& error) {
     return Refuse(
         {.refusal = Refusal::kIllegalPreference, .name = text, .detail = error.Sentence()});

@@ -12,9 +12,9 @@ namespace gsv::broker {
 
 // `type` is fully described.
 // Errors  kIllegalConstraint, kIllegalPreference.
-Traded<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
-                                     const ExpressionLimits& limits);
-Traded<Preference> CompilePreference(const std::string& text, const ServiceType& type,
-                                     const ExpressionLimits& limits);
+TradingResult<Expression> CompileConstraint(const std::string& text, const ServiceType& type,
+                                            const ExpressionLimits& limits);
+TradingResult<Preference> CompilePreference(const std::string& text, const ServiceType& type,
+                                            const ExpressionLimits& limits);
 
 }  // namespace gsv::broker

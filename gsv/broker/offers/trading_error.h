@@ -95,7 +95,7 @@ struct TradingError {
 };
 
 template <typename T>
-using Traded = tl::expected<T, TradingError>;
+using TradingResult = tl::expected<T, TradingError>;
 
 inline tl::unexpected<TradingError> Refuse(TradingError error) {
   return tl::unexpected<TradingError>(std::move(error));

@@ -10,7 +10,7 @@
 namespace gsv::broker {
 namespace {
 
-constexpr CORBA::ULong kLongestStem = 256;
+constexpr CORBA::ULong kMaxStemLength = 256;
 
 CosTrading::Admin::OctetSeq* ToCorba(const std::string& octets) {
   CosTrading::Admin::OctetSeq_var result = new CosTrading::Admin::OctetSeq;
@@ -51,7 +51,7 @@ CosTrading::Admin::OctetSeq* AdminServant::request_id_stem() {
 
 CosTrading::Admin::OctetSeq* AdminServant::set_request_id_stem(
     const CosTrading::Admin::OctetSeq& stem) {
-  if (stem.length() > kLongestStem) throw CORBA::IMP_LIMIT(0, CORBA::COMPLETED_NO);
+  if (stem.length() > kMaxStemLength) throw CORBA::IMP_LIMIT(0, CORBA::COMPLETED_NO);
   const std::string octets(reinterpret_cast<const char*>(stem.get_buffer()), stem.length());
   return ToCorba(Exchange(&TraderAttributes::request_id_stem, octets));
 }

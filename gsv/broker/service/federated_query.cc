@@ -83,8 +83,8 @@ void AddProxies(TradingObjects& objects, const FederatedQuery& query, std::uint3
 
 }  // namespace
 
-void AddAnswersOfOthers(TradingObjects& objects, const FederatedQuery& query,
-                        MatchingOffers& matches, DynamicValues& values) {
+void AddFederatedAnswers(TradingObjects& objects, const FederatedQuery& query,
+                         MatchingOffers& matches, DynamicValues& values) {
   const TraderAttributes attributes = objects.trader.attributes();
   const std::uint32_t hops = EffectiveHopCount(query.query.policies, attributes);
   Destinations destinations;

@@ -20,8 +20,8 @@ struct FederatedQuery {
 // them. A trader that does not answer counts as one whose link was not followed, or whose proxy
 // was not used: link_follow_rule or use_proxy_offers is among the names.
 // Threads  any; waits for other traders.
-void AddAnswersOfOthers(TradingObjects& objects, const FederatedQuery& query,
-                        MatchingOffers& matches, DynamicValues& values);
+void AddFederatedAnswers(TradingObjects& objects, const FederatedQuery& query,
+                         MatchingOffers& matches, DynamicValues& values);
 
 // The Lookup that the first name of the policy starting_trader leads to, with what the query to it
 // may take as its time-out.

@@ -133,7 +133,7 @@ void LookupServant::query(const char* type, const char* constr, const char* pref
   QueryResult result;
   if (objects_.requests.Remember(query.request_id)) {
     MatchingOffers matches = ValueOrRaise(objects_.trader.FindMatching(query.query, values));
-    AddAnswersOfOthers(objects_, query, matches, values);
+    AddFederatedAnswers(objects_, query, matches, values);
     result = objects_.trader.Rank(std::move(matches), values);
   }
 

@@ -25,7 +25,7 @@ bool ExtractBoolean(const CosTrading::Policy& policy) {
   return value;
 }
 
-constexpr CORBA::ULong kLongestRequestId = 1024;
+constexpr CORBA::ULong kMaxRequestIdLength = 1024;
 
 // Whether a type is FollowOption but for its repository identifier, which an ORB may leave out.
 bool IsAnonymousFollowOption(CORBA::TypeCode_ptr type) {
@@ -66,7 +66,7 @@ TraderName ExtractTraderName(const CosTrading::Policy& policy) {
 std::string ExtractRequestId(const CosTrading::Policy& policy) {
   const CosTrading::Admin::OctetSeq* id = nullptr;
   if (!(policy.value >>= id)) throw Lookup::PolicyTypeMismatch(policy);
-  if (id->length() > kLongestRequestId) throw Lookup::InvalidPolicyValue(policy);
+  if (id->length() > kMaxRequestIdLength) throw Lookup::InvalidPolicyValue(policy);
   return {reinterpret_cast<const char*>(id->get_buffer()), id->length()};
 }
 

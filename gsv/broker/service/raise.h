@@ -9,12 +9,12 @@ namespace gsv::broker {
 [[noreturn]] void Raise(const TradingError& error);
 
 template <typename T>
-T ValueOrRaise(Traded<T> traded) {
+T ValueOrRaise(TradingResult<T> traded) {
   if (!traded) Raise(traded.error());
   return std::move(*traded);
 }
 
-inline void ValueOrRaise(const Traded<void>& traded) {
+inline void ValueOrRaise(const TradingResult<void>& traded) {
   if (!traded) Raise(traded.error());
 }
 

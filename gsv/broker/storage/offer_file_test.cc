@@ -264,7 +264,7 @@ TEST_F(OfferFileTest, RefusesChangesThatItCannotKeepAndGoesOnAnswering) {
   Trader limited(TraderLimits{}, kOwnStem, 1);
   ASSERT_TRUE(limited.Restore(std::move(*state), std::move(*file)));
   testing::internal::CaptureStderr();
-  Traded<std::string> refused;
+  TradingResult<std::string> refused;
   for (int i = 0; i < 1000 && refused; ++i) {
     refused = limited.Export("Robot", std::string(5000, 'x'), {});
   }

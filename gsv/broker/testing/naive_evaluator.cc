@@ -32,9 +32,9 @@ struct Number {
 using Result = std::variant<bool, Number, std::string>;
 
 Number Whole(Integer value) {
-  constexpr Integer kMost = INT64_MAX;
-  constexpr Integer kLeast = INT64_MIN;
-  if (value > kMost || value < kLeast) return {false, 0, static_cast<double>(value)};
+  constexpr Integer kMaxInteger = INT64_MAX;
+  constexpr Integer kMinInteger = INT64_MIN;
+  if (value > kMaxInteger || value < kMinInteger) return {false, 0, static_cast<double>(value)};
   return {true, value, 0};
 }
 
@@ -290,9 +290,8 @@ class Reader {
     const std::string digits(start, static_cast<std::size_t>(end - start));
     at_ += digits.size();
     Skip();
-    constexpr std::size_t kMostDigits = 30;  // of what Integer can hold
-    if (digits.size() > kMostDigits ||
-        digits.find_first_not_of("0123456789") != std::string::npos) {
+    constexpr std::size_t kMaxDigits = 30;  // of what Integer can hold
+    if (digits.size() > kMaxDigits || digits.find_first_not_of("0123456789") != std::string::npos) {
       return {false, 0, real};
     }
     Integer whole = 0;

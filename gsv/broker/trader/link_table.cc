@@ -9,7 +9,7 @@
 namespace gsv::broker {
 namespace {
 
-Traded<void> CheckRules(FollowOption def_pass_on, FollowOption limiting, FollowOption most) {
+TradingResult<void> CheckRules(FollowOption def_pass_on, FollowOption limiting, FollowOption most) {
   if (def_pass_on > limiting) {
     return Refuse({.refusal = Refusal::kDefaultFollowTooPermissive,
                    .follow = FollowConflict{def_pass_on, limiting}});
@@ -23,7 +23,7 @@ Traded<void> CheckRules(FollowOption def_pass_on, FollowOption limiting, FollowO
 
 }  // namespace
 
-Traded<void> LinkTable::Add(TraderLink link, FollowOption most) {
+TradingResult<void> LinkTable::Add(TraderLink link, FollowOption most) {
   if (!IsIdentifier(link.name)) {
     return Refuse({.refusal = Refusal::kIllegalLinkName, .name = link.name});
   }
@@ -39,8 +39,8 @@ Traded<void> LinkTable::Add(TraderLink link, FollowOption most) {
   return {};
 }
 
-Traded<void> LinkTable::Modify(const std::string& name, FollowOption def_pass_on,
-                               FollowOption limiting, FollowOption most) {
+TradingResult<void> LinkTable::Modify(const std::string& name, FollowOption def_pass_on,
+                                      FollowOption limiting, FollowOption most) {
   if (auto known = CheckKnown(name); !known) return known;
   if (auto fits = CheckRules(def_pass_on, limiting, most); !fits) return fits;
   TraderLink& link = links_.at(name);
@@ -49,13 +49,13 @@ Traded<void> LinkTable::Modify(const std::string& name, FollowOption def_pass_on
   return {};
 }
 
-Traded<void> LinkTable::Remove(const std::string& name) {
+TradingResult<void> LinkTable::Remove(const std::string& name) {
   if (auto known = CheckKnown(name); !known) return known;
   links_.erase(name);
   return {};
 }
 
-Traded<TraderLink> LinkTable::Describe(const std::string& name) const {
+TradingResult<TraderLink> LinkTable::Describe(const std::string& name) const {
   if (auto known = CheckKnown(name); !known) return Refuse(known.error());
   return links_.at(name);
 }
@@ -71,7 +71,7 @@ void LinkTable::Restore(TraderLink link) {
   links_.insert_or_assign(std::move(name), std::move(link));
 }
 
-Traded<void> LinkTable::CheckKnown(const std::string& name) const {
+TradingResult<void> LinkTable::CheckKnown(const std::string& name) const {
   if (!IsIdentifier(name)) return Refuse({.refusal = Refusal::kIllegalLinkName, .name = name});
   if (!links_.contains(name)) return Refuse({.refusal = Refusal::kUnknownLinkName, .name = name});
   return {};

@@ -28,18 +28,18 @@ class LinkTable {
   explicit LinkTable(std::size_t limit) : limit_(limit) {}
 
   // `most` is the trader's max_link_follow_policy.
-  Traded<void> Add(TraderLink link, FollowOption most);
-  Traded<void> Modify(const std::string& name, FollowOption def_pass_on, FollowOption limiting,
-                      FollowOption most);
-  Traded<void> Remove(const std::string& name);
-  Traded<TraderLink> Describe(const std::string& name) const;
+  TradingResult<void> Add(TraderLink link, FollowOption most);
+  TradingResult<void> Modify(const std::string& name, FollowOption def_pass_on,
+                             FollowOption limiting, FollowOption most);
+  TradingResult<void> Remove(const std::string& name);
+  TradingResult<TraderLink> Describe(const std::string& name) const;
   // In the order of their names.
   std::vector<TraderLink> All() const;
   // Puts back a link that was taken once.
   void Restore(TraderLink link);
 
  private:
-  Traded<void> CheckKnown(const std::string& name) const;
+  TradingResult<void> CheckKnown(const std::string& name) const;
 
   const std::size_t limit_;
   std::map<std::string, TraderLink> links_;

@@ -26,7 +26,7 @@ LivenessMonitor::~LivenessMonitor() {
 void LivenessMonitor::Work() {
   while (true) {
     try {
-      AskThoseDue();
+      AskDueServices();
       return;
     } catch (const std::bad_alloc&) {
       // The address space is limited, and others may need it for a moment.
@@ -37,10 +37,10 @@ void LivenessMonitor::Work() {
   }
 }
 
-void LivenessMonitor::AskThoseDue() {
+void LivenessMonitor::AskDueServices() {
   base::MutexLock lock(mutex_);
   while (const auto service = Next(lock)) {
-    Pulse pulse = Pulse::kSilent;
+    Liveness pulse = Liveness::kSilent;
     if (!silent_addresses_.contains(service->address)) {
       lock.unlock();
       pulse = ask_(service->reference, options_.timeout);
@@ -93,10 +93,10 @@ void LivenessMonitor::StartRound() {
                 [&](const auto& silent) { return !services.contains(silent.first); });
 }
 
-bool LivenessMonitor::Judge(const Service& service, Pulse pulse) {
-  if (pulse != Pulse::kSilent) {
+bool LivenessMonitor::Judge(const Service& service, Liveness pulse) {
+  if (pulse != Liveness::kSilent) {
     silent_since_.erase(service.reference);
-    return pulse == Pulse::kGone;
+    return pulse == Liveness::kGone;
   }
   if (!service.address.empty()) silent_addresses_.insert(service.address);
   const auto now = Clock::now();
@@ -104,13 +104,13 @@ bool LivenessMonitor::Judge(const Service& service, Pulse pulse) {
   return now - since >= options_.patience;
 }
 
-void LivenessMonitor::Withdraw(const Service& service, Pulse pulse) {
+void LivenessMonitor::Withdraw(const Service& service, Liveness pulse) {
   const std::size_t count = trader_.WithdrawAll(service.offers);
   if (count == 0) return;
   std::fprintf(stderr, "broker: %zu offer%s of a service at %s withdrawn: it %s\n", count,
                count == 1 ? "" : "s",
                service.address.empty() ? "an unknown address" : service.address.c_str(),
-               pulse == Pulse::kGone ? "is gone" : "has not answered for too long");
+               pulse == Liveness::kGone ? "is gone" : "has not answered for too long");
 }
 
 }  // namespace gsv::broker

@@ -33,7 +33,7 @@ struct LivenessOptions {
   int concurrent = 4;                           // questions underway
 };
 
-enum class Pulse {
+enum class Liveness {
   kAlive,
   kGone,    // it said so, or nobody listens at its address
   kSilent,  // nothing came back in time
@@ -43,7 +43,8 @@ class LivenessMonitor {
  public:
   // Asks the service behind a stringified reference, for at most the time given. Called by
   // several threads at once.
-  using Ask = std::function<Pulse(const std::string& reference, std::chrono::milliseconds timeout)>;
+  using Ask =
+      std::function<Liveness(const std::string& reference, std::chrono::milliseconds timeout)>;
 
   LivenessMonitor(const LivenessOptions& options, Trader& trader, Ask ask);
   // Waits for the questions that are underway.
@@ -61,13 +62,13 @@ class LivenessMonitor {
   };
 
   void Work();
-  void AskThoseDue();
+  void AskDueServices();
   // The next service that is due, or null at the end. Waits for it.
   std::shared_ptr<const Service> Next(base::MutexLock& lock) GSV_REQUIRES(mutex_);
   void StartRound() GSV_REQUIRES(mutex_);
   // True when it is dead.
-  bool Judge(const Service& service, Pulse pulse) GSV_REQUIRES(mutex_);
-  void Withdraw(const Service& service, Pulse pulse);
+  bool Judge(const Service& service, Liveness pulse) GSV_REQUIRES(mutex_);
+  void Withdraw(const Service& service, Liveness pulse);
 
   const LivenessOptions options_;
   Trader& trader_;

@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 // Services that answer as they are told, and count what they are asked.
 class Services {
  public:
-  Pulse Ask(const std::string& reference) {
+  Liveness Ask(const std::string& reference) {
     std::unique_lock lock(mutex_);
     ++asked_[reference];
     most_underway_ = std::max(most_underway_, ++underway_);
@@ -22,9 +22,9 @@ class Services {
     changed_.wait(lock, [this] { return most_underway_ >= wait_for_; });
     --underway_;
     const auto found = pulses_.find(reference);
-    return found != pulses_.end() ? found->second : Pulse::kAlive;
+    return found != pulses_.end() ? found->second : Liveness::kAlive;
   }
-  void Tell(const std::string& reference, Pulse pulse) {
+  void Tell(const std::string& reference, Liveness pulse) {
     const std::lock_guard lock(mutex_);
     pulses_[reference] = pulse;
   }
@@ -47,7 +47,7 @@ class Services {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, int> asked_;
-  std::map<std::string, Pulse> pulses_;
+  std::map<std::string, Liveness> pulses_;
   int underway_ = 0;
   int most_underway_ = 0;
   int wait_for_ = 0;
@@ -96,7 +96,7 @@ TEST_F(LivenessMonitorTest, WithdrawsEveryOfferOfAServiceThatIsGone) {
   Start(hours(1));
   services_.AwaitAsked("IOR:02", 3);
   EXPECT_EQ(trader_.OfferIds().size(), 3u);
-  services_.Tell("IOR:02", Pulse::kGone);
+  services_.Tell("IOR:02", Liveness::kGone);
   AwaitOffers(1);
   EXPECT_EQ(trader_.OfferIds(), std::vector<std::string>{other});
   services_.AwaitAsked("IOR:01", 3);
@@ -104,7 +104,7 @@ TEST_F(LivenessMonitorTest, WithdrawsEveryOfferOfAServiceThatIsGone) {
 
 TEST_F(LivenessMonitorTest, SilenceIsDeathOnlyWhenItLasts) {
   ASSERT_TRUE(trader_.Export("Robot", "IOR:01", {}));
-  services_.Tell("IOR:01", Pulse::kSilent);
+  services_.Tell("IOR:01", Liveness::kSilent);
   Start(hours(1));
   services_.AwaitAsked("IOR:01", 20);
   EXPECT_EQ(trader_.OfferIds().size(), 1u);
@@ -120,9 +120,9 @@ TEST_F(LivenessMonitorTest, AsksASilentAddressOnceARound) {
   const std::string elsewhere = Reference(4322, 'a');
   for (const std::string& reference : {first, second, elsewhere}) {
     ASSERT_TRUE(trader_.Export("Robot", reference, {}));
-    services_.Tell(reference, Pulse::kSilent);
+    services_.Tell(reference, Liveness::kSilent);
   }
-  services_.Tell(elsewhere, Pulse::kAlive);
+  services_.Tell(elsewhere, Liveness::kAlive);
   monitor_.emplace(
       LivenessOptions{.period = milliseconds(1), .patience = hours(1), .concurrent = 1}, trader_,
       [this](const std::string& reference, milliseconds) { return services_.Ask(reference); });

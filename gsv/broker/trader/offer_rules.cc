@@ -17,7 +17,7 @@ const PropertyDefinition* FindDefinition(const ServiceType& type, std::string_vi
   return found != type.properties.end() ? &*found : nullptr;
 }
 
-Traded<void> CheckNames(const std::vector<std::string_view>& names) {
+TradingResult<void> CheckNames(const std::vector<std::string_view>& names) {
   std::set<std::string_view> seen;
   for (const std::string_view name : names) {
     if (!IsIdentifier(name) || IsReservedWord(name)) {
@@ -31,7 +31,8 @@ Traded<void> CheckNames(const std::vector<std::string_view>& names) {
 }
 
 // A property that the type does not declare may have any value.
-Traded<void> CheckValue(const ServiceType& type, const Property& property, bool dynamic_allowed) {
+TradingResult<void> CheckValue(const ServiceType& type, const Property& property,
+                               bool dynamic_allowed) {
   const PropertyDefinition* definition = FindDefinition(type, property.name);
   const bool dynamic = IsDynamic(property.value);
   if (dynamic && definition != nullptr && IsReadonly(definition->mode)) {
@@ -48,8 +49,8 @@ Traded<void> CheckValue(const ServiceType& type, const Property& property, bool 
       {.refusal = Refusal::kPropertyTypeMismatch, .type = type.name, .property = property});
 }
 
-Traded<void> CheckRemoval(const ServiceType& type, const PropertyList& current,
-                          const std::string& name) {
+TradingResult<void> CheckRemoval(const ServiceType& type, const PropertyList& current,
+                                 const std::string& name) {
   if (current.Find(name) == nullptr) {
     return Refuse({.refusal = Refusal::kUnknownPropertyName, .name = name});
   }
@@ -61,8 +62,8 @@ Traded<void> CheckRemoval(const ServiceType& type, const PropertyList& current,
 }
 
 // A read-only property that the offer does not have yet may be given.
-Traded<void> CheckChange(const ServiceType& type, const PropertyList& current,
-                         const Property& property, bool dynamic_allowed) {
+TradingResult<void> CheckChange(const ServiceType& type, const PropertyList& current,
+                                const Property& property, bool dynamic_allowed) {
   const PropertyDefinition* definition = FindDefinition(type, property.name);
   if (definition != nullptr && IsReadonly(definition->mode) &&
       current.Find(property.name) != nullptr) {
@@ -74,8 +75,8 @@ Traded<void> CheckChange(const ServiceType& type, const PropertyList& current,
 
 }  // namespace
 
-Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
-                                 bool dynamic_allowed) {
+TradingResult<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
+                                        bool dynamic_allowed) {
   std::vector<std::string_view> names;
   names.reserve(properties.size());
   for (const Property& property : properties) names.emplace_back(property.name);
@@ -95,8 +96,8 @@ Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> 
   return list;
 }
 
-Traded<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
-                                       Modification modification, bool dynamic_allowed) {
+TradingResult<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
+                                              Modification modification, bool dynamic_allowed) {
   std::vector<std::string_view> names(modification.remove.begin(), modification.remove.end());
   for (const Property& property : modification.set) names.emplace_back(property.name);
   if (auto checked = CheckNames(names); !checked) return Refuse(checked.error());

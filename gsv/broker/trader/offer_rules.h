@@ -14,11 +14,11 @@ namespace gsv::broker {
 
 // `type` is fully described; with `dynamic_allowed`, properties may be dynamic. The properties in
 // the order of their names.
-Traded<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
-                                 bool dynamic_allowed);
+TradingResult<PropertyList> CheckExport(const ServiceType& type, std::vector<Property> properties,
+                                        bool dynamic_allowed);
 
 // The properties that `current` becomes. All of the modification is done, or nothing.
-Traded<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
-                                       Modification modification, bool dynamic_allowed);
+TradingResult<PropertyList> CheckModification(const ServiceType& type, PropertyList current,
+                                              Modification modification, bool dynamic_allowed);
 
 }  // namespace gsv::broker

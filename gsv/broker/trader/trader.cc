@@ -53,8 +53,8 @@ TraderAttributes Trader::attributes() const {
   return attributes_;
 }
 
-Traded<void> Trader::ChangeAttributes(const std::function<void(TraderAttributes&)>& change) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::ChangeAttributes(const std::function<void(TraderAttributes&)>& change) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     change(attributes_);
     Record(AttributesStored{attributes_});
     return {};
@@ -66,8 +66,8 @@ std::uint64_t Trader::NextIncarnation() const {
   return types_.next_incarnation();
 }
 
-Traded<std::uint64_t> Trader::AddType(ServiceType type) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::uint64_t> {
+TradingResult<std::uint64_t> Trader::AddType(ServiceType type) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<std::uint64_t> {
     const std::string name = type.name;
     auto incarnation = types_.Add(std::move(type));
     if (incarnation) RecordType(name);
@@ -75,8 +75,8 @@ Traded<std::uint64_t> Trader::AddType(ServiceType type) {
   });
 }
 
-Traded<void> Trader::RemoveType(const std::string& name) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::RemoveType(const std::string& name) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     auto removed = types_.Remove(name);
     if (removed) Record(TypeRemoved{name});
     return removed;
@@ -88,33 +88,33 @@ std::vector<std::string> Trader::ListTypes(std::optional<std::uint64_t> since) c
   return types_.List(since);
 }
 
-Traded<ServiceType> Trader::DescribeType(const std::string& name) const {
+TradingResult<ServiceType> Trader::DescribeType(const std::string& name) const {
   const base::ReaderLock lock(mutex_);
   return types_.Describe(name);
 }
 
-Traded<ServiceType> Trader::FullyDescribeType(const std::string& name) const {
+TradingResult<ServiceType> Trader::FullyDescribeType(const std::string& name) const {
   const base::ReaderLock lock(mutex_);
   return types_.FullyDescribe(name);
 }
 
-Traded<void> Trader::MaskType(const std::string& name) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::MaskType(const std::string& name) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     auto changed = types_.Mask(name);
     if (changed) RecordType(name);
     return changed;
   });
 }
 
-Traded<void> Trader::UnmaskType(const std::string& name) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::UnmaskType(const std::string& name) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     auto changed = types_.Unmask(name);
     if (changed) RecordType(name);
     return changed;
   });
 }
 
-Traded<ServiceType> Trader::TypeForExport(const std::string& type) const {
+TradingResult<ServiceType> Trader::TypeForExport(const std::string& type) const {
   auto described = FullyDescribeType(type);
   if (described && described->masked) {
     return Refuse({.refusal = Refusal::kUnknownServiceType, .type = type});
@@ -122,24 +122,24 @@ Traded<ServiceType> Trader::TypeForExport(const std::string& type) const {
   return described;
 }
 
-Traded<std::string> Trader::Export(const std::string& type, std::string reference,
-                                   std::vector<Property> properties) {
+TradingResult<std::string> Trader::Export(const std::string& type, std::string reference,
+                                          std::vector<Property> properties) {
   const auto described = TypeForExport(type);
   if (!described) return Refuse(described.error());
   return Export(*described, std::move(reference), std::move(properties));
 }
 
-Traded<std::string> Trader::Export(const ServiceType& type, std::string reference,
-                                   std::vector<Property> properties) {
+TradingResult<std::string> Trader::Export(const ServiceType& type, std::string reference,
+                                          std::vector<Property> properties) {
   auto checked = CheckExport(type, std::move(properties), attributes().supports_dynamic_properties);
   if (!checked) return Refuse(checked.error());
   return Store(
       {.type = type.name, .reference = std::move(reference), .properties = std::move(*checked)});
 }
 
-Traded<std::string> Trader::Store(Offer offer) {
+TradingResult<std::string> Trader::Store(Offer offer) {
   if (auto fits = CheckSize(offer.properties, offer.reference); !fits) return Refuse(fits.error());
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::string> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<std::string> {
     if (offers_.size() >= limits_.offers) {
       return Refuse({.refusal = Refusal::kLimit,
                      .detail = fmt::format("there are {} offers already", limits_.offers)});
@@ -150,8 +150,8 @@ Traded<std::string> Trader::Store(Offer offer) {
   });
 }
 
-Traded<void> Trader::Withdraw(const std::string& id) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::Withdraw(const std::string& id) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     const auto offer = FindOffer(id);
     if (!offer) return Refuse(offer.error());
     Remove({(*offer)->number});
@@ -164,13 +164,13 @@ void Trader::Remove(std::vector<std::uint64_t> numbers) {
   Record(OffersRemoved{std::move(numbers)});
 }
 
-Traded<OfferPtr> Trader::Describe(const std::string& id) const {
+TradingResult<OfferPtr> Trader::Describe(const std::string& id) const {
   const base::ReaderLock lock(mutex_);
   return FindOffer(id);
 }
 
-Traded<void> Trader::Modify(const std::string& id, Modification modification) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::Modify(const std::string& id, Modification modification) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     if (!attributes_.supports_modifiable_properties) {
       return Refuse({.refusal = Refusal::kNotImplemented});
     }
@@ -194,7 +194,7 @@ Traded<void> Trader::Modify(const std::string& id, Modification modification) {
 }
 
 std::size_t Trader::WithdrawAll(const std::vector<std::uint64_t>& numbers) {
-  const auto count = Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::size_t> {
+  const auto count = Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<std::size_t> {
     OffersRemoved removed;
     for (const std::uint64_t number : numbers) {
       if (offers_.Remove(number)) removed.numbers.push_back(number);
@@ -222,7 +222,7 @@ Offers Trader::AllOffers() const {
   return all;
 }
 
-Traded<std::uint64_t> Trader::NumberOf(const std::string& id) const {
+TradingResult<std::uint64_t> Trader::NumberOf(const std::string& id) const {
   std::uint32_t stem = 0;
   std::uint64_t number = 0;
   const std::string_view text = id;
@@ -238,7 +238,7 @@ std::string Trader::IdOf(std::uint64_t number) const {
   return fmt::format("{:08x}-{:016x}", stem_, number);
 }
 
-Traded<OfferPtr> Trader::FindOffer(const std::string& id) const {
+TradingResult<OfferPtr> Trader::FindOffer(const std::string& id) const {
   auto offer = FindAny(id);
   if (offer && (*offer)->proxy != nullptr) {
     return Refuse({.refusal = Refusal::kProxyOfferId, .name = id});
@@ -246,7 +246,7 @@ Traded<OfferPtr> Trader::FindOffer(const std::string& id) const {
   return offer;
 }
 
-Traded<OfferPtr> Trader::FindAny(const std::string& id) const {
+TradingResult<OfferPtr> Trader::FindAny(const std::string& id) const {
   const auto number = NumberOf(id);
   if (!number) return Refuse(number.error());
   OfferPtr offer = offers_.Find(*number);
@@ -254,7 +254,8 @@ Traded<OfferPtr> Trader::FindAny(const std::string& id) const {
   return offer;
 }
 
-Traded<void> Trader::CheckSize(const PropertyList& properties, const std::string& reference) const {
+TradingResult<void> Trader::CheckSize(const PropertyList& properties,
+                                      const std::string& reference) const {
   if (properties.size() > limits_.properties_per_offer) {
     return Refuse({.refusal = Refusal::kLimit,
                    .detail = fmt::format("an offer has more than {} properties",

@@ -23,7 +23,7 @@
 #include "gsv/broker/offers/dynamic_values.h"
 #include "gsv/broker/offers/import_policies.h"
 #include "gsv/broker/offers/offer_store.h"
-#include "gsv/broker/offers/scan_turns.h"
+#include "gsv/broker/offers/scan_slots.h"
 #include "gsv/broker/offers/trading_error.h"
 #include "gsv/broker/trader/journal.h"
 #include "gsv/broker/trader/link_table.h"
@@ -75,33 +75,34 @@ class Trader {
   const TraderLimits& limits() const { return limits_; }
   TraderAttributes attributes() const;
   // `change` is called once, under the lock.
-  Traded<void> ChangeAttributes(const std::function<void(TraderAttributes&)>& change);
+  TradingResult<void> ChangeAttributes(const std::function<void(TraderAttributes&)>& change);
 
   // ---- Service types, see TypeRepository
   std::uint64_t NextIncarnation() const;
-  Traded<std::uint64_t> AddType(ServiceType type);
-  Traded<void> RemoveType(const std::string& name);
+  TradingResult<std::uint64_t> AddType(ServiceType type);
+  TradingResult<void> RemoveType(const std::string& name);
   std::vector<std::string> ListTypes(std::optional<std::uint64_t> since) const;
-  Traded<ServiceType> DescribeType(const std::string& name) const;
-  Traded<ServiceType> FullyDescribeType(const std::string& name) const;
-  Traded<void> MaskType(const std::string& name);
-  Traded<void> UnmaskType(const std::string& name);
+  TradingResult<ServiceType> DescribeType(const std::string& name) const;
+  TradingResult<ServiceType> FullyDescribeType(const std::string& name) const;
+  TradingResult<void> MaskType(const std::string& name);
+  TradingResult<void> UnmaskType(const std::string& name);
 
   // ---- Offers
   // The type that an offer may be exported for: known and not masked.
-  Traded<ServiceType> TypeForExport(const std::string& type) const;
+  TradingResult<ServiceType> TypeForExport(const std::string& type) const;
   // `reference` is not looked at. Returns the offer's id.
-  Traded<std::string> Export(const std::string& type, std::string reference,
-                             std::vector<Property> properties);
+  TradingResult<std::string> Export(const std::string& type, std::string reference,
+                                    std::vector<Property> properties);
   // `type` is as TypeForExport() has just described it.
-  Traded<std::string> Export(const ServiceType& type, std::string reference,
-                             std::vector<Property> properties);
-  Traded<void> Withdraw(const std::string& id);
-  Traded<OfferPtr> Describe(const std::string& id) const;
-  Traded<void> Modify(const std::string& id, Modification modification);
+  TradingResult<std::string> Export(const ServiceType& type, std::string reference,
+                                    std::vector<Property> properties);
+  TradingResult<void> Withdraw(const std::string& id);
+  TradingResult<OfferPtr> Describe(const std::string& id) const;
+  TradingResult<void> Modify(const std::string& id, Modification modification);
   // Withdraws the offers that a query without policies would find; returns how many.
-  Traded<std::size_t> WithdrawMatching(const std::string& type, const std::string& constraint,
-                                       DynamicEvaluator* evaluator = nullptr);
+  TradingResult<std::size_t> WithdrawMatching(const std::string& type,
+                                              const std::string& constraint,
+                                              DynamicEvaluator* evaluator = nullptr);
   // Withdraws those of the offers that are still there; returns how many.
   std::size_t WithdrawAll(const std::vector<std::uint64_t>& numbers);
   // In the order of export; without proxies.
@@ -111,18 +112,19 @@ class Trader {
 
   // ---- Proxy offers: what is said of offers above does not see them
   // `target`, another trader's Lookup, is not looked at. Returns the proxy's id.
-  Traded<std::string> ExportProxy(const std::string& type, std::string target,
-                                  std::vector<Property> properties, ProxyPart part);
-  Traded<void> WithdrawProxy(const std::string& id);
-  Traded<OfferPtr> DescribeProxy(const std::string& id) const;
+  TradingResult<std::string> ExportProxy(const std::string& type, std::string target,
+                                         std::vector<Property> properties, ProxyPart part);
+  TradingResult<void> WithdrawProxy(const std::string& id);
+  TradingResult<OfferPtr> DescribeProxy(const std::string& id) const;
   // In the order of export.
   std::vector<std::string> ProxyIds() const;
 
   // ---- Links, see LinkTable
-  Traded<void> AddLink(TraderLink link);
-  Traded<void> RemoveLink(const std::string& name);
-  Traded<TraderLink> DescribeLink(const std::string& name) const;
-  Traded<void> ModifyLink(const std::string& name, FollowOption def_pass_on, FollowOption limiting);
+  TradingResult<void> AddLink(TraderLink link);
+  TradingResult<void> RemoveLink(const std::string& name);
+  TradingResult<TraderLink> DescribeLink(const std::string& name) const;
+  TradingResult<void> ModifyLink(const std::string& name, FollowOption def_pass_on,
+                                 FollowOption limiting);
   // In the order of their names.
   std::vector<TraderLink> links() const;
 
@@ -133,11 +135,11 @@ class Trader {
 
   // ---- Queries
   // Those of this trader alone. Find() is both steps; other traders' offers may be added between.
-  Traded<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
+  TradingResult<MatchingOffers> FindMatching(const Query& query, DynamicValues& values) const;
   QueryResult Rank(MatchingOffers matches, DynamicValues& values) const;
-  Traded<QueryResult> Find(const Query& query, DynamicValues& values) const;
+  TradingResult<QueryResult> Find(const Query& query, DynamicValues& values) const;
   // Without dynamic properties.
-  Traded<QueryResult> Find(const Query& query) const;
+  TradingResult<QueryResult> Find(const Query& query) const;
 
  private:
   // Calls `apply` under the lock; returns when what it recorded is durable. kNotStored when it
@@ -155,22 +157,22 @@ class Trader {
   Candidates SelectCandidates(const Query& query, const std::vector<EqualityTerm>& terms) const;
   void MakeIndex(const std::vector<std::string>& types,
                  const std::vector<EqualityTerm>& terms) const;
-  Traded<std::uint64_t> NumberOf(const std::string& id) const;
+  TradingResult<std::uint64_t> NumberOf(const std::string& id) const;
   std::string IdOf(std::uint64_t number) const;
   // An offer or a proxy.
-  Traded<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
-  Traded<OfferPtr> FindOffer(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
-  Traded<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
+  TradingResult<OfferPtr> FindAny(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
+  TradingResult<OfferPtr> FindOffer(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
+  TradingResult<OfferPtr> FindProxy(const std::string& id) const GSV_REQUIRES_SHARED(mutex_);
   // Checks the size, and gives the offer its number.
-  Traded<std::string> Store(Offer offer);
+  TradingResult<std::string> Store(Offer offer);
   void Remove(std::vector<std::uint64_t> numbers) GSV_REQUIRES(mutex_);
-  Traded<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
+  TradingResult<void> CheckSize(const PropertyList& properties, const std::string& reference) const;
 
   const TraderLimits limits_;
   std::uint32_t stem_;
   std::unique_ptr<Journal> journal_;  // null: everything is in memory
   mutable std::atomic<std::uint64_t> seed_;
-  mutable ScanTurns scan_turns_{ScanTurns::ForThisMachine()};
+  mutable ScanSlots scan_slots_{ScanSlots::ForThisMachine()};
   mutable base::SharedMutex mutex_;
   TraderAttributes attributes_ GSV_GUARDED_BY(mutex_);
   TypeRepository types_ GSV_GUARDED_BY(mutex_);

@@ -4,32 +4,32 @@
 
 namespace gsv::broker {
 
-Traded<void> Trader::AddLink(TraderLink link) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::AddLink(TraderLink link) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     auto added = links_.Add(link, attributes_.max_link_follow_policy);
     if (added) Record(LinkStored{link});
     return added;
   });
 }
 
-Traded<void> Trader::RemoveLink(const std::string& name) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::RemoveLink(const std::string& name) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     auto removed = links_.Remove(name);
     if (removed) Record(LinkRemoved{name});
     return removed;
   });
 }
 
-Traded<void> Trader::ModifyLink(const std::string& name, FollowOption def_pass_on,
-                                FollowOption limiting) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::ModifyLink(const std::string& name, FollowOption def_pass_on,
+                                       FollowOption limiting) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     auto modified = links_.Modify(name, def_pass_on, limiting, attributes_.max_link_follow_policy);
     if (modified) Record(LinkStored{*links_.Describe(name)});
     return modified;
   });
 }
 
-Traded<TraderLink> Trader::DescribeLink(const std::string& name) const {
+TradingResult<TraderLink> Trader::DescribeLink(const std::string& name) const {
   const base::ReaderLock lock(mutex_);
   return links_.Describe(name);
 }

@@ -8,8 +8,8 @@
 
 namespace gsv::broker {
 
-Traded<std::string> Trader::ExportProxy(const std::string& type, std::string target,
-                                        std::vector<Property> properties, ProxyPart part) {
+TradingResult<std::string> Trader::ExportProxy(const std::string& type, std::string target,
+                                               std::vector<Property> properties, ProxyPart part) {
   const auto described = TypeForExport(type);
   if (!described) return Refuse(described.error());
   auto checked =
@@ -31,8 +31,8 @@ Traded<std::string> Trader::ExportProxy(const std::string& type, std::string tar
                 .proxy = std::make_shared<const ProxyPart>(std::move(part))});
 }
 
-Traded<void> Trader::WithdrawProxy(const std::string& id) {
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<void> {
+TradingResult<void> Trader::WithdrawProxy(const std::string& id) {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<void> {
     const auto proxy = FindProxy(id);
     if (!proxy) return Refuse(proxy.error());
     Remove({(*proxy)->number});
@@ -40,7 +40,7 @@ Traded<void> Trader::WithdrawProxy(const std::string& id) {
   });
 }
 
-Traded<OfferPtr> Trader::DescribeProxy(const std::string& id) const {
+TradingResult<OfferPtr> Trader::DescribeProxy(const std::string& id) const {
   const base::ReaderLock lock(mutex_);
   return FindProxy(id);
 }
@@ -54,7 +54,7 @@ std::vector<std::string> Trader::ProxyIds() const {
   return ids;
 }
 
-Traded<OfferPtr> Trader::FindProxy(const std::string& id) const {
+TradingResult<OfferPtr> Trader::FindProxy(const std::string& id) const {
   auto offer = FindAny(id);
   if (offer && (*offer)->proxy == nullptr) {
     return Refuse({.refusal = Refusal::kNotProxyOfferId, .name = id});

@@ -124,18 +124,19 @@ class Trader::Search {
   std::size_t left_;
 };
 
-Traded<QueryResult> Trader::Find(const Query& query) const {
+TradingResult<QueryResult> Trader::Find(const Query& query) const {
   DynamicValues none(nullptr, {});
   return Find(query, none);
 }
 
-Traded<QueryResult> Trader::Find(const Query& query, DynamicValues& values) const {
+TradingResult<QueryResult> Trader::Find(const Query& query, DynamicValues& values) const {
   auto matches = FindMatching(query, values);
   if (!matches) return Refuse(matches.error());
   return Rank(std::move(*matches), values);
 }
 
-Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& values) const {
+TradingResult<MatchingOffers> Trader::FindMatching(const Query& query,
+                                                   DynamicValues& values) const {
   const auto type = FullyDescribeType(query.type);
   if (!type) return Refuse(type.error());
   const auto constraint = CompileConstraint(query.constraint, *type, limits_.expression);
@@ -147,10 +148,10 @@ Traded<MatchingOffers> Trader::FindMatching(const Query& query, DynamicValues& v
   MatchingOffers matches{.preference = std::move(*preference),
                          .cardinalities = candidates.cardinalities,
                          .limits_applied = std::move(candidates.limits_applied)};
-  ScanTurn turn(candidates.Steps(*constraint) > kWorthATurn ? &scan_turns_ : nullptr);
-  values.set_turn(&turn);
+  ScanSlot turn(candidates.Steps(*constraint) > kWorthATurn ? &scan_slots_ : nullptr);
+  values.set_slot(&turn);
   Search(candidates, *constraint, values, matches).Run();
-  values.set_turn(nullptr);
+  values.set_slot(nullptr);
   return matches;
 }
 
@@ -213,8 +214,9 @@ void Trader::MakeIndex(const std::vector<std::string>& types,
   offers_.Index(types, terms);
 }
 
-Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std::string& constraint,
-                                             DynamicEvaluator* evaluator) {
+TradingResult<std::size_t> Trader::WithdrawMatching(const std::string& type,
+                                                    const std::string& constraint,
+                                                    DynamicEvaluator* evaluator) {
   const auto described = FullyDescribeType(type);
   if (!described) return Refuse(described.error());
   const auto compiled = CompileConstraint(constraint, *described, limits_.expression);
@@ -236,7 +238,7 @@ Traded<std::size_t> Trader::WithdrawMatching(const std::string& type, const std:
     }
   }
 
-  return Change([&]() GSV_REQUIRES(mutex_) -> Traded<std::size_t> {
+  return Change([&]() GSV_REQUIRES(mutex_) -> TradingResult<std::size_t> {
     OffersRemoved removed;
     for (const OfferPtr& offer : matching) {
       // One that was modified meanwhile may not match any more.

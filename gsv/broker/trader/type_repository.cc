@@ -73,7 +73,7 @@ base::Status TypeRepository::Restore(std::vector<ServiceType> types,
   return {};
 }
 
-Traded<std::uint64_t> TypeRepository::Add(ServiceType type) {
+TradingResult<std::uint64_t> TypeRepository::Add(ServiceType type) {
   if (auto checked = CheckNew(type); !checked) return Refuse(checked.error());
   type.masked = false;
   type.incarnation = next_incarnation_++;
@@ -82,7 +82,7 @@ Traded<std::uint64_t> TypeRepository::Add(ServiceType type) {
   return incarnation;
 }
 
-Traded<void> TypeRepository::CheckNew(const ServiceType& type) const {
+TradingResult<void> TypeRepository::CheckNew(const ServiceType& type) const {
   if (!IsServiceTypeName(type.name)) {
     return Refuse({.refusal = Refusal::kIllegalServiceType, .type = type.name});
   }
@@ -111,7 +111,7 @@ Traded<void> TypeRepository::CheckNew(const ServiceType& type) const {
   return {};
 }
 
-Traded<void> TypeRepository::CheckSuperTypes(const ServiceType& type) const {
+TradingResult<void> TypeRepository::CheckSuperTypes(const ServiceType& type) const {
   for (const std::string& name : type.super_types) {
     const auto super_type = Find(name);
     if (!super_type) return Refuse(super_type.error());
@@ -131,7 +131,7 @@ Traded<void> TypeRepository::CheckSuperTypes(const ServiceType& type) const {
   return {};
 }
 
-Traded<void> TypeRepository::CheckInheritedProperties(const ServiceType& type) const {
+TradingResult<void> TypeRepository::CheckInheritedProperties(const ServiceType& type) const {
   struct Inherited {
     const PropertyDefinition* definition;
     const ServiceType* from;
@@ -162,7 +162,7 @@ Traded<void> TypeRepository::CheckInheritedProperties(const ServiceType& type) c
   return {};
 }
 
-Traded<void> TypeRepository::Remove(const std::string& name) {
+TradingResult<void> TypeRepository::Remove(const std::string& name) {
   if (const auto found = Find(name); !found) return Refuse(found.error());
   for (const auto& [other, type] : types_) {
     if (std::find(type.super_types.begin(), type.super_types.end(), name) !=
@@ -182,11 +182,11 @@ std::vector<std::string> TypeRepository::List(std::optional<std::uint64_t> since
   return names;
 }
 
-Traded<ServiceType> TypeRepository::Describe(const std::string& name) const {
+TradingResult<ServiceType> TypeRepository::Describe(const std::string& name) const {
   return Find(name).map([](const ServiceType* type) { return *type; });
 }
 
-Traded<ServiceType> TypeRepository::FullyDescribe(const std::string& name) const {
+TradingResult<ServiceType> TypeRepository::FullyDescribe(const std::string& name) const {
   auto described = Describe(name);
   if (!described) return described;
   const std::vector<const ServiceType*> ancestors = Ancestors(*described);
@@ -208,7 +208,7 @@ Traded<ServiceType> TypeRepository::FullyDescribe(const std::string& name) const
   return described;
 }
 
-Traded<void> TypeRepository::Mask(const std::string& name) {
+TradingResult<void> TypeRepository::Mask(const std::string& name) {
   if (const auto found = Find(name); !found) return Refuse(found.error());
   ServiceType& type = types_.at(name);
   if (type.masked) return Refuse({.refusal = Refusal::kAlreadyMasked, .type = name});
@@ -216,7 +216,7 @@ Traded<void> TypeRepository::Mask(const std::string& name) {
   return {};
 }
 
-Traded<void> TypeRepository::Unmask(const std::string& name) {
+TradingResult<void> TypeRepository::Unmask(const std::string& name) {
   if (const auto found = Find(name); !found) return Refuse(found.error());
   ServiceType& type = types_.at(name);
   if (!type.masked) return Refuse({.refusal = Refusal::kNotMasked, .type = name});
@@ -224,7 +224,8 @@ Traded<void> TypeRepository::Unmask(const std::string& name) {
   return {};
 }
 
-Traded<std::vector<std::string>> TypeRepository::WithSubTypes(const std::string& name) const {
+TradingResult<std::vector<std::string>> TypeRepository::WithSubTypes(
+    const std::string& name) const {
   if (const auto found = Find(name); !found) return Refuse(found.error());
   std::vector<std::string> names;
   for (const auto& [other, type] : types_) {
@@ -233,7 +234,7 @@ Traded<std::vector<std::string>> TypeRepository::WithSubTypes(const std::string&
   return names;
 }
 
-Traded<const ServiceType*> TypeRepository::Find(const std::string& name) const {
+TradingResult<const ServiceType*> TypeRepository::Find(const std::string& name) const {
   if (!IsServiceTypeName(name)) {
     return Refuse({.refusal = Refusal::kIllegalServiceType, .type = name});
   }

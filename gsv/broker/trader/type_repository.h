@@ -33,25 +33,25 @@ class TypeRepository {
 
   // `type` says name, interface, properties and super types; the rest is ignored. Returns its
   // incarnation.
-  Traded<std::uint64_t> Add(ServiceType type);
-  Traded<void> Remove(const std::string& name);
+  TradingResult<std::uint64_t> Add(ServiceType type);
+  TradingResult<void> Remove(const std::string& name);
   // The names of all types, or of those with an incarnation not below `since`, sorted.
   std::vector<std::string> List(std::optional<std::uint64_t> since) const;
   // As it was added.
-  Traded<ServiceType> Describe(const std::string& name) const;
+  TradingResult<ServiceType> Describe(const std::string& name) const;
   // With every inherited property and all its super types, direct or not.
-  Traded<ServiceType> FullyDescribe(const std::string& name) const;
-  Traded<void> Mask(const std::string& name);
-  Traded<void> Unmask(const std::string& name);
+  TradingResult<ServiceType> FullyDescribe(const std::string& name) const;
+  TradingResult<void> Mask(const std::string& name);
+  TradingResult<void> Unmask(const std::string& name);
 
   // `name` and every type that derives from it, sorted.
-  Traded<std::vector<std::string>> WithSubTypes(const std::string& name) const;
+  TradingResult<std::vector<std::string>> WithSubTypes(const std::string& name) const;
 
  private:
-  Traded<const ServiceType*> Find(const std::string& name) const;
-  Traded<void> CheckNew(const ServiceType& type) const;
-  Traded<void> CheckSuperTypes(const ServiceType& type) const;
-  Traded<void> CheckInheritedProperties(const ServiceType& type) const;
+  TradingResult<const ServiceType*> Find(const std::string& name) const;
+  TradingResult<void> CheckNew(const ServiceType& type) const;
+  TradingResult<void> CheckSuperTypes(const ServiceType& type) const;
+  TradingResult<void> CheckInheritedProperties(const ServiceType& type) const;
   // Every super type of `type`, nearest first, each once.
   std::vector<const ServiceType*> Ancestors(const ServiceType& type) const;
   bool DerivesFrom(const ServiceType& type, const std::string& ancestor) const;

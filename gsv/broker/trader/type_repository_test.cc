@@ -16,9 +16,10 @@ PropertyDefinition Define(std::string name, Scalar scalar, PropertyMode mode) {
 
 class TypeRepositoryTest : public testing::Test {
  protected:
-  Traded<std::uint64_t> Add(std::string name, std::vector<PropertyDefinition> properties = {},
-                            std::vector<std::string> super_types = {},
-                            std::string interface_name = "") {
+  TradingResult<std::uint64_t> Add(std::string name,
+                                   std::vector<PropertyDefinition> properties = {},
+                                   std::vector<std::string> super_types = {},
+                                   std::string interface_name = "") {
     return repository_.Add({.name = std::move(name),
                             .interface_name = std::move(interface_name),
                             .properties = std::move(properties),

@@ -112,10 +112,11 @@ TEST_F(HostileInputTest, TakesConstraintsUpToTheirLimits) {
 }
 
 TEST_F(HostileInputTest, TakesAsManyPropertiesAsItMay) {
-  constexpr int kMost = 128;
+  constexpr int kMaxInteger = 128;
   std::vector<Property> properties;
-  properties.reserve(kMost + 1);
-  for (int i = 0; i < kMost; ++i) properties.push_back({"p" + std::to_string(i), Value::Long(i)});
+  properties.reserve(kMaxInteger + 1);
+  for (int i = 0; i < kMaxInteger; ++i)
+    properties.push_back({"p" + std::to_string(i), Value::Long(i)});
   EXPECT_NO_THROW(Export("Robot", properties));
   properties.push_back({"one_more", Value::Long(1)});
   Raised<CORBA::IMP_LIMIT>([&] { Export("Robot", properties); });
@@ -204,7 +205,7 @@ class ScarceMemoryTest : public HostileInputTest {
 };
 
 TEST_F(ScarceMemoryTest, OutlivesOffersThatWantMoreMemoryThanThereIs) {
-  if (base::kTakesAllAddresses) GTEST_SKIP() << "this sanitizer leaves no bound on addresses";
+  if (base::kReservesAddressSpace) GTEST_SKIP() << "this sanitizer leaves no bound on addresses";
   const std::vector<Property> large = {{"text", Value::String(std::string(32'000, 'x'))}};
   constexpr std::size_t kMoreThanFit = 12'000;
   std::vector<std::string> ids;

@@ -28,7 +28,7 @@ void AskForDescriptors(std::size_t wanted) {
 base::Status ApplyProcessLimits(const ProcessLimits& limits) {
   mallopt(M_ARENA_MAX, limits.malloc_arenas);
   AskForDescriptors(limits.descriptors);
-  if (base::kTakesAllAddresses) return {};
+  if (base::kReservesAddressSpace) return {};
   rlimit address_space{};
   getrlimit(RLIMIT_AS, &address_space);
   // A limit that is lower already stays.

@@ -232,7 +232,7 @@ void Crowd::Decide(base::SimTime step, world::State& state) {
   SliceWalls(state);
   SortOthers(state);
   const double seconds = base::ToSeconds(step);
-  team_->Share(walkers_.size(), kWalkersAPiece, [&](std::size_t begin, std::size_t end) {
+  team_->ParallelFor(walkers_.size(), kWalkersAPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) DecideFor(walkers_[i], seconds, state);
   });
 }

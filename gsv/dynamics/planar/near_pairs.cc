@@ -141,7 +141,7 @@ void NearPairs::Stop(std::span<const geometry::PlanarPosition> starts,
 // Of the pairs of which one has a new outcome in this round.
 void NearPairs::FindImpacts(const Motions& motions, int round) {
   impacts_.resize(pairs_.size());
-  team_.Share(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {
+  team_.ParallelFor(pairs_.size(), kPairsAtOnce, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const NearPair& pair = pairs_[i];
       const bool is_new =

@@ -83,7 +83,7 @@ base::Status TeamMover::SetLayout(std::shared_ptr<const world::Layout> layout) {
 
 template <typename Work>
 void TeamMover::ForEachChunk(const Work& work) {
-  team_->Share(chunks_.size(), kChunksAtOnce, [&](std::size_t begin, std::size_t end) {
+  team_->ParallelFor(chunks_.size(), kChunksAtOnce, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) work(i);
   });
 }

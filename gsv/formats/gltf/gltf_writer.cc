@@ -207,7 +207,7 @@ class Writer {
       json["emissiveFactor"] = {linear(glow.r), linear(glow.g), linear(glow.b)};
     }
     if (base.a < 1 || SeeThrough(material.base_colour_map.get())) {
-      json["alphaMode"] = material.alpha_cut_out && base.a >= 1 ? "MASK" : "BLEND";
+      json["alphaMode"] = material.alpha_mask && base.a >= 1 ? "MASK" : "BLEND";
     }
     if (material.double_sided) json["doubleSided"] = true;
     return AddOnce(std::move(json), materials_, material_index_);

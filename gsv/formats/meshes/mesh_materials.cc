@@ -80,8 +80,8 @@ class MaterialReader {
       if (mode == "OPAQUE") material.base_colour.a = 1;
     }
     if (mode == "OPAQUE") material.base_colour_map = textures_.Opaque(material.base_colour_map);
-    material.alpha_cut_out = mode == "MASK" && material.base_colour_map != nullptr &&
-                             material.base_colour_map->channels == 4;
+    material.alpha_mask = mode == "MASK" && material.base_colour_map != nullptr &&
+                          material.base_colour_map->channels == 4;
   }
 
   void ReadGloss(const aiMaterial& source, Material& material) {

@@ -172,14 +172,14 @@ TEST_F(MeshReaderTest, TheAlphaOfAPictureCountsWhereTheMaterialSaysSo) {
   ASSERT_TRUE(opaque.has_value()) << opaque.error().Sentence();
   const model::Material& solid = opaque->materials.at(opaque->triangles->parts.at(0).material);
   EXPECT_THAT(solid.base_colour_map->pixels, testing::ElementsAre(255, 0, 0));
-  EXPECT_FALSE(solid.alpha_cut_out);
+  EXPECT_FALSE(solid.alpha_mask);
 
   folder_.Write("a.mtl", "newmtl green\nmap_Kd red.tga\nmap_d red.tga\n");
   const auto cut = Read("a.obj", kObj);
   ASSERT_TRUE(cut.has_value()) << cut.error().Sentence();
   const model::Material& net = cut->materials.at(cut->triangles->parts.at(0).material);
   EXPECT_THAT(net.base_colour_map->pixels, testing::ElementsAre(255, 0, 0, 0));
-  EXPECT_TRUE(net.alpha_cut_out);
+  EXPECT_TRUE(net.alpha_mask);
 }
 
 // A triangle whose picture is one red pixel of alpha zero.
@@ -213,7 +213,7 @@ TEST_F(MeshReaderTest, TheAlphaOfGltfCountsByItsMode) {
     const model::Material& material = mesh->materials.at(mesh->triangles->parts.at(0).material);
     ASSERT_NE(material.base_colour_map, nullptr) << c.mode;
     EXPECT_EQ(material.base_colour_map->channels, c.channels) << c.mode;
-    EXPECT_EQ(material.alpha_cut_out, c.cut_out) << c.mode;
+    EXPECT_EQ(material.alpha_mask, c.cut_out) << c.mode;
   }
 }
 

@@ -46,7 +46,7 @@ class MaterialOfVisual {
     material_.double_sided = material_.double_sided || source_.DoubleSided();
     material_.base_colour = Clamped(material_.base_colour);
     material_.emissive = Clamped(material_.emissive);
-    material_.alpha_cut_out =
+    material_.alpha_mask =
         material_.base_colour_map != nullptr && material_.base_colour_map->channels == 4;
     return material_;
   }

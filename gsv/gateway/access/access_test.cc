@@ -115,16 +115,16 @@ class AccessTest : public ::testing::Test {
     return "Authorization: Bearer " + token + "\r\n";
   }
   static std::string As(const std::string& viewer) { return "Gsv-Viewer: " + viewer + "\r\n"; }
-  HttpReply Ask(const std::string& method, const std::string& target,
-                const std::string& headers = "", const std::string& body = "{}") const {
+  HttpReply Send(const std::string& method, const std::string& target,
+                 const std::string& headers = "", const std::string& body = "{}") const {
     return testing::Fetch(gateway_->port(), method, target, headers, method == "GET" ? "" : body);
   }
   int Reset(const std::string& headers = "") const {
-    return Ask("POST", "/api/simulations/arena/reset", headers).status;
+    return Send("POST", "/api/simulations/arena/reset", headers).status;
   }
   std::string Enter(const std::string& name) const {
-    const HttpReply reply = Ask("POST", "/api/viewers", entering_,
-                                json{{"name", name}, {"simulation", "arena"}}.dump());
+    const HttpReply reply = Send("POST", "/api/viewers", entering_,
+                                 json{{"name", name}, {"simulation", "arena"}}.dump());
     EXPECT_EQ(reply.status, 201) << reply.body;
     return json::parse(reply.body)["key"];
   }
@@ -150,25 +150,25 @@ TEST_F(AccessTest, WithoutATokenNobodyListensBeyondThisMachine) {
 
 TEST_F(AccessTest, WatchingIsFreeHereAndActingTakesTheControlToken) {
   Start({kControl, ""});
-  EXPECT_EQ(Ask("GET", "/api/simulations").status, 200);
-  const HttpReply missing = Ask("POST", "/api/simulations/arena/start");
+  EXPECT_EQ(Send("GET", "/api/simulations").status, 200);
+  const HttpReply missing = Send("POST", "/api/simulations/arena/start");
   EXPECT_EQ(missing.status, 401);
   EXPECT_NE(missing.body.find("--control-token"), std::string::npos);
-  const HttpReply wrong = Ask("POST", "/api/simulations/arena/start", Bearer("not-the-right-one"));
+  const HttpReply wrong = Send("POST", "/api/simulations/arena/start", Bearer("not-the-right-one"));
   EXPECT_EQ(wrong.status, 403);
   EXPECT_EQ(wrong.body.find("not-the-right-one"), std::string::npos);
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kCreated);
-  EXPECT_EQ(Ask("POST", "/api/simulations/arena/start", Bearer(kControl)).status, 200);
+  EXPECT_EQ(Send("POST", "/api/simulations/arena/start", Bearer(kControl)).status, 200);
   EXPECT_EQ(simulation_->status().phase, simulation::Phase::kRunning);
 }
 
 TEST_F(AccessTest, FromElsewhereEvenWatchingTakesAToken) {
   Start({kControl, kWatch}, "0.0.0.0");
-  EXPECT_EQ(Ask("GET", "/healthz").status, 200);
-  EXPECT_EQ(Ask("GET", "/api/simulations").status, 401);
-  EXPECT_EQ(Ask("GET", "/api/simulations", Bearer(kWatch)).status, 200);
-  EXPECT_EQ(Ask("GET", "/api/simulations?token=" + std::string(kWatch)).status, 401);
-  const HttpReply watcher = Ask("POST", "/api/simulations/arena/start", Bearer(kWatch));
+  EXPECT_EQ(Send("GET", "/healthz").status, 200);
+  EXPECT_EQ(Send("GET", "/api/simulations").status, 401);
+  EXPECT_EQ(Send("GET", "/api/simulations", Bearer(kWatch)).status, 200);
+  EXPECT_EQ(Send("GET", "/api/simulations?token=" + std::string(kWatch)).status, 401);
+  const HttpReply watcher = Send("POST", "/api/simulations/arena/start", Bearer(kWatch));
   EXPECT_EQ(watcher.status, 403);
   EXPECT_NE(watcher.body.find("watch only"), std::string::npos);
   const std::uint16_t port = gateway_->port();
@@ -182,8 +182,8 @@ TEST_F(AccessTest, FromElsewhereEvenWatchingTakesAToken) {
 
 TEST_F(AccessTest, WithAWatchTokenOnlyNobodyActs) {
   Start({"", kWatch});
-  EXPECT_EQ(Ask("GET", "/api/simulations").status, 401);
-  const HttpReply refused = Ask("POST", "/api/simulations/arena/start", Bearer(kWatch));
+  EXPECT_EQ(Send("GET", "/api/simulations").status, 401);
+  const HttpReply refused = Send("POST", "/api/simulations/arena/start", Bearer(kWatch));
   EXPECT_EQ(refused.status, 403);
   EXPECT_NE(refused.body.find("can only be watched"), std::string::npos);
 }
@@ -193,26 +193,27 @@ TEST_F(AccessTest, OneHoldsControlAndTheOthersAsk) {
   EXPECT_EQ(Reset(), 200);  // nobody holds it
   const std::string ada = Enter("Ada <b>"), bob = Enter("Bob");
   const json taken =
-      json::parse(Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})").body);
+      json::parse(Send("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})").body);
   EXPECT_EQ(taken["viewers"][0]["number"], taken["you"]);
   EXPECT_EQ(taken["viewers"][0]["holds_control"], true);
   EXPECT_EQ(Reset(As(ada)), 200);
   for (const std::string& other : {As(bob), std::string(), As("nobody")}) {
     EXPECT_EQ(Reset(other), 409) << other;
   }
-  EXPECT_NE(Ask("POST", "/api/simulations/arena/reset", As(bob)).body.find("Ada <b> holds control"),
-            std::string::npos);
+  EXPECT_NE(
+      Send("POST", "/api/simulations/arena/reset", As(bob)).body.find("Ada <b> holds control"),
+      std::string::npos);
   Viewer looks(gateway_->port(), "/ws?viewer=" + bob);
   EXPECT_NE(looks.CallRefusedService("start").find("holds control"), std::string::npos);
-  Ask("POST", "/api/viewers/me/control", As(bob), R"({"wants":true})");
-  const json told = json::parse(Ask("GET", "/api/viewers", As(ada)).body);
+  Send("POST", "/api/viewers/me/control", As(bob), R"({"wants":true})");
+  const json told = json::parse(Send("GET", "/api/viewers", As(ada)).body);
   EXPECT_EQ(told["viewers"][1]["asks"], 1);
   EXPECT_GT(told["viewers"][1]["passes_in_s"], 0);
   EXPECT_EQ(told.dump().find(bob), std::string::npos);  // keys are nobody else's
-  EXPECT_EQ(Ask("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 200);
+  EXPECT_EQ(Send("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 200);
   EXPECT_EQ(Reset(As(bob)), 200);
   EXPECT_TRUE(looks.CallService("start").first);
-  EXPECT_EQ(Ask("DELETE", "/api/viewers/me", As(bob)).status, 200);
+  EXPECT_EQ(Send("DELETE", "/api/viewers/me", As(bob)).status, 200);
   EXPECT_EQ(Reset(), 200);
 }
 
@@ -220,12 +221,12 @@ TEST_F(AccessTest, TwoSimulationsAreHeldByTwoPeople) {
   directory_->Add(std::make_shared<testing::ScriptedSimulation>("other", 1));
   Start({});
   const std::string ada = Enter("Ada"), bob = Enter("Bob");
-  EXPECT_EQ(Ask("POST", "/api/viewers/me", As(bob), R"({"simulation":"other"})").status, 200);
+  EXPECT_EQ(Send("POST", "/api/viewers/me", As(bob), R"({"simulation":"other"})").status, 200);
   for (const std::string& person : {ada, bob}) {
-    Ask("POST", "/api/viewers/me/control", As(person), R"({"wants":true})");
+    Send("POST", "/api/viewers/me/control", As(person), R"({"wants":true})");
   }
   const auto reset = [&](const std::string& person, const std::string& simulation) {
-    return Ask("POST", "/api/simulations/" + simulation + "/reset", As(person)).status;
+    return Send("POST", "/api/simulations/" + simulation + "/reset", As(person)).status;
   };
   EXPECT_EQ(reset(ada, "arena"), 200);
   EXPECT_EQ(reset(bob, "other"), 200);
@@ -245,7 +246,7 @@ TEST_F(AccessTest, WhoWatchesIsToldAtOnceWhoHoldsControl) {
   viewer.Subscribe(1, "/gsv/viewers");
   const auto heard = [&] { return viewer.ReceiveData(1).payload; };
   EXPECT_NE(heard().find(R"("holds_control":false)"), std::string::npos);
-  Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})");
+  Send("POST", "/api/viewers/me/control", As(ada), R"({"wants":true})");
   const std::string told = heard();
   EXPECT_NE(told.find(R"("holds_control":true)"), std::string::npos);
   EXPECT_EQ(told.find(ada), std::string::npos);  // keys are nobody else's
@@ -255,16 +256,16 @@ TEST_F(AccessTest, WhatIsNoRequestIsRefusedWithASentence) {
   Start({});
   const std::string ada = Enter("Ada");
   for (const char* body : {"", "[]", "{}", R"({"name":1})", "{"}) {
-    EXPECT_EQ(Ask("POST", "/api/viewers", "", body).status, 400) << body;
+    EXPECT_EQ(Send("POST", "/api/viewers", "", body).status, 400) << body;
   }
-  EXPECT_EQ(Ask("POST", "/api/viewers/me/control", As(ada), R"({"wants":1})").status, 400);
-  EXPECT_EQ(Ask("POST", "/api/viewers/me", As("x"), R"({"name":"y"})").status, 404);
-  EXPECT_EQ(Ask("POST", "/api/viewers/me", As(ada), R"({"simulation":[]})").status, 400);
+  EXPECT_EQ(Send("POST", "/api/viewers/me/control", As(ada), R"({"wants":1})").status, 400);
+  EXPECT_EQ(Send("POST", "/api/viewers/me", As("x"), R"({"name":"y"})").status, 404);
+  EXPECT_EQ(Send("POST", "/api/viewers/me", As(ada), R"({"simulation":[]})").status, 400);
   const std::string long_name = json{{"simulation", std::string(2000, 'a')}}.dump();
-  EXPECT_EQ(Ask("POST", "/api/viewers/me", As(ada), long_name).status, 400);
-  EXPECT_EQ(Ask("POST", "/api/viewers/2").status, 404);
-  EXPECT_EQ(Ask("PUT", "/api/viewers").status, 405);
-  EXPECT_EQ(Ask("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 409);
+  EXPECT_EQ(Send("POST", "/api/viewers/me", As(ada), long_name).status, 400);
+  EXPECT_EQ(Send("POST", "/api/viewers/2").status, 404);
+  EXPECT_EQ(Send("PUT", "/api/viewers").status, 405);
+  EXPECT_EQ(Send("POST", "/api/viewers/me/answer", As(ada), R"({"grants":true})").status, 409);
 }
 
 TEST_F(AccessTest, ARelayShowsItsTokenForThoseWhoComeToIt) {
@@ -278,7 +279,7 @@ TEST_F(AccessTest, ARelayShowsItsTokenForThoseWhoComeToIt) {
   EXPECT_TRUE(viewer.CallService("start").first);
   entering_ = Bearer(kControl);
   const std::string ada = Enter("Ada");
-  Ask("POST", "/api/viewers/me/control", Bearer(kControl) + As(ada), R"({"wants":true})");
+  Send("POST", "/api/viewers/me/control", Bearer(kControl) + As(ada), R"({"wants":true})");
   const std::string reset = "/api/simulations/arena/reset";
   EXPECT_EQ(testing::Fetch(port, "POST", reset, "", "{}").status, 409);
   EXPECT_EQ(testing::Fetch(port, "POST", reset, As(ada), "{}").status, 200);

@@ -69,12 +69,12 @@ class AuthenticatorTest : public testing::ServerTest {
 };
 
 TEST_F(AuthenticatorTest, RequestsWaitForItsAnswerAndOthersDoNot) {
-  const auto desk = std::make_shared<Desk>();
-  StartWith(desk);
+  const auto registry = std::make_shared<Desk>();
+  StartWith(registry);
   HttpConnection waiting(port());
   Put(waiting, "abc");
   EXPECT_EQ(testing::Fetch(port(), "GET", "/free").status, 200);
-  EXPECT_EQ(desk->AnswerNext({Permission::kControl, true}), "who");
+  EXPECT_EQ(registry->AnswerNext({Permission::kControl, true}), "who");
   const auto reply = waiting.Receive();
   ASSERT_TRUE(reply);
   EXPECT_EQ(reply->status, 200);
@@ -82,12 +82,12 @@ TEST_F(AuthenticatorTest, RequestsWaitForItsAnswerAndOthersDoNot) {
 }
 
 TEST_F(AuthenticatorTest, ARefusalIsItsSentence) {
-  const auto desk = std::make_shared<Desk>();
-  StartWith(desk);
+  const auto registry = std::make_shared<Desk>();
+  StartWith(registry);
   for (const bool showed_credentials : {true, false}) {
     HttpConnection refused(port());
     Put(refused, "");
-    desk->AnswerNext({Permission::kWatch, showed_credentials});
+    registry->AnswerNext({Permission::kWatch, showed_credentials});
     const auto reply = refused.Receive();
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->status, showed_credentials ? 403 : 401);
@@ -96,12 +96,12 @@ TEST_F(AuthenticatorTest, ARefusalIsItsSentence) {
 }
 
 TEST_F(AuthenticatorTest, AFileIsNotReadBeforeItsAnswer) {
-  const auto desk = std::make_shared<Desk>();
-  StartWith(desk);
+  const auto registry = std::make_shared<Desk>();
+  StartWith(registry);
   HttpConnection connection(port());
   connection.Send("PUT /api/uploads/1/a HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) +
                   "\r\nContent-Length: 3\r\n\r\n");
-  desk->AnswerNext({Permission::kControl, true});
+  registry->AnswerNext({Permission::kControl, true});
   connection.Send("abc");
   EXPECT_EQ(connection.Receive()->body, "PUT /api/uploads/1/a abc");
 }

@@ -5,7 +5,7 @@
 namespace gsv::gateway::access {
 namespace {
 
-constexpr std::size_t kShortestToken = 16, kLongestToken = 256;
+constexpr std::size_t kMinTokenLength = 16, kMaxTokenLength = 256;
 
 bool IsTokenCharacter(char c) {
   const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -16,7 +16,7 @@ bool IsTokenCharacter(char c) {
 }  // namespace
 
 base::Status CheckToken(std::string_view token) {
-  const bool is_good = token.size() >= kShortestToken && token.size() <= kLongestToken &&
+  const bool is_good = token.size() >= kMinTokenLength && token.size() <= kMaxTokenLength &&
                        std::all_of(token.begin(), token.end(), IsTokenCharacter);
   if (is_good) return {};
   return base::Fail(base::ErrorCode::kInvalidArgument,

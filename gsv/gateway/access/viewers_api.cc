@@ -15,7 +15,7 @@ std::string Text(const ViewersJson& json) {
 }
 
 // A simulation's name is no longer than an address that it stands in.
-constexpr std::size_t kLongestSimulation = 1024;
+constexpr std::size_t kMaxSimulationNameLength = 1024;
 
 template <typename T>
 std::optional<T> MemberOf(const std::string& body, const char* name) {
@@ -39,12 +39,12 @@ std::vector<Route> ViewersApi::Routes() {
   const auto changing = [this](base::Status (ViewersApi::*change)(const Request&)) {
     return [this, change](const Request& request) {
       const base::Status done = (this->*change)(request);
-      return done ? Standing(request.viewer) : ErrorResponse(done.error());
+      return done ? ViewerList(request.viewer) : ErrorResponse(done.error());
     };
   };
   return {
       {"GET", "/api/viewers", kWatch, false, kReaders,
-       [this](const Request& request) { return Standing(request.viewer); },
+       [this](const Request& request) { return ViewerList(request.viewer); },
        "Who is watching what, who holds control of it, who asks for it"},
       {"POST", "/api/viewers", kWatch, false, kReaders,
        [this](const Request& request) { return Enter(request); }, "Enter, under a name"},
@@ -63,10 +63,10 @@ std::vector<Route> ViewersApi::Routes() {
 Response ViewersApi::Enter(const Request& request) {
   const auto name = MemberOf<std::string>(request.body, "name");
   const std::string simulation = MemberOf<std::string>(request.body, "simulation").value_or("");
-  if (!name || simulation.size() > kLongestSimulation) {
+  if (!name || simulation.size() > kMaxSimulationNameLength) {
     return ErrorResponse(Expected(R"({"name": text, "simulation": its name})"));
   }
-  const auto admission = desk_.Enter(*name, simulation, Clock::now());
+  const auto admission = registry_.Enter(*name, simulation, Clock::now());
   if (!admission) return ErrorResponse(admission.error());
   return JsonResponse(201, Text({{"number", admission->number}, {"key", admission->key}}));
 }
@@ -74,40 +74,40 @@ Response ViewersApi::Enter(const Request& request) {
 base::Status ViewersApi::Change(const Request& request) {
   const auto name = MemberOf<std::string>(request.body, "name");
   const auto simulation = MemberOf<std::string>(request.body, "simulation");
-  if ((!name && !simulation) || (simulation && simulation->size() > kLongestSimulation)) {
+  if ((!name && !simulation) || (simulation && simulation->size() > kMaxSimulationNameLength)) {
     return base::Fail(Expected(R"({"name": text, "simulation": its name}, or one of both)"));
   }
   const auto now = Clock::now();
   if (name) {
-    if (base::Status done = desk_.Rename(request.viewer, *name, now); !done) return done;
+    if (base::Status done = registry_.Rename(request.viewer, *name, now); !done) return done;
   }
-  return simulation ? desk_.Turn(request.viewer, *simulation, now) : base::Status();
+  return simulation ? registry_.SelectSimulation(request.viewer, *simulation, now) : base::Status();
 }
 
 base::Status ViewersApi::Leave(const Request& request) {
-  return desk_.Leave(request.viewer, Clock::now());
+  return registry_.Leave(request.viewer, Clock::now());
 }
 
 base::Status ViewersApi::WantControl(const Request& request) {
   const auto wants = MemberOf<bool>(request.body, "wants");
   if (!wants) return base::Fail(Expected(R"({"wants": true or false})"));
-  return *wants ? desk_.Ask(request.viewer, Clock::now())
-                : desk_.Release(request.viewer, Clock::now());
+  return *wants ? registry_.RequestControl(request.viewer, Clock::now())
+                : registry_.Release(request.viewer, Clock::now());
 }
 
 base::Status ViewersApi::AnswerFirst(const Request& request) {
   const auto grants = MemberOf<bool>(request.body, "grants");
   if (!grants) return base::Fail(Expected(R"({"grants": true or false})"));
-  return desk_.Answer(request.viewer, *grants, Clock::now());
+  return registry_.Answer(request.viewer, *grants, Clock::now());
 }
 
-Response ViewersApi::Standing(const std::string& viewer) {
-  return JsonResponse(200, StandingJson(desk_.See(viewer, Clock::now())));
+Response ViewersApi::ViewerList(const std::string& viewer) {
+  return JsonResponse(200, ViewerListJson(registry_.List(viewer, Clock::now())));
 }
 
-std::string StandingJson(const ControlDesk::Standing& standing) {
+std::string ViewerListJson(const ViewerRegistry::ViewerList& standing) {
   ViewersJson viewers = ViewersJson::array();
-  for (const ControlDesk::Person& person : standing.viewers) {
+  for (const ViewerRegistry::ViewerState& person : standing.viewers) {
     viewers.push_back({{"number", person.number},
                        {"name", person.name},
                        {"simulation", person.simulation},

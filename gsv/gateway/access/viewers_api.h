@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "gsv/gateway/access/control_desk.h"
+#include "gsv/gateway/access/viewer_registry.h"
 #include "gsv/gateway/http/route.h"
 
 namespace gsv::gateway::access {
 
 // Who is there, as GET /api/viewers tells it; without `you`, which is 0.
-std::string StandingJson(const ControlDesk::Standing& standing);
+std::string ViewerListJson(const ViewerRegistry::ViewerList& standing);
 
 class ViewersApi {
  public:
@@ -21,10 +21,10 @@ class ViewersApi {
 
   // Why this viewer may not control that simulation now.
   base::Status CheckControl(const std::string& viewer, const std::string& simulation) {
-    return desk_.MayAct(viewer, simulation, std::chrono::steady_clock::now());
+    return registry_.CheckControl(viewer, simulation, std::chrono::steady_clock::now());
   }
 
-  ControlDesk& desk() { return desk_; }
+  ViewerRegistry& registry() { return registry_; }
 
  private:
   Response Enter(const Request& request);
@@ -32,9 +32,9 @@ class ViewersApi {
   base::Status Leave(const Request& request);
   base::Status WantControl(const Request& request);
   base::Status AnswerFirst(const Request& request);
-  Response Standing(const std::string& viewer);
+  Response ViewerList(const std::string& viewer);
 
-  ControlDesk desk_;
+  ViewerRegistry registry_;
 };
 
 }  // namespace gsv::gateway::access

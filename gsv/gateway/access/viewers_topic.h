@@ -6,22 +6,22 @@
 
 #include <memory>
 
-#include "gsv/gateway/access/control_desk.h"
+#include "gsv/gateway/access/viewer_registry.h"
 #include "gsv/gateway/foxglove/hub.h"
 
 namespace gsv::gateway::access {
 
 class ViewersTopic {
  public:
-  // Advertises the topic. `desk` outlives this; null: nobody is known here, and nothing advertised.
-  ViewersTopic(std::shared_ptr<Hub> hub, ControlDesk* desk);
+  // Advertises the topic. `registry` outlives this; null: nobody is known here, and nothing advertised.
+  ViewersTopic(std::shared_ptr<Hub> hub, ViewerRegistry* registry);
 
   // Publishes what is news, if somebody listens.
-  void Publish(ControlDesk::Time now);
+  void Publish(ViewerRegistry::Time now);
 
  private:
   const std::shared_ptr<Hub> hub_;
-  ControlDesk* const desk_;
+  ViewerRegistry* const registry_;
   foxglove::ChannelId channel_ = 0;
   std::uint64_t version_ = 0;  // that was published
 };

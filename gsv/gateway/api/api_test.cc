@@ -151,12 +151,12 @@ TEST_F(ApiTest, TheButtonsWork) {
 
 TEST_F(ApiTest, TheFactorIsSet) {
   EXPECT_EQ(AskJson("POST", path_ + "/factor", 200, R"({"factor":2.5})")["target_factor"], 2.5);
-  EXPECT_EQ(simulation_->factor(), 2.5);
+  EXPECT_EQ(simulation_->real_time_factor(), 2.5);
   for (const char* body : {"", "{}", "[]", R"({"factor":"2"})", R"({"factor":null})",
                            R"({"factor":0})", R"({"factor":-1})"}) {
     EXPECT_FALSE(AskJson("POST", path_ + "/factor", 400, body)["error"].empty()) << body;
   }
-  EXPECT_EQ(simulation_->factor(), 2.5);
+  EXPECT_EQ(simulation_->real_time_factor(), 2.5);
   EXPECT_EQ(Ask("GET", path_ + "/factor").allow, "POST");
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr std::size_t kUsualCurvePoints = 4000;
+constexpr std::size_t kDefaultCurvePoints = 4000;
 constexpr double kLatest = 9e9;  // s: what nanoseconds can hold
 
 std::string JsonText(const OrderedJson& json) {
@@ -74,8 +74,8 @@ Response JsonOr(const base::Result<SharedBytes>& json) {
   return response;
 }
 
-curves::CurveWish CurveWishOf(const Target& target) {
-  curves::CurveWish wish{.most = kUsualCurvePoints};
+curves::CurveRequest CurveWishOf(const Target& target) {
+  curves::CurveRequest wish{.most = kDefaultCurvePoints};
   for (const auto& [name, value] : target.query) {
     if (name == "topic") wish.topic = value;
     if (name == "robot") wish.robot = value;

@@ -13,8 +13,8 @@ namespace {
 
 using ScenarioJson = nlohmann::json;
 
-constexpr std::size_t kMostRobots = 1000;
-constexpr double kMostTurns = 1e3;  // rad
+constexpr std::size_t kMaxRobots = 1000;
+constexpr double kMaxAngle = 1e3;  // rad
 
 tl::unexpected<FieldError> Refused(std::string field, std::string sentence) {
   return tl::make_unexpected(
@@ -40,7 +40,7 @@ FieldResult<double> TakeAngle(ScenarioJson& json, const char* name) {
   const ScenarioJson value = json.value(name, ScenarioJson());
   json.erase(name);
   if (value.is_null()) return 0;
-  if (!value.is_number() || !(std::abs(value.get<double>()) <= kMostTurns)) {
+  if (!value.is_number() || !(std::abs(value.get<double>()) <= kMaxAngle)) {
     return Refused(name, "expected an angle in radians");
   }
   return value.get<double>();
@@ -74,8 +74,8 @@ FieldResult<void> RefuseWhatIsNotForViewers(const ScenarioJson& json) {
     }
   }
   for (const char* list : {"robots", "avatars"}) {
-    if (json.contains(list) && json[list].size() > kMostRobots) {
-      return Refused(list, "at most " + std::to_string(kMostRobots) + " are expected here");
+    if (json.contains(list) && json[list].size() > kMaxRobots) {
+      return Refused(list, "at most " + std::to_string(kMaxRobots) + " are expected here");
     }
   }
   return {};

@@ -24,7 +24,7 @@ void CurvePoints::AddToStretch(const Point& point) {
   const double share =
       span > 0 ? base::ToSeconds(std::clamp(point.time, start_, end_) - start_) / span : 0;
   const auto index = static_cast<std::size_t>(share * static_cast<double>(stretches_.size()));
-  Stretch& stretch = stretches_[std::min(index, stretches_.size() - 1)];
+  TimeBin& stretch = stretches_[std::min(index, stretches_.size() - 1)];
   const bool is_first = stretch.samples++ == 0;
   const bool is_finite = std::isfinite(point.value);
   if (is_first || (is_finite && stretch.finite == 0)) {
@@ -38,7 +38,7 @@ void CurvePoints::AddToStretch(const Point& point) {
 
 std::vector<Point> CurvePoints::Points() const {
   std::vector<Point> points = points_;
-  for (const Stretch& stretch : stretches_) {
+  for (const TimeBin& stretch : stretches_) {
     if (stretch.samples == 0) continue;
     points.push_back(stretch.least);
     if (stretch.greatest.time != stretch.least.time) points.push_back(stretch.greatest);

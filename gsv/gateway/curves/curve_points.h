@@ -32,7 +32,7 @@ class CurvePoints {
   std::vector<Point> Points() const;
 
  private:
-  struct Stretch {
+  struct TimeBin {
     std::size_t finite = 0, samples = 0;
     Point least, greatest;  // the first sample, while none is finite
   };
@@ -43,7 +43,7 @@ class CurvePoints {
   const std::size_t most_;
   std::size_t samples_ = 0;
   std::vector<Point> points_;
-  std::vector<Stretch> stretches_;  // empty: points_ holds all
+  std::vector<TimeBin> stretches_;  // empty: points_ holds all
 };
 
 }  // namespace gsv::gateway::curves

@@ -20,8 +20,8 @@ namespace {
 
 using recording::MessageRecord;
 
-constexpr base::SimTime kLongestGap = std::chrono::seconds(1);  // between poses that give a speed
-constexpr std::size_t kLongestKey = 200;
+constexpr base::SimTime kMaxGap = std::chrono::seconds(1);  // between poses that give a speed
+constexpr std::size_t kMaxKeyLength = 200;
 
 using ChannelIds = std::set<std::uint16_t>;
 
@@ -35,7 +35,7 @@ ChannelIds ChannelsNamed(const recording::McapReader& reader, const std::string&
 
 auto NoSuchTopic(const std::string& topic) {
   return base::Fail(base::ErrorCode::kNotFound, "the recording has no topic '" +
-                                                    topic.substr(0, kLongestKey) +
+                                                    topic.substr(0, kMaxKeyLength) +
                                                     "' that can be read; see `gsv rec info`");
 }
 
@@ -57,7 +57,7 @@ class FieldSource final : public CurveSource {
 };
 
 base::Result<std::unique_ptr<CurveSource>> MakeFieldSource(const recording::McapReader& reader,
-                                                           const CurveWish& wish) {
+                                                           const CurveRequest& wish) {
   std::map<std::uint16_t, messages::Definition> definitions;
   for (const std::uint16_t id : ChannelsNamed(reader, wish.topic)) {
     const auto& summary = reader.summary();
@@ -73,7 +73,7 @@ base::Result<std::unique_ptr<CurveSource>> MakeFieldSource(const recording::Mcap
 // What /gsv/status says of a robot, or of the simulation.
 class StatusSource final : public CurveSource {
  public:
-  StatusSource(ChannelIds channels, const CurveWish& wish)
+  StatusSource(ChannelIds channels, const CurveRequest& wish)
       : channels_(std::move(channels)), robot_(wish.robot), key_(wish.key) {}
 
   std::optional<double> SampleIn(const MessageRecord& message) override {
@@ -95,7 +95,7 @@ class StatusSource final : public CurveSource {
 
 class PoseSource final : public CurveSource {
  public:
-  PoseSource(ChannelIds channels, const RecordedScene& scene, const CurveWish& wish)
+  PoseSource(ChannelIds channels, const RecordedScene& scene, const CurveRequest& wish)
       : channels_(std::move(channels)), scene_(scene), robot_(wish.robot), key_(wish.key) {}
 
   std::optional<double> SampleIn(const MessageRecord& message) override {
@@ -123,7 +123,7 @@ class PoseSource final : public CurveSource {
     const base::SimTime elapsed = time - time_;
     const auto before = std::exchange(before_, now);
     time_ = time;
-    if (!before || elapsed <= base::SimTime(0) || elapsed >= kLongestGap) return std::nullopt;
+    if (!before || elapsed <= base::SimTime(0) || elapsed >= kMaxGap) return std::nullopt;
     return Rate(*before, now) / base::ToSeconds(elapsed);
   }
 
@@ -147,7 +147,7 @@ class PoseSource final : public CurveSource {
 
 base::Result<std::unique_ptr<CurveSource>> MakeRobotSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
-                                                           const CurveWish& wish) {
+                                                           const CurveRequest& wish) {
   static const std::set<std::string> kOfPoses{"x",     "y",   "z",     "roll",
                                               "pitch", "yaw", "speed", "turn_rate"};
   static const std::set<std::string> kOfStatus{"distance", "collisions"};
@@ -159,7 +159,7 @@ base::Result<std::unique_ptr<CurveSource>> MakeRobotSource(const recording::Mcap
   }
   if (!scene.HasBody(wish.robot)) {
     return base::Fail(base::ErrorCode::kNotFound,
-                      "the recording has no robot '" + wish.robot.substr(0, kLongestKey) + "'");
+                      "the recording has no robot '" + wish.robot.substr(0, kMaxKeyLength) + "'");
   }
   const std::string topic =
       is_of_poses ? presentation::topics::kPoses.name : presentation::topics::kStatus.name;
@@ -173,9 +173,9 @@ base::Result<std::unique_ptr<CurveSource>> MakeRobotSource(const recording::Mcap
 
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
-                                                           const CurveWish& wish) {
+                                                           const CurveRequest& wish) {
   const bool names_both = !wish.topic.empty() && !wish.robot.empty();
-  if (names_both || wish.key.empty() || wish.key.size() > kLongestKey) {
+  if (names_both || wish.key.empty() || wish.key.size() > kMaxKeyLength) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "name a curve by 'key', of at most 200 characters, with 'topic' or 'robot' "
                       "or neither");

@@ -19,11 +19,11 @@ namespace gsv::gateway::curves {
 //   robot, key     x, y, z (m), roll, pitch, yaw (rad), speed (m/s), turn_rate (rad/s) of its
 //                  poses, and distance (m), collisions of its status
 //   key            real_time_factor or late_steps of the simulation
-struct CurveWish {
+struct CurveRequest {
   std::string topic, robot, key;
   std::size_t most = 0;  // points
 
-  friend bool operator==(const CurveWish&, const CurveWish&) = default;
+  friend bool operator==(const CurveRequest&, const CurveRequest&) = default;
 };
 
 class CurveSource {
@@ -37,6 +37,6 @@ class CurveSource {
 // kInvalidArgument: there is no such value. Each with a sentence.
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
-                                                           const CurveWish& wish);
+                                                           const CurveRequest& wish);
 
 }  // namespace gsv::gateway::curves

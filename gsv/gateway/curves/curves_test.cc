@@ -124,7 +124,7 @@ recording::Bytes TenSeconds() {
 class RecordedCurvesTest : public ::testing::Test {
  protected:
   // Asks until it is read.
-  static Curve Whole(RecordedCurves& curves, const CurveWish& wish) {
+  static Curve Whole(RecordedCurves& curves, const CurveRequest& wish) {
     for (;;) {
       auto curve = curves.Get(wish).value();
       if (curve.is_done) return curve;
@@ -183,7 +183,7 @@ TEST_F(RecordedCurvesTest, KeepsAFewAndReadsAgainWhatItForgot) {
 
 TEST_F(RecordedCurvesTest, RefusesWhatIsNotThere) {
   RecordedCurves curves(*reader_, scene_);
-  const auto code = [&](const CurveWish& wish) {
+  const auto code = [&](const CurveRequest& wish) {
     const auto curve = curves.Get(wish);
     return curve ? std::optional<base::ErrorCode>() : curve.error().code;
   };

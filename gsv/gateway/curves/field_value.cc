@@ -13,8 +13,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr std::size_t kLongestListed = 8;
-constexpr int kDeepest = 6;
+constexpr std::size_t kMaxListedElements = 8;
+constexpr int kMaxDepth = 6;
 
 std::optional<double> Find(const OrderedJson& value, std::string_view key, int depth);
 
@@ -76,7 +76,7 @@ std::optional<double> FindInList(const OrderedJson& list, std::string_view key, 
     if (key.starts_with('.')) key.remove_prefix(1);
     return Find(list.front(), key, depth + 1);
   }
-  if (list.size() > kLongestListed) {
+  if (list.size() > kMaxListedElements) {
     return key.starts_with('.') ? ExtremeOf(list, key.substr(1)) : std::nullopt;
   }
   if (key.size() < 3 || key.front() != '[' || key.back() != ']') return std::nullopt;
@@ -106,7 +106,7 @@ std::optional<double> FindInObject(const OrderedJson& object, std::string_view k
 }
 
 std::optional<double> Find(const OrderedJson& value, std::string_view key, int depth) {
-  if (depth > kDeepest) return std::nullopt;
+  if (depth > kMaxDepth) return std::nullopt;
   if (key.empty()) return NumberOf(value);
   if (value.is_object()) return FindInObject(value, key, depth);
   return value.is_array() ? FindInList(value, key, depth) : std::nullopt;

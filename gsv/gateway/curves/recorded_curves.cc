@@ -7,19 +7,20 @@
 namespace gsv::gateway::curves {
 namespace {
 
-constexpr std::size_t kMostCurves = 16;
+constexpr std::size_t kMaxCurves = 16;
 constexpr int kMessagesBetweenLooks = 256;  // at the clock, and whether anybody still wants it
 
 }  // namespace
 
 struct RecordedCurves::Job {
-  Job(const CurveWish& wished, std::unique_ptr<CurveSource> made, const recording::Summary& summary)
+  Job(const CurveRequest& wished, std::unique_ptr<CurveSource> made,
+      const recording::Summary& summary)
       : wish(wished),
         source(std::move(made)),
         points(summary.start, summary.end, wished.most),
         read_to(summary.start) {}
 
-  const CurveWish wish;
+  const CurveRequest wish;
   const std::unique_ptr<CurveSource> source;  // of the thread that reads
   std::atomic<bool> is_dropped = false;
 
@@ -30,8 +31,8 @@ struct RecordedCurves::Job {
   std::string problem GSV_GUARDED_BY(mutex);
 };
 
-base::Result<Curve> RecordedCurves::Get(const CurveWish& wish) {
-  if (wish.most < 2 || wish.most > kMostCurvePoints) {
+base::Result<Curve> RecordedCurves::Get(const CurveRequest& wish) {
+  if (wish.most < 2 || wish.most > kMaxCurvePoints) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "'most' is from 2 to 100000 points");
   }
   std::shared_ptr<Job> job;
@@ -46,7 +47,7 @@ base::Result<Curve> RecordedCurves::Get(const CurveWish& wish) {
       if (!source) return base::Fail(source.error());
       job = std::make_shared<Job>(wish, *std::move(source), reader_.summary());
       jobs_.push_back(job);
-      if (jobs_.size() > kMostCurves) {
+      if (jobs_.size() > kMaxCurves) {
         jobs_.front()->is_dropped = true;
         jobs_.erase(jobs_.begin());
       }
@@ -59,7 +60,7 @@ base::Result<Curve> RecordedCurves::Get(const CurveWish& wish) {
                job->is_done,         job->read_to,          job->problem};
 }
 
-std::shared_ptr<RecordedCurves::Job> RecordedCurves::Find(const CurveWish& wish) {
+std::shared_ptr<RecordedCurves::Job> RecordedCurves::Find(const CurveRequest& wish) {
   const auto found =
       std::find_if(jobs_.begin(), jobs_.end(), [&](const auto& job) { return job->wish == wish; });
   if (found == jobs_.end()) return nullptr;

@@ -18,7 +18,7 @@
 
 namespace gsv::gateway::curves {
 
-inline constexpr std::size_t kMostCurvePoints = 100'000;
+inline constexpr std::size_t kMaxCurvePoints = 100'000;
 
 struct Curve {
   std::vector<Point> points;  // by time
@@ -38,8 +38,8 @@ class RecordedCurves {
   ~RecordedCurves() { Stop(); }
 
   // As far as it is read. Errors: see MakeCurveSource(); kInvalidArgument if `wish.most` is not
-  // from 2 to kMostCurvePoints; kUnavailable after Stop().
-  base::Result<Curve> Get(const CurveWish& wish);
+  // from 2 to kMaxCurvePoints; kUnavailable after Stop().
+  base::Result<Curve> Get(const CurveRequest& wish);
 
   // Waits until nothing is read any more.
   void Stop();
@@ -48,7 +48,7 @@ class RecordedCurves {
   struct Job;
 
   // The one for the wish, or null; it counts as asked for now.
-  std::shared_ptr<Job> Find(const CurveWish& wish) GSV_REQUIRES(mutex_);
+  std::shared_ptr<Job> Find(const CurveRequest& wish) GSV_REQUIRES(mutex_);
   void Run();
   void Read(Job& job);
 

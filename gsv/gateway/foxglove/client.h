@@ -32,7 +32,7 @@ class Client {
   // How many data messages made room for newer ones, so far.
   virtual std::uint64_t dropped_updates() const { return 0; }
   // Why this viewer may not act now, but only look.
-  virtual base::Status MayAct() { return {}; }
+  virtual base::Status CheckControl() { return {}; }
   virtual void Close(CloseCode code, std::string reason) = 0;
 
   void SendStatus(foxglove::StatusLevel level, std::string_view message) {

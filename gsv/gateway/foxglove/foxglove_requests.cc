@@ -54,12 +54,12 @@ base::Result<ClientMessage> ParseUnsubscribe(const Json& list) {
 }
 
 // Strings that a client chooses and gets back.
-constexpr std::size_t kLongestRequest = 256;
+constexpr std::size_t kMaxRequestLength = 256;
 
 base::Result<std::string> ParseRequest(const Json& json) {
   const Json& id = Member(json, "id");
   if (id.is_null()) return std::string();
-  if (id.is_string() && id.get_ref<const std::string&>().size() <= kLongestRequest) {
+  if (id.is_string() && id.get_ref<const std::string&>().size() <= kMaxRequestLength) {
     return id.get<std::string>();
   }
   return Malformed("'id' must be a string of at most 256 bytes");
@@ -158,7 +158,7 @@ base::Result<ClientMessage> ParsePlaybackControl(BytesReader reader) {
   const auto seek = reader.Take<std::uint64_t>();
   message.request = reader.Take(reader.Take<std::uint32_t>());
   const bool is_whole = !reader.is_short() && reader.rest().empty();
-  if (!is_whole || command > 1 || message.request.size() > kLongestRequest) {
+  if (!is_whole || command > 1 || message.request.size() > kMaxRequestLength) {
     return Malformed("a request to a playback that cannot be understood");
   }
   message.play = command == 0;

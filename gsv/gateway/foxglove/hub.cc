@@ -24,9 +24,9 @@ Hub::Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
     : info_(std::move(info)),
       simulation_(SimulationOf(info_)),
       on_demand_(std::move(on_demand)),
-      desk_(std::move(operations)) {
+      requests_(std::move(operations)) {
   info_.capabilities.push_back("connectionGraph");
-  for (std::string& name : desk_.capabilities()) info_.capabilities.push_back(std::move(name));
+  for (std::string& name : requests_.capabilities()) info_.capabilities.push_back(std::move(name));
 }
 
 void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
@@ -47,12 +47,12 @@ void Hub::Add(std::shared_ptr<Client> client, std::string_view subprotocol) {
     for (const SharedBytes& status : statuses_) client->SendText(status);
     members_[client.get()] = Member{client, "viewer " + std::to_string(next_member_++)};
   }
-  desk_.Welcome(client, knows_playback);
+  requests_.Welcome(client, knows_playback);
   on_demand_();
 }
 
 void Hub::Remove(Client* client) {
-  desk_.Forget(client);
+  requests_.Forget(client);
   {
     const base::MutexLock lock(mutex_);
     members_.erase(client);
@@ -92,7 +92,7 @@ void Hub::Take(Client* client, const foxglove::ClientMessage& message) {
   }
   std::visit(
       [&](const auto& content) {
-        if constexpr (requires { desk_.Take(sender, content); }) desk_.Take(sender, content);
+        if constexpr (requires { requests_.Take(sender, content); }) requests_.Take(sender, content);
       },
       message);
   on_demand_();
@@ -191,7 +191,7 @@ bool Hub::IsSubscribed(ChannelId channel) const {
   return topic != topics_.end() && !topic->second.listeners.empty();
 }
 
-bool Hub::HasNewcomers(ChannelId channel) const {
+bool Hub::HasNewSubscribers(ChannelId channel) const {
   const base::MutexLock lock(mutex_);
   const auto topic = topics_.find(channel);
   if (topic == topics_.end()) return false;
@@ -258,7 +258,7 @@ void Hub::SetPublishers(ChannelId channel, std::set<std::string> publishers) {
 }
 
 void Hub::PublishChanges(bool has_jumped) {
-  desk_.PublishChanges(has_jumped);
+  requests_.PublishChanges(has_jumped);
   PublishGraph();
 }
 
@@ -289,7 +289,7 @@ foxglove::ConnectionGraph Hub::Graph() const {
       graph.subscribers[name].insert(members_.at(client).name);
     }
   }
-  for (const std::string& service : desk_.service_names()) graph.providers[service] = {"gsv"};
+  for (const std::string& service : requests_.service_names()) graph.providers[service] = {"gsv"};
   return graph;
 }
 

@@ -19,7 +19,7 @@
 #include "gsv/base/error.h"
 #include "gsv/base/mutex.h"
 #include "gsv/gateway/foxglove/client.h"
-#include "gsv/gateway/foxglove/request_desk.h"
+#include "gsv/gateway/foxglove/client_requests.h"
 
 namespace gsv::gateway {
 
@@ -48,7 +48,7 @@ class Hub {
   bool has_clients() const;
   bool IsSubscribed(foxglove::ChannelId channel) const;
   // Somebody subscribed who has got nothing on this channel yet.
-  bool HasNewcomers(foxglove::ChannelId channel) const;
+  bool HasNewSubscribers(foxglove::ChannelId channel) const;
   // In order. Takes as long as there are subscriptions, however many channels there are.
   std::vector<foxglove::ChannelId> SubscribedChannels() const;
 
@@ -114,7 +114,7 @@ class Hub {
   std::deque<SharedBytes> statuses_ GSV_GUARDED_BY(mutex_);
   bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
   foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // as it was told last
-  RequestDesk desk_;
+  ClientRequests requests_;
   bool closed_ GSV_GUARDED_BY(mutex_) = false;
   CloseCode close_code_ GSV_GUARDED_BY(mutex_){};
   std::string close_reason_ GSV_GUARDED_BY(mutex_);

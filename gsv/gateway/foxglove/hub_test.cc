@@ -93,11 +93,11 @@ TEST_F(HubTest, AWelcomeReachesNewcomersAndThemOnlyOnce) {
   hub_.Publish(a, Message(1, "first"));
   const auto late = Join();
   ASSERT_TRUE(hub_.Receive(late.get(), SubscribeText(1, a)));
-  EXPECT_TRUE(hub_.HasNewcomers(a));
+  EXPECT_TRUE(hub_.HasNewSubscribers(a));
   hub_.Publish(a, Message(2, "second"), Hub::Audience::kEstablished);
   const std::vector<Hub::Message> past{Message(1, "first"), Message(2, "second")};
   hub_.Welcome(a, past);
-  EXPECT_FALSE(hub_.HasNewcomers(a));
+  EXPECT_FALSE(hub_.HasNewSubscribers(a));
   hub_.Welcome(a, past);
   EXPECT_EQ(old->data(1).size(), 2u);
   ASSERT_EQ(late->data(1).size(), 2u);

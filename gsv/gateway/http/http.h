@@ -19,7 +19,7 @@ struct Request {
   std::string body;
   std::string content_type;
   std::string if_none_match;  // the header's value, or empty
-  std::string viewer;         // the viewer's key (Gsv-Viewer), or empty; see access/control_desk.h
+  std::string viewer;  // the viewer's key (Gsv-Viewer), or empty; see access/viewer_registry.h
   std::map<std::string, std::string, std::less<>> parameters;  // of the path, by name; see Route
 
   // A parameter of the route's pattern. GSV_CHECK: it has one of that name.

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // A viewer's file is far smaller; what is larger was put there by mistake.
-constexpr std::uintmax_t kLargestFile = 256u << 20;
+constexpr std::uintmax_t kMaxFileBytes = 256u << 20;
 
 constexpr auto kContentTypes = std::to_array<std::pair<std::string_view, std::string_view>>({
     {".css", "text/css; charset=utf-8"},
@@ -54,7 +54,7 @@ std::optional<fs::path> Resolve(const fs::path& root, const std::vector<std::str
   std::error_code error;
   fs::path file = fs::canonical(path, error);
   if (error || !LiesUnder(file, root)) return std::nullopt;
-  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kLargestFile || error) {
+  if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kMaxFileBytes || error) {
     return std::nullopt;
   }
   return file;

@@ -7,7 +7,7 @@
 namespace gsv::gateway {
 namespace {
 
-constexpr std::size_t kLongestTarget = 4096;
+constexpr std::size_t kMaxTargetLength = 4096;
 
 std::optional<std::string> Unescape(std::string_view text) {
   std::string plain;
@@ -61,7 +61,7 @@ bool AddQuery(std::string_view part, Target& target) {
 
 base::Result<Target> ParseTarget(std::string_view target) {
   using base::ErrorCode;
-  if (target.size() > kLongestTarget) {
+  if (target.size() > kMaxTargetLength) {
     return base::Fail(ErrorCode::kInvalidArgument,
                       "the request's target is longer than 4096 bytes");
   }

@@ -16,7 +16,7 @@ using simulation::Command;
 using simulation::ParameterType;
 
 // The encapsulation header, and the octet that ROS 2 puts into an empty message.
-constexpr std::size_t kLongestEmpty = 8;
+constexpr std::size_t kMaxEmptyBytes = 8;
 
 constexpr const char* kResponse = "bool success\nstring message\n";
 
@@ -118,7 +118,7 @@ ArgumentValue ReadValue(const simulation::Parameter& parameter, messages::CdrRea
 
 base::Result<Arguments> ArgumentsIn(const Command& command, const foxglove::ServiceCall& call) {
   if (command.parameters.empty()) {
-    if (call.request.size() <= kLongestEmpty) return ReadArguments(command, Arguments::Values());
+    if (call.request.size() <= kMaxEmptyBytes) return ReadArguments(command, Arguments::Values());
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "this service's request is empty; what came is longer");
   }

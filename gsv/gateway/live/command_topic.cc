@@ -9,7 +9,7 @@ namespace gsv::gateway {
 namespace {
 
 // So that a crowd's commands leave room for other data in a viewer's queue.
-constexpr int kMostInARound = 64;
+constexpr int kMaxPerRound = 64;
 
 }  // namespace
 
@@ -20,12 +20,12 @@ CommandTopic::CommandTopic(std::shared_ptr<Hub> hub)
 void CommandTopic::Publish(const world::Snapshot& snapshot) {
   if (snapshot.layout != layout_) FollowLayout(snapshot);
   if (!hub_->IsSubscribed(channel_)) return;
-  if (hub_->HasNewcomers(channel_)) {
+  if (hub_->HasNewSubscribers(channel_)) {
     hub_->Welcome(channel_, {});
     told_.assign(told_.size(), {});
   }
   int sent = 0;
-  for (std::size_t i = 0; i < told_.size() && sent < kMostInARound; ++i) {
+  for (std::size_t i = 0; i < told_.size() && sent < kMaxPerRound; ++i) {
     const std::size_t body = std::exchange(next_, (next_ + 1) % told_.size());
     const world::DriveState& drive = snapshot.state.bodies[body].drive;
     world::DriveState& told = told_[body];

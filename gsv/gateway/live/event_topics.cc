@@ -36,7 +36,7 @@ void EventTopics::Publish(const simulation::Simulation& simulation) {
     }
   }
   for (const Topic& topic : topics_) {
-    if (hub_->HasNewcomers(topic.channel)) Welcome(topic, simulation);
+    if (hub_->HasNewSubscribers(topic.channel)) Welcome(topic, simulation);
   }
 }
 

@@ -83,7 +83,7 @@ std::vector<foxglove::Parameter> LiveOperations::parameters() const {
   if (const auto simulation = simulation_.lock()) {
     const simulation::Phase phase = simulation->WaitForPhase({}, std::chrono::milliseconds(0));
     parameters.push_back({"/gsv/phase", std::string(ToString(phase))});
-    parameters.push_back({kFactor, simulation->factor()});
+    parameters.push_back({kFactor, simulation->real_time_factor()});
     if (recordings_ != nullptr) {
       const std::string& name = simulation->specification().name;
       parameters.push_back({"/gsv/recording", recordings_->RecordingOf(name).is_recording});
@@ -93,7 +93,7 @@ std::vector<foxglove::Parameter> LiveOperations::parameters() const {
 }
 
 base::Status LiveOperations::Set(const foxglove::Parameter& parameter) {
-  if (parameter.name == kFactor) return SetFactor(parameter.value);
+  if (parameter.name == kFactor) return SetRealTimeFactor(parameter.value);
   const std::vector<foxglove::Parameter> all = parameters();
   const bool is_known = std::any_of(all.begin(), all.end(),
                                     [&](const auto& each) { return each.name == parameter.name; });
@@ -104,14 +104,14 @@ base::Status LiveOperations::Set(const foxglove::Parameter& parameter) {
                         : "there is no parameter " + name);
 }
 
-base::Status LiveOperations::SetFactor(const foxglove::ParameterValue& value) {
+base::Status LiveOperations::SetRealTimeFactor(const foxglove::ParameterValue& value) {
   const auto* factor = std::get_if<double>(&value);
   if (factor == nullptr) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the parameter '/gsv/factor' must be a number");
   }
   const auto simulation = simulation_.lock();
-  return simulation ? simulation->SetFactor(*factor) : base::Fail(Gone().error());
+  return simulation ? simulation->SetRealTimeFactor(*factor) : base::Fail(Gone().error());
 }
 
 }  // namespace gsv::gateway

@@ -27,7 +27,7 @@ class LiveOperations final : public Operations {
   base::Status Set(const foxglove::Parameter& parameter) override;
 
  private:
-  base::Status SetFactor(const foxglove::ParameterValue& value);
+  base::Status SetRealTimeFactor(const foxglove::ParameterValue& value);
 
   const std::weak_ptr<simulation::Simulation> simulation_;
   WorkerPool& workers_;

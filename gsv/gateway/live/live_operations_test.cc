@@ -91,7 +91,7 @@ TEST_F(LiveOperationsTest, TheFactorCanBeSet) {
   LiveOperations operations(simulation_, workers_, nullptr);
   EXPECT_EQ(ValueOf(operations, "/gsv/factor"), foxglove::ParameterValue(1.0));
   EXPECT_TRUE(operations.Set({"/gsv/factor", 2.5}));
-  EXPECT_EQ(simulation_->factor(), 2.5);
+  EXPECT_EQ(simulation_->real_time_factor(), 2.5);
   EXPECT_EQ(ValueOf(operations, "/gsv/factor"), foxglove::ParameterValue(2.5));
 }
 
@@ -103,7 +103,7 @@ TEST_F(LiveOperationsTest, WhatCannotBeSetIsRefusedWithASentence) {
   EXPECT_EQ(Refusal(operations, {"/gsv/seed", 1.0}),
             "the parameter '/gsv/seed' cannot be changed while a simulation runs");
   EXPECT_EQ(Refusal(operations, {"/gsv/colour", true}), "there is no parameter '/gsv/colour'");
-  EXPECT_EQ(simulation_->factor(), 1);
+  EXPECT_EQ(simulation_->real_time_factor(), 1);
   simulation_.reset();
   EXPECT_EQ(Refusal(operations, {"/gsv/factor", 1.0}), "the simulation is gone");
 }

@@ -26,7 +26,7 @@ foxglove::ServerInfo InfoOf(const simulation::Simulation& simulation) {
 
 LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation,
                        WorkerPool& watchers, WorkerPool& commanders, RecordingSwitch* recordings,
-                       std::function<void()> on_demand, access::ControlDesk* desk)
+                       std::function<void()> on_demand, access::ViewerRegistry* registry)
     : hub_(std::make_shared<Hub>(
           InfoOf(*simulation), std::move(on_demand),
           std::make_shared<LiveOperations>(simulation, commanders, recordings))),
@@ -37,7 +37,7 @@ LiveStream::LiveStream(const std::shared_ptr<simulation::Simulation>& simulation
       commands_(hub_),
       contacts_(hub_, topics::kContacts, CollectContacts),
       radio_(hub_, topics::kRadio, CollectTransmissions),
-      viewers_(hub_, desk) {
+      viewers_(hub_, registry) {
   const std::vector<foxglove::ChannelId> channels = hub_->Advertise(
       {ChannelFor(topics::kClock), ChannelFor(topics::kPoses), ChannelFor(topics::kTransforms)});
   snapshot_topics_[0].encode = &LiveStream::EncodeClock;
@@ -71,7 +71,7 @@ void LiveStream::FollowLayout(simulation::Simulation& simulation, const world::S
     pose_list_ = presentation::PoseListOf(*layout_);
   }
   // Sensors can be mounted without a change of the layout.
-  if (!is_new && !sensors_->has_wishes() && !refresh_pacing_.IsDue(now)) return;
+  if (!is_new && !sensors_->has_requests() && !refresh_pacing_.IsDue(now)) return;
   sensors_->Refresh(simulation, snapshot);
   refresh_pacing_.Done(now);
 }
@@ -85,7 +85,7 @@ void LiveStream::PublishTime(const SnapshotPointer& snapshot) {
 void LiveStream::Publish(SnapshotTopic& topic, const SnapshotPointer& snapshot, WallTime now) {
   if (!hub_->IsSubscribed(topic.channel)) return;
   const bool is_due = topic.published.lock() != snapshot && topic.pacing.IsDue(now);
-  if (!is_due && !hub_->HasNewcomers(topic.channel)) return;
+  if (!is_due && !hub_->HasNewSubscribers(topic.channel)) return;
   if (topic.published.lock() != snapshot) {
     topic.latest = {base::NanosecondsOf(snapshot->state.time), (this->*topic.encode)(*snapshot)};
   }

@@ -11,26 +11,26 @@
 #include "gsv/gateway/foxglove/hub.h"
 #include "gsv/gateway/live/command_topic.h"
 #include "gsv/gateway/live/event_topics.h"
-#include "gsv/gateway/live/moment_topic.h"
 #include "gsv/gateway/live/pacing.h"
 #include "gsv/gateway/live/sensor_topics.h"
 #include "gsv/gateway/live/status_topics.h"
+#include "gsv/gateway/live/step_event_topic.h"
 #include "gsv/gateway/program/ports.h"
 #include "gsv/presentation/pose_list.h"
 
 namespace gsv::gateway {
 
 // Hz, of wall time: how often a stream with clients is looked at, and the most that poses are sent.
-inline constexpr double kRoundRate = 30;
+inline constexpr double kPublishRate = 30;
 
 class LiveStream {
  public:
   // Keeps the simulation alive only while a round or a reading is under way. `on_demand`: see Hub.
   // Readings are taken on `watchers`, commands obeyed on `commanders`. `recordings` may be null:
-  // then viewers cannot have it recorded. `desk`: see ViewersTopic.
+  // then viewers cannot have it recorded. `registry`: see ViewersTopic.
   LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& watchers,
              WorkerPool& commanders, RecordingSwitch* recordings, std::function<void()> on_demand,
-             access::ControlDesk* desk = nullptr);
+             access::ViewerRegistry* registry = nullptr);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
@@ -47,7 +47,7 @@ class LiveStream {
   struct SnapshotTopic {
     foxglove::ChannelId channel = 0;
     SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
-    Pacing pacing{kRoundRate};
+    Pacing pacing{kPublishRate};
     std::weak_ptr<const world::Snapshot> published;
     Hub::Message latest;
   };

@@ -11,12 +11,13 @@ constexpr double kDirectoryRate = 2;  // Hz: how soon it is seen that a simulati
 }  // namespace
 
 Publisher::Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
-                     WorkerPool& commanders, RecordingSwitch* recordings, access::ControlDesk* desk)
+                     WorkerPool& commanders, RecordingSwitch* recordings,
+                     access::ViewerRegistry* registry)
     : directory_(std::move(directory)),
       watchers_(watchers),
       commanders_(commanders),
       recordings_(recordings),
-      desk_(desk),
+      registry_(registry),
       directory_pacing_(kDirectoryRate) {
   thread_ = std::thread([this] { Run(); });
 }
@@ -40,7 +41,7 @@ std::shared_ptr<LiveStream> Publisher::StreamOf(
     if (entry.simulation.lock() == simulation) return entry.stream;
   }
   auto stream = std::make_shared<LiveStream>(
-      simulation, watchers_, commanders_, recordings_, [this] { Wake(); }, desk_);
+      simulation, watchers_, commanders_, recordings_, [this] { Wake(); }, registry_);
   if (is_stopping_) stream->hub()->Close(CloseCode::kGoingAway, "the server is shutting down");
   entries_.push_back({simulation->specification().name, simulation, stream});
   return stream;
@@ -67,7 +68,7 @@ void Publisher::Wake() {
 }
 
 void Publisher::Run() {
-  const std::chrono::nanoseconds period(static_cast<std::int64_t>(1e9 / kRoundRate));
+  const std::chrono::nanoseconds period(static_cast<std::int64_t>(1e9 / kPublishRate));
   auto next_round = std::chrono::steady_clock::now();
   bool is_watched = false;
   base::MutexLock lock(mutex_);

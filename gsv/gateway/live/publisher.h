@@ -16,10 +16,10 @@ namespace gsv::gateway {
 class Publisher {
  public:
   // Readings are taken on `watchers`, viewers' commands obeyed on `commanders`; both, and
-  // `recordings` and `desk`, which may be null, outlive the publisher and all its streams.
+  // `recordings` and `registry`, which may be null, outlive the publisher and all its streams.
   Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
             WorkerPool& commanders, RecordingSwitch* recordings,
-            access::ControlDesk* desk = nullptr);
+            access::ViewerRegistry* registry = nullptr);
   ~Publisher();
 
   // The hub of a simulation, made when it is first asked for.
@@ -51,7 +51,7 @@ class Publisher {
   WorkerPool& watchers_;
   WorkerPool& commanders_;
   RecordingSwitch* const recordings_;
-  access::ControlDesk* const desk_;
+  access::ViewerRegistry* const registry_;
   mutable base::Mutex mutex_;
   base::ConditionVariable changed_;
   std::vector<Entry> entries_ GSV_GUARDED_BY(mutex_);

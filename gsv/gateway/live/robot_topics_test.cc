@@ -1,4 +1,4 @@
-#include "gsv/gateway/live/moment_topic.h"
+#include "gsv/gateway/live/step_event_topic.h"
 
 #include <cmath>
 #include <set>
@@ -25,7 +25,7 @@ TEST_F(LiveStreamTest, CommandsAreToldWhenTheyChangeAndToNewcomers) {
   Round();
   EXPECT_TRUE(client_->data(1).empty());  // nobody was told anything
   simulation_->Advance(seconds(1));
-  simulation_->Tell("robot_1", {0.5, 0, 0.25}, milliseconds(990));
+  simulation_->SetDriveState("robot_1", {0.5, 0, 0.25}, milliseconds(990));
   Round();
   Round();
   ASSERT_EQ(client_->data(1).size(), 1u);
@@ -92,7 +92,7 @@ TEST_F(LiveStreamTest, ACrowdsCommandsAreSpreadOverRounds) {
   for (int i = 1; i < 100; ++i) simulation_->AddOneRobot();
   simulation_->Advance(seconds(1));
   for (int i = 0; i < 100; ++i) {
-    simulation_->Tell("robot_" + std::to_string(i), {1, 0, 0}, milliseconds(10));
+    simulation_->SetDriveState("robot_" + std::to_string(i), {1, 0, 0}, milliseconds(10));
   }
   Subscribe(1, "/gsv/commands");
   Round();

@@ -72,10 +72,10 @@ SensorTopics::SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers)
 
 void SensorTopics::Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot) {
   Sensors found = Found(simulation, *snapshot.layout);
-  const bool has_wishes = wanted_.TakeWishes();
-  if (found == sensors_ && !has_wishes) return;
+  const bool has_requests = wanted_.TakeRequests();
+  if (found == sensors_ && !has_requests) return;
   Withdraw(found);
-  MakeRoom(found);
+  EvictUnheard(found);
   Advertise(found);
   sensors_ = std::move(found);
   SensorList with_beams;
@@ -132,8 +132,8 @@ void SensorTopics::Withdraw(const Sensors& found) {
 }
 
 // For the robots that are wanted now.
-void SensorTopics::MakeRoom(Sensors& found) {
-  const std::set<std::string> forgotten = wanted_.MakeRoom([this] { return RobotsHeard(); });
+void SensorTopics::EvictUnheard(Sensors& found) {
+  const std::set<std::string> forgotten = wanted_.EvictUnheard([this] { return RobotsHeard(); });
   if (forgotten.empty()) return;
   std::vector<foxglove::ChannelId> gone;
   for (auto& [topic, sensor] : found) {
@@ -164,7 +164,7 @@ void SensorTopics::Advertise(Sensors& found) {
   for (const auto& [topic, sensor] : found) {
     if (sensor->channel != 0 || sensor->messages.schema == nullptr) continue;
     sensor->is_wanted = wanted_.Contains(sensor->robot);
-    if (!sensor->is_wanted && topics_ >= kMostSensorTopics) {
+    if (!sensor->is_wanted && topics_ >= kMaxSensorTopics) {
       is_all = false;
       continue;
     }
@@ -183,10 +183,10 @@ void SensorTopics::Advertise(Sensors& found) {
     (*sensor).*channel = ids[i];
     hub_->SetPublishers(ids[i], {sensor->robot});
   }
-  if (!is_all && !std::exchange(told_of_limit_, true)) {
+  if (!is_all && !std::exchange(limit_reported_, true)) {
     hub_->SendStatus(foxglove::StatusLevel::kInfo,
                      "there are more sensors than can be listed: the first " +
-                         std::to_string(kMostSensorTopics) +
+                         std::to_string(kMaxSensorTopics) +
                          " have a topic of their own, the others when their robot is asked for "
                          "(docs/formats/live.md)");
   }
@@ -201,7 +201,7 @@ void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simula
     if (found == by_channel_.end()) continue;
     const std::shared_ptr<Sensor>& sensor = found->second;
     if (channel == sensor->companion_channel && !sensor->has_companion_of_readings()) {
-      WelcomeToCompanion(*snapshot, *sensor);
+      SendCompanion(*snapshot, *sensor);
     } else {
       PublishReading(simulation, *snapshot, now, sensor);
     }
@@ -210,7 +210,7 @@ void SensorTopics::Publish(const std::shared_ptr<simulation::Simulation>& simula
 }
 
 void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
-  const bool is_wanted = hub_->HasNewcomers(transforms_channel_) ||
+  const bool is_wanted = hub_->HasNewSubscribers(transforms_channel_) ||
                          (transforms_changed_ && hub_->IsSubscribed(transforms_channel_));
   if (!is_wanted) return;
   messages::tf2_msgs::TFMessage message;
@@ -226,8 +226,8 @@ void SensorTopics::PublishTransforms(const world::Snapshot& snapshot) {
 
 // What goes with readings is the same each time: who comes gets it, whether or not anybody wants
 // the readings.
-void SensorTopics::WelcomeToCompanion(const world::Snapshot& snapshot, const Sensor& sensor) {
-  if (!hub_->HasNewcomers(sensor.companion_channel)) return;
+void SensorTopics::SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor) {
+  if (!hub_->HasNewSubscribers(sensor.companion_channel)) return;
   if (!sensor.made) return hub_->Welcome(sensor.companion_channel, {});
   const base::SimTime time = snapshot.state.time;
   const Hub::Message message{base::NanosecondsOf(time),
@@ -235,9 +235,9 @@ void SensorTopics::WelcomeToCompanion(const world::Snapshot& snapshot, const Sen
   hub_->Welcome(sensor.companion_channel, {&message, 1});
 }
 
-bool SensorTopics::HasNewcomers(const Sensor& sensor) const {
-  return hub_->HasNewcomers(sensor.channel) ||
-         (sensor.has_companion_of_readings() && hub_->HasNewcomers(sensor.companion_channel));
+bool SensorTopics::HasNewSubscribers(const Sensor& sensor) const {
+  return hub_->HasNewSubscribers(sensor.channel) ||
+         (sensor.has_companion_of_readings() && hub_->HasNewSubscribers(sensor.companion_channel));
 }
 
 void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
@@ -246,7 +246,7 @@ void SensorTopics::PublishReading(const std::shared_ptr<simulation::Simulation>&
   if (sensor->is_busy) return;
   const bool is_due = sensor->asked_at_step != snapshot.state.step && sensor->pacing.IsDue(now) &&
                       now - sensor->asked_at >= kShareOfProcessors * sensor->took.load();
-  if (!is_due && !HasNewcomers(*sensor)) return;
+  if (!is_due && !HasNewSubscribers(*sensor)) return;
   sensor->is_busy = true;
   const bool accepted = workers_.Submit([self = shared_from_this(), simulation, sensor] {
     const auto began = std::chrono::steady_clock::now();
@@ -275,7 +275,7 @@ void SensorTopics::TakeReading(simulation::Simulation& simulation, Sensor& senso
   if (!reading) return refuse(reading.error());
   if (!sensor.made) return refuse(sensor.made.error());
   const bool is_new = sensor.published_step.exchange(reading->step) != reading->step;
-  if (!is_new && !HasNewcomers(sensor)) return;
+  if (!is_new && !HasNewSubscribers(sensor)) return;
   const sensing::Sensor& its = **sensor.made;
   auto encoded = its.Encode(*reading, sensor.frame());
   if (!encoded) return refuse(encoded.error());
@@ -301,7 +301,7 @@ void SensorTopics::PublishBeams(const std::shared_ptr<simulation::Simulation>& s
                                 WallTime now) {
   if (beams_busy_ || !hub_->IsSubscribed(beams_channel_)) return;
   const bool is_due = beams_of_.lock() != snapshot && beams_pacing_.IsDue(now);
-  if (!is_due && !hub_->HasNewcomers(beams_channel_)) return;
+  if (!is_due && !hub_->HasNewSubscribers(beams_channel_)) return;
   beams_busy_ = true;
   const bool accepted =
       workers_.Submit([self = shared_from_this(), simulation, snapshot, sensors = beam_sensors_] {

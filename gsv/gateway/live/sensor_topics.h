@@ -28,7 +28,7 @@ namespace gsv::gateway {
 // A robot has more topics than a viewer can list when there are a thousand robots: those of the
 // first so many sensors are advertised, besides those of the robots that somebody wants to listen
 // to (WantedRobots), and a status message says that it is not all.
-inline constexpr std::size_t kMostSensorTopics = 2000;
+inline constexpr std::size_t kMaxSensorTopics = 2000;
 
 class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
  public:
@@ -38,7 +38,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   // Somebody wants to listen to this robot's sensors: they will be advertised, however many others
   // there are, at the next Refresh().
   void Want(const std::string& robot) { wanted_.Want(robot); }
-  bool has_wishes() const { return wanted_.has_wishes(); }
+  bool has_requests() const { return wanted_.has_requests(); }
 
   // Looks which sensors there are now; advertises and withdraws their topics.
   void Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot);
@@ -54,14 +54,14 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
 
   Sensors Found(simulation::Simulation& simulation, const world::Layout& layout);
   void Withdraw(const Sensors& found);
-  void MakeRoom(Sensors& found);
+  void EvictUnheard(Sensors& found);
   std::set<std::string> RobotsHeard() const;
   void Advertise(Sensors& found);
 
   void PublishTransforms(const world::Snapshot& snapshot);
-  void WelcomeToCompanion(const world::Snapshot& snapshot, const Sensor& sensor);
+  void SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor);
   // Somebody has subscribed to its readings since they were last sent.
-  bool HasNewcomers(const Sensor& sensor) const;
+  bool HasNewSubscribers(const Sensor& sensor) const;
   void PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
                       const world::Snapshot& snapshot, WallTime now,
                       const std::shared_ptr<Sensor>& sensor);
@@ -79,7 +79,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
   std::size_t topics_ = 0;  // how many of them have a channel without having been wanted
-  bool told_of_limit_ = false;
+  bool limit_reported_ = false;
   WantedRobots wanted_;
   bool transforms_changed_ = true;
   std::shared_ptr<const SensorList> beam_sensors_;

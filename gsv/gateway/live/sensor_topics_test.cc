@@ -91,11 +91,11 @@ class ManySensorsTest : public LiveStreamTest {
 TEST_F(ManySensorsTest, TwoThousandHaveATopicAndTheOthersAreTold) {
   Mount("robot_0", 0, 1000);
   EXPECT_EQ(Topics("robot_0"), 1000u);
-  EXPECT_EQ(Complaints(complaint_), 0u);
+  EXPECT_EQ(WarningCount(complaint_), 0u);
   Mount("robot_0", 1000, 2000);  // those that it has besides make it more
   EXPECT_LT(Topics("robot_0"), 2000u);
   EXPECT_GT(Topics("robot_0"), 1980u);
-  EXPECT_EQ(Complaints(complaint_), 1u);
+  EXPECT_EQ(WarningCount(complaint_), 1u);
 }
 
 TEST_F(ManySensorsTest, BeyondThemARobotsHaveTheirsWhenItIsWanted) {
@@ -115,7 +115,7 @@ TEST_F(ManySensorsTest, BeyondThemARobotsHaveTheirsWhenItIsWanted) {
 }
 
 TEST_F(ManySensorsTest, OfTheWantedWhoWasWantedFirstGoesUnlessSomebodyListens) {
-  const int count = static_cast<int>(kMostWantedRobots) + 2;
+  const int count = static_cast<int>(kMaxWantedRobots) + 2;
   for (int i = 1; i <= count; ++i) simulation_->AddOneRobot();
   Mount("robot_0", 0, 2000);
   const auto name = [](int i) { return "robot_" + std::to_string(i); };
@@ -228,7 +228,7 @@ TEST_F(LiveStreamTest, ASensorThatFailsIsReportedOnce) {
       [](const std::string&) { return base::Fail(base::ErrorCode::kUnavailable, "no renderer"); });
   Round();
   Subscribe(1, "/robot_0/camera");
-  while (Complaints("no renderer") == 0) {
+  while (WarningCount("no renderer") == 0) {
     Round(milliseconds(1));
     std::this_thread::yield();
   }
@@ -237,7 +237,7 @@ TEST_F(LiveStreamTest, ASensorThatFailsIsReportedOnce) {
     Round(seconds(1));
   }
   workers_.Stop();
-  EXPECT_EQ(Complaints("no renderer"), 1u);
+  EXPECT_EQ(WarningCount("no renderer"), 1u);
 }
 
 TEST_F(LiveStreamTest, StaticTransformsPlaceTheSensors) {

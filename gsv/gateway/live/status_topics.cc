@@ -37,7 +37,7 @@ void StatusTopics::Publish(const simulation::Simulation& simulation, WallTime no
 void StatusTopics::Publish(Topic& topic, const simulation::Simulation& simulation, WallTime now) {
   const simulation::Phase phase = simulation.WaitForPhase({}, std::chrono::milliseconds(0));
   const bool is_due = phase != topic.phase || topic.pacing.IsDue(now);
-  const bool has_newcomers = hub_->HasNewcomers(topic.channel);
+  const bool has_newcomers = hub_->HasNewSubscribers(topic.channel);
   if (!is_due && !has_newcomers) return;
   const simulation::SimulationStatus status = simulation.status();
   const Hub::Message message{base::NanosecondsOf(status.time), topic.encode(status)};

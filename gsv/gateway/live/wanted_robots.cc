@@ -4,19 +4,19 @@ namespace gsv::gateway {
 
 void WantedRobots::Want(const std::string& robot) {
   const base::MutexLock lock(mutex_);
-  if (wishes_.size() < kMostWantedRobots) wishes_.insert(robot);
+  if (requests_.size() < kMaxWantedRobots) requests_.insert(robot);
 }
 
-bool WantedRobots::has_wishes() const {
+bool WantedRobots::has_requests() const {
   const base::MutexLock lock(mutex_);
-  return !wishes_.empty();
+  return !requests_.empty();
 }
 
-bool WantedRobots::TakeWishes() {
+bool WantedRobots::TakeRequests() {
   std::set<std::string> wishes;
   {
     const base::MutexLock lock(mutex_);
-    wishes.swap(wishes_);
+    wishes.swap(requests_);
   }
   for (const std::string& robot : wishes) {
     if (!wanted_.insert(robot).second) in_order_.remove(robot);
@@ -25,12 +25,13 @@ bool WantedRobots::TakeWishes() {
   return !wishes.empty();
 }
 
-std::set<std::string> WantedRobots::MakeRoom(const std::function<std::set<std::string>()>& heard) {
+std::set<std::string> WantedRobots::EvictUnheard(
+    const std::function<std::set<std::string>()>& heard) {
   std::set<std::string> gone;
-  if (wanted_.size() <= kMostWantedRobots) return gone;
+  if (wanted_.size() <= kMaxWantedRobots) return gone;
   const std::set<std::string> stay = heard();
   for (auto robot = in_order_.begin();
-       robot != in_order_.end() && wanted_.size() > kMostWantedRobots;) {
+       robot != in_order_.end() && wanted_.size() > kMaxWantedRobots;) {
     if (stay.contains(*robot)) {
       ++robot;
       continue;

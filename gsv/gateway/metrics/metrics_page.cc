@@ -92,11 +92,11 @@ void PutProcess(const MetricsSources& sources, Exposition& out) {
           usage.allocated_bytes);
   out.Put("process_threads", kGauge, "Threads of this process.", usage.threads);
   out.Put("process_open_fds", kGauge, "Descriptors that are open.", usage.descriptors);
-  out.Put("process_max_fds", kGauge, "Descriptors that may be open.", usage.most_descriptors);
+  out.Put("process_max_fds", kGauge, "Descriptors that may be open.", usage.max_descriptors);
 }
 
 void PutLog(Exposition& out) {
-  const base::LogCounts counts = base::CountsOfLog();
+  const base::LogCounts counts = base::ProcessLogCounts();
   out.Put("gsv_log_lines_total", kCounter, "Lines written to the log.", counts.written);
   out.Put("gsv_log_suppressed_lines_total", kCounter,
           "Lines that were not written to the log, as there were too many.", counts.suppressed);

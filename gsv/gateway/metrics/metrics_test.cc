@@ -87,7 +87,7 @@ TEST(ProcessUsage, IsThatOfThisProcess) {
   const ProcessUsage before = ReadProcessUsage();
   EXPECT_GT(before.resident_bytes, 1u << 20);
   EXPECT_GE(before.threads, 1u);
-  EXPECT_GE(before.most_descriptors, before.descriptors);
+  EXPECT_GE(before.max_descriptors, before.descriptors);
   EXPECT_GE(before.uptime, 0);
   EXPECT_GT(before.start_time, 1.6e9);
   std::FILE* const file = std::fopen("/dev/null", "r");
@@ -97,7 +97,7 @@ TEST(ProcessUsage, IsThatOfThisProcess) {
 }
 
 TEST(ProcessUsage, TellsWhatIsAllocatedWhateverItsSize) {
-  if (base::kTakesAllAddresses) GTEST_SKIP() << "a sanitizer's own malloc does not tell";
+  if (base::kReservesAddressSpace) GTEST_SKIP() << "a sanitizer's own malloc does not tell";
   for (const std::size_t size : {std::size_t{1000}, std::size_t{64} << 20}) {
     constexpr std::size_t kTotal = std::size_t{64} << 20;
     const std::uint64_t before = ReadProcessUsage().allocated_bytes;

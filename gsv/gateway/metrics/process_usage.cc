@@ -55,7 +55,7 @@ ProcessUsage ReadProcessUsage() {
   }
   if (usage.descriptors > 0) --usage.descriptors;  // the one that was just used to count
   rlimit limit{};
-  if (getrlimit(RLIMIT_NOFILE, &limit) == 0) usage.most_descriptors = limit.rlim_cur;
+  if (getrlimit(RLIMIT_NOFILE, &limit) == 0) usage.max_descriptors = limit.rlim_cur;
   return usage;
 }
 

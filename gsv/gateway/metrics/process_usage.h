@@ -10,10 +10,10 @@ struct ProcessUsage {
   std::uint64_t allocated_bytes = 0;  // that malloc gave out: what it keeps for later is not in it
   std::uint64_t threads = 0;
   std::uint64_t descriptors = 0;
-  std::uint64_t most_descriptors = 0;  // that it may open
-  double processor_seconds = 0;        // of all its threads
-  double start_time = 0;               // s since 1970
-  double uptime = 0;                   // s
+  std::uint64_t max_descriptors = 0;  // that it may open
+  double processor_seconds = 0;       // of all its threads
+  double start_time = 0;              // s since 1970
+  double uptime = 0;                  // s
 };
 
 // What cannot be read stays zero. About 0.1 ms, and a little for each descriptor.

@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint64_t kMostSceneBytes = std::uint64_t{64} << 20;
-constexpr std::uint64_t kMostModelBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxSceneBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxModelBytes = std::uint64_t{1} << 30;
 
 std::string_view TextOf(const recording::Bytes& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -55,7 +55,7 @@ RecordedScene::RecordedScene(const recording::McapReader& reader) : reader_(read
 }
 
 base::Status RecordedScene::Add(const recording::AttachmentIndexRecord& index) {
-  if (index.data_size > kMostSceneBytes) {
+  if (index.data_size > kMaxSceneBytes) {
     return base::Fail(base::ErrorCode::kCorrupt, "a scene is larger than is read", index.name);
   }
   const auto attachment = reader_.Read(index);
@@ -103,7 +103,7 @@ base::Result<SharedBytes> RecordedScene::Model(const std::string& id) const {
     return base::Fail(base::ErrorCode::kNotFound,
                       "the recording holds no model '" + id.substr(0, 64) + "'");
   }
-  if (found->second.data_size > kMostModelBytes) {
+  if (found->second.data_size > kMaxModelBytes) {
     return base::Fail(base::ErrorCode::kCorrupt, "the model is larger than is read", id);
   }
   auto attachment = reader_.Read(found->second);

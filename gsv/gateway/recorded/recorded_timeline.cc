@@ -12,9 +12,9 @@ namespace {
 
 using recording::MessageBlock;
 
-constexpr std::size_t kMostEvents = 1000;
-constexpr std::size_t kMostLines = 5000;
-constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::size_t kMaxEvents = 1000;
+constexpr std::size_t kMaxLines = 5000;
+constexpr std::size_t kMaxBytes = 1 << 20;
 
 // A block without an index may hold anything.
 bool MayHold(const MessageBlock& block, const std::set<std::uint16_t>& channels) {
@@ -85,7 +85,7 @@ std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::si
                                              Use use) const {
   std::vector<Entry> entries;
   std::size_t bytes = 0;
-  const auto is_full = [&] { return entries.size() >= most || bytes > kMostBytes; };
+  const auto is_full = [&] { return entries.size() >= most || bytes > kMaxBytes; };
   for (const MessageBlock& block : reader_.summary().blocks) {
     if (is_full()) break;
     if (!MayHold(block, channels)) continue;
@@ -108,7 +108,7 @@ std::vector<Entry> RecordedTimeline::ReadAll(const ChannelIds& channels, std::si
 std::vector<RecordedEvent> RecordedTimeline::ReadEvents() const {
   using messages::gsv_msgs::LifecycleEvent;
   return ReadAll<LifecycleEvent, RecordedEvent>(
-      event_channels_, kMostEvents, [](base::SimTime time, LifecycleEvent event) {
+      event_channels_, kMaxEvents, [](base::SimTime time, LifecycleEvent event) {
         return RecordedEvent{time, std::move(event.event), std::move(event.robot),
                              std::move(event.detail)};
       });
@@ -116,7 +116,7 @@ std::vector<RecordedEvent> RecordedTimeline::ReadEvents() const {
 
 std::vector<RecordedLine> RecordedTimeline::ReadLog() const {
   using messages::rcl_interfaces::Log;
-  return ReadAll<Log, RecordedLine>(log_channels_, kMostLines, [](base::SimTime time, Log line) {
+  return ReadAll<Log, RecordedLine>(log_channels_, kMaxLines, [](base::SimTime time, Log line) {
     return RecordedLine{time, line.level, std::move(line.name), std::move(line.msg)};
   });
 }

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostListed = 1000;
+constexpr std::size_t kMaxListed = 1000;
 
 // A finished file ends as it begins. Whatever else ends would have to be read whole.
 bool IsFinished(const fs::path& file) {
@@ -119,7 +119,7 @@ RecordingFolder::Listing RecordingFolder::List() {
     return std::tie(b.modified, a.name) < std::tie(a.modified, b.name);
   });
   Listing listing;
-  listing.left_out = found.size() - std::min(found.size(), kMostListed);
+  listing.left_out = found.size() - std::min(found.size(), kMaxListed);
   found.resize(found.size() - listing.left_out);
   for (const Found& each : found) listing.lines.push_back(Look(each.name, each.file));
   const base::MutexLock lock(mutex_);

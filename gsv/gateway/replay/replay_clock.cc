@@ -9,7 +9,7 @@ namespace {
 using simulation::Phase;
 
 // A round that comes later than this slows the replay down; it does not leap.
-constexpr std::chrono::milliseconds kLongestRound{200};
+constexpr std::chrono::milliseconds kMaxRoundTime{200};
 
 base::Status Refuse(const char* action, const char* needed, Phase phase) {
   return base::Fail(base::ErrorCode::kNotRunning, std::string("to ") + action +
@@ -69,7 +69,7 @@ void ReplayClock::StandAt(base::SimTime time) {
 bool ReplayClock::Advance(WallTime now) {
   if (phase_ != Phase::kRunning) return false;
   if (last_ == WallTime{}) last_ = now;
-  const auto wall = std::min<std::chrono::nanoseconds>(now - last_, kLongestRound);
+  const auto wall = std::min<std::chrono::nanoseconds>(now - last_, kMaxRoundTime);
   last_ = now;
   const double moved = static_cast<double>(wall.count()) * speed_;
   const auto left = static_cast<double>((end_ - position_).count());

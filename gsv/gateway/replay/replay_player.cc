@@ -12,8 +12,8 @@ namespace {
 using simulation::AgentPhase;
 
 constexpr std::chrono::nanoseconds kRound{1'000'000'000 / 30};
-constexpr std::int64_t kMostPoses = 1000;  // in one step
-constexpr double kSlowest = 0.001, kFastest = 1000;
+constexpr std::int64_t kMaxPoses = 1000;  // in one step
+constexpr double kMinSpeed = 0.001, kMaxSpeed = 1000;
 
 recording::StringMap Metadata(const recording::McapReader& reader, const std::string& name) {
   for (const recording::MetadataIndexRecord& index : reader.summary().metadata) {
@@ -90,9 +90,8 @@ void ReplayPlayer::ReadMetadata() {
   const std::string& text = values["step_ns"];
   std::int64_t step = 0;
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), step);
-  constexpr base::SimTime kLongestStep = std::chrono::seconds(10);
-  const bool is_usable =
-      parsed.ec == std::errc() && step > 0 && base::SimTime(step) <= kLongestStep;
+  constexpr base::SimTime kMaxStep = std::chrono::seconds(10);
+  const bool is_usable = parsed.ec == std::errc() && step > 0 && base::SimTime(step) <= kMaxStep;
   if (is_usable) step_ = base::SimTime(step);
 }
 
@@ -137,7 +136,7 @@ void ReplayPlayer::Seek(base::SimTime time) {
 }
 
 base::Status ReplayPlayer::StepPoses(std::int64_t count) {
-  if (count == 0 || count < -kMostPoses || count > kMostPoses) {
+  if (count == 0 || count < -kMaxPoses || count > kMaxPoses) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "a step over recorded poses is from 1 to 1000 of them, or from -1 to -1000");
   }
@@ -150,7 +149,7 @@ base::Status ReplayPlayer::StepPoses(std::int64_t count) {
 }
 
 base::Status ReplayPlayer::SetSpeed(double speed) {
-  if (!(speed >= kSlowest && speed <= kFastest)) {
+  if (!(speed >= kMinSpeed && speed <= kMaxSpeed)) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "'speed' must be from 0.001 to 1000");
   }
   Command([&](ReplayClock& clock) GSV_REQUIRES(mutex_) { clock.SetSpeed(speed); });

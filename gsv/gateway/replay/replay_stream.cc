@@ -15,7 +15,7 @@ namespace {
 namespace topics = presentation::topics;
 
 constexpr double kReplayStatusRate = 5;  // Hz
-constexpr int kMostWarnings = 10;
+constexpr int kMaxWarnings = 10;
 
 foxglove::ServerInfo InfoOf(const std::string& name, const recording::Summary& summary) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -79,15 +79,15 @@ void ReplayStream::AdvertiseFirst() {
       Track& track = tracks_[id];
       track.kind = KindOf(channel.topic);
       const bool is_own = track.kind == Kind::kStatus || track.kind == Kind::kClock;
-      if (!is_own && ids.size() < kMostSensorTopics) ids.push_back(id);
+      if (!is_own && ids.size() < kMaxSensorTopics) ids.push_back(id);
     }
   }
   Advertise(ids);
 }
 
 void ReplayStream::AdvertiseWanted() {
-  if (!wanted_.TakeWishes()) return;
-  MakeRoom();
+  if (!wanted_.TakeRequests()) return;
+  EvictUnheard();
   std::vector<std::uint16_t> ids;
   for (auto& [id, track] : tracks_) {
     const bool is_left_out = track.kind == Kind::kPlain && track.channel == 0;
@@ -98,8 +98,8 @@ void ReplayStream::AdvertiseWanted() {
   Advertise(ids);
 }
 
-void ReplayStream::MakeRoom() {
-  const std::set<std::string> forgotten = wanted_.MakeRoom([this] { return RobotsHeard(); });
+void ReplayStream::EvictUnheard() {
+  const std::set<std::string> forgotten = wanted_.EvictUnheard([this] { return RobotsHeard(); });
   std::vector<foxglove::ChannelId> gone;
   for (auto& [id, track] : tracks_) {
     if (!track.is_wanted || !forgotten.contains(RobotOf(TopicOf(id)))) continue;
@@ -212,14 +212,14 @@ void ReplayStream::Publish(Track& track) {
 
 void ReplayStream::PublishOwn(foxglove::ChannelId channel, bool is_due, base::SimTime time,
                               const std::function<SharedBytes()>& encode) {
-  if (!hub_->IsSubscribed(channel) || (!is_due && !hub_->HasNewcomers(channel))) return;
+  if (!hub_->IsSubscribed(channel) || (!is_due && !hub_->HasNewSubscribers(channel))) return;
   const Hub::Message message{base::NanosecondsOf(time), encode()};
   if (is_due) return hub_->Publish(channel, message);
   hub_->Welcome(channel, {&message, 1});
 }
 
 void ReplayStream::Warn(const std::string& sentence) {
-  if (++warnings_ > kMostWarnings) return;
+  if (++warnings_ > kMaxWarnings) return;
   hub_->SendStatus(foxglove::StatusLevel::kWarning, sentence);
 }
 

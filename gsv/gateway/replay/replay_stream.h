@@ -64,7 +64,7 @@ class ReplayStream {
   static Kind KindOf(const std::string& topic);
   void AdvertiseFirst();
   void AdvertiseWanted();
-  void MakeRoom();
+  void EvictUnheard();
   std::set<std::string> RobotsHeard() const;
   const std::string& TopicOf(std::uint16_t id) const;
   void Advertise(const std::vector<std::uint16_t>& ids);

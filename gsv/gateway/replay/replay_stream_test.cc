@@ -23,8 +23,8 @@ using messages::sensor_msgs::Range;
 using testing::RecordingClient;
 
 constexpr int kSensors = 20;
-constexpr int kListed = static_cast<int>(kMostSensorTopics) / kSensors;  // robots
-constexpr int kWanted = static_cast<int>(kMostWantedRobots);
+constexpr int kListed = static_cast<int>(kMaxSensorTopics) / kSensors;  // robots
+constexpr int kWanted = static_cast<int>(kMaxWantedRobots);
 constexpr int kRobots = kListed + kWanted + 2;
 
 std::string Robot(int i) { return "robot_" + std::to_string(i); }

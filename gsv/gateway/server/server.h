@@ -62,7 +62,7 @@ class Handler {
   // Has the route's handler answer, on the threads that the route names. `respond` must be called
   // once, here or later, from any thread, before the server is stopped.
   virtual void Handle(const Route& route, Request request, Respond respond) = 0;
-  // Why the viewer of this key (empty: none) may not control that simulation now; see ControlDesk.
+  // Why the viewer of this key (empty: none) may not control that simulation now; see ViewerRegistry.
   virtual base::Status CheckControl(const std::string& /*viewer*/,
                                     const std::string& /*simulation*/) {
     return {};

@@ -75,7 +75,7 @@ class WebSocketSession final : public Client,
 
   std::uint64_t dropped_updates() const override { return queue_.dropped(); }
 
-  base::Status MayAct() override {
+  base::Status CheckControl() override {
     if (owner_.is_private) return {};
     if (owner_.principal.permission == Permission::kControl) {
       return context_->handler.CheckControl(owner_.viewer, hub_->simulation());

@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
   }
   if (!simulation->Start()) return 5;
   for (int i = 0; i < robots; ++i) {
-    simulation->Tell("robot_" + std::to_string(i), ScriptedSimulation::CommandOf(i), {});
+    simulation->SetDriveState("robot_" + std::to_string(i), ScriptedSimulation::CommandOf(i), {});
   }
   std::printf("%s\n", (*gateway)->url().c_str());
   std::fflush(stdout);

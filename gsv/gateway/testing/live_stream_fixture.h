@@ -43,7 +43,7 @@ class LiveStreamTest : public ::testing::Test {
     return client_->data(id)[count - 1];
   }
 
-  std::size_t Complaints(const std::string& sentence) const {
+  std::size_t WarningCount(const std::string& sentence) const {
     const auto texts = client_->texts();
     return static_cast<std::size_t>(
         std::count_if(texts.begin(), texts.end(),

@@ -76,7 +76,9 @@ class ScriptedSimulation::Avatar final : public simulation::Agent {
   base::Status Send(const std::string&, const std::string&, std::string) override {
     return Refused();
   }
-  base::Status Act(const std::string&, world::DeviceCommand) override { return Refused(); }
+  base::Status CommandDevice(const std::string&, world::DeviceCommand) override {
+    return Refused();
+  }
   base::Result<std::shared_ptr<simulation::MountedSensor>> Mounted(
       const std::string&) const override {
     return base::Fail(Refused().error());
@@ -161,8 +163,8 @@ world::DriveCommand ScriptedSimulation::CommandOf(int robot) {
   return {RadiusOf(robot) * kTurnRate, 0, kTurnRate};
 }
 
-void ScriptedSimulation::Tell(const std::string& robot, const world::DriveCommand& command,
-                              base::SimTime time) {
+void ScriptedSimulation::SetDriveState(const std::string& robot, const world::DriveCommand& command,
+                                       base::SimTime time) {
   const std::lock_guard lock(mutex_);
   told_[robot].command = command;
   told_[robot].command_time = time;
@@ -252,7 +254,7 @@ base::Status ScriptedSimulation::Step(std::int64_t count) {
   Advance(count * specification_.world->max_step_size);
   return {};
 }
-base::Status ScriptedSimulation::SetFactor(double factor) {
+base::Status ScriptedSimulation::SetRealTimeFactor(double factor) {
   if (!(factor > 0)) return base::Fail(ErrorCode::kInvalidArgument, "the factor must be above 0");
   const std::lock_guard lock(mutex_);
   factor_ = factor;
@@ -267,7 +269,7 @@ std::optional<double> ScriptedSimulation::gravity() const {
   const std::lock_guard lock(mutex_);
   return gravity_;
 }
-double ScriptedSimulation::factor() const {
+double ScriptedSimulation::real_time_factor() const {
   const std::lock_guard lock(mutex_);
   return factor_;
 }

@@ -24,7 +24,8 @@ class ScriptedSimulation final : public simulation::Simulation {
   // What would make robot i drive as it does.
   static world::DriveCommand CommandOf(int robot);
   // What the latest snapshot, and those after it, show of a robot's drive.
-  void Tell(const std::string& robot, const world::DriveCommand& command, base::SimTime time);
+  void SetDriveState(const std::string& robot, const world::DriveCommand& command,
+                     base::SimTime time);
   // Two bodies meet, a step later, where the first stands.
   void Meet(const std::string& first, const std::string& second);
   std::size_t observers() const;
@@ -57,10 +58,10 @@ class ScriptedSimulation final : public simulation::Simulation {
   base::Status RunThrough(base::SimTime until) override;
   base::Status Stop() override;
   base::Status Reset() override;
-  base::Status SetFactor(double factor) override;
+  base::Status SetRealTimeFactor(double factor) override;
   base::Status SetGravity(std::optional<double> z) override;
   std::optional<double> gravity() const;  // as it was set last
-  double factor() const override;
+  double real_time_factor() const override;
   const simulation::Specification& specification() const override { return specification_; }
   simulation::SimulationStatus status() const override;
   std::shared_ptr<const world::Snapshot> snapshot() const override;

@@ -9,13 +9,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestFileName = 200;
+constexpr std::size_t kMaxFileNameLength = 200;
 
 bool IsName(const std::string& name) {
   const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return c >= 0x20 && c != 0x7f && c != '/' && c != '\\';
   });
-  return is_plain && !name.empty() && name.size() <= kLongestFileName && name.front() != '.';
+  return is_plain && !name.empty() && name.size() <= kMaxFileNameLength && name.front() != '.';
 }
 
 std::uint64_t NumberOf(const std::string& set) {

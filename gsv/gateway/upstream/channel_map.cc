@@ -13,7 +13,7 @@ using foxglove::ChannelId;
 namespace {
 
 // What a hostile server may make us hold.
-constexpr std::size_t kMostChannels = 10'000;
+constexpr std::size_t kMaxChannels = 10'000;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void ChannelMap::Take(const Advertise& message) {
   std::vector<foxglove::Channel> fresh;
   for (const foxglove::Channel& channel : message.channels) {
     const bool is_known = ours_by_theirs_.contains(channel.id);
-    if (!is_known && sources_.size() + fresh.size() < kMostChannels) fresh.push_back(channel);
+    if (!is_known && sources_.size() + fresh.size() < kMaxChannels) fresh.push_back(channel);
   }
   const std::vector<ChannelId> ours = hub_->Advertise(fresh);
   for (std::size_t i = 0; i < ours.size(); ++i) {
@@ -78,14 +78,14 @@ std::vector<std::string> ChannelMap::FollowDemand() {
   return texts;
 }
 
-void ChannelMap::WelcomeNewcomers() {
+void ChannelMap::ServeNewSubscribers() {
   for (const auto& [ours, source] : sources_) {
     if (!source.latest.empty()) Welcome(ours, source);
   }
 }
 
 void ChannelMap::Welcome(ChannelId ours, const Source& source) {
-  if (!hub_->HasNewcomers(ours)) return;
+  if (!hub_->HasNewSubscribers(ours)) return;
   hub_->Welcome(ours, std::vector<Hub::Message>(source.latest.begin(), source.latest.end()));
 }
 

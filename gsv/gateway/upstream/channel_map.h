@@ -29,7 +29,7 @@ class ChannelMap {
   // Subscribes to what our viewers want, and to nothing else: the texts to be sent for that.
   std::vector<std::string> FollowDemand();
   // Those who subscribed to what we have already get it from memory.
-  void WelcomeNewcomers();
+  void ServeNewSubscribers();
 
   // The connection has ended: everything is withdrawn.
   void Clear();

@@ -18,7 +18,7 @@ using boost::asio::ip::tcp;
 using boost::system::error_code;
 
 // A model with all its textures is far smaller.
-constexpr std::uint64_t kLargestBody = std::uint64_t{512} << 20;
+constexpr std::uint64_t kMaxBodyBytes = std::uint64_t{512} << 20;
 
 // The steps of one exchange, each of which starts the next.
 class Exchange {
@@ -42,7 +42,7 @@ class Exchange {
     message_.keep_alive(false);
     message_.body() = request.body;
     message_.prepare_payload();
-    parser_.body_limit(kLargestBody);
+    parser_.body_limit(kMaxBodyBytes);
   }
 
   base::Result<Response> Run(std::chrono::milliseconds limit) {
@@ -56,9 +56,10 @@ class Exchange {
       return base::Fail(base::ErrorCode::kUnavailable, "no answer: " + WhyNotConnected(error_),
                         address_.Url());
     }
-    return base::Fail(base::ErrorCode::kTimeout,
-                      "no answer within " + std::to_string(limit.count()) + " ms; " + kIsItThere,
-                      address_.Url());
+    return base::Fail(
+        base::ErrorCode::kTimeout,
+        "no answer within " + std::to_string(limit.count()) + " ms; " + kConnectionHint,
+        address_.Url());
   }
 
  private:

@@ -35,7 +35,7 @@ void Secure(transport::ByteStream& stream, const Address& address, transport::Co
 
 std::string WhyNotConnected(const boost::system::error_code& error) {
   if (error.category() != boost::asio::error::get_ssl_category()) {
-    return error.message() + "; " + kIsItThere;
+    return error.message() + "; " + kConnectionHint;
   }
   if (ERR_GET_REASON(static_cast<unsigned long>(error.value())) ==
       SSL_R_CERTIFICATE_VERIFY_FAILED) {

@@ -13,6 +13,6 @@ void Secure(transport::ByteStream& stream, const Address& address, transport::Co
 
 // Why there is no connection, and what to do about it.
 std::string WhyNotConnected(const boost::system::error_code& error);
-inline constexpr char kIsItThere[] = "is gsv running there, and is the address right?";
+inline constexpr char kConnectionHint[] = "is gsv running there, and is the address right?";
 
 }  // namespace gsv::gateway::upstream

@@ -31,10 +31,10 @@ using std::chrono::seconds;
 using WebSocket = websocket::stream<transport::ByteStream>;
 
 // A big picture, or the list of two thousand channels with their definitions.
-constexpr std::size_t kLargestMessage = 64u << 20;
+constexpr std::size_t kMaxMessageBytes = 64u << 20;
 constexpr seconds kConnectTime{10};
 constexpr seconds kIdleTime{30};
-constexpr milliseconds kFirstPause{200}, kLongestPause{5000};
+constexpr milliseconds kFirstPause{200}, kMaxPause{5000};
 
 foxglove::ServerInfo InfoOf(const Address& address, const std::string& simulation) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -105,7 +105,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     if (state_ == State::kIdle) return Connect();
     if (state_ != State::kOpen) return;
     for (std::string& text : channels_->FollowDemand()) Send(std::move(text));
-    channels_->WelcomeNewcomers();
+    channels_->ServeNewSubscribers();
   }
 
   // A handler that does nothing once its attempt is over.
@@ -156,7 +156,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     timeout.idle_timeout = kIdleTime;
     timeout.keep_alive_pings = true;
     socket.set_option(timeout);
-    socket.read_message_max(kLargestMessage);
+    socket.read_message_max(kMaxMessageBytes);
     socket.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
       if (!address_.token.empty()) {
         request.set(beast::http::field::authorization, "Bearer " + address_.token);
@@ -270,7 +270,7 @@ class RemoteStream final : public Stream, public std::enable_shared_from_this<Re
     }
     state_ = State::kPausing;
     pause_.expires_after(pause_length_);
-    pause_length_ = std::min(2 * pause_length_, kLongestPause);
+    pause_length_ = std::min(2 * pause_length_, kMaxPause);
     pause_.async_wait([self = shared_from_this()](error_code error) {
       if (error || self->state_ != State::kPausing) return;
       self->state_ = State::kIdle;

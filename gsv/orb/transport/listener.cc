@@ -19,21 +19,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kHandshakeTime{10}, kFarewellTime{1};
-constexpr std::size_t kMaxNewcomers = 256;  // beyond them the one that came first goes
+constexpr std::size_t kMaxPendingHandshakes = 256;  // beyond them the one that came first goes
 
 }  // namespace
 
 // A client that has not shown its certificate yet, or that was refused and is to read why.
-class Newcomer : public omni::SocketHolder {
+class PendingHandshake : public omni::SocketHolder {
  public:
-  Newcomer(int socket, omni::SocketCollection& collection,
-           const std::shared_ptr<const TlsContext>& context, ConnectionAddresses addresses)
+  PendingHandshake(int socket, omni::SocketCollection& collection,
+                   const std::shared_ptr<const TlsContext>& context, ConnectionAddresses addresses)
       : SocketHolder(socket),
         channel_(std::make_unique<TlsChannel>(context, socket, TlsChannel::Side::kServer)),
         addresses_(std::move(addresses)) {
     collection.addSocket(this);
   }
-  ~Newcomer() override {
+  ~PendingHandshake() override {
     clearSelectable();
     pd_belong_to->removeSocket(this);
     if (channel_ != nullptr) close(pd_socket);
@@ -115,14 +115,14 @@ omni::giopConnection* Listener::Await(omni::giopConnection::notifyReadable_t rea
   if (context_ != nullptr && alarm_ == nullptr) alarm_ = std::make_unique<Alarm>(collection_);
   while (!poked_ && accepted_.empty()) {
     if (!collection_.Select()) break;
-    if (!newcomers_.empty()) Dismiss();
+    if (!pending_handshakes_.empty()) Dismiss();
   }
   if (!poked_ && !accepted_.empty()) {
     Connection* const connection = accepted_.front();
     accepted_.pop_front();
     return connection;
   }
-  newcomers_.clear();
+  pending_handshakes_.clear();
   alarm_.reset();
   for (Connection* connection : accepted_) connection->decrRefCount(true);
   accepted_.clear();
@@ -135,8 +135,8 @@ void Listener::Notify(omni::SocketHolder* holder) {
       alarm_->Hear();
       return;
     }
-    if (auto* const newcomer = dynamic_cast<Newcomer*>(holder)) {
-      Proceed(newcomer);
+    if (auto* const pending = dynamic_cast<PendingHandshake*>(holder)) {
+      Proceed(pending);
       return;
     }
   }
@@ -149,10 +149,10 @@ void Listener::Accept(int socket, ConnectionAddresses addresses) {
     AddConnection(socket, std::make_unique<PlainChannel>(socket), std::move(addresses));
     return;
   }
-  if (newcomers_.empty()) alarm_->Set(true);
-  newcomers_.push_back(
-      std::make_unique<Newcomer>(socket, collection_, context_, std::move(addresses)));
-  newcomers_.back()->setSelectable(1, false);
+  if (pending_handshakes_.empty()) alarm_->Set(true);
+  pending_handshakes_.push_back(
+      std::make_unique<PendingHandshake>(socket, collection_, context_, std::move(addresses)));
+  pending_handshakes_.back()->setSelectable(1, false);
 }
 
 void Listener::AddConnection(int socket, std::unique_ptr<Channel> channel,
@@ -161,44 +161,45 @@ void Listener::AddConnection(int socket, std::unique_ptr<Channel> channel,
       new Connection(socket, std::move(channel), std::move(addresses), collection_, *policy_));
 }
 
-void Listener::Proceed(Newcomer* newcomer) {
-  switch (newcomer->Proceed()) {
+void Listener::Proceed(PendingHandshake* pending) {
+  switch (pending->Proceed()) {
     case TlsChannel::Step::kDone:
-      AddConnection(newcomer->socket(), newcomer->TakeChannel(), newcomer->addresses());
+      AddConnection(pending->socket(), pending->TakeChannel(), pending->addresses());
       return;
     case TlsChannel::Step::kWantsToRead:
-      newcomer->setSelectable(1, false);
+      pending->setSelectable(1, false);
       return;
     case TlsChannel::Step::kWantsToWrite:
       // The few bytes of a handshake always find room, except where the peer means harm.
-      newcomer->Refuse("it does not read");
+      pending->Refuse("it does not read");
       break;
     case TlsChannel::Step::kFailed:
-      if (newcomer->is_refused()) {
-        newcomer->Leave();
+      if (pending->is_refused()) {
+        pending->Leave();
         return;
       }
-      newcomer->Refuse(newcomer->failure());
+      pending->Refuse(pending->failure());
       break;
   }
-  newcomer->setSelectable(1, false);
+  pending->setSelectable(1, false);
 }
 
 // Called after the notifications of a round, as some of these may concern newcomers that go.
 void Listener::Dismiss() {
   const Clock::time_point now = Clock::now();
-  std::size_t surplus = newcomers_.size() - std::min(newcomers_.size(), kMaxNewcomers);
-  std::erase_if(newcomers_, [&](const std::unique_ptr<Newcomer>& newcomer) {
-    if (newcomer->is_gone()) return true;
+  std::size_t surplus =
+      pending_handshakes_.size() - std::min(pending_handshakes_.size(), kMaxPendingHandshakes);
+  std::erase_if(pending_handshakes_, [&](const std::unique_ptr<PendingHandshake>& pending) {
+    if (pending->is_gone()) return true;
     if (surplus > 0) {
       --surplus;
       return true;
     }
-    if (!newcomer->is_late(now)) return false;
-    if (!newcomer->is_refused()) newcomer->Refuse("it did not finish the handshake of TLS");
+    if (!pending->is_late(now)) return false;
+    if (!pending->is_refused()) pending->Refuse("it did not finish the handshake of TLS");
     return true;
   });
-  if (newcomers_.empty()) alarm_->Set(false);
+  if (pending_handshakes_.empty()) alarm_->Set(false);
 }
 
 }  // namespace gsv::orb

@@ -18,7 +18,7 @@
 namespace gsv::orb {
 
 class Alarm;
-class Newcomer;
+class PendingHandshake;
 
 class Listener {
  public:
@@ -40,15 +40,15 @@ class Listener {
 
  private:
   void AddConnection(int socket, std::unique_ptr<Channel> channel, ConnectionAddresses addresses);
-  void Proceed(Newcomer* newcomer);
+  void Proceed(PendingHandshake* pending);
   void Dismiss();
 
   omni::SocketCollection& collection_;
   const std::shared_ptr<const ConnectionPolicy> policy_ = CurrentConnectionPolicy();
   const std::shared_ptr<const TlsContext> context_;
-  std::deque<Connection*> accepted_;                  // those that the ORB does not know yet
-  std::vector<std::unique_ptr<Newcomer>> newcomers_;  // the oldest first
-  std::unique_ptr<Alarm> alarm_;                      // rings while there are any
+  std::deque<Connection*> accepted_;  // those that the ORB does not know yet
+  std::vector<std::unique_ptr<PendingHandshake>> pending_handshakes_;  // the oldest first
+  std::unique_ptr<Alarm> alarm_;                                       // rings while there are any
   omni::giopConnection::notifyReadable_t readable_ = nullptr;
   void* cookie_ = nullptr;
   std::atomic<bool> poked_ = false;

@@ -15,14 +15,14 @@ base::Result<std::string> ReadSource(const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return base::Fail(base::ErrorCode::kUnavailable, error.message(), path);
-  if (size > kLargestSource) {
+  if (size > kMaxSourceBytes) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "a file of " + std::to_string(size) + " bytes is too large to be attached",
                       path);
   }
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.bad() && text.size() <= kLargestSource) return text;
+  if (!file.bad() && text.size() <= kMaxSourceBytes) return text;
   return base::Fail(base::ErrorCode::kUnavailable, "cannot be read", path);
 }
 
@@ -47,9 +47,9 @@ void SourceAttachments::AttachRobots(const world::Snapshot& snapshot) {
 void SourceAttachments::Attach(const std::string& source, const std::string& folder,
                                const std::string& name, base::SimTime time) {
   if (source.empty() || !sources_.insert(source).second) return;
-  if (names_.size() == kMostSources) {
+  if (names_.size() == kMaxSources) {
     return spdlog::warn("the recording goes without further robots' files: it holds {}",
-                        kMostSources);
+                        kMaxSources);
   }
   const auto text = ReadSource(source);
   if (!text) return spdlog::warn("the recording goes without {}", text.error().Sentence());

@@ -13,8 +13,8 @@
 
 namespace gsv::recording {
 
-inline constexpr std::uintmax_t kLargestSource = std::uintmax_t{4} << 20;
-inline constexpr std::size_t kMostSources = 100;
+inline constexpr std::uintmax_t kMaxSourceBytes = std::uintmax_t{4} << 20;
+inline constexpr std::size_t kMaxSources = 100;
 
 class SourceAttachments {
  public:

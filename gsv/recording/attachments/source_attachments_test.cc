@@ -88,12 +88,12 @@ TEST_F(SourceAttachmentsTest, OfOneNameHaveANumber) {
 }
 
 TEST_F(SourceAttachmentsTest, LeaveOutWhatIsMissingOrTooLarge) {
-  const std::string large = Write("large/model.sdf", std::string(kLargestSource + 1, ' '));
-  const std::string full = Write("full/model.sdf", std::string(kLargestSource, ' '));
+  const std::string large = Write("large/model.sdf", std::string(kMaxSourceBytes + 1, ' '));
+  const std::string full = Write("full/model.sdf", std::string(kMaxSourceBytes, ' '));
   const auto found = Record(folder_->path() / "gone.sdf", {large, full, folder_->path()});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found.begin()->first, "robots/full/model.sdf");
-  EXPECT_EQ(found.begin()->second.size(), kLargestSource);
+  EXPECT_EQ(found.begin()->second.size(), kMaxSourceBytes);
 }
 
 }  // namespace

@@ -12,13 +12,13 @@ using namespace gsv::recording;
 
 namespace {
 
-constexpr std::uint64_t kMostMessages = 100'000;
+constexpr std::uint64_t kMaxMessages = 100'000;
 
 // By time, from the middle on and from the beginning: each message is of a channel that is there.
 std::uint64_t CountInOrder(const McapReader& reader, base::SimTime from) {
   MessageCursor cursor = reader.Messages(from);
   base::SimTime last = base::SimTime::min();
-  for (std::uint64_t count = 0, errors = 0; count + errors < kMostMessages;) {
+  for (std::uint64_t count = 0, errors = 0; count + errors < kMaxMessages;) {
     const auto next = cursor.Next();
     if (!next) {
       GSV_CHECK(!next.error().message.empty());
@@ -31,7 +31,7 @@ std::uint64_t CountInOrder(const McapReader& reader, base::SimTime from) {
     last = (*next)->log_time;
     ++count;
   }
-  return kMostMessages;
+  return kMaxMessages;
 }
 
 void Use(const McapReader& reader) {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kLooseBlockSize = std::uint64_t{4} << 20;
 // Enough of an attachment to hold its name and media type.
 constexpr std::uint64_t kAttachmentHeadSize = std::uint64_t{64} << 10;
-constexpr std::size_t kMostProblems = 100;
+constexpr std::size_t kMaxProblems = 100;
 
 // A part of the file kept in memory, so that small records are not read one by one.
 class Window {
@@ -190,7 +190,7 @@ class Scanner {
   }
 
   void Problem(const base::Error& error) {
-    if (summary_.problems.size() == kMostProblems) return;
+    if (summary_.problems.size() == kMaxProblems) return;
     summary_.problems.push_back({base::Problem::Severity::kWarning, error.message, error.where});
   }
 

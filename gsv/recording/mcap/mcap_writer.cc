@@ -107,7 +107,7 @@ void McapWriter::Write(ChannelId channel, base::SimTime log_time, std::span<cons
     ++progress_.dropped;
     return;
   }
-  if (!WaitForRoom(lock)) return;
+  if (!WaitForSpace(lock)) return;
   const std::size_t before = queued();
   Append(queue_, MessageRecord{channel, sequences_[channel]++, log_time, log_time, data});
   ++progress_.messages;
@@ -128,7 +128,7 @@ void McapWriter::AddMetadata(const MetadataRecord& metadata) {
 
 void McapWriter::EnqueueWhole(Bytes record) {
   base::MutexLock lock(mutex_);
-  if (!WaitForRoom(lock)) return;
+  if (!WaitForSpace(lock)) return;
   const std::size_t before = queued();
   whole_size_ += record.size();
   whole_.push_back(std::move(record));
@@ -136,7 +136,7 @@ void McapWriter::EnqueueWhole(Bytes record) {
 }
 
 // False if the recording has ended.
-bool McapWriter::WaitForRoom(base::MutexLock& lock) {
+bool McapWriter::WaitForSpace(base::MutexLock& lock) {
   const auto has_room = [&]() GSV_REQUIRES(mutex_) {
     return queued() < options_.queue_size || closing_ || !status_;
   };

@@ -93,7 +93,7 @@ class McapWriter {
   void EnqueueWhole(Bytes record);
   std::size_t queued() const GSV_REQUIRES(mutex_) { return queue_.size() + whole_size_; }
   void Queued(std::size_t before) GSV_REQUIRES(mutex_);
-  bool WaitForRoom(base::MutexLock& lock) GSV_REQUIRES(mutex_);
+  bool WaitForSpace(base::MutexLock& lock) GSV_REQUIRES(mutex_);
   void EndWith(base::Error error) GSV_REQUIRES(mutex_);
   void Run();
 

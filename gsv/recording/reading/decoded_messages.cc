@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostColumns = 10'000;
+constexpr std::size_t kMaxColumns = 10'000;
 
 base::Result<messages::Definition> DefinitionOf(const Summary& summary,
                                                 const ChannelRecord& channel) {
@@ -233,9 +233,9 @@ base::Result<std::optional<DecodedMessage>> DecodedMessages::Next() {
   }
 }
 
-nlohmann::ordered_json WithTextsForInfinities(nlohmann::ordered_json content) {
+nlohmann::ordered_json WithInfinitiesAsText(nlohmann::ordered_json content) {
   if (content.is_structured()) {
-    for (ordered_json& below : content) below = WithTextsForInfinities(std::move(below));
+    for (ordered_json& below : content) below = WithInfinitiesAsText(std::move(below));
   } else if (IsInfinite(content)) {
     content = content.get<double>() > 0 ? "Infinity" : "-Infinity";
   }
@@ -305,7 +305,7 @@ base::Result<std::string> ToCsv(const McapReader& reader, const Selection& selec
       if (row.size() <= column->second) row.resize(column->second + 1);
       row[column->second] = std::move(text);
     });
-    if (columns.size() > kMostColumns) {
+    if (columns.size() > kMaxColumns) {
       return base::Fail(base::ErrorCode::kInvalidArgument,
                         "its messages have more than 10,000 values; export another topic",
                         (*message)->topic);

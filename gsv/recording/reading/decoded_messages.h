@@ -23,7 +23,7 @@ struct DecodedMessage {
 // A message's content as JSON can write it: JSON has no infinite numbers, so they become the texts
 // "Infinity" and "-Infinity", which JavaScript's Number() and Python's float() read. NaN is written
 // as null.
-nlohmann::ordered_json WithTextsForInfinities(nlohmann::ordered_json content);
+nlohmann::ordered_json WithInfinitiesAsText(nlohmann::ordered_json content);
 
 class DecodedMessages {
  public:

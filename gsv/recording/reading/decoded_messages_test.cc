@@ -170,7 +170,7 @@ TEST(DecodedMessages, BecomeJsonInWhichInfinitiesAreTexts) {
   ASSERT_TRUE(messages);
   const auto message = messages->Next();
   ASSERT_TRUE(message && *message);
-  const nlohmann::ordered_json json = WithTextsForInfinities((*message)->content);
+  const nlohmann::ordered_json json = WithInfinitiesAsText((*message)->content);
   EXPECT_EQ(json["ranges"].dump(), R"(["-Infinity","Infinity",null,1.5])");
   EXPECT_EQ(json["angle_min"], 0);
 }

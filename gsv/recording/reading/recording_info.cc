@@ -77,7 +77,7 @@ base::Result<base::SimTime> EndOfSteps(const McapReader& reader) {
     if (!*message) return end;
     const auto channel = channels.find((*message)->channel_id);
     if (channel == channels.end() || !IsReproducible(channel->second)) continue;
-    const auto& people = kTopicsOfPeople;
+    const auto& people = kUserTopics;
     if (std::find(std::begin(people), std::end(people), channel->second.topic) != std::end(people))
       continue;
     end = std::max(end, (*message)->log_time);

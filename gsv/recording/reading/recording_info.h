@@ -10,7 +10,7 @@
 namespace gsv::recording {
 
 // They tell what people do, whenever that is.
-inline constexpr std::string_view kTopicsOfPeople[]{"/gsv/events", "/rosout", "/gsv/edits"};
+inline constexpr std::string_view kUserTopics[]{"/gsv/events", "/rosout", "/gsv/edits"};
 
 struct RecordingInfo {
   struct Channel {
@@ -47,7 +47,7 @@ struct RecordingInfo {
                                                    const Limits& limits = {});
 
 // Of the newest message that a simulation's steps brought: not of those that tell of people's
-// doings (kTopicsOfPeople) or of the wall clock. 0: there is none.
+// doings (kUserTopics) or of the wall clock. 0: there is none.
 [[nodiscard]] base::Result<base::SimTime> EndOfSteps(const McapReader& reader);
 
 // For people: lines, the last one ending in a newline.

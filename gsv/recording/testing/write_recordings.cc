@@ -29,7 +29,7 @@ std::string TopicOf(const messages::Schema& schema) {
 }
 
 // Every message is at round · kPeriod and has the samples' seed `round`.
-base::Status WriteWhole(const std::string& path) {
+base::Status WriteAtomically(const std::string& path) {
   auto writer = McapWriter::Create(path, {.when_full = WhenFull::kWait});
   if (!writer) return base::Fail(writer.error());
   const std::string world = "<sdf version='1.9'/>";
@@ -65,7 +65,7 @@ base::Status WriteRun(const std::string& path) {
 base::Status Run(const std::filesystem::path& folder) {
   const std::string whole = folder / "whole.mcap";
   const std::string cut = folder / "cut.mcap";
-  if (base::Status status = WriteWhole(whole); !status) return status;
+  if (base::Status status = WriteAtomically(whole); !status) return status;
   const auto info = ReadInfo(whole);
   if (!info) return base::Fail(info.error());
   std::filesystem::copy_file(whole, cut);

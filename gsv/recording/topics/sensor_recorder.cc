@@ -15,7 +15,7 @@ namespace {
 // Of sensors that take long, such as cameras: so many are waited for at once (the renderer draws
 // them together), and so many readings are held.
 constexpr int kSlowAtOnce = 16;
-constexpr std::size_t kMostSlow = 64;
+constexpr std::size_t kMaxSlowSensors = 64;
 
 // Every n-th instant of the sensor, n as small as `rate` allows.
 base::SimTime PeriodOf(const model::SensorDescription& description, double rate) {
@@ -109,7 +109,7 @@ void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapsh
   std::vector<Sample> slow;
   const auto take_slow = [&] {
     if (team_ == nullptr) team_ = std::make_unique<base::ThreadTeam>(kSlowAtOnce);
-    team_->Share(slow.size(), 1, [&](std::size_t begin, std::size_t end) {
+    team_->ParallelFor(slow.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) Take(snapshot, slow[i]);
     });
     for (Sample& sample : slow) Write(sample);
@@ -121,7 +121,7 @@ void SensorRecorder::Record(const std::shared_ptr<const world::Snapshot>& snapsh
     if (sample.body < 0) continue;
     if (sensor->sensor->TakesLong()) {
       slow.push_back(std::move(sample));
-      if (slow.size() == kMostSlow) take_slow();
+      if (slow.size() == kMaxSlowSensors) take_slow();
     } else {
       Take(snapshot, sample);
       Write(sample);

@@ -7,7 +7,7 @@ namespace {
 
 // Mounting a sensor changes no layout, so they are looked at now and again.
 constexpr base::SimTime kSensorPeriod = std::chrono::seconds(1);
-constexpr std::size_t kMostEvents = 10'000;
+constexpr std::size_t kMaxEvents = 10'000;
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void SimulationFeed::OnEvent(const simulation::Event& event) {
     if (closed_) return;
     was_reset_ = is_reset;
     closed_ = is_reset;
-    if (!is_reset && queue_.size() - snapshots_ < kMostEvents) queue_.emplace_back(event);
+    if (!is_reset && queue_.size() - snapshots_ < kMaxEvents) queue_.emplace_back(event);
   }
   news_.notify_one();
   if (is_reset) room_.notify_all();

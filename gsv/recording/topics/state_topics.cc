@@ -54,7 +54,7 @@ void StateTopics::Record(const std::shared_ptr<const world::Snapshot>& snapshot)
   if (hash_instants_.Pass(time) && hash_.is_wanted()) WriteHash(*snapshot);
 }
 
-void StateTopics::RecordAnyway(const world::Snapshot& snapshot) {
+void StateTopics::RecordNow(const world::Snapshot& snapshot) {
   if (poses_step_ != snapshot.state.step) WritePoses(snapshot);
 }
 

@@ -26,7 +26,7 @@ class StateTopics {
   // Writes of a snapshot what is due at its time.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
   // The same, whether it is due or not, unless it is written.
-  void RecordAnyway(const world::Snapshot& snapshot);
+  void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
   void RecordEvent(const simulation::Event& event);

@@ -23,8 +23,8 @@ std::vector<std::string> TopicsOf(const simulation::Simulation& simulation) {
   return names;
 }
 
-std::vector<std::string> PatternsWithout(const std::vector<std::string>& topics,
-                                         const std::vector<std::string>& patterns) {
+std::vector<std::string> UnmatchedPatterns(const std::vector<std::string>& topics,
+                                           const std::vector<std::string>& patterns) {
   std::vector<std::string> without;
   for (const std::string& pattern : patterns) {
     const Selection selection{.topics = {pattern}};

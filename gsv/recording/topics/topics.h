@@ -13,7 +13,7 @@ namespace gsv::recording {
 std::vector<std::string> TopicsOf(const simulation::Simulation& simulation);
 
 // Those of `patterns` (as in Selection) that stand for none of `topics`.
-std::vector<std::string> PatternsWithout(const std::vector<std::string>& topics,
-                                         const std::vector<std::string>& patterns);
+std::vector<std::string> UnmatchedPatterns(const std::vector<std::string>& topics,
+                                           const std::vector<std::string>& patterns);
 
 }  // namespace gsv::recording

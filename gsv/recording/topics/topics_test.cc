@@ -38,10 +38,10 @@ TEST(Topics, AreThoseThatARecordingOfEverythingHolds) {
 
 TEST(Topics, APatternStandsForItsTopicOrForAllBelowIt) {
   const std::vector<std::string> topics{"/clock", "/gsv/poses", "/robot/front"};
-  EXPECT_THAT(PatternsWithout(topics, {"/clock", "/gsv/", "/robot/", "/robot/front"}), IsEmpty());
-  EXPECT_THAT(PatternsWithout(topics, {"/robot", "/clock", "/robot/front/", "/rob"}),
+  EXPECT_THAT(UnmatchedPatterns(topics, {"/clock", "/gsv/", "/robot/", "/robot/front"}), IsEmpty());
+  EXPECT_THAT(UnmatchedPatterns(topics, {"/robot", "/clock", "/robot/front/", "/rob"}),
               ElementsAre("/robot", "/robot/front/", "/rob"));
-  EXPECT_THAT(PatternsWithout({}, {"/"}), ElementsAre("/"));
+  EXPECT_THAT(UnmatchedPatterns({}, {"/"}), ElementsAre("/"));
 }
 
 }  // namespace

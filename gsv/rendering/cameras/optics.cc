@@ -9,15 +9,15 @@
 namespace gsv::rendering {
 namespace {
 
-constexpr double kLargest = 1e6;  // of what has no bound of its own
+constexpr double kMaxParameter = 1e6;  // of what has no bound of its own
 
 WideView ReadWideView(sensing::ParameterReader& reader, const std::string& type) {
   WideView view;
   if (type == "custom") {
-    view.c1 = reader.Number("lens.custom_function.c1", 1, 1e-6, kLargest);
-    view.c2 = reader.Number("lens.custom_function.c2", 1, 1e-6, kLargest);
-    view.c3 = reader.Number("lens.custom_function.c3", 0, -kLargest, kLargest);
-    view.f = reader.Number("lens.custom_function.f", 1, 1e-6, kLargest);
+    view.c1 = reader.Number("lens.custom_function.c1", 1, 1e-6, kMaxParameter);
+    view.c2 = reader.Number("lens.custom_function.c2", 1, 1e-6, kMaxParameter);
+    view.c3 = reader.Number("lens.custom_function.c3", 0, -kMaxParameter, kMaxParameter);
+    view.f = reader.Number("lens.custom_function.f", 1, 1e-6, kMaxParameter);
     const std::string name = reader.Text("lens.custom_function.fun", "tan");
     if (name == "sin") {
       view.function = WideView::Function::kSine;
@@ -38,11 +38,11 @@ WideView ReadWideView(sensing::ParameterReader& reader, const std::string& type)
 Lens ReadPinhole(sensing::ParameterReader& reader, const CameraParameters& camera) {
   const Lens plain(camera);
   Intrinsics in = plain.intrinsics();
-  in.fx = reader.Number("lens.intrinsics.fx", in.fx, 1e-3, kLargest);
-  in.fy = reader.Number("lens.intrinsics.fy", in.fy, 1e-3, kLargest);
-  in.cx = reader.Number("lens.intrinsics.cx", in.cx, -kLargest, kLargest);
-  in.cy = reader.Number("lens.intrinsics.cy", in.cy, -kLargest, kLargest);
-  in.skew = reader.Number("lens.intrinsics.s", in.skew, -kLargest, kLargest);
+  in.fx = reader.Number("lens.intrinsics.fx", in.fx, 1e-3, kMaxParameter);
+  in.fy = reader.Number("lens.intrinsics.fy", in.fy, 1e-3, kMaxParameter);
+  in.cx = reader.Number("lens.intrinsics.cx", in.cx, -kMaxParameter, kMaxParameter);
+  in.cy = reader.Number("lens.intrinsics.cy", in.cy, -kMaxParameter, kMaxParameter);
+  in.skew = reader.Number("lens.intrinsics.s", in.skew, -kMaxParameter, kMaxParameter);
   Distortion distortion;
   distortion.k1 = reader.Number("distortion.k1", 0, -100, 100);
   distortion.k2 = reader.Number("distortion.k2", 0, -100, 100);
@@ -84,8 +84,8 @@ std::shared_ptr<Optics::Joining> Optics::JoiningOf(const CameraParameters& camer
 
 Optics Optics::Read(sensing::ParameterReader& reader, const std::string& lens_type) {
   CameraParameters camera;
-  camera.width = reader.Count("image.width", camera.width, 1, kMaxPictureSide);
-  camera.height = reader.Count("image.height", camera.height, 1, kMaxPictureSide);
+  camera.width = reader.Count("image.width", camera.width, 1, kMaxImageSide);
+  camera.height = reader.Count("image.height", camera.height, 1, kMaxImageSide);
   camera.near = reader.Number("clip.near", camera.near, 1e-4, 1e6);
   camera.far = reader.Number("clip.far", camera.far, 1e-4, 1e6);
   const std::string type = reader.Text("lens.type", lens_type);
@@ -95,7 +95,7 @@ Optics Optics::Read(sensing::ParameterReader& reader, const std::string& lens_ty
     if (base::Status fits = Check(camera); !fits) reader.Refuse(fits.error().message);
   }
   const auto fitting = [&](Lens lens) -> Optics {
-    if (!lens.is_plain() && camera.width > LensMap::kMostPixels / camera.height) {
+    if (!lens.is_plain() && camera.width > LensMap::kMaxPixels / camera.height) {
       reader.Refuse("a picture through a lens has at most 4194304 pixels (2048 by 2048), and " +
                     std::to_string(camera.width) + " by " + std::to_string(camera.height) +
                     " are more");
@@ -136,12 +136,12 @@ base::Result<std::shared_ptr<const model::Image>> Optics::Draw(
   return std::make_shared<const model::Image>(Map().Join(*pictures));
 }
 
-base::Result<std::shared_ptr<const GroundTruth>> Optics::Survey(
+base::Result<std::shared_ptr<const GroundTruth>> Optics::DrawGroundTruth(
     Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
     const geometry::Pose& world_from_camera) const {
   const auto views = lens_.is_plain() ? std::vector<CameraView>{{world_from_camera, camera_}}
                                       : Map().Views(world_from_camera);
-  const auto truths = renderer.Survey(snapshot, views);
+  const auto truths = renderer.DrawGroundTruth(snapshot, views);
   if (!truths) return base::Fail(truths.error());
   if (lens_.is_plain()) return truths->front();
   return std::make_shared<const GroundTruth>(Map().Join(*truths));

@@ -43,7 +43,7 @@ class Optics {
   base::Result<std::shared_ptr<const model::Image>> Draw(
       Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
       const geometry::Pose& world_from_camera) const;
-  base::Result<std::shared_ptr<const GroundTruth>> Survey(
+  base::Result<std::shared_ptr<const GroundTruth>> DrawGroundTruth(
       Renderer& renderer, const std::shared_ptr<const world::Snapshot>& snapshot,
       const geometry::Pose& world_from_camera) const;
 

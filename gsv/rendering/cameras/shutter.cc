@@ -50,10 +50,9 @@ std::pair<int, int> Shutter::SamplesOf(int row, int height) const {
   return {one, one};
 }
 
-base::Result<Shutter::PicturePtr> Shutter::Take(const SnapshotPtr& snapshot,
-                                                const Draw& draw) const {
+base::Result<Shutter::ImagePtr> Shutter::Take(const SnapshotPtr& snapshot, const Draw& draw) const {
   if (exposure_time_ == 0 && readout_time_ == 0) return draw(snapshot);
-  std::vector<PicturePtr> pictures;
+  std::vector<ImagePtr> pictures;
   for (int sample = 0; sample < samples_; ++sample) {
     auto picture = draw(Earlier(*snapshot, Age(sample)));
     if (!picture) return picture;

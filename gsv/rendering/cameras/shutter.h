@@ -31,11 +31,11 @@ class Shutter {
   explicit Shutter(sensing::ParameterReader& reader);
 
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;
-  using PicturePtr = std::shared_ptr<const model::Image>;
-  using Draw = std::function<base::Result<PicturePtr>(const SnapshotPtr& snapshot)>;
+  using ImagePtr = std::shared_ptr<const model::Image>;
+  using Draw = std::function<base::Result<ImagePtr>(const SnapshotPtr& snapshot)>;
 
   // The picture of a snapshot; `draw` draws what is seen at one instant.
-  base::Result<PicturePtr> Take(const SnapshotPtr& snapshot, const Draw& draw) const;
+  base::Result<ImagePtr> Take(const SnapshotPtr& snapshot, const Draw& draw) const;
 
  private:
   double Age(int sample) const;  // s before the picture is finished

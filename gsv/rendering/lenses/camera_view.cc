@@ -24,10 +24,10 @@ base::Status Check(const CameraParameters& camera) {
     return Fail(ErrorCode::kInvalidArgument, sentence);
   };
   for (const int side : {camera.width, camera.height}) {
-    if (side < 1 || side > kMaxPictureSide) {
+    if (side < 1 || side > kMaxImageSide) {
       return refuse("a picture of " + std::to_string(camera.width) + " by " +
                     std::to_string(camera.height) + " pixels: each side must be from 1 to " +
-                    std::to_string(kMaxPictureSide));
+                    std::to_string(kMaxImageSide));
     }
   }
   if (!(camera.horizontal_fov >= 0.01 && camera.horizontal_fov <= 3.0)) {

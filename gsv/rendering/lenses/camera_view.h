@@ -23,7 +23,7 @@ struct CameraParameters {
   friend bool operator==(const CameraParameters&, const CameraParameters&) = default;
 };
 
-inline constexpr int kMaxPictureSide = 4096;
+inline constexpr int kMaxImageSide = 4096;
 
 // kInvalidArgument with a sentence that names the parameter.
 base::Status Check(const CameraParameters& camera);

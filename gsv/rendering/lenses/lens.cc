@@ -11,7 +11,7 @@ using geometry::Vector3;
 
 // Newton's method stops at such a step, at a distance of 1; pictures have 4,096 pixels at most.
 constexpr double kCloseEnough = 1e-12;
-constexpr int kMostSteps = 50;
+constexpr int kMaxSteps = 50;
 
 double Apply(WideView::Function function, double angle) {
   switch (function) {
@@ -117,7 +117,7 @@ std::optional<Vector2> Lens::Undistorted(const Vector2& p) const {
   for (int station = 1; station <= kStations; ++station) {
     const Vector2 goal = centre_ + (static_cast<double>(station) / kStations) * whole;
     double length = 1;
-    for (int step = 0; step < kMostSteps && length > kCloseEnough; ++step) {
+    for (int step = 0; step < kMaxSteps && length > kCloseEnough; ++step) {
       const double x = at.x - centre_.x, y = at.y - centre_.y, r2 = x * x + y * y;
       const double radial = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
       const double slope = 2 * (d.k1 + r2 * (2 * d.k2 + 3 * r2 * d.k3));

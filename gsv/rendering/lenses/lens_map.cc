@@ -14,8 +14,8 @@ using geometry::Quaternion;
 using geometry::Vector3;
 
 // One pinhole picture is enough for what lies within this of the view, as a tangent: 72 degrees.
-constexpr double kWidestFace = 3;
-constexpr double kMostMagnified = 4;
+constexpr double kMaxFaceAngle = 3;
+constexpr double kMaxMagnification = 4;
 // Pixels around what is looked up, so that there is something to mix with on all sides.
 constexpr double kMargin = 2;
 
@@ -52,7 +52,7 @@ double DensityOf(const Lens& lens) {
                                       j * lens.height() / static_cast<double>(kPlaces)));
     }
   }
-  if (middle > 0) most = std::min(most, kMostMagnified * middle);
+  if (middle > 0) most = std::min(most, kMaxMagnification * middle);
   return most > 0 ? most : 0.5 * lens.width();
 }
 
@@ -61,7 +61,7 @@ double FovOf(double tangent) { return 2 * std::atan(tangent); }
 // A square or wide face that shows `right` and `up`, as tangents, to all sides.
 CameraParameters FaceOf(const CameraParameters& camera, double density, double right, double up) {
   CameraParameters face = camera;
-  const double most = 0.5 * kMaxPictureSide - kMargin;
+  const double most = 0.5 * kMaxImageSide - kMargin;
   const double scale = std::min({density, most / right, most / up});
   face.width = 2 * static_cast<int>(std::ceil(scale * right + kMargin));
   face.height = 2 * static_cast<int>(std::ceil(scale * up + kMargin));
@@ -79,7 +79,7 @@ const Quaternion kCube[] = {
     geometry::FromAxisAngle({0, 1, 0}, std::numbers::pi / 2),
 };
 
-constexpr int kMostMixed = 4;  // places along a side of a pixel
+constexpr int kMaxMixedSamples = 4;  // places along a side of a pixel
 
 using Light = std::array<float, 3>;  // 0 to 255
 
@@ -123,7 +123,7 @@ LensMap::LensMap(const Lens& lens, const CameraParameters& camera)
     right = std::max(right, std::abs(ray->y) / x);
     up = std::max(up, std::abs(ray->z) / x);
   }
-  const bool is_cube = right > kWidestFace || up > kWidestFace;
+  const bool is_cube = right > kMaxFaceAngle || up > kMaxFaceAngle;
   if (!is_cube) faces_.push_back({{}, FaceOf(camera, density, right, up)});
   int place[6];  // of a cube's face in faces_, or -1
   std::fill(std::begin(place), std::end(place), -1);
@@ -194,7 +194,7 @@ model::Image LensMap::Join(std::span<const std::shared_ptr<const model::Image>> 
     if (source.face >= 0) {
       const model::Image& from = *pictures[static_cast<std::size_t>(source.face)];
       // As many places as the pixel covers, so that none of what it shows is passed over.
-      const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMostMixed);
+      const int side = std::clamp(static_cast<int>(std::lround(source.reach)), 1, kMaxMixedSamples);
       for (int i = 0; i < side * side; ++i) {
         const auto off = [&](int k) {
           return ((static_cast<float>(k) + 0.5f) / static_cast<float>(side) - 0.5f) * source.reach;

@@ -20,11 +20,11 @@ namespace gsv::rendering {
 class LensMap {
  public:
   // `camera` gives near and far. The pinhole pictures have as many pixels an angle as the lens has
-  // where it has most, but at most four times as many as in its middle, and kMaxPictureSide a side.
+  // where it has most, but at most four times as many as in its middle, and kMaxImageSide a side.
   LensMap(const Lens& lens, const CameraParameters& camera);
 
   // So large a picture may be: a map takes 20 bytes a pixel.
-  static constexpr int kMostPixels = 4'194'304;
+  static constexpr int kMaxPixels = 4'194'304;
 
   // Where the middle of a pixel looks, in the camera's frame and of unit length, as Lens::RayAt()
   // but for rounding (1e-6 rad); pixels count in rows from the top.

@@ -174,7 +174,7 @@ TEST_P(LensPicture, MeasuresTheDepthOfAWall) {
   const Optics optics = Read();
   TestScene scene;
   scene.Add("wall", geometry::Box{{1, 2000, 2000}}, {{5.5, 0, 0}, {}}, Matt(1, 1, 1));
-  const auto truth = optics.Survey(**renderer_, scene.Snapshot(), {});
+  const auto truth = optics.DrawGroundTruth(**renderer_, scene.Snapshot(), {});
   ASSERT_TRUE(truth) << truth.error().Sentence();
   const int wall = 0;
   int seen = 0;

@@ -9,7 +9,7 @@ namespace gsv::rendering {
 
 using model::Image;
 
-int LargestTexture() {
+int MaxTextureSide() {
   int largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   return largest;

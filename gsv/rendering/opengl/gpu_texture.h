@@ -13,7 +13,7 @@ struct GpuTexture final : DrawTexture {
 };
 
 // The side of the largest texture that the card takes, pixels.
-int LargestTexture();
+int MaxTextureSide();
 
 std::shared_ptr<DrawTexture> UploadTexture(const model::Image& image);
 

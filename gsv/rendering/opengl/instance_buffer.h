@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gsv/rendering/opengl/gl_objects.h"
-#include "gsv/rendering/scene/draw_plan.h"
+#include "gsv/rendering/scene/render_list.h"
 
 namespace gsv::rendering {
 

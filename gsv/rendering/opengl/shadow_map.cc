@@ -42,11 +42,12 @@ ShadowMap::ShadowMap()
       still_frame_(FrameOf(still_)),
       moving_frame_(FrameOf(moving_)),
       solid_(CreateProgram("", kShadowVertexShader, kShadowFragmentShader)),
-      cut_out_(CreateProgram("#define CUT_OUT\n", kShadowVertexShader, kShadowFragmentShader)) {}
+      alpha_mask_(CreateProgram("#define CUT_OUT\n", kShadowVertexShader, kShadowFragmentShader)) {}
 
-void ShadowMap::Draw(const DrawPlan& plan, std::uint64_t plan_id, const Vector3& to_sun,
-                     const std::vector<CameraView>& views, InstanceBuffer& instances) {
-  region_ = ShadowRegion(plan, to_sun);
+void ShadowMap::Draw(const RenderList& render_list, std::uint64_t render_list_id,
+                     const Vector3& to_sun, const std::vector<CameraView>& views,
+                     InstanceBuffer& instances) {
+  region_ = ShadowRegion(render_list, to_sun);
   if (region_.IsEmpty()) return;
   glViewport(0, 0, kSide, kSide);
   glDisable(GL_CULL_FACE);
@@ -55,21 +56,21 @@ void ShadowMap::Draw(const DrawPlan& plan, std::uint64_t plan_id, const Vector3&
   glDepthFunc(GL_GREATER);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(-1.5f, -2.0f);
-  const Drawn wanted{plan_id, plan.moved_count(), region_};
+  const Drawn wanted{render_list_id, render_list.moved_count(), region_};
   if (drawn_ != wanted) {
     glBindFramebuffer(GL_FRAMEBUFFER, still_frame_.name());
     const float nothing_there = 0;
     glClearBufferfv(GL_DEPTH, 0, &nothing_there);
-    DrawCasters(plan, ShadowRegion::StillCasters(plan), instances);
+    DrawCasters(render_list, ShadowRegion::StillCasters(render_list), instances);
     drawn_ = wanted;
     moved_ = {{0, 0, kSide, kSide}};
   }
   for (const ShadowRegion::Rectangle& part : moved_) CopyStill(part);
-  const std::vector<std::size_t> moving = region_.MovingCasters(plan, views);
-  moved_ = region_.PartsOf(plan, moving);
+  const std::vector<std::size_t> moving = region_.MovingCasters(render_list, views);
+  moved_ = region_.PartsOf(render_list, moving);
   if (!moved_.empty()) {
     glBindFramebuffer(GL_FRAMEBUFFER, moving_frame_.name());
-    DrawCasters(plan, moving, instances);
+    DrawCasters(render_list, moving, instances);
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
@@ -80,18 +81,18 @@ void ShadowMap::CopyStill(const ShadowRegion::Rectangle& part) {
                      part.max_y - part.min_y, 1);
 }
 
-void ShadowMap::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+void ShadowMap::DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                             InstanceBuffer& instances) {
-  std::vector<std::vector<std::size_t>> members(plan.groups().size());
+  std::vector<std::vector<std::size_t>> members(render_list.groups().size());
   for (const std::size_t i : casters) {
-    const DrawItem& item = plan.items()[i];
+    const DrawItem& item = render_list.items()[i];
     // What is smaller than a texel hides none.
     if (item.radius > 0.5 * region_.TexelSize()) members[item.group].push_back(i);
   }
   staged_.clear();
   for (const auto& items : members) {
     for (const std::size_t i : items) {
-      staged_.push_back(InstanceOf(plan.items()[i], plan.placed()[i], {}));
+      staged_.push_back(InstanceOf(render_list.items()[i], render_list.placed()[i], {}));
     }
   }
   if (staged_.empty()) return;
@@ -106,15 +107,15 @@ void ShadowMap::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>
       m = 2 * m - (column == 3 ? 1.0f : 0.0f);
     }
   }
-  for (const GlProgram* program : {&solid_, &cut_out_}) {
+  for (const GlProgram* program : {&solid_, &alpha_mask_}) {
     glProgramUniformMatrix4fv(program->name(), 0, 1, GL_FALSE, clip_from_world.data());
   }
   std::size_t first = 0;
   for (std::size_t g = 0; g < members.size(); ++g) {
     if (members[g].empty()) continue;
-    const DrawGroup& group = plan.groups()[g];
-    const bool cut_out = group.blending == Blending::kCutOut;
-    glUseProgram(cut_out ? cut_out_.name() : solid_.name());
+    const DrawGroup& group = render_list.groups()[g];
+    const bool cut_out = group.blending == Blending::kAlphaMask;
+    glUseProgram(cut_out ? alpha_mask_.name() : solid_.name());
     if (cut_out) {
       glBindTextureUnit(kBaseColourUnit,
                         static_cast<const GpuTexture&>(*group.base_colour).texture.name());

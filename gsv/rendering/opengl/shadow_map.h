@@ -7,7 +7,7 @@
 #pragma once
 
 #include "gsv/rendering/opengl/instance_buffer.h"
-#include "gsv/rendering/scene/draw_plan.h"
+#include "gsv/rendering/scene/render_list.h"
 #include "gsv/rendering/scene/shadow_region.h"
 
 namespace gsv::rendering {
@@ -16,9 +16,10 @@ class ShadowMap {
  public:
   ShadowMap();
 
-  // Draws the shadows of a posed plan for some cameras. `plan_id` tells plans apart.
-  void Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry::Vector3& to_sun,
-            const std::vector<CameraView>& views, InstanceBuffer& instances);
+  // Draws the shadows of a posed plan for some cameras. `render_list_id` tells plans apart.
+  void Draw(const RenderList& render_list, std::uint64_t render_list_id,
+            const geometry::Vector3& to_sun, const std::vector<CameraView>& views,
+            InstanceBuffer& instances);
 
   // Makes it current for shaders with SHADOWS.
   void Bind() const;
@@ -26,19 +27,19 @@ class ShadowMap {
 
  private:
   struct Drawn {
-    std::uint64_t plan_id = 0;
+    std::uint64_t render_list_id = 0;
     int moved_count = -1;
     ShadowRegion region;
     friend bool operator==(const Drawn&, const Drawn&) = default;
   };
 
   void CopyStill(const ShadowRegion::Rectangle& part);
-  void DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+  void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                    InstanceBuffer& instances);
 
   GlTexture still_, moving_;
   GlFramebuffer still_frame_, moving_frame_;
-  GlProgram solid_, cut_out_;
+  GlProgram solid_, alpha_mask_;
   ShadowRegion region_;
   Drawn drawn_;                                 // what still_ holds
   std::vector<ShadowRegion::Rectangle> moved_;  // where moving_ differs from still_

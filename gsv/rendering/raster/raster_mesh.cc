@@ -137,14 +137,14 @@ Level Append(const Piece& piece, float cell, RasterMesh& mesh) {
 }  // namespace
 
 std::shared_ptr<const DrawMesh> MakeRasterMesh(MeshArrays arrays) {
-  constexpr std::size_t kLeastTriangles = 32;  // worth a coarser copy
+  constexpr std::size_t kMinTriangles = 32;  // worth a coarser copy
   auto mesh = std::make_shared<RasterMesh>();
   for (const MeshChunk& chunk : arrays.chunks) {
     Piece piece = PieceOf(arrays, chunk);
     std::vector<Level>& levels = mesh->levels.emplace_back();
     levels.push_back(Append(piece, 0, *mesh));
     const auto size = static_cast<float>(geometry::Norm(chunk.bounds.max - chunk.bounds.min));
-    for (float cell = size / 128; cell < size / 3 && piece.triangles.size() > kLeastTriangles;
+    for (float cell = size / 128; cell < size / 3 && piece.triangles.size() > kMinTriangles;
          cell *= 1.5f) {
       Piece coarser = Coarser(piece, cell);
       if (coarser.triangles.size() > 0.7 * static_cast<double>(piece.triangles.size())) continue;

@@ -78,7 +78,7 @@ Texels SampleLevel(const RasterTexture& texture, const RasterTexture::Level& lev
     const F8 bottom = Fma(value(t11) - value(t01), fx, value(t01));
     return Fma(bottom - top, fy, top) * Splat(1 / 255.0f);
   };
-  return {channel(0), channel(8), channel(16), texture.see_through ? channel(24) : Splat(1)};
+  return {channel(0), channel(8), channel(16), texture.is_transparent ? channel(24) : Splat(1)};
 }
 
 }  // namespace

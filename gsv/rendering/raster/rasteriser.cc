@@ -4,11 +4,12 @@ namespace gsv::rendering::raster {
 
 using geometry::Vector3;
 
-Drawn DrawnItem(const DrawPlan& plan, std::size_t item, const Level& level, const Vector3& origin) {
-  const DrawItem& of = plan.items()[item];
-  const PlacedItem& placed = plan.placed()[item];
+Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& level,
+                const Vector3& origin) {
+  const DrawItem& of = render_list.items()[item];
+  const PlacedItem& placed = render_list.placed()[item];
   Drawn drawn;
-  drawn.group = &plan.groups()[of.group];
+  drawn.group = &render_list.groups()[of.group];
   drawn.mesh = static_cast<const RasterMesh*>(drawn.group->mesh.get());
   drawn.level = &level;
   drawn.factors = &of.factors;

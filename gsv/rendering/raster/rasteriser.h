@@ -12,8 +12,8 @@
 #include "gsv/rendering/raster/raster_mesh.h"
 #include "gsv/rendering/raster/simd.h"
 #include "gsv/rendering/raster/triangle.h"
-#include "gsv/rendering/scene/draw_plan.h"
 #include "gsv/rendering/scene/frame_block.h"
+#include "gsv/rendering/scene/render_list.h"
 
 namespace gsv::rendering::raster {
 
@@ -27,7 +27,7 @@ struct Drawn {
   float normal[3][3];  // turns the mesh's normals outward, not to unit length
 };
 
-Drawn DrawnItem(const DrawPlan& plan, std::size_t item, const Level& level,
+Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& level,
                 const geometry::Vector3& origin);
 
 class Rasteriser {

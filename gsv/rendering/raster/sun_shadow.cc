@@ -33,22 +33,22 @@ const Level& LevelFor(const std::vector<Level>& levels, const DrawItem& item, do
 
 }  // namespace
 
-void SunShadow::Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry::Vector3& to_sun,
-                     const std::vector<CameraView>& views) {
-  region_ = ShadowRegion(plan, to_sun);
+void SunShadow::Draw(const RenderList& render_list, std::uint64_t render_list_id,
+                     const geometry::Vector3& to_sun, const std::vector<CameraView>& views) {
+  region_ = ShadowRegion(render_list, to_sun);
   if (region_.IsEmpty()) return;
-  const Drawn wanted{plan_id, plan.moved_count(), region_};
+  const Drawn wanted{render_list_id, render_list.moved_count(), region_};
   if (drawn_ != wanted) {
     still_.assign(std::size_t{kStride} * (kShadowSide + 2), 0.0f);
-    DrawCasters(plan, ShadowRegion::StillCasters(plan), still_);
+    DrawCasters(render_list, ShadowRegion::StillCasters(render_list), still_);
     drawn_ = wanted;
     moving_ = still_;
     moved_.clear();
   }
   for (const ShadowRegion::Rectangle& part : moved_) CopyStill(part);
-  const std::vector<std::size_t> moving = region_.MovingCasters(plan, views);
-  moved_ = region_.PartsOf(plan, moving);
-  DrawCasters(plan, moving, moving_);
+  const std::vector<std::size_t> moving = region_.MovingCasters(render_list, views);
+  moved_ = region_.PartsOf(render_list, moving);
+  DrawCasters(render_list, moving, moving_);
 }
 
 void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
@@ -59,7 +59,7 @@ void SunShadow::CopyStill(const ShadowRegion::Rectangle& part) {
   }
 }
 
-void SunShadow::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+void SunShadow::DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                             std::vector<float>& map) {
   FrameBlock block{};
   region_.Describe({}, block);
@@ -75,14 +75,14 @@ void SunShadow::DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>
   }
   rasteriser_.Begin(kShadowSide, kShadowSide, 0.5, clip, Rasteriser::Rows::kUpwards);
   for (const std::size_t i : casters) {
-    const DrawItem& item = plan.items()[i];
+    const DrawItem& item = render_list.items()[i];
     const Fineness fineness = item.of_robot ? kRobot : kThing;
     if (item.radius <= fineness.smallest * region_.TexelSize()) continue;
-    const DrawGroup& group = plan.groups()[item.group];
+    const DrawGroup& group = render_list.groups()[item.group];
     const auto& mesh = static_cast<const RasterMesh&>(*group.mesh);
     const Level& level =
         LevelFor(mesh.levels[group.chunk], item, fineness.moved_by * region_.TexelSize());
-    DrawCaster(DrawnItem(plan, i, level, {}), depth_row, !item.of_robot, map);
+    DrawCaster(DrawnItem(render_list, i, level, {}), depth_row, !item.of_robot, map);
   }
 }
 
@@ -94,7 +94,7 @@ void SunShadow::DrawCaster(const raster::Drawn& caster, const float (&depth_row)
     row[k] = k == 3 ? depth_row[3] : 0;
     for (int j = 0; j < 3; ++j) row[k] += depth_row[j] * caster.rows[j][k];
   }
-  const auto* holes = caster.group->blending == Blending::kCutOut
+  const auto* holes = caster.group->blending == Blending::kAlphaMask
                           ? static_cast<const RasterTexture*>(caster.group->base_colour.get())
                           : nullptr;
   rasteriser_.ForEachTriangle(

@@ -15,9 +15,9 @@ namespace gsv::rendering::raster {
 
 class SunShadow {
  public:
-  // Draws the shadows of a posed plan for some cameras. `plan_id` tells plans apart.
-  void Draw(const DrawPlan& plan, std::uint64_t plan_id, const geometry::Vector3& to_sun,
-            const std::vector<CameraView>& views);
+  // Draws the shadows of a posed plan for some cameras. `render_list_id` tells plans apart.
+  void Draw(const RenderList& render_list, std::uint64_t render_list_id,
+            const geometry::Vector3& to_sun, const std::vector<CameraView>& views);
 
   const ShadowRegion& region() const { return region_; }
 
@@ -27,7 +27,7 @@ class SunShadow {
 
  private:
   struct Drawn {
-    std::uint64_t plan_id = 0;
+    std::uint64_t render_list_id = 0;
     int moved_count = -1;
     ShadowRegion region;
     friend bool operator==(const Drawn&, const Drawn&) = default;
@@ -36,7 +36,7 @@ class SunShadow {
   void CopyStill(const ShadowRegion::Rectangle& part);
   // Of robots only the sides in the sun are drawn, with fewer triangles: enough for what has an
   // inside.
-  void DrawCasters(const DrawPlan& plan, const std::vector<std::size_t>& casters,
+  void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                    std::vector<float>& map);
   void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4], bool both_sides,
                   std::vector<float>& map);

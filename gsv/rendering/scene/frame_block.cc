@@ -43,11 +43,11 @@ Rgb Mix(const Rgb& a, const Rgb& b, double t) {
 // none because their authors' tool added some of its own, and would be dark; some ask for all there
 // is, and would have no shadows.
 Rgb Ambient(const model::Colour& asked) {
-  constexpr double kLeast = 0.3, kMost = 0.45;
+  constexpr double kMin = 0.3, kMax = 0.45;
   const Rgb c{asked.r, asked.g, asked.b};
   const double brightness = Brightness(c);
-  if (brightness > kMost) return Mix({0, 0, 0}, c, kMost / brightness);
-  return Mix({kLeast, kLeast, kLeast}, c, std::min(1.0, brightness / kLeast));
+  if (brightness > kMax) return Mix({0, 0, 0}, c, kMax / brightness);
+  return Mix({kMin, kMin, kMin}, c, std::min(1.0, brightness / kMin));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class Cutter {
 
 }  // namespace
 
-MeshChunks CutIntoChunks(const geometry::TriangleMesh& mesh, std::uint32_t most_triangles) {
+MeshChunks CutIntoChunks(const geometry::TriangleMesh& mesh, std::uint32_t max_triangles) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> of_material;
   for (const geometry::MeshPart& part : mesh.parts) {
     auto& triangles = of_material[part.material];
@@ -75,7 +75,7 @@ MeshChunks CutIntoChunks(const geometry::TriangleMesh& mesh, std::uint32_t most_
       triangles.push_back(part.first_triangle + i);
     }
   }
-  Cutter cutter(mesh, most_triangles);
+  Cutter cutter(mesh, max_triangles);
   for (const auto& [material, triangles] : of_material) cutter.Cut(triangles, material);
   return cutter.Take();
 }

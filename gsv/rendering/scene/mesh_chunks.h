@@ -22,6 +22,6 @@ struct MeshChunks {
   std::vector<MeshChunk> chunks;
 };
 
-MeshChunks CutIntoChunks(const geometry::TriangleMesh& mesh, std::uint32_t most_triangles = 512);
+MeshChunks CutIntoChunks(const geometry::TriangleMesh& mesh, std::uint32_t max_triangles = 512);
 
 }  // namespace gsv::rendering

@@ -11,10 +11,10 @@ using geometry::Dot;
 using geometry::Vector3;
 
 // Casters larger than this do not widen the map: one floor slab would blur every shadow on it.
-constexpr double kMostRadius = 60;
+constexpr double kMaxRadius = 60;
 
 // A lone robot does not get the whole map: its shadow would be finer than any picture, and slower.
-constexpr double kLeastSide = 10;
+constexpr double kMinSide = 10;
 
 // Outward to a multiple of a power of two that is about a sixteenth of the length.
 void RoundOutward(double& min, double& max) {
@@ -25,26 +25,26 @@ void RoundOutward(double& min, double& max) {
 
 }  // namespace
 
-ShadowRegion::ShadowRegion(const DrawPlan& plan, const Vector3& to_sun) {
+ShadowRegion::ShadowRegion(const RenderList& render_list, const Vector3& to_sun) {
   const Vector3 helper = std::abs(to_sun.z) < 0.99 ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
   const Vector3 right = geometry::Normalized(geometry::Cross(helper, to_sun));
   axes_ = {right, geometry::Cross(to_sun, right), to_sun};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double min[3] = {kInfinity, kInfinity, kInfinity}, max[3] = {-kInfinity, -kInfinity, -kInfinity};
-  for (std::size_t i = 0; i < plan.items().size(); ++i) {
-    const DrawItem& item = plan.items()[i];
+  for (std::size_t i = 0; i < render_list.items().size(); ++i) {
+    const DrawItem& item = render_list.items()[i];
     if (!item.casts_shadow) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      const double at = Dot(axes_[axis], plan.placed()[i].centre);
+      const double at = Dot(axes_[axis], render_list.placed()[i].centre);
       // Along the light everything must be inside, or it would cast no shadow.
-      const double radius = axis < 2 ? std::min(item.radius, kMostRadius) : item.radius;
+      const double radius = axis < 2 ? std::min(item.radius, kMaxRadius) : item.radius;
       min[axis] = std::min(min[axis], at - radius);
       max[axis] = std::max(max[axis], at + radius);
     }
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (min[axis] > max[axis]) return;
-    const double missing = std::max(0.0, kLeastSide - (max[axis] - min[axis]));
+    const double missing = std::max(0.0, kMinSide - (max[axis] - min[axis]));
     min[axis] -= 0.5 * missing;
     max[axis] += 0.5 * missing;
     RoundOutward(min[axis], max[axis]);
@@ -64,16 +64,16 @@ bool ShadowRegion::MayFallOn(const Vector3& centre, double radius) const {
          at.y - radius < max_.y && at.z - radius < max_.z;
 }
 
-std::vector<std::size_t> ShadowRegion::StillCasters(const DrawPlan& plan) {
+std::vector<std::size_t> ShadowRegion::StillCasters(const RenderList& render_list) {
   std::vector<std::size_t> casters;
-  for (std::size_t i = 0; i < plan.items().size(); ++i) {
-    const DrawItem& item = plan.items()[i];
-    if (item.casts_shadow && plan.IsStill(item.body)) casters.push_back(i);
+  for (std::size_t i = 0; i < render_list.items().size(); ++i) {
+    const DrawItem& item = render_list.items()[i];
+    if (item.casts_shadow && render_list.IsStill(item.body)) casters.push_back(i);
   }
   return casters;
 }
 
-std::vector<std::size_t> ShadowRegion::MovingCasters(const DrawPlan& plan,
+std::vector<std::size_t> ShadowRegion::MovingCasters(const RenderList& render_list,
                                                      const std::vector<CameraView>& views) const {
   // How far beside itself a surface is looked up: along its normal and by the filter.
   const double beside = 4 * TexelSize();
@@ -85,11 +85,11 @@ std::vector<std::size_t> ShadowRegion::MovingCasters(const DrawPlan& plan,
     seen.emplace_back(view.world_from_camera.position, FrustumOf(view));
   }
   std::vector<std::size_t> casters;
-  for (std::size_t i = 0; i < plan.items().size(); ++i) {
-    const DrawItem& item = plan.items()[i];
-    if (!item.casts_shadow || plan.IsStill(item.body)) continue;
+  for (std::size_t i = 0; i < render_list.items().size(); ++i) {
+    const DrawItem& item = render_list.items()[i];
+    if (!item.casts_shadow || render_list.IsStill(item.body)) continue;
     const double radius = item.radius + beside;
-    const Vector3 centre = plan.placed()[i].centre;
+    const Vector3 centre = render_list.placed()[i].centre;
     const bool is_seen = std::any_of(seen.begin(), seen.end(), [&](const auto& camera) {
       return camera.second.MeetsMovingSphere(centre - camera.first, shade, radius);
     });
@@ -99,15 +99,15 @@ std::vector<std::size_t> ShadowRegion::MovingCasters(const DrawPlan& plan,
 }
 
 std::vector<ShadowRegion::Rectangle> ShadowRegion::PartsOf(
-    const DrawPlan& plan, const std::vector<std::size_t>& items) const {
+    const RenderList& render_list, const std::vector<std::size_t>& items) const {
   // Past this many a copy of everything is cheaper.
-  constexpr std::size_t kMostParts = 256;
+  constexpr std::size_t kMaxParts = 256;
   std::vector<Rectangle> parts;
   int last_body = -1;
   for (const std::size_t i : items) {
-    const DrawItem& item = plan.items()[i];
+    const DrawItem& item = render_list.items()[i];
     const auto texels = [&](int axis, double min, double max, double offset) {
-      const double at = Dot(axes_[axis], plan.placed()[i].centre) + offset;
+      const double at = Dot(axes_[axis], render_list.placed()[i].centre) + offset;
       return std::clamp((at - min) / (max - min), 0.0, 1.0) * kShadowSide;
     };
     const double r = item.radius;
@@ -125,7 +125,7 @@ std::vector<ShadowRegion::Rectangle> ShadowRegion::PartsOf(
               std::max(part.max_x, around.max_x), std::max(part.max_y, around.max_y)};
     }
   }
-  if (parts.size() > kMostParts) parts = {{0, 0, kShadowSide, kShadowSide}};
+  if (parts.size() > kMaxParts) parts = {{0, 0, kShadowSide, kShadowSide}};
   return parts;
 }
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "gsv/rendering/scene/draw_plan.h"
 #include "gsv/rendering/scene/frame_block.h"
+#include "gsv/rendering/scene/render_list.h"
 
 namespace gsv::rendering {
 
@@ -17,7 +17,7 @@ class ShadowRegion {
   // Nothing casts shadows.
   ShadowRegion() = default;
   // Around all of a posed plan that casts shadows.
-  ShadowRegion(const DrawPlan& plan, const geometry::Vector3& to_sun);
+  ShadowRegion(const RenderList& render_list, const geometry::Vector3& to_sun);
 
   bool IsEmpty() const { return !(min_.x < max_.x); }
   double TexelSize() const;  // the longer side, m
@@ -26,16 +26,17 @@ class ShadowRegion {
   bool MayFallOn(const geometry::Vector3& centre, double radius) const;
 
   // Indices of the still items that cast shadows.
-  static std::vector<std::size_t> StillCasters(const DrawPlan& plan);
+  static std::vector<std::size_t> StillCasters(const RenderList& render_list);
   // Of the items that move and cast shadows, those whose shadow one of the cameras may see.
-  std::vector<std::size_t> MovingCasters(const DrawPlan& plan,
+  std::vector<std::size_t> MovingCasters(const RenderList& render_list,
                                          const std::vector<CameraView>& views) const;
 
   struct Rectangle {  // texels, [min, max)
     int min_x, min_y, max_x, max_y;
   };
   // Around each body of some items; everything when that is cheaper.
-  std::vector<Rectangle> PartsOf(const DrawPlan& plan, const std::vector<std::size_t>& items) const;
+  std::vector<Rectangle> PartsOf(const RenderList& render_list,
+                                 const std::vector<std::size_t>& items) const;
 
   // Fills in the shadow's part of the block for a camera at `origin`: the map holds [0, 1], depth
   // grows towards the sun.

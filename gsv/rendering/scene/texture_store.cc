@@ -28,7 +28,7 @@ std::shared_ptr<const DrawTexture> TextureStore::Find(const std::shared_ptr<cons
   // An address may be that of an earlier picture that is gone.
   if (entry.texture == nullptr || entry.image.lock() != image) {
     std::shared_ptr<DrawTexture> texture = make_(*image);
-    texture->see_through = SeeThrough(*image);
+    texture->is_transparent = SeeThrough(*image);
     entry = {image, std::move(texture)};
   }
   return entry.texture;

@@ -15,7 +15,7 @@ namespace gsv::rendering {
 // samples colours decodes them.
 struct DrawTexture {
   virtual ~DrawTexture() = default;
-  bool see_through = false;  // some pixel's alpha is below 1
+  bool is_transparent = false;  // some pixel's alpha is below 1
 };
 
 class TextureStore {

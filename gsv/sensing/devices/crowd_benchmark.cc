@@ -170,7 +170,7 @@ void CrowdSonars(benchmark::State& bench) {
   constexpr std::size_t kRobotsAtOnce = 32;
   RunCrowd(bench, crowd, [&] {
     const auto scene = cache.At(crowd.snapshot(), &team);
-    team.Share(crowd.robots().size(), kRobotsAtOnce, [&](std::size_t begin, std::size_t end) {
+    team.ParallelFor(crowd.robots().size(), kRobotsAtOnce, [&](std::size_t begin, std::size_t end) {
       Sampling sampling(crowd.snapshot(), -1, 1, cache);
       for (std::size_t i = begin; i < end; ++i) {
         sampling.MoveTo(crowd.robots()[i]);

@@ -126,12 +126,12 @@ void GripperState::AfterMove(const world::Layout& layout, base::SimTime time,
                              world::State& state) const {
   const int index = layout.Find(robot());
   if (index < 0) return;
-  MoveJaws(layout.bodies[static_cast<std::size_t>(index)], time, state);
-  if (hold_) MoveHeld(layout, index, state);
+  MoveFingers(layout.bodies[static_cast<std::size_t>(index)], time, state);
+  if (hold_) MoveAttachedBody(layout, index, state);
 }
 
-void GripperState::MoveJaws(const world::Body& robot, base::SimTime time,
-                            world::State& state) const {
+void GripperState::MoveFingers(const world::Body& robot, base::SimTime time,
+                               world::State& state) const {
   if (robot.is_rigid()) return;
   for (const std::string* jaw : {&setup_->left_jaw, &setup_->right_jaw}) {
     const int joint = jaw->empty() ? -1 : model::FindJoint(robot.model->joints, *jaw);
@@ -141,7 +141,8 @@ void GripperState::MoveJaws(const world::Body& robot, base::SimTime time,
   }
 }
 
-void GripperState::MoveHeld(const world::Layout& layout, int robot, world::State& state) const {
+void GripperState::MoveAttachedBody(const world::Layout& layout, int robot,
+                                    world::State& state) const {
   const world::Body& holder = layout.bodies[static_cast<std::size_t>(robot)];
   const world::BodyState& carrier = state.bodies[static_cast<std::size_t>(robot)];
   world::BodyState& held = state.bodies[static_cast<std::size_t>(layout.Find(hold_->grasp.held))];

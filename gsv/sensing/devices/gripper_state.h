@@ -60,8 +60,8 @@ class GripperState final : public world::ActuatorState {
 
  private:
   GraspForHash grasp_for_hash() const override;
-  void MoveJaws(const world::Body& robot, base::SimTime time, world::State& state) const;
-  void MoveHeld(const world::Layout& layout, int robot, world::State& state) const;
+  void MoveFingers(const world::Body& robot, base::SimTime time, world::State& state) const;
+  void MoveAttachedBody(const world::Layout& layout, int robot, world::State& state) const;
 
   const GripperSetupPtr setup_;
   const double opening_before_;

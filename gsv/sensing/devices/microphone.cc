@@ -10,7 +10,7 @@
 namespace gsv::sensing {
 namespace {
 
-constexpr double kNearestSource = 0.1;  // m
+constexpr double kMinSourceDistance = 0.1;  // m
 
 double Power(double level) { return std::pow(10, level / 10); }
 
@@ -21,7 +21,7 @@ std::optional<double> LevelAt(const geometry::Vector3& point, const world::Devic
   if (body < 0) return std::nullopt;
   const geometry::Pose world_from_source =
       world::LinkPose(snapshot, body, source.link) * source.link_from_device;
-  const double distance = std::max(kNearestSource, Norm(world_from_source.position - point));
+  const double distance = std::max(kMinSourceDistance, Norm(world_from_source.position - point));
   return sound.loudness + 20 * std::log10(sound.volume / distance);
 }
 

@@ -82,7 +82,7 @@ class SamplingTest : public ::testing::Test {
     base::ThreadTeam team(threads);
     RaySceneCache rays;
     const auto scene = rays.At(snapshot, &team);
-    team.Share(robots.size(), 16, [&](std::size_t begin, std::size_t end) {
+    team.ParallelFor(robots.size(), 16, [&](std::size_t begin, std::size_t end) {
       Sampling sampling(snapshot, -1, 7, rays);
       for (std::size_t i = begin; i < end; ++i) {
         sampling.MoveTo(robots[i]);

@@ -15,8 +15,8 @@ using geometry::Vector3;
 
 using geometry::kPi;
 constexpr double kSpeedOfSound = 343;  // m/s, in air of 20 degrees
-constexpr double kWidestCone = 0.6;    // rad: what sends wider than this is cut off here
-constexpr int kMostRings = 24;
+constexpr double kMaxConeAngle = 0.6;  // rad: what sends wider than this is cut off here
+constexpr int kMaxRings = 24;
 
 }  // namespace
 
@@ -37,10 +37,10 @@ double Directivity(const SoundSettings& sound, double angle) {
 }
 
 SoundCone::SoundCone(const SoundSettings& sound)
-    : sound_(sound), spacing_(std::max(sound.specular_width, kWidestCone / kMostRings)) {
+    : sound_(sound), spacing_(std::max(sound.specular_width, kMaxConeAngle / kMaxRings)) {
   // Rings of rays, close enough for one of them to be nearly perpendicular to any surface.
   beams_.push_back({{1, 0, 0}, 1});
-  for (int ring = 1; ring * spacing_ <= kWidestCone; ++ring) {
+  for (int ring = 1; ring * spacing_ <= kMaxConeAngle; ++ring) {
     const double angle = ring * spacing_;
     const double strength = std::pow(Directivity(sound, angle), 2);
     if (strength < sound.threshold) continue;

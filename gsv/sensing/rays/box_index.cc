@@ -13,10 +13,12 @@ constexpr std::size_t kFewBoxes = 8;
 
 // Where more boxes share a column, as when they are stacked or one stands far from a crowd, the
 // tree is quicker.
-constexpr double kMostCrowding = 12;
+constexpr double kMaxOccupancy = 12;
 
 bool FitsGrid(const Bounds& b) {
-  const auto fits = [](double x) { return std::abs(x) <= ColumnGrid::kFurthest; };  // NaN does not
+  const auto fits = [](double x) {
+    return std::abs(x) <= ColumnGrid::kMaxCoordinate;
+  };  // NaN does not
   return fits(b.min.x) && fits(b.min.y) && fits(b.max.x) && fits(b.max.y);
 }
 
@@ -29,10 +31,10 @@ void BoxIndex::Build(std::span<const Bounds> boxes, bool often) {
   if (std::all_of(boxes.begin(), boxes.end(), FitsGrid)) {
     kind_ = Kind::kGrid;
     grid_.Build(boxes);
-    if (grid_.crowding() <= kMostCrowding) return;
+    if (grid_.occupancy() <= kMaxOccupancy) return;
   }
   kind_ = Kind::kTree;
-  if (tree_ == nullptr) tree_ = std::make_unique<BoxTree>();
+  if (tree_ == nullptr) tree_ = std::make_unique<BoundingVolumeTree>();
   tree_->Build(boxes, often);
 }
 

@@ -2,7 +2,7 @@
 // stand side by side in a grid of columns, others in a tree.
 //
 // Exactness  no box that a ray passes through within its length is left out, by the limits that
-//            ColumnGrid and BoxTree state.
+//            ColumnGrid and BoundingVolumeTree state.
 // Threads    const members may run concurrently.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <memory>
 #include <span>
 
-#include "gsv/sensing/rays/box_tree.h"
+#include "gsv/sensing/rays/bounding_volume_tree.h"
 #include "gsv/sensing/rays/column_grid.h"
 
 namespace gsv::sensing {
@@ -41,7 +41,7 @@ class BoxIndex {
   // False, and not all are added, if there is no room or no quick way to find them.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
-    if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMost) return false;
+    if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMax) return false;
     for (std::uint32_t i = 0; i < count_; ++i) found.boxes[found.count++] = i;
     return true;
   }
@@ -52,7 +52,7 @@ class BoxIndex {
   Kind kind_ = Kind::kList;
   std::uint32_t count_ = 0;
   ColumnGrid grid_;
-  std::unique_ptr<BoxTree> tree_;  // null until one was needed
+  std::unique_ptr<BoundingVolumeTree> tree_;  // null until one was needed
 };
 
 }  // namespace gsv::sensing

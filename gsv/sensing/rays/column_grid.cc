@@ -9,9 +9,9 @@ using geometry::Bounds;
 
 // So many columns are made for each box, and in so many may boxes be listed on average.
 constexpr double kColumnsPerBox = 2;
-constexpr std::size_t kMostEntriesPerBox = 8;
+constexpr std::size_t kMaxEntriesPerBox = 8;
 // In one direction: an index fits 16 bits.
-constexpr double kMostColumns = 30'000;
+constexpr double kMaxColumns = 30'000;
 
 }  // namespace
 
@@ -52,16 +52,16 @@ void ColumnGrid::Build(std::span<const Bounds> boxes) {
     low_x_ = std::min(low_x_, b.min.x), high_x = std::max(high_x, b.max.x);
     low_y_ = std::min(low_y_, b.min.y), high_y = std::max(high_y, b.max.y);
   }
-  GSV_CHECK(low_x_ >= -kFurthest && high_x <= kFurthest);
-  GSV_CHECK(low_y_ >= -kFurthest && high_y <= kFurthest);
+  GSV_CHECK(low_x_ >= -kMaxCoordinate && high_x <= kMaxCoordinate);
+  GSV_CHECK(low_y_ >= -kMaxCoordinate && high_y <= kMaxCoordinate);
   low_x_ -= 2 * kMargin, low_y_ -= 2 * kMargin;
   const double width = high_x - low_x_ + 2 * kMargin, depth = high_y - low_y_ + 2 * kMargin;
 
   const auto count = static_cast<double>(boxes.size());
   double cell = std::max(std::sqrt(width * depth / (kColumnsPerBox * count)),
-                         std::max(width, depth) / std::min(kMostColumns, kColumnsPerBox * count));
+                         std::max(width, depth) / std::min(kMaxColumns, kColumnsPerBox * count));
   ranges_.resize(boxes.size());
-  for (Divide(cell, width, depth); !Count(boxes, kMostEntriesPerBox * boxes.size());) {
+  for (Divide(cell, width, depth); !Count(boxes, kMaxEntriesPerBox * boxes.size());) {
     Divide(cell *= 1.5, width, depth);
   }
 
@@ -72,7 +72,7 @@ void ColumnGrid::Build(std::span<const Bounds> boxes) {
     squares += double{1} * start * start;
     start = end += start;
   }
-  crowding_ = squares / static_cast<double>(entries_.size());
+  occupancy_ = squares / static_cast<double>(entries_.size());
   const std::size_t stride = columns_ + 2;
   for (std::size_t i = boxes.size(); i-- > 0;) {
     const Range& r = ranges_[i];
@@ -100,7 +100,7 @@ bool ColumnGrid::Near(const geometry::Vector3& place, double reach, FoundBoxes& 
   for (int row = front; row <= back; ++row, row_mark = kFirstRow) {
     const std::uint32_t* starts = &starts_[std::size_t(row) * (columns_ + 2)];
     const std::uint32_t begin = starts[left], second = starts[left + 1], end = starts[right + 1];
-    if (count + (end - begin) > FoundBoxes::kMost) return false;
+    if (count + (end - begin) > FoundBoxes::kMax) return false;
     // Which of them count is hard to foresee: they are written without a branch.
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::uint32_t mark = row_mark | (i < second ? 0 : kFirstColumn);

@@ -5,7 +5,7 @@
 //
 // Exactness    a box is listed in every column that it comes within kMargin of, so that a ray that
 //              rounding takes to the wrong side of a border still meets it, as long as coordinates
-//              stay below kFurthest.
+//              stay below kMaxCoordinate.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -25,28 +25,28 @@ namespace gsv::sensing {
 
 // Numbers of boxes, found near a place.
 struct FoundBoxes {
-  static constexpr std::size_t kMost = 256;
-  std::array<std::uint32_t, kMost> boxes;
+  static constexpr std::size_t kMax = 256;
+  std::array<std::uint32_t, kMax> boxes;
   std::size_t count = 0;
 };
 
 class ColumnGrid {
  public:
-  static constexpr double kMargin = 1e-6;   // m
-  static constexpr double kFurthest = 1e5;  // m
+  static constexpr double kMargin = 1e-6;        // m
+  static constexpr double kMaxCoordinate = 1e5;  // m
 
-  // Sorts the boxes in, in place of those before. All lie within ±kFurthest in x and y.
+  // Sorts the boxes in, in place of those before. All lie within ±kMaxCoordinate in x and y.
   void Build(std::span<const geometry::Bounds> boxes);
 
   // How many boxes share a column, as a box sees it on average.
-  double crowding() const { return crowding_; }
+  double occupancy() const { return occupancy_; }
 
   // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
   // shorten; for some of them more than once.
   template <class Visit>
   void Walk(const Ray& ray, const double& length, const Visit& visit) const {
     const RayAxis x(ray.origin.x, ray.direction.x), y(ray.origin.y, ray.direction.y);
-    double begin = 0, end = 1000 * kFurthest;
+    double begin = 0, end = 1000 * kMaxCoordinate;
     x.Clip(low_x_, low_x_ + columns_ * cell_, begin, end);
     y.Clip(low_y_, low_y_ + rows_ * cell_, begin, end);
     if (!(begin <= std::min(end, length))) return;
@@ -90,7 +90,7 @@ class ColumnGrid {
   double low_x_ = 0, low_y_ = 0;
   double cell_ = 1, per_metre_ = 1;  // a column is cell_ wide and deep
   int columns_ = 0, rows_ = 0;       // without the ring
-  double crowding_ = 0;
+  double occupancy_ = 0;
   std::vector<Range> ranges_;
   std::vector<std::uint32_t> starts_{0, 0};  // of each column in `entries_`, and the end
   std::vector<std::uint32_t> entries_;

@@ -123,12 +123,12 @@ TEST(ColumnGrid, FindsEveryBoxNearAPlaceOnce) {
 }
 
 TEST(ColumnGrid, SaysWhenThereIsNoRoomForAllBoxesNearAPlace) {
-  const std::vector<Bounds> boxes(FoundBoxes::kMost + 1, BoxAt({0, 0, 0}, {1, 1, 1}));
+  const std::vector<Bounds> boxes(FoundBoxes::kMax + 1, BoxAt({0, 0, 0}, {1, 1, 1}));
   ColumnGrid grid;
   grid.Build(boxes);
   FoundBoxes found;
   EXPECT_FALSE(grid.Near({0, 0, 0}, 1, found));
-  EXPECT_EQ(grid.crowding(), static_cast<double>(boxes.size()));
+  EXPECT_EQ(grid.occupancy(), static_cast<double>(boxes.size()));
 }
 
 }  // namespace

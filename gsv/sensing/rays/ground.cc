@@ -6,10 +6,10 @@ double FloorHeight(const RayScene& scene, double x, double y,
                    const std::function<bool(int body)>& may_carry) {
   constexpr double kDeepest = 10;
   constexpr double kSteepest = 0.70710678118654757;
-  constexpr double kRounding = 1e-9;  // a floor at kHighestFloor counts
-  constexpr int kMostBodies = 64;     // that do not count, above one another
-  Ray down{{x, y, kHighestFloor + kRounding}, {0, 0, -1}, kHighestFloor + kDeepest};
-  for (int i = 0; i < kMostBodies; ++i) {
+  constexpr double kRounding = 1e-9;  // a floor at kMaxFloorHeight counts
+  constexpr int kMaxBodies = 64;      // that do not count, above one another
+  Ray down{{x, y, kMaxFloorHeight + kRounding}, {0, 0, -1}, kMaxFloorHeight + kDeepest};
+  for (int i = 0; i < kMaxBodies; ++i) {
     const std::optional<Hit> hit = scene.Cast(down, -1);
     if (!hit) return 0;
     if (may_carry(hit->body)) {

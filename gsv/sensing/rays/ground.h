@@ -8,9 +8,9 @@
 namespace gsv::sensing {
 
 // No floor that a robot is put on lies higher than this.
-inline constexpr double kHighestFloor = 0.3;  // m
+inline constexpr double kMaxFloorHeight = 0.3;  // m
 
-// The height of the highest surface at (x, y) that lies at kHighestFloor or below and is less steep
+// The height of the highest surface at (x, y) that lies at kMaxFloorHeight or below and is less steep
 // than 45°; 0 if there is none within ten metres down. A ground plane, a floor slab and a low
 // platform are floors; a table top is not.
 // Only bodies that `may_carry` accepts count: a robot's roof is no floor.

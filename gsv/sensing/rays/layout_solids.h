@@ -17,7 +17,7 @@ struct Part {
   int link = -1;   // whose frame it is in; -1: the model's
   int number = 0;  // within its model
   SolidSet solids;
-  Ball ball;  // around them, unless they are endless
+  BoundingSphere ball;  // around them, unless they are endless
 };
 
 // A part of one body.

@@ -5,7 +5,7 @@
 
 #include "gsv/base/check.h"
 #include "gsv/geometry/constants.h"
-#include "gsv/sensing/rays/surroundings.h"
+#include "gsv/sensing/rays/candidate_set.h"
 
 namespace gsv::sensing {
 namespace {
@@ -41,7 +41,7 @@ Bounds Around(const Ray& ray) {
 }
 
 // Whether the ray comes within the ball.
-bool Passes(const Ray& ray, double length, const Ball& ball) {
+bool Passes(const Ray& ray, double length, const BoundingSphere& ball) {
   const Vector3 to_centre = ball.centre - ray.origin;
   const double along = std::clamp(Dot(to_centre, ray.direction), 0.0, length);
   const Vector3 gap = to_centre - along * ray.direction;
@@ -55,7 +55,7 @@ void InBatches(RayBatch& batch, const ForRays& for_rays, const Cast& cast) {
   for_rays([&](const Vector3& direction, Nearest& found) {
     batch.directions[batch.count] = direction;
     batch.nearest[batch.count] = &found;
-    if (++batch.count < RayBatch::kMost) return;
+    if (++batch.count < RayBatch::kMax) return;
     cast(batch);
     batch.count = 0;
   });
@@ -75,7 +75,7 @@ void PlacedSolids::Place(std::size_t index, const world::Snapshot& snapshot) {
   const Vector3 centre = world_from_part * part->ball.centre;
   const double radius = part->ball.radius;
   const Vector3 reach{radius, radius, radius};
-  balls_[index] = {{centre, radius}, body};
+  spheres_[index] = {{centre, radius}, body};
   boxes_[index] = {centre - reach, centre + reach};
 }
 
@@ -83,13 +83,13 @@ void PlacedSolids::MoveTo(std::shared_ptr<const LayoutSolids> solids,
                           const world::Snapshot& snapshot, base::ThreadTeam* team) {
   solids_ = std::move(solids);
   parts_.resize(solids_->moving.size());
-  balls_.resize(solids_->bounded);
+  spheres_.resize(solids_->bounded);
   boxes_.resize(solids_->bounded);
   const auto place = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) Place(i, snapshot);
   };
   if (team != nullptr) {
-    team->Share(parts_.size(), kPartsAtOnce, place);
+    team->ParallelFor(parts_.size(), kPartsAtOnce, place);
   } else {
     place(0, parts_.size());
   }
@@ -108,7 +108,7 @@ void PlacedSolids::CastAtPart(std::size_t index, const Ray& ray, Nearest& neares
 }
 
 // Last, since triangles are many and what was hit before shortens the ray.
-void PlacedSolids::CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const {
+void PlacedSolids::CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) CastAtPart(i, ray, nearest);
   }
@@ -121,10 +121,10 @@ Nearest PlacedSolids::Find(const Ray& ray, int ignored_body) const {
   if (!IsSound(ray)) return nearest;
   solids_->standing.CastAtShapes(ray, ignored_body, nearest);
   index_.Walk(ray, nearest.distance, [&](std::uint32_t i) {
-    const auto& [ball, body] = balls_[i];
+    const auto& [ball, body] = spheres_[i];
     if (body != ignored_body && Passes(ray, nearest.distance, ball)) CastAtPart(i, ray, nearest);
   });
-  CastAtRest(ray, ignored_body, nearest);
+  CastAtUnindexed(ray, ignored_body, nearest);
   return nearest;
 }
 
@@ -161,7 +161,7 @@ bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
                                 std::vector<Shading>& shadings) const {
   const Vector3& place = fan.world_from_fan.position;
   const double reach = fan.max_distance;
-  const auto is_near = [&](const Ball& ball) {
+  const auto is_near = [&](const BoundingSphere& ball) {
     const Vector3 gap = ball.centre - place;
     const double furthest = reach + ball.radius;
     return Dot(gap, gap) <= furthest * furthest;
@@ -172,7 +172,7 @@ bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
     const std::uint32_t shape = found.boxes[i];
     const SolidSet& standing = solids_->standing;
     if (standing.BodyOfShape(shape) == ignored_body) continue;
-    if (!is_near(standing.BallOfShape(shape))) continue;
+    if (!is_near(standing.SphereOfShape(shape))) continue;
     const auto sector = SectorOf(fan, standing.ShapeFromSet(shape) * fan.world_from_fan,
                                  standing.OwnBoundsOfShape(shape));
     if (sector) shadings.push_back({*sector, true, shape});
@@ -181,7 +181,7 @@ bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
   if (!index_.Near(place, reach, found)) return false;
   for (std::size_t i = 0; i < found.count; ++i) {
     const std::uint32_t part = found.boxes[i];
-    const auto& [ball, body] = balls_[part];
+    const auto& [ball, body] = spheres_[part];
     if (body == ignored_body || !is_near(ball)) continue;
     const auto sector = SectorOf(fan, parts_[part].part_from_world * fan.world_from_fan,
                                  parts_[part].part->solids.bounds());
@@ -192,7 +192,7 @@ bool PlacedSolids::FindShadings(const Fan& fan, int ignored_body,
   return true;
 }
 
-bool PlacedSolids::RestReaches(const Fan& fan, int ignored_body) const {
+bool PlacedSolids::UnindexedReach(const Fan& fan, int ignored_body) const {
   for (std::size_t i = solids_->bounded; i < parts_.size(); ++i) {
     if (solids_->moving[i].body != ignored_body) return true;
   }
@@ -244,7 +244,7 @@ void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> rang
     return {world_from_fan.position, directions[i], fan.max_distance};
   };
   std::vector<Shading> shadings;
-  shadings.reserve(FoundBoxes::kMost / 2);
+  shadings.reserve(FoundBoxes::kMax / 2);
   const bool is_sound = geometry::IsFinite(world_from_fan) && fan.max_distance >= 0;
   if (!is_sound || !FindShadings(fan, ignored_body, shadings)) {
     for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = Range(ray(i), ignored_body);
@@ -253,42 +253,41 @@ void PlacedSolids::Scan(const Fan& fan, int ignored_body, std::span<double> rang
   std::vector<Nearest> nearest(ranges.size(), Nearest{.distance = fan.max_distance});
   RayBatch batch;
   for (const Shading& shading : shadings) CastInto(shading, fan, directions, nearest, batch);
-  const bool has_rest = RestReaches(fan, ignored_body);
+  const bool has_rest = UnindexedReach(fan, ignored_body);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    if (has_rest) CastAtRest(ray(i), ignored_body, nearest[i]);
+    if (has_rest) CastAtUnindexed(ray(i), ignored_body, nearest[i]);
     ranges[i] = DistanceOf(nearest[i]);
   }
 }
 
 bool PlacedSolids::Gather(const Vector3& place, double reach, int ignored_body,
-                          Surroundings& surroundings) const {
+                          CandidateSet& candidates) const {
   if (!IsFinite(place) || !(reach >= 0)) return false;
-  surroundings.Begin(place, reach);
+  candidates.Begin(place, reach);
   FoundBoxes found;
   if (!index_.Near(place, reach, found)) return false;
   for (std::size_t i = 0; i < found.count; ++i) {
-    const auto& [ball, body] = balls_[found.boxes[i]];
+    const auto& [ball, body] = spheres_[found.boxes[i]];
     const Vector3 gap = ball.centre - place;
     const double furthest = reach + ball.radius;
-    surroundings.Add(ball, found.boxes[i],
-                     (body != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
+    candidates.Add(ball, found.boxes[i],
+                   (body != ignored_body) & (Dot(gap, gap) <= furthest * furthest));
   }
-  return solids_->standing.Gather(surroundings, kStanding) && surroundings.Finish();
+  return solids_->standing.Gather(candidates, kStanding) && candidates.Finish();
 }
 
-double PlacedSolids::Range(const Ray& ray, int ignored_body,
-                           const Surroundings& surroundings) const {
+double PlacedSolids::Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const {
   Nearest nearest;
   nearest.distance = ray.max_distance;
   if (!IsSound(ray)) return kInfinity;
   const Bounds around = Around(ray);
-  surroundings.Find(ray, nearest.distance, [&](std::uint32_t i) {
+  candidates.Find(ray, nearest.distance, [&](std::uint32_t i) {
     const std::uint32_t shape = i & ~kStanding;
     if (shape == i) return CastAtPart(i, ray, nearest);
     if (!solids_->standing.ShapeReaches(shape, around)) return;
     solids_->standing.CastAtShape(shape, ray, ignored_body, nearest);
   });
-  CastAtRest(ray, ignored_body, nearest);
+  CastAtUnindexed(ray, ignored_body, nearest);
   return DistanceOf(nearest);
 }
 

@@ -26,16 +26,16 @@ class PlacedSolids final : public RayScene {
   double Range(const Ray& ray, int ignored_body) const override;
   void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const override;
   bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
-              Surroundings& surroundings) const override;
-  double Range(const Ray& ray, int ignored_body, const Surroundings& surroundings) const override;
+              CandidateSet& candidates) const override;
+  double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const override;
 
  private:
   struct PlacedPart {
     geometry::Pose part_from_world;
     const Part* part;
   };
-  struct PlacedBall {
-    Ball ball;
+  struct PlacedSphere {
+    BoundingSphere ball;
     int body;
   };
 
@@ -48,9 +48,9 @@ class PlacedSolids final : public RayScene {
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
   // Of all bounded solids within the fan's reach, the nearest first; false if they are too many.
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
-  void CastAtRest(const Ray& ray, int ignored_body, Nearest& nearest) const;
+  void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
   // False if that finds nothing for any of a fan's rays.
-  bool RestReaches(const Fan& fan, int ignored_body) const;
+  bool UnindexedReach(const Fan& fan, int ignored_body) const;
   // Casts those rays at the solid that it may stop, all of which leave the fan's place;
   // directions[i] is ray i's, in the world; `batch` is room to work in.
   void CastInto(const Shading& shading, const Fan& fan,
@@ -60,7 +60,7 @@ class PlacedSolids final : public RayScene {
   std::shared_ptr<const LayoutSolids> solids_;
   // As LayoutSolids::moving; the latter two of bounded parts only.
   std::vector<PlacedPart> parts_;
-  std::vector<PlacedBall> balls_;
+  std::vector<PlacedSphere> spheres_;
   std::vector<geometry::Bounds> boxes_;
   BoxIndex index_;  // of boxes_
 };

@@ -14,7 +14,7 @@ namespace {
 
 // Scenes that nobody looks at. It outlives the cache as long as a scene is out.
 struct Pool {
-  static constexpr std::size_t kMostIdle = 4;
+  static constexpr std::size_t kMaxIdle = 4;
   base::Mutex mutex;
   std::vector<std::unique_ptr<PlacedSolids>> idle GSV_GUARDED_BY(mutex);
 
@@ -27,7 +27,7 @@ struct Pool {
   }
   void Return(std::unique_ptr<PlacedSolids> scene) {
     const base::MutexLock lock(mutex);
-    if (idle.size() < kMostIdle) idle.push_back(std::move(scene));
+    if (idle.size() < kMaxIdle) idle.push_back(std::move(scene));
   }
 };
 

@@ -26,7 +26,7 @@ inline Ray Moved(const geometry::Pose& to_from, const Ray& ray, double length) {
   return {to_from * ray.origin, to_from.orientation * ray.direction, length};
 }
 
-class Surroundings;
+class CandidateSet;
 
 class RayScene : public world::RayCaster {
  public:
@@ -46,11 +46,10 @@ class RayScene : public world::RayCaster {
   // Gathers the solids within `reach` of `place`, but not those of `ignored_body`: for several rays
   // from there it is quicker to look for them once. False if they are too many for that.
   virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
-                      Surroundings& surroundings) const = 0;
+                      CandidateSet& candidates) const = 0;
 
   // The same as the other one, for rays that Surroundings::Hold() and their ignored body.
-  virtual double Range(const Ray& ray, int ignored_body,
-                       const Surroundings& surroundings) const = 0;
+  virtual double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const = 0;
 };
 
 // Ray scenes for snapshots, built when asked for. The static part is built once a layout, and a

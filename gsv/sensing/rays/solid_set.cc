@@ -52,19 +52,19 @@ Bounds Padded(const Bounds& b) {
   return {b.min - Vector3{by, by, by}, b.max + Vector3{by, by, by}};
 }
 
-Ball Padded(const Ball& ball) {
+BoundingSphere Padded(const BoundingSphere& ball) {
   return {ball.centre, ball.radius + kPadding * (1 + ball.radius + Norm(ball.centre))};
 }
 
 // Whether some of the box lies within.
-bool Reaches(const Surroundings& surroundings, const Bounds& box) {
-  const Vector3& place = surroundings.place();
+bool Reaches(const CandidateSet& candidates, const Bounds& box) {
+  const Vector3& place = candidates.place();
   const auto gap = [](double low, double x, double high) {
     return std::max(std::max(low - x, x - high), 0.0);
   };
   const Vector3 gaps{gap(box.min.x, place.x, box.max.x), gap(box.min.y, place.y, box.max.y),
                      gap(box.min.z, place.z, box.max.z)};
-  return Dot(gaps, gaps) <= surroundings.reach() * surroundings.reach();
+  return Dot(gaps, gaps) <= candidates.reach() * candidates.reach();
 }
 
 // How far from its origin a shape reaches.
@@ -119,7 +119,8 @@ void SolidSet::Add(const Shape& shape, const Pose& set_from_shape, int body) {
   const Bounds bounds = BoundsOfShape(shape, set_from_shape);
   Include(bounds);
   shape_bounds_.push_back(Padded(bounds));
-  shape_balls_.push_back(Padded(Ball{set_from_shape.position, std::visit(Reach{}, shape)}));
+  shape_spheres_.push_back(
+      Padded(BoundingSphere{set_from_shape.position, std::visit(Reach{}, shape)}));
   shape_own_bounds_.push_back(geometry::BoundsOf(shape));
   shapes_.push_back(std::move(solid));
 }
@@ -145,10 +146,10 @@ void SolidSet::Include(const Bounds& b) {
                  std::max(bounds_.max.z, b.max.z)};
 }
 
-Ball SolidSet::ball() const {
+BoundingSphere SolidSet::ball() const {
   const Vector3 centre = 0.5 * (bounds_.min + bounds_.max);
   double furthest = 0;
-  for (const Ball& ball : shape_balls_) {
+  for (const BoundingSphere& ball : shape_spheres_) {
     furthest = std::max(furthest, Norm(ball.centre - centre) + ball.radius);
   }
   for (const SolidTriangle& t : triangles_) {
@@ -156,7 +157,7 @@ Ball SolidSet::ball() const {
       furthest = std::max(furthest, Norm(corner - centre));
     }
   }
-  return Padded(Ball{centre, std::min(furthest, 0.5 * Norm(bounds_.max - bounds_.min))});
+  return Padded(BoundingSphere{centre, std::min(furthest, 0.5 * Norm(bounds_.max - bounds_.min))});
 }
 
 void SolidSet::Commit() {
@@ -167,7 +168,7 @@ void SolidSet::Commit() {
   for (const SolidTriangle& t : triangles_) {
     boxes.push_back(BoundsOfTriangle(t.corner, t.corner + t.edge1, t.corner + t.edge2));
   }
-  triangle_tree_ = std::make_unique<BoxTree>();
+  triangle_tree_ = std::make_unique<BoundingVolumeTree>();
   triangle_tree_->Build(boxes, /*often=*/false);
 }
 
@@ -272,13 +273,12 @@ void SolidSet::Cast(const Ray& ray, int ignored_body, Nearest& nearest,
   CastAtOthers(ray, ignored_body, nearest, bearer);
 }
 
-bool SolidSet::Gather(Surroundings& surroundings, std::uint32_t mark) const {
+bool SolidSet::Gather(CandidateSet& candidates, std::uint32_t mark) const {
   FoundBoxes found;
-  if (!shape_index_.Near(surroundings.place(), surroundings.reach(), found)) return false;
+  if (!shape_index_.Near(candidates.place(), candidates.reach(), found)) return false;
   for (std::size_t i = 0; i < found.count; ++i) {
     const std::uint32_t shape = found.boxes[i];
-    surroundings.Add(shape_balls_[shape], mark | shape,
-                     Reaches(surroundings, shape_bounds_[shape]));
+    candidates.Add(shape_spheres_[shape], mark | shape, Reaches(candidates, shape_bounds_[shape]));
   }
   return true;
 }

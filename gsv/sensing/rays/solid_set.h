@@ -13,8 +13,8 @@
 
 #include "gsv/geometry/shape.h"
 #include "gsv/sensing/rays/box_index.h"
+#include "gsv/sensing/rays/candidate_set.h"
 #include "gsv/sensing/rays/ray_scene.h"
-#include "gsv/sensing/rays/surroundings.h"
 
 namespace gsv::sensing {
 
@@ -45,13 +45,13 @@ struct Nearest {
 
 // Rays from one place, their directions in a set's frame, and what each has found.
 struct RayBatch {
-  static constexpr std::size_t kMost = 32;
+  static constexpr std::size_t kMax = 32;
   std::size_t count = 0;
-  std::array<geometry::Vector3, kMost> directions;
-  std::array<Nearest*, kMost> nearest;
+  std::array<geometry::Vector3, kMax> directions;
+  std::array<Nearest*, kMax> nearest;
   // Room for those who cast them.
-  std::array<Ray, kMost> in_shape;
-  std::array<double, kMost> distances;
+  std::array<Ray, kMax> in_shape;
+  std::array<double, kMax> distances;
 };
 
 class SolidSet {
@@ -68,7 +68,7 @@ class SolidSet {
   // Around all but the planes.
   const geometry::Bounds& bounds() const { return bounds_; }
   // The same.
-  Ball ball() const;
+  BoundingSphere ball() const;
 
   // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`.
   void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
@@ -104,7 +104,7 @@ class SolidSet {
     return shape_index_.Near(place, reach, found);
   }
   int BodyOfShape(std::uint32_t shape) const { return shapes_[shape].body; }
-  const Ball& BallOfShape(std::uint32_t shape) const { return shape_balls_[shape]; }
+  const BoundingSphere& SphereOfShape(std::uint32_t shape) const { return shape_spheres_[shape]; }
   const geometry::Pose& ShapeFromSet(std::uint32_t shape) const {
     return shapes_[shape].shape_from_set;
   }
@@ -115,7 +115,7 @@ class SolidSet {
 
   // Adds the shapes within `surroundings`, their numbers marked by `mark`; false if that cannot be
   // done quickly.
-  bool Gather(Surroundings& surroundings, std::uint32_t mark) const;
+  bool Gather(CandidateSet& candidates, std::uint32_t mark) const;
 
   // The normal, against the ray, where the ray meets the solid that Nearest names.
   geometry::Vector3 NormalAt(std::uint32_t solid, const Ray& ray) const;
@@ -147,10 +147,10 @@ class SolidSet {
                        const Bearer& bearer) const;
 
   std::vector<SolidTriangle> triangles_;
-  std::unique_ptr<BoxTree> triangle_tree_;  // null for a handful
+  std::unique_ptr<BoundingVolumeTree> triangle_tree_;  // null for a handful
   std::vector<SolidShape> shapes_;
   std::vector<geometry::Bounds> shape_bounds_;      // padded, in the set's frame
-  std::vector<Ball> shape_balls_;                   // padded, in the set's frame
+  std::vector<BoundingSphere> shape_spheres_;       // padded, in the set's frame
   std::vector<geometry::Bounds> shape_own_bounds_;  // in the shape's frame
   BoxIndex shape_index_;
   std::vector<SolidPlane> planes_;

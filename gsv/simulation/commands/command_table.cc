@@ -47,7 +47,7 @@ std::span<const Command> Commands() {
          .minimum = 0,
          .maximum = 1e6}},
        [](Simulation& s, const Arguments& given) {
-         return s.SetFactor(given.Get<double>("factor"));
+         return s.SetRealTimeFactor(given.Get<double>("factor"));
        }},
       {"set_gravity",
        "Set gravity along the world's z, while created or paused",

@@ -39,7 +39,7 @@ world::State CarryOver(const world::Layout& old_layout, const world::State& old_
   return state;
 }
 
-void PutAtRest(const world::Layout& layout, int body, world::State& state) {
+void ResetToInitialPose(const world::Layout& layout, int body, world::State& state) {
   const world::Body& placed = layout.bodies[static_cast<std::size_t>(body)];
   world::BodyState& now = state.bodies[static_cast<std::size_t>(body)];
   now.world_from_model = placed.initial_pose;

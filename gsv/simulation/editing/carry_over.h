@@ -11,6 +11,6 @@ world::State CarryOver(const world::Layout& old_layout, const world::State& old_
                        const world::Layout& layout);
 
 // Puts a body at its initial pose, at rest.
-void PutAtRest(const world::Layout& layout, int body, world::State& state);
+void ResetToInitialPose(const world::Layout& layout, int body, world::State& state);
 
 }  // namespace gsv::simulation

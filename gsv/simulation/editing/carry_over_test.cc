@@ -56,14 +56,14 @@ TEST(CarryOver, WhoStaysKeepsItsStateAndWhoComesStartsAtItsInitialPose) {
   EXPECT_EQ(carried.joint_commands[2].value, 5);
 }
 
-TEST(PutAtRest, StopsABodyAtItsInitialPose) {
+TEST(ResetToInitialPose, StopsABodyAtItsInitialPose) {
   const auto layout = LayoutOf({Named("a", 1, 4), Named("b", 1, 5)});
   world::State state = world::InitialState(*layout);
   state.bodies[1].world_from_model = {};
   state.bodies[1].linear_velocity = {1, 0, 0};
   state.bodies[1].in_contact = true;
   state.joint_velocities = {1, 2};
-  PutAtRest(*layout, 1, state);
+  ResetToInitialPose(*layout, 1, state);
   EXPECT_EQ(state.bodies[1].world_from_model.position.x, 5);
   EXPECT_EQ(state.bodies[1].linear_velocity, geometry::Vector3());
   EXPECT_FALSE(state.bodies[1].in_contact);

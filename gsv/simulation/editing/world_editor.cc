@@ -91,7 +91,7 @@ base::Status WorldEditor::ChangeWorld(std::vector<world::Body> bodies,
   world::State state = CarryOver(old_layout, world_.state(), *layout);
   CarryOverDevices(*layout, placed, state);
   auto status = world_.TryLayout(layout, state);
-  for (const std::string& name : placed) PutAtRest(*layout, layout->Find(name), state);
+  for (const std::string& name : placed) ResetToInitialPose(*layout, layout->Find(name), state);
   if (status) status = Resolve(*layout, placed, state);
   if (!status) {
     if (const auto back = world_.Restore(); !back) return back;

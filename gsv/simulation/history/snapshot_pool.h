@@ -23,7 +23,7 @@ class SnapshotPool {
 
  private:
   struct Shelf {
-    static constexpr std::size_t kMost = 4;
+    static constexpr std::size_t kMaxIdle = 4;
 
     std::unique_ptr<world::Snapshot> Take() {
       const base::MutexLock lock(mutex);
@@ -34,7 +34,7 @@ class SnapshotPool {
     }
     void Return(std::unique_ptr<world::Snapshot> snapshot) {
       const base::MutexLock lock(mutex);
-      if (idle.size() < kMost) idle.push_back(std::move(snapshot));
+      if (idle.size() < kMaxIdle) idle.push_back(std::move(snapshot));
     }
 
     base::Mutex mutex;

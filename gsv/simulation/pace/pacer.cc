@@ -16,7 +16,7 @@ WallDuration PeriodOf(base::SimTime step, double factor) {
 
 Pacer::Pacer(base::SimTime step, double factor) : step_(step), period_(PeriodOf(step, factor)) {}
 
-void Pacer::SetFactor(double factor) {
+void Pacer::SetRealTimeFactor(double factor) {
   const WallDuration before = std::exchange(period_, PeriodOf(step_, factor));
   due_ += period_ - before;
 }

@@ -16,7 +16,7 @@ class Pacer {
   // `factor` simulated seconds pass in one wall second, > 0.
   Pacer(base::SimTime step, double factor);
   // From now on; the step that is due next comes as long after the one before it.
-  void SetFactor(double factor);
+  void SetRealTimeFactor(double factor);
 
   // The schedule starts (again) now: the next step is due at once.
   void Restart(WallTime now);

@@ -41,7 +41,7 @@ TEST(Pacer, AnotherFactorHoldsFromTheStepThatIsDueNext) {
   pacer.Restart(start);
   EXPECT_FALSE(pacer.StepStarts(start));
   EXPECT_EQ(pacer.due(), start + milliseconds(10'000));
-  pacer.SetFactor(2);
+  pacer.SetRealTimeFactor(2);
   EXPECT_EQ(pacer.due(), start + milliseconds(5));
   EXPECT_FALSE(pacer.StepStarts(start + milliseconds(5)));
   EXPECT_EQ(pacer.due(), start + milliseconds(10));

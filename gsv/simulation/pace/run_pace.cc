@@ -4,7 +4,7 @@
 
 namespace gsv::simulation {
 
-base::Status CheckFactor(double factor, const std::string& simulation) {
+base::Status CheckRealTimeFactor(double factor, const std::string& simulation) {
   if (factor > 0 && factor <= 1e6) return {};
   return base::Fail(base::ErrorCode::kInvalidArgument,
                     "the real-time factor must lie above 0 and not above 1e6", simulation);
@@ -25,9 +25,9 @@ void RunPace::Reset() {
   statistics_ = RunStatistics();
 }
 
-void RunPace::SetFactor(double factor) {
+void RunPace::SetRealTimeFactor(double factor) {
   factor_ = factor;
-  pacer_.SetFactor(factor);
+  pacer_.SetRealTimeFactor(factor);
 }
 
 void RunPace::RestartIfResumed() {

@@ -14,7 +14,7 @@
 namespace gsv::simulation {
 
 // Refuses a real-time factor that is not in (0, 1e6]; `simulation` is named in the error.
-base::Status CheckFactor(double factor, const std::string& simulation);
+base::Status CheckRealTimeFactor(double factor, const std::string& simulation);
 
 class RunPace {
  public:
@@ -24,8 +24,8 @@ class RunPace {
   void SetRunning(bool is_running, base::SimTime now);
   void Reset();
 
-  double factor() const { return factor_; }
-  void SetFactor(double factor);
+  double target_real_time_factor() const { return factor_; }
+  void SetRealTimeFactor(double factor);
 
   // The stepping thread. After the run has begun or resumed, the next step is due at once.
   void RestartIfResumed();

@@ -25,7 +25,7 @@ TEST(RunPace, TheFirstStepAfterAResumeIsDueAtOnce) {
 
 TEST(RunPace, AResetForgetsTheStatisticsAndKeepsTheFactor) {
   RunPace pace(10ms, 2);
-  pace.SetFactor(4);
+  pace.SetRealTimeFactor(4);
   pace.SetRunning(true, 0s);
   pace.RestartIfResumed();
   pace.StepStarts(pace.due() + 1h);  // late

@@ -25,7 +25,7 @@ void AgentPopulation::Remove(const std::string& name) {
   const auto it = agents_.find(name);
   if (it == agents_.end()) return;
   RobotAgent* const agent = it->second.get();
-  agent->MarkGone();
+  agent->MarkRemoved();
   shared_->sleepers.Remove(agent);
   std::erase(shared_->commanded, agent);
   std::erase(shared_->ready, agent);
@@ -69,7 +69,7 @@ void AgentPopulation::CallAll(const char* what, base::Status (BehaviourPort::*ca
 
 void AgentPopulation::End(std::string reason, bool is_stuck) {
   shared_->end_reason = std::move(reason);
-  for (const auto& [name, agent] : agents_) agent->gate()->Open();
+  for (const auto& [name, agent] : agents_) agent->wait_event()->Open();
   for (const AgentPtr& agent : WithBehaviour()) {
     if (is_stuck && agent->in_turn_since()) continue;  // the call would not return either
     caller_.Post(agent->robot(), [behaviour = agent->behaviour()] { (void)behaviour->Stop(); });
@@ -108,13 +108,13 @@ void AgentPopulation::ReportIfFailed(RobotAgent& agent, const char* what,
   ReportDeath(agent, std::string(what) + " failed: " + status.error().Sentence());
 }
 
-void AgentPopulation::LookForDeaths() {
+void AgentPopulation::CheckForDeaths() {
   for (const auto& [name, agent] : agents_) {
-    if (!agent->is_watched() || !asked_for_life_.insert(name).second) continue;
+    if (!agent->is_watched() || !liveness_checks_.insert(name).second) continue;
     caller_.Post("watch " + name, [this, held = agent, behaviour = agent->behaviour()] {
       const bool is_dead = behaviour->IsDead();
       const SimulationLock lock(*shared_);
-      asked_for_life_.erase(held->robot());
+      liveness_checks_.erase(held->robot());
       if (is_dead && held->is_watched())
         ReportDeath(*held, "its process has ended or refuses connections");
     });

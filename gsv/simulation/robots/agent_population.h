@@ -54,7 +54,7 @@ class AgentPopulation {
   void Reset() GSV_REQUIRES(simulation_mutex);
   // Asks all behaviours that are not being asked already whether they have died; deaths are
   // reported later.
-  void LookForDeaths() GSV_REQUIRES(simulation_mutex);
+  void CheckForDeaths() GSV_REQUIRES(simulation_mutex);
   // An agent whose behaviour failed in a call is dead.
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
       GSV_EXCLUDES(simulation_mutex);
@@ -72,7 +72,7 @@ class AgentPopulation {
   BehaviourCaller& caller_;
   std::map<std::string, AgentPtr> agents_ GSV_GUARDED_BY(simulation_mutex);
   // Robots whose behaviour has not answered IsDead() yet.
-  std::set<std::string> asked_for_life_ GSV_GUARDED_BY(simulation_mutex);
+  std::set<std::string> liveness_checks_ GSV_GUARDED_BY(simulation_mutex);
   std::atomic<bool> has_hosted_{false};
 };
 

@@ -34,7 +34,7 @@ base::Status Turn::Send(const MountedSensor& radio, const std::string& receiver,
   return commands_.Send(radio, receiver, std::move(content), sampling_->robot().name);
 }
 
-base::Status Turn::Act(const MountedSensor& actuator, world::DeviceCommand command) {
+base::Status Turn::CommandDevice(const MountedSensor& actuator, world::DeviceCommand command) {
   auto action = CommandOf(actuator, std::move(command), sampling_->robot().name);
   if (!action) return base::Fail(action.error());
   commands_.Add(*std::move(action));

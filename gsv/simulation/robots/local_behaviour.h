@@ -61,7 +61,7 @@ class Turn {
   // By a radio, to the robot `receiver`; empty: to all.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content);
   // Commands an actuator from this instant on.
-  base::Status Act(const MountedSensor& actuator, world::DeviceCommand command);
+  base::Status CommandDevice(const MountedSensor& actuator, world::DeviceCommand command);
   // The command belongs to an exchange on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 

@@ -7,7 +7,7 @@ namespace gsv::simulation {
 namespace {
 
 // Samples under way at one moment: each holds a snapshot of the whole world.
-constexpr double kMostUnderWay = 100;
+constexpr double kMaxUnderWay = 100;
 
 // The parameter `latency` (s, 0) is common to all types.
 base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
@@ -22,7 +22,7 @@ base::Result<Cadence> CadenceOf(const model::SensorDescription& description,
   const double latency = model::NumberOr(description.parameters, "latency", 0);
   if (!(latency >= 0 && latency <= 10)) return refuse("the latency must lie between 0 and 10 s");
   if (latency > 0 && rate == 0) return refuse("a sensor with a latency needs an update rate");
-  if (latency * rate > kMostUnderWay) {
+  if (latency * rate > kMaxUnderWay) {
     return refuse("the latency must not be longer than 100 readings take");
   }
   if (rate == 0) return Cadence{};

@@ -34,11 +34,11 @@ RobotAgent::RobotAgent(std::string robot, std::shared_ptr<const model::Model> mo
 
 void RobotAgent::SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) {
   behaviour_ = std::move(behaviour);
-  Recount();
+  UpdateRunningCount();
 }
 
-void RobotAgent::Recount() {
-  const bool holds_up = HoldsUp();
+void RobotAgent::UpdateRunningCount() {
+  const bool holds_up = BlocksStep();
   if (holds_up == is_counted_) return;
   is_counted_ = holds_up;
   shared_->running += holds_up ? 1 : -1;
@@ -52,7 +52,7 @@ RobotCommands& RobotAgent::Commands() {
 }
 
 base::Status RobotAgent::CheckAlive() const {
-  if (is_gone_) return base::Fail(base::ErrorCode::kEnded, "the robot has been removed", robot_);
+  if (is_removed_) return base::Fail(base::ErrorCode::kEnded, "the robot has been removed", robot_);
   if (!shared_->end_reason.empty()) {
     return base::Fail(base::ErrorCode::kEnded, shared_->end_reason, robot_);
   }
@@ -62,7 +62,7 @@ base::Status RobotAgent::CheckAlive() const {
   return {};
 }
 
-base::Status RobotAgent::CheckMayAct() const {
+base::Status RobotAgent::CheckCanCommand() const {
   if (auto alive = CheckAlive(); !alive) return alive;
   const bool waits = shared_->mode == Mode::kLockstep && started_ && behaviour_ != nullptr &&
                      clocks_.HasOpened() && !clocks_.IsFinished() && !clocks_.IsRunning();
@@ -76,14 +76,14 @@ base::Status RobotAgent::CheckClock(ClockId clock) const {
 
 base::Result<ClockId> RobotAgent::OpenClock() {
   AgentCallLock lock(*shared_);
-  if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
+  if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
   const ClockId clock = clocks_.Open();
   if (clocks_.count() > kMaxClocks) {
     clocks_.Close(clock);
     return base::Fail(base::ErrorCode::kInvalidArgument, "an agent has at most 64 clocks open",
                       robot_);
   }
-  Recount();
+  UpdateRunningCount();
   return clock;
 }
 
@@ -92,8 +92,8 @@ base::Status RobotAgent::CloseClock(ClockId clock) {
   if (auto ok = CheckClock(clock); !ok) return ok;
   if (has_given_up_) return CheckAlive();  // its clocks stay as they were then
   clocks_.Close(clock);
-  gate_.Open();
-  Recount();
+  wait_event_.Open();
+  UpdateRunningCount();
   return {};
 }
 
@@ -122,7 +122,7 @@ bool RobotAgent::BeginWait(ClockId clock, SimTime until) {
   const bool waits_already = clocks_.IsWaitingUntil(clock, until);
   if (clocks_.WaitUntil(clock, until, shared_->now)) return false;
   if (!waits_already) shared_->sleepers.Add(until, this);
-  Recount();
+  UpdateRunningCount();
   return true;
 }
 
@@ -133,9 +133,9 @@ base::Result<Wait> RobotAgent::WaitOn(AgentCallLock& lock, ClockId clock, SimTim
   if (!BeginWait(clock, until)) return Wait::kReached;
   const WallTime lease_ends = WallNow() + lease;
   for (;;) {
-    const std::uint64_t openings = gate_.openings();
+    const std::uint64_t signals = wait_event_.signals();
     lock.unlock();
-    const bool was_opened = gate_.WaitBeyond(openings, lease_ends);
+    const bool was_opened = wait_event_.WaitAfter(signals, lease_ends);
     lock.lock();
     if (auto ok = CheckAlive(); !ok) return base::Fail(ok.error());
     if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
@@ -154,7 +154,7 @@ base::Result<Exchanged> RobotAgent::Exchange(ClockId clock, std::uint64_t cycle,
     if (auto ok = CheckClock(clock); !ok) return base::Fail(ok.error());
     const std::uint64_t last = clocks_.last_cycle(clock);
     if (cycle == last + 1) {
-      if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
+      if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
       if (command && !world::IsFinite(*command)) {
         return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
       }
@@ -195,7 +195,7 @@ base::Status RobotAgent::Command(const world::DriveCommand& command) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "the command is not finite", robot_);
   }
   AgentCallLock lock(*shared_);
-  if (auto ok = CheckMayAct(); !ok) return ok;
+  if (auto ok = CheckCanCommand(); !ok) return ok;
   Commands().OfferDrive({0, command});
   return {};
 }
@@ -210,7 +210,7 @@ base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& comm
   const world::Body& robot = snapshot->layout->bodies[static_cast<std::size_t>(body)];
   if (auto ok = world::CheckJointCommand(robot, joint, command); !ok) return ok;
   AgentCallLock lock(*shared_);
-  if (auto ok = CheckMayAct(); !ok) return ok;
+  if (auto ok = CheckCanCommand(); !ok) return ok;
   Commands().CommandJoint(joint, command);
   return {};
 }
@@ -218,7 +218,7 @@ base::Status RobotAgent::CommandJoint(int joint, const world::JointCommand& comm
 base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
   {
     AgentCallLock lock(*shared_);
-    if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
+    if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
   }
   const auto snapshot = shared_->history.latest();
   const int body = snapshot->layout->Find(robot_);
@@ -232,7 +232,7 @@ base::Result<JointReading> RobotAgent::ReadJoint(int joint) {
 
 base::Status RobotAgent::OpenSensor(const std::string& name) {
   AgentCallLock lock(*shared_);
-  if (auto ok = CheckMayAct(); !ok) return ok;
+  if (auto ok = CheckCanCommand(); !ok) return ok;
   if (auto ok = rack_.Open(name); !ok) return ok;
   SwitchOn(**rack_.Find(name));
   return {};
@@ -259,7 +259,7 @@ void RobotAgent::StartDevices() {
 
 base::Status RobotAgent::CreateSensor(model::SensorDescription description) {
   AgentCallLock lock(*shared_);
-  if (auto ok = CheckMayAct(); !ok) return ok;
+  if (auto ok = CheckCanCommand(); !ok) return ok;
   const std::string name = description.name;
   auto created = rack_.Create(std::move(description), static_cast<int>(model_->links.size()));
   if (!created) return created;
@@ -283,13 +283,13 @@ base::Status RobotAgent::CloseSensor(const std::string& name) {
   return {};
 }
 
-base::Status RobotAgent::Act(const std::string& actuator, world::DeviceCommand command) {
+base::Status RobotAgent::CommandDevice(const std::string& actuator, world::DeviceCommand command) {
   const auto mounted = rack_.Find(actuator);
   if (!mounted) return base::Fail(mounted.error());
   auto action = CommandOf(**mounted, std::move(command), robot_);
   if (!action) return base::Fail(action.error());
   AgentCallLock lock(*shared_);
-  if (auto ok = CheckMayAct(); !ok) return ok;
+  if (auto ok = CheckCanCommand(); !ok) return ok;
   Commands().Add(*std::move(action));
   return {};
 }
@@ -299,7 +299,7 @@ base::Status RobotAgent::Send(const std::string& radio, const std::string& recei
   const auto mounted = rack_.Find(radio);
   if (!mounted) return base::Fail(mounted.error());
   AgentCallLock lock(*shared_);
-  if (auto ok = CheckMayAct(); !ok) return ok;
+  if (auto ok = CheckCanCommand(); !ok) return ok;
   return Commands().Send(**mounted, receiver, std::move(content), robot_);
 }
 
@@ -313,7 +313,7 @@ base::Result<sensing::Reading> RobotAgent::Sample(MountedSensor& sensor) {
 base::Result<sensing::Reading> RobotAgent::Read(const std::string& sensor) {
   {
     AgentCallLock lock(*shared_);
-    if (auto ok = CheckMayAct(); !ok) return base::Fail(ok.error());
+    if (auto ok = CheckCanCommand(); !ok) return base::Fail(ok.error());
   }
   const auto mounted = rack_.Find(sensor);
   if (!mounted) return base::Fail(mounted.error());
@@ -331,16 +331,16 @@ base::Result<sensing::Reading> RobotAgent::Watch(const std::string& sensor) {
 void RobotAgent::MarkStarted() {
   started_ = true;
   running_since_ = WallNow();
-  Recount();
+  UpdateRunningCount();
 }
 
-bool RobotAgent::HoldsUp() const {
+bool RobotAgent::BlocksStep() const {
   return started_ && behaviour_ != nullptr && behaviour_->time_managed() && is_alive() &&
-         !is_gone_ && clocks_.IsRunning();
+         !is_removed_ && clocks_.IsRunning();
 }
 
 bool RobotAgent::IsAtWork() const {
-  return HoldsUp() && (!is_hosted() || in_turn_since() || is_blocked_);
+  return BlocksStep() && (!is_hosted() || in_turn_since() || is_blocked_);
 }
 
 RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
@@ -355,7 +355,7 @@ RobotAgent::Woken RobotAgent::Wake(SimTime now, WallTime wall_now) {
     running_since_ = wall_now;
     if (!dies && is_hosted()) MakeReady();
   }
-  if (woke || dies) Recount();
+  if (woke || dies) UpdateRunningCount();
   return {woke || dies, dies};
 }
 
@@ -363,15 +363,15 @@ void RobotAgent::MarkUnresponsive(std::string detail) {
   fate_ = Fate::kUnresponsive;
   detail_ = std::move(detail);
   StopDriving();
-  gate_.Open();
-  Recount();
+  wait_event_.Open();
+  UpdateRunningCount();
 }
 
 void RobotAgent::ReportDeath(std::string detail) {
   death_reported_ = true;
   detail_ = std::move(detail);
   shared_->has_reported_deaths = true;
-  Recount();
+  UpdateRunningCount();
 }
 
 void RobotAgent::ReportFailure(std::string_view reason) {
@@ -402,9 +402,9 @@ std::optional<WallTime> RobotAgent::in_turn_since() const {
   return began == WallTime() ? std::nullopt : std::optional(began);
 }
 
-std::function<void()> RobotAgent::Settle() {
+std::function<void()> RobotAgent::ApplyTurn() {
   const ClockId clock = behaviour_->local()->clock();
-  if (is_gone_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
+  if (is_removed_ || fate_ != Fate::kAlive || !clocks_.IsOpen(clock)) return {};
   clocks_.set_last_cycle(clock, clocks_.last_cycle(clock) + turn_.exchanges_);
   RobotCommands& commands = turn_.commands_;
   if (commands.drive() && turn_.exchanges_ > 0) commands.drive()->clock = clock;
@@ -419,7 +419,7 @@ std::function<void()> RobotAgent::Settle() {
     ReportFailure(failed->reason);
   } else {
     clocks_.Close(clock);
-    Recount();
+    UpdateRunningCount();
   }
   return {};
 }
@@ -442,10 +442,10 @@ void RobotAgent::LoseJoint(int joint) {
   commands_.ForgetJoint(joint);
 }
 
-void RobotAgent::MarkGone() {
-  is_gone_ = true;
-  gate_.Open();
-  Recount();
+void RobotAgent::MarkRemoved() {
+  is_removed_ = true;
+  wait_event_.Open();
+  UpdateRunningCount();
 }
 
 void RobotAgent::ResetClocks() {
@@ -459,7 +459,7 @@ void RobotAgent::ResetClocks() {
   has_given_up_ = false;
   fate_ = Fate::kAlive;
   detail_.clear();
-  Recount();
+  UpdateRunningCount();
 }
 
 void RobotAgent::FillStatus(RobotStatus& status) const {

@@ -11,7 +11,7 @@
 #include "gsv/simulation/robots/local_behaviour.h"
 #include "gsv/simulation/robots/robot_commands.h"
 #include "gsv/simulation/robots/shared_state.h"
-#include "gsv/simulation/robots/wait_gate.h"
+#include "gsv/simulation/robots/wait_event.h"
 
 namespace gsv::simulation {
 
@@ -51,7 +51,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   base::Result<sensing::Reading> Read(const std::string& sensor) override;
   base::Status Send(const std::string& radio, const std::string& receiver,
                     std::string content) override;
-  base::Status Act(const std::string& actuator, world::DeviceCommand command) override;
+  base::Status CommandDevice(const std::string& actuator, world::DeviceCommand command) override;
 
   // A reading for somebody who watches.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
@@ -71,7 +71,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
   // The simulation must not step: the agent is waited for and runs.
-  bool HoldsUp() const GSV_REQUIRES(simulation_mutex);
+  bool BlocksStep() const GSV_REQUIRES(simulation_mutex);
   // It holds up the simulation, and not only because others have their turn before it.
   bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
   WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
@@ -82,7 +82,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Ends waits up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
   // Where its waiting calls stand; once it is open they look whether their wait is over.
-  std::shared_ptr<WaitGate> gate() { return {shared_from_this(), &gate_}; }
+  std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
   // It runs and will never wait: takes effect at once.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
   // Its end is known; takes effect at its next wake, at once if it runs.
@@ -91,7 +91,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
     return fate_ == Fate::kAlive && !death_reported_;
   }
   bool is_watched() const GSV_REQUIRES(simulation_mutex) {
-    return behaviour_ != nullptr && is_alive() && !is_gone_;
+    return behaviour_ != nullptr && is_alive() && !is_removed_;
   }
   // Returns the commands that act from this step on, as far as its motor and joints can follow
   // them, and clears them.
@@ -101,8 +101,8 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // Faults: from the next step on its drive stands still, or nothing moves that joint.
   void LoseMotor() GSV_REQUIRES(simulation_mutex);
   void LoseJoint(int joint) GSV_REQUIRES(simulation_mutex);
-  void MarkGone() GSV_REQUIRES(simulation_mutex);
-  bool is_gone() const GSV_REQUIRES(simulation_mutex) { return is_gone_; }
+  void MarkRemoved() GSV_REQUIRES(simulation_mutex);
+  bool is_removed() const GSV_REQUIRES(simulation_mutex) { return is_removed_; }
   void ResetClocks() GSV_REQUIRES(simulation_mutex);
   void FillStatus(RobotStatus& status) const GSV_REQUIRES(simulation_mutex);
   std::string Describe() const GSV_REQUIRES(simulation_mutex);  // "robot_3 (wander on host:pid)"
@@ -114,14 +114,14 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
   // When the turn began that is under way; empty between turns. Any thread.
   std::optional<WallTime> in_turn_since() const;
-  std::function<void()> Settle() GSV_REQUIRES(simulation_mutex);
+  std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
   // The turn of its local behaviour has come.
   void MakeReady() GSV_REQUIRES(simulation_mutex);
 
  private:
   enum class Fate { kAlive, kUnresponsive, kDead };
 
-  base::Status CheckMayAct() const GSV_REQUIRES(simulation_mutex);
+  base::Status CheckCanCommand() const GSV_REQUIRES(simulation_mutex);
   base::Status CheckAlive() const GSV_REQUIRES(simulation_mutex);
   base::Status CheckClock(ClockId clock) const GSV_REQUIRES(simulation_mutex);
   // Releases `lock` while it waits.
@@ -133,7 +133,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
   void ReportFailure(std::string_view reason) GSV_REQUIRES(simulation_mutex);
   // Tells the simulation whether it has to wait for this agent; after whatever may change that.
-  void Recount() GSV_REQUIRES(simulation_mutex);
+  void UpdateRunningCount() GSV_REQUIRES(simulation_mutex);
 
   // The commands that the next step takes, which it does not forget then.
   RobotCommands& Commands() GSV_REQUIRES(simulation_mutex);
@@ -149,7 +149,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   const std::shared_ptr<SharedState> shared_;
   SensorRack rack_;
 
-  WaitGate gate_;
+  WaitEvent wait_event_;
 
   std::shared_ptr<BehaviourPort> behaviour_ GSV_GUARDED_BY(simulation_mutex);
   AgentClocks clocks_ GSV_GUARDED_BY(simulation_mutex);
@@ -162,7 +162,7 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   // A local behaviour is blocked on work that takes its time.
   bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool started_ GSV_GUARDED_BY(simulation_mutex) = false;
-  bool is_gone_ GSV_GUARDED_BY(simulation_mutex) = false;
+  bool is_removed_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
   // It has reported its death itself: nothing of it counts any more.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;

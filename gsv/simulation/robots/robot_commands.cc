@@ -7,7 +7,7 @@ namespace {
 
 using Kind = DeviceAction::Kind;
 
-constexpr std::ptrdiff_t kMostMessagesAStep = 64;
+constexpr std::ptrdiff_t kMaxMessagesPerStep = 64;
 
 bool IsMessage(const DeviceAction& action) {
   return action.kind == Kind::kCommand && action.device->SendsMessages();
@@ -76,7 +76,7 @@ base::Status RobotCommands::Send(const MountedSensor& radio, const std::string& 
   if (auto ok = device->Check(message); !ok) {
     return RefuseCommand(radio, robot, ok.error().message);
   }
-  if (std::count_if(devices_.begin(), devices_.end(), IsMessage) >= kMostMessagesAStep) {
+  if (std::count_if(devices_.begin(), devices_.end(), IsMessage) >= kMaxMessagesPerStep) {
     return RefuseCommand(radio, robot, "a robot sends at most 64 messages in one step");
   }
   Add({Kind::kCommand, std::move(device), std::move(message)});

@@ -27,7 +27,7 @@ struct DeviceAction {
   const std::string& name() const { return device->description().name; }
 };
 
-// Whether behaviours command it by Agent::Act().
+// Whether behaviours command it by Agent::CommandDevice().
 bool TakesCommands(const MountedSensor& sensor);
 // Refuses a sensor that takes no commands, and a command that it cannot follow. `robot` is for the
 // error's place.

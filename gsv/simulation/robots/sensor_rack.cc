@@ -22,7 +22,7 @@ std::size_t SensorRack::PlaceOf(const std::string& name) const {
   return static_cast<std::size_t>(place - slots_.begin());
 }
 
-const SensorRack::Slot* SensorRack::Seek(const std::string& name) const {
+const SensorRack::Slot* SensorRack::FindSlot(const std::string& name) const {
   const std::size_t place = PlaceOf(name);
   const bool is_there = place < slots_.size() && slots_[place].sensor->name() == name;
   return is_there ? &slots_[place] : nullptr;
@@ -62,7 +62,7 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
                           " sensors here; close one first, or raise --limit sensors_of_a_robot",
                       where);
   }
-  if (Seek(name) != nullptr) {
+  if (FindSlot(name) != nullptr) {
     return base::Fail(base::ErrorCode::kInvalidArgument, "a sensor of that name is there already",
                       where);
   }
@@ -73,7 +73,7 @@ base::Status SensorRack::Create(model::SensorDescription description, int link_c
 
 base::Status SensorRack::Open(const std::string& name) {
   const base::MutexLock lock(mutex_);
-  if (Seek(name) == nullptr) return base::Fail(NoSuchSensor(name));
+  if (FindSlot(name) == nullptr) return base::Fail(NoSuchSensor(name));
   Slot& slot = slots_[PlaceOf(name)];
   if (slot.sensor->design().sensor == nullptr) return base::Fail(slot.sensor->design().refusal);
   slot.is_open = true;
@@ -82,11 +82,11 @@ base::Status SensorRack::Open(const std::string& name) {
 
 base::Status SensorRack::Close(const std::string& name) {
   const base::MutexLock lock(mutex_);
-  if (Seek(name) == nullptr) return base::Fail(NoSuchSensor(name));
+  if (FindSlot(name) == nullptr) return base::Fail(NoSuchSensor(name));
   const auto slot = slots_.begin() + static_cast<std::ptrdiff_t>(PlaceOf(name));
   slot->is_open = false;
   if (!slot->is_created) return {};
-  of_the_gone_[slot->sensor->design().description.type] += slot->sensor->readings();
+  closed_readings_[slot->sensor->design().description.type] += slot->sensor->readings();
   slots_.erase(slot);
   return {};
 }
@@ -98,12 +98,12 @@ void SensorRack::Reset() {
     slot.is_open = false;
     slot.sensor->Forget();
   }
-  of_the_gone_.clear();
+  closed_readings_.clear();
 }
 
 base::Result<MountedSensorPtr> SensorRack::Find(const std::string& name) const {
   const base::MutexLock lock(mutex_);
-  const Slot* slot = Seek(name);
+  const Slot* slot = FindSlot(name);
   if (slot == nullptr) return base::Fail(NoSuchSensor(name));
   return slot->sensor;
 }
@@ -119,7 +119,7 @@ std::vector<MountedSensorPtr> SensorRack::OpenSensors() const {
 
 std::map<std::string, std::uint64_t> SensorRack::readings_by_type() const {
   const base::MutexLock lock(mutex_);
-  std::map<std::string, std::uint64_t> readings = of_the_gone_;
+  std::map<std::string, std::uint64_t> readings = closed_readings_;
   for (const Slot& slot : slots_) {
     if (const std::uint64_t count = slot.sensor->readings(); count > 0) {
       readings[slot.sensor->design().description.type] += count;

@@ -45,7 +45,7 @@ class SensorRack {
     bool is_open = false;
   };
   // Null if there is none of that name.
-  const Slot* Seek(const std::string& name) const GSV_REQUIRES(mutex_);
+  const Slot* FindSlot(const std::string& name) const GSV_REQUIRES(mutex_);
   // Of the first whose name is not below.
   std::size_t PlaceOf(const std::string& name) const GSV_REQUIRES(mutex_);
   base::Error NoSuchSensor(const std::string& name) const;
@@ -55,7 +55,7 @@ class SensorRack {
   mutable base::Mutex mutex_;
   std::vector<Slot> slots_ GSV_GUARDED_BY(mutex_);  // by name
   // Readings of closed sensors, by type.
-  std::map<std::string, std::uint64_t> of_the_gone_ GSV_GUARDED_BY(mutex_);
+  std::map<std::string, std::uint64_t> closed_readings_ GSV_GUARDED_BY(mutex_);
 };
 
 }  // namespace gsv::simulation

@@ -8,7 +8,7 @@
 #include "gsv/base/mutex.h"
 #include "gsv/simulation/history/snapshot_history.h"
 #include "gsv/simulation/robots/sensor_rack.h"
-#include "gsv/simulation/robots/wake_calendar.h"
+#include "gsv/simulation/robots/timer_queue.h"
 #include "gsv/simulation/types.h"
 
 namespace gsv::simulation {
@@ -51,7 +51,7 @@ struct SharedState {
   // The number of agents that hold up the simulation.
   int running GSV_GUARDED_BY(simulation_mutex) = 0;
   // Who waits for an instant.
-  WakeCalendar<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
+  TimerQueue<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
   // Who has a command for the next step.
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);
   // Local behaviours whose turn it is.

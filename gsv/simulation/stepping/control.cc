@@ -66,7 +66,7 @@ base::Status SteppingSimulation::Stop() {
 
 base::Status SteppingSimulation::AwaitCalls() {
   const WallTime deadline = WallNow() + specification_.deadline;
-  while (!caller_.WaitUntilIdle(WorldLock::kLookPeriod)) {
+  while (!caller_.WaitUntilIdle(WorldLock::kPollPeriod)) {
     if (world_.lock().is_stuck()) return RefuseStuck();
     if (agents_.has_hosted() && WallNow() > deadline) {
       return base::Fail(base::ErrorCode::kEnded,
@@ -106,8 +106,8 @@ base::Status SteppingSimulation::Reset() {
   return {};
 }
 
-base::Status SteppingSimulation::SetFactor(double factor) {
-  if (auto ok = CheckFactor(factor, specification_.name); !ok) return ok;
+base::Status SteppingSimulation::SetRealTimeFactor(double factor) {
+  if (auto ok = CheckRealTimeFactor(factor, specification_.name); !ok) return ok;
   const SimulationLock lock(*shared_);
   if (shared_->mode == Mode::kLockstep) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
@@ -115,8 +115,8 @@ base::Status SteppingSimulation::SetFactor(double factor) {
                       "to set",
                       specification_.name);
   }
-  if (factor == life_cycle_.pace().factor()) return {};
-  life_cycle_.pace().SetFactor(factor);
+  if (factor == life_cycle_.pace().target_real_time_factor()) return {};
+  life_cycle_.pace().SetRealTimeFactor(factor);
   char text[32];
   std::snprintf(text, sizeof text, "%g", factor);
   events_.Emit("factor_set", {}, text);
@@ -124,9 +124,9 @@ base::Status SteppingSimulation::SetFactor(double factor) {
   return {};
 }
 
-double SteppingSimulation::factor() const {
+double SteppingSimulation::real_time_factor() const {
   const SimulationLock lock(*shared_);
-  return life_cycle_.pace().factor();
+  return life_cycle_.pace().target_real_time_factor();
 }
 
 Phase SteppingSimulation::WaitForPhase(const std::vector<Phase>& phases,

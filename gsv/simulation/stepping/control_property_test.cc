@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using namespace life_cycle;
 
 constexpr SimTime kStepSize = 10ms;
-constexpr auto kLongestChange = 20s;  // wall time in which every expected change must have come
+constexpr auto kChangeTimeout = 20s;  // wall time in which every expected change must have come
 
 std::shared_ptr<const model::Model> VelocityDisc() {
   auto model = std::make_shared<model::Model>();
@@ -122,7 +122,7 @@ base::Status Perform(Simulation& simulation, const Request& request) {
   return {};
 }
 
-Sight Look(const Simulation& simulation) {
+Observed Look(const Simulation& simulation) {
   // Both at once: a last step between two looks would be seen as a pause at the end of the run.
   const SimulationStatus status = simulation.status();
   return {status.phase == Phase::kStarting ? Phase::kRunning : status.phase, status.step};
@@ -166,7 +166,7 @@ constexpr auto kRest = {Phase::kCreated, Phase::kPaused, Phase::kStopped, Phase:
 // What a fresh simulation comes to after `steps`, which must not pass its end.
 std::string HashAfter(Simulation& simulation, std::int64_t steps) {
   EXPECT_TRUE(simulation.RunUntil(steps * kStepSize));
-  EXPECT_EQ(simulation.WaitForPhase({Phase::kPaused}, kLongestChange), Phase::kPaused);
+  EXPECT_EQ(simulation.WaitForPhase({Phase::kPaused}, kChangeTimeout), Phase::kPaused);
   return simulation.state_hash();
 }
 
@@ -177,7 +177,7 @@ std::string PlayOneSequence(std::uint32_t seed) {
   LifeCycleModel model(scene.duration);
   std::string story;
   for (int i = 0; i < 14; ++i) {
-    const Sight before = Look(*simulation);
+    const Observed before = Look(*simulation);
     const Request request = RandomRequest(dice, before.step);
     const base::Status answer = Perform(*simulation, request);
     story += std::string(" ") + NameOf(request.action) + "(" + std::to_string(request.argument) +
@@ -186,12 +186,12 @@ std::string PlayOneSequence(std::uint32_t seed) {
       return story + ": the answer to the last request fits no state: " +
              (answer ? "accepted" : answer.error().Sentence());
     }
-    if (dice.Below(2) == 0 && model.Settles()) {
-      simulation->WaitForPhase(kRest, kLongestChange);
-      model.HasSettled();
+    if (dice.Below(2) == 0 && model.WillPause()) {
+      simulation->WaitForPhase(kRest, kChangeTimeout);
+      model.RequirePaused();
       story += " settle";
     }
-    const Sight seen = Look(*simulation);
+    const Observed seen = Look(*simulation);
     if (!model.Seen(seen)) {
       return story + ": phase " + ToString(seen.phase) + " at step " + std::to_string(seen.step) +
              " fits no state";

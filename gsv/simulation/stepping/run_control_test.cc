@@ -13,8 +13,8 @@ namespace {
 
 using life_cycle::Action;
 using life_cycle::LifeCycleModel;
+using life_cycle::Observed;
 using life_cycle::Request;
-using life_cycle::Sight;
 using Change = RunControl::Change;
 
 // A run without a world: a step is one nanosecond. It does what LifeCycle and StepLoop do with a
@@ -29,7 +29,7 @@ class BareRun {
   SimTime now() const { return SimTime(step_); }
   bool is_in_step() const { return is_in_step_; }
   bool has_pending_start() const { return pending_ > 0; }
-  Sight Look() const {
+  Observed Look() const {
     const bool is_starting = run_.phase() == Phase::kStarting;
     return {is_starting ? Phase::kRunning : run_.phase(), step_};
   }
@@ -57,7 +57,7 @@ class BareRun {
     return run_.EndStep(now());
   }
   // Takes steps until the run comes to rest. False: it does not within 100 steps.
-  bool Settle() {
+  bool ApplyTurn() {
     while (has_pending_start()) AnswerStart();
     if (is_in_step_) EndStep();
     for (int i = 0; i < 100 && run_.is_running(); ++i) {
@@ -128,7 +128,7 @@ class Explorer {
     for (const Request& request : kRequests) {
       BareRun next = run;
       LifeCycleModel expected = model;
-      const Sight before = next.Look();
+      const Observed before = next.Look();
       const bool ok = next.Perform(request);
       const std::string name = std::string(kNames[static_cast<int>(request.action)]) + "(" +
                                std::to_string(request.argument) + ")" + (ok ? "" : "!");
@@ -154,7 +154,7 @@ class Explorer {
   std::string Continue(const std::string& name, const BareRun& run, LifeCycleModel model,
                        int length) {
     path_.push_back(name);
-    const Sight seen = run.Look();
+    const Observed seen = run.Look();
     if (!model.Seen(seen)) {
       return Problem(std::string("phase ") + ToString(seen.phase) + " at step " +
                      std::to_string(seen.step));
@@ -165,10 +165,10 @@ class Explorer {
   }
   std::string CheckRest(BareRun run, LifeCycleModel model) {
     ++sequences_;
-    if (!model.Settles()) return {};
-    if (!run.Settle()) return Problem("it does not come to rest");
-    model.HasSettled();
-    const Sight seen = run.Look();
+    if (!model.WillPause()) return {};
+    if (!run.ApplyTurn()) return Problem("it does not come to rest");
+    model.RequirePaused();
+    const Observed seen = run.Look();
     if (model.Seen(seen)) return {};
     return Problem(std::string("it comes to rest ") + ToString(seen.phase) + " at step " +
                    std::to_string(seen.step));

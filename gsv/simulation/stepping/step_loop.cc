@@ -57,7 +57,7 @@ void StepLoop::Run() {
     WakeAgents();
     if (!woken_.empty()) {
       lock.unlock();
-      gate_opener_.Open(woken_);
+      event_signaler_.Open(woken_);
       lock.lock();
     }
     if (!run_.is_running()) continue;
@@ -106,7 +106,7 @@ void StepLoop::WakeAgents() {
   const auto wake = [&](RobotAgent& agent) {
     simulation_mutex.AssertHeld();  // by this function
     const RobotAgent::Woken woken = agent.Wake(shared.now, wall_now);
-    if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.gate());
+    if (woken.has_passed && !agent.is_hosted()) woken_.push_back(agent.wait_event());
     if (woken.has_died && parts_.specification.on_failure == FailurePolicy::kFail &&
         run_.is_running()) {
       parts_.life_cycle.Fail("the behaviour of " + agent.Describe() + " died");
@@ -128,7 +128,7 @@ void StepLoop::TakeTurns() {
     shared.history.MakeFrame(instant_.snapshots);
   }
   instant_.Prepare(*parts_.team);
-  parts_.team->Share(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
+  parts_.team->ParallelFor(turns_.size(), kTurnsAPiece, [this](std::size_t begin, std::size_t end) {
     sensing::Sampling sampling = instant_.MakeSampling();
     for (std::size_t i = begin; i < end; ++i) turns_[i]->TakeTurn(instant_, sampling);
   });
@@ -136,9 +136,9 @@ void StepLoop::TakeTurns() {
   parts_.world.lock().SetStuck(false);  // it came back after all
   const WallTime deadline = WallNow() - parts_.specification.deadline;
   for (RobotAgent* agent : turns_) {
-    if (auto work = agent->Settle()) PostBlocked(agent->shared_from_this(), std::move(work));
+    if (auto work = agent->ApplyTurn()) PostBlocked(agent->shared_from_this(), std::move(work));
     // It may have waited for instants that were here already, again and again.
-    if (agent->HoldsUp() && agent->running_since() < deadline) GiveUpOn(*agent);
+    if (agent->BlocksStep() && agent->running_since() < deadline) GiveUpOn(*agent);
   }
   turns_.clear();
 }
@@ -149,7 +149,7 @@ void StepLoop::PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()
                      [shared = parts_.shared, agent = std::move(agent), work = std::move(work)] {
                        work();
                        const SimulationLock lock(*shared);
-                       if (!agent->is_gone()) agent->MakeReady();
+                       if (!agent->is_removed()) agent->MakeReady();
                        shared->changed.notify_all();
                      });
 }
@@ -159,7 +159,7 @@ bool StepLoop::AllWait(SimulationLock& lock) {
   if (shared.mode != Mode::kLockstep || shared.running == 0) return true;
   AgentPopulation::AgentPtr longest;
   for (const auto& [name, agent] : parts_.agents.all()) {
-    if (!agent->HoldsUp()) continue;
+    if (!agent->BlocksStep()) continue;
     if (longest == nullptr || agent->running_since() < longest->running_since()) longest = agent;
   }
   GSV_CHECK(longest != nullptr);
@@ -168,7 +168,7 @@ bool StepLoop::AllWait(SimulationLock& lock) {
   };
   // The population may change while the lock is released: `longest` keeps the agent.
   const std::cv_status status = shared.changed.wait_until(lock.inner(), deadline());
-  if (status == std::cv_status::timeout && run_.is_running() && longest->HoldsUp() &&
+  if (status == std::cv_status::timeout && run_.is_running() && longest->BlocksStep() &&
       WallNow() >= deadline()) {
     GiveUpOn(*longest);
   }

@@ -14,7 +14,7 @@
 #include "gsv/base/thread_team.h"
 #include "gsv/simulation/faults/fault_injector.h"
 #include "gsv/simulation/history/snapshot_pool.h"
-#include "gsv/simulation/robots/gate_opener.h"
+#include "gsv/simulation/robots/event_signaler.h"
 #include "gsv/simulation/stepping/life_cycle.h"
 #include "gsv/simulation/world/device_loop.h"
 
@@ -76,8 +76,8 @@ class StepLoop {
   DeviceActions device_actions_;    // for the next step
   Turn::Instant instant_;           // of the turns that are being taken
   std::vector<RobotAgent*> turns_;  // that are being taken
-  GateOpener gate_opener_;
-  GateOpener::Gates woken_;  // of agents that have just been woken
+  EventSignaler event_signaler_;
+  EventSignaler::Events woken_;  // of agents that have just been woken
 
   std::jthread thread_;
 };

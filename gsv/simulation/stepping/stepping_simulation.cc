@@ -29,7 +29,7 @@ base::Status Check(const Specification& specification) {
     return base::Fail(base::ErrorCode::kInvalidArgument,
                       "the step must lie between 1 microsecond and 10 s", specification.name);
   }
-  return CheckFactor(specification.factor, specification.name);
+  return CheckRealTimeFactor(specification.factor, specification.name);
 }
 
 std::shared_ptr<const world::Layout> LayoutOf(
@@ -136,7 +136,7 @@ SteppingSimulation::~SteppingSimulation() {
   caller_.Close();  // calls that it has yet to make use the other members
 }
 
-int Simulation::LeftToThemselves() { return left_to_themselves; }
+int Simulation::AbandonedSimulations() { return left_to_themselves; }
 
 void SteppingSimulation::Dispose(SteppingSimulation* simulation) {
   if (!simulation->agents_.has_hosted()) {
@@ -144,7 +144,7 @@ void SteppingSimulation::Dispose(SteppingSimulation* simulation) {
     return;
   }
   const std::string name = simulation->specification_.name;
-  const auto patience = simulation->world_.lock().is_stuck() ? WorldLock::kLookPeriod
+  const auto patience = simulation->world_.lock().is_stuck() ? WorldLock::kPollPeriod
                                                              : simulation->specification_.deadline;
   std::packaged_task<void()> destroy([simulation] { delete simulation; });
   std::future<void> destroyed = destroy.get_future();

@@ -53,8 +53,8 @@ class SteppingSimulation final : public Simulation {
   base::Status RunThrough(SimTime until) override;
   base::Status Stop() override;
   base::Status Reset() override;
-  base::Status SetFactor(double factor) override;
-  double factor() const override;
+  base::Status SetRealTimeFactor(double factor) override;
+  double real_time_factor() const override;
   Phase WaitForPhase(const std::vector<Phase>& phases,
                      std::chrono::milliseconds timeout) const override;
 

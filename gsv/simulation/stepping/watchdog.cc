@@ -36,8 +36,8 @@ void Watchdog::Run() {
     stopped_.wait_for(lock.inner(), kWatchPeriod,
                       [this]() GSV_REQUIRES(simulation_mutex) { return quit_; });
     if (quit_) return;
-    LookForEndlessTurns();
-    if (IsUnderWay()) agents_.LookForDeaths();
+    CheckTurnDeadlines();
+    if (IsUnderWay()) agents_.CheckForDeaths();
   }
 }
 
@@ -46,7 +46,7 @@ bool Watchdog::IsUnderWay() const {
   return phase == Phase::kStarting || phase == Phase::kRunning || phase == Phase::kPaused;
 }
 
-void Watchdog::LookForEndlessTurns() {
+void Watchdog::CheckTurnDeadlines() {
   if (world_lock_.is_stuck()) return;
   const WallTime deadline = WallNow() - deadline_;
   std::string failure;

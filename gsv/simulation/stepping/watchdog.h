@@ -22,7 +22,7 @@ class Watchdog {
  private:
   void Run();
   bool IsUnderWay() const GSV_REQUIRES(simulation_mutex);
-  void LookForEndlessTurns() GSV_REQUIRES(simulation_mutex);
+  void CheckTurnDeadlines() GSV_REQUIRES(simulation_mutex);
 
   const std::chrono::milliseconds deadline_;
   WorldLock& world_lock_;

@@ -21,7 +21,7 @@ struct Request {
 };
 
 // What was seen: kStarting counts as running.
-struct Sight {
+struct Observed {
   Phase phase;
   std::int64_t step;
 };
@@ -56,9 +56,9 @@ class LifeCycleModel {
   explicit LifeCycleModel(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}
 
   // `seen` was seen just before the request, `ok` was its answer. False: no state allows that.
-  bool Requested(const Request& request, const Sight& seen, bool ok) {
+  bool Requested(const Request& request, const Observed& seen, bool ok) {
     std::vector<State> next;
-    for (const State& state : WithWhatComesByItself()) {
+    for (const State& state : WithSpontaneousChanges()) {
       if (ok) {
         if (const auto after = After(state, request, seen)) next.push_back(*after);
       } else if (MayBeRefused(state, request)) {
@@ -69,9 +69,9 @@ class LifeCycleModel {
     return !states_.empty();
   }
 
-  bool Seen(const Sight& seen) {
+  bool Seen(const Observed& seen) {
     std::vector<State> next;
-    for (State state : WithWhatComesByItself()) {
+    for (State state : WithSpontaneousChanges()) {
       if (state.phase != seen.phase || seen.step < state.step.low || seen.step > state.step.high)
         continue;
       if (state.phase == Phase::kPaused && seen.step >= end_) continue;
@@ -86,21 +86,21 @@ class LifeCycleModel {
   }
 
   // Whether it comes to rest by itself, whatever it does now.
-  bool Settles() const {
+  bool WillPause() const {
     return std::all_of(states_.begin(), states_.end(), [this](const State& state) {
       return state.phase != Phase::kRunning || state.Goal() || end_ != kUnbounded;
     });
   }
-  void HasSettled() {
+  void RequirePaused() {
     std::vector<State> settled;
-    for (const State& state : WithWhatComesByItself()) {
+    for (const State& state : WithSpontaneousChanges()) {
       if (state.phase != Phase::kRunning) settled.push_back(state);
     }
     states_ = std::move(settled);
   }
 
  private:
-  std::vector<State> WithWhatComesByItself() const {
+  std::vector<State> WithSpontaneousChanges() const {
     std::vector<State> all = states_;
     for (const State& state : states_) {
       // The step that was under way when the pause came may have been the run's last.
@@ -148,7 +148,7 @@ class LifeCycleModel {
   }
 
   // What becomes of a state when the request is accepted; nothing when it cannot be.
-  std::optional<State> After(State state, const Request& request, const Sight& seen) const {
+  std::optional<State> After(State state, const Request& request, const Observed& seen) const {
     const bool is_running = state.phase == Phase::kRunning;
     state.step.low = std::max(state.step.low, seen.step);
     switch (request.action) {

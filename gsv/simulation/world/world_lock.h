@@ -22,7 +22,7 @@ inline WorldMutex world_mutex;
 class WorldLock {
  public:
   // How soon a waiting thread notices that the simulation is stuck.
-  static constexpr std::chrono::milliseconds kLookPeriod{100};
+  static constexpr std::chrono::milliseconds kPollPeriod{100};
 
   bool is_stuck() const { return is_stuck_; }
   void SetStuck(bool is_stuck) { is_stuck_ = is_stuck; }
@@ -64,7 +64,7 @@ class GSV_SCOPED_CAPABILITY WorldGuard {
   // The analysis knows the mutex as world_mutex.
   void Lock() GSV_NO_THREAD_SAFETY_ANALYSIS {
     while (!is_held_ && !world_.is_stuck()) {
-      is_held_ = world_.mutex_.try_lock_for(WorldLock::kLookPeriod);
+      is_held_ = world_.mutex_.try_lock_for(WorldLock::kPollPeriod);
     }
   }
   void Unlock() GSV_NO_THREAD_SAFETY_ANALYSIS { world_.mutex_.unlock(); }

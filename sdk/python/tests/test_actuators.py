@@ -33,14 +33,14 @@ def in_run(simulate, prepare, work, model="pebble", world="playground"):
 
 def test_a_lamp_shines_as_it_is_told(simulate):
     def work(robot, lamp):
-        lamp.shine(gsv.Colour(1, 0.5, 0), 0.25)
+        lamp.set(gsv.Colour(1, 0.5, 0), 0.25)
         robot.sleep_for(0.05)
-        glow = lamp.look()
+        glow = lamp.read()
         with pytest.raises(gsv.Refused, match="the brightness"):
-            lamp.shine(brightness=2)
+            lamp.set(brightness=2)
         lamp.switch_off()
         robot.sleep_for(0.05)
-        return glow, lamp.look()
+        return glow, lamp.read()
 
     glow, after = in_run(simulate, lambda robot: robot.create(gsv.Lamp, "led"), work)
     assert (glow.brightness, *glow.colour) == (0.25, 1, 0.5, 0)
@@ -93,13 +93,13 @@ def test_a_microphone_hears_another_robots_speaker(simulate):
 
 def test_a_gripper_closes_and_opens(simulate):
     def work(robot, gripper):
-        before = gripper.feel()
-        gripper.grip()
+        before = gripper.read()
+        gripper.grasp()
         robot.sleep_for(1.0)
-        closed = gripper.feel()
-        gripper.let_go()
+        closed = gripper.read()
+        gripper.open()
         robot.sleep_for(0.9)
-        return before, closed, gripper.feel()
+        return before, closed, gripper.read()
 
     before, closed, after = in_run(
         simulate, lambda robot: robot.open("gripper", gsv.Gripper), work, model="porter")
@@ -135,5 +135,17 @@ def test_a_wide_angle_camera_is_a_camera(simulate, tmp_path):
         <image><width>32</width><height>24</height></image></camera></sensor></link>
       <plugin filename='gz-sim-velocity-control-system' name='v'/></model></sdf>""")
     picture = in_run(simulate, lambda robot: robot.open("eye", gsv.Camera),
-                     lambda robot, camera: camera.take_picture(), model=str(model))
+                     lambda robot, camera: camera.take_image(), model=str(model))
     assert picture.shape == (24, 32, 3)
+
+
+def test_deprecated_names_are_the_new_ones():
+    assert gsv.SatelliteReceiver is gsv.GnssReceiver
+    assert gsv.Gripper.Jaws is gsv.Gripper.State
+    for kind, old, name in (
+            (gsv.Camera, "take_picture", "take_image"), (gsv.Imu, "feel", "read"),
+            (gsv.Odometer, "reckon", "read"), (gsv.LogicalCamera, "look", "read"),
+            (gsv.Lamp, "shine", "set"), (gsv.Lamp, "look", "read"),
+            (gsv.Gripper, "grip", "grasp"), (gsv.Gripper, "let_go", "open"),
+            (gsv.Gripper, "feel", "read")):
+        assert getattr(kind, old) == getattr(kind, name)

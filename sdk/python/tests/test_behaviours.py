@@ -170,7 +170,7 @@ def test_a_robot_that_is_kept_past_the_run_does_nothing(simulate):
     assert robot.sleep_for(1) is False and robot.exchange(1, 0, until=9) is None
     robot.drive(1, 0)
     assert sonar.range() == sonar.max_range and sonar.measure().values.size == 0
-    assert kept["camera"].take_picture().shape == (0, 0, 3)
+    assert kept["camera"].take_image().shape == (0, 0, 3)
     assert not any(echo.in_reach for echo in kept["ring"].read())
     with pytest.raises(gsv.Error):
         robot.open("sonar_01")

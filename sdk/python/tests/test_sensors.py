@@ -68,7 +68,7 @@ def test_a_picture_shows_the_red_wall(simulate, world):
     size = {"image.width": 64, "image.height": 48, "horizontal_fov": 1.0}
     picture = in_run(simulate, world,
                      lambda robot: robot.create(gsv.Camera, "c", gsv.Placement(z=0.5), size),
-                     lambda robot, camera: camera.take_picture())
+                     lambda robot, camera: camera.take_image())
     assert picture.shape == (48, 64, 3) and picture.dtype == numpy.uint8
     assert not picture.flags.owndata
     red, green, blue = picture[24, 32]
@@ -117,7 +117,7 @@ def test_poses_and_forces_have_names(simulate, world):
 
     place, motion, estimate = in_run(
         simulate, world, prepare,
-        lambda robot, them: (them[0].locate(), them[1].feel(), them[2].reckon()))
+        lambda robot, them: (them[0].locate(), them[1].read(), them[2].read()))
     assert (place.x, place.y, place.yaw) == pytest.approx((0, 0, 0))
     assert tuple(motion.specific_force) == pytest.approx((0, 0, 9.8), abs=1e-6)
     turn = motion.world_from_sensor

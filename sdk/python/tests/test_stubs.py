@@ -16,7 +16,10 @@ def declared_in(body):
         elif isinstance(node, ast.FunctionDef):
             names[node.name] = None
         elif isinstance(node, ast.AnnAssign):
-            names[node.target.id] = None
+            annotation = ast.unparse(node.annotation)
+            # The old name of a class holds what the class does.
+            old_name_of = annotation.startswith("type[") and annotation[5:-1].split(".")[-1]
+            names[node.target.id] = names[old_name_of] if old_name_of else None
     return {name: within for name, within in names.items() if not name.startswith("_")}
 
 

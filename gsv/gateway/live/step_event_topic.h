@@ -1,0 +1,104 @@
+// What happens at single steps, live: a message for each, at the step at which it does.
+//
+// Viewers are told a few times a second and things happen between: while somebody listens, the
+// stepping thread keeps what did.
+//
+// Bounded  of one round's the newest so many.
+// Threads  Publish() from one.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gsv/base/mutex.h"
+#include "gsv/gateway/foxglove/channels.h"
+#include "gsv/gateway/foxglove/hub.h"
+#include "gsv/messages/gsv_msgs.h"
+#include "gsv/simulation/simulation.h"
+
+namespace gsv::gateway {
+
+template <typename Message>
+class StepEventTopic {
+ public:
+  // Appends what a snapshot tells of; on the stepping thread, so that it should be a look at a list
+  // that is most often empty.
+  using Collect = std::function<void(const world::Snapshot& snapshot, std::vector<Message>& found)>;
+
+  // Advertises the topic.
+  StepEventTopic(std::shared_ptr<Hub> hub, const presentation::TopicOf<Message>& topic,
+                 Collect collect)
+      : hub_(std::move(hub)),
+        channel_(hub_->Advertise({ChannelFor(topic)}).front()),
+        collect_(std::move(collect)) {}
+
+  // Publishes what happened since the last call, if anybody listens.
+  void Publish(simulation::Simulation& simulation) {
+    if (!hub_->IsSubscribed(channel_)) {
+      if (watch_) simulation.RemoveObserver(std::exchange(watch_, nullptr));
+      return;
+    }
+    if (!watch_) {
+      watch_ = std::make_shared<Watch>(collect_);
+      simulation.AddObserver(watch_);
+    }
+    if (hub_->HasNewSubscribers(channel_)) hub_->Welcome(channel_, {});
+    for (const auto& [time, message] : watch_->Take()) {
+      hub_->Publish(channel_, {base::NanosecondsOf(time), Encoded(message)});
+    }
+  }
+
+ private:
+  // In a round; so that room for other data is left in a viewer's queue.
+  static constexpr std::size_t kMaxMoments = 64;
+
+  class Watch final : public simulation::Observer {
+   public:
+    using Moment = std::pair<base::SimTime, Message>;
+
+    explicit Watch(Collect collect) : collect_(std::move(collect)) {}
+
+    void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override {
+      std::vector<Message> found;
+      collect_(*snapshot, found);
+      if (found.empty()) return;
+      const base::MutexLock lock(mutex_);
+      for (Message& message : found) {
+        if (moments_.size() == kMaxMoments) moments_.pop_front();
+        moments_.emplace_back(snapshot->state.time, std::move(message));
+      }
+    }
+    void OnEvent(const simulation::Event&) override {}
+
+    std::deque<Moment> Take() {
+      const base::MutexLock lock(mutex_);
+      return std::exchange(moments_, {});
+    }
+
+   private:
+    const Collect collect_;
+    base::Mutex mutex_;
+    std::deque<Moment> moments_ GSV_GUARDED_BY(mutex_);
+  };
+
+  const std::shared_ptr<Hub> hub_;
+  foxglove::ChannelId channel_ = 0;
+  const Collect collect_;
+  std::shared_ptr<Watch> watch_;  // while somebody listens
+};
+
+// /gsv/contacts: who meets whom.
+using ContactTopic = StepEventTopic<messages::gsv_msgs::Contact>;
+// /gsv/radio: who says what to whom.
+using RadioTopic = StepEventTopic<messages::gsv_msgs::Transmission>;
+
+void CollectContacts(const world::Snapshot& snapshot,
+                     std::vector<messages::gsv_msgs::Contact>& found);
+void CollectTransmissions(const world::Snapshot& snapshot,
+                          std::vector<messages::gsv_msgs::Transmission>& found);
+
+}  // namespace gsv::gateway

@@ -1,0 +1,96 @@
+// What the sanitizers must be told when a thread goes on on another stack, for what they know of
+// each (sanitizer/common_interface_defs.h, asan_interface.h, tsan_interface.h); nothing in other
+// builds.
+//
+// Threads  one at a time.
+#pragma once
+
+#include <cstddef>
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#include <sanitizer/common_interface_defs.h>
+#elif defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace gsv::hosting {
+
+#if defined(__SANITIZE_ADDRESS__)
+
+class SanitizerStack {
+ public:
+  // `bottom`: its lowest address.
+  SanitizerStack(const void* bottom, std::size_t size) : bottom_(bottom), size_(size) {}
+
+  // From outside: around the making of what will run on it, when Boost.Context goes there and back.
+  // Another stack may have lain there, a part of it elsewhere than this one's: its last calls never
+  // returned, so that what they forbade is forbidden still.
+  void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
+  void AfterPreparing() {}
+
+  // From outside: just before the thread goes on on this stack, and just after it has come back.
+  void BeforeEntering() { __sanitizer_start_switch_fiber(&outside_frames_, bottom_, size_); }
+  void AfterLeaving() { __sanitizer_finish_switch_fiber(outside_frames_, nullptr, nullptr); }
+
+  // On this stack: just after it was entered, the first time or again, and just before it is left.
+  void AfterEntering() {
+    __sanitizer_finish_switch_fiber(frames_, &outside_bottom_, &outside_size_);
+  }
+  void BeforeLeaving() { __sanitizer_start_switch_fiber(&frames_, outside_bottom_, outside_size_); }
+  void BeforeLeavingForGood() {
+    __sanitizer_start_switch_fiber(nullptr, outside_bottom_, outside_size_);
+  }
+
+ private:
+  const void* bottom_;
+  std::size_t size_;
+  const void* outside_bottom_ = nullptr;
+  std::size_t outside_size_ = 0;
+  void* frames_ = nullptr;
+  void* outside_frames_ = nullptr;
+};
+
+#elif defined(__SANITIZE_THREAD__)
+
+class SanitizerStack {
+ public:
+  SanitizerStack(const void*, std::size_t) : inside_(__tsan_create_fiber(0)) {}
+  ~SanitizerStack() { __tsan_destroy_fiber(inside_); }
+  SanitizerStack(const SanitizerStack&) = delete;
+  SanitizerStack& operator=(const SanitizerStack&) = delete;
+
+  void BeforePreparing() { BeforeEntering(); }
+  void AfterPreparing() { BeforeLeaving(); }
+  void BeforeEntering() {
+    outside_ = __tsan_get_current_fiber();
+    __tsan_switch_to_fiber(inside_, 0);
+  }
+  void AfterLeaving() {}
+  void AfterEntering() {}
+  void BeforeLeaving() { __tsan_switch_to_fiber(outside_, 0); }
+  void BeforeLeavingForGood() { BeforeLeaving(); }
+
+ private:
+  void* inside_;
+  void* outside_ = nullptr;
+};
+
+#else
+
+class SanitizerStack {
+ public:
+  SanitizerStack(const void*, std::size_t) {}
+
+  void BeforePreparing() {}
+  void AfterPreparing() {}
+  void BeforeEntering() {}
+  void AfterLeaving() {}
+  void AfterEntering() {}
+  void BeforeLeaving() {}
+  void BeforeLeavingForGood() {}
+};
+
+#endif
+
+}  // namespace gsv::hosting

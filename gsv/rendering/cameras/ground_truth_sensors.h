@@ -1,0 +1,43 @@
+// The sensor types that know what they see: "depth_camera", "segmentation_camera",
+// "boundingbox_camera", "thermal_camera" and "normals_camera".
+//
+// Frame       sensor frame: x along the view, y left, z up.
+// Parameters  those of every camera, see optics.h. Of a depth camera also noise (m), see
+//             sensing/noise.h: white noise, bias and dropout, a pixel each.
+// Readings    rows from the top, see ground_truth.h.
+//             depth_camera ("depth", "rgbd_camera"): values {width, height, then for each pixel the
+//             distance along the view in m, infinite where nothing is}. As a message:
+//             sensor_msgs/PointCloud2, a point a pixel, NaN where nothing is.
+//             segmentation_camera ("segmentation"): values {width, height, then for each pixel the
+//             label's number from 1, 0 where nothing is}; the labels are the names of all models in
+//             the world; the picture shows label n in the colour 0x9E3779 n mod 2^24, so that
+//             either tells the other. As a message: sensor_msgs/CompressedImage, PNG.
+//             boundingbox_camera ("boundingbox"): for each model of which a pixel is seen, by name,
+//             the values {left, top, right, bottom} in pixels, and its name as label. As a message:
+//             vision_msgs/Detection2DArray.
+//             thermal_camera ("thermal"): how warm the visual at each pixel is, or the air where
+//             nothing is, in whole steps of the parameter `resolution` (0.01 K, so that 16 bits
+//             reach to 655.35 K); `noise` (K). As a message:
+//             sensor_msgs/CompressedImage, PNG of 16-bit grey, where a pixel counts steps.
+//             normals_camera ("normals"): values {width, height, then for each pixel the unit normal
+//             x, y, z of the visible surface, towards the camera, in the sensor frame}. The normal
+//             follows from the depths of adjacent pixels of the same visual: it is exact on planes,
+//             and NaN where nothing is or where a pixel has no such neighbours in both directions.
+//             As a message: sensor_msgs/CompressedImage, PNG, where the colour channel of a
+//             component c is 255 (c + 1) / 2, and black where the normal is unknown.
+// Errors      Sample(): kUnavailable with the reason where nothing can draw.
+#pragma once
+
+#include <memory>
+
+#include "gsv/rendering/renderer.h"
+#include "gsv/sensing/registry.h"
+
+namespace gsv::rendering {
+
+// `renderer` is what Renderer::Start() gave, its failure included. Fails if a type is there
+// already.
+[[nodiscard]] base::Status AddGroundTruthSensors(
+    sensing::SensorRegistry& registry, const base::Result<std::shared_ptr<Renderer>>& renderer);
+
+}  // namespace gsv::rendering

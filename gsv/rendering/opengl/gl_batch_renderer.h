@@ -1,0 +1,44 @@
+// Pictures with OpenGL: everything that lives on the graphics card.
+//
+// Threads  the render thread only, with the context current from construction to destruction.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "gsv/rendering/opengl/render_target.h"
+#include "gsv/rendering/opengl/shadow_map.h"
+#include "gsv/rendering/opengl/view_pass.h"
+#include "gsv/rendering/scene/batch_renderer.h"
+
+namespace gsv::rendering {
+
+namespace raster {
+class RasterBatchRenderer;
+}
+
+class GlBatchRenderer final : public BatchRenderer {
+ public:
+  GlBatchRenderer();
+  ~GlBatchRenderer() override;
+
+  base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
+      const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+  // By the rasteriser: ground truth is the same to the bit on every machine.
+  base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
+      const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
+  void Sweep() override;
+
+ private:
+  RenderTarget& TargetFor(const CameraParameters& camera);
+
+  std::list<RenderTarget> targets_;  // most recently used first
+  InstanceBuffer instances_;
+  ShadowMap shadow_map_;
+  ViewPass painter_;
+  std::unique_ptr<raster::RasterBatchRenderer>
+      ground_truth_renderer_;  // null until it is asked for
+};
+
+}  // namespace gsv::rendering

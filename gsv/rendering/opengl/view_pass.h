@@ -1,0 +1,56 @@
+// Draws what one camera sees.
+//
+// Solid things first, nearest groups first and the ground last; then the sky; then what is
+// see-through, farthest first.
+// Threads  the render thread only.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "gsv/rendering/opengl/instance_buffer.h"
+#include "gsv/rendering/opengl/shadow_map.h"
+#include "gsv/rendering/scene/frame_block.h"
+
+namespace gsv::rendering {
+
+class ViewPass {
+ public:
+  ViewPass();
+
+  // Draws a posed plan into the current target, whose depth is clear. `block` is complete; without
+  // `shadows` (null) everything is in the sun.
+  void Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
+            const ShadowMap* shadows, InstanceBuffer& instances);
+
+ private:
+  // Instances that are drawn by one call.
+  struct Call {
+    int group = 0;
+    double distance = 0;
+    std::size_t first = 0, count = 0;
+    bool shadowed = false;  // a shadow may fall on some of them
+  };
+  struct Seen {
+    int group = 0;
+    double distance = 0;  // to its middle
+    std::size_t item = 0;
+    bool shadowed = false;
+  };
+
+  void FindVisible(const CameraView& view, const RenderList& render_list, const ShadowMap* shadows);
+  void StageSolid(const RenderList& render_list, const geometry::Vector3& origin);
+  void StageTransparent(const RenderList& render_list, const geometry::Vector3& origin);
+  void Draw(const std::vector<Call>& calls, const RenderList& render_list, bool lamps,
+            const InstanceBuffer& instances);
+  unsigned ProgramFor(unsigned features);
+
+  std::map<unsigned, GlProgram> programs_;  // by features
+  GlProgram sky_;
+  GlBuffer frame_;
+  std::vector<Seen> solid_, transparent_;
+  std::vector<Call> solid_calls_, transparent_calls_;
+  std::vector<InstanceData> staged_;
+};
+
+}  // namespace gsv::rendering

@@ -1,0 +1,78 @@
+#include "gsv/rendering/raster/raster_batch_renderer.h"
+
+#include "gsv/rendering/raster/image_renderer.h"
+#include "gsv/rendering/raster/raster_mesh.h"
+#include "gsv/rendering/raster/raster_texture.h"
+
+namespace gsv::rendering::raster {
+namespace {
+
+constexpr int kMaxTextureSide = 8192;
+
+}  // namespace
+
+bool CanRasterise() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
+
+RasterBatchRenderer::RasterBatchRenderer(int threads)
+    : BatchRenderer(MeshStore(MakeRasterMesh), TextureStore(MakeRasterTexture, kMaxTextureSide)),
+      team_(threads) {}
+
+RasterBatchRenderer::~RasterBatchRenderer() = default;
+
+base::Result<std::vector<std::shared_ptr<const model::Image>>> RasterBatchRenderer::Draw(
+    const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
+  PlannedLayout& planned = RenderListFor(snapshot.layout);
+  const RenderList& render_list = *planned.render_list;
+  const Lighting& lighting = *planned.lighting;
+  planned.render_list->Pose(snapshot);
+  planned.lighting->TakeLamps(snapshot);
+  const bool shadows = lighting.sun_casts_shadows();
+  if (shadows) shadow_.Draw(render_list, planned.id, lighting.to_sun(), views);
+  std::vector<std::shared_ptr<const model::Image>> pictures(views.size());
+  team_.ParallelFor(views.size(), 1, [&](std::size_t begin, std::size_t end) {
+    std::unique_ptr<ImageRenderer> painter = TakeRenderer();
+    for (std::size_t i = begin; i < end; ++i) {
+      FrameBlock block = lighting.BlockFor(views[i]);
+      const bool shaded = shadows && !shadow_.region().IsEmpty();
+      if (shaded) shadow_.region().Describe(views[i].world_from_camera.position, block);
+      pictures[i] = std::make_shared<const model::Image>(
+          painter->Draw(views[i], render_list, block, shaded ? &shadow_ : nullptr));
+    }
+    GiveBack(std::move(painter));
+  });
+  return pictures;
+}
+
+base::Result<std::vector<std::shared_ptr<const GroundTruth>>> RasterBatchRenderer::DrawGroundTruth(
+    const world::Snapshot& snapshot, const std::vector<CameraView>& views) {
+  PlannedLayout& planned = RenderListFor(snapshot.layout);
+  planned.render_list->Pose(snapshot, RenderList::Glow::kHidden);
+  std::vector<std::shared_ptr<const GroundTruth>> truths(views.size());
+  team_.ParallelFor(views.size(), 1, [&](std::size_t begin, std::size_t end) {
+    std::unique_ptr<ImageRenderer> painter = TakeRenderer();
+    for (std::size_t i = begin; i < end; ++i) {
+      truths[i] = std::make_shared<const GroundTruth>(painter->DrawGroundTruth(
+          views[i], *planned.render_list, planned.lighting->BlockFor(views[i])));
+    }
+    GiveBack(std::move(painter));
+  });
+  return truths;
+}
+
+std::unique_ptr<ImageRenderer> RasterBatchRenderer::TakeRenderer() {
+  const base::MutexLock lock(mutex_);
+  if (idle_.empty()) return std::make_unique<ImageRenderer>();
+  auto painter = std::move(idle_.back());
+  idle_.pop_back();
+  return painter;
+}
+
+void RasterBatchRenderer::GiveBack(std::unique_ptr<ImageRenderer> painter) {
+  // What a picture as large as a wall took is not kept for the next small one.
+  constexpr std::size_t kMaxPixels = 2 << 20;
+  if (painter->pixels() > kMaxPixels) return;
+  const base::MutexLock lock(mutex_);
+  idle_.push_back(std::move(painter));
+}
+
+}  // namespace gsv::rendering::raster

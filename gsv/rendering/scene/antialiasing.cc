@@ -1,0 +1,131 @@
+#include "gsv/rendering/scene/antialiasing.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace gsv::rendering {
+namespace {
+
+// One surface number a pixel, seen along rows or along columns, so that one search finds the edges
+// between rows and those between columns.
+struct Surfaces {
+  const std::uint8_t* numbers;
+  int length, lines;  // pixels along a line; lines side by side
+  int At(int line, int i) const { return numbers[static_cast<std::size_t>(line) * length + i]; }
+};
+
+// Which way the edge between `line` and `line` + 1 goes on at its end between pixels `last` (still
+// beside the edge) and `next` (where both lines show the same surface): +1 if one step towards
+// `line`, -1 if one step towards `line` + 1, 0 if it ends, forks or turns a corner.
+int StepAt(const Surfaces& s, int line, int last, int next) {
+  if (next < 0 || next >= s.length) return 0;
+  const int beyond = s.At(line, next);
+  const bool before = s.At(line, last) != beyond, after = s.At(line + 1, last) != beyond;
+  if (before == after) return 0;
+  const int towards = before ? line - 1 : line + 2;
+  if (towards < 0 || towards >= s.lines) return 0;
+  const bool goes_on = s.At(towards, next) != beyond;
+  const bool is_one_step = s.At(towards, last) == s.At(towards, next);
+  return goes_on && is_one_step ? (before ? 1 : -1) : 0;
+}
+
+class Smoother {
+ public:
+  Smoother(int width, int height, const std::uint8_t* rgba) : rgba_(rgba) {
+    picture_.width = width, picture_.height = height, picture_.channels = 3;
+    const std::size_t pixels = static_cast<std::size_t>(width) * height;
+    picture_.pixels.resize(pixels * 3);
+    along_rows_.resize(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      std::uint8_t* to = &picture_.pixels[3 * p];
+      to[0] = rgba[4 * p], to[1] = rgba[4 * p + 1], to[2] = rgba[4 * p + 2];
+      along_rows_[p] = rgba[4 * p + 3];
+    }
+    along_columns_.resize(pixels);
+    for (int y = 0; y < height; ++y) {
+      const std::uint8_t* row = &along_rows_[static_cast<std::size_t>(y) * width];
+      for (int x = 0; x < width; ++x) {
+        along_columns_[static_cast<std::size_t>(x) * height + y] = row[x];
+      }
+    }
+  }
+
+  model::Image Smooth() {
+    const int width = picture_.width, height = picture_.height;
+    FindEdges({along_rows_.data(), width, height}, width, 1);
+    FindEdges({along_columns_.data(), height, width}, 1, width);
+    return std::move(picture_);
+  }
+
+ private:
+  // `line_stride` and `stride` are the distances, in pixels of the picture, from a line to the next
+  // and from a pixel of a line to the next.
+  void FindEdges(const Surfaces& s, int line_stride, int stride) {
+    line_stride_ = line_stride, stride_ = stride;
+    for (int line = 0; line + 1 < s.lines; ++line) {
+      const std::uint8_t* a = s.numbers + static_cast<std::size_t>(line) * s.length;
+      const std::uint8_t* b = a + s.length;
+      for (int i = 0; i < s.length;) {
+        if (a[i] == b[i]) {
+          i = SkipEqual(a, b, i, s.length);
+          continue;
+        }
+        const int first = i;
+        while (i < s.length && a[i] != b[i]) ++i;
+        Blend(line, first, i, StepAt(s, line, first, first - 1), StepAt(s, line, i - 1, i));
+      }
+    }
+  }
+
+  static int SkipEqual(const std::uint8_t* a, const std::uint8_t* b, int i, int end) {
+    for (; i + 8 <= end && std::memcmp(a + i, b + i, 8) == 0; i += 8) {
+    }
+    while (i < end && a[i] == b[i]) ++i;
+    return i;
+  }
+
+  // The line comes from half a pixel beside the edge at each end that has a step, and meets it in
+  // the middle.
+  void Blend(int line, int first, int end, int step_first, int step_end) {
+    if (step_first == 0 && step_end == 0) return;
+    const float middle = 0.5f * static_cast<float>(end - first);
+    // The area between line and edge up to `t` from an end with a step.
+    const auto area = [&](float t) {
+      t = std::min(t, middle);
+      return 0.5f * t * (1 - t / (2 * middle));
+    };
+    for (int i = first; i < end; ++i) {
+      const float from_first = static_cast<float>(i - first);
+      const float from_end = static_cast<float>(end - i - 1);
+      if (step_first != 0) Mix(line, i, step_first, area(from_first + 1) - area(from_first));
+      if (step_end != 0) Mix(line, i, step_end, area(from_end + 1) - area(from_end));
+    }
+  }
+
+  // Gives `share` of a pixel beside the edge the colour from the other side.
+  void Mix(int line, int i, int step, float share) {
+    if (share <= 0) return;
+    const std::size_t before =
+        static_cast<std::size_t>(line) * line_stride_ + static_cast<std::size_t>(i) * stride_;
+    const std::size_t after = before + line_stride_;
+    const std::size_t target = step > 0 ? before : after, source = step > 0 ? after : before;
+    std::uint8_t* to = &picture_.pixels[3 * target];
+    for (int c = 0; c < 3; ++c) {
+      const float old = to[c];
+      to[c] = static_cast<std::uint8_t>(old + share * (rgba_[4 * source + c] - old) + 0.5f);
+    }
+  }
+
+  const std::uint8_t* rgba_;
+  model::Image picture_;
+  std::vector<std::uint8_t> along_rows_, along_columns_;
+  int line_stride_ = 0, stride_ = 0;
+};
+
+}  // namespace
+
+model::Image SmoothAliasedEdges(int width, int height, const std::uint8_t* rgba) {
+  return Smoother(width, height, rgba).Smooth();
+}
+
+}  // namespace gsv::rendering

@@ -1,0 +1,27 @@
+#include "gsv/rendering/scene/batch_renderer.h"
+
+namespace gsv::rendering {
+
+BatchRenderer::PlannedLayout& BatchRenderer::RenderListFor(
+    const std::shared_ptr<const world::Layout>& layout) {
+  PlannedLayout& planned = layouts_[layout.get()];
+  // An address may be that of an earlier layout that is gone.
+  if (planned.render_list == nullptr || planned.layout.lock() != layout) {
+    planned = {layout, next_render_list_id_++,
+               std::make_unique<RenderList>(*layout, meshes_, textures_),
+               std::make_unique<Lighting>(*layout->description)};
+  }
+  return planned;
+}
+
+void BatchRenderer::Sweep() {
+  std::erase_if(layouts_, [](const auto& item) { return item.second.layout.expired(); });
+  meshes_.Sweep();
+  textures_.Sweep();
+}
+
+DrawCopies BatchRenderer::Count() const {
+  return {meshes_.size(), textures_.size(), layouts_.size()};
+}
+
+}  // namespace gsv::rendering

@@ -1,0 +1,62 @@
+// A tree of boxes (Embree's) that finds all boxes a ray passes through.
+//
+// Boxes are given in double precision, rounded outwards and padded; the caller decides what the ray
+// really meets in each. No box that the ray passes through within its current length is left out,
+// as long as the ray starts within ten times the extent of the boxes (single precision then errs by
+// less than the padding of 2e-6 of that extent).
+//
+// Threads  const members may run concurrently.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "gsv/geometry/triangle_mesh.h"
+#include "gsv/sensing/rays/ray_scene.h"
+
+namespace gsv::sensing {
+
+class BoundingVolumeTree {
+ public:
+  BoundingVolumeTree();
+  ~BoundingVolumeTree();
+  BoundingVolumeTree(const BoundingVolumeTree&) = delete;
+  BoundingVolumeTree& operator=(const BoundingVolumeTree&) = delete;
+
+  // Replaces all boxes. `often` favours a quick build over quick rays.
+  void Build(std::span<const geometry::Bounds> boxes, bool often);
+
+  class Visitor {
+   public:
+    virtual ~Visitor() = default;
+    // The ray may meet what is in the box. Returns the length that the ray needs to be followed to
+    // from now on: at most what it was.
+    virtual double Visit(std::uint32_t box) = 0;
+  };
+  void Cast(const Ray& ray, Visitor& visitor) const;
+
+  // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
+  // shorten.
+  template <class Visit>
+  void Find(const Ray& ray, const double& length, const Visit& visit) const {
+    Caller<Visit> caller(length, visit);
+    Cast({ray.origin, ray.direction, length}, caller);
+  }
+
+ private:
+  template <class Call>
+  struct Caller final : Visitor {
+    const double& length;
+    const Call& call;
+    Caller(const double& l, const Call& c) : length(l), call(c) {}
+    double Visit(std::uint32_t box) override {
+      call(box);
+      return length;
+    }
+  };
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gsv::sensing

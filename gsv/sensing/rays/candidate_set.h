@@ -1,0 +1,98 @@
+// The solids near one place, gathered once for many rays from there.
+//
+// Exactness  they are told apart by balls in single precision, grown by more than it errs, so that
+//            none that a ray touches is left out.
+// Threads    const members may run concurrently.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <xmmintrin.h>
+
+#include "gsv/sensing/rays/ray_scene.h"
+
+namespace gsv::sensing {
+
+// A ball around something.
+struct BoundingSphere {
+  geometry::Vector3 centre;
+  double radius = 0;
+};
+
+class CandidateSet {
+ public:
+  // More than so many are not worth to be gone through for every ray.
+  static constexpr std::size_t kMax = 64;
+
+  // Empties it, for what is within `reach` of `place`.
+  void Begin(const geometry::Vector3& place, double reach);
+
+  const geometry::Vector3& place() const { return place_; }
+  double reach() const { return reach_; }
+
+  // A solid that is within a ball, unless it `counts` not; `number` is the scene's.
+  void Add(const BoundingSphere& ball, std::uint32_t number, bool counts) {
+    if (count_ == kMax) {
+      is_overfull_ = is_overfull_ || counts;
+      return;
+    }
+    const geometry::Vector3 centre = ball.centre - place_;
+    const double grown = ball.radius + kRounding * (std::abs(centre.x) + std::abs(centre.y) +
+                                                    std::abs(centre.z) + ball.radius + reach_);
+    x_[count_] = static_cast<float>(centre.x);
+    y_[count_] = static_cast<float>(centre.y);
+    z_[count_] = static_cast<float>(centre.z);
+    squared_radius_[count_] = static_cast<float>(grown * grown);
+    numbers_[count_] = number;
+    // Which of them count is hard to foresee: no branch.
+    count_ += counts;
+  }
+
+  // After the last was added: false if there were too many.
+  bool Finish();
+
+  // Whether all that the ray may meet was gathered.
+  bool Hold(const Ray& ray) const { return Norm(ray.origin - place_) + ray.max_distance <= reach_; }
+
+  // Calls visit(number) for every solid that the ray may touch within `length`, which `visit` may
+  // shorten.
+  template <class Visit>
+  void Find(const Ray& ray, const double& length, const Visit& visit) const {
+    const geometry::Vector3 origin = ray.origin - place_;
+    const __m128 ox = Four(origin.x), oy = Four(origin.y), oz = Four(origin.z);
+    const __m128 dx = Four(ray.direction.x), dy = Four(ray.direction.y), dz = Four(ray.direction.z);
+    for (std::size_t i = 0; i < count_; i += 4) {
+      const __m128 x = _mm_load_ps(&x_[i]) - ox, y = _mm_load_ps(&y_[i]) - oy;
+      const __m128 z = _mm_load_ps(&z_[i]) - oz;
+      // The point of the ray that is nearest to the centre.
+      const __m128 along =
+          _mm_min_ps(_mm_max_ps(x * dx + y * dy + z * dz, _mm_setzero_ps()), Four(length));
+      const __m128 gap_x = x - along * dx, gap_y = y - along * dy, gap_z = z - along * dz;
+      const __m128 gap = gap_x * gap_x + gap_y * gap_y + gap_z * gap_z;
+      auto touched = static_cast<unsigned>(
+          _mm_movemask_ps(_mm_cmple_ps(gap, _mm_load_ps(&squared_radius_[i]))));
+      for (; touched != 0; touched &= touched - 1) visit(numbers_[i + std::countr_zero(touched)]);
+    }
+  }
+
+ private:
+  // Single precision errs by 6e-8 of a coordinate, and the gap between ray and centre takes a dozen
+  // operations.
+  static constexpr double kRounding = 4e-6;
+
+  static __m128 Four(double x) { return _mm_set1_ps(static_cast<float>(x)); }
+
+  geometry::Vector3 place_;
+  double reach_ = -1;
+  std::size_t count_ = 0;  // after them up to three that no ray touches
+  bool is_overfull_ = false;
+  // Centres from place_.
+  alignas(16) std::array<float, kMax + 4> x_, y_, z_, squared_radius_;
+  std::array<std::uint32_t, kMax> numbers_;
+};
+
+}  // namespace gsv::sensing

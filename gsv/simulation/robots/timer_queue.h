@@ -1,0 +1,54 @@
+// Who is to be woken when. An entry is a hint: whoever is called looks at its own clocks, so that
+// an entry too many does no harm.
+//
+// Threads  guarded by its owner.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "gsv/base/sim_time.h"
+
+namespace gsv::simulation {
+
+template <typename Sleeper>
+class TimerQueue {
+ public:
+  void Add(base::SimTime instant, Sleeper* sleeper) {
+    auto day = entries_.lower_bound(instant);
+    if (day == entries_.end() || day->first != instant) {
+      day = entries_.emplace_hint(day, instant, std::move(spare_));
+      spare_ = {};
+    }
+    day->second.push_back(sleeper);
+  }
+
+  bool HasDue(base::SimTime now) const {
+    return !entries_.empty() && entries_.begin()->first <= now;
+  }
+
+  // Calls `wake` with those whose instant has come, in the order of instants and of entries, and
+  // forgets them.
+  template <typename Wake>
+  void TakeDue(base::SimTime now, const Wake& wake) {
+    while (HasDue(now)) {
+      std::vector<Sleeper*> due = std::move(entries_.begin()->second);
+      entries_.erase(entries_.begin());
+      for (Sleeper* sleeper : due) wake(*sleeper);
+      due.clear();
+      if (due.capacity() > spare_.capacity()) spare_ = std::move(due);
+    }
+  }
+
+  void Remove(const Sleeper* sleeper) {
+    for (auto& [instant, sleepers] : entries_) std::erase(sleepers, sleeper);
+  }
+  void Clear() { entries_.clear(); }
+
+ private:
+  std::map<base::SimTime, std::vector<Sleeper*>> entries_;
+  std::vector<Sleeper*> spare_;  // so that a crowd's next day needs no memory
+};
+
+}  // namespace gsv::simulation

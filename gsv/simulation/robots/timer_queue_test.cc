@@ -1,0 +1,54 @@
+#include "gsv/simulation/robots/timer_queue.h"
+
+#include <gtest/gtest.h>
+
+namespace gsv::simulation {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<int> Due(TimerQueue<int>& calendar, base::SimTime now) {
+  std::vector<int> woken;
+  calendar.TakeDue(now, [&](int& sleeper) { woken.push_back(sleeper); });
+  return woken;
+}
+
+TEST(TimerQueue, WakesInTheOrderOfInstantsAndEntries) {
+  int one = 1, two = 2, three = 3;
+  TimerQueue<int> calendar;
+  calendar.Add(20ms, &two);
+  calendar.Add(10ms, &three);
+  calendar.Add(20ms, &one);
+  EXPECT_FALSE(calendar.HasDue(9ms));
+  EXPECT_TRUE(Due(calendar, 9ms).empty());
+  EXPECT_TRUE(calendar.HasDue(10ms));
+  EXPECT_EQ(Due(calendar, 25ms), (std::vector{3, 2, 1}));
+  EXPECT_TRUE(Due(calendar, 25ms).empty());
+}
+
+TEST(TimerQueue, OneWhoIsWokenMayEnterItselfAgain) {
+  int one = 1;
+  TimerQueue<int> calendar;
+  calendar.Add(10ms, &one);
+  int wakes = 0;
+  calendar.TakeDue(10ms, [&](int& sleeper) {
+    ++wakes;
+    calendar.Add(20ms, &sleeper);
+  });
+  EXPECT_EQ(wakes, 1);
+  EXPECT_EQ(Due(calendar, 20ms), std::vector{1});
+}
+
+TEST(TimerQueue, RemovesAllEntriesOfOne) {
+  int one = 1, two = 2;
+  TimerQueue<int> calendar;
+  for (const auto instant : {10ms, 20ms}) {
+    calendar.Add(instant, &one);
+    calendar.Add(instant, &two);
+  }
+  calendar.Remove(&one);
+  EXPECT_EQ(Due(calendar, 30ms), (std::vector{2, 2}));
+}
+
+}  // namespace
+}  // namespace gsv::simulation
