@@ -1,9 +1,9 @@
-// For robotic applications: find a simulator through the broker, create a simulation, put robots in
-// it, run it, look at what came of it.
+// The API for applications: find a simulator through the broker, create a simulation, add robots,
+// run it and read its state.
 //
 // Units    metres, radians; simulated time.
-// Errors   every call ends within its time limit; what failed, and where, is in the error.
-// Threads  one thread an object.
+// Errors   every call ends within its time limit. The error says what failed, and where.
+// Threads  one thread per object.
 #pragma once
 
 #include <functional>
@@ -19,23 +19,23 @@
 namespace gsv {
 
 struct SimulationRequest {
-  std::string world;  // a file or model that the server can find; empty: its default
+  std::string world;  // a file or model that the server finds; empty: its default
   bool lockstep = true;
-  double factor = 1;  // in real time
+  double factor = 1;  // target real-time factor; not in lockstep
   SimTime step{0};    // 0: the world's
   std::uint64_t seed = 0;
   std::string name;  // empty: the server chooses
-  // Further ones by the names of sba::SimulationSpecification::options: "on_failure", "deadline_s",
-  // "abandoned_after_s".
+  // Further options with the names of sba::SimulationSpecification::options: "on_failure",
+  // "deadline_s", "abandoned_after_s".
   std::map<std::string, std::string> options;
 };
 
 struct RobotRequest {
   std::string model;
   double x = 0, y = 0, yaw = 0;
-  std::string behaviour;  // the name of an offer; empty: none
+  std::string behaviour;  // name of an offer; empty: none
   std::string name;       // empty: after its model
-  // A behaviour of this program, which then needs no offer: it runs here, on a thread of its own.
+  // A behaviour of this program, which needs no offer. It runs here, on its own thread.
   BehaviourFactory own_behaviour;
 };
 
@@ -48,8 +48,8 @@ struct RobotState {
 };
 
 struct SimulationState {
-  // "created", "running", "paused", …; "lost": its server is gone, and it with that; time and
-  // robots are as they were when they were last asked for.
+  // "created", "running", "paused", …; "lost": the server is gone. Time and robots are then the
+  // last known ones.
   std::string phase;
   SimTime time{0};
   double real_time_factor = 0;
@@ -59,10 +59,11 @@ struct SimulationState {
   std::vector<RobotState> robots;
 };
 
-// A simulation on some server. It is destroyed with this.
+// A simulation on a server. The destructor destroys the simulation.
 //
-// Once its server is gone (its port refuses connections, or RunUntil() heard nothing from it for
-// half a minute), it is lost for good: every call fails with kUnavailable and says so, but State().
+// When its server is gone (its port refuses connections, or it is silent for half a minute during
+// RunUntil()), the simulation is lost permanently: every call except State() fails with
+// kUnavailable.
 class RemoteSimulation {
  public:
   virtual ~RemoteSimulation() = default;
@@ -73,28 +74,29 @@ class RemoteSimulation {
   virtual base::Status Pause() = 0;
   virtual base::Status Resume() = 0;
   virtual base::Status Stop() = 0;
-  // Back to the start, with the same robots.
+  // Returns to the start with the same robots.
   virtual base::Status Reset() = 0;
-  // In real time: simulated seconds a wall second from the next step on; above 0, at most 1e6. It
-  // outlives a reset. Fails with kInvalidArgument in lockstep, which goes as fast as it can.
+  // Sets the target real-time factor from the next step on, in (0, 1e6]. It is kept by a reset.
+  // Fails with kInvalidArgument in lockstep, which runs as fast as possible.
   virtual base::Status SetRealTimeFactor(double factor) = 0;
   [[deprecated("use SetRealTimeFactor()")]] base::Status SetFactor(double factor) {
     return SetRealTimeFactor(factor);
   }
-  // Any command of the server by its name, also those that this library does not know: see
-  // `gsv --help`, or sba::Simulation::commands(). Values are written as in "-1.62" or "true". Fails
-  // with kInvalidArgument when there is no such command, or an argument does not fit it.
+  // Runs a command of the server by name, also one that this library does not know (see `gsv
+  // --help` or sba::Simulation::commands()). Values are texts such as "-1.62" or "true". Fails with
+  // kInvalidArgument for an unknown command or an invalid argument.
   virtual base::Status Command(const std::string& name,
                                const std::map<std::string, std::string>& arguments = {}) = 0;
-  // Runs to that instant and freezes there; blocks until then. `patience` is wall time. `go_on` is
-  // asked every two seconds of it at least; false: the run goes on, this returns kEnded.
+  // Runs until the instant and pauses there. Blocks until then, at most `patience` of wall-clock
+  // time. Calls `go_on` at least every two seconds; if it returns false, this returns kEnded and
+  // the run continues.
   virtual base::Status RunUntil(SimTime until,
                                 std::chrono::seconds patience = std::chrono::minutes(10),
                                 const std::function<bool()>& go_on = {}) = 0;
   virtual base::Result<SimulationState> State() = 0;
   virtual base::Result<std::string> StateHash() = 0;
   virtual base::Result<std::string> ViewerUrl() = 0;
-  // To a file on the simulator's machine.
+  // Records to a file on the simulator's machine.
   virtual base::Status StartRecording(const std::string& path) = 0;
   virtual base::Status StopRecording() = 0;
 };
@@ -106,8 +108,9 @@ class Application {
   static base::Result<std::unique_ptr<Application>> Connect(const std::string& broker);
   virtual ~Application() = default;
 
-  // On the first simulator, in the order of `preference` ("first", "min load", "random"), whose
-  // offer matches `constraint` (over the properties of docs/services.md; empty: any).
+  // Creates a simulation on the first simulator, in the order of `preference` ("first", "min load",
+  // "random"), whose offer matches `constraint` (over the properties of docs/services.md; empty:
+  // any).
   virtual base::Result<std::unique_ptr<RemoteSimulation>> Create(
       const SimulationRequest& request, const std::string& constraint = "",
       const std::string& preference = "first") = 0;

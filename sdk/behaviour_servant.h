@@ -1,7 +1,7 @@
-// A behaviour as its callers see it: sba::AgentBehaviour over a gsv::Behaviour, and the factory
-// that makes one for each robot.
+// The servants of a behaviour program: sba::AgentBehaviour for a gsv::Behaviour, and the factory
+// that creates one per robot.
 //
-// Threads  calls come on ORB threads; the behaviour runs on a thread of its own.
+// Threads  calls come on ORB threads; the behaviour runs on its own thread.
 #pragma once
 
 #include <thread>
@@ -37,7 +37,7 @@ class BehaviourServant final : public POA_sba::AgentBehaviour {
   std::jthread running_;
 };
 
-// One that the POA owns, and that goes with its destroy().
+// Creates a behaviour that the POA owns until its destroy() is called.
 sba::AgentBehaviour_ptr NewBehaviour(PortableServer::POA_ptr poa, BehaviourFactory factory);
 
 class BehaviourFactoryServant final : public POA_sba::AgentBehaviourFactory {

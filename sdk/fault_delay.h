@@ -1,6 +1,6 @@
-// Delays the remote calls of a behaviour program at random, to show that its results do not depend
-// on when its calls arrive. It sits in the ORB's transport: before a request is sent and after a
-// reply has come. The environment switches it on: GSV_FAULT_DELAY="seed=7,max_ms=20".
+// Delays the remote calls of a behaviour program randomly, to test that results do not depend on
+// the arrival of calls. The delays are in the ORB's transport, before a request is sent and after a
+// reply has come. GSV_FAULT_DELAY="seed=7,max_ms=20" enables them.
 #pragma once
 
 #include <chrono>
@@ -16,17 +16,17 @@ struct FaultDelay {
   std::chrono::milliseconds max{0};
 };
 
-// Errors  kInvalidArgument, saying what the text looks like.
+// Errors  kInvalidArgument with the expected form.
 base::Result<FaultDelay> ParseFaultDelay(std::string_view text);
 
-// How long the `n`th delay takes: evenly spread over [0, max).
+// The duration of the `n`th delay, uniform in [0, max).
 std::chrono::nanoseconds NthDelay(const FaultDelay& fault, std::uint64_t n);
 
-// From now on, for all calls of this process. Once a process, after its ORB has started and before
-// it calls anybody.
+// Delays all later calls of this process. Call it once, after the ORB has started and before the
+// first remote call.
 void DelayCalls(const FaultDelay& fault);
 
-// Does so when GSV_FAULT_DELAY is set.
+// Calls DelayCalls() if GSV_FAULT_DELAY is set.
 base::Status DelayCallsAsEnvironmentSays();
 
 }  // namespace gsv::sdk

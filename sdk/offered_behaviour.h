@@ -1,7 +1,7 @@
-// A behaviour that this program offers at a broker, for as long as this lives. ServeBehaviour()
-// (serve.h) does it for a program that does nothing else.
+// A behaviour that this program offers at a broker during the lifetime of the object.
+// ServeBehaviour() (serve.h) is for programs that do nothing else.
 //
-// Threads  behaviours run on threads of their own, their Init(), Paused() and Resumed() on the
+// Threads  behaviours run on their own threads, their Init(), Paused() and Resumed() on the
 // ORB's.
 #pragma once
 
@@ -14,21 +14,21 @@
 namespace gsv {
 
 struct BehaviourDescription {
-  std::string name;          // what it is asked for by: "wander"
+  std::string name;          // of the service: "wander"
   std::string description;   // one line
-  bool time_managed = true;  // it tells the time by the robot's clock only, so it may be waited for
+  bool time_managed = true;  // it uses the robot's clock only, so that simulations may wait for it
 };
 
 class OfferedBehaviour {
  public:
-  // `broker`: corbaloc::1.2@HOST:PORT/TradingService. `factory` makes one instance for each robot.
+  // `broker`: corbaloc::1.2@HOST:PORT/TradingService. `factory` creates one instance per robot.
   static base::Result<std::unique_ptr<OfferedBehaviour>> Offer(
       const std::string& broker, const BehaviourDescription& description, BehaviourFactory factory);
-  // Withdraws the offer. Instances that drive robots go on until their simulations end them, or
-  // the last use of the ORB in this process is over.
+  // Withdraws the offer. Instances that drive robots continue until their simulations end them, or
+  // until the last user of the ORB in this process ends.
   virtual ~OfferedBehaviour() = default;
 
-  // The broker's address as it should be shown and passed on.
+  // The broker's address, for display and for other programs.
   virtual const std::string& broker() const = 0;
 };
 

@@ -12,9 +12,10 @@
 
 namespace gsv::sdk {
 
-// Both raise what the hardware does, and sba::Refused when it has no joints to command.
+// Both pass on exceptions of the hardware, and throw sba::Refused if it has no joints that take
+// commands.
 std::vector<JointTraits> ListRemoteJoints(sba::Hardware_ptr hardware);
-// `robot` outlives it.
+// `robot` must outlive the joint.
 std::unique_ptr<Joint> OpenRemoteJoint(RemoteRobot& robot, sba::Hardware_ptr hardware,
                                        const std::string& name);
 

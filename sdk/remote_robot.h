@@ -16,24 +16,23 @@ namespace gsv::sdk {
 
 class RemoteRobot final : public Robot, public std::enable_shared_from_this<RemoteRobot> {
  public:
-  // Asks for the robot's parts; fails when the hardware does not answer. Shared with what a
-  // language that has no owners, as Python, may keep of it past the run.
-  // For any answer. The simulation gives up a picture after a minute, and may be held up itself: by
-  // a busy machine, or because its process was stopped for a while.
+  // Time limit of each call. The simulation gives up an image after a minute, and may itself be
+  // delayed by a busy machine or a stopped process.
   static constexpr std::chrono::milliseconds kPatience{70'000};
 
+  // Queries the robot's parts. Fails if the hardware does not answer. Shared, as a garbage-collected
+  // language such as Python may keep it beyond the run.
   static base::Result<std::shared_ptr<RemoteRobot>> Connect(const std::string& name,
                                                             sba::Hardware_ptr hardware);
   ~RemoteRobot() override;
 
-  // Opens the clock, so that the simulation counts the behaviour as running before it is told that
-  // it has started.
+  // Opens the clock, so that the simulation counts the behaviour as running before start() returns.
   base::Status OpenClock();
-  // The run is over for this side: waits and calls return from now on.
+  // Ends the run on this side: waits and calls return at once from now on.
   void End();
-  // Says that the behaviour has finished. Called once, after its last use of the robot.
+  // Reports that the behaviour has finished. Called once, after its last use of the robot.
   void CloseClock();
-  // Instead: the run has ended with an error.
+  // Reports that the run has ended with an error, instead of CloseClock().
   void GiveUp(const std::string& reason);
 
   const std::string& name() const override { return name_; }
@@ -51,11 +50,11 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
   base::Result<std::unique_ptr<SensorPort>> OpenPort(const std::string& sensor) override;
   base::Result<std::unique_ptr<SensorPort>> CreatePort(SensorTraits traits) override;
 
-  // Ends the run with this error.
+  // Ends the run with an error.
   void Fail(const base::Error& error) { Note(error); }
 
-  // Calls `call` unless the run is over. What is refused is the caller's to handle; any other
-  // failure ends the run.
+  // Calls `call` unless the run is over. The caller handles kInvalidArgument; any other failure
+  // ends the run.
   template <typename Function>
   base::Status Ask(Function call) {
     if (!running_) return base::Fail(base::ErrorCode::kEnded, "the run is over", name_);
@@ -63,7 +62,7 @@ class RemoteRobot final : public Robot, public std::enable_shared_from_this<Remo
     if (!status && status.error().code != base::ErrorCode::kInvalidArgument) Note(status.error());
     return status;
   }
-  // Calls `call` unless the run is over; notes why it failed. True when it succeeded.
+  // Calls `call` unless the run is over. A failure ends the run. True on success.
   template <typename Function>
   bool Try(Function call) {
     if (!running_) return false;

@@ -1,4 +1,4 @@
-// Offers a behaviour through the broker: what the main() of a behaviour program calls.
+// The main() of a behaviour program: offers the behaviour through the broker.
 #pragma once
 
 #include "sdk/behaviour/module.h"
@@ -6,8 +6,8 @@
 namespace gsv {
 
 // Reads the command line (--broker REF, --name NAME, --help), offers a factory of behaviours, and
-// serves until SIGINT, SIGTERM or SIGHUP; a second one ends it at once. Gives the program's exit code: 0, 2 for a usage error, 5 when
-// the broker cannot be reached.
+// serves until SIGINT, SIGTERM or SIGHUP. A second signal ends the process at once. Returns the
+// exit code: 0, 2 for a usage error, 5 if the broker cannot be reached.
 int ServeBehaviour(int argc, char** argv, const BehaviourModule& module);
 
 }  // namespace gsv

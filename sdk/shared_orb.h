@@ -1,7 +1,6 @@
-// The ORB that all of a process share: what it offers, what it asks others. It starts with the
-// first who needs it and ends with the last.
+// The ORB of a process, for offers and calls. It starts with its first user and ends with its last.
 //
-// Threads  any. Letting go of the last one waits for the calls that others have under way here.
+// Threads  any. The destructor of the last user waits for incoming calls in progress.
 #pragma once
 
 #include <memory>
@@ -15,8 +14,8 @@ namespace gsv::sdk {
 
 class SharedOrb {
  public:
-  // The one that there is; else a new one, which listens on the local address that reaches
-  // `broker`, and whose calls are delayed when the environment says so (fault_delay.h).
+  // Returns the existing ORB, or starts one that listens on the local address that reaches
+  // `broker`. GSV_FAULT_DELAY delays its calls (fault_delay.h).
   static base::Result<std::shared_ptr<SharedOrb>> Towards(const std::string& broker);
   ~SharedOrb();
   SharedOrb(const SharedOrb&) = delete;

@@ -1,6 +1,6 @@
-// Files that others find whole or not at all.
+// Writes files atomically: readers find the complete file or the previous one.
 //
-// Threads  any; two that write the same file at once want two processes.
+// Threads  any, but only one per process may write the same file at a time.
 #pragma once
 
 #include <sys/types.h>
@@ -12,15 +12,16 @@
 
 namespace gsv::base {
 
-// What the file is to outlive once it is written.
-enum class Durability { kProcess, kPowerLoss };  // the latter waits for the disk
+// The event that a written file survives.
+enum class Durability { kProcess, kPowerLoss };  // kPowerLoss waits for the disk
 
-// Writes a draft beside `file` and renames it into place. kUnavailable when it can't be written;
-// the draft is gone then, and what was there before stays.
+// Writes a temporary file beside `file` and renames it. kUnavailable if it cannot be written: the
+// previous file stays, and no temporary file remains.
 Status WriteAtomically(const std::filesystem::path& file, std::string_view text,
                        Durability durability);
 
-// Where process `pid` drafts `file`: what is left there is of one that was killed as it wrote.
+// The temporary file that process `pid` uses for `file`. It remains only if the process was killed
+// while it wrote.
 std::filesystem::path DraftPath(const std::filesystem::path& file, pid_t pid);
 
 }  // namespace gsv::base

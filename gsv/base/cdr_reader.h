@@ -1,6 +1,6 @@
 // Reads CDR, the encoding of CORBA's messages and references and of ROS 2's messages, without an
-// ORB. The bytes are untrusted input: the first value that does not fit makes the reader fail. From
-// then on it reads zeros.
+// ORB. The bytes are untrusted input: the first value that does not fit makes the reader fail. A
+// failed reader reads zeros.
 //
 // Source  CORBA 3.1 part 2, 7.3; OMG DDS-XTypes 1.3, 7.4.3 (XCDR version 1, the same encoding).
 #pragma once
@@ -17,8 +17,8 @@ namespace gsv::base {
 
 class CdrReader {
  public:
-  // `bytes` must outlive it; alignment counts from their first one. GIOP 1.1 and 1.2 write wide
-  // characters differently: `minor` says which it is.
+  // `bytes` must outlive the reader; alignment counts from their first one. `minor` is the minor
+  // version of GIOP, as 1.1 and 1.2 encode wide characters differently.
   CdrReader(std::string_view bytes, bool little_endian, int minor = 2, std::size_t position = 0)
       : bytes_(bytes), position_(position), minor_(minor), little_endian_(little_endian) {
     if (position > bytes.size()) Fail();
@@ -32,16 +32,16 @@ class CdrReader {
   int minor() const { return minor_; }
   std::size_t position() const { return position_; }
   std::size_t remaining() const { return bytes_.size() - position_; }
-  // Address of the next byte.
+  // The address of the next byte.
   const char* here() const { return bytes_.data() + position_; }
 
-  // To a power of two.
+  // Skips bytes up to a multiple of `alignment`, a power of two.
   void Align(std::size_t alignment) { Skip((0 - position_) & (alignment - 1)); }
   void Skip(std::size_t count) {
     if (count > remaining()) return Fail();
     position_ += count;
   }
-  // `Skip` of `count` values of `size` bytes, which are aligned to `alignment`.
+  // Skips `count` values of `size` bytes each, aligned to `alignment`.
   void SkipValues(std::size_t count, std::size_t size, std::size_t alignment) {
     if (count == 0) return;
     Align(alignment);
@@ -68,7 +68,7 @@ class CdrReader {
     return std::bit_cast<T>(bytes);
   }
 
-  // A length, then as many bytes.
+  // Reads a length and that many bytes.
   std::string_view Octets() {
     const std::uint32_t length = ULong();
     if (length > remaining()) Fail();
@@ -77,9 +77,9 @@ class CdrReader {
     position_ += length;
     return octets;
   }
-  // Without the zero at its end. Fails where that is missing, and where there is another: CORBA's
-  // strings hold none (CORBA 3.1 part 2, 9.3.2.7), and what omniORB makes of one is shorter than it
-  // says.
+  // Reads a string without its terminating zero. Fails if the zero is missing, or if there is
+  // another one: CORBA strings hold no zero (CORBA 3.1 part 2, 9.3.2.7), and omniORB would make a
+  // shorter string of it.
   std::string_view String() {
     std::string_view text = Octets();
     if (text.empty() || text.find('\0') != text.size() - 1) {
@@ -89,19 +89,19 @@ class CdrReader {
     text.remove_suffix(1);
     return text;
   }
-  // The number of elements of a sequence. Fails where there are more than bytes.
+  // Reads the number of elements of a sequence. Fails if it exceeds the number of remaining bytes.
   std::uint32_t Count() {
     const std::uint32_t count = ULong();
     if (count > remaining()) Fail();
     return ok_ ? count : 0;
   }
-  // An encapsulation is a sequence of octets with a byte order and an alignment of its own.
+  // Reads an encapsulation: a sequence of octets with its own byte order and alignment.
   CdrReader Encapsulation() {
     CdrReader inner = OfEncapsulation(Octets(), minor_);
     if (!ok_) inner.Fail();
     return inner;
   }
-  // Reads the content of the encapsulation that `octets` are.
+  // A reader of the content of the encapsulation `octets`.
   static CdrReader OfEncapsulation(std::string_view octets, int minor = 2) {
     CdrReader inner(octets, !octets.empty() && octets.front() == 1, minor, 1);
     if (!octets.empty() && static_cast<unsigned char>(octets.front()) > 1) inner.Fail();

@@ -1,7 +1,7 @@
-// What can be foreseen to go wrong, as a value: a code, a sentence, and where.
+// Expected failures as values: a code, a sentence and a place.
 //
-// A message says what was expected, what was found and what to do, and `where` names the file
-// (and line), element path or address it concerns. An error is either returned or logged, never
+// A message says what was expected, what was found and what to do. `where` names the file (and
+// line), element path or address that it concerns. An error is either returned or logged, never
 // both.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace gsv::base {
 
-// Each code is one reaction of the caller; the command line maps them to its exit codes.
+// Each code stands for one reaction of the caller. The command line maps codes to exit codes.
 enum class ErrorCode {
   kInvalidArgument,  // a request that can never succeed as it stands (exit code 2)
   kBadModel,         // a world, robot, mesh or texture that cannot be used (3)

@@ -1,6 +1,6 @@
-// A running hash over bit patterns, equal on every x86-64 machine (XXH3, 64 bits).
+// An incremental hash of bit patterns, equal on every x86-64 machine (XXH3, 64 bits).
 //
-// Only plain scalars go in, one by one, so that padding and pointers cannot.
+// It takes single scalars only, so that padding and pointers cannot enter.
 #pragma once
 
 #include <bit>
@@ -23,7 +23,7 @@ class Hash {
   void Add(std::uint64_t value);
   void Add(std::int64_t value) { Add(static_cast<std::uint64_t>(value)); }
   void Add(double value) { Add(std::bit_cast<std::uint64_t>(value)); }
-  // The length goes in as well, so that "ab", "c" and "a", "bc" differ.
+  // Adds the length as well, so that "ab", "c" and "a", "bc" differ.
   void Add(std::string_view bytes);
 
   std::uint64_t Digest() const;

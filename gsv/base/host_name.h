@@ -5,8 +5,8 @@
 
 namespace gsv::base {
 
-// What this machine calls itself, which others need not know it by; "localhost" where it has no
-// name.
+// The name that this machine has for itself, which other machines need not know; "localhost" if it
+// has none.
 std::string HostName();
 
 }  // namespace gsv::base

@@ -1,11 +1,11 @@
-// The program's log: one line an event, on stderr, in a bounded volume.
+// The program's log: one line per event on stderr, with a limited rate.
 //
 // Text    12:03:04.567 warning: text
 // JSON    {"time":"2024-05-06T12:03:04.567Z","level":"warning","message":"text","pid":1,"thread":2}
-// One line  whatever a message holds: control characters are written as \n, \t, \x1b.
-// Bounded   lines of a length, and so many a second (see LogRateLimiter); what was left out is counted
-//           and told.
-// Secrets   that were hidden are replaced wherever they occur.
+// One line  per message: control characters are escaped as \n, \t, \x1b.
+// Bounded   the length of lines, and their rate (see LogRateLimiter). The log reports how many
+//           lines were left out.
+// Secrets   that are registered with RedactInLog() are replaced in every message.
 // Threads   any, but for InitLogging().
 #pragma once
 
@@ -24,17 +24,18 @@ enum class LogFormat { kText, kJson };
 struct LogOptions {
   spdlog::level::level_enum level = spdlog::level::warn;
   LogFormat format = LogFormat::kText;
-  std::size_t lines_per_second = 20;  // in the long run; fifty times as many at once
-  std::size_t line_bytes = 8192;      // of a message; the rest is cut off
+  std::size_t lines_per_second = 20;  // on average; a burst may have fifty times as many
+  std::size_t line_bytes = 8192;      // of a message; longer ones are truncated
 };
 
-// trace, debug, info, warning, error, off. kInvalidArgument, naming them: none of these.
+// Reads "trace", "debug", "info", "warning", "error" or "off". kInvalidArgument, listing these, for
+// other text.
 Result<spdlog::level::level_enum> ParseLogLevel(const std::string& text);
-// text, json.
+// Reads "text" or "json".
 Result<LogFormat> ParseLogFormat(const std::string& text);
 
-// As the variables GSV_LOG_LEVEL and GSV_LOG_FORMAT say; `level` where they say nothing, or
-// nonsense.
+// The options from the variables GSV_LOG_LEVEL and GSV_LOG_FORMAT. `level` is the default, also for
+// a variable with an invalid value.
 LogOptions LogOptionsFromEnvironment(spdlog::level::level_enum level);
 
 // Makes spdlog's default logger this log. Call once in main().
@@ -43,10 +44,10 @@ inline void InitLogging(spdlog::level::level_enum level) {
   InitLogging(LogOptionsFromEnvironment(level));
 }
 
-// From now on nothing that is logged shows `secret`.
+// Replaces `secret` in all later messages.
 void RedactInLog(const std::string& secret);
 
-// Since the process started.
+// Numbers of lines since the process started.
 struct LogCounts {
   std::uint64_t written = 0;
   std::uint64_t suppressed = 0;

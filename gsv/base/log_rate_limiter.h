@@ -1,6 +1,6 @@
-// How many lines a log may write: a bucket of lines that fills at a steady rate (a token bucket).
+// Limits the number of lines that a log writes, with a token bucket that fills at a constant rate.
 //
-// Time comes from outside, so that the outcome is a function of what is asked.
+// The caller passes the time, so that the result is a function of the arguments.
 #pragma once
 
 #include <chrono>
@@ -14,11 +14,11 @@ class LogRateLimiter {
  public:
   using Time = std::chrono::nanoseconds;  // since some instant
 
-  // Fifty seconds' worth may be written at once.
+  // A burst may have the lines of fifty seconds.
   explicit LogRateLimiter(std::size_t lines_per_second)
       : rate_(static_cast<double>(lines_per_second)), capacity_(50 * rate_), left_(capacity_) {}
 
-  // Whether a line may be written now.
+  // Takes a line from the bucket. False: the line must not be written.
   bool Take(Time now) {
     const double seconds = std::chrono::duration<double>(now - last_).count();
     if (has_begun_ && seconds > 0) left_ = left_ + seconds * rate_;
@@ -33,7 +33,7 @@ class LogRateLimiter {
     return true;
   }
 
-  // How many were refused since this was last asked.
+  // The number of refused lines since the last call.
   std::uint64_t TakeSuppressed() { return std::exchange(suppressed_, 0); }
 
  private:

@@ -1,4 +1,4 @@
-// What a message becomes in the log.
+// The text of a message in the log.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@
 
 namespace gsv::base {
 
-// On one line: control characters and what is not UTF-8 are written as \n, \t, \xNN. Cut off at
-// `max_bytes`, with the number of bytes that are missing. `secrets` are replaced by "(hidden)".
+// The message on one line: control characters and invalid UTF-8 are escaped as \n, \t, \xNN.
+// Truncated to `max_bytes`, followed by the number of missing bytes. Each of `secrets` is replaced
+// by "(hidden)".
 std::string LogLine(std::string_view message, std::size_t max_bytes,
                     const std::vector<std::string>& secrets);
 
-// Between quotes, as JSON has it; `line` comes from LogLine().
+// The line as a JSON string in quotes. `line` comes from LogLine().
 std::string JsonText(std::string_view line);
 
 }  // namespace gsv::base

@@ -1,4 +1,4 @@
-// Mutexes that clang's thread-safety analysis knows; otherwise as those of the standard library.
+// The standard library's mutexes with annotations for clang's thread-safety analysis.
 //
 //   base::Mutex mutex_;
 //   int count_ GSV_GUARDED_BY(mutex_) = 0;
@@ -68,7 +68,7 @@ class GSV_CAPABILITY("mutex") SharedMutex {
   std::shared_mutex mutex_;
 };
 
-// Holds a mutex as long as it lives, but for what lies between unlock() and lock().
+// Holds a mutex for its lifetime, except between unlock() and lock().
 template <class M>
 class GSV_SCOPED_CAPABILITY ScopedLock {
  public:
@@ -125,8 +125,9 @@ class GSV_SCOPED_CAPABILITY ReaderLock {
   bool is_held_ = true;
 };
 
-// Waits with a MutexLock that is held. A predicate is called under that lock; if it uses what the
-// mutex guards, it is declared so: [this]() GSV_REQUIRES(mutex_) { return is_done_; }.
+// A condition variable for MutexLock, which the caller holds. Predicates are called with the lock
+// held. A predicate that reads guarded members is declared [this]() GSV_REQUIRES(mutex_) { return
+// is_done_; }.
 class ConditionVariable {
  public:
   void notify_one() { condition_.notify_one(); }
@@ -163,7 +164,7 @@ class ConditionVariable {
   }
 
  private:
-  // The standard's lock over the same mutex, which stays held at its end.
+  // A std::unique_lock of the same mutex, which its destructor leaves locked.
   struct Inner {
     explicit Inner(MutexLock& outer) : lock(outer.mutex_.mutex_, std::adopt_lock) {}
     ~Inner() { lock.release(); }

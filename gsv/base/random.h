@@ -1,8 +1,8 @@
-// Counter-based random numbers: the value is a pure function of a key and a counter, so that
-// nobody's draw depends on who drew before.
+// Counter-based random numbers: a value is a pure function of a key and a counter, so that no draw
+// depends on earlier draws.
 //
-// Source       Philox4x32-10: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as
-//              1, 2, 3", SC 2011. Checked against that paper's published known answers.
+// Source       Philox4x32-10: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1,
+//              2, 3", SC 2011. Tests compare with the paper's published values.
 // Determinism  integer arithmetic only, except Gaussian(), which uses libm's log, sin and cos.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace gsv::base {
 std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 2> key,
                                         std::array<std::uint32_t, 4> counter);
 
-// A 64-bit name for a string, equal on every machine (FNV-1a).
+// A 64-bit hash of a string, equal on every machine (FNV-1a).
 std::uint64_t StableId(std::string_view name);
 
 // The noise of one sensor at one step. Draws are numbered, and equal for equal arguments.

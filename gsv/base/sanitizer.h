@@ -1,4 +1,4 @@
-// Which sanitizer the program was compiled with, for the few who must know.
+// The sanitizer that the program was compiled with.
 #pragma once
 
 namespace gsv::base {
@@ -15,11 +15,12 @@ inline constexpr bool kHasThreadSanitizer = true;
 inline constexpr bool kHasThreadSanitizer = false;
 #endif
 
-// They reserve terabytes of addresses, and use little of them: a bound on addresses cannot hold.
+// These sanitizers reserve terabytes of addresses and use few, so that the address space cannot be
+// limited.
 inline constexpr bool kReservesAddressSpace = kHasAddressSanitizer || kHasThreadSanitizer;
 
-// How much longer than usual to wait for a program: it takes two to ten times as long. (GCC 12 does
-// not say that UndefinedBehaviorSanitizer is there, so the build does.)
+// Factor on the time that a program may take: sanitizers slow programs down by two to ten times.
+// The build defines GSV_SANITIZED, as GCC 12 has no macro for UndefinedBehaviorSanitizer.
 #if defined(GSV_SANITIZED)
 inline constexpr int kSlowdown = 5;
 #else

@@ -1,6 +1,7 @@
 // Simulated time: integer nanoseconds since the start of the simulation.
 //
-// Never the wall clock; code that measures wall time uses std::chrono::steady_clock and says so.
+// SimTime is never wall-clock time. Code that measures wall-clock time uses
+// std::chrono::steady_clock.
 #pragma once
 
 #include <chrono>
@@ -17,7 +18,7 @@ inline SimTime FromSeconds(double seconds) {
   return SimTime(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
 }
 
-// As messages carry it. `time` is not before the start.
+// The number that messages carry. `time` must not be negative.
 inline std::uint64_t NanosecondsOf(SimTime time) {
   return static_cast<std::uint64_t>(time.count());
 }

@@ -1,4 +1,4 @@
-// A folder of one's own for as long as it is needed.
+// A temporary folder that its owner removes.
 //
 // Threads  one owner.
 #pragma once
@@ -13,8 +13,8 @@ namespace gsv::base {
 
 class TemporaryFolder {
  public:
-  // Makes a folder for this user alone, below the system's folder for temporary files, whose name
-  // begins with `prefix`.
+  // Creates a folder that only this user can access, below the system's folder for temporary files.
+  // Its name begins with `prefix`.
   static Result<TemporaryFolder> Make(const std::string& prefix);
 
   TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
@@ -22,7 +22,7 @@ class TemporaryFolder {
     std::swap(path_, other.path_);
     return *this;
   }
-  // Removes it with all that is in it.
+  // Removes the folder and its content.
   ~TemporaryFolder();
 
   const std::filesystem::path& path() const { return path_; }

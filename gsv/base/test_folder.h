@@ -1,4 +1,4 @@
-// A folder for a test's own files, gone with the test.
+// A folder for a test's files, removed after the test.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ class TestFolder {
  public:
   const std::filesystem::path& path() const { return folder_.path(); }
 
-  // `name` may have folders in it; they are made. Returns the file's path.
+  // Creates a file and the folders in `name`. Returns the file's path.
   std::filesystem::path Write(const std::string& name, const std::string& content) const {
     const std::filesystem::path file = path() / name;
     std::filesystem::create_directories(file.parent_path());

@@ -1,6 +1,5 @@
-// What a test measures, as a table for tools/plot_fidelity: the file NAME.dat in the folder that
-// the environment names in GSV_FIDELITY_DATA, to which each table of the name adds. Without it,
-// nothing.
+// Writes the measurements of a test for tools/plot_fidelity: appends rows to NAME.dat in the folder
+// GSV_FIDELITY_DATA. Does nothing if that variable is not set.
 #pragma once
 
 #include <cstdlib>

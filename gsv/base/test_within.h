@@ -1,4 +1,4 @@
-// Tests that a measured value is near the expected one, and that leave behind how near it was.
+// Assertions that a measured value is close to the expected one, which also record the error.
 //
 //   EXPECT_WITHIN(robot.x, 2.0, 1e-9, "m") << "at " << speed;  // |measured - expected| <= 1e-9
 //   EXPECT_WITHIN_PERCENT(period, expected, 0.1);              // of the expected value
@@ -6,8 +6,7 @@
 //
 // The running test keeps the largest error for each bound and unit as its property (GoogleTest's
 // RecordProperty) "within BOUND UNIT", as in "within 1e-09 m": "3.2e-14";
-// tools/make_fidelity_tables reads these from GoogleTest's reports. What is not a number is not
-// near anything.
+// tools/make_fidelity_tables reads these from GoogleTest's reports. A NaN fails the assertion.
 #pragma once
 
 #include <cmath>
@@ -25,7 +24,8 @@ inline std::string FormatNumber(double value) {
   return text;
 }
 
-// Keeps the error with the running test, unless it keeps a larger one of this bound and unit.
+// Records the error as a property of the running test, unless a larger one of this bound and unit
+// is recorded.
 inline void RecordLargestError(double error, double bound, const std::string& unit) {
   const std::string key = "within " + FormatNumber(bound) + " " + unit;
   const ::testing::TestInfo* const test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -36,7 +36,8 @@ inline void RecordLargestError(double error, double bound, const std::string& un
   ::testing::Test::RecordProperty(key, FormatNumber(error));
 }
 
-// `error` is in the unit, as `bound` is; the texts are what stands in the source.
+// Records `error` and compares it with `bound`, both in `unit`. The texts are the expressions of
+// the source.
 inline ::testing::AssertionResult CheckError(double error, double bound, const std::string& unit,
                                              const char* measured_text, double measured,
                                              const char* expected_text, double expected) {

@@ -1,5 +1,5 @@
-// Marks which mutex guards what, so that clang checks it (-Wthread-safety; tools/tidy runs it with
-// every finding an error). Other compilers see nothing.
+// Annotations for clang's thread-safety analysis (-Wthread-safety; in tools/tidy every finding is
+// an error). They are empty for other compilers.
 //
 // Source  https://clang.llvm.org/docs/ThreadSafetyAnalysis.html
 #pragma once
@@ -10,18 +10,19 @@
 #define GSV_THREAD_ATTRIBUTE(x)
 #endif
 
-// A class whose objects are locks, and one that holds such a lock as long as it lives.
+// A class of mutexes, and a class that holds a mutex for its lifetime.
 #define GSV_CAPABILITY(name) GSV_THREAD_ATTRIBUTE(capability(name))
 #define GSV_SCOPED_CAPABILITY GSV_THREAD_ATTRIBUTE(scoped_lockable)
 
-// Members: to be read and written with the mutex held; a pointer whose target is.
+// Members that are accessed with the mutex held only, and pointers whose target is.
 #define GSV_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(guarded_by(mutex))
 #define GSV_PT_GUARDED_BY(mutex) GSV_THREAD_ATTRIBUTE(pt_guarded_by(mutex))
 
-// Mutexes: the order in which a thread takes them.
+// The order in which a thread locks mutexes.
 #define GSV_ACQUIRED_AFTER(...) GSV_THREAD_ATTRIBUTE(acquired_after(__VA_ARGS__))
 
-// Functions: the caller holds the mutex; must not hold it; holds it afterwards; no longer does.
+// Functions whose caller holds the mutex, must not hold it, holds it afterwards, or no longer holds
+// it.
 #define GSV_REQUIRES(...) GSV_THREAD_ATTRIBUTE(requires_capability(__VA_ARGS__))
 #define GSV_REQUIRES_SHARED(...) GSV_THREAD_ATTRIBUTE(requires_shared_capability(__VA_ARGS__))
 #define GSV_EXCLUDES(...) GSV_THREAD_ATTRIBUTE(locks_excluded(__VA_ARGS__))
@@ -36,5 +37,5 @@
 // called under it.
 #define GSV_ASSERT_HELD(...) GSV_THREAD_ATTRIBUTE(assert_capability(__VA_ARGS__))
 
-// Functions that the analysis cannot follow. The comment beside it says why they are right.
+// Functions that the analysis cannot check. A comment beside them gives the reason.
 #define GSV_NO_THREAD_SAFETY_ANALYSIS GSV_THREAD_ATTRIBUTE(no_thread_safety_analysis)

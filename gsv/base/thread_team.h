@@ -1,8 +1,8 @@
-// Threads that share out one range of work at a time and wait for each other.
+// A thread pool for parallel loops: one range of work at a time.
 //
-// Threads      one caller of ParallelFor() at a time; it works along.
-// Determinism  which thread takes which piece is not determined: pieces must not depend on each
-//              other, and what they write must not depend on how the range is cut.
+// Threads      one caller of ParallelFor() at a time, which takes part in the work.
+// Determinism  the assignment of pieces to threads varies. So pieces must not depend on each other,
+//              and their results must not depend on how the range is divided.
 #pragma once
 
 #include <atomic>
@@ -17,11 +17,11 @@ namespace gsv::base {
 
 class ThreadTeam {
  public:
-  // As many as the machine has processors, but not more than `kMaxDefaultThreads`.
+  // The number of processors, but at most `kMaxDefaultThreads`.
   static int DefaultThreads();
   static constexpr int kMaxDefaultThreads = 16;
 
-  // `threads` >= 1, the caller of ParallelFor() among them.
+  // `threads` >= 1, including the caller of ParallelFor().
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -29,9 +29,9 @@ class ThreadTeam {
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  // Calls work(begin, end) for pieces of at most `grain` that together are [0, count), and returns
-  // when all are done. A single piece is done by the caller alone: small work pays for no thread.
-  // `work` does not throw and calls no ParallelFor() itself.
+  // Calls work(begin, end) for pieces of at most `grain` that cover [0, count), and returns when
+  // all are done. The caller does a single piece alone, without waking a thread. `work` does not
+  // throw and calls no ParallelFor() itself.
   template <class Work>
   void ParallelFor(std::size_t count, std::size_t grain, const Work& work) {
     if (count <= grain || workers_.empty()) {
@@ -54,22 +54,23 @@ class ThreadTeam {
   void Work(std::size_t self);
   void WaitForWorkers();
   void RunPieces(std::size_t self);
-  // Waits for a job that is open and takes part in it; false at the end.
+  // Waits for an open job and takes part in it. False when the team ends.
   bool Join();
   bool TryJoin();
 
-  // While a job is open workers may join it; whoever finds no piece left closes it, and the caller
-  // waits for those who joined. A worker that wakes too late is not waited for.
+  // Workers may join a job while it is open. The first thread that finds no piece left closes it,
+  // and the caller waits for the workers that have joined. Workers that wake later are not waited
+  // for.
   static constexpr unsigned kOpen = 1u << 31;
   Job job_;
-  // A thread's own part of the range. It begins there, so that from one job to the next it tends to
-  // find what it works on in its own cache; then it helps the others.
+  // The part of the range that a thread begins with. Equal parts in successive jobs keep data in
+  // the thread's cache. Afterwards the thread helps others.
   struct alignas(64) Part {
     std::atomic<std::size_t> next{0};  // where the next piece begins
     std::size_t end = 0;
   };
-  std::vector<Part> parts_;         // of each thread, the caller's first
-  std::atomic<unsigned> state_{0};  // kOpen, and how many workers have joined
+  std::vector<Part> parts_;         // one per thread, the caller's first
+  std::atomic<unsigned> state_{0};  // kOpen, and the number of workers that have joined
   std::atomic<bool> is_stopping_{false};
   Mutex mutex_;
   ConditionVariable called_;

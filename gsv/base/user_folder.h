@@ -1,4 +1,4 @@
-// Where this user's processes on this machine find each other.
+// The folder in which this user's processes on this machine find each other.
 //
 // Threads  any.
 #pragma once
@@ -9,8 +9,9 @@
 
 namespace gsv::base {
 
-// $XDG_RUNTIME_DIR/gsv, or /tmp/gsv-UID where there is no such variable; made when it is not there.
-// Fails when it can't be, or when others may write to it: anybody may make a folder in /tmp.
+// $XDG_RUNTIME_DIR/gsv, or /tmp/gsv-UID if that variable is not set. Creates the folder if it does
+// not exist. Fails if that is not possible, or if others may write to the folder, as anybody may
+// create folders in /tmp.
 Result<std::filesystem::path> UserFolder();
 
 }  // namespace gsv::base

@@ -2,11 +2,11 @@
 // at /docs/, an HTTP API, and live data over the Foxglove WebSocket protocol at /ws. See
 // docs/formats/live.md and docs/api.yaml.
 //
-// There is one gateway, with one of three sets of routes: of the simulations of this program, of a
-// recording that is replayed (the same addresses and messages, so that the same viewer shows it),
-// or of another instance whose simulations are relayed.
+// A gateway has one of three sets of routes: the simulations of this program; a recording that is
+// replayed; or another instance whose simulations are relayed. All have the same addresses and
+// messages, so that the same viewer shows them.
 //
-// Threads  its own; the stepping threads of simulations are never waited for, nor do they wait.
+// Threads  its own; it never waits for stepping threads, nor they for it.
 #pragma once
 
 #include <filesystem>
@@ -28,40 +28,40 @@ namespace gsv::gateway {
 
 struct GatewayOptions : ServerOptions {
   std::string version;  // of the program, for /metrics
-  // Null: /metrics says nothing of the broker.
+  // Null: /metrics has no numbers of the broker.
   std::function<metrics::BrokerCalls()> broker_calls{};
   std::filesystem::path web_root;     // the viewer's files; may be absent
   std::filesystem::path docs_root{};  // the documentation's files; may be absent
-  // Null: nothing is recorded. Outlives the gateway.
+  // Null: recording is not available. Must outlive the gateway.
   RecordingSwitch* recordings = nullptr;
-  // Null: nobody can create a simulation here. Outlives the gateway.
+  // Null: simulations cannot be created. Must outlive the gateway.
   SimulationFactory* factory = nullptr;
-  // The folder whose recordings can be listed and replayed here; empty: none can.
+  // The folder of recordings to list and replay; empty: none.
   std::filesystem::path recordings_folder{};
-  std::string only_recording{};  // of those in the folder; empty: all
+  std::string only_recording{};  // a file in the folder; empty: all
   uploads::UploadLimits uploads{};
   recordings::SessionLimits replays{};
-  std::vector<Route> routes{};  // further ones, beside those of the simulations of this program
+  std::vector<Route> routes{};  // additional routes, for simulations of this program
 };
 
 // An instance whose simulations are relayed.
 struct RelayedInstance {
-  std::string url;          // as it printed it: "http://192.168.1.7:8080/"
-  std::string token{};      // shown there on behalf of all clients of the relay; empty: none
+  std::string url;          // as printed by it: "http://192.168.1.7:8080/"
+  std::string token{};      // used for all clients of the relay; empty: none
   std::string authority{};  // a PEM file with the certificates to trust; empty: the system's
 };
 
 class Gateway {
  public:
-  // Of the simulations of this program. All three fail when the port cannot be had.
+  // Serves the simulations of this program. All three fail if the port is not available.
   static base::Result<std::unique_ptr<Gateway>> Start(
       const GatewayOptions& options, std::shared_ptr<SimulationDirectory> directory);
-  // Of a recording. `player` outlives the gateway.
+  // Serves a recording. `player` must outlive the gateway.
   static base::Result<std::unique_ptr<Gateway>> StartReplay(const GatewayOptions& options,
                                                             ReplayPlayer& player);
-  // Of another instance: the viewer's files are our own, requests are forwarded, and of each
-  // simulation that is watched there is one stream, however many viewers watch here. Asks there
-  // once, and fails when no gsv answers. If the instance goes away later, it is waited for.
+  // Relays another instance: serves the viewer's files, forwards requests, and opens one stream per
+  // watched simulation, whatever the number of viewers here. Connects once, and fails if no gsv
+  // answers. If the instance disappears later, the relay reconnects.
   static base::Result<std::unique_ptr<Gateway>> StartRelay(const GatewayOptions& options,
                                                            const RelayedInstance& there);
   virtual ~Gateway() = default;
@@ -70,7 +70,7 @@ class Gateway {
   virtual std::uint16_t port() const = 0;
   virtual std::string url() const = 0;  // "http://127.0.0.1:8080/"
 
-  // Disconnects all viewers. Waits for requests under way.
+  // Disconnects all viewers. Waits for pending requests.
   virtual void Stop() = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a gateway serves beside what all gateways have in common.
+// The routes of one kind of gateway, besides the common ones.
 #pragma once
 
 #include <memory>
@@ -13,23 +13,23 @@ namespace gsv::gateway {
 class RouteSet {
  public:
   virtual ~RouteSet() = default;
-  // Their handlers live as long as this.
+  // The handlers are valid during the lifetime of this object.
   virtual std::vector<Route> Routes() = 0;
   // See Handler.
   virtual base::Status CheckControl(const std::string& /*viewer*/,
                                     const std::string& /*simulation*/) {
     return {};
   }
-  // Ends the streams. Handlers may still be running, and streams be asked for.
+  // Ends the streams. Handlers may still run and request streams.
   virtual void Stop() {}
 };
 
-// `commanders` runs what viewers command over their WebSockets, and outlives the set.
+// `commanders` runs the commands of WebSockets, and must outlive the set.
 std::unique_ptr<RouteSet> MakeLiveRoutes(const GatewayOptions& options,
                                          std::shared_ptr<SimulationDirectory> directory,
                                          WorkerPool& commanders);
 std::unique_ptr<RouteSet> MakeReplayRoutes(const GatewayOptions& options, ReplayPlayer& player);
-// Fails when no gsv answers there.
+// Fails if no gsv answers.
 base::Result<std::unique_ptr<RouteSet>> MakeRelayRoutes(const RelayedInstance& there,
                                                         WorkerPool& commanders);
 

@@ -1,4 +1,4 @@
-// Numbers that geometry is full of. Elsewhere: `using geometry::kPi;`.
+// Mathematical constants. In other namespaces: `using geometry::kPi;`.
 #pragma once
 
 #include <limits>

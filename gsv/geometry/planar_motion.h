@@ -13,9 +13,9 @@
 
 namespace gsv::geometry {
 
-// The sine and cosine of an angle. Of the small ones that a step turns by, without the library's
-// reduction of its argument, which costs several times as much: the series' first term left out is
-// below 2^-68 of the result.
+// The sine and cosine of an angle. Small angles, as of one step, avoid the library's argument
+// reduction, which is several times slower: the first omitted term of the series is below 2^-68 of
+// the result.
 struct SineCosine {
   explicit SineCosine(double angle) {
     if (!(std::abs(angle) < 0.125)) {
@@ -44,7 +44,7 @@ struct PlanarPosition {
   double x = 0, y = 0;
   double cosine = 1, sine = 0;
 
-  // Takes away what rounding has done to the length of the heading, which must be nearly 1.
+  // Corrects rounding errors of the length of the heading, which must be nearly 1.
   void Normalize() {
     const double correction = 1.5 - 0.5 * (cosine * cosine + sine * sine);
     cosine *= correction, sine *= correction;
@@ -53,13 +53,13 @@ struct PlanarPosition {
   friend bool operator==(const PlanarPosition&, const PlanarPosition&) = default;
 };
 
-// Where a point given in the base's frame is.
+// The position of a point that is given in the base's frame.
 inline Vector2 PointAt(Vector2 point, const PlanarPosition& at) {
   return {at.x + (at.cosine * point.x - at.sine * point.y),
           at.y + (at.sine * point.x + at.cosine * point.y)};
 }
 
-// Of a point of the base, in the base's frame.
+// The velocity of a point of the base, in the base's frame.
 struct Twist {
   double x = 0, y = 0;  // m/s forward, to the left
   double angular = 0;   // rad/s counter-clockwise
@@ -68,7 +68,7 @@ struct Twist {
 
 inline bool Moves(const Twist& twist) { return twist.x != 0 || twist.y != 0 || twist.angular != 0; }
 
-// Where a base that starts at `from` is after `seconds`.
+// The position after `seconds` of a base that starts at `from`.
 inline PlanarPosition Advance(const PlanarPosition& from, const Twist& twist, double seconds) {
   double forward = twist.x * seconds, left = twist.y * seconds;
   PlanarPosition to = from;

@@ -26,7 +26,7 @@ inline Vector3 operator*(const Quaternion& rotation, const Vector3& vector) {
   return vector + 2.0 * Cross(u, Cross(u, vector) + rotation.w * vector);
 }
 inline Quaternion Inverse(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
-// Of a quaternion of length zero: the identity.
+// The identity for a quaternion of length zero.
 inline Quaternion Normalized(const Quaternion& q) {
   const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   if (!(length > 0)) return {};
@@ -63,7 +63,7 @@ inline Pose Inverse(const Pose& a_from_b) {
   return {-(b_from_a * a_from_b.position), b_from_a};
 }
 
-// On level ground: at (x, y, z), turned by `yaw` about z.
+// A pose on level ground: at (x, y, z), rotated by `yaw` about z.
 Pose PlanarPose(double x, double y, double z, double yaw);
 
 // The same angle in (-pi, pi].

@@ -32,12 +32,12 @@ struct Ellipsoid {
 struct Cone {
   double radius = 0.5, length = 1;
 };
-// To collide with, a half-space that ends at the plane; to look at, a rectangle of this size.
+// As a collision: a half-space below the plane. As a visual: a rectangle of this size.
 struct Plane {
   Vector3 normal{0, 0, 1};  // unit length
   Vector2 size{1, 1};
 };
-// Shared between all who use it; never null.
+// Shared between its users; never null.
 struct Mesh {
   std::shared_ptr<const TriangleMesh> triangles;
   Vector3 scale{1, 1, 1};
@@ -45,13 +45,12 @@ struct Mesh {
 
 using Shape = std::variant<Box, Sphere, Cylinder, Capsule, Ellipsoid, Cone, Plane, Mesh>;
 
-// The surface as triangles with normals and texture coordinates; of a Mesh its scaled copy. Round
-// shapes take `segments` (at least 3) around, their vertices lie on the true surface, and the
-// triangles stay within radius * (1 - cos(pi / segments)) of it, twice that where the surface
-// curves both ways.
+// The surface as triangles with normals and texture coordinates; for a Mesh a scaled copy. Round
+// shapes have `segments` (at least 3) around. Their vertices lie on the true surface, and the
+// triangles within radius * (1 - cos(pi / segments)) of it, twice that for doubly curved surfaces.
 TriangleMesh Tessellate(const Shape& shape, int segments = 32);
 
-// The smallest box around the shape, its axes along the shape's frame. Of a Plane: its rectangle.
+// The smallest box around the shape along the axes of its frame. For a Plane: its rectangle.
 Bounds BoundsOf(const Shape& shape);
 
 }  // namespace gsv::geometry

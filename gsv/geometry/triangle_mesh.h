@@ -1,4 +1,4 @@
-// Triangles with what is needed to draw and to hit them.
+// A triangle mesh for rendering and collisions.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct MeshPart {
 struct TriangleMesh {
   std::vector<Vector3> positions;            // metres
   std::vector<Vector3> normals;              // unit length
-  std::vector<Vector2> texture_coordinates;  // (0, 0) is the picture's lower left corner
+  std::vector<Vector2> texture_coordinates;  // (0, 0) is the image's lower left corner
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<MeshPart> parts;
 };
@@ -33,7 +33,7 @@ struct Bounds {
   Vector3 min, max;
 };
 
-// Of a mesh without vertices: the origin.
+// The bounding box; the origin for a mesh without vertices.
 Bounds BoundsOf(const TriangleMesh& mesh);
 
 }  // namespace gsv::geometry

@@ -1,4 +1,4 @@
-// Two and three coordinates in double precision.
+// Vectors with two and three components in double precision.
 //
 // Plain data with a fixed order of operations: equal inputs give equal bits (docs/adr/003).
 #pragma once
@@ -51,12 +51,12 @@ inline Vector3 Cross(const Vector3& a, const Vector3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double Norm(const Vector3& a) { return std::sqrt(Dot(a, a)); }
-// Of a vector of length zero: the x axis.
+// The x axis for a vector of length zero.
 inline Vector3 Normalized(const Vector3& a) {
   const double length = Norm(a);
   return length > 0 ? a * (1.0 / length) : Vector3{1, 0, 0};
 }
-// Component by component, as for a scale.
+// The component-wise product, as for a scale.
 inline Vector3 Scaled(const Vector3& a, const Vector3& scale) {
   return {a.x * scale.x, a.y * scale.y, a.z * scale.z};
 }

@@ -1,5 +1,5 @@
-// A function with a stack of its own that can be left in the middle and gone on with later, on any
-// thread. (Boost.Context does the switching.)
+// A function with its own stack that can be suspended and resumed later, on any thread (implemented
+// with Boost.Context).
 //
 // Threads  one at a time.
 #pragma once
@@ -16,16 +16,16 @@ namespace gsv::hosting {
 
 class Fibre {
  public:
-  // `body` begins with the first Resume(). It lets no exception out.
+  // `body` begins with the first Resume(). It must not throw.
   explicit Fibre(std::function<void()> body);
-  // A body that has suspended itself is unwound.
+  // Unwinds a suspended body.
   ~Fibre();
   Fibre(const Fibre&) = delete;
   Fibre& operator=(const Fibre&) = delete;
 
-  // From outside: runs until the body suspends itself or has returned.
+  // Called from outside: runs the body until it suspends itself or returns.
   void Resume();
-  // From within the body: goes back to who resumed it.
+  // Called from the body: returns to the caller of Resume().
   void Suspend();
 
   bool has_ended() const { return has_ended_; }

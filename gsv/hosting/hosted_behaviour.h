@@ -1,8 +1,8 @@
-// A gsv::Behaviour inside this process, driving one robot of one simulation: the same class that
-// runs as a program of its own, with the same outcome.
+// A gsv::Behaviour in this process, which drives one robot of one simulation. The same class runs
+// as a program, with the same result.
 //
-// A Controller's turns are plain calls; any other behaviour has a fibre, which is left in each
-// wait.
+// The turns of a Controller are plain calls. Any other behaviour has a fibre, which each wait
+// suspends.
 #pragma once
 
 #include <atomic>
@@ -37,8 +37,8 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
  private:
   void Run() GSV_REQUIRES(mutex_);
   void Control(simulation::Turn& turn) GSV_REQUIRES(mutex_);
-  void EndTurn(simulation::Turn& turn) GSV_REQUIRES(mutex_);  // as the last
-  // The behaviour finds that its run is over and returns.
+  void EndTurn(simulation::Turn& turn) GSV_REQUIRES(mutex_);  // after the last turn
+  // Ends the run, so that the behaviour returns.
   void EndRun() GSV_REQUIRES(mutex_);
   base::Status Guarded(const char* what, const std::function<base::Status()>& call);
 
@@ -55,7 +55,7 @@ class HostedBehaviour final : public simulation::LocalBehaviour {
   Controller* controller_ GSV_GUARDED_BY(mutex_) = nullptr;
   std::optional<SimTime> next_ GSV_GUARDED_BY(mutex_);  // a controller's next instant
   std::vector<Reading> readings_ GSV_GUARDED_BY(mutex_);
-  std::string failure_ GSV_GUARDED_BY(mutex_);  // what ended the run, if it was an error
+  std::string failure_ GSV_GUARDED_BY(mutex_);  // the error that ended the run, if any
 };
 
 }  // namespace gsv::hosting

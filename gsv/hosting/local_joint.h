@@ -1,6 +1,6 @@
-// A joint of a robot that a behaviour inside this process drives.
+// A joint of a robot for a behaviour in this process.
 //
-// Threads  the thread that takes the behaviour's turn.
+// Threads  the thread of the behaviour's turn.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace gsv::hosting {
 
 std::vector<JointTraits> TraitsOf(const std::vector<model::Joint>& joints);
 
-// `robot` outlives it. kNotFound when no joint of that name takes commands.
+// `robot` must outlive the joint. kNotFound if no joint of that name takes commands.
 base::Result<std::unique_ptr<Joint>> MakeLocalJoint(LocalRobot& robot,
                                                     const std::vector<model::Joint>& joints,
                                                     const std::string& name);

@@ -1,7 +1,7 @@
-// The Robot that a behaviour inside this process drives. In a turn it acts on the turn; before the
-// first one (in Init) on the agent.
+// The Robot of a behaviour in this process. In a turn its calls go to the turn, before the first
+// one (in Init) to the agent.
 //
-// Threads  the thread that takes the behaviour's turn.
+// Threads  the thread of the behaviour's turn.
 #pragma once
 
 #include <atomic>
@@ -18,19 +18,19 @@ namespace gsv::hosting {
 
 class LocalRobot final : public Robot {
  public:
-  // Goes back to the simulation from within a turn; returns when the next turn has begun.
+  // Returns to the simulation from a turn, and returns to the behaviour when the next turn begins.
   using Suspend = std::function<void()>;
 
   explicit LocalRobot(std::shared_ptr<simulation::Agent> agent) : agent_(std::move(agent)) {}
 
-  // Null between turns.
+  // Sets the current turn; null between turns.
   void SetTurn(simulation::Turn* turn);
   void SetSuspend(Suspend suspend) { suspend_ = std::move(suspend); }
-  // The run is over for the behaviour: waits and calls return from now on.
+  // Ends the run for the behaviour: waits and calls return at once from now on.
   void End() { is_running_ = false; }
   void Note(const base::Error& error);
 
-  // What is read in an exchange, by name; true if all of it is there at once.
+  // Whether all open sensors answer at once. The readings of an exchange, by name.
   bool HasOnlyFastSensors() const;
   void ReadOpenSensors(std::vector<Reading>& readings);
 
@@ -48,18 +48,18 @@ class LocalRobot final : public Robot {
   bool IsRunning() const override { return is_running_; }
   std::string error() const override { return error_; }
 
-  // Empty when the run is over or the sensor fails, which ends the run.
+  // Reads a sensor. Empty if the run is over, or if the sensor fails, which ends the run.
   std::optional<sensing::Reading> Read(simulation::MountedSensor& sensor);
 
-  // What is refused is the caller's to handle; any other failure ends the run.
+  // The caller handles kInvalidArgument; any other failure ends the run.
   base::Status Send(const simulation::MountedSensor& radio, const std::string& receiver,
                     const std::string& content);
 
   base::Status CommandDevice(const simulation::MountedSensor& actuator,
                              world::DeviceCommand command);
 
-  // Of the robot's model, by index. Nothing comes of either when the run is over; a command that is
-  // refused ends it.
+  // Joints by index in the robot's model. Both do nothing after the end of the run. A refused
+  // command ends the run.
   void CommandJoint(int joint, const world::JointCommand& command);
   std::optional<simulation::JointReading> ReadJoint(int joint);
 

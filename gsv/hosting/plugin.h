@@ -1,5 +1,5 @@
-// Behaviours in shared libraries, gsv-NAME.so: what is offered as a program can run inside gsv too.
-// A library that is loaded stays loaded, and is trusted: its faults are this process's.
+// Behaviours in shared libraries, gsv-NAME.so, which can run as programs or inside gsv. A library
+// stays loaded, and is trusted: its faults affect this process.
 //
 // Threads  any.
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace gsv::hosting {
 
-// The file of the behaviour in the first of these folders that holds one; empty if none does.
+// The file of the behaviour in the first of these folders that has one; empty if none has.
 std::string FindPlugin(const std::string& behaviour, const std::vector<std::string>& folders);
 
-// Fails when the file is no library, no behaviour, or built against another version of gsv.
+// Fails if the file is not a library, not a behaviour, or built for another version of gsv.
 base::Result<const BehaviourModule*> LoadPlugin(const std::string& file);
 
 }  // namespace gsv::hosting

@@ -1,4 +1,4 @@
-// A behaviour that does what another did: tells its robot what was recorded, each at its instant.
+// A behaviour that repeats recorded commands, each at its instant.
 #pragma once
 
 #include <atomic>
@@ -25,12 +25,11 @@ struct TimedCommand {
   base::SimTime time{0};
   std::variant<world::DriveCommand, RecordedDeviceCommand, RecordedTransmission> command;
 };
-using TimedCommands = std::vector<TimedCommand>;  // times never fall
+using TimedCommands = std::vector<TimedCommand>;  // in ascending order of time
 
 class RecordedCommands final : public simulation::LocalBehaviour {
  public:
-  // `name`: of the behaviour whose commands they are. `uses_radio`: its radios are on from the
-  // start.
+  // `name`: of the recorded behaviour. `uses_radio`: its radios are on from the start.
   RecordedCommands(std::string name, TimedCommands commands, bool uses_radio = false);
 
   base::Status Init(const std::shared_ptr<simulation::Agent>& agent) override;

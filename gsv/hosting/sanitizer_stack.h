@@ -1,6 +1,5 @@
-// What the sanitizers must be told when a thread goes on on another stack, for what they know of
-// each (sanitizer/common_interface_defs.h, asan_interface.h, tsan_interface.h); nothing in other
-// builds.
+// Notifies the sanitizers when a thread switches stacks (sanitizer/common_interface_defs.h,
+// asan_interface.h, tsan_interface.h). Does nothing in other builds.
 //
 // Threads  one at a time.
 #pragma once
@@ -20,20 +19,20 @@ namespace gsv::hosting {
 
 class SanitizerStack {
  public:
-  // `bottom`: its lowest address.
+  // `bottom`: the lowest address of the stack.
   SanitizerStack(const void* bottom, std::size_t size) : bottom_(bottom), size_(size) {}
 
-  // From outside: around the making of what will run on it, when Boost.Context goes there and back.
-  // Another stack may have lain there, a part of it elsewhere than this one's: its last calls never
-  // returned, so that what they forbade is forbidden still.
+  // From outside: around the creation of the context, when Boost.Context switches to the stack and
+  // back. An earlier stack at these addresses may have left them poisoned, as its last calls never
+  // returned.
   void BeforePreparing() { __asan_unpoison_memory_region(bottom_, size_); }
   void AfterPreparing() {}
 
-  // From outside: just before the thread goes on on this stack, and just after it has come back.
+  // From outside: just before the thread switches to this stack, and just after it has returned.
   void BeforeEntering() { __sanitizer_start_switch_fiber(&outside_frames_, bottom_, size_); }
   void AfterLeaving() { __sanitizer_finish_switch_fiber(outside_frames_, nullptr, nullptr); }
 
-  // On this stack: just after it was entered, the first time or again, and just before it is left.
+  // On this stack: just after each entry, and just before each exit.
   void AfterEntering() {
     __sanitizer_finish_switch_fiber(frames_, &outside_bottom_, &outside_size_);
   }

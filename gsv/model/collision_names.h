@@ -1,4 +1,4 @@
-// How a contact sensor names the collisions that it feels.
+// The names of the collisions of a contact sensor.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@ struct CollisionIndex {
   friend bool operator==(const CollisionIndex&, const CollisionIndex&) = default;
 };
 
-// The parameter of a contact sensor that holds the names, one a line; empty: all collisions.
+// The parameter of a contact sensor that holds the names, one per line; empty: all collisions.
 inline constexpr const char* kCollisionNames = "collision";
 
-// The names that the sensor's description holds. SDFormat's "__default__" is none.
+// The names in the sensor's description, without SDFormat's "__default__".
 std::vector<std::string> CollisionNamesOf(const SensorDescription& sensor);
 
 // The collision of that name for a sensor on `link`: of that link, else of another. The name may

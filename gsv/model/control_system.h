@@ -1,4 +1,4 @@
-// The hardware interfaces behind a robot's joints, as <ros2_control> of its file names them.
+// The hardware interfaces of a robot's joints, from <ros2_control>.
 //
 // Source  ros2_control, "Hardware components": joints with command and state interfaces.
 #pragma once

@@ -15,10 +15,10 @@ enum class DriveKind {
   kAckermann,     // steered front wheels: cannot turn on the spot
   kMecanum,       // moves sideways as well
   kVelocity,      // no wheels: takes the commanded velocity
-  kNone,          // the base stays where it is put; only joints take commands
+  kNone,          // the base does not move; only joints take commands
 };
 
-// Where the knowledge of a drive comes from.
+// The origin of a drive.
 enum class DriveOrigin {
   kPlugin,   // an element of the model's file
   kGuessed,  // the shapes of its wheels, see drive_guess.h
@@ -38,17 +38,16 @@ struct Drive {
   std::vector<int> steered;       // kAckermann: steering joints
   double wheel_separation = 0.3;  // between left and right contact points
   double wheel_radius = 0.1;
-  // kDifferential: the wheels' true radii over wheel_radius, which is what the drive takes them
-  // for.
+  // kDifferential: the true radii of the wheels over wheel_radius, the drive's parameter.
   double left_wheel_scale = 1, right_wheel_scale = 1;
   double wheel_base = 0;        // kAckermann, kMecanum: front to rear axle
   double steering_limit = 0.5;  // kAckermann
   Range linear_velocity, angular_velocity;
   Range linear_acceleration, angular_acceleration;
-  // After this long without a command the base brakes; zero: never.
+  // The base brakes after this time without a command; zero: never.
   base::SimTime command_timeout{0};
   DriveOrigin origin = DriveOrigin::kPlugin;
-  std::string choice;  // kChosen: the text of drive_choice.h that it came from
+  std::string choice;  // kChosen: the text of drive_choice.h
 };
 
 }  // namespace gsv::model

@@ -1,4 +1,4 @@
-// The drive that a user chooses for a robot, and what makes a robot of any model.
+// The drive that a user chooses for a robot, and the conversion of a model to a robot.
 //
 // A choice is a text, the same on the command line, in scenarios and in recordings:
 //
@@ -8,7 +8,7 @@
 // KEY       left, right: a joint that turns a wheel; steer: a joint that steers; each may come
 //           several times, or once with joints joined by "+". radius, separation, wheel_base in
 //           metres, steering_limit in radians.
-// What is left out is taken from the model's own drive of that kind, guessed and measured
+// Missing values are taken from the model's own drive of that kind, else guessed and measured
 // (drive_guess.h).
 #pragma once
 
@@ -28,17 +28,17 @@ struct DriveChoice {
   std::optional<double> radius, separation, wheel_base, steering_limit;
 };
 
-// kInvalidArgument with a sentence that says what is expected.
+// kInvalidArgument with the expected form.
 [[nodiscard]] base::Result<DriveChoice> ParseDriveChoice(const std::string& text);
 
 // The model as a robot. `choice` is a text as above; empty: the model's own drive, else the guessed
-// one, which may be none: then only its joints and sensors are the robot's. Gives the same model
-// where nothing changes. kBadModel when the model lacks what is chosen, or when there is no choice
-// and it has neither a drive nor wheels, movable joints or sensors.
+// one. If there is none, only joints and sensors are used. Returns the same model if nothing
+// changes. kBadModel if the model lacks the chosen joints, or if there is no choice and it has no
+// drive, wheels, movable joints or sensors.
 [[nodiscard]] base::Result<std::shared_ptr<const Model>> AsRobot(std::shared_ptr<const Model> model,
                                                                  const std::string& choice);
 
-// "differential, guessed from wheels left_wheel, right_wheel; radius 0.1 m, separation 0.4 m" of a
+// "differential, guessed from wheels left_wheel, right_wheel; radius 0.1 m, separation 0.4 m" for a
 // model with a drive.
 std::string DescribeDrive(const Model& model);
 

@@ -1,4 +1,4 @@
-// Guesses how a robot drives whose file names no drive, from its wheels.
+// Guesses the drive of a robot from its wheels if its file names none.
 //
 // Rule    the wheels are those of FindWheels() whose axes point across the model.
 //         - A wheel on a joint about the vertical is a caster when that joint turns without end and
@@ -18,11 +18,11 @@
 
 namespace gsv::model {
 
-// Its origin is kGuessed, and its kind kNone where no rule above applies.
+// The guessed drive, with the origin kGuessed. Its kind is kNone if no rule above applies.
 Drive GuessDrive(const Model& model);
 
-// Sets separation, radius, wheel base and steering limit of a drive whose joints are set: what
-// cannot be measured is left as it is.
+// Measures separation, radius, wheel base and steering limit of a drive whose joints are set.
+// Values that cannot be measured are unchanged.
 void MeasureDrive(const Model& model, Drive& drive);
 
 }  // namespace gsv::model

@@ -1,4 +1,4 @@
-// A picture in memory.
+// An image in memory.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Image {
   int height = 0;
   int channels = 3;
   std::vector<std::uint8_t> pixels;
-  std::string source;  // the file it came from, for messages
+  std::string source;  // the file it was read from, for messages
 };
 
 }  // namespace gsv::model

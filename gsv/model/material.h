@@ -1,4 +1,4 @@
-// What a surface looks like.
+// The appearance of a surface.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct Colour {
 // The metallic-roughness model of glTF 2.0. Maps are shared between materials and may be null;
 // a map multiplies the matching factor.
 struct Material {
-  Colour base_colour{0.7, 0.7, 0.7, 1};  // a < 1 is see-through
+  Colour base_colour{0.7, 0.7, 0.7, 1};  // a < 1 is transparent
   Colour emissive{0, 0, 0, 1};
   double metalness = 0;
   double roughness = 0.8;
@@ -25,7 +25,7 @@ struct Material {
   std::shared_ptr<const Image> normal_map;
   std::shared_ptr<const Image> metallic_roughness_map;  // G: roughness, B: metalness
   std::shared_ptr<const Image> emissive_map;
-  // The map is cut out where its alpha is below one half, instead of blended.
+  // The alpha of the map is a mask (transparent below one half), and not blended.
   bool alpha_mask = false;
   bool double_sided = false;
 };

@@ -1,4 +1,4 @@
-// A robot, a piece of furniture, a building: links held together by joints.
+// A model, such as a robot, furniture or a building: links connected by joints.
 //
 // Frames  each link's pose is given in the model's frame at zero joint positions. Nested models
 //         are flattened by the reader; their parts are named "inner::link".
@@ -22,10 +22,10 @@ struct Visual {
   std::string name;
   geometry::Pose link_from_visual;
   geometry::Shape shape;
-  // One for each material slot of a mesh; a shape that is not a mesh uses the first. Never empty.
+  // One per material slot of a mesh; other shapes use the first. Never empty.
   std::vector<Material> materials{Material{}};
   bool cast_shadows = true;
-  std::optional<double> temperature = std::nullopt;  // K; without one it is as warm as the air
+  std::optional<double> temperature = std::nullopt;  // K; default: the temperature of the air
 };
 
 // Coulomb friction and restitution, as in SDFormat's <surface>.
@@ -65,12 +65,12 @@ enum class JointKind {
   kRevolute,
   kContinuous,
   kPrismatic,
-  kBall,   // one of three in a row that are one ball joint, see SplitJoint() in gsv/formats
-  kScrew,  // turns, and slides by thread_pitch times the angle
+  // One of three consecutive joints that form a ball joint, see SplitJoint() in gsv/formats.
+  kBall,
+  kScrew,  // rotates, and slides by thread_pitch times the angle
 };
 
-// What can be told to a joint of one scalar: to be somewhere, to move so fast, to be pushed so
-// hard.
+// Whether a joint takes commands: a position, a velocity or an effort.
 inline bool TakesCommands(JointKind kind) {
   return kind != JointKind::kFixed && kind != JointKind::kBall;
 }
@@ -80,7 +80,8 @@ struct Joint {
   JointKind kind = JointKind::kFixed;
   int parent = -1;  // link index; -1: the world
   int child = 0;    // link index
-  // The joint's frame in the model at zero position; the child turns about or slides along `axis`.
+  // The joint's frame in the model at zero position. The child rotates about or slides along
+  // `axis`.
   geometry::Pose model_from_joint;
   geometry::Vector3 axis{0, 0, 1};  // unit length, in the joint's frame
   Range position_limits;
@@ -97,7 +98,7 @@ const char* NameOf(JointKind kind);
 // The index of the joint of that name that takes commands, or -1.
 int FindJoint(const std::vector<Joint>& joints, const std::string& name);
 
-// What a joint is told to do from the start, by its model's own controllers.
+// An initial command of a joint, from the model's own controllers.
 struct JointTarget {
   enum class Kind { kPosition, kVelocity };  // rad or m; rad/s or m/s
   int joint = 0;                             // index in Model::joints
@@ -105,38 +106,38 @@ struct JointTarget {
   double value = 0;
 };
 
-// What moves a model with a drive.
+// The movement of a model with a drive.
 enum class Movement {
-  kPlanar,  // its drive alone, over level ground
-  kRigid,   // forces: its wheels roll, it climbs, tips, is pushed
+  kPlanar,  // planar kinematics on level ground
+  kRigid,   // rigid-body dynamics: its wheels roll, it climbs, tips and is pushed
 };
 
 struct Script;  // gsv/model/script.h
 
 struct Model {
-  std::string name;    // as the file says
+  std::string name;    // from the file
   std::string source;  // the file it was read from, for messages
   bool is_static = false;
-  // Where its file puts it in a world when whoever places it says nothing.
+  // The pose in the file, used in a world if no other pose is given.
   geometry::Pose default_pose;
   std::vector<Link> links;                 // links[0] is the canonical link; never empty
   std::vector<Joint> joints;               // a forest: no link is the child of two joints
-  std::vector<JointTarget> joint_targets;  // at most one of a joint
+  std::vector<JointTarget> joint_targets;  // at most one per joint
   std::vector<SensorDescription> sensors;
   std::vector<ControlSystem> control_systems;
   std::optional<Drive> drive;             // present: a robot that can be given a behaviour
   Movement movement = Movement::kPlanar;  // of a model with a drive
-  std::shared_ptr<const Script> script;   // of an actor, which it moves; null: the model is none
+  std::shared_ptr<const Script> script;   // of an actor; else null
 };
 
-// The radius about the model's origin, in its xy plane, of a circle that holds the boxes around
-// all collisions (a Plane counts for nothing).
+// The radius about the model's origin, in its xy plane, of a circle that contains the boxes around
+// all collisions except planes.
 double FootprintRadius(const Model& model);
 
-// The lowest z, in the model's frame, of the boxes around all collisions (a Plane counts for
-// nothing); 0 without any. Exact for boxes; for round shapes that lie askew it is a lower bound.
+// The lowest z, in the model's frame, of the boxes around all collisions except planes; 0 if there
+// are none. Exact for boxes; a lower bound for tilted round shapes.
 double LowestPoint(const Model& model);
-// The same of the model when it is turned, below its origin.
+// The same relative to the origin for a rotated model.
 double LowestPoint(const Model& model, const geometry::Quaternion& world_from_model);
 
 }  // namespace gsv::model

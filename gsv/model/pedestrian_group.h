@@ -1,5 +1,4 @@
-// People of one kind who walk about in a world: `<gsv:pedestrians>` of a world's file, and
-// `pedestrians` of a scenario.
+// A group of pedestrians: `<gsv:pedestrians>` in a world file, or `pedestrians` in a scenario.
 //
 // Units  metres, seconds, the world's frame.
 #pragma once
@@ -14,7 +13,7 @@
 
 namespace gsv::model {
 
-// A place to walk to: anywhere within a disc, each time elsewhere.
+// A goal: a random point in a disc, different each time.
 struct PedestrianGoal {
   double x = 0, y = 0;
   double radius = 0;
@@ -24,24 +23,24 @@ struct PedestrianGoal {
 struct PedestrianGroup {
   std::string name = "pedestrian";  // its members are NAME_1, NAME_2, …
   int count = 1;
-  // Visited one after the other, and again from the first; one alone is stayed within. Nobody looks
-  // for a way: each goal must be in sight of the one before.
+  // Goals in turn, then again from the first; members stay within a single goal. There is no path
+  // planning: each goal must be in sight of the previous one.
   std::vector<PedestrianGoal> route;
   double z = 0;                                 // of the floor
   double speed = 1.34, speed_deviation = 0.26;  // m/s: desired speeds are normally distributed
-  double radius = 0.25, height = 1.75;          // of the cylinder that others run into
+  double radius = 0.25, height = 1.75;          // of the collision cylinder
 
   friend bool operator==(const PedestrianGroup&, const PedestrianGroup&) = default;
 };
 
-inline constexpr int kMaxPedestrians = 100'000;  // of a group
+inline constexpr int kMaxPedestrians = 100'000;  // per group
 
-// Refuses (kInvalidArgument) what makes no sense: no goals, a count or size that is out of range,
-// numbers that are not finite.
+// Refuses (kInvalidArgument) groups without goals, counts and sizes out of range, and numbers that
+// are not finite.
 base::Status Check(const PedestrianGroup& group);
 
-// The model of a member: a simple person who faces along x, with its feet at z = 0, in one of
-// kPedestrianLooks suits of clothes, and a cylinder to run into.
+// The model of a member: a simple figure that faces along x, with its feet at z = 0, in one of
+// kPedestrianLooks colourings, and a collision cylinder.
 inline constexpr int kPedestrianLooks = 8;
 std::shared_ptr<const Model> PedestrianModel(const PedestrianGroup& group, int look);
 

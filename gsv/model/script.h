@@ -1,7 +1,7 @@
-// How an actor moves: SDFormat's <script>, with its animation.
+// The motion of an actor: SDFormat's <script> with its animation.
 //
-// Frames  waypoints are poses of the actor's frame in the frame of its trajectory, which is where
-//         its <pose> puts it in the world.
+// Frames  waypoints are poses of the actor's frame in the frame of its trajectory, which its <pose>
+//         places in the world.
 #pragma once
 
 #include <memory>
@@ -20,13 +20,13 @@ struct Waypoint {
 struct Trajectory {
   std::vector<Waypoint> waypoints;    // by time, ascending, each time once, the first at 0
   double tension = 0;                 // in [0, 1]; 1: it is linear between waypoints
-  bool animated_by_distance = false;  // interpolate_x: the gait follows the way, not the time
+  bool animated_by_distance = false;  // interpolate_x: the gait follows the distance, not the time
 };
 
 // Joint positions of a model over time: a gait.
 struct Animation {
-  base::SimTime length{0};  // above zero; then it starts again
-  double distance = 0;      // m that the gait covers in its length; 0: unknown
+  base::SimTime length{0};  // above zero; then the animation repeats
+  double distance = 0;      // m that the gait covers in `length`; 0: unknown
   int joint_count = 0;
   std::vector<double> positions;  // keyframes, evenly over `length`, of joint_count values each
   int frame_count() const {
@@ -36,13 +36,13 @@ struct Animation {
 
 struct Script {
   bool loops = true;
-  base::SimTime delay{0};  // not below zero: before each time that it starts
+  base::SimTime delay{0};  // not negative: before each start
   bool starts_by_itself = true;
   std::vector<Trajectory> trajectories;        // one after the other; may be empty
-  std::shared_ptr<const Animation> animation;  // null: the body is stiff
+  std::shared_ptr<const Animation> animation;  // null: joints do not move
 };
 
-// Where a script's actor stands before it starts, in the trajectory's frame.
+// The pose of a script's actor before the start, in the trajectory's frame.
 inline geometry::Pose StartPose(const Script& script) {
   return script.trajectories.empty() ? geometry::Pose{}
                                      : script.trajectories.front().waypoints.front().pose;

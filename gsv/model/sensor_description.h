@@ -1,4 +1,4 @@
-// A sensor as a model file or a caller of the SensorFactory describes it.
+// The description of a sensor, from a model file or a SensorFactory call.
 #pragma once
 
 #include <map>
@@ -9,8 +9,8 @@
 
 namespace gsv::model {
 
-// Parameters by name; each sensor type documents its own. From SDFormat a nested element becomes a
-// dotted name ("horizontal.samples"), its unit that of SDFormat (metres, radians, hertz).
+// Parameters by name; docs/sensors.md lists those of each type. A nested element of SDFormat
+// becomes a dotted name ("horizontal.samples") with the unit of SDFormat (metres, radians, hertz).
 using ParameterValue = std::variant<double, bool, std::string>;
 using Parameters = std::map<std::string, ParameterValue>;
 
@@ -19,14 +19,14 @@ struct SensorDescription {
   std::string type;  // "sonar", "camera", "positioning", "lidar", …
   int link = 0;      // index of the link it is mounted on
   geometry::Pose link_from_sensor;
-  double update_rate = 0;  // Hz; 0: samples whenever asked, at most once a step
-  bool visualize = false;  // the file asks for the readings to be drawn
+  double update_rate = 0;  // Hz; 0: a sample at each request, at most one per step
+  bool visualize = false;  // draw the readings in viewers
   Parameters parameters;
 
   friend bool operator==(const SensorDescription&, const SensorDescription&) = default;
 };
 
-// The parameter as a number or a flag; `otherwise` when it is absent or of another kind.
+// The parameter as a number, flag or text; `otherwise` if it is absent or has another type.
 double NumberOr(const Parameters& parameters, const std::string& name, double otherwise);
 bool FlagOr(const Parameters& parameters, const std::string& name, bool otherwise);
 std::string TextOr(const Parameters& parameters, const std::string& name, std::string otherwise);

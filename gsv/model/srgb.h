@@ -1,5 +1,4 @@
-// From the sRGB encoding of files and pictures to the linear light that shading works in
-// (IEC 61966-2-1).
+// Converts the sRGB encoding of files and images to linear light for shading (IEC 61966-2-1).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A world as its file describes it: what stands where, the light, the physics.
+// The description of a world from its file: models and poses, light, physics.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,7 @@ struct PlacedModel {
   bool is_static = false;
 };
 
-// Where on the earth (WGS84) the world's origin lies.
+// The position of the world's origin on the earth (WGS84).
 struct GeodeticOrigin {
   double latitude = 0, longitude = 0;  // rad
   double elevation = 0;                // m above the ellipsoid
@@ -55,7 +55,7 @@ struct WorldDescription {
   geometry::Vector3 gravity{0, 0, -9.8};
   geometry::Vector3 magnetic_field{5.5645e-6, 22.8758e-6, -42.3884e-6};  // T
   double temperature = 288.15;                                           // K, of the air
-  std::optional<GeodeticOrigin> origin;  // without one, satellites tell nothing
+  std::optional<GeodeticOrigin> origin;  // absent: no satellite navigation
   SceneLook scene;
   std::vector<Light> lights;
   std::vector<PlacedModel> models;

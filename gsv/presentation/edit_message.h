@@ -1,4 +1,4 @@
-// Edits as messages, and back: a run is made once more by them.
+// Converts edits to messages and back, for resimulation.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -9,8 +9,8 @@ namespace gsv::presentation {
 
 messages::gsv_msgs::Edit EditMessage(const simulation::Edit& edit);
 
-// The edit that a message tells of. Fails when nobody can have made it: a kind that is none, a pose
-// that is not finite.
+// The edit of a message. Fails for an invalid edit, such as an unknown kind or a pose that is not
+// finite.
 base::Result<simulation::Edit> EditFrom(const messages::gsv_msgs::Edit& message);
 
 }  // namespace gsv::presentation

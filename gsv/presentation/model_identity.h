@@ -1,4 +1,5 @@
-// A name for what a model looks like: equal looks, equal names, on every machine and in every run.
+// An identifier of a model's looks: equal looks have equal identifiers on every machine and in
+// every run.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace gsv::presentation {
 
-// Sixteen hexadecimal digits: a hash of all that goes into a model's GLB.
+// Sixteen hexadecimal digits: a hash of all data of the model's GLB.
 std::string ModelIdentity(const model::Model& model);
 
 }  // namespace gsv::presentation

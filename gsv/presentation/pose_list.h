@@ -1,4 +1,4 @@
-// Which poses a viewer is sent, in which order: the meaning of gsv_msgs/Poses.
+// The poses in gsv_msgs/Poses and their order.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace gsv::presentation {
 
-// One of the poses: of a body (link -1: world_from_model), or of a link that moves against its
-// body's model (world_from_link).
+// One of the poses: of a body (link -1: world_from_model), or of a link that moves relative to its
+// body (world_from_link).
 struct PoseEntry {
   int body = 0;   // index in Layout::bodies
   int link = -1;  // index in Model::links
   friend bool operator==(const PoseEntry&, const PoseEntry&) = default;
 };
 
-// For each body that is not static, in the layout's order: itself, then its moving links.
+// For each non-static body in the order of the layout: the body, then its moving links.
 std::vector<PoseEntry> PoseListOf(const world::Layout& layout);
 
 // The pose of each entry; `list` belongs to the snapshot's layout.

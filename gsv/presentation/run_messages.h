@@ -1,5 +1,5 @@
-// How a run goes, as messages: for our viewer, and for ROS's own tools the same as a log and as
-// diagnostics.
+// The status and events of a run as messages: for the viewer, and as a log and diagnostics for ROS
+// tools.
 #pragma once
 
 #include "gsv/messages/diagnostic_msgs.h"
@@ -12,14 +12,13 @@ namespace gsv::presentation {
 messages::gsv_msgs::SimulationStatus StatusMessage(const simulation::SimulationStatus& status);
 messages::gsv_msgs::LifecycleEvent EventMessage(const simulation::Event& event);
 
-// An event as a line of a log: from the robot or, where it tells of the simulation, from "gsv".
-// An error when a behaviour or the simulation has failed, a warning when something did not go as
-// it was asked to.
+// An event as a log message from the robot, or from "gsv" for the simulation. Failures of a
+// behaviour or the simulation are errors; requests that could not be carried out are warnings.
 messages::rcl_interfaces::Log LogMessage(const simulation::Event& event);
 
-// The simulation first, then each robot, by name. Of the simulation: an error when it has failed, a
-// warning while it is held up. Of a robot: an error when its behaviour has died, a warning while
-// that does not answer.
+// The diagnostics of the simulation, then of each robot by name. The simulation: an error if it has
+// failed, a warning while it is blocked. A robot: an error if its behaviour has died, a warning
+// while it is unresponsive.
 messages::diagnostic_msgs::DiagnosticArray DiagnosticsMessage(
     const simulation::SimulationStatus& status);
 

@@ -1,4 +1,4 @@
-// What stands in a simulation and how it looks, as JSON for a viewer (docs/formats/live.md).
+// The bodies of a simulation and their looks as JSON for viewers (docs/formats/live.md).
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace gsv::presentation {
 
-// The identifier under which a model's GLB can be fetched.
+// Returns the identifier under which a model's GLB can be fetched.
 using IdentifyModel = std::function<std::string(const std::shared_ptr<const model::Model>&)>;
 
-// What a scene tells of.
+// The data of a scene.
 struct SceneSource {
   const world::Snapshot& snapshot;
   const sensing::SensorRegistry& sensor_types;
-  // Those on a robot, avatar or station of the snapshot.
+  // The sensors of a robot, avatar or station of the snapshot.
   std::function<std::vector<model::SensorDescription>(const std::string& robot)> sensors;
   IdentifyModel identify;
-  // Of what the model collides with, as CollisionModel() gives it; empty: there is nothing.
+  // The identifier of CollisionModel(); empty: no collisions.
   IdentifyModel identify_collisions;
 };
 std::string SceneJson(const SceneSource& source);
@@ -28,12 +28,12 @@ std::string SceneJson(const SceneSource& source);
 std::string SceneJson(const simulation::Simulation& simulation, const IdentifyModel& identify,
                       const IdentifyModel& identify_collisions);
 
-// A model that looks as the given one collides: planes, which have no end, are left out.
+// A model whose visuals are the collision shapes of the given one, without planes, which are
+// unbounded.
 model::Model CollisionModel(const model::Model& model);
 bool HasCollisions(const model::Model& model);
 
-// The box around what can be seen of the bodies, planes left out; a box of 10 m about the origin
-// where there is nothing else.
+// The bounding box of all visuals except planes; a box of 10 m about the origin if there are none.
 geometry::Bounds SceneBounds(const world::Snapshot& snapshot);
 
 }  // namespace gsv::presentation

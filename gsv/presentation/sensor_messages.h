@@ -1,5 +1,4 @@
-// What is told of robots' sensors: the topics of their readings, where they sit, and the lines that
-// are drawn of their readings.
+// The messages about robots' sensors: topics of readings, transforms, and lines that viewers draw.
 //
 // Frames  see gsv/sensing/frames.h.
 #pragma once
@@ -16,32 +15,33 @@
 
 namespace gsv::presentation {
 
-// "/pebble/camera", and of what goes with its readings "/pebble/camera/camera_info".
+// The topic of readings, "/pebble/camera", and of a companion message,
+// "/pebble/camera/camera_info".
 std::string SensorTopic(const std::string& robot, const std::string& sensor);
 std::string CompanionTopic(const std::string& sensor_topic, const sensing::Companion& companion);
-// Those of all the robot's sensors.
+// The topics of all sensors of the robot.
 std::vector<std::string> SensorTopicNames(const simulation::Simulation& simulation,
                                           const std::string& robot);
 
-// Appends the transform of one sensor, against its robot or the moving link it sits on; of a camera
-// that of its optical frame as well.
+// Appends the transform of one sensor relative to its robot or its moving link, and for a camera
+// that of its optical frame.
 void AppendSensorTransform(const world::Layout& layout, int body,
                            const model::SensorDescription& sensor, const sensing::SensorType& type,
                            base::SimTime time, messages::tf2_msgs::TFMessage& message);
 
-// Whether readings are drawn as lines: of a type that is drawn as lines, and of one that is drawn
-// as points where its file asks for it (<visualize>).
+// Whether viewers draw lines for the readings: for types with lines, and for types with points if
+// the file has <visualize>.
 bool HasLines(const sensing::SensorType& type, const model::SensorDescription& sensor);
 
-// The lines of all robots at one instant: a marker for each robot, and one that takes a robot's
-// lines away that has none any more.
+// The lines of all robots at one instant: a marker per robot, and a deletion for each robot that no
+// longer has lines.
 class BeamMarkers {
  public:
-  // Adds the lines of a reading: its beams, or short dashes where they end of a type that is drawn
-  // as points. `body` is the robot's index in the snapshot's layout.
+  // Adds the lines of a reading: its beams, or for types with points short dashes at their ends.
+  // `body` is the robot's index in the snapshot's layout.
   void Add(const world::Snapshot& snapshot, int body, const sensing::SensorType& type,
            const sensing::Sensor& sensor, const sensing::Reading& reading);
-  // All that was added since the last time.
+  // Returns and clears what was added since the last call.
   messages::visualization_msgs::MarkerArray Take(base::SimTime time);
 
  private:

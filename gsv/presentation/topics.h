@@ -1,6 +1,6 @@
-// The topics of a simulation as a whole: one table for all who send, record, replay or relay them.
-// A topic's handle, topics::kPoses, carries its name and its message; its row in the table says who
-// has it. Robots' sensors have topics by their names besides, see sensor_messages.h.
+// The topics of a simulation: one table for live streams, recordings, replays and relays. A handle
+// such as topics::kPoses has the name and the message type of a topic; the table has its
+// properties. The topics of sensors are named after robots and sensors, see sensor_messages.h.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ struct TopicOf {
 // How a recording's messages are played.
 enum class Replay {
   kNewest,   // the newest one at each instant
-  kEach,     // each that is played past, none of what is jumped over
-  kByClock,  // the player has its own: time and status are those of the replay
+  kEach,     // each message during play, none during a seek
+  kByClock,  // the player publishes its own: time and status of the replay
 };
 
 struct Topic {
@@ -37,12 +37,12 @@ struct Topic {
   bool is_live = true;
   bool is_recorded = true;
   Replay replay = Replay::kNewest;
-  bool is_reproducible = true;  // the same in every run, so that recordings' content hashes have it
-  std::size_t history = 1;      // of what went before, a new subscriber gets so many live
+  bool is_reproducible = true;  // the same in every run, and so a part of content hashes
+  std::size_t history = 1;      // number of earlier messages that a new live subscriber gets
 };
 
 std::span<const Topic> Topics();
-// Null: it is no topic of a simulation as a whole.
+// Null if it is not in the table.
 const Topic* FindTopic(std::string_view name);
 
 namespace topics {
@@ -61,7 +61,7 @@ inline constexpr TopicOf<messages::gsv_msgs::ActuatorCommand> kActuators{"/gsv/a
 inline constexpr TopicOf<messages::gsv_msgs::Contact> kContacts{"/gsv/contacts"};
 inline constexpr TopicOf<messages::gsv_msgs::Transmission> kRadio{"/gsv/radio"};
 inline constexpr TopicOf<messages::gsv_msgs::StateHash> kStateHash{"/gsv/state_hash"};
-// In every recording of a simulation that was edited, whatever topics were chosen.
+// In every recording of an edited simulation, whatever topics are selected.
 inline constexpr TopicOf<messages::gsv_msgs::Edit> kEdits{"/gsv/edits"};
 inline constexpr TopicOf<messages::std_msgs::String> kViewers{"/gsv/viewers"};
 

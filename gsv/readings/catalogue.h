@@ -1,11 +1,11 @@
-// The catalogue of readings: what each sensor type measures, once for all who write, read, send or
-// show it. fields.h tells how a struct is laid out in values and labels.
+// The catalogue of readings: the struct of each sensor type, the one definition for all code that
+// writes, reads, sends or shows it. fields.h defines how a struct becomes values and labels.
 //
-// The structs are those that behaviours get (sdk/behaviour/sensors.h); their fields' names are also
-// those in Python. docs/sensors.md lists them, and a test holds that table to these structs.
+// Behaviours get these structs (sdk/behaviour/sensors.h), in Python with the same field names.
+// docs/sensors.md lists them; a test compares that table with the structs.
 //
 // Frames  REP-103: x forward, y left, z up.
-// Units   metres, radians, seconds, or what the field says.
+// Units   metres, radians, seconds, or the unit of the field.
 #pragma once
 
 #include "gsv/readings/fields.h"
@@ -40,7 +40,7 @@ struct Quaternion {
                       Value("y", "", &Quaternion::y), Value("z", "", &Quaternion::z));
 };
 
-// From 0 to 1 each.
+// Components from 0 to 1.
 struct Colour {
   double red = 1, green = 1, blue = 1;
   static constexpr auto kFields =
@@ -52,13 +52,13 @@ struct Colour {
 
 struct Sonar {
   static constexpr const char* kType = "sonar";
-  double range = 0;  // to the nearest echo; the maximum where there is none
+  double range = 0;  // to the nearest echo; the maximum range if there is none
   static constexpr auto kFields = std::make_tuple(Value("range", "m", &Sonar::range));
 };
 
 struct Lidar {
   static constexpr const char* kType = "lidar";
-  std::span<const double> ranges;  // beam by beam; infinite where nothing was hit
+  std::span<const double> ranges;  // one per beam; infinite if nothing was hit
   static constexpr auto kFields = std::make_tuple(Value("ranges", "m", &Lidar::ranges));
 };
 
@@ -69,24 +69,24 @@ struct Positioning {
       std::make_tuple(Value("world_from_sensor", "", &Positioning::world_from_sensor, "pose"));
 };
 
-// In the sensor's frame; at rest the specific force is 9.8 m/s² upwards.
+// In the sensor's frame. The specific force of a sensor at rest is 9.8 m/s² upwards.
 struct Imu {
   static constexpr const char* kType = "imu";
   Vector angular_velocity;
   Vector specific_force;
-  std::optional<Quaternion> world_from_sensor;  // of an IMU that knows it
+  std::optional<Quaternion> world_from_sensor;  // if the IMU measures orientation
   static constexpr auto kFields =
       std::make_tuple(Value("angular_velocity", "rad/s", &Imu::angular_velocity),
                       Value("specific_force", "m/s²", &Imu::specific_force, "linear_acceleration"),
                       Value("world_from_sensor", "", &Imu::world_from_sensor, "orientation"));
 };
 
-// Dead reckoning by the wheels, from where the robot started.
+// Dead reckoning by the wheels, relative to the pose at the start.
 struct Odometry {
   static constexpr const char* kType = "odometry";
   double x = 0, y = 0, yaw = 0;
   double linear = 0, angular = 0;
-  double lateral = 0;  // to the left; missing in readings of gsv up to 0.1
+  double lateral = 0;  // to the left; missing in readings of gsv 0.1 and earlier
   static constexpr auto kFields =
       std::make_tuple(Value("x", "m", &Odometry::x, "pose.pose.position"),
                       Value("y", "m", &Odometry::y, "pose.pose.position"),
@@ -125,12 +125,12 @@ struct Altimeter {
                       Value("reference", "m", &Altimeter::reference, "vertical_reference"));
 };
 
-// In the sensor's frame; the normal points from the robot to what it touches.
+// In the sensor's frame. The normal points from the robot to the other body.
 struct Touch {
   std::string other;
   Vector point, normal;
   double depth = 0;
-  double closing_speed = 0;  // at which the two met; 0: they touched already
+  double closing_speed = 0;  // at which the bodies met; 0: they touched before this step
   static constexpr auto kFields =
       std::make_tuple(Value("other", "", &Touch::other), Value("point", "m", &Touch::point),
                       Value("normal", "", &Touch::normal), Value("depth", "m", &Touch::depth),
@@ -159,7 +159,7 @@ struct JointEncoders {
 
 struct Battery {
   static constexpr const char* kType = "battery";
-  double voltage = 0, current = 0;  // the current that is drawn
+  double voltage = 0, current = 0;  // current: drawn from the battery
   double charge = 0, capacity = 0;
   double fraction = 0;
   static constexpr auto kFields = std::make_tuple(
@@ -202,9 +202,9 @@ struct Radio {
 
 struct Microphone {
   static constexpr const char* kType = "microphone";
-  double level = 0;      // re 20 uPa, of all that sounds
-  double frequency = 0;  // of the loudest; 0: none is louder than the noise of the place
-  std::string source;    // ROBOT/SPEAKER of that
+  double level = 0;      // re 20 uPa, of all sounds
+  double frequency = 0;  // of the loudest sound; 0: no sound is louder than the ambient noise
+  std::string source;    // ROBOT/SPEAKER of the loudest sound
   static constexpr auto kFields =
       std::make_tuple(Value("level", "dB", &Microphone::level, "level_db"),
                       Value("frequency", "Hz", &Microphone::frequency, "frequency_hz"),
@@ -223,7 +223,7 @@ struct Gripper {
   static constexpr const char* kType = "gripper";
   double opening = 0;
   bool told_to_open = false;
-  std::string held;  // a body; empty: nothing
+  std::string held;  // name of the attached body; empty: none
   static constexpr auto kFields = std::make_tuple(
       Value("opening", "m", &Gripper::opening, "opening_m"),
       Value("told_to_open", "", &Gripper::told_to_open), Value("held", "", &Gripper::held));
@@ -231,7 +231,7 @@ struct Gripper {
 
 struct Speaker {
   static constexpr const char* kType = "speaker";
-  std::string name;  // of the sound; empty: it is silent
+  std::string name;  // name of the sound; empty: silence
   double frequency = 0, volume = 0;
   double elapsed = 0, left = 0;
   static constexpr auto kFields = std::make_tuple(
@@ -241,7 +241,7 @@ struct Speaker {
       Value("left", "s", &Speaker::left, "left_s"));
 };
 
-// The image itself goes beside the values.
+// The image itself is not a part of the values.
 struct Camera {
   static constexpr const char* kType = "camera";
   static constexpr const char* kWideAngleType = "wideangle_camera";  // with another lens
@@ -254,14 +254,14 @@ struct Camera {
 struct DepthImage {
   static constexpr const char* kType = "depth_camera";
   int width = 0, height = 0;
-  std::span<const double> depth;  // along the view; infinite where nothing is
+  std::span<const double> depth;  // along the view; infinite for the background
   static constexpr auto kFields = std::make_tuple(Value("width", "px", &DepthImage::width),
                                                   Value("height", "px", &DepthImage::height),
                                                   Value("depth", "m", &DepthImage::depth));
   bool IsComplete() const { return depth.size() == std::size_t(1) * width * height; }
 };
 
-// Rows from the top. A pixel of label n shows names[n - 1], one of label 0 nothing.
+// Rows from the top. A pixel with label n shows names[n - 1], label 0 is the background.
 struct SegmentedImage {
   static constexpr const char* kType = "segmentation_camera";
   int width = 0, height = 0;
@@ -273,7 +273,7 @@ struct SegmentedImage {
   bool IsComplete() const { return pixels.size() == std::size_t(1) * width * height; }
 };
 
-// Rows from the top, whole steps of the camera's resolution.
+// Rows from the top, temperatures in whole steps of the camera's resolution.
 struct ThermalImage {
   static constexpr const char* kType = "thermal_camera";
   int width = 0, height = 0;

@@ -1,7 +1,7 @@
-// How a reading's struct is laid out in its values and labels.
+// The layout of a reading's struct in values and labels.
 //
-// A reading travels as numbers (`values`) and names (`labels`), whatever its sensor's type. The
-// struct of a type (catalogue.h) lists its members in that order, each with its name and unit:
+// Readings of all types are passed as numbers (`values`) and names (`labels`). The struct of a type
+// (catalogue.h) lists its members in this order, each with name and unit:
 //
 //   struct Altimeter {
 //     double position = 0, velocity = 0, reference = 0;
@@ -37,9 +37,9 @@ namespace gsv::readings {
 template <typename Struct, typename Member>
 struct Field {
   const char* name;  // the member's
-  const char* unit;  // "m", "rad/s"; empty: it has none, or its parts have their own
+  const char* unit;  // "m", "rad/s"; empty: none, or its parts have units
   Member Struct::*member;
-  const char* path;  // of the field in the type's message; null: as the name, empty: as its parts
+  const char* path;  // of the field in the type's message; null: the name, empty: the parts' paths
   bool is_optional;  // may be missing at the end of the values
 };
 
@@ -78,14 +78,14 @@ inline constexpr bool kIsAllValues = std::is_same_v<T, std::span<const double>>;
 template <typename T>
 inline constexpr bool kIsAllLabels = std::is_same_v<T, std::span<const std::string>>;
 
-// The place up to which a reading is decoded.
+// The position up to which a reading is decoded.
 class Cursor {
  public:
   Cursor(std::span<const double> values, std::span<const std::string> labels)
       : values_(values), labels_(labels) {}
 
   bool has_values() const { return !values_.empty(); }
-  // Whether all was there, and nothing is left.
+  // Whether every value was present and none is left.
   bool is_exact() const { return !is_bad_ && values_.empty() && labels_.empty(); }
 
   double Value() {
@@ -221,7 +221,7 @@ void Describe(const Place& place, Layout& layout) {
 
 }  // namespace internal
 
-// Whether readings of this layout have labels at all.
+// Whether readings of this layout have labels.
 template <typename Struct>
 inline constexpr bool kHasLabels = internal::HasLabels<Struct>();
 
@@ -238,8 +238,8 @@ void Append(const Struct& from, Values& values, std::vector<std::string>& labels
   internal::AppendMember(from, values, labels);
 }
 
-// The struct that a reading stands for; spans in it view the reading. kCorrupt, about `where`, when
-// the reading has another size than the layout says.
+// Decodes a reading into its struct. Spans in the struct refer to the reading. kCorrupt with the
+// place `where` if the reading does not have the size of the layout.
 template <typename Struct>
 base::Result<Struct> Decode(std::span<const double> values, std::span<const std::string> labels,
                             const std::string& where) {

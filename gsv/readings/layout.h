@@ -1,4 +1,4 @@
-// What the values and labels of a sensor type's readings are: names, units and counts, as data.
+// The names, units and counts of the values and labels of a sensor type's readings.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@ enum class Multiplicity {
   kRepeated,  // any number of times, to the end
 };
 
-// Where a field stands: in which others, and what it has from them.
+// The path of a field through its structs, with the unit that it inherits.
 struct Place {
   std::string name;  // "touches.point.x"
-  std::string unit;  // of the innermost field that has one
+  std::string unit;  // of the innermost field with a unit
   std::string path;  // in the message: "contacts.point.x"
   Multiplicity occurs = Multiplicity::kOnce;
 
-  // `path` null: as the name.
+  // The place of a member. `path` null: the name.
   Place Inside(const char* field, const char* field_unit, const char* field_path) const;
 };
 
@@ -34,18 +34,18 @@ struct Layout {
     std::string path;  // in the type's message
     Multiplicity occurs = Multiplicity::kOnce;
   };
-  // In the order of a reading: first those that occur once. Those that occur repeatedly form a
-  // group, which is repeated as a whole.
+  // In the order of a reading: first those that occur once. Repeated columns form a group, which is
+  // repeated as a whole.
   std::vector<Column> values, labels;
 
   void AddValue(const Place& place) { values.push_back(ColumnAt(place)); }
   void AddLabel(const Place& place) { labels.push_back(ColumnAt(place)); }
 
-  // For people: "range (m)", "each: point.x, .y, .z (m), … [other]".
+  // A text for users: "range (m)", "each: point.x, .y, .z (m), … [other]".
   std::string Text() const;
-  // How many values and labels a reading has: "6 or 10 values", "groups of 8 values and 1 label".
+  // The size of a reading as a text: "6 or 10 values", "groups of 8 values and 1 label".
   std::string Sizes() const;
-  // Units by path in the message; a path stands for all below it.
+  // Units by path in the message. A path applies to all fields below it.
   std::map<std::string, std::string> Units() const;
 
  private:
@@ -54,7 +54,7 @@ struct Layout {
   }
 };
 
-// kCorrupt: what the layout expects, and what was found.
+// An error kCorrupt with the expected and the actual size.
 base::Error WrongSize(const Layout& layout, std::size_t values, std::size_t labels,
                       const std::string& where);
 

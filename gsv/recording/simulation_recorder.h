@@ -1,10 +1,10 @@
 // Records one simulation to an MCAP file while it runs (docs/formats/recording.md).
 //
-// The stepping thread hands over its snapshots; a thread of the recorder samples the sensors and
-// encodes, another writes the file. Nothing is drawn from the simulation that changes its course.
+// The stepping thread passes its snapshots on; a thread of the recorder samples sensors and encodes
+// messages, another writes the file. Recording does not change the simulation.
 //
 // One run     a reset of the simulation ends the recording.
-// Errors      a disk that fails ends the recording, never the simulation; Stop() tells why.
+// Errors      a failing disk ends the recording, never the simulation; Stop() returns the error.
 // Threads     any; Stop() waits for the disk.
 // Determinism in lockstep, recorded from its start, equal runs give equal content hashes.
 #pragma once
@@ -28,10 +28,10 @@ struct RecorderOptions {
   WriteGlb write_glb;      // required
   double poses_rate = 50;  // Hz of simulated time, > 0
   SensorRates sensors;
-  std::vector<std::string> topics;  // as in Selection; empty: all
-  WritePng write_png;               // empty: pictures as their sensors send them
+  std::vector<std::string> topics;  // see Selection; empty: all
+  WritePng write_png;               // empty: images as the sensors encode them
   bool replace = false;             // an existing file
-  // What is attached as the scenario; without it: ScenarioOf() the simulation.
+  // The attached scenario; default: ScenarioOf() the simulation.
   std::optional<scenario::Scenario> scenario{};
   // Added to the metadata record "gsv.simulation".
   StringMap metadata;
@@ -39,19 +39,19 @@ struct RecorderOptions {
 
 class SimulationRecorder {
  public:
-  // Creates the file, with the scene and the models as they are now, and begins. What was there
-  // before (a simulation that is running) is not recorded.
+  // Creates the file with the current scene and models, and starts recording. Earlier parts of a
+  // running simulation are not recorded.
   [[nodiscard]] static base::Result<std::unique_ptr<SimulationRecorder>> Start(
       const std::shared_ptr<simulation::Simulation>& simulation, const std::string& path,
       RecorderOptions options);
-  // Stops; an error that nobody asked for is logged.
+  // Stops. Logs an error unless Stop() has returned it.
   ~SimulationRecorder();
 
-  // Writes what is queued, and the end of the file. Idempotent. An error is why the recording
-  // ended early.
+  // Writes the queue and the end of the file. Idempotent. Returns the error that ended the
+  // recording early, if any.
   base::Status Stop();
 
-  // Whether there is still somebody to record, and a disk that takes it.
+  // Whether the simulation still exists and the disk has not failed.
   bool is_recording() const;
   McapWriter::Progress progress() const { return writer_->progress(); }
 

@@ -1,14 +1,14 @@
-// Takes pictures of snapshots, on a thread of its own: with OpenGL on a graphics card, without one
-// by a rasteriser of our own.
+// Renders images of snapshots on its own thread: with OpenGL on a graphics card, otherwise with the
+// built-in rasteriser.
 //
-// All requests that wait for the same snapshot are drawn as one batch, with one shadow map. The
-// copies of meshes and textures are shared between snapshots and simulations, and freed after the
-// model they came from is gone.
+// Pending requests for one snapshot are rendered as one batch, with one shadow map. Meshes and
+// textures on the back end are shared between snapshots and simulations, and freed after their
+// model is destroyed.
 //
-// Determinism  a picture is a function of snapshot, camera and renderer_name(): equal inputs give
-//              equal bytes on one renderer, whatever else is drawn in the same batch.
-// Errors       Start(): kUnavailable with what is missing. Draw(): kInvalidArgument for a camera
-//              that cannot be, kTimeout, kUnavailable when too many wait or the card fails,
+// Determinism  an image is a function of snapshot, camera and renderer_name(). Equal inputs give
+//              equal bytes on one renderer, in any batch.
+// Errors       Start(): kUnavailable with the missing part. Draw(): kInvalidArgument for an invalid
+//              camera, kTimeout, kUnavailable if too many requests are pending or the card fails,
 //              kEnded while the renderer shuts down.
 // Threads      any; Draw() blocks its caller.
 #pragma once
@@ -29,7 +29,7 @@
 namespace gsv::rendering {
 
 enum class BackEnd {
-  kAutomatic,   // a graphics card; without one the rasteriser, or Mesa on processors without AVX2
+  kAutomatic,   // a graphics card, else the rasteriser, or Mesa on processors without AVX2
   kOpenGl,      // as `egl` allows
   kRasteriser,  // kUnavailable on processors without AVX2 and FMA
 };
@@ -37,33 +37,33 @@ enum class BackEnd {
 struct RendererOptions {
   BackEnd back_end = BackEnd::kAutomatic;
   EglOptions egl;
-  // Requests that may wait at one moment; more are refused.
+  // Largest number of pending requests; further ones are refused.
   std::size_t queue_capacity = 4096;
 };
 
 class Renderer {
  public:
-  // No machine takes as long for a picture, however slow and busy; what gives up sooner on a
-  // behaviour is the simulation's deadline.
+  // Longer than the slowest machine needs for an image. The simulation's deadline for behaviours
+  // may be shorter.
   static constexpr std::chrono::seconds kPatience{60};
 
   [[nodiscard]] static base::Result<std::shared_ptr<Renderer>> Start(RendererOptions options = {});
-  // Ends what waits with kEnded.
+  // Ends pending requests with kEnded.
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // An RGB picture of `snapshot`.
+  // Renders an RGB image of `snapshot`.
   [[nodiscard]] base::Result<std::shared_ptr<const model::Image>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const CameraView& view,
       std::chrono::milliseconds timeout = kPatience);
 
-  // The same for several cameras; pictures[i] is views[i]'s. They are drawn in one batch.
+  // The same for several cameras in one batch; image i is that of views[i].
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
       std::chrono::milliseconds timeout = kPatience);
 
-  // Distances and whose they are, truths[i] being views[i]'s; always by the rasteriser:
+  // Renders depth and label images; element i is that of views[i]. Always uses the rasteriser:
   // kUnavailable on processors without AVX2 and FMA.
   [[nodiscard]] base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       std::shared_ptr<const world::Snapshot> snapshot, const std::vector<CameraView>& views,
@@ -73,7 +73,7 @@ class Renderer {
   // 22.3.6".
   const std::string& renderer_name() const { return renderer_name_; }
 
-  // After what nobody uses any more has been freed. Waits for the batch in progress.
+  // Counts the copies after freeing unused ones. Waits for the batch in progress.
   DrawCopies CountCopies();
 
  private:

@@ -1,9 +1,9 @@
-// What a run is expected to do, as formulas over its instants (docs/testing.md): conditions on
-// measured numbers, joined by `all`, `any`, `not`, and by time.
+// The expectations of a run as formulas over its instants (docs/testing.md): conditions on measured
+// numbers, combined with `all`, `any`, `not` and temporal operators.
 //
 // Semantics  linear temporal logic over the finite sequence of the run's steps, the initial state
-//            included, with windows of simulated time counted from the instant at which a formula
-//            is judged (metric temporal logic: R. Koymans, 1990; on finite traces: De Giacomo and
+//            included, with windows of simulated time relative to the instant at which a formula is
+//            evaluated (metric temporal logic: R. Koymans, 1990; on finite traces: De Giacomo and
 //            Vardi, 2013).
 #pragma once
 
@@ -25,9 +25,9 @@ struct Quantity {
     kDistanceToPoint,  // of `first` from (x, y), m in the plane
     kYawOff,           // of `first` from `yaw`, rad, 0 to pi
     kSpeed,            // of `first`, m/s
-    kTurning,          // of `first` about the vertical, rad/s, either way
+    kTurning,          // of `first` about the vertical, rad/s, absolute value
     kTravelled,        // by `first`, m
-    kDistance,         // between the origins of `first` and `second`, m in the plane
+    kDistance,         // horizontal distance between the origins of `first` and `second`, m
     kContact,          // 1 when `first` touches `second` (empty: anything but the ground), else 0
     kSensor,           // a value of `first`'s sensor `second`
     kEnded,            // 1 when `first`'s behaviour has finished or died, else 0
@@ -46,20 +46,21 @@ struct Formula {
   enum class Kind { kAtom, kNot, kAll, kAny, kAlways, kEventually, kUntil };
 
   Kind kind = Kind::kAtom;
-  // kAtom: the quantity lies in [least, most]. One that cannot be had lies in none.
+  // kAtom: the quantity lies in [least, most]. A quantity that is not available lies in no
+  // interval.
   Quantity quantity{};
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  // kUntil: the first until the second; kNot, kAlways, kEventually: one.
+  // kUntil: the first part holds until the second does. kNot, kAlways, kEventually: one part.
   std::vector<Formula> parts{};
-  double from = 0;             // s after the instant of judging
-  std::optional<double> by{};  // without it: to the end of the run
+  double from = 0;             // s after the instant of evaluation
+  std::optional<double> by{};  // default: the end of the run
   SourcePlace source{};
 };
 
 struct Expectation {
-  std::string name;  // what reports call it
-  std::string yaml;  // as it was written, on one line; says all
+  std::string name;  // in reports
+  std::string yaml;  // the YAML of the scenario on one line, complete
   Formula formula;
   SourcePlace source{};
 

@@ -1,5 +1,5 @@
-// What is to go wrong in a run, and when: at the first instant at or after its time, before anybody
-// is woken or reads there.
+// The faults of a run. A fault is applied at the first instant at or after its time, before any
+// agent is woken or reads.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,19 @@
 
 namespace gsv::scenario {
 
-// "room.yaml:7:5": for whoever tells of a mistake that shows only later. All are equal.
+// The place of a key in its file, "room.yaml:7:5", for mistakes that are found later. All places
+// compare equal.
 struct SourcePlace {
   std::string text;
   friend bool operator==(const SourcePlace&, const SourcePlace&) { return true; }
 };
 
-// Where a robot starts, or a body is put, in the world: metres and radians. The numbers stay as
-// they were given, so that a run that is repeated begins with the same bits.
+// The pose of a robot at the start, or of a body that is placed, in the world: metres and radians.
+// The numbers are kept unchanged, so that a repeated run starts bit-identical.
 struct Place {
   double x = 0;
   double y = 0;
-  std::optional<double> z;  // of the model's origin; without it: it stands on the floor
+  std::optional<double> z;  // of the model's origin; default: the model stands on the floor
   double yaw = 0;
 
   geometry::Pose pose() const { return geometry::PlanarPose(x, y, z.value_or(0), yaw); }
@@ -29,11 +30,11 @@ struct Place {
 
 struct Fault {
   enum class Kind {
-    kSensorSilent,   // robot/sensor: its newest sample stays what it was
-    kSensorError,    // robot/sensor: who reads it gets an error
+    kSensorSilent,   // robot/sensor: its newest sample no longer changes
+    kSensorError,    // robot/sensor: reading it returns an error
     kBehaviourDies,  // robot: as if its process had ended
-    kMotorFails,     // robot: its drive stands still; robot/joint: nothing moves it any more
-    kBodyMoves,      // body: stands at `place`
+    kMotorFails,     // robot: its drive stops; robot/joint: the joint has no motor any more
+    kBodyMoves,      // body: is moved to `place`
     kJointMoves,     // body/joint: goes to `target` of `unit`
   };
   enum class Unit { kPosition, kVelocity, kEffort };  // rad or m, rad/s or m/s, N m or N

@@ -1,7 +1,7 @@
-// Scenarios as YAML files (docs/formats/scenario.md). JSON is YAML, too.
+// Reads and writes scenarios as YAML (docs/formats/scenario.md), of which JSON is a part.
 //
 // Units   metres, radians, seconds, Hz.
-// Input   hostile; bounded by kMaxScenarioBytes.
+// Input   untrusted, of at most kMaxScenarioBytes.
 // Errors  each problem names the file, the line and the column: room.yaml:7:5.
 #pragma once
 
@@ -15,19 +15,19 @@ namespace gsv::scenario {
 
 inline constexpr std::size_t kMaxScenarioBytes = std::size_t{4} << 20;  // bytes
 
-// kBadModel when it is no YAML or no scenario at all; all else that is wrong is added to
-// `problems`, and left out. `file` is what problems name.
+// kBadModel if the text is not YAML or not a scenario. All other mistakes are added to `problems`,
+// and the values left out. Problems name `file`.
 base::Result<Scenario> ParseScenario(const std::string& text, const std::string& file,
                                      base::Problems& problems);
 
-// The same from a file. Names of a world, models and folders of models that are there, seen from
-// the file's folder, become whole paths. kNotFound when there is no such file.
+// The same for a file. Names of worlds, models and folders that exist relative to the file's folder
+// become absolute paths. kNotFound if the file does not exist.
 base::Result<Scenario> ReadScenario(const std::filesystem::path& file, base::Problems& problems);
 
-// Whether `name`, by its ending, is a scenario's file: ".yaml" or ".yml".
+// Whether `name` has the extension of a scenario file: ".yaml" or ".yml".
 bool IsScenarioFileName(const std::string& name);
 
-// What ParseScenario() reads back as it is, number by number.
+// The scenario as YAML. ParseScenario() reads it back with identical numbers.
 std::string ToYaml(const Scenario& scenario);
 
 }  // namespace gsv::scenario

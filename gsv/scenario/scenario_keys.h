@@ -1,5 +1,5 @@
-// The keys of a scenario and of its parts, as docs/formats/scenario.md lists them: the one place
-// that reads them, from files and from requests.
+// Reads the keys of a scenario and of its parts (docs/formats/scenario.md), for files and for
+// requests.
 #pragma once
 
 #include "gsv/scenario/scenario.h"
@@ -12,10 +12,10 @@ inline constexpr double kMaxDuration = 1e9;    // s
 
 Scenario ReadScenarioKeys(const YAML::Node& node, const YamlPlace& place);
 
-// A robot, or an avatar, which has neither behaviour nor movement.
+// Reads a robot, or an avatar, which has neither behaviour nor movement.
 RobotEntry ReadRobotKeys(YamlMapping& mapping, bool is_avatar);
 
-// x, y, z and yaw. Nothing where there is neither x nor y.
+// Reads x, y, z and yaw. Nothing if there is neither x nor y.
 std::optional<Place> ReadPlaceKeys(YamlMapping& mapping);
 
 }  // namespace gsv::scenario

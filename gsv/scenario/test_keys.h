@@ -1,6 +1,6 @@
-// The keys `faults` and `expect` of a scenario (docs/testing.md).
+// Reads the keys `faults` and `expect` of a scenario (docs/testing.md).
 //
-// Bounded  by kMaxFaults and kMaxFormulas: aliases may make a small file large.
+// Bounded  by kMaxFaults and kMaxFormulas, as YAML aliases expand.
 #pragma once
 
 #include <vector>
@@ -17,11 +17,10 @@ inline constexpr int kMaxFormulaDepth = 16;
 
 std::vector<Fault> ReadFaults(YamlMapping& scenario);
 
-// Complains of what no run of `duration` (s) can fulfil or violate.
+// Adds problems for expectations that no run of `duration` (s) can satisfy or violate.
 std::vector<Expectation> ReadExpectations(YamlMapping& scenario, double duration);
 
-// A node whose size is bounded and whose keys are known, as YAML on one line that is read as the
-// same.
+// The node as equivalent YAML on one line. Its size is bounded and its keys are known.
 std::string OneLineYaml(const YAML::Node& node);
 
 }  // namespace gsv::scenario

@@ -1,8 +1,8 @@
-// Takes a YAML mapping apart, key by key, and complains of what it is not: with line and column,
-// or, where it came in a request, with the field, as in "robots[1].x".
+// Reads a YAML mapping key by key and collects problems. Each problem has line and column, or for
+// requests the field, as in "robots[1].x".
 //
-// Bounded  a mapping has kMaxKeys, and so many complaints are kept: aliases may make a small file
-//          large.
+// Bounded  a mapping has at most kMaxKeys keys, and at most kMaxProblems problems are kept, as YAML
+//          aliases expand.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ namespace gsv::scenario {
 inline constexpr std::size_t kMaxKeys = 64;
 inline constexpr std::size_t kMaxProblems = 100;
 
-// Where complaints go, and how they say what they are about.
+// Collects problems, and formats their places.
 class YamlPlace {
  public:
   enum class Naming { kLines, kFields };
   YamlPlace(Naming naming, std::string file, base::Problems& problems)
       : naming_(naming), file_(std::move(file)), problems_(problems) {}
 
-  // "FILE:LINE:COLUMN", counted from 1, or the field.
+  // The place as "FILE:LINE:COLUMN", counted from 1, or as the field.
   std::string Of(const YAML::Mark& mark, const std::string& field) const;
   void AddProblem(const YAML::Mark& mark, const std::string& field, std::string message) const;
   std::size_t problem_count() const { return problems_.size(); }
@@ -40,27 +40,28 @@ class YamlPlace {
 
 class YamlMapping {
  public:
-  // Complains of a node that is no mapping, and of keys that come twice. `field`: what it is itself
-  // ("" or "robots[1]").
+  // Adds problems for a node that is not a mapping, and for duplicate keys. `field` is the path of
+  // the mapping ("" or "robots[1]").
   YamlMapping(const YAML::Node& node, std::string field, const YamlPlace& place);
-  // Complains of keys that nobody asked for.
+  // Adds a problem for each key that was not read.
   ~YamlMapping();
   YamlMapping(const YamlMapping&) = delete;
   YamlMapping& operator=(const YamlMapping&) = delete;
 
-  // Each gives nothing where the key is absent, null or, after a complaint, something else.
+  // Each returns nothing if the key is absent or null, or, after adding a problem, if the value has
+  // another type.
   std::optional<std::string> Text(const std::string& key);
   std::optional<double> Number(const std::string& key, double least, double most);
   std::optional<double> Angle(const std::string& key);  // radians
   std::optional<std::uint64_t> Count(const std::string& key);
   std::optional<bool> Flag(const std::string& key);
-  // Whether it is the second of two words, rather than the first.
+  // Whether the value is the second of two words. Other words are a problem.
   std::optional<bool> IsSecondOf(const std::string& key, const std::string& first,
                                  const std::string& second);
   std::vector<std::string> Texts(const std::string& key);
   std::vector<YAML::Node> List(const std::string& key);
   std::optional<YAML::Node> Any(const std::string& key);
-  // Calls `read` with each element of a list, and its field.
+  // Calls `read` with each element of a list and its field.
   template <typename Read>
   void Each(const std::string& key, std::size_t most, const Read& read) {
     const std::vector<YAML::Node> list = List(key);
@@ -74,7 +75,7 @@ class YamlMapping {
     }
   }
 
-  // Whether it was asked for and was there, whatever it was.
+  // Whether the key was read and present, with any value.
   bool Has(const std::string& key) const { return marks_.contains(key); }
   bool is_mapping() const { return is_mapping_; }
   const YamlPlace& place() const { return place_; }
@@ -82,7 +83,7 @@ class YamlMapping {
   std::string FieldOf(const std::string& key) const {
     return field_.empty() ? key : field_ + "." + key;
   }
-  // Of the mapping; of a value that was there, or else is missing.
+  // Adds a problem about the mapping, or about a value that is present or missing.
   void AddProblem(std::string message) const {
     place_.AddProblem(mark_, field_, std::move(message));
   }
@@ -93,7 +94,7 @@ class YamlMapping {
     YAML::Mark mark;  // of the key
     YAML::Node value;
   };
-  // A number or a flag in quotes would be a text.
+  // A scalar without quotes: in quotes it would be a text.
   std::optional<std::string> Plain(const std::string& key, const std::string& expected);
   std::optional<std::string> Scalar(const std::string& key, const std::string& expected);
   void Expect(const std::string& key, const std::string& expected, const std::string& found);
@@ -102,8 +103,8 @@ class YamlMapping {
   const std::string field_;
   const YAML::Mark mark_;
   const bool is_mapping_;
-  std::map<std::string, Entry> unread_;      // that nobody asked for yet
-  std::map<std::string, YAML::Mark> marks_;  // of the values that were
+  std::map<std::string, Entry> unread_;      // not read yet
+  std::map<std::string, YAML::Mark> marks_;  // of the values that were read
   std::vector<std::string> known_;
 };
 

@@ -1,7 +1,7 @@
-// An actuator: a device that behaviours command, and whose readings say what it does. Opened,
-// created, recorded and shown as sensors are.
+// An actuator: a device that behaviours command and whose readings report its state. It is opened,
+// created, recorded and shown like a sensor.
 //
-// Time  A command that is given at an instant acts from then on, as a robot's other commands do.
+// Time  A command is applied from the instant at which it is given, like a robot's other commands.
 #pragma once
 
 #include "gsv/sensing/device.h"
@@ -20,14 +20,14 @@ class Actuator : public Device {
  protected:
   using Device::Device;
 
-  // Its state from `followed.since` on. An actuator that others see, hear or are held by makes its
-  // own kind of state. `before`: null if it has followed no command yet.
+  // Its state from `followed.since` on. An actuator with light, sound or an attached body returns
+  // its own class of state. `before` is null before the first command.
   virtual world::DeviceStatePtr Follow(world::DeviceMount mount, world::FollowedCommand followed,
                                        const world::DeviceState* /*before*/) const {
     return std::make_shared<const world::ActuatorState>(std::move(mount), std::move(followed));
   }
 
-  // Refuses other than `count` values, and those that are not finite.
+  // Refuses commands that do not have `count` finite values.
   base::Status CheckShape(const world::DeviceCommand& command, std::size_t count) const;
   // Refuses a value outside of [low, high].
   base::Status CheckRange(const char* what, double value, double low, double high) const;

@@ -1,8 +1,7 @@
-// A device: a sensor that keeps a state from one step to the next (world::DeviceState). Radios are
-// devices, and all actuators are.
+// A device: a sensor with a state between steps (world::DeviceState). Radios and all actuators are
+// devices.
 //
-// Threads  const members may run concurrently. Apply() and SwitchedOn() are called by the stepping
-//          thread.
+// Threads  const members may run concurrently. The stepping thread calls Apply() and SwitchedOn().
 #pragma once
 
 #include <optional>
@@ -17,20 +16,20 @@ class Device : public Sensor {
  public:
   const Device* device() const final { return this; }
 
-  // Whether it has a state while it is open, as a radio has. Other devices have one from their
-  // first command on, until they are removed from the robot.
+  // Whether it has a state while it is open, like a radio. Other devices have one from their first
+  // command until they are removed from the robot.
   virtual bool IsOnWhileOpen() const { return false; }
   // Whether its commands are messages (`word`: the receiving robot, `content`), each of which is
-  // sent. Of other commands the last of a step holds.
+  // sent. For other devices the last command of a step counts.
   virtual bool SendsMessages() const { return false; }
-  // The command that it follows from the start.
+  // The initial command.
   virtual std::optional<world::DeviceCommand> first() const { return std::nullopt; }
-  // Refuses a command that it cannot follow.
+  // Refuses an invalid command.
   virtual base::Status Check(const world::DeviceCommand& command) const = 0;
 
-  // Its state when it is switched on; for devices that are on while they are open.
+  // Its state when it is opened; for devices with IsOnWhileOpen().
   virtual world::DeviceStatePtr SwitchedOn(const std::string& /*robot*/) const { return nullptr; }
-  // Its state when `command` acts from the step's instant on. `before` is null where it has none.
+  // Its state with `command` applied from the step's instant on. `before` is null if it has none.
   virtual world::DeviceStatePtr Apply(const std::string& robot, const world::DeviceStatePtr& before,
                                       const world::DeviceCommand& command,
                                       world::DeviceStep& step) const = 0;
@@ -41,7 +40,7 @@ class Device : public Sensor {
   world::DeviceMount MountOn(const std::string& robot) const {
     return {robot, description().name, description().link, description().link_from_sensor};
   }
-  // Null as long as it has none.
+  // Its state; null if it has none.
   const world::DeviceState* StateIn(const Sampling& sampling) const {
     return world::FindDevice(sampling.snapshot()->state.devices.get(), sampling.robot().name,
                              description().name);

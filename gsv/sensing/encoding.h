@@ -1,4 +1,4 @@
-// What the encoders of sensor readings share.
+// Functions for encoders of sensor readings.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A sensor that passes everything on to another one: the base of those that add something to it.
+// A sensor that forwards all calls to another one; a base class for decorators.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,6 @@
-// The names of frames, by REP-105. The world is "map". A robot's base is ROBOT/base_link, what its
-// wheels count from ROBOT/odom; a link that moves against the base is ROBOT/LINK, a sensor
-// ROBOT/SENSOR, its pictures are in ROBOT/SENSOR/optical. Another body is the frame NAME, a link
-// that moves against it NAME/LINK.
+// The names of frames, by REP-105. The world is "map". A robot's base is ROBOT/base_link, its
+// odometry frame ROBOT/odom. A moving link is ROBOT/LINK, a sensor ROBOT/SENSOR, the frame of its
+// images ROBOT/SENSOR/optical. Another body is NAME, its moving links NAME/LINK.
 #pragma once
 
 #include <string>

@@ -1,19 +1,19 @@
-// How a library brings sensor types that gsv has never heard of. In one of its files:
+// Declares the sensor types of a plug-in. In one source file of the library:
 //
 //   base::Status Add(sensing::SensorRegistry& registry) { return registry.Add(...); }
 //   GSV_SENSOR_MODULE(Add)
 //
-// The library is linked to nothing of GSV: what it uses is found in the gsv that loads it. A type
-// that has an IDL interface of its own registers its servant there too
-// (services/sensor_servants.h). docs/sensors.md tells how it is built and loaded; examples/infrared
-// is one.
+// The library does not link to GSV: its symbols are resolved in the gsv that loads it. A type with
+// an IDL interface registers its servant there too (services/sensor_servants.h). docs/sensors.md
+// describes how it is built and loaded; examples/infrared is an example.
 #pragma once
 
 #include "gsv/sensing/registry.h"
 
 namespace gsv::sensing {
 
-// Grows with every change of SensorType, Sensor, Device, Sampling or Reading.
+// The version of the interface. Increase it with every change of SensorType, Sensor, Device,
+// Sampling or Reading.
 inline constexpr int kSensorInterface = 4;
 inline constexpr const char* kSensorModuleSymbol = "gsv_sensor_module";
 

@@ -1,9 +1,8 @@
-// Who hears whom by radio.
+// The propagation of radio signals.
 //
-// Model  What arrives, in dBm, is power + the gains of both antennas - the path loss - the loss at
-//        walls. The path loss is that of free space over the first metre (Friis 1946),
-//        20 log10(4 pi f / c), and 10 n log10(d) beyond, with the exponent n. No fading, no
-//        interference: radios may all speak at once.
+// Model  The received strength in dBm is power + the gains of both antennas - path loss - loss at
+//        walls. The path loss is that of free space over the first metre (Friis 1946), 20 log10(4
+//        pi f / c), and 10 n log10(d) beyond, with the exponent n. No fading and no interference.
 #pragma once
 
 #include <optional>
@@ -15,16 +14,16 @@ namespace gsv::sensing {
 
 using world::Antenna;
 
-// dBm at `distance` (m), behind so many walls. Nearer than 1 cm counts as that.
+// The received strength in dBm at `distance` (m, at least 1 cm) behind `walls` walls.
 double ArrivingStrength(const world::RadioSetup& sender, const world::RadioSetup& receiver,
                         double distance, int walls);
 
-// How many solids stand between two antennas, those that carry them left out: half of the surfaces
-// that the line of sight crosses, rounded up.
+// The number of solids between two antennas without their carriers: half of the surfaces on the
+// line of sight, rounded up.
 int WallsBetween(const world::RayCaster& rays, const Antenna& from, const Antenna& to);
 
-// The strength at which `to` hears `from`; nothing if it does not. Rays are cast only where walls
-// make a difference.
+// The strength at which `to` receives `from`; nothing if it does not. Casts rays only if walls make
+// a difference.
 std::optional<double> HeardAt(const Antenna& from, const Antenna& to, const world::RayCaster& rays);
 
 }  // namespace gsv::sensing

@@ -1,4 +1,4 @@
-// What a sensor measured at one instant, and how that becomes the struct of its type.
+// A reading of a sensor at one instant, and its conversion to the struct of its type.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@
 
 namespace gsv::sensing {
 
-// `values` and `labels` are laid out as the sensor type's struct says (gsv/readings/catalogue.h).
-// `picture` is null for all but cameras, `labels` for types that have none.
+// The sensor type's struct defines the layout of `values` and `labels` (gsv/readings/catalogue.h).
+// `picture` is null for all but cameras, `labels` for types without labels.
 struct Reading {
-  using Values = boost::container::small_vector<double, 1>;  // a single one takes no allocation
+  using Values = boost::container::small_vector<double, 1>;  // one value needs no allocation
 
   std::int64_t step = 0;
   base::SimTime time{0};  // the sampling instant
@@ -26,8 +26,8 @@ struct Reading {
   std::shared_ptr<const std::vector<std::string>> labels;
 };
 
-// The struct that a reading stands for; spans in it view the reading. kCorrupt, with the sensor's
-// name, when the reading has another size than the layout says.
+// The struct of a reading; spans in it refer to the reading. kCorrupt, with the sensor's name, if
+// the reading does not have the size of the layout.
 template <typename Struct>
 base::Result<Struct> ValuesOf(const Reading& reading, const std::string& sensor) {
   std::span<const std::string> labels;
@@ -35,9 +35,9 @@ base::Result<Struct> ValuesOf(const Reading& reading, const std::string& sensor)
   return readings::Decode<Struct>({reading.values.data(), reading.values.size()}, labels, sensor);
 }
 template <typename Struct>
-void ValuesOf(Reading&& reading, const std::string& sensor) = delete;  // it would be viewed
+void ValuesOf(Reading&& reading, const std::string& sensor) = delete;  // spans would dangle
 
-// The reading's values, and labels if there are any, become those of the struct.
+// Sets the values, and labels if any, of the reading from the struct.
 template <typename Struct>
 void Fill(const Struct& from, Reading& reading) {
   std::vector<std::string> labels;

@@ -1,5 +1,5 @@
-// The sensor types there are. A new type is one registration, which MakeSensorType() makes of a
-// class (sensor_type.h). Nothing else in the tree knows the types.
+// The registry of sensor types. A new type is one registration, which MakeSensorType() makes from a
+// class (sensor_type.h). No other code knows the types.
 #pragma once
 
 #include <functional>
@@ -17,38 +17,38 @@
 
 namespace gsv::sensing {
 
-// What a viewer draws of a reading.
+// How viewers draw a reading.
 enum class Overlay { kNone, kLines, kPoints, kPicture };
 
-// A second message that goes with a reading, at the reading's instant, on the topic
-// /ROBOT/SENSOR/`topic`. Sensor::EncodeCompanionOf() makes it.
+// A second message beside a reading, at its instant, on the topic /ROBOT/SENSOR/`topic`.
+// Sensor::EncodeCompanionOf() makes it.
 struct Companion {
   std::string topic;
   const messages::Schema* schema = nullptr;
-  // It depends on what was read (the points of a lidar), not only on how the sensor is made (the
+  // Whether it depends on the reading (the points of a lidar), not only on the description (the
   // lens of a camera).
   bool of_readings = false;
 };
 
-// What a sensor sends. `schema` is that of Sensor::Encode(); null: there is no message.
+// The messages of a sensor. `schema` is that of Sensor::Encode(); null: no message.
 struct SensorMessages {
   const messages::Schema* schema = nullptr;
   std::optional<Companion> companion;
 };
 
 struct SensorType {
-  std::string name;                  // the service's and the recording's name: "lidar"
-  std::vector<std::string> aliases;  // further names in model files: "ray", "gpu_lidar"
+  std::string name;                  // name in services and recordings: "lidar"
+  std::vector<std::string> aliases;  // other names in model files: "ray", "gpu_lidar"
 
-  // Refuses parameters that are out of range with a sentence that names them.
+  // Creates a sensor. Refuses parameters out of range with a sentence that names them.
   std::function<base::Result<std::unique_ptr<Sensor>>(const model::SensorDescription&)> create;
 
-  const messages::Schema* schema = nullptr;  // of Sensor::Encode(); null: there is no message
-  readings::Layout layout;                   // of the readings; empty: nobody says
-  std::optional<Companion> companion;  // of cameras alone, which have an optical frame as well
+  const messages::Schema* schema = nullptr;  // of Sensor::Encode(); null: no message
+  readings::Layout layout;                   // of the readings; empty: unknown
+  std::optional<Companion> companion;        // of cameras only, which also have an optical frame
   Overlay overlay = Overlay::kNone;
 
-  // Of a type whose messages depend on the sensor's description; empty: they are those above.
+  // For a type whose messages depend on the sensor's description; empty: those above.
   std::function<SensorMessages(const model::SensorDescription&)> messages_of;
 
   SensorMessages MessagesOf(const model::SensorDescription& description) const {
@@ -58,10 +58,10 @@ struct SensorType {
 
 class SensorRegistry {
  public:
-  // Fails when the name or an alias is taken.
+  // Fails if the name or an alias is taken.
   base::Status Add(SensorType type);
 
-  // By name or alias; null if there is none. Valid as long as the registry.
+  // A type by name or alias; null if unknown. Valid during the lifetime of the registry.
   const SensorType* Find(std::string_view name) const;
 
   std::vector<std::string> names() const;

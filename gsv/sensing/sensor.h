@@ -1,5 +1,4 @@
-// A sensor as a model has it. It holds its description and nothing of a robot: one Sensor serves
-// all robots of the model.
+// A sensor of a model. It has no state of a robot: one Sensor serves all robots of the model.
 //
 // Threads      a Sensor's const members may run concurrently; a Sampling belongs to one thread.
 // Determinism  Sample() is a function of the sampling's snapshot, robot and seed alone.
@@ -21,8 +20,7 @@
 
 namespace gsv::sensing {
 
-// All that a reading may depend on. What the sensors of a robot have in common is found once, so
-// that they had better share a sampling.
+// All inputs of a reading. Sensors of a robot should share a sampling, as it caches common data.
 class Sampling {
  public:
   // `body` is the robot's index in the snapshot's layout. `rays` outlives the sampling.
@@ -30,9 +28,9 @@ class Sampling {
            RaySceneCache& rays)
       : snapshot_(std::move(snapshot)), body_(body), seed_(seed), rays_(rays) {}
 
-  // On to another robot at the same instant.
+  // Moves to another robot at the same instant.
   void MoveTo(int body);
-  // The same at another instant; `body` counts in that one's layout.
+  // The same at another instant; `body` is an index in that snapshot's layout.
   Sampling At(std::shared_ptr<const world::Snapshot> snapshot, int body) const {
     return {std::move(snapshot), body, seed_, rays_};
   }
@@ -41,18 +39,18 @@ class Sampling {
   int body() const { return body_; }
   const world::Body& robot() const { return snapshot_->layout->bodies[body_]; }
 
-  // The solids of the world at this instant; built on first use, shared by all who sample it. Valid
-  // as long as the sampling.
+  // The solids of the world at this instant, built on first use and shared between samplings. Valid
+  // during the lifetime of the sampling.
   const RayScene& Rays() const {
     if (scene_ == nullptr) scene_ = rays_.At(snapshot_);
     return *scene_;
   }
 
-  // The distance along a ray to the nearest surface that is not the robot's; infinite if there is
-  // none within the ray's length.
+  // The distance along a ray to the nearest surface of another body; infinite if there is none
+  // within the ray's length.
   double Range(const Ray& ray) const;
 
-  // So many rays more are about to be cast from about the robot: it may pay to look around first.
+  // Announces `count` rays from near the robot, for which gathering a candidate set may pay.
   void ExpectRays(std::size_t count) const { expected_rays_ += count; }
 
   geometry::Pose WorldFromSensor(const model::SensorDescription& description) const {
@@ -81,11 +79,11 @@ class Sampling {
   int body_;
   std::uint64_t seed_;
   RaySceneCache& rays_;
-  mutable std::shared_ptr<const RayScene> scene_;  // null until it is asked for
+  mutable std::shared_ptr<const RayScene> scene_;  // null until the first use
   mutable std::size_t expected_rays_ = 0;
   mutable bool has_gathered_ = false;  // candidates_ are those of the body
   mutable std::unique_ptr<CandidateSet> candidates_;
-  mutable int link_ = -1;  // whose pose is known
+  mutable int link_ = -1;  // link of world_from_link_
   mutable geometry::Pose world_from_link_;
 };
 
@@ -96,7 +94,7 @@ struct Segment {
   geometry::Vector3 from, to;
 };
 
-// What a sensor with a field of view sees: the angle from left to right (rad), width by height.
+// A field of view: the angle from left to right (rad), and width over height.
 struct Frustum {
   double horizontal_fov = 0;
   double aspect_ratio = 1;
@@ -111,36 +109,35 @@ class Sensor {
 
   const model::SensorDescription& description() const { return description_; }
 
-  // May take long (an image): called on the stepping thread, as by the judge of a verdict, it
-  // delays the next step by as much. Fails only where the means are missing: a camera without a
-  // renderer.
+  // Takes a reading. May be slow (an image): on the stepping thread it delays the next step. Fails
+  // only if resources are missing, such as a renderer for a camera.
   virtual base::Result<Reading> Sample(const Sampling& sampling) const = 0;
-  // Sample() waits for something outside of the caller's thread, such as a renderer.
+  // Whether Sample() waits for another thread, such as a renderer.
   virtual bool TakesLong() const { return false; }
 
-  // Whether Sample() casts rays: then who samples many has the scene made ready for all beforehand.
+  // Whether Sample() casts rays. Callers that sample many sensors then prepare the ray scene first.
   virtual bool CastsRays() const { return false; }
 
   using Bytes = std::vector<std::uint8_t>;
-  // One of this sensor's readings as its type's message, in CDR; `frame_id` is the sensor's frame.
-  // Nothing of a type without a message. kCorrupt for a reading that has another size than the
-  // type's layout says.
+  // Encodes a reading as the type's message, in CDR; `frame_id` is the sensor's frame. Empty for a
+  // type without a message. kCorrupt for a reading that does not have the size of the type's
+  // layout.
   virtual base::Result<Bytes> Encode(const Reading& /*reading*/,
                                      const std::string& /*frame_id*/) const {
     return Bytes();
   }
-  // The same of the message that goes beside it, of a type with a companion.
+  // The same for the companion message, if the type has one.
   virtual Bytes EncodeCompanion(base::SimTime /*time*/, const std::string& /*frame_id*/) const {
     return {};
   }
-  // That message of a type whose companion goes with each reading (Companion::of_readings). Of
-  // other types it is the same for every reading of one instant.
+  // The companion message for one reading (Companion::of_readings). By default it is the same for
+  // all readings of one instant.
   virtual Bytes EncodeCompanionOf(const Reading& reading, const std::string& frame_id) const {
     return EncodeCompanion(reading.time, frame_id);
   }
-  // What a viewer draws of a reading; a point at each end for types that are drawn as points.
+  // The beams of a reading for viewers; types that are drawn as points have a point at each end.
   virtual std::vector<Segment> Beams(const Reading& /*reading*/) const { return {}; }
-  // Nothing of a sensor without a field of view.
+  // The field of view, if the sensor has one.
   virtual std::optional<Frustum> frustum() const { return std::nullopt; }
 
   // This sensor as a device, or null if it keeps no state from one step to the next.

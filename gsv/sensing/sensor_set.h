@@ -1,4 +1,4 @@
-// Sensors by their descriptions: equal ones, as robots of one model have, are one Sensor.
+// Sensors by description. Equal descriptions, as of robots of one model, share one Sensor.
 //
 // Threads  one.
 #pragma once
@@ -17,12 +17,12 @@ class SensorSet {
   // `types` outlives this.
   explicit SensorSet(const SensorRegistry& types) : types_(types) {}
 
-  // kNotFound for an unknown type; what its type refuses is the type's error.
+  // kNotFound for an unknown type; else the error of the type for invalid parameters.
   base::Result<std::shared_ptr<const Sensor>> Of(const model::SensorDescription& description);
 
  private:
   const SensorRegistry& types_;
-  // By name: few models give one name to different sensors. Those that nobody has any more go when
+  // By name, as few models use one name for different sensors. Expired ones are removed when
   // another one of their name is made.
   std::map<std::string, std::vector<std::weak_ptr<const Sensor>>, std::less<>> known_;
 };

@@ -1,4 +1,4 @@
-// How a class becomes a sensor type: its readings' layout, its message and its registration.
+// Makes a sensor type from a class: the layout of its readings, its message and its registration.
 //
 //   class Battery final : public SensorOf<readings::Battery, messages::sensor_msgs::BatteryState> {
 //    public:
@@ -23,8 +23,8 @@
 
 namespace gsv::sensing {
 
-// A sensor whose readings are laid out as ValuesType (gsv/readings) and become a MessageType. Base
-// is Sensor or Actuator.
+// A sensor whose readings have the struct ValuesType (gsv/readings) and the message MessageType.
+// Base is Sensor or Actuator.
 template <typename ValuesType, typename MessageType, typename Base = Sensor>
 class SensorOf : public Base {
  public:
@@ -46,14 +46,15 @@ class SensorOf : public Base {
   }
 
  private:
-  // The reading as a message; its header may be left empty, unless it has a frame of its own.
+  // Converts a reading to a message. The header may be left empty, unless its frame is not the
+  // sensor's.
   virtual Message ToMessage(const Values& values, const Reading& reading,
                             const std::string& frame_id) const = 0;
   virtual std::vector<Segment> BeamsOf(const Values& /*values*/) const { return {}; }
 };
 
-// The type of a SensorOf that is made of (description, ParameterReader&, context…), and refuses by
-// the reader.
+// The type of a SensorOf with the constructor (description, ParameterReader&, context…), which
+// reports invalid parameters to the reader.
 template <typename Kind, typename... Context>
 SensorType MakeSensorType(std::string name, std::vector<std::string> aliases = {},
                           Overlay overlay = Overlay::kNone, Context... context) {

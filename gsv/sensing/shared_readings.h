@@ -1,10 +1,10 @@
-// The readings taken last by sensors that take long: what a camera saw at one instant is asked for
-// by its robot's behaviour, by the recording and by each viewer, and drawn once.
+// A cache of readings of slow sensors: an image of one instant is rendered once for the behaviour,
+// the recording and all viewers.
 //
-// Bounded      by the bytes of what is kept; the oldest goes first. What was read from a snapshot
-//              that is gone goes with the next reading.
-// Threads      any; who asks for what another is just taking waits for him.
-// Determinism  a reading is a function of what it is found by here.
+// Bounded      by the bytes of readings; the oldest are removed first. Readings of destroyed
+//              snapshots are removed at the next reading.
+// Threads      any; a thread that needs a reading which another thread takes waits for it.
+// Determinism  a reading is a function of its key.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class SharedReadings {
  public:
   explicit SharedReadings(std::size_t capacity_bytes) : capacity_(capacity_bytes) {}
 
-  // What sensor.Sample(sampling) gives. Errors are not kept.
+  // Returns sensor.Sample(sampling), cached. Errors are not cached.
   base::Result<Reading> Take(const Sensor& sensor, const Sampling& sampling);
 
   std::size_t bytes() const;
@@ -47,7 +47,7 @@ class SharedReadings {
   std::deque<Entry> entries_ GSV_GUARDED_BY(mutex_);  // the oldest first
 };
 
-// From here on all sensors of the type share their readings.
+// Makes all sensors of the type share their readings.
 void Share(SensorType& type, std::shared_ptr<SharedReadings> readings);
 
 }  // namespace gsv::sensing

@@ -1,4 +1,4 @@
-// The servants of actuators: a SensorServant that can be told something.
+// The servants of actuators: SensorServants that take commands.
 //
 // Threads  ORB threads.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace gsv::services {
 
-// What all have in common, mixed into the skeleton of each interface.
+// The base of all actuator servants, on top of the skeleton of each interface.
 template <typename Skeleton>
 class ActuatorServant : public SensorServant<Skeleton> {
  public:
@@ -26,7 +26,7 @@ class ActuatorServant : public SensorServant<Skeleton> {
   }
 };
 
-// Makers, for SensorServants.
+// Factories for SensorServants.
 PortableServer::ServantBase* MakeLampServant(std::shared_ptr<simulation::Agent> agent,
                                              model::SensorDescription description,
                                              std::shared_ptr<ServantGroup> group);

@@ -1,5 +1,4 @@
-// Where behaviours for robots come from: an interface, so that simulations do not depend on a
-// broker.
+// The source of behaviours for robots; an interface, so that simulations do not depend on a broker.
 #pragma once
 
 #include <memory>
@@ -15,17 +14,16 @@ class BehaviourSource {
  public:
   virtual ~BehaviourSource() = default;
 
-  // A behaviour of its own for one more robot, from an offer that matches `constraint` (in the
-  // Trading Service's constraint language over the properties of docs/services.md). May take as
-  // long as a few remote calls.
+  // A new behaviour from an offer that matches `constraint` (in the Trading Service's constraint
+  // language over the properties of docs/services.md). May take as long as a few remote calls.
   virtual base::Result<std::shared_ptr<simulation::BehaviourPort>> Get(
       const std::string& constraint) = 0;
 
-  // The patience that its behaviours share; null if they have none.
+  // The time limit that its behaviours share; null if they have none.
   virtual std::shared_ptr<StopTimeout> stop_timeout() const { return nullptr; }
 };
 
-// The constraint for a behaviour by its name: name == 'wander'. Quotes in the name are escaped.
+// The constraint for a behaviour's name: name == 'wander'. Escapes quotes in the name.
 std::string ConstraintForName(const std::string& name);
 
 }  // namespace gsv::services

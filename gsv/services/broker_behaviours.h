@@ -1,5 +1,4 @@
-// Behaviours from the broker's offers: of those that match, the program that serves the fewest
-// robots so far.
+// Behaviours from the broker's offers: the matching program that serves the fewest robots.
 #pragma once
 
 #include <map>
@@ -13,7 +12,7 @@ namespace gsv::services {
 
 class BrokerBehaviours final : public BehaviourSource {
  public:
-  // `broker` outlives it; hardware for the behaviours is activated on `poa`.
+  // `broker` must outlive the object. Hardware for behaviours is activated on `poa`.
   BrokerBehaviours(broker::BrokerClient& broker, PortableServer::POA_ptr poa)
       : broker_(broker), poa_(PortableServer::POA::_duplicate(poa)) {}
 

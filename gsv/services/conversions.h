@@ -1,4 +1,4 @@
-// Our plain data to and from that of the IDL.
+// Converts plain data to and from IDL types.
 #pragma once
 
 #include <initializer_list>
@@ -18,23 +18,25 @@ namespace gsv::services {
 sba::Placement ToIdl(const geometry::Pose& pose);
 geometry::Pose FromIdl(const sba::Placement& placement);
 
-// `robot_from_link` places the sensor's link.
+// `robot_from_link` is the pose of the sensor's link.
 sba::SensorTraits ToIdl(const model::SensorDescription& description,
                         const geometry::Pose& robot_from_link);
-// Numbers and flags are recognised in the parameters' text.
+// Recognises numbers and flags in the texts.
 model::Parameters FromIdl(const sba::NameValues& values);
 sba::NameValues ToIdl(const model::Parameters& parameters);
-// Raises sba::Refused, naming those that are known, for an option that is none of them.
+// Throws sba::Refused for an unknown option, listing the known ones.
 void RefuseUnknown(const model::Parameters& options, std::initializer_list<std::string_view> known);
 
 sba::CommandDescription ToIdl(const simulation::Command& command);
-// GSV reads each as the type of the parameter that it is for. Of two with one name the last counts.
+// Texts by name, which are parsed as the type of their parameter. If a name occurs twice, the last
+// one counts.
 std::map<std::string, std::string> TextsOf(const sba::NameValues& values);
 
 sba::Measurement ToIdl(const std::string& sensor, const sensing::Reading& reading);
 
 sba::SimulationState ToIdl(const simulation::SimulationStatus& status);
-// What the IDL does not carry (wall times, counts of readings, who is an avatar) keeps its default.
+// Members that are not in the IDL (wall-clock times, numbers of readings, avatars) keep their
+// defaults.
 simulation::SimulationStatus FromIdl(const sba::SimulationState& state);
 sba::SimulationPhase ToIdl(simulation::Phase phase);
 simulation::Phase FromIdl(sba::SimulationPhase phase);

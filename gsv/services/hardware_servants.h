@@ -1,5 +1,5 @@
-// The emulated hardware of one robot as the behaviour's process sees it: sba::Hardware with its
-// sensors, base and clocks, over a simulation::Agent.
+// The servants of one robot's emulated hardware: sba::Hardware with sensors, base and clocks, on
+// top of a simulation::Agent.
 //
 // Threads  ORB threads; all state is the agent's.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace gsv::services {
 
-// A reference to new hardware for `agent`, one more object of the group.
+// Activates new hardware for `agent` in the group.
 sba::Hardware_ptr ActivateHardware(std::shared_ptr<simulation::Agent> agent,
                                    std::shared_ptr<ServantGroup> group);
 

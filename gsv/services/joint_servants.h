@@ -1,4 +1,4 @@
-// The joints of one robot as the behaviour's process sees them, over a simulation::Agent.
+// The servants of one robot's joints, on top of a simulation::Agent.
 //
 // Threads  ORB threads; all state is the agent's.
 #pragma once
@@ -11,11 +11,11 @@
 
 namespace gsv::services {
 
-// Those that take commands.
+// The joints that take commands.
 sba::JointTraitsList* ListJoints(const simulation::Agent& agent);
 
-// A reference to the joint of that name, one more object of the group. Raises sba::Refused when
-// there is none that takes commands.
+// Activates the joint of that name in the group. Throws sba::Refused if there is none that takes
+// commands.
 sba::JointActuator_ptr ActivateJoint(std::shared_ptr<simulation::Agent> agent,
                                      const std::string& name,
                                      const std::shared_ptr<ServantGroup>& group);

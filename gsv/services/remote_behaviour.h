@@ -1,4 +1,4 @@
-// A behaviour in another process, reached through its sba::AgentBehaviour.
+// A behaviour in another process, called through sba::AgentBehaviour.
 //
 // Threads  as simulation::BehaviourPort.
 #pragma once
@@ -15,14 +15,14 @@
 namespace gsv::services {
 
 struct BehaviourIdentity {
-  std::string name;   // of its service: "wander"
+  std::string name;   // name of its service: "wander"
   std::string place;  // "host:pid"
   bool time_managed = true;
 };
 
 class RemoteBehaviour final : public simulation::BehaviourPort {
  public:
-  // Hardware is activated on `poa`. `stop_timeout` may be null: then it has as long as usual.
+  // Hardware is activated on `poa`. `stop_timeout` may be null: then the normal limit applies.
   RemoteBehaviour(sba::AgentBehaviour_ptr behaviour, BehaviourIdentity identity,
                   PortableServer::POA_ptr poa,
                   std::shared_ptr<const StopTimeout> stop_timeout = nullptr);
@@ -49,7 +49,7 @@ class RemoteBehaviour final : public simulation::BehaviourPort {
   sba::AgentBehaviour_var behaviour_;
   PortableServer::POA_var poa_;
   const std::shared_ptr<const StopTimeout> stop_timeout_;
-  bool has_not_stopped_ = false;  // it did not answer stop in time; calls come one after the other
+  bool has_not_stopped_ = false;  // it did not answer stop in time
   base::Mutex mutex_;
   std::shared_ptr<ServantGroup> hardware_ GSV_GUARDED_BY(mutex_);
 };

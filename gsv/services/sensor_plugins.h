@@ -1,5 +1,5 @@
-// Sensor types in shared libraries, see sensing/module.h. A library that is loaded stays loaded,
-// and is trusted: its faults are this process's.
+// Sensor types in shared libraries, see sensing/module.h. A library stays loaded, and is trusted:
+// its faults affect this process.
 //
 // Threads  one, before the first simulation.
 #pragma once
@@ -14,11 +14,11 @@
 namespace gsv::services {
 
 // The libraries gsv-sensor-*.so in these folders, separated by colons; by folder, then by name.
-// Folders that are not there hold none.
+// Missing folders are ignored.
 std::vector<std::filesystem::path> FindSensorPlugins(std::string_view folders);
 
-// Adds the library's types. Fails when the file is no library, no sensor module, or built against
-// another version of gsv, and when a type's name is taken.
+// Adds the library's types. Fails if the file is not a library, not a sensor module, or built for
+// another version of gsv, or if a type's name is taken.
 base::Status LoadSensorPlugin(const std::filesystem::path& file, sensing::SensorRegistry& registry);
 
 }  // namespace gsv::services

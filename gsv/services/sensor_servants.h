@@ -1,6 +1,5 @@
-// The servants of sensors. What a type's IDL interface needs is one class with its operations on
-// top of SensorServant, and one line that registers it; a plug-in does the same, see
-// docs/sensors.md.
+// The servants of sensors. An IDL interface of a type needs a class with its operations on top of
+// SensorServant, and one line that registers it, also in a plug-in (docs/sensors.md).
 //
 // Threads  ORB threads; Register() before the first simulation.
 #pragma once
@@ -17,7 +16,7 @@
 
 namespace gsv::services {
 
-// What all sensor servants have in common, mixed into the skeleton of each interface.
+// The base of all sensor servants, on top of the skeleton of each interface.
 template <typename Skeleton>
 class SensorServant : public Skeleton {
  public:
@@ -32,14 +31,14 @@ class SensorServant : public Skeleton {
     return new sba::Measurement(ToIdl(description_.name, Read()));
   }
   void close() override {
-    (void)agent_->CloseSensor(description_.name);  // closed twice is closed
+    (void)agent_->CloseSensor(description_.name);  // closing twice is allowed
     group_->Deactivate(this);
   }
 
  protected:
-  // Raises what an operation on a sensor may raise.
+  // Reads the sensor; throws the exceptions that operations on sensors declare.
   sensing::Reading Read() { return orb::ValueOrThrow(agent_->Read(description_.name), kReading); }
-  // The reading as the struct of its type (gsv/readings/catalogue.h), which may view it.
+  // The reading as the struct of its type (gsv/readings/catalogue.h), which may refer to it.
   template <typename Values>
   Values In(const sensing::Reading& reading) const {
     return orb::ValueOrThrow(sensing::ValuesOf<Values>(reading, description_.name), kReading);
@@ -68,8 +67,8 @@ PortableServer::ServantBase* MakeSensorServant(std::shared_ptr<simulation::Agent
   return new Servant(std::move(agent), std::move(description), std::move(group));
 }
 
-// Types with an interface of their own. A type that is not listed is served as a plain
-// sba::Sensor, or as an sba::Actuator if it takes commands.
+// The types with their own interface. Other types are served as sba::Sensor, or as sba::Actuator if
+// they take commands.
 class SensorServants {
  public:
   static void Register(const std::string& type, SensorServantMaker maker);

@@ -1,4 +1,4 @@
-// CORBA objects that come and go together.
+// A group of CORBA objects that are deactivated together.
 //
 // Threads  any.
 #pragma once
@@ -12,20 +12,20 @@
 
 namespace gsv::services {
 
-// The objects that belong to one robot's hardware. Its owner ends them together; whoever calls them
-// afterwards gets OBJECT_NOT_EXIST.
+// The objects of one robot's hardware. After DeactivateAll(), calls get OBJECT_NOT_EXIST.
 class ServantGroup {
  public:
   explicit ServantGroup(PortableServer::POA_ptr poa);
 
-  // Takes the servant over and gives a reference to it. Raises sba::Ended after DeactivateAll().
+  // Takes ownership of the servant and returns a reference. Throws sba::Ended after
+  // DeactivateAll().
   template <typename Interface>
   typename Interface::_ptr_type Activate(PortableServer::ServantBase* servant) {
     const CORBA::Object_var object = Adopt(servant, nullptr);
     return Interface::_narrow(object);
   }
-  // The same, and the reference says no more of its type than `Interface`, though the servant may
-  // be of a later one: clients that were made before that know what they get.
+  // The same, with the type `Interface` in the reference, though the servant may have a derived
+  // interface, for older clients.
   template <typename Interface>
   typename Interface::_ptr_type ActivateAs(PortableServer::ServantBase* servant) {
     const CORBA::Object_var object = Adopt(servant, Interface::_PD_repoId);

@@ -1,5 +1,4 @@
-// How busy a server is: dynamic properties of its offers, which the broker asks for whenever a
-// query needs them.
+// The load of a server as dynamic properties of its offers, which the broker evaluates for queries.
 //
 //   simulations   long    how many it has
 //   load          double  what it runs at the moment (simulations that advance, and scenarios), for
@@ -21,13 +20,14 @@ namespace gsv::services {
 
 class ServerLoad final : public POA_CosTradingDynamic::DynamicPropEval {
  public:
-  // `host` outlives it. `scenarios`: how many are under way; may be empty.
+  // `host` must outlive the object. `scenarios` returns the number of running scenarios; may be
+  // empty.
   ServerLoad(const SimulationHost& host, std::function<int()> scenarios)
       : host_(host), scenarios_(std::move(scenarios)) {}
 
   CORBA::Any* evalDP(const char* name, CORBA::TypeCode_ptr type, const CORBA::Any& info) override;
 
-  // To be exported, once it is active.
+  // The properties to export, once the object is active.
   std::vector<broker::Property> Properties();
 
  private:

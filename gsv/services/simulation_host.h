@@ -1,4 +1,4 @@
-// The simulations of one process, by name, with what they share: models, sensor types.
+// The simulations of one process, by name, with shared models and sensor types.
 //
 // Threads  any.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace gsv::services {
 
-// So many simulations at once in one process, if nothing else is said.
+// The default limit of simulations per process.
 inline constexpr std::size_t kDefaultMaxSimulations = 64;
 
 class SimulationHost {
@@ -27,17 +27,17 @@ class SimulationHost {
         library_(std::move(library)),
         max_simulations_(max_simulations) {}
 
-  // Reads the world, unless `specification.world` is given, and creates a simulation of it. An
-  // empty name is chosen, a taken one is an error. What the files lack is added to `problems`.
+  // Reads the world, unless `specification.world` is set, and creates a simulation. Chooses a name
+  // if it is empty; a taken name is an error. Adds problems of the files to `problems`.
   base::Result<std::shared_ptr<simulation::Simulation>> Create(
       simulation::Specification specification, const std::string& world, base::Problems& problems);
-  // In no list, and of no effect on the names that are taken: to be looked at.
-  // `specification.world` is given.
+  // Creates a simulation that is not listed and takes no name, for previews. `specification.world`
+  // must be set.
   base::Result<std::shared_ptr<simulation::Simulation>> CreateUnlisted(
       simulation::Specification specification) const {
     return simulation::Simulation::Create(std::move(specification), sensors_);
   }
-  // Removes it from the list; it ends when nobody holds it any more.
+  // Removes a simulation from the list. It is destroyed with its last user.
   base::Status Remove(const std::string& name);
 
   std::shared_ptr<simulation::Simulation> Find(const std::string& name) const;  // may be null

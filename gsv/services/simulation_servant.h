@@ -1,4 +1,5 @@
-// sba::Simulation and sba::SimulationService over the simulations of a SimulationHost.
+// The servants of sba::Simulation and sba::SimulationService for the simulations of a
+// SimulationHost.
 //
 // Threads  ORB threads.
 #pragma once
@@ -15,11 +16,11 @@
 
 namespace gsv::services {
 
-// What the program around the services adds to them.
+// Hooks of the program around the services.
 struct ServiceHooks {
-  // The file of a world as a caller names it; of an empty name, the default world's. May be empty.
+  // Finds the file of a world; for an empty name the default world. May be empty.
   std::function<base::Result<std::string>(const std::string& world)> find_world;
-  // Where a browser watches a simulation; may be empty.
+  // Returns the URL of a simulation's viewer; may be empty.
   std::function<std::string(const std::string& simulation)> viewer_url;
   std::function<base::Status(std::shared_ptr<simulation::Simulation>, const std::string& path)>
       start_recording;
@@ -56,7 +57,7 @@ class SimulationServant final : public POA_sba::Simulation {
   void destroy() override;
 
   const std::shared_ptr<simulation::Simulation>& simulation() const { return simulation_; }
-  // Nobody has called for too long, and it was not created to be kept.
+  // Whether there was no call for too long, and the simulation was not created with keep.
   bool IsAbandoned() const;
 
  private:
@@ -72,7 +73,8 @@ class SimulationServant final : public POA_sba::Simulation {
 
 class SimulationServiceServant final : public POA_sba::SimulationService {
  public:
-  // `host` and `behaviours` outlive it; `behaviours` may be null: then only references serve.
+  // `host` and `behaviours` must outlive the object. `behaviours` may be null: then robots need
+  // references to behaviours.
   SimulationServiceServant(PortableServer::POA_ptr poa, SimulationHost& host,
                            BehaviourSource* behaviours, ServiceHooks hooks);
   ~SimulationServiceServant() override;
@@ -80,11 +82,11 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
   sba::Simulation_ptr create_simulation(const sba::SimulationSpecification& specification) override;
   sba::Simulations* list() override;
 
-  // Puts a simulation that was not created through this service into its list; once is enough.
+  // Adds a simulation that was not created through this service to its list. Idempotent.
   void Publish(std::shared_ptr<simulation::Simulation> simulation);
-  // Lets go of every simulation; calls on their references find nothing any more.
+  // Releases every simulation and deactivates its references.
   void Close();
-  // kNotFound when there is none of that name, or none any more.
+  // kNotFound if there is no simulation of that name.
   base::Status Destroy(const std::string& simulation);
   SimulationHost& host() { return host_; }
   BehaviourSource* behaviours() { return behaviours_; }
@@ -94,7 +96,7 @@ class SimulationServiceServant final : public POA_sba::SimulationService {
  private:
   sba::Simulation_ptr Activate(std::shared_ptr<simulation::Simulation> simulation,
                                sba::SimulationSpecification specification);
-  // Until it closes: stops simulations whose creators have gone, and gives back memory.
+  // The janitor thread: destroys abandoned simulations, and returns memory to the system.
   void RunJanitor();
 
   PortableServer::POA_var poa_;

@@ -1,4 +1,4 @@
-// How long behaviours in other processes have to answer the calls that end their runs.
+// The time limit of calls that end the runs of behaviours in other processes.
 //
 // Threads  any.
 #pragma once
@@ -9,19 +9,19 @@
 
 namespace gsv::services {
 
-// One for all behaviours of a process. Normally a call may take as long as any other. After
-// Hurry(), when the process shall end, all calls together have what is left of a second: a
-// behaviour that never returns does not hold up the end.
+// One object for all behaviours of a process. Usually each call has the normal limit. After
+// Shorten(), when the process ends, all calls together have one second, so that a behaviour that
+// does not return cannot delay the end.
 class StopTimeout {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds kNormal{10'000};
   static constexpr std::chrono::milliseconds kShortened{1'000};
-  static constexpr std::chrono::milliseconds kMin{20};  // for those whose turn comes later
+  static constexpr std::chrono::milliseconds kMin{20};  // for later calls
 
   void Shorten() { until_ = Clock::now() + kShortened; }
   bool is_shortened() const { return until_.load() != Clock::time_point::max(); }
-  // For a call that begins now.
+  // The limit of a call that begins now.
   std::chrono::milliseconds limit() const {
     const Clock::time_point until = until_;
     if (until == Clock::time_point::max()) return kNormal;

@@ -1,9 +1,9 @@
-// How a simulation reaches a behaviour, wherever that runs: in another process through CORBA, or in
-// this one. Implemented above this layer.
+// The interface through which a simulation calls a behaviour in this process or, over CORBA, in
+// another one. Layers above implement it.
 //
-// Threads  calls for one behaviour come one after the other, from threads of the simulation that
-//          do nothing else; never from the stepping thread, never under a lock.
-// Errors   every call ends within the implementation's own time limit.
+// Threads  calls for one behaviour come one after the other, from dedicated threads of the
+//          simulation, never from the stepping thread or with a lock held.
+// Errors   every call ends within a time limit of the implementation.
 #pragma once
 
 #include <memory>
@@ -20,26 +20,26 @@ class BehaviourPort {
  public:
   virtual ~BehaviourPort() = default;
 
-  // Hands the behaviour its name and hardware. It may open sensors before it returns.
+  // Gives the behaviour its robot. It may open sensors before it returns.
   virtual base::Status Init(const std::shared_ptr<Agent>& agent) = 0;
   virtual base::Status Start() = 0;
   virtual base::Status Stop() = 0;
   virtual base::Status Pause() = 0;
   virtual base::Status Resume() = 0;
-  // The behaviour is not needed any more.
+  // Destroys the behaviour.
   virtual void Destroy() = 0;
 
-  // Whether it is certainly dead: its process has ended, its host refuses the connection. A
-  // behaviour that merely does not answer is not dead. May take as long as a call.
+  // Whether the behaviour is certainly dead: its process has ended, or its host refuses the
+  // connection. An unresponsive behaviour is not dead. May take as long as a call.
   virtual bool IsDead() = 0;
 
-  // Whether it tells the time by its simulation's clock (else it is never waited for).
+  // Whether it uses the simulation's clock only. Otherwise the simulation never waits for it.
   virtual bool time_managed() const = 0;
-  // Its service's name: "wander".
+  // The name of its service: "wander".
   virtual const std::string& name() const = 0;
-  // Where it runs: "host:pid".
+  // The place where it runs: "host:pid".
   virtual const std::string& place() const = 0;
-  // Itself, where the simulation is to run it, see local_behaviour.h.
+  // The local behaviour, if the simulation runs it in turns (see local_behaviour.h); else null.
   virtual LocalBehaviour* local() { return nullptr; }
 };
 

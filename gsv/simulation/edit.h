@@ -1,4 +1,4 @@
-// A change by hand of a simulated world or of who stands in it: all that is needed to make it once more.
+// A change of a simulated world or its bodies by a user, with all data to repeat it.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,29 @@ namespace gsv::simulation {
 
 struct Edit {
   enum class Kind { kAddRobot, kAddAvatar, kAddObject, kRemove, kPlace, kCommand };
-  // Where between two steps, as behaviours see it.
+  // The moment between two steps, relative to the turns of behaviours.
   enum class Moment {
-    kBeforeTurns,  // those that wake at this instant find the world changed
-    kAfterTurns,   // they have had their turn; the next step finds it changed
-    kAmidTurns,    // some may have, and some not: which, nobody knows
+    kBeforeTurns,  // behaviours that wake at this instant find the world changed
+    kAfterTurns,   // behaviours have had their turn; the next step finds the world changed
+    kAmidTurns,    // some behaviours may have had their turn; which ones is unknown
   };
 
   std::int64_t step = 0;  // taken so far
   base::SimTime time{0};
   Kind kind = Kind::kPlace;
   Moment moment = Moment::kBeforeTurns;
-  std::uint64_t halt = 0;  // edits with the same number were made without going on between them
+  std::uint64_t halt = 0;  // edits with the same number were made during one pause
   std::string body;
-  // Of what is added: the file of its model, or the body that it is a copy of.
+  // For added bodies: the file of the model, or the body that is copied.
   std::string model;
   std::string copy_of;
   std::string behaviour;  // its name; empty: none
   std::optional<model::Movement> movement;
   std::string drive;  // as model/drive_choice.h has it; empty: the model's or the guessed one
-  // Of what is added or placed: as it was asked for.
+  // For added or placed bodies: the requested pose.
   geometry::Pose world_from_body;
   bool on_ground = true;
-  // A command of simulation/commands/command_table.h and its arguments, which the reader of
-  // arguments understands.
+  // A command of simulation/commands/command_table.h and its arguments, for ReadArguments().
   std::string command;
   std::map<std::string, std::string> arguments;
 };

@@ -1,6 +1,6 @@
-// What one simulation holds at most, in this process; docs/limits.md lists them.
+// Limits of each simulation in this process; docs/limits.md lists them.
 //
-// Threads  set before the first simulation is created, read by any.
+// Threads  set before the first simulation is created, read by any thread.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 namespace gsv::simulation {
 
 struct Limits {
-  std::size_t robots = 100'000;           // avatars among them
-  std::size_t sensors_of_a_robot = 1024;  // those of its model among them
+  std::size_t robots = 100'000;           // including avatars
+  std::size_t sensors_of_a_robot = 1024;  // including those of its model
 };
 
 inline Limits& ProcessLimits() {

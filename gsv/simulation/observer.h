@@ -1,4 +1,4 @@
-// Receives what happens in a simulation. See Simulation::AddObserver().
+// Receives the snapshots and events of a simulation. See Simulation::AddObserver().
 //
 // Threads  snapshots come from the stepping thread, which holds no lock then: const members of the
 //          simulation may be called. Events come from any thread, with locks held: no member of the

@@ -1,4 +1,4 @@
-// The plain data that goes into a simulation and comes out of it.
+// The plain data of a simulation: its specification, status and events.
 #pragma once
 
 #include <algorithm>
@@ -21,35 +21,37 @@ namespace gsv::simulation {
 using base::SimTime;
 
 enum class Mode {
-  kRealTime,  // steps are paced by the wall clock times a factor; nobody is waited for
+  // Steps follow the wall clock times the real-time factor; the simulation waits for no agent.
+  kRealTime,
   kLockstep,  // as fast as possible; the step is taken when every agent waits (reproducible)
 };
 
-// created → starting → running ⇄ paused; finished when the duration is over; failed when a
-// behaviour failed and the policy says so; stopped when somebody stopped it.
+// created → starting → running ⇄ paused. finished: the duration is over; failed: a behaviour
+// failed, with FailurePolicy::kFail; stopped: by request.
 enum class Phase { kCreated, kStarting, kRunning, kPaused, kStopped, kFinished, kFailed };
 
 const char* ToString(Mode mode);
 const char* ToString(Phase phase);
 
-// What becomes of the run when a behaviour crashes or does not answer.
+// The effect of a dead or unresponsive behaviour on the run.
 enum class FailurePolicy { kContinue, kFail };
 
 struct Specification {
   std::string name = "simulation";
   std::shared_ptr<const model::WorldDescription> world;  // never null
   Mode mode = Mode::kRealTime;
-  double factor = 1;  // kRealTime: simulated seconds a wall second, > 0
+  double factor = 1;  // kRealTime: target real-time factor, > 0
   SimTime step{0};    // 0: the world's max_step_size
   std::uint64_t seed = 0;
   SimTime duration{0};  // 0: until stopped
   FailurePolicy on_failure = FailurePolicy::kContinue;
-  // Wall time that an agent may run before it must wait; then it is unresponsive.
+  // Wall-clock time that an agent may run before it counts as unresponsive.
   std::chrono::milliseconds deadline{10'000};
-  bool keep = false;                                // survives its creator
+  bool keep = false;                                // kept after its creator has gone
   std::vector<model::PedestrianGroup> pedestrians;  // besides the world's own
-  std::vector<scenario::Fault> faults;              // that will happen; see faults.h
-  // That move bodies and run local behaviours; 0: as many as processors in lockstep, else one.
+  std::vector<scenario::Fault> faults;              // see scenario/fault.h
+  // Number of threads for bodies and local behaviours; 0: in lockstep the number of processors,
+  // else one.
   int threads = 0;
 };
 
@@ -62,7 +64,7 @@ struct RobotStatus {
   std::string model;
   std::string behaviour;  // empty: none
   bool is_avatar = false;
-  bool is_station = false;  // nobody drives it; it has sensors (world/station.h)
+  bool is_station = false;  // an object with sensors (world/station.h)
   AgentPhase phase = AgentPhase::kNone;
   std::string detail;  // why it is dead or unresponsive
   geometry::Pose world_from_robot;
@@ -79,14 +81,15 @@ struct SimulationStatus {
   SimTime time{0};
   SimTime step_size{0};
   double target_factor = 1;
-  double real_time_factor = 0;  // over the last wall second or so while running, else over the run
+  // Actual: over about the last second while running, else over the run.
+  double real_time_factor = 0;
   std::chrono::nanoseconds wall_time{0};  // spent running
   std::uint64_t late_steps = 0;
-  std::chrono::nanoseconds mean_step_time{0};  // wall time that moving the world took, per step
+  std::chrono::nanoseconds mean_step_time{0};  // wall-clock time per step
   std::string waiting_for;          // "robot_3 (wander on host:pid) since 2.1 s"; empty: nobody
   std::string failure;              // why it failed
-  std::uint64_t events = 0;         // how many lifecycle events there were so far
-  std::vector<RobotStatus> robots;  // by name; avatars and stations among them
+  std::uint64_t events = 0;         // number of lifecycle events so far
+  std::vector<RobotStatus> robots;  // by name; including avatars and stations
 
   std::size_t CountRobots() const {  // stations are none
     return static_cast<std::size_t>(std::count_if(
@@ -101,7 +104,7 @@ struct Event {
   std::string kind;   // "started", "paused", "resumed", "stopped", "robot_added", "agent_dead", …
   std::string robot;  // empty: the simulation
   std::string detail;
-  std::shared_ptr<const Edit> edit;  // null: nobody was added, removed or placed
+  std::shared_ptr<const Edit> edit;  // null: not an edit
 };
 
 }  // namespace gsv::simulation

@@ -1,8 +1,8 @@
-// Judges a scenario's expectations on its run, at every state of the stepping thread: what comes of
-// it hangs on nothing but these.
+// Evaluates a scenario's expectations at every state of the stepping thread. The verdict is a
+// function of these states only.
 //
-// Threads  Attach() before the run; OnSnapshot() comes from the stepping thread; Finish() once,
-//          when the run is over.
+// Threads  Attach() before the run; OnSnapshot() on the stepping thread; Finish() once, after the
+//          run.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ struct MeasuredAtom {
 struct Finding {
   std::string name, yaml, where;  // of the expectation
   bool holds = false;
-  // The first state at which that was certain: for a violation, the first one that shows it.
+  // The first state at which the verdict was certain.
   std::int64_t step = 0;
   base::SimTime time{0};
   std::vector<MeasuredAtom> atoms;
@@ -38,15 +38,15 @@ struct Finding {
 
 class Judge final : public simulation::Observer {
  public:
-  // Observes the simulation, which has its robots and has not begun, until it is gone. What is
-  // expected of somebody who is not there is refused, with its place.
+  // Observes the simulation until it is destroyed; it must have its robots and not have started. An
+  // expectation about an unknown body is refused, with its place.
   static base::Result<std::shared_ptr<Judge>> Attach(
       const std::vector<scenario::Expectation>& expectations, simulation::Simulation& simulation);
 
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event&) override {}
 
-  // What came of each, in order. Waits for the last state to be judged.
+  // The findings in order. Waits until the last state was evaluated.
   std::vector<Finding> Finish();
   // The state at which the first violation was certain; null: none was.
   std::shared_ptr<const world::Snapshot> first_violation() const;

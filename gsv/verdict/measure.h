@@ -1,4 +1,4 @@
-// Takes the numbers of a run that expectations are about (scenario::Quantity) from its states.
+// Computes the quantities of expectations (scenario::Quantity) from the states of a run.
 //
 // Threads  one at a time.
 #pragma once
@@ -19,15 +19,15 @@ const char* UnitOf(const scenario::Quantity& quantity);  // " m"; empty: none
 
 class Measure {
  public:
-  // `simulation` outlives it.
+  // `simulation` must outlive the object.
   explicit Measure(simulation::Simulation& simulation) : simulation_(simulation) {}
 
-  // Refuses a quantity of a body, a sensor or a behaviour that is not there, or of a camera.
+  // Refuses a quantity of an unknown body, sensor or behaviour, or of a camera.
   base::Status Check(const scenario::Quantity& quantity) const;
 
-  // All that is asked for from now on is of this state, the latest.
+  // Evaluates at this state, the latest, from now on.
   void MoveTo(std::shared_ptr<const world::Snapshot> snapshot);
-  // Nothing where it cannot be had: its body is gone, its sensor gives an error.
+  // The value; nothing if its body was removed or its sensor fails.
   std::optional<double> Of(const scenario::Quantity& quantity);
 
  private:
@@ -39,7 +39,7 @@ class Measure {
   simulation::Simulation& simulation_;
   std::shared_ptr<const world::Snapshot> snapshot_;
   std::optional<simulation::SimulationStatus> status_;
-  bool is_status_new_ = false;  // it is of the snapshot
+  bool is_status_new_ = false;  // of the current snapshot
 };
 
 }  // namespace gsv::verdict

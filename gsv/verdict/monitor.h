@@ -1,5 +1,5 @@
-// Judges one formula (scenario/expectation.h) on a run, step by step, as soon as it can be: what
-// remains to be shown is rewritten at each step (formula progression: F. Bacchus and F. Kabanza,
+// Evaluates one formula (scenario/expectation.h) on a run, step by step, as early as possible: the
+// remaining obligation is rewritten at each step (formula progression: F. Bacchus and F. Kabanza,
 // "Planning for temporally extended goals", 1998).
 //
 // Units        simulated time.
@@ -21,17 +21,17 @@ using ObligationPtr = std::shared_ptr<const Obligation>;
 
 class Monitor {
  public:
-  // The atoms of the formula get the numbers `number(atom)`, by which Step() asks for their truth.
+  // `number(atom)` numbers the atoms of the formula for Step().
   Monitor(const scenario::Formula& formula,
           const std::function<int(const scenario::Formula& atom)>& number);
 
-  // The next state: at `now`, and the one after it comes `step` later. Nothing more is done once
-  // the verdict is known.
+  // Evaluates the state at `now`; the next one comes `step` later. Does nothing once the verdict is
+  // known.
   void Step(base::SimTime now, base::SimTime step, const std::function<bool(int atom)>& holds);
-  // There is no further state: what had to come and has not is violated, what had to last has.
+  // Ends the run: pending "eventually" obligations are violated, pending "always" obligations hold.
   void End();
 
-  // Nothing as long as it may go either way.
+  // The verdict; nothing while it is undecided.
   std::optional<bool> verdict() const;
 
  private:

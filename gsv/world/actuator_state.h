@@ -1,5 +1,5 @@
-// An actuator that follows a command: the state of every device that behaviours command by
-// Agent::CommandDevice(). Types whose command alone says what they do need no class of their own.
+// The state of an actuator that follows a command (Agent::CommandDevice()). A type whose state is
+// its command needs no class of its own.
 #pragma once
 
 #include "gsv/world/device_state.h"
@@ -19,8 +19,8 @@ class ActuatorState : public DeviceState {
   void AddToHash(base::Hash& hash) const final;
 
  protected:
-  // What a gripper adds to the hash of its command. Other types add the same of a gripper that is
-  // closed and empty: so do all hashes that have ever been recorded.
+  // The values that a gripper adds to the hash of its command. Other types add those of an empty
+  // gripper, for compatibility with recorded hashes.
   struct GraspForHash {
     double opening_before = 0;
     Grasp grasp;

@@ -1,7 +1,6 @@
-// What a device of a robot keeps from one step to the next: a radio the messages that it has heard,
-// a lamp its command, a gripper what it holds. Each type derives a class from DeviceState. The step
-// loop, the hash, the recorder, the renderer and the microphones use this interface and know no
-// type.
+// The state of a robot's device between steps, such as the messages of a radio, the command of a
+// lamp, the attached body of a gripper. Each type derives a class from DeviceState. The step loop,
+// the hash, the recorder, the renderer and the microphones use this interface and know no type.
 //
 // Sharing      states are immutable. A device that does not change is copied as one pointer, and a
 //              world without devices has none.
@@ -25,8 +24,8 @@ struct DeviceStep;
 struct Layout;
 struct State;
 
-// What a behaviour commands a device to do. The type defines the shape of `values`, and what `word`
-// and `content` mean.
+// A command to a device. The type defines the shape of `values` and the meaning of `word` and
+// `content`.
 struct DeviceCommand {
   std::vector<double> values;
   std::string word;
@@ -37,23 +36,23 @@ struct DeviceCommand {
 // The command that a device follows.
 struct FollowedCommand {
   DeviceCommand command;
-  base::SimTime since{0};  // the instant from which it acts
+  base::SimTime since{0};  // the instant from which it is applied
   friend bool operator==(const FollowedCommand&, const FollowedCommand&) = default;
 };
 
-// A lamp that is on. It shines along the device's x axis. A light of intensity 1 lights a white
-// surface that faces it 1 m away to full white, and falls off with the square of the distance until
-// it ends at `range`.
+// The light of a lamp that is on, along the device's x axis. At intensity 1, a white surface that
+// faces the lamp at 1 m is fully white. The light falls with the square of the distance and ends at
+// `range`.
 struct Glow {
   double brightness = 0;  // in (0, 1]
   model::Colour colour{};
   double radius = 0.02;   // m, of the sphere that glows
-  double range = 0;       // m; 0: it is visible, and lights nothing
-  double angle = 6.2832;  // rad, of the whole cone; of a full turn: all around
+  double range = 0;       // m; 0: visible, but lights nothing
+  double angle = 6.2832;  // rad, of the whole cone; 2 pi: all around
   double intensity = 1;   // at full brightness
 };
 
-// What a device plays at one instant.
+// The sound of a device at one instant.
 struct Sound {
   std::string name;
   double frequency = 0;          // Hz
@@ -62,14 +61,14 @@ struct Sound {
   double loudness = 0;           // dB (re 20 µPa) 1 m away at full volume
 };
 
-// A body that moves with the device's link.
+// An attached body, which moves with the device's link.
 struct Grasp {
   std::string held;  // a body
   geometry::Pose link_from_held;
   friend bool operator==(const Grasp&, const Grasp&) = default;
 };
 
-// Which device of which robot, and where it is mounted.
+// The robot and name of a device, and its mounting.
 struct DeviceMount {
   std::string robot, device;
   int link = 0;  // of the robot's model
@@ -93,34 +92,35 @@ class DeviceState {
   // Null for a device that follows no command, such as a radio.
   virtual const FollowedCommand* followed() const { return nullptr; }
 
-  // What cameras see of it, what microphones hear of it, and what it holds: nothing by default.
+  // Its light for cameras, its sound for microphones, and its attached body; by default none.
   virtual std::optional<Glow> glow() const { return std::nullopt; }
   virtual std::optional<Sound> SoundAt(base::SimTime) const { return std::nullopt; }
   virtual const Grasp* grasp() const { return nullptr; }
 
-  // The following give the device's next state, or null if it does not change.
+  // The following functions return the device's next state, or null if it does not change.
   //
-  // Before the bodies move, after the commands of this step.
+  // Called before the bodies move, after the commands of this step.
   virtual DeviceStatePtr BeforeStep(DeviceStep&) const { return nullptr; }
-  // After bodies were added, removed or placed elsewhere (`placed`). The device's robot is there.
+  // Called after bodies were added, removed or placed (`placed`). The device's robot exists.
   virtual DeviceStatePtr CarryOver(const Layout&, const std::vector<std::string>& /*placed*/,
                                    base::SimTime /*now*/) const {
     return nullptr;
   }
-  // After the bodies have moved, to where they are at `time`: moves what the device itself moves.
+  // Called after the bodies have moved to their poses at `time`: moves what the device itself
+  // moves.
   virtual void AfterMove(const Layout&, base::SimTime /*time*/, State&) const {}
 
  private:
   const DeviceMount mount_;
 };
 
-// Null if that device has no state. `devices` may be null.
+// The state of a device; null if it has none. `devices` may be null.
 const DeviceState* FindDevice(const DeviceStates* devices, std::string_view robot,
                               std::string_view device);
-// Where it is, or where it would have to be inserted.
+// The index of the device, or the index at which to insert it.
 std::size_t PlaceOf(const DeviceStates& devices, std::string_view robot, std::string_view device);
 
-// First those that follow no command, then those that do.
+// Adds first the devices that follow no command, then the others.
 void AddToHash(const DeviceStates& devices, base::Hash& hash);
 
 }  // namespace gsv::world

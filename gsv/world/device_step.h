@@ -1,4 +1,4 @@
-// What devices are given before a step, and what they may change with it.
+// The arguments of DeviceState::BeforeStep(), and the state that devices may change.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 namespace gsv::world {
 
 struct DeviceStep {
-  std::shared_ptr<const Snapshot> now;  // the world that is about to move
+  std::shared_ptr<const Snapshot> now;  // the world before the step
   base::SimTime length{0};              // of the step
   const RayCaster& rays;                // against the collision surfaces of `now`
-  // Bodies as in `now`; devices as those before this one, by robot and name, have left them.
+  // Bodies as in `now`. Devices before this one, by robot and name, have been stepped.
   const State& state;
   std::vector<Transmission>& transmissions;  // sent in this step, in the order of senders
 };

@@ -1,8 +1,8 @@
-// What stands in a simulated world: its bodies in canonical order. Changes only when something is
-// added or removed; between such changes every snapshot shares one Layout.
+// The bodies of a simulated world in canonical order. Snapshots share one Layout until a body is
+// added or removed.
 //
-// Determinism  bodies are ordered by name, so that the order in which they were added leaves no
-//              trace in any loop over them.
+// Determinism  bodies are ordered by name, so that loops over them do not depend on the order of
+//              insertion.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,27 @@
 
 namespace gsv::world {
 
-// Who moves a body.
+// What moves a body.
 enum class BodyKind : std::uint8_t {
-  kStatic,      // nobody: it is part of the world
-  kUnmoved,     // nobody, though it is not static: it has no drive and collides with nothing
+  kStatic,      // nothing: it is a part of the world
+  kUnmoved,     // nothing, though it is not static: it has no drive and no collisions
   kPlanarBase,  // its drive, by planar kinematics
   kAvatar,      // a person, by planar kinematics
-  kRigidBody,   // rigid-body dynamics: it falls, tips, is pushed, its joints move
-  kActor,       // its script alone: nothing stops it, and it stops whatever runs into it
+  kRigidBody,   // rigid-body dynamics: it falls, tips and is pushed, and its joints move
+  kActor,       // its script: nothing stops it, and it stops bodies that run into it
   kPedestrian,  // the social force model, by planar kinematics
 };
 
 struct Pedestrian;  // gsv/world/pedestrian.h
 
-// Who moves a body of this model, unless a person does. `movement` is that of a model with a drive;
-// without one a body can only be moved by rigid-body dynamics.
+// The kind of a body of this model, unless it is an avatar. `movement` applies to a model with a
+// drive; without a drive only rigid-body dynamics can move the body.
 BodyKind KindOf(const model::Model& model, bool is_static, model::Movement movement);
-// The same of a model as its world's file has it.
+// The same for a model of a world file.
 BodyKind KindOf(const model::PlacedModel& placed);
 
-// One placed model. `first_joint` and `first_link` place its joints and links in the arrays that
-// hold those of all bodies.
+// One placed model. `first_joint` and `first_link` are the offsets of its joints and links in
+// arrays over all bodies.
 struct Body {
   std::string name;
   std::shared_ptr<const model::Model> model;
@@ -48,9 +48,9 @@ struct Body {
   bool is_rigid() const { return kind == BodyKind::kRigidBody; }
   bool is_actor() const { return kind == BodyKind::kActor; }
   bool is_pedestrian() const { return kind == BodyKind::kPedestrian; }
-  // Moved by planar kinematics.
+  // Whether planar kinematics moves it.
   bool is_planar() const { return kind == BodyKind::kPlanarBase || is_avatar() || is_pedestrian(); }
-  // May be given a behaviour, or is steered by a person.
+  // Whether it may have a behaviour, or is an avatar.
   bool is_robot() const {
     return kind == BodyKind::kPlanarBase || is_avatar() || (is_rigid() && model->drive.has_value());
   }

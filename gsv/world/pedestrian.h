@@ -1,7 +1,7 @@
-// A pedestrian: its desired speed, and the goals that it walks to.
+// A pedestrian: its desired speed and its goals.
 //
-// Determinism  every draw is a function of the simulation's seed, the pedestrian's own stream (its
-//              name) and a number; no two share a stream.
+// Determinism  every draw is a function of the simulation's seed, the pedestrian's stream (its
+//              name) and a number. Pedestrians have different streams.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,18 @@ namespace gsv::world {
 struct Pedestrian {
   std::shared_ptr<const model::PedestrianGroup> group;  // never null
   std::uint64_t seed = 0, stream = 0;
-  double speed = 1.34;    // m/s: that it wants to walk at
-  std::uint32_t leg = 0;  // of the group's route, that it starts on
+  double speed = 1.34;    // m/s: desired speed
+  std::uint32_t leg = 0;  // first leg of the group's route
 };
 
 // Draws a member's desired speed, between a third of the group's and twice it, and its first leg.
 Pedestrian DrawPedestrian(std::shared_ptr<const model::PedestrianGroup> group, std::uint64_t seed,
                           std::uint64_t stream);
 
-// The place that it walks to after it has reached so many: within the disc of goal leg + 1 +
-// reached of the route.
+// The goal after `reached` goals: a point in the disc of goal leg + 1 + reached of the route.
 geometry::Vector2 GoalOf(const Pedestrian& pedestrian, std::uint32_t reached);
 
-// Where it may start: on the way to its first goal. Attempts are numbered from 0, each elsewhere.
+// A possible start on the way to its first goal, different for each attempt, from 0.
 geometry::Vector2 StartOf(const Pedestrian& pedestrian, std::uint32_t attempt);
 
 }  // namespace gsv::world

@@ -1,4 +1,4 @@
-// Messages that robots send each other by radio.
+// Radio messages between robots.
 //
 // Sharing  messages and setups are immutable.
 #pragma once
@@ -14,17 +14,17 @@
 
 namespace gsv::world {
 
-// What a radio is able to; docs/sensors.md names the parameters.
+// The parameters of a radio (docs/sensors.md).
 struct RadioSetup {
-  std::string network;              // only radios of one network hear each other
+  std::string network;              // only radios of one network receive from each other
   double frequency = 2.442e9;       // Hz
   double power = 14.5, gain = 2.5;  // dBm, dBi
-  double sensitivity = -90;         // dBm: the weakest that it hears
+  double sensitivity = -90;         // dBm: the weakest signal that it receives
   double range = 0;                 // m; 0: as far as power and sensitivity reach
   double path_loss_exponent = 2;    // 2: free space
-  double wall_loss = 10;            // dB for each wall, of what it sends
-  std::size_t inbox = 16;           // messages that it keeps
-  std::size_t max_size = 1024;      // bytes of a message that it sends
+  double wall_loss = 10;            // dB per wall, when it sends
+  std::size_t inbox = 16;           // number of messages that it keeps
+  std::size_t max_size = 1024;      // bytes of a sent message
 };
 using RadioSetupPtr = std::shared_ptr<const RadioSetup>;
 
@@ -43,10 +43,10 @@ RadioMessagePtr Sealed(RadioMessage message);
 struct Antenna {
   RadioSetupPtr setup;
   geometry::Vector3 position;  // world
-  int body = -1;               // that carries it; -1: none in the world
+  int body = -1;               // carrier; -1: none in the world
 };
 
-// A message that went out.
+// A sent message.
 struct Transmission {
   RadioMessagePtr message;
   Antenna from;

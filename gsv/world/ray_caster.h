@@ -1,4 +1,5 @@
-// Rays against the collision surfaces of a world at one instant. sensing::RayScene implements it.
+// Casts rays against the collision surfaces of a world at one instant. sensing::RayScene implements
+// it.
 #pragma once
 
 #include <optional>

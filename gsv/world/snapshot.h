@@ -11,22 +11,22 @@
 
 namespace gsv::world {
 
-// Two bodies touch. The normal points from the first to the second; a static body or the ground
-// is second where a robot touches it.
+// A contact of two bodies. The normal points from the first to the second. If a robot touches a
+// static body or the ground, the robot is the first.
 struct Contact {
   int first = 0;
   int second = 0;
   geometry::Vector3 point;   // world
   geometry::Vector3 normal;  // world, unit length
   double depth = 0;          // m
-  bool began = false;        // was not there one step earlier
-  double closing_speed = 0;  // m/s at which the two met, along the normal; 0 unless it began
-  // N s over the step, along the normal, of all points at which the two touched; NaN where no
-  // engine computes it. Planar kinematics knows the impulse of a push, and no other.
+  bool began = false;        // the contact did not exist one step earlier
+  double closing_speed = 0;  // m/s along the normal when the bodies met; 0 unless the contact began
+  // N s over the step along the normal, summed over all contact points; NaN if no engine computes
+  // it. Planar kinematics computes the impulse of a push only.
   double impulse = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Of a model's origin, in world axes: the mean over the step that led here.
+// The acceleration of a model's origin in world axes: the mean over the last step.
 struct Acceleration {
   geometry::Vector3 linear;   // m/s²
   geometry::Vector3 angular;  // rad/s²
@@ -35,13 +35,13 @@ struct Acceleration {
 struct Snapshot {
   std::shared_ptr<const Layout> layout;  // never null
   State state;
-  std::vector<Contact> contacts;            // of the step that led here, by (first, second)
-  std::vector<Acceleration> accelerations;  // as Layout::bodies; empty where no step led here
-  std::vector<Transmission> transmissions;  // of the step that led here, in the order of senders
+  std::vector<Contact> contacts;            // of the last step, by (first, second)
+  std::vector<Acceleration> accelerations;  // as Layout::bodies; empty before the first step
+  std::vector<Transmission> transmissions;  // of the last step, in the order of senders
 };
 
-// Around a step: keeps the velocities before it, and after it makes closing speeds and
-// accelerations of them, in this order.
+// Called around a step, in this order: keeps the velocities before it, and computes closing speeds
+// and accelerations after it.
 void KeepVelocities(const State& state, std::vector<Acceleration>& accelerations);
 void FinishContacts(const State& state, const std::vector<Acceleration>& kept,
                     std::vector<Contact>& contacts);
@@ -63,8 +63,8 @@ geometry::Pose LinkPose(const Snapshot& snapshot, int body, int link);
 // model_from_link for one link of one body, as LinkPoses() has it.
 geometry::Pose ModelFromLink(const Snapshot& snapshot, int body, int link);
 
-// Indices of the links of a body that move against the model's frame: those below a joint that is
-// not fixed.
+// Indices of the links that move relative to the model's frame: those below a joint that is not
+// fixed.
 std::vector<int> MovingLinks(const model::Model& model);
 
 }  // namespace gsv::world

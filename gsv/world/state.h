@@ -1,4 +1,4 @@
-// All that the next step depends on: plain data, and the states of devices, which are immutable.
+// The state that the next step depends on: plain data, and immutable states of devices.
 //
 // Frames  poses are world_from_model; velocities are those of the model's origin, in world axes.
 // Units   metres, radians, seconds.
@@ -17,11 +17,11 @@
 
 namespace gsv::world {
 
-// What a base is told to do, in its own frame. It acts from the step it is given at until the next
-// one is given (or Drive::command_timeout passes).
+// A command to a base, in its own frame. It is applied from the step at which it is given until the
+// next command, or for Drive::command_timeout.
 struct DriveCommand {
   double linear = 0;   // m/s, forward
-  double lateral = 0;  // m/s, to the left; only some drives can
+  double lateral = 0;  // m/s, to the left; ignored by drives that cannot
   double angular = 0;  // rad/s, counter-clockwise
   friend bool operator==(const DriveCommand&, const DriveCommand&) = default;
 };
@@ -33,10 +33,10 @@ inline bool IsFinite(const DriveCommand& command) {
 struct DriveState {
   DriveCommand command;
   base::SimTime command_time{0};  // when the command was given
-  DriveCommand actual;            // what the base does now, within its acceleration limits
+  DriveCommand actual;            // the actual velocity, within acceleration limits
 };
 
-// Where a base believes to be by its wheels' turning, from where it started; see wheel_odometry.h.
+// The pose of a base by dead reckoning of its wheels, relative to the start; see wheel_odometry.h.
 struct Odometry {
   geometry::PlanarPosition place;  // of its reference point, in the frame of its start
   double linear = 0, angular = 0;  // m/s, rad/s: over the last step
@@ -49,25 +49,25 @@ struct BodyState {
   DriveState drive;
   Odometry odometry;
   double distance = 0;           // m that the model's origin has travelled
-  std::uint64_t collisions = 0;  // contacts that began (not: steps in contact)
-  bool in_contact = false;       // touched something, other than the ground, in the last step
+  std::uint64_t collisions = 0;  // number of contacts that began, not of steps in contact
+  bool in_contact = false;       // touched a body other than the ground in the last step
 };
 
-// What a joint that forces move is told to do, until it is told something else.
+// A command to a joint of a rigid body, until the next command.
 struct JointCommand {
   enum class Kind : std::uint8_t {
     kNone,      // its own damping and friction only
-    kPosition,  // rad or m: to be there, at its velocity and effort limits at most
-    kVelocity,  // rad/s or m/s, at its effort limit at most
-    kEffort,    // N m or N, within its effort limit
+    kPosition,  // rad or m, within the velocity and effort limits
+    kVelocity,  // rad/s or m/s, within the effort limit
+    kEffort,    // N m or N, within the effort limit
   };
   Kind kind = Kind::kNone;
   double value = 0;
   friend bool operator==(const JointCommand&, const JointCommand&) = default;
 };
 
-// What an engine of rigid-body dynamics keeps from one step to the next because the outcome depends
-// on it, such as the impulses from which its solver starts. Immutable, so that states can share it.
+// The state that an engine of rigid-body dynamics keeps between steps because results depend on it,
+// such as the initial impulses of its solver. Immutable, so that states can share it.
 class EngineState {
  public:
   virtual ~EngineState() = default;
@@ -79,26 +79,26 @@ struct State {
   base::SimTime time{0};
   std::vector<BodyState> bodies;        // as Layout::bodies
   std::vector<double> joint_positions;  // body b's start at Layout::bodies[b].first_joint
-  // Those of a ball joint are its angular velocity about its three axes, as the child carries them.
+  // The values of a ball joint are its angular velocity about the three axes of the child.
   std::vector<double> joint_velocities;
-  std::vector<JointCommand> joint_commands;  // as joint_positions; empty: none was ever given
-  // How many goals each pedestrian has reached, as `bodies`; empty: there are no pedestrians.
+  std::vector<JointCommand> joint_commands;  // as joint_positions; empty: no commands so far
+  // Number of goals that each pedestrian has reached, as `bodies`; empty: no pedestrians.
   std::vector<std::uint32_t> goals;
-  std::shared_ptr<const DeviceStates> devices;  // null: none has ever had a state
-  std::shared_ptr<const EngineState> engine;    // null: the engine keeps nothing
+  std::shared_ptr<const DeviceStates> devices;  // null: no device has had a state
+  std::shared_ptr<const EngineState> engine;    // null: the engine has no state
 };
 
-// Everything where it starts and at rest; joints have their models' targets.
+// The state at the start: initial poses, at rest, with the joint targets of the models.
 State InitialState(const Layout& layout);
 
-// Whether a drive turns that joint: a wheel, or one that steers.
+// Whether the joint belongs to a drive: a wheel or a steering joint.
 bool IsOfDrive(const model::Model& model, int joint);
 
-// Refuses commands that are not finite, that the body cannot follow (effort, where no forces move
-// it), or that are for a joint which is not there, takes none, or is the drive's.
+// Refuses commands that are not finite, efforts for bodies without rigid-body dynamics, and
+// commands to joints that do not exist, take none, or belong to the drive.
 base::Status CheckJointCommand(const Body& body, int joint, const JointCommand& command);
 
-// Tells a joint of a body what to do.
+// Sets the command of a joint.
 void CommandJoint(const Layout& layout, int body, int joint, const JointCommand& command,
                   State& state);
 

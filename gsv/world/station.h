@@ -1,4 +1,5 @@
-// Stations: bodies with sensors that nobody drives, such as a camera on a wall or a lidar on a post.
+// Stations: objects with sensors, such as a camera on a wall or a lidar on a post. A station has an
+// agent like a robot, for its sensors (ADR 042).
 #pragma once
 
 #include "gsv/world/layout.h"

@@ -1,11 +1,11 @@
-// The actuators of a robot beside its base and its joints, as its behaviour uses them. They are
-// opened and created as sensors are (robot.Open<Lamp>("lamp")), and read: what they do.
+// The actuators of a robot besides its base and joints. Behaviours open and create them like
+// sensors (robot.Open<Lamp>("lamp")). Their readings report their state.
 //
-// Units    metres, seconds, Hz; what has no unit lies in [0, 1].
-// Errors   what is refused is said and nothing happens; after the end of the run, too. Readings are
-//          then zero.
-// Time     a command acts from the instant at which it is given until the next.
-// Threads  those of the robot.
+// Units    metres, seconds, Hz; values without unit lie in [0, 1].
+// Errors   a refused command returns an error and changes nothing, also after the end of the run.
+//          Readings are zero after the end of the run.
+// Time     a command is applied from the instant at which it is given until the next command.
+// Threads  as Robot.
 #pragma once
 
 #include <string>

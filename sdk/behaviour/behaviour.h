@@ -1,4 +1,4 @@
-// What moves a robot: write one of these, and it runs as a program of its own anywhere on the
+// The base class of behaviours. A behaviour drives one robot. It runs as a program anywhere on the
 // network, or inside gsv (see module.h).
 #pragma once
 
@@ -14,17 +14,17 @@ class Behaviour {
  public:
   virtual ~Behaviour() = default;
 
-  // The robot is there, time does not run yet: open sensors here. An error refuses the robot.
+  // Called before simulated time advances: open sensors here. An error refuses the robot.
   virtual base::Status Init(Robot& /*robot*/) { return {}; }
-  // Runs until robot.SleepFor() and the like return false, or until the work is done.
+  // Runs until robot.SleepFor() or another wait returns false, or until the work is done.
   virtual void Run(Robot& robot) = 0;
 
-  // Told, not asked: a behaviour that sleeps on the robot's clock need not do anything.
+  // Notifications only: a behaviour that sleeps on the robot's clock need not react.
   virtual void Paused() {}
   virtual void Resumed() {}
 };
 
-// A behaviour that never blocks: readings in, command out, once a period.
+// A behaviour that never blocks: it computes a command from readings once per period.
 class Controller : public Behaviour {
  public:
   explicit Controller(SimTime period) : period_(period) {}

@@ -1,7 +1,7 @@
-// A joint of a robot as its behaviour sees it: told where to go, how fast, or how hard; and read.
+// A joint of a robot. Behaviours read it and command its position, velocity or effort.
 //
-// Units    rad, rad/s and N m; of prismatic joints m, m/s and N.
-// Errors   as of Robot: after the end of the run every call returns at once, and readings are zero.
+// Units    rad, rad/s and N m; for prismatic joints m, m/s and N.
+// Errors   as Robot: after the end of the run every call returns at once, and readings are zero.
 // Threads  one behaviour, one thread.
 #pragma once
 
@@ -32,9 +32,8 @@ class Joint {
   virtual ~Joint() = default;
   virtual const JointTraits& traits() const = 0;
 
-  // Each acts until the next: to be there, at the joint's limits of velocity and effort at most; to
-  // move so, at its limit of effort at most; to be pushed so, within that limit; and nothing but
-  // its own damping and friction.
+  // Each command holds until the next. MoveTo() respects the joint's limits of velocity and effort,
+  // MoveAt() and Apply() its limit of effort. Release() leaves only damping and friction.
   virtual void MoveTo(double position) = 0;
   virtual void MoveAt(double velocity) = 0;
   virtual void Apply(double effort) = 0;

@@ -1,5 +1,5 @@
-// How a behaviour is made known, so that it runs as a program of its own and inside gsv, compiled
-// once. In the file that holds the behaviour:
+// Declares a behaviour, so that the same binary runs as a program and as a plug-in of gsv. In the
+// source file of the behaviour:
 //
 //   GSV_BEHAVIOUR("wander", "Wanders about without hitting anything.", Wander)
 #pragma once
@@ -16,18 +16,19 @@ class App;
 
 namespace gsv {
 
-// Grows with every change of Robot, Behaviour or BehaviourModule.
+// The version of the interface. Increase it with every change of Robot, Behaviour or
+// BehaviourModule.
 inline constexpr int kBehaviourInterface = 5;
 inline constexpr const char* kBehaviourModuleSymbol = "gsv_behaviour_module";
 
 struct BehaviourModule {
   int interface_version = kBehaviourInterface;
-  std::string name;         // the offer's: "wander"
+  std::string name;         // of the offer: "wander"
   std::string description;  // one line for --help
-  // Adds the behaviour's own options, if it has any, and gives what makes instances with the values
-  // that are then read into them.
+  // Adds the behaviour's own options, if any, and returns the factory that uses their values after
+  // parsing.
   std::function<BehaviourFactory(CLI::App&)> configure;
-  // It tells the time by the robot's clock only, so that a simulation may wait for it.
+  // The behaviour uses the robot's clock only, so that a simulation may wait for it.
   bool time_managed = true;
 };
 
@@ -35,7 +36,7 @@ struct BehaviourModule {
 
 extern "C" const gsv::BehaviourModule* gsv_behaviour_module();
 
-// `make` is an expression that gives a gsv::BehaviourModule; it is evaluated once.
+// `make` is an expression of the type gsv::BehaviourModule. It is evaluated once.
 #define GSV_BEHAVIOUR_MODULE(make)                                \
   extern "C" const gsv::BehaviourModule* gsv_behaviour_module() { \
     static const gsv::BehaviourModule module = make;              \

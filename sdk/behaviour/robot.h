@@ -1,10 +1,10 @@
-// A robot as its behaviour sees it: sensors by name, a base to drive, a clock to wait on. Whether
-// it is simulated, and where, does not show.
+// A robot for its behaviour: sensors by name, a base to drive, a clock to wait on. The interface is
+// the same for simulated robots in this process, simulated robots elsewhere, and real ones.
 //
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.
-// Errors   after the end of the run every call returns at once and does nothing: readings come
-//          back empty or at their maximum, waits return false. error() says what went wrong.
+// Errors   after the end of the run every call returns at once and does nothing: readings are empty
+//          or at their maximum, waits return false. error() returns the reason.
 // Threads  one behaviour, one thread.
 #pragma once
 
@@ -34,17 +34,17 @@ class Robot {
   virtual ~Robot() = default;
 
   virtual const std::string& name() const = 0;
-  // m: a circle of this radius about the robot's origin holds all of it.
+  // m: a circle of this radius about the robot's origin contains the robot.
   virtual double footprint_radius() const = 0;
   virtual std::vector<SensorTraits> Sensors() = 0;
 
-  // A sensor of the robot's model; an error when it is not there or of another type.
+  // Opens a sensor of the robot's model. Fails if it does not exist or has another type.
   template <typename Kind>
   base::Result<std::unique_ptr<Kind>> Open(const std::string& sensor);
-  // Any sensor, to be read by Exchange().
+  // Opens a sensor of any type for Exchange().
   base::Status OpenSensor(const std::string& sensor);
 
-  // A further sensor, mounted on the base. Its parameters are those of its type in docs/sensors.md.
+  // Creates a sensor, mounted on the base. docs/sensors.md lists the parameters of each type.
   template <typename Kind>
   base::Result<std::unique_ptr<Kind>> Create(const std::string& sensor,
                                              const Placement& robot_from_sensor,
@@ -72,29 +72,29 @@ class Robot {
     return Create<PositioningSystem>(sensor, {});
   }
 
-  // The joints that take commands, and one of them by name.
+  // The joints that take commands, and access to one by name.
   virtual std::vector<JointTraits> Joints() = 0;
   virtual base::Result<std::unique_ptr<Joint>> OpenJoint(const std::string& joint) = 0;
 
-  // Acts until the next command.
+  // Commands the base until the next command.
   virtual void Command(const DriveCommand& command) = 0;
   void Drive(double linear, double angular) { Command({linear, angular}); }
-  // As a mecanum or omnidirectional base can; `lateral` is to the left.
+  // For mecanum and omnidirectional bases; `lateral` is to the left.
   void DriveSideways(double linear, double lateral, double angular) {
     Command({linear, angular, lateral});
   }
 
   virtual SimTime Now() = 0;
-  // False when the run has ended; the behaviour then returns.
+  // Sleeps until the instant. False after the end of the run; the behaviour should then return.
   virtual bool SleepUntil(SimTime instant) = 0;
   bool SleepFor(SimTime duration) { return SleepUntil(Now() + duration); }
-  // One control cycle in one round trip: drives, sleeps until `instant`, then reads every open
-  // sensor. False when the run has ended.
+  // One control cycle in one round trip: commands the base, sleeps until `instant`, then reads
+  // every open sensor. False after the end of the run.
   virtual bool Exchange(const DriveCommand& command, SimTime instant,
                         std::vector<Reading>& readings) = 0;
 
   virtual bool IsRunning() const = 0;
-  // Why it is not running; empty while it is, and after an ordinary end.
+  // The reason for the end of the run; empty during the run and after a normal end.
   virtual std::string error() const = 0;
 
  private:

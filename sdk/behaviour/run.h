@@ -1,4 +1,4 @@
-// How a behaviour's run ends, wherever it runs.
+// Runs a behaviour to its end.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace gsv {
 
-// Runs it until it returns or throws. Empty, or what ended the run, after the robot's name: the
-// robot's error, else what the behaviour threw.
+// Calls Run() until it returns or throws. Returns an empty text, or the robot's name and the error
+// that ended the run: the robot's error, else the exception.
 std::string RunToItsEnd(Behaviour& behaviour, Robot& robot);
 
 }  // namespace gsv

@@ -1,13 +1,13 @@
-// The sensors of a robot as its behaviour reads them: one class for each type, which gives its
-// readings as the structs of gsv/readings/catalogue.h. The classes are the same for every robot;
-// only the SensorPort differs, which brings the readings from wherever the robot is.
+// The sensors of a robot: one class per type, with readings as structs of gsv/readings/catalogue.h.
+// The classes are the same for every robot; only the SensorPort differs, which fetches the
+// readings.
 //
 // Frames   REP-103: x forward, y left, z up.
 // Units    metres, radians, seconds.
-// Errors   a reading that has not the size of its type ends the run with an error, as a sensor that
-//          fails does. After the end of the run a reading has no values, and what is read from it
-//          is zero, or a sonar's maximum.
-// Threads  those of the robot.
+// Errors   a reading of the wrong size and a failing sensor end the run with an error. After the
+//          end of the run a reading has no values; structs are zero, a sonar returns its maximum
+//          range.
+// Threads  as Robot.
 #pragma once
 
 #include <cstdint>
@@ -38,36 +38,36 @@ struct Image {
 };
 using Picture [[deprecated("use gsv::Image")]] = Image;
 
-// Parameters by name; each sensor type documents its own.
+// Parameters by name; docs/sensors.md lists those of each type.
 using Parameters = std::map<std::string, std::variant<double, bool, std::string>>;
 
 struct SensorTraits {
   std::string name;
   std::string type;
   Placement robot_from_sensor;
-  double update_rate = 0;  // Hz; 0: a new reading whenever it is asked
+  double update_rate = 0;  // Hz; 0: a new reading for each request
   Parameters parameters;
 };
 
-// One reading; `values` and `labels` are laid out as its type's struct says.
+// One reading; the struct of its type defines the layout of `values` and `labels`.
 struct Reading {
   std::string sensor;
   SimTime time{0};
   std::vector<double> values;
-  std::vector<std::string> labels;  // names that go with the values, where the type has any
+  std::vector<std::string> labels;  // names beside the values, if the type has any
 };
 
-// What a Sensor reads from: a robot in this process, or a reference to one elsewhere.
+// The source of a Sensor's readings: a robot in this process, or a reference to one elsewhere.
 class SensorPort {
  public:
   virtual ~SensorPort() = default;
   virtual const SensorTraits& traits() const = 0;
-  // False after the end of the run, and when the sensor fails, which ends the run; then `reading`
-  // has no values.
+  // Reads the sensor. False after the end of the run, and if the sensor fails, which ends the run;
+  // `reading` then has no values.
   virtual bool Measure(Reading& reading) = 0;
-  // Empty in the same cases, and of sensors that take none.
+  // Returns an image. Empty in the same cases, and for sensors without images.
   virtual Image TakeImage() = 0;
-  // Of a radio: see Radio::Send(). An error of any other sensor.
+  // Sends a message, see Radio::Send(). Sensors other than radios return an error.
   virtual base::Status Send(const std::string& receiver, const std::string& content) = 0;
   // Commands an actuator, see actuators.h. Any other sensor returns an error.
   virtual base::Status CommandDevice(const std::vector<double>& values,
@@ -80,25 +80,25 @@ class SensorPort {
   virtual void Fail(const base::Error& error) = 0;
 };
 
-// Any sensor.
+// The base class of all sensors.
 class Sensor {
  public:
   explicit Sensor(std::unique_ptr<SensorPort> port) : port_(std::move(port)) {}
 
   const SensorTraits& traits() const { return port_->traits(); }
-  // Valid until the next one.
+  // Takes a reading, which is valid until the next call.
   const Reading& Measure() {
     has_measured_ = port_->Measure(reading_);
     return reading_;
   }
-  // One that is the caller's.
+  // Takes a reading, which the caller owns.
   Reading TakeReading() {
     Measure();
     return std::exchange(reading_, {});
   }
-  // The struct that the newest reading, or a copy of it, stands for; spans in it view that reading.
-  // Nothing after the end of the run, and when the reading has another size than its type's, which
-  // ends the run with an error.
+  // Decodes the newest reading, or a copy of it. Spans in the struct refer to that reading. Nothing
+  // after the end of the run, and if the reading has the wrong size, which ends the run with an
+  // error.
   template <typename Values>
   std::optional<Values> In(const Reading& reading) {
     if (!has_measured_) return std::nullopt;
@@ -111,18 +111,18 @@ class Sensor {
 
  protected:
   SensorPort& port() { return *port_; }
-  // What it measures now; as it is made where there is nothing.
+  // Takes a reading as a struct; default-constructed if there is none.
   template <typename Values>
   Values MeasureAs() {
     return In<Values>(Measure()).value_or(Values());
   }
-  // A parameter that is a number.
+  // A numeric parameter, or `otherwise`.
   double Number(const std::string& parameter, double otherwise) const;
 
  private:
   std::unique_ptr<SensorPort> port_;
   Reading reading_;
-  bool has_measured_ = false;  // the newest reading is one
+  bool has_measured_ = false;  // the newest reading is valid
 };
 
 class Sonar : public Sensor {
@@ -130,7 +130,7 @@ class Sonar : public Sensor {
   static constexpr const char* kType = readings::Sonar::kType;
   explicit Sonar(std::unique_ptr<SensorPort> port);
 
-  // m to the nearest echo; max_range() when there is none.
+  // m to the nearest echo; max_range() if there is none.
   double Range();
   double max_range() const { return max_range_; }
 
@@ -143,7 +143,7 @@ class Lidar : public Sensor {
   static constexpr const char* kType = readings::Lidar::kType;
   using Sensor::Sensor;
 
-  // m, beam by beam; infinite where nothing was hit.
+  // m, one per beam; infinite if nothing was hit.
   const std::vector<double>& Ranges() { return Measure().values; }
 };
 
@@ -252,8 +252,9 @@ class LogicalCamera : public Sensor {
   std::vector<Sighting> Read() { return MeasureAs<readings::LogicalCamera>().sightings; }
 };
 
-// Sends to other robots and hears them. What is sent at an instant is heard with the next step, in
-// the order of the senders' names and, of each, in that of sending, by those that are near enough.
+// Exchanges messages with other robots. A message arrives at radios in range with the next step.
+// Messages arrive in the order of the senders' names, and those of one sender in the order of
+// sending.
 class Radio : public Sensor {
  public:
   static constexpr const char* kType = readings::Radio::kType;
@@ -266,21 +267,21 @@ class Radio : public Sensor {
     double strength = 0;  // dBm
   };
 
-  // To the robot of that name; nobody says whether it hears. Fails when the message is longer than
-  // the radio's max_size, when too many are sent in one step, and after the end of the run.
+  // Sends to the robot of that name, without acknowledgement. Fails if the message is longer than
+  // the radio's max_size, if too many are sent in one step, and after the end of the run.
   base::Status Send(const std::string& receiver, const std::string& content) {
     return port().Send(receiver, content);
   }
-  // To all.
+  // Sends to all robots in range.
   base::Status Broadcast(const std::string& content) { return port().Send("", content); }
 
-  // What was heard since the last time, the oldest first.
+  // The messages received since the last call, the oldest first.
   std::vector<Message> Receive();
-  // Messages that were pushed out of the radio's inbox by later ones before Receive() came.
+  // The number of messages that later ones replaced in the inbox before Receive() was called.
   std::uint64_t missed() const { return missed_; }
 
  private:
-  std::uint64_t received_ = 0;  // the number of the last
+  std::uint64_t received_ = 0;  // number of the last message
   std::uint64_t missed_ = 0;
 };
 
@@ -291,7 +292,7 @@ class DepthCamera : public Sensor {
 
   struct Image {
     int width = 0, height = 0;
-    std::vector<double> depth;  // m along the view, rows from the top; infinite where nothing is
+    std::vector<double> depth;  // m along the view, rows from the top; infinite for the background
   };
   Image TakeDepth() {
     const auto image = MeasureAs<readings::DepthImage>();
@@ -304,7 +305,7 @@ class SegmentationCamera : public Sensor {
   static constexpr const char* kType = readings::SegmentedImage::kType;
   using Sensor::Sensor;
 
-  // A pixel of label n shows names[n - 1], one of label 0 nothing. Rows from the top.
+  // A pixel with label n shows names[n - 1], label 0 is the background. Rows from the top.
   struct Image {
     int width = 0, height = 0;
     std::vector<std::uint32_t> labels;
@@ -327,7 +328,7 @@ class ThermalCamera : public Sensor {
   struct Image {
     int width = 0, height = 0;
     double resolution = 0;            // K
-    std::vector<double> temperature;  // K, rows from the top, whole steps of the resolution
+    std::vector<double> temperature;  // K, rows from the top, in whole steps of the resolution
   };
   Image TakeTemperatures() {
     const auto image = MeasureAs<readings::ThermalImage>();

@@ -1,4 +1,4 @@
-// Sonars around a robot, evenly spread: those of its model, or, where it has none, mounted ones.
+// Evenly spaced sonars around a robot: those of its model, or created ones if it has none.
 //
 // Frame  bearings are counter-clockwise from straight ahead, in (-pi, pi].
 #pragma once
@@ -12,17 +12,17 @@ namespace gsv {
 
 class SonarRing {
  public:
-  // `count` sonars whose bearings come nearest to 0, 1, … count-1 times 2 pi / count.
+  // Opens the `count` sonars whose bearings are nearest to 0, 1, … count-1 times 2 pi / count.
   static base::Result<SonarRing> Open(Robot& robot, int count);
 
   struct Echo {
     double bearing = 0;    // rad
     double distance = 0;   // m from the robot's origin
-    bool in_reach = true;  // false: nothing up to the sonar's maximum
+    bool in_reach = true;  // false: no echo within the sonar's maximum range
   };
-  // Reads them one after the other.
+  // Reads all sonars, one after the other.
   std::vector<Echo> Read();
-  // Those of an exchange's readings that are the ring's.
+  // The echoes of the ring among the readings of Robot::Exchange().
   std::vector<Echo> From(const std::vector<Reading>& readings) const;
 
  private:
@@ -35,7 +35,7 @@ class SonarRing {
   std::vector<Mounted> sonars_;
 };
 
-// The least distance of the echoes within `half_angle` of `bearing`; infinite if there is none.
+// The smallest distance of echoes within `half_angle` of `bearing`; infinite if there is none.
 double Nearest(const std::vector<SonarRing::Echo>& echoes, double bearing, double half_angle);
 
 }  // namespace gsv

@@ -1,4 +1,4 @@
-// Behaviours in Python for who runs behaviours.
+// Makes a C++ factory of behaviours written in Python.
 #pragma once
 
 #include "sdk/behaviour/behaviour.h"
@@ -6,7 +6,7 @@
 
 namespace gsv::python {
 
-// `make` is called for each robot; TypeError where it cannot be.
+// `make` is called for each robot. Raises TypeError if it is not callable.
 BehaviourFactory FactoryFrom(const py::object& make);
 
 }  // namespace gsv::python

@@ -1,4 +1,4 @@
-// How classes of sensors, and the structs that they read, become Python's.
+// Binds classes of sensors and the structs of their readings.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 namespace gsv::python {
 
 using SensorMaker = py::object (*)(std::unique_ptr<SensorPort>);
-// The classes by the types that they stand for.
+// The makers of sensor objects by sensor type.
 std::map<std::string, SensorMaker>& SensorMakers();
 
 template <typename Kind>
@@ -19,7 +19,7 @@ py::object MakeSensorOf(std::unique_ptr<SensorPort> port) {
   return py::cast(std::make_unique<Kind>(std::move(port)));
 }
 
-// A class of sensors, whose TYPE is what models call it.
+// Binds a class of sensors. Its attribute TYPE is the sensor type.
 template <typename Kind>
 py::class_<Kind> BindKind(py::module_& module, const char* name, py::class_<Sensor>& sensor,
                           const char* description) {
@@ -29,8 +29,7 @@ py::class_<Kind> BindKind(py::module_& module, const char* name, py::class_<Sens
   return kind;
 }
 
-// A struct of gsv/readings/catalogue.h, with its fields as attributes and their units as
-// docstrings.
+// Binds a struct of gsv/readings/catalogue.h, with fields as attributes and units as docstrings.
 template <typename Struct>
 py::class_<Struct> BindReading(py::handle scope, const char* name, const char* description = "") {
   py::class_<Struct> bound(scope, name, description);

@@ -1,7 +1,8 @@
-// What the bindings have in common: errors become exceptions, times are seconds, and Python objects
-// are kept by threads that do not hold the interpreter's lock (GIL).
+// Conversions that all bindings use: errors to exceptions, times to seconds, and Python objects
+// that are kept by threads without the interpreter's lock (GIL).
 //
-// Threads  unless a function says otherwise the caller holds the GIL. Whatever waits lets go of it.
+// Threads  the caller holds the GIL unless a function says otherwise. Functions that wait release
+//          it.
 #pragma once
 
 #include <functional>
@@ -20,8 +21,8 @@ namespace py = pybind11;
 
 using LetOthersRun = py::call_guard<py::gil_scoped_release>;
 
-// Raises the exception of gsv.errors that stands for the error's code, with its sentence. The
-// caller may or may not hold the GIL.
+// Raises the exception of gsv.errors for the error's code, with its sentence. The caller may or may
+// not hold the GIL.
 [[noreturn]] void Raise(const base::Error& error);
 
 template <typename T>
@@ -30,13 +31,13 @@ T ValueOrRaise(base::Result<T> result) {
   if constexpr (!std::is_void_v<T>) return *std::move(result);
 }
 
-// Raises ValueError where `seconds` is no number that a clock can show. Needs no GIL.
+// Raises ValueError if `seconds` is not a valid time. Needs no GIL.
 base::SimTime TimeFrom(double seconds);
 
-// The number nearest to it: 0.15, where ToSeconds() may give one beside it.
+// The nearest double, such as 0.15, where ToSeconds() may return a neighbour.
 inline double SecondsOf(base::SimTime time) { return static_cast<double>(time.count()) / 1e9; }
 
-// A Python object that threads without the GIL may copy, keep and let go of.
+// A Python object that threads without the GIL may copy, keep and destroy.
 class Kept {
  public:
   explicit Kept(py::object object)
@@ -51,11 +52,11 @@ class Kept {
   std::shared_ptr<py::object> object_;
 };
 
-// Runs `call`, which uses Python, on a thread of this library: takes the GIL, and turns what Python
-// raises into a std::runtime_error with one line about it, after its traceback went to stderr.
+// Runs `call`, which uses Python, on a thread of this library with the GIL held. Prints the
+// traceback of a Python exception to stderr and throws a std::runtime_error with one line.
 void CallPython(const std::function<void()>& call);
 
-// Deletes what calls others while it ends, without the GIL.
+// Deletes objects without the GIL, for destructors that wait for other threads.
 struct EndsWithoutGil {
   template <typename T>
   void operator()(T* object) const {

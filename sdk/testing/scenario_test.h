@@ -1,6 +1,6 @@
-// For tests in GoogleTest: scenarios as tests (docs/testing.md), and a simulator of one's own.
+// Support for GoogleTest: scenarios as tests (docs/testing.md), and a simulator for a test program.
 //
-// Both start the program gsv: that of the environment variable GSV_PROGRAM, else the one on PATH.
+// Both start the program gsv: the file GSV_PROGRAM, else gsv on the PATH.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@
 
 namespace gsv::testing {
 
-// Runs `gsv test FILE` and fails the present test with its words where it does not pass. `options`:
-// further ones of `gsv test`.
+// Runs `gsv test FILE` and fails the current test with its output if it does not pass. `options`
+// are passed to `gsv test`.
 void ExpectPasses(const std::string& scenario, const std::vector<std::string>& options = {});
 
-// A simulator with a broker and ports of its own, which the tests of a program share.
+// A simulator with its own broker and ports, which the tests of a program share.
 class SimulatorTest : public ::testing::Test {
  protected:
   void SetUp() override;
 
   static Application& simulator();
-  static const std::string& broker();  // its reference, for behaviours
+  static const std::string& broker();  // reference of the broker, for behaviours
 };
 
 }  // namespace gsv::testing

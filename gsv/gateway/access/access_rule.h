@@ -1,8 +1,9 @@
-// Who may talk to a server on this machine: pages that it served itself, and programs.
+// Decides which clients may talk to a server on this machine: pages that it served itself, and
+// programs.
 //
-// A page from anywhere on the web may try to reach 127.0.0.1 (cross-site requests, WebSockets, DNS
-// rebinding). The Host header tells under which name the browser believes to have reached us, the
-// Origin header whose page asks; browsers let neither be forged.
+// A page from any site may try to reach 127.0.0.1 (cross-site requests, WebSockets, DNS rebinding).
+// The Host header has the name under which the browser reached the server, the Origin header the
+// origin of the page. Browsers let pages forge neither.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +17,16 @@ namespace gsv::gateway {
 
 class AccessRule {
  public:
-  // Always allowed: 127.0.0.1, localhost, [::1] and `host`, with `port`. `more_hosts` are further
-  // names of this machine, without a port; `more_origins` further origins as browsers write them
-  // ("https://app.example.org"). `takes_addresses`: any address is allowed as well, as it stands
-  // for no name that somebody could point here. `is_secure`: pages are served by HTTPS, and only
-  // such pages are its own.
+  // Always allowed are 127.0.0.1, localhost, [::1] and `host`, with `port`. `more_hosts` are
+  // further names of this machine, without a port. `more_origins` are further origins as browsers
+  // write them ("https://app.example.org"). `takes_addresses`: allow any IP address as Host, as no
+  // DNS name can point to it. `is_secure`: pages are served by HTTPS, and only these are its own.
   AccessRule(std::string_view host, std::uint16_t port, const std::vector<std::string>& more_hosts,
              std::vector<std::string> more_origins, bool takes_addresses = false,
              bool is_secure = false);
 
-  // `origin` is empty when there is no such header, as with programs other than browsers.
+  // Checks a request. `origin` is empty if there is no such header, as for programs other than
+  // browsers.
   base::Status Check(std::string_view host, std::string_view origin) const;
 
  private:

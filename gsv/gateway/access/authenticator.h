@@ -1,5 +1,5 @@
-// The port through which the gateway finds out who makes a request, and with what permission.
-// GSV comes with one implementation, tokens (token_authenticator.h).
+// The interface with which the gateway determines the principal of a request and its permission.
+// GSV has one implementation, tokens (token_authenticator.h).
 #pragma once
 
 #include <chrono>
@@ -11,31 +11,31 @@
 
 namespace gsv::gateway::access {
 
-// What of a request says who makes it.
+// The credentials of a request.
 struct Credentials {
-  // Of "Authorization: Bearer TOKEN", or of a WebSocket's "?token=TOKEN"; empty: there is none.
+  // From "Authorization: Bearer TOKEN", or from a WebSocket's "?token=TOKEN"; empty: none.
   std::string token;
 };
 
 struct Principal {
   Permission permission = Permission::kNone;
-  bool showed_credentials = false;  // right or wrong: a refusal is 403, else 401
-  // When the permission ends: a WebSocket is closed then. Nothing: never.
+  bool showed_credentials = false;  // valid or not: a refusal is 403, otherwise 401
+  // The end of the permission, at which a WebSocket is closed. Nothing: never.
   std::optional<std::chrono::steady_clock::time_point> expires{};
 };
 
-// Threads  Authenticate() and Refusal() are called on the server's thread, and return at once.
+// Threads  the server's thread calls Authenticate() and Refusal(), which must return at once.
 class Authenticator {
  public:
   using Answer = std::function<void(const Principal&)>;
 
   virtual ~Authenticator() = default;
 
-  // Calls `answer` once: before it returns, or later from any thread, but in good time (the request
-  // waits for it) and before the server is stopped.
+  // Calls `answer` once: before it returns, or later from any thread. The request waits for it. It
+  // must come before the server is stopped.
   virtual void Authenticate(const Credentials& credentials, Answer answer) = 0;
 
-  // Why a request that needs a permission is refused to this principal: a sentence without secrets.
+  // The reason for refusing a request of this principal: a sentence without secrets.
   virtual std::string Refusal(const Principal& principal, Permission needed) const = 0;
 };
 

@@ -1,12 +1,11 @@
 // Permissions by tokens.
 //
-// Without tokens every client on this machine may do everything. With a control token, control
-// takes that one. Watching is free on this machine unless there is a watch token; from other
-// machines it takes one of the two.
+// Without tokens, every client on this machine has all permissions. A control token is required for
+// control. Watching needs no token on this machine, unless there is a watch token. Other machines
+// always need one of the two.
 //
 // Threads  const members may run concurrently.
-// Secrets  tokens are compared in a time that does not depend on what is shown, and appear in no
-//          message.
+// Secrets  tokens are compared in constant time, and appear in no message.
 #pragma once
 
 #include <string>
@@ -19,18 +18,18 @@
 namespace gsv::gateway::access {
 
 struct Tokens {
-  std::string control, watch;  // empty: there is none
+  std::string control, watch;  // empty: none
 
   bool empty() const { return control.empty() && watch.empty(); }
 };
 
-// A token that nobody guesses: 16 to 256 characters that may stand in a header as they are.
-// kInvalidArgument, without the token.
+// Checks that a token has 16 to 256 characters that are valid in a header. The error
+// kInvalidArgument does not contain the token.
 base::Status CheckToken(std::string_view token);
 
 class TokenAuthenticator final : public Authenticator {
  public:
-  // `is_exposed`: the server can be reached from other machines.
+  // `is_exposed`: other machines can reach the server.
   TokenAuthenticator(Tokens tokens, bool is_exposed)
       : tokens_(std::move(tokens)), is_exposed_(is_exposed) {}
 
@@ -38,7 +37,7 @@ class TokenAuthenticator final : public Authenticator {
   void Authenticate(const Credentials& credentials, Answer answer) override;
   std::string Refusal(const Principal& principal, Permission needed) const override;
 
-  // Of a client that shows `token`; empty: it shows none.
+  // The permission of a client with `token`; empty: none.
   Permission PermissionOf(std::string_view token) const;
 
  private:
@@ -46,10 +45,10 @@ class TokenAuthenticator final : public Authenticator {
   const bool is_exposed_;
 };
 
-// Takes as long whatever `shown` holds.
+// Compares in constant time.
 bool EqualsSecret(std::string_view shown, std::string_view secret);
 
-// The token of "Authorization: Bearer TOKEN"; empty: there is none.
+// The token of "Authorization: Bearer TOKEN"; empty: none.
 std::string_view BearerToken(std::string_view authorization);
 
 }  // namespace gsv::gateway::access

@@ -1,9 +1,9 @@
-// Who is watching, under which names, and who of them holds control of what they watch.
+// The viewers, their names, and which of them holds control of each simulation.
 //
-// Each viewer looks at one simulation, or at none. While nobody holds control of a simulation, all
-// may act on it. Who asks gets it at once if it is free; else the holder is told, and grants it or
-// keeps it; it passes by itself when the holder does not answer in time, leaves, or looks at
-// another simulation. Viewers are there as long as they keep asking how things stand.
+// Each viewer selects one simulation or none. While no viewer holds control of a simulation, all
+// viewers may command it. A viewer that requests control gets it at once if it is free. Otherwise
+// the holder is asked, and grants or refuses. Control passes automatically if the holder does not
+// answer in time, leaves, or selects another simulation. A viewer expires when it stops polling.
 //
 // Threads  any; nothing blocks.
 // Bounded  kMaxViewers.
@@ -22,8 +22,8 @@
 namespace gsv::gateway::access {
 
 struct ControlLimits {
-  std::chrono::milliseconds absence{8'000};  // after which a viewer counts as gone
-  std::chrono::milliseconds answer{20'000};  // to a question for control
+  std::chrono::milliseconds absence{8'000};  // after which a silent viewer expires
+  std::chrono::milliseconds answer{20'000};  // to a request for control
 };
 
 class ViewerRegistry {
@@ -34,42 +34,43 @@ class ViewerRegistry {
   struct ViewerState {
     std::uint64_t number = 0;  // never used again
     std::string name;
-    std::string simulation;  // that they look at; empty: none
+    std::string simulation;  // selected; empty: none
     bool holds = false;      // control of it
-    std::size_t asks = 0;    // position in the queue for it, from 1; 0: does not wait
+    std::size_t asks = 0;    // position in the queue for control, from 1; 0: not waiting
     std::chrono::milliseconds
-        left{};  // of the first in the row: until it passes to them unanswered
+        left{};  // For the first in the queue: time until control passes without an answer.
   };
   struct ViewerList {
     std::vector<ViewerState> viewers;  // by number
-    std::uint64_t you = 0;             // 0: you are none of them
+    std::uint64_t you = 0;             // 0: not a viewer
   };
   struct Admission {
     std::uint64_t number = 0;
-    std::string key;  // by which this viewer is known from now on; told to nobody else
+    std::string key;  // secret key of this viewer
   };
 
   explicit ViewerRegistry(const ControlLimits& limits = {}) : limits_(limits) {}
 
-  // `name` empty: "viewer NUMBER". kUnavailable: too many are there.
+  // Adds a viewer. `name` empty: "viewer NUMBER". kUnavailable: too many viewers.
   base::Result<Admission> Enter(const std::string& name, const std::string& simulation, Time now);
-  // These fail with kNotFound when no viewer has this key, any more.
+  // The following fail with kNotFound if no viewer has this key.
   base::Status Rename(const std::string& key, const std::string& name, Time now);
-  // Looks at another simulation from now on; empty: at none.
+  // Selects a simulation; empty: none.
   base::Status SelectSimulation(const std::string& key, const std::string& simulation, Time now);
   base::Status Leave(const std::string& key, Time now);
-  // kNotRunning: who asks looks at no simulation.
+  // Requests control. kNotRunning: the viewer has selected no simulation.
   base::Status RequestControl(const std::string& key, Time now);
-  // Lets go of control, or of the question for it.
+  // Releases control, or withdraws the request for it.
   base::Status Release(const std::string& key, Time now);
-  // To the first who asks. kNotRunning: who answers does not hold control, or nobody asks.
+  // Answers the first request. kNotRunning: the viewer does not hold control, or there is no
+  // request.
   base::Status Answer(const std::string& key, bool grants, Time now);
 
-  // How things stand; whose key it is counts as there.
+  // The list of viewers. Counts as a sign of life of the viewer with the key.
   ViewerList List(const std::string& key, Time now);
-  // Another number whenever something is otherwise than before.
+  // A number that changes with every change.
   std::uint64_t Version(Time now);
-  // kNotRunning with a sentence: somebody else holds control of the simulation.
+  // kNotRunning with a sentence if another viewer holds control of the simulation.
   base::Status CheckControl(const std::string& key, const std::string& simulation, Time now);
 
  private:
@@ -81,14 +82,14 @@ class ViewerRegistry {
     std::string key;
     Time asked;
   };
-  // Of one simulation.
+  // The control of one simulation.
   struct Control {
-    std::string holder;  // a key; empty: nobody
+    std::string holder;  // a key; empty: none
     std::deque<Question> questions;
   };
 
   void Expire(Time now)
-      GSV_REQUIRES(mutex_);  // lets go of who is gone, and passes control on where it is due
+      GSV_REQUIRES(mutex_);  // Removes expired viewers, and passes control on where it is due.
   void Forget(const std::string& key) GSV_REQUIRES(mutex_);
   void ReleaseControl(const std::string& key) GSV_REQUIRES(mutex_);
   static void PassControl(Control& control, Time now);

@@ -1,4 +1,4 @@
-// The part of the HTTP API about viewers and control: who watches what, and who holds control of it.
+// The part of the HTTP API about viewers and control.
 //
 // Threads  any.
 #pragma once
@@ -11,15 +11,15 @@
 
 namespace gsv::gateway::access {
 
-// Who is there, as GET /api/viewers tells it; without `you`, which is 0.
+// The viewers as in GET /api/viewers, without `you` if it is 0.
 std::string ViewerListJson(const ViewerRegistry::ViewerList& standing);
 
 class ViewersApi {
  public:
-  // The handlers live as long as this.
+  // The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
 
-  // Why this viewer may not control that simulation now.
+  // An error with the reason if this viewer may not control the simulation now.
   base::Status CheckControl(const std::string& viewer, const std::string& simulation) {
     return registry_.CheckControl(viewer, simulation, std::chrono::steady_clock::now());
   }

@@ -1,7 +1,7 @@
-// Who is there and who holds control, live: /gsv/viewers, as soon as it is otherwise. Its text is
-// the JSON of GET /api/viewers, without `you`.
+// The live topic /gsv/viewers: publishes the viewers and control at each change. Its text is the
+// JSON of GET /api/viewers, without `you`.
 //
-// Threads  Publish() from one.
+// Threads  Publish() from one thread.
 #pragma once
 
 #include <memory>
@@ -13,17 +13,17 @@ namespace gsv::gateway::access {
 
 class ViewersTopic {
  public:
-  // Advertises the topic. `registry` outlives this; null: nobody is known here, and nothing advertised.
+  // Advertises the topic. `registry` must outlive this; null: nothing is advertised.
   ViewersTopic(std::shared_ptr<Hub> hub, ViewerRegistry* registry);
 
-  // Publishes what is news, if somebody listens.
+  // Publishes changes, if there are subscribers.
   void Publish(ViewerRegistry::Time now);
 
  private:
   const std::shared_ptr<Hub> hub_;
   ViewerRegistry* const registry_;
   foxglove::ChannelId channel_ = 0;
-  std::uint64_t version_ = 0;  // that was published
+  std::uint64_t version_ = 0;  // of the last message
 };
 
 }  // namespace gsv::gateway::access

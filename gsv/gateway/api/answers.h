@@ -1,4 +1,4 @@
-// Answers that the API of a simulation and that of a recording have in common.
+// Responses that the APIs of simulations and recordings share.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace gsv::gateway {
 
-// With a model's bytes, or where they are known already, without. A model's bytes never change, so
-// browsers may keep them.
+// The GLB of a model, or 304 if the client has it. Models never change, so that browsers may cache
+// them.
 Response ModelAnswer(const Request& request, const std::string& id,
                      const base::Result<SharedBytes>& glb);
 

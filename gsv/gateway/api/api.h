@@ -1,6 +1,6 @@
 // The HTTP API of the simulations of this program, under /api/. Described in docs/api.yaml.
 //
-// Threads  any; a request may take as long as what it asks for (a reset, a model to be written).
+// Threads  any; a request may take as long as its operation (a reset, writing a model).
 #pragma once
 
 #include <functional>
@@ -19,16 +19,16 @@ namespace gsv::gateway {
 class Api {
  public:
   using SimulationPointer = std::shared_ptr<simulation::Simulation>;
-  // Has the live stream list the topics of a robot's sensors, whatever it has besides.
+  // Makes the live stream advertise the topics of a robot's sensors.
   using ListSensors = std::function<void(const SimulationPointer&, const std::string& robot)>;
 
-  // `recordings` and `factory` may be null; else they outlive this. `has_replays`: recordings can
-  // be listed and replayed here as well.
+  // `recordings` and `factory` may be null, or must outlive this. `has_replays`: the server also
+  // lists and replays recordings.
   Api(std::shared_ptr<SimulationDirectory> directory, ModelStore::WriteGlb write_glb,
       RecordingSwitch* recordings = nullptr, SimulationFactory* factory = nullptr,
       bool has_replays = false, ListSensors list_sensors = nullptr);
 
-  // The handlers live as long as this.
+  // The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
 
  private:

@@ -1,5 +1,5 @@
-// Commands as JSON: the bodies of requests that command something, and the description of what can
-// be commanded. An empty body counts as {}.
+// Commands as JSON: bodies of requests, and the description of commands. An empty body counts as
+// {}.
 //
 // Errors  kInvalidArgument with a sentence that names the field.
 #pragma once

@@ -1,6 +1,6 @@
-// The part of the HTTP API with which simulations are put together, see docs/api.yaml.
+// The part of the HTTP API that creates and edits simulations, see docs/api.yaml.
 //
-// Errors   {"error": sentence, "field": the field of the request that it concerns}.
+// Errors   {"error": sentence, "field": field of the request}.
 // Threads  any.
 #pragma once
 
@@ -17,14 +17,14 @@ namespace gsv::gateway {
 
 class FactoryApi {
  public:
-  // Both outlive this.
+  // Both must outlive this.
   FactoryApi(SimulationFactory& factory, ModelStore& models) : factory_(factory), models_(models) {}
 
-  // The handlers live as long as this. `directory` finds the simulations that are changed.
+  // The handlers are valid during the lifetime of this object. `directory` finds the simulations.
   std::vector<Route> Routes(const std::shared_ptr<SimulationDirectory>& directory);
 
  private:
-  // What there is to choose from.
+  // The available worlds, models and behaviours.
   Response Worlds() const;
   Response Models() const;
   Response Behaviours(const Target& target) const;
@@ -41,7 +41,8 @@ class FactoryApi {
   ModelStore& models_;
 };
 
-// To a request that was understood and cannot be done: 422 or as everywhere, with the field.
+// The response to a valid request that cannot be carried out: 422 or the usual status, with the
+// field.
 Response Refusal(const FieldError& wrong);
 
 }  // namespace gsv::gateway

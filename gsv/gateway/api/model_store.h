@@ -1,7 +1,7 @@
-// The models of all simulations as GLB files, each made once, when it is first asked for.
+// The models of all simulations as GLB files, each made at its first request.
 //
-// Threads  any; a call may take as long as a model takes to be written.
-// Bounded  what belongs to models that are gone is forgotten.
+// Threads  any; a call may take as long as writing a model.
+// Bounded  data of destroyed models are removed.
 #pragma once
 
 #include <functional>
@@ -24,12 +24,12 @@ class ModelStore {
 
   explicit ModelStore(WriteGlb write) : write_(std::move(write)) {}
 
-  // The model's identity, under which Glb() knows it from now on.
+  // The model's identity, for Glb().
   std::string Identify(const std::shared_ptr<const model::Model>& model);
-  // The same of what it collides with; empty: nothing.
+  // The same for its collision shapes; empty: none.
   std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
 
-  // The same for whoever describes scenes, while this lives.
+  // The same as functions for scenes, valid during the lifetime of this object.
   std::function<std::string(const std::shared_ptr<const model::Model>&)> identify() {
     return [this](const auto& model) { return Identify(model); };
   }
@@ -37,7 +37,7 @@ class ModelStore {
     return [this](const auto& model) { return IdentifyCollisions(model); };
   }
 
-  // kNotFound: no model that is still alive was ever identified so.
+  // The GLB of a model; kNotFound if no existing model has this identity.
   base::Result<SharedBytes> Glb(const std::string& id);
 
  private:

@@ -1,6 +1,6 @@
-// The HTTP API of a replay: the same addresses as a simulation's, and those that move it and show
-// what the recording holds. A status also holds what GET replay gives. `stop` and `reset` both go
-// back to the start; what would change the run is refused.
+// The HTTP API of a replay: the addresses of a simulation, and those that control playback and
+// describe the recording. A status also has the content of GET replay. `stop` and `reset` both
+// return to the start. Requests that would change the run are refused.
 //
 // Threads  any.
 #pragma once
@@ -19,18 +19,18 @@ namespace gsv::gateway {
 
 struct Replay {
   std::shared_ptr<ReplayPlayer> player;
-  std::string recording;  // under which name a viewer can open it for itself; empty: under none
+  std::string recording;  // name with which a viewer can open it; empty: none
 };
 
-// The replay that a request concerns, found by whatever parameters its path has besides {name}.
+// Finds the replay of a request by the parameters of its path besides {name}.
 using FindReplay = std::function<base::Result<Replay>(const Request&)>;
 
 std::vector<Route> ReplayRoutes(const FindReplay& find);
 
-// {"time_s": T}: a finite number, within the times there are.
+// {"time_s": T}: a finite number within the range of times.
 base::Result<base::SimTime> ParseSeekTime(std::string_view body);
 
-// {"speed": S, "loop": B}; what is absent stays as it is.
+// {"speed": S, "loop": B}; absent values are unchanged.
 struct ReplayChange {
   std::optional<double> speed;
   std::optional<bool> loop;

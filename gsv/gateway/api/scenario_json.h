@@ -1,9 +1,8 @@
-// What requests carry of scenarios: those keys of docs/formats/scenario.md that a person sets in
-// the viewer. A server takes no paths to write to, folders or plug-ins from its viewers.
+// The parts of scenarios in requests: the keys of docs/formats/scenario.md that users set in the
+// viewer. Requests cannot name output paths, folders or plug-ins.
 //
-// Errors  kInvalidArgument with the field; unknown keys are refused, since a misspelt one would be
-//         left out silently.
-// Bounded so many robots as no person types.
+// Errors  kInvalidArgument with the field. Unknown keys are refused.
+// Bounded the number of robots.
 #pragma once
 
 #include <string_view>
@@ -13,21 +12,21 @@
 namespace gsv::gateway {
 
 // {name, world, mode: real_time|lockstep, factor, step, duration, seed, record, robots, avatars};
-// `record` is true or false here. Only the world is needed.
+// `record` is a boolean here. Only the world is required.
 FieldResult<SimulationRequest> ParseSimulationRequest(std::string_view body);
 
 struct RobotToAdd {
   scenario::RobotEntry robot;
   bool is_avatar = false;
 };
-// {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar, drive, avatar};
-// only the model is needed.
+// {name, model, x, y, z, yaw, behaviour, behaviour_constraint, movement: rigid|planar, drive,
+// avatar}; only the model is required.
 FieldResult<RobotToAdd> ParseRobotRequest(std::string_view body);
 
-// {x, y, z, roll, pitch, yaw}; x and y are needed.
+// {x, y, z, roll, pitch, yaw}; x and y are required.
 FieldResult<Placement> ParsePlace(std::string_view body);
 
-// {name, model, copy_of, x, y, z, roll, pitch, yaw}; either the model or whose copy it is.
+// {name, model, copy_of, x, y, z, roll, pitch, yaw}; either model or copy_of is required.
 FieldResult<ObjectRequest> ParseObjectRequest(std::string_view body);
 
 }  // namespace gsv::gateway

@@ -1,4 +1,4 @@
-// The routes that concern one simulation, /api/simulations/{name}/…, and need nothing but it.
+// The routes of one simulation, /api/simulations/{name}/…, that need no other object.
 #pragma once
 
 #include <functional>
@@ -13,12 +13,12 @@ namespace gsv::gateway {
 using SimulationHandler =
     std::function<Response(const std::shared_ptr<simulation::Simulation>&, const Request&)>;
 
-// Finds the simulation {name} for `handler`; 404 when there is none.
+// Finds the simulation {name} for `handler`; 404 if there is none.
 Route::Handler OfSimulation(std::shared_ptr<SimulationDirectory> directory,
                             SimulationHandler handler);
 
-// POST /api/simulations/{name}/COMMAND for each entry of the table of commands. The body holds its
-// arguments; the answer is the simulation's status. GET …/commands describes them.
+// POST /api/simulations/{name}/COMMAND for each entry of the table of commands. The body has its
+// arguments; the response is the simulation's status. GET …/commands describes them.
 std::vector<Route> CommandRoutes(const std::shared_ptr<SimulationDirectory>& directory);
 
 // Routes that place and remove the bodies of a simulation, and steer its avatars.

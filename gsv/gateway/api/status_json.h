@@ -10,7 +10,7 @@
 
 namespace gsv::gateway {
 
-// All of it; of a replay with "replay", which is ReplayJson().
+// The complete status; for a replay with "replay" from ReplayJson().
 std::string StatusJson(const simulation::SimulationStatus& status);
 std::string StatusJson(const simulation::SimulationStatus& status, const ReplayClock& replay);
 // {"start_s", "end_s", "time_s", "speed", "loop"}
@@ -19,7 +19,7 @@ std::string ReplayJson(const ReplayClock& clock);
 std::string RecordingJson(const RecordingSwitch::State& state);
 // {"topics"}
 std::string TopicsJson(const std::vector<std::string>& topics);
-// An array with a line for each simulation.
+// An array with an object per simulation.
 std::string SimulationListJson(const std::vector<simulation::SimulationStatus>& simulations);
 
 }  // namespace gsv::gateway

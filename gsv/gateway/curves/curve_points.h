@@ -1,6 +1,5 @@
-// A curve in bounded memory: all samples while they fit; when they do not, of each of equal
-// stretches of time the least and the greatest, each at its own instant. So no spike is lost, and
-// every point is a sample.
+// A curve in bounded memory: all samples while they fit; then the minimum and maximum of equal time
+// bins, each at its own instant. So no spike is lost, and every point is a sample.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +11,7 @@ namespace gsv::gateway::curves {
 
 struct Point {
   base::SimTime time{};
-  double value = 0;  // may be infinite or NaN: an echo that did not come
+  double value = 0;  // may be infinite or NaN, such as a missing echo
 
   friend bool operator==(const Point&, const Point&) = default;
 };
@@ -22,13 +21,13 @@ class CurvePoints {
   // Samples from `start` to `end`; at most `most` points are kept, >= 2.
   CurvePoints(base::SimTime start, base::SimTime end, std::size_t most);
 
-  // One that is outside of the span counts as at its nearer end.
+  // A sample outside of the range counts at its nearer end.
   void Add(base::SimTime time, double value);
 
-  std::size_t samples() const { return samples_; }      // that were added
-  bool is_whole() const { return stretches_.empty(); }  // every sample is a point
+  std::size_t samples() const { return samples_; }      // added so far
+  bool is_whole() const { return stretches_.empty(); }  // whether every sample is a point
 
-  // By time. A stretch without any finite sample has one point, its first.
+  // The points by time. A bin without finite samples has one point, its first.
   std::vector<Point> Points() const;
 
  private:

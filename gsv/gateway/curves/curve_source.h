@@ -1,6 +1,6 @@
-// Where a curve's samples come from: which messages of a recording, and what of them.
+// The source of a curve's samples: messages of a recording, and the value of each.
 //
-// Input  hostile: what makes no sense gives no sample.
+// Input  untrusted: invalid messages give no sample.
 #pragma once
 
 #include <cstddef>
@@ -29,12 +29,12 @@ struct CurveRequest {
 class CurveSource {
  public:
   virtual ~CurveSource() = default;
-  // The sample in a message, which come by time. Nothing: it holds none.
+  // The sample of the next message, by time; nothing if it has none.
   virtual std::optional<double> SampleIn(const recording::MessageRecord& message) = 0;
 };
 
-// `reader` and `scene` outlive the source. kNotFound: the recording has no such topic or robot;
-// kInvalidArgument: there is no such value. Each with a sentence.
+// `reader` and `scene` must outlive the source. kNotFound: the recording has no such topic or
+// robot; kInvalidArgument: there is no such value. Each with a sentence.
 base::Result<std::unique_ptr<CurveSource>> MakeCurveSource(const recording::McapReader& reader,
                                                            const RecordedScene& scene,
                                                            const CurveRequest& wish);

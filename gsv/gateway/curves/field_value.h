@@ -1,12 +1,12 @@
-// One number of a message, by the key under which the viewer lists it (web/src/live/values.ts):
-// the fields' names with dots between them, and at the end
+// A number of a message by its key in the viewer's list (web/src/live/values.ts): names of fields
+// joined with dots, and at the end
 //   [I]            a number of a list that has at most eight
 //   [NAME]         a number that stands beside this one of the message's names (JointState)
 //   .min .max .mean   of a longer list, of what is finite
 //   .count [0]     of a list of things
 //   .roll .pitch .yaw   of a rotation, in radians
 //
-// Input  hostile: message and key may hold anything.
+// Input  untrusted message and key.
 #pragma once
 
 #include <optional>
@@ -16,10 +16,11 @@
 
 namespace gsv::gateway::curves {
 
-// `message`: as messages::Definition::Decode() gives it. Nothing: it has no such number.
+// `message`: from messages::Definition::Decode(). Nothing if it has no such number.
 std::optional<double> FieldValue(const nlohmann::ordered_json& message, std::string_view key);
 
-// Of R = Rz(yaw) Ry(pitch) Rx(roll), in radians; `which` is "roll", "pitch" or "yaw", else nothing.
+// An angle of R = Rz(yaw) Ry(pitch) Rx(roll), in radians; `which` is "roll", "pitch" or "yaw",
+// otherwise nothing.
 std::optional<double> AngleOf(double x, double y, double z, double w, std::string_view which);
 
 }  // namespace gsv::gateway::curves

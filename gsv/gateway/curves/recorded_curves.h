@@ -1,8 +1,9 @@
-// Values over a whole recording, read in the background. What is asked for the first time begins to
-// be read; whoever asks again is told how far it has come.
+// Values over a whole recording, read in the background. The first request starts reading; later
+// requests return the progress.
 //
-// Threads  Get() any; one of its own reads, begun by the first Get().
-// Bounded  sixteen curves are kept, those that were asked for last; reading one ends after a
+// Threads  Get() from any; its own thread reads, started by the first Get().
+// Bounded  the sixteen most recently requested curves are kept; reading a curve ends after a
+//          minute.
 // minute.
 #pragma once
 
@@ -22,32 +23,33 @@ inline constexpr std::size_t kMaxCurvePoints = 100'000;
 
 struct Curve {
   std::vector<Point> points;  // by time
-  std::size_t samples = 0;    // that were read
-  bool is_whole = true;       // every one of them is a point
-  bool is_done = false;       // the recording's end was reached, or reading was given up
-  base::SimTime read_to{};    // so far the points reach
-  std::string problem;        // why something is missing; empty: nothing is
+  std::size_t samples = 0;    // read so far
+  bool is_whole = true;       // whether every sample is a point
+  bool is_done = false;       // the end was reached, or reading was ended early
+  base::SimTime read_to{};    // end of the points
+  std::string problem;        // reason for missing parts; empty: none
 };
 
 class RecordedCurves {
  public:
-  // `reader` and `scene` outlive this. `longest`: how long reading a curve may take, wall time.
+  // `reader` and `scene` must outlive this. `longest`: time limit for reading a curve, wall-clock
+  // time.
   RecordedCurves(const recording::McapReader& reader, const RecordedScene& scene,
                  std::chrono::milliseconds longest = std::chrono::minutes(1))
       : reader_(reader), scene_(scene), longest_(longest) {}
   ~RecordedCurves() { Stop(); }
 
-  // As far as it is read. Errors: see MakeCurveSource(); kInvalidArgument if `wish.most` is not
-  // from 2 to kMaxCurvePoints; kUnavailable after Stop().
+  // The curve as far as it was read. Errors: see MakeCurveSource(); kInvalidArgument if `wish.most`
+  // is not from 2 to kMaxCurvePoints; kUnavailable after Stop().
   base::Result<Curve> Get(const CurveRequest& wish);
 
-  // Waits until nothing is read any more.
+  // Stops reading and waits.
   void Stop();
 
  private:
   struct Job;
 
-  // The one for the wish, or null; it counts as asked for now.
+  // The job of the request, or null; updates its time of use.
   std::shared_ptr<Job> Find(const CurveRequest& wish) GSV_REQUIRES(mutex_);
   void Run();
   void Read(Job& job);
@@ -58,7 +60,7 @@ class RecordedCurves {
   base::Mutex mutex_;
   base::ConditionVariable changed_;
   std::vector<std::shared_ptr<Job>> jobs_
-      GSV_GUARDED_BY(mutex_);  // the one that was asked for last stands last
+      GSV_GUARDED_BY(mutex_);  // the most recently requested last
   bool is_stopping_ GSV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };

@@ -1,4 +1,4 @@
-// Channels for our topics.
+// Channels of topics.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// One connected viewer, as those see it who send.
+// A connected viewer: the interface for senders.
 //
-// Threads  any; no call blocks, and none calls back.
+// Threads  any; calls neither block nor call back.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace gsv::gateway {
 
-// Why a connection is closed, as in RFC 6455, section 7.4.1.
+// The reason for closing a connection (RFC 6455, section 7.4.1).
 enum class CloseCode : std::uint16_t {
   kGoingAway = 1001,
   kProtocolError = 1002,
@@ -24,14 +24,14 @@ enum class CloseCode : std::uint16_t {
 class Client {
  public:
   virtual ~Client() = default;
-  // Control messages, none of which is lost.
+  // Sends control messages, none of which is dropped.
   virtual void SendText(SharedBytes text) = 0;
   virtual void SendBytes(SharedBytes bytes) = 0;
-  // Data, of which the oldest makes room for the newest.
+  // Sends data; if the queue is full, the oldest data are dropped.
   virtual void SendData(const foxglove::BinaryHeader& header, SharedBytes payload) = 0;
-  // How many data messages made room for newer ones, so far.
+  // The number of dropped data messages so far.
   virtual std::uint64_t dropped_updates() const { return 0; }
-  // Why this viewer may not act now, but only look.
+  // An error with the reason if this viewer has no control now.
   virtual base::Status CheckControl() { return {}; }
   virtual void Close(CloseCode code, std::string reason) = 0;
 

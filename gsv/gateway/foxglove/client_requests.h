@@ -1,6 +1,6 @@
-// Takes the requests of a hub's clients that are not about channels, and answers them.
+// Answers the requests of a hub's clients that do not concern channels.
 //
-// Bounded  the calls of one client that are under way; what clients watch is part of what there is.
+// Bounded  the pending calls per client.
 // Threads  any; no call blocks.
 #pragma once
 
@@ -19,12 +19,12 @@ namespace gsv::gateway {
 
 class ClientRequests {
  public:
-  // `operations` may be null: then every request is refused.
+  // `operations` null: every request is refused.
   explicit ClientRequests(std::shared_ptr<Operations> operations);
 
-  // What a server declares for this.
+  // The capabilities for the server info.
   std::vector<std::string> capabilities() const;
-  // Tells a new client which services there are, and one that knows playbacks how this one stands.
+  // Sends the services to a new client, and the state of a playback if it supports that.
   void Welcome(const std::shared_ptr<Client>& client, bool knows_playback);
   void Forget(Client* client);
 
@@ -34,8 +34,8 @@ class ClientRequests {
   void Take(const std::shared_ptr<Client>& client, const foxglove::ServiceCall& request);
   void Take(const std::shared_ptr<Client>& client, const foxglove::PlaybackControl& request) const;
 
-  // Tells those who watch which parameters have changed since the last call, and those who know
-  // playbacks if this one has jumped, or goes otherwise than then.
+  // Sends parameters that have changed since the last call to their watchers, and the state of a
+  // playback after a seek or change.
   void PublishChanges(bool has_jumped = false);
 
   std::vector<std::string> service_names() const;
@@ -45,11 +45,11 @@ class ClientRequests {
     std::weak_ptr<Client> client;
     bool knows_playback = false;
     std::set<std::string> watched;  // parameters
-    // How many are under way. Whoever answers may do so after the client, or this, has gone.
+    // The number of pending calls. Answers may come after the client or this object was destroyed.
     std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
   };
 
-  // Null if the client has as many calls under way as it may.
+  // Null if the client has reached the limit of pending calls.
   std::shared_ptr<std::atomic<int>> BeginCall(Client* client);
   void PublishParameters();
   void PublishPlayback(bool has_jumped);
@@ -57,9 +57,8 @@ class ClientRequests {
   const std::shared_ptr<Operations> operations_;
   mutable base::Mutex mutex_;
   std::map<Client*, ClientState> clients_ GSV_GUARDED_BY(mutex_);
-  std::vector<foxglove::Parameter> told_
-      GSV_GUARDED_BY(mutex_);  // of the parameters, when last published
-  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);  // when last published
+  std::vector<foxglove::Parameter> told_ GSV_GUARDED_BY(mutex_);  // The parameters as sent last.
+  foxglove::PlaybackState playback_ GSV_GUARDED_BY(mutex_);       // as sent last
 };
 
 }  // namespace gsv::gateway

@@ -21,7 +21,7 @@ namespace gsv::gateway::foxglove {
 inline constexpr std::array<std::string_view, 2> kSubprotocols{"foxglove.sdk.v1",
                                                                "foxglove.websocket.v1"};
 
-// The one to speak, out of a Sec-WebSocket-Protocol header; empty: the client knows neither.
+// Chooses from a Sec-WebSocket-Protocol header; empty: no common subprotocol.
 std::string_view ChooseSubprotocol(std::string_view offered);
 
 using ChannelId = std::uint32_t;
@@ -36,7 +36,7 @@ struct Channel {
   std::string schema;
 };
 
-// The times of what a playback has to play, in nanoseconds.
+// The time range of a playback, in nanoseconds.
 struct TimeRange {
   std::uint64_t start_ns = 0, end_ns = 0;
 };
@@ -45,8 +45,8 @@ struct ServerInfo {
   std::string name;
   std::vector<std::string> capabilities;
   std::map<std::string, std::string> metadata;
-  std::string session_id;  // another one tells a client that the server is not the one it knew
-  // Of a playback, which then has the capability to be controlled.
+  std::string session_id;  // changes when the server restarts
+  // For a playback, which then has the capability of playback control.
   std::optional<TimeRange> playback{};
 };
 
@@ -58,8 +58,8 @@ std::string AdvertiseText(std::span<const Channel> channels);
 std::string UnadvertiseText(std::span<const ChannelId> channels);
 std::string StatusText(StatusLevel level, std::string_view message);
 
-// What stands before the payload of a binary message: at most opcode (1), subscription (4, little
-// endian) and time (8, nanoseconds, little endian).
+// The header of a binary message: opcode (1 byte), subscription (4, little endian) and time (8,
+// nanoseconds, little endian), or fewer.
 struct BinaryHeader {
   std::array<std::uint8_t, 13> bytes{};
   std::uint8_t size = 0;

@@ -1,5 +1,5 @@
 // The Foxglove WebSocket protocol beyond channels: services, parameters, the connection graph and
-// the control of a playback, as they go over the wire (see foxglove.h).
+// the control of a playback, on the wire (see foxglove.h).
 //
 // Source  services, parameters and the graph: the specification named in foxglove.h. Playback: the
 //         messages of Foxglove's SDK under `foxglove.sdk.v1`.
@@ -17,7 +17,7 @@
 
 namespace gsv::gateway::foxglove {
 
-// One half of a service: what is asked or answered. Its schema is empty if nothing is.
+// The request or response of a service. Its schema is empty if it has no fields.
 struct ServiceMessage {
   std::string schema_name;  // "std_srvs/srv/Trigger_Response"
   std::string schema;       // in ros2msg; the bytes are CDR
@@ -29,7 +29,7 @@ struct Service {
   ServiceMessage request, response;
 };
 
-// Empty: the value has a form that no parameter here has.
+// Empty: a value of an unsupported type.
 using ParameterValue = std::variant<std::monostate, bool, double, std::string>;
 struct Parameter {
   std::string name;
@@ -38,27 +38,27 @@ struct Parameter {
   friend bool operator==(const Parameter&, const Parameter&) = default;
 };
 
-// Who publishes what to whom, by topic; who provides which service.
+// Publishers and subscribers by topic, and providers by service.
 struct ConnectionGraph {
   using Parties = std::map<std::string, std::set<std::string>>;
   Parties publishers, subscribers, providers;
 };
 
-// A playback's state, in nanoseconds and recorded seconds a second.
+// The state of a playback; the speed is in recorded seconds per second.
 struct PlaybackState {
   enum class Status : std::uint8_t { kPlaying = 0, kPaused = 1, kBuffering = 2, kEnded = 3 };
   Status status = Status::kPaused;
   std::uint64_t time_ns = 0;
   float speed = 1;
   bool did_seek = false;
-  std::string request;  // whose answer this is; empty: nobody's
+  std::string request;  // id of the answered request; empty: none
 };
 
 // Server to client.
 std::string AdvertiseServicesText(std::span<const Service> services);
 std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::string_view message);
 std::string ParameterValuesText(std::span<const Parameter> parameters, const std::string& request);
-// What turns `before` into `after`; empty if they are the same.
+// The update from `before` to `after`; empty if they are equal.
 std::string GraphUpdateText(const ConnectionGraph& before, const ConnectionGraph& after);
 std::vector<std::byte> ServiceResponseBytes(std::uint32_t service, std::uint32_t call,
                                             std::span<const std::byte> response);

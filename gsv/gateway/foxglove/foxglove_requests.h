@@ -1,6 +1,6 @@
-// What clients say in the Foxglove WebSocket protocol (see foxglove.h), taken apart.
+// Parses the messages of clients in the Foxglove WebSocket protocol (see foxglove.h).
 //
-// Input  hostile; it is bounded by the size of a message.
+// Input  untrusted, limited by the size of a message.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Unsubscribe {
 };
 struct GetParameters {
   std::vector<std::string> names;  // empty: all
-  std::string request;             // goes back with the answer
+  std::string request;             // returned with the answer
 };
 struct SetParameters {
   std::vector<Parameter> parameters;
@@ -36,7 +36,7 @@ struct SetParameters {
 };
 struct WatchParameters {
   std::vector<std::string> names;  // empty: all
-  bool is_end = false;             // of watching
+  bool is_end = false;             // end of watching
 };
 struct WatchGraph {
   bool is_end = false;
@@ -53,7 +53,7 @@ struct PlaybackControl {
   std::optional<std::uint64_t> seek_ns;
   std::string request;
 };
-// A message for a capability that no server here has.
+// A message of an unsupported capability.
 struct Unsupported {
   std::string op;
 };
@@ -61,7 +61,7 @@ using ClientMessage =
     std::variant<Subscribe, Unsubscribe, GetParameters, SetParameters, WatchParameters, WatchGraph,
                  ServiceCall, PlaybackControl, Unsupported>;
 
-// Both fail with kCorrupt on what is not a message of the protocol.
+// Both fail with kCorrupt for invalid messages.
 base::Result<ClientMessage> ParseClientMessage(std::string_view text);
 base::Result<ClientMessage> ParseClientBytes(std::string_view bytes);
 

@@ -1,8 +1,8 @@
-// The channels of one simulation, the clients that listen, and who of them listens to what. Where
-// the messages come from (a simulation here, or another instance) is no concern of it.
+// The channels of one simulation, its clients and their subscriptions. The source of the messages
+// (a simulation here, or another instance) is outside of the hub.
 //
-// Threads  any; no call blocks. Clients are called under the hub's lock: they queue, and do not
-//          call back.
+// Threads  any; no call blocks. Clients are called with the hub's lock held, and must not call
+//          back.
 #pragma once
 
 #include <cstdint>
@@ -25,31 +25,31 @@ namespace gsv::gateway {
 
 class Hub {
  public:
-  // `on_demand` is called, without the lock, whenever somebody came, went, subscribed or
-  // unsubscribed; it must return at once. Without `operations` clients can do nothing but listen.
+  // `on_demand` is called without the lock after each change of clients or subscriptions, and must
+  // return at once. `operations` null: clients can only subscribe.
   Hub(foxglove::ServerInfo info, std::function<void()> on_demand,
       std::shared_ptr<Operations> operations = nullptr);
 
-  // The name of what its clients watch, as it tells them; empty: it tells none.
+  // The name of the simulation in the server info; empty: none.
   const std::string& simulation() const { return simulation_; }
 
-  // The clients' side.
+  // For clients.
   void Add(std::shared_ptr<Client> client,
            std::string_view subprotocol = foxglove::kSubprotocols.front());
   void Remove(Client* client);
-  // One message from a client, text or binary. An error is what to close the connection with.
+  // Handles a message from a client, text or binary. After an error the connection must be closed.
   base::Status Receive(Client* client, std::string_view text);
   base::Status ReceiveBytes(Client* client, std::string_view bytes);
 
-  // The publishers' side. Advertise() gives each channel a number that is never used again.
+  // For publishers. Advertise() gives each channel a unique number.
   std::vector<foxglove::ChannelId> Advertise(std::vector<foxglove::Channel> channels);
   void Unadvertise(std::span<const foxglove::ChannelId> channels);
 
   bool has_clients() const;
   bool IsSubscribed(foxglove::ChannelId channel) const;
-  // Somebody subscribed who has got nothing on this channel yet.
+  // Whether there are subscribers without a message on this channel so far.
   bool HasNewSubscribers(foxglove::ChannelId channel) const;
-  // In order. Takes as long as there are subscriptions, however many channels there are.
+  // In order. The cost grows with the number of subscriptions, not of channels.
   std::vector<foxglove::ChannelId> SubscribedChannels() const;
 
   struct Message {
@@ -58,21 +58,21 @@ class Hub {
   };
   enum class Audience {
     kAll,
-    kEstablished,  // all but newcomers
+    kEstablished,  // all but new subscribers
   };
   void Publish(foxglove::ChannelId channel, const Message& message,
                Audience audience = Audience::kAll);
-  // Gives the newcomers what they missed; from then on they are established.
+  // Sends earlier messages to new subscribers, which then count as established.
   void Welcome(foxglove::ChannelId channel, std::span<const Message> messages);
   void PublishTime(std::uint64_t time_ns);
-  // Who comes later hears the newest of them as well.
+  // Sends a status message. Later clients get the newest ones as well.
   void SendStatus(foxglove::StatusLevel level, std::string_view message);
-  // Who publishes on a channel, for those who look at the graph; at first it is "gsv".
+  // Sets the publishers of a channel in the connection graph (default: "gsv").
   void SetPublishers(foxglove::ChannelId channel, std::set<std::string> publishers);
-  // Tells what has changed since the last call: the graph, parameters, a playback's state.
+  // Sends changes since the last call: graph, parameters, state of a playback.
   void PublishChanges(bool has_jumped = false);
 
-  // No client is added any more; each that comes is closed with the same words.
+  // Closes all clients, and each later one, with this reason.
   void Close(CloseCode code, const std::string& reason);
 
  private:
@@ -113,7 +113,7 @@ class Hub {
   std::uint64_t next_member_ GSV_GUARDED_BY(mutex_) = 1;
   std::deque<SharedBytes> statuses_ GSV_GUARDED_BY(mutex_);
   bool has_graph_changed_ GSV_GUARDED_BY(mutex_) = false;
-  foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // as it was told last
+  foxglove::ConnectionGraph graph_ GSV_GUARDED_BY(mutex_);  // as sent last
   ClientRequests requests_;
   bool closed_ GSV_GUARDED_BY(mutex_) = false;
   CloseCode close_code_ GSV_GUARDED_BY(mutex_){};

@@ -1,6 +1,6 @@
-// What the clients of a hub can do besides listening: services, parameters, a playback's control.
+// The operations of a hub's clients besides subscriptions: services, parameters, playback control.
 //
-// Threads  any; no call blocks. What takes longer is done elsewhere and answered later.
+// Threads  any; no call blocks. Slow operations run elsewhere and answer later.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace gsv::gateway {
 
 class Operations {
  public:
-  // The bytes of the response, in CDR; an error is why there is none.
+  // The response in CDR, or an error.
   using Answer = std::function<void(const base::Result<std::vector<std::byte>>&)>;
 
   virtual ~Operations() = default;
@@ -25,10 +25,10 @@ class Operations {
   virtual void Call(const foxglove::ServiceCall& call, Answer answer) = 0;
 
   virtual std::vector<foxglove::Parameter> parameters() const = 0;
-  // Errors: a parameter that is not there, is fixed, or cannot have that value.
+  // Fails for an unknown or fixed parameter, or an invalid value.
   virtual base::Status Set(const foxglove::Parameter& parameter) = 0;
 
-  // Of playbacks only: how it stands.
+  // The state of a playback; nothing for simulations.
   virtual std::optional<foxglove::PlaybackState> playback() const { return std::nullopt; }
   virtual base::Status Control(const foxglove::PlaybackControl& request);
 };

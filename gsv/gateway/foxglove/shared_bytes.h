@@ -1,4 +1,4 @@
-// Bytes that several readers share and nobody changes.
+// Immutable bytes that several readers share.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class SharedBytes {
   explicit SharedBytes(std::vector<std::byte> bytes) { Own(std::move(bytes)); }
   explicit SharedBytes(std::vector<std::uint8_t> bytes) { Own(std::move(bytes)); }
 
-  // Valid as long as any copy of this object.
+  // Valid during the lifetime of any copy of this object.
   std::string_view view() const { return view_; }
   std::size_t size() const { return view_.size(); }
   const char* data() const { return view_.data(); }

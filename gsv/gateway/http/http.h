@@ -1,4 +1,4 @@
-// Requests and responses, free of any HTTP library.
+// Requests and responses, independent of an HTTP library.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,9 @@
 namespace gsv::gateway {
 
 struct Request {
-  std::string method;      // "GET", "POST"; a HEAD arrives as GET and loses its body on the way out
-  std::string raw_target;  // as it came: "/api/simulations?x=1"
+  // "GET", "POST"; a HEAD arrives as GET, and its response is sent without the body.
+  std::string method;
+  std::string raw_target;  // unparsed: "/api/simulations?x=1"
   Target target;
   std::string body;
   std::string content_type;
@@ -22,7 +23,7 @@ struct Request {
   std::string viewer;  // the viewer's key (Gsv-Viewer), or empty; see access/viewer_registry.h
   std::map<std::string, std::string, std::less<>> parameters;  // of the path, by name; see Route
 
-  // A parameter of the route's pattern. GSV_CHECK: it has one of that name.
+  // A parameter of the route's pattern. The pattern must have this parameter (GSV_CHECK).
   const std::string& Parameter(std::string_view name) const;
 };
 
@@ -33,7 +34,7 @@ struct Response {
   std::string etag;  // with its quotes; empty: none
   std::string cache_control = "no-store";
   std::string allow;  // 405: the methods that are allowed
-  // Whether pages of this server may show the response in a frame; pages of others never may.
+  // Whether pages of this server may show the response in a frame. Other pages never may.
   bool allows_own_frames = false;
 };
 
@@ -43,7 +44,7 @@ using Respond = std::function<void(Response)>;
 Response JsonResponse(int status, std::string json);
 // {"error": sentence}
 Response ErrorResponse(int status, std::string_view sentence);
-// The status that tells the caller whose fault it was.
+// Chooses the status by the code of the error.
 Response ErrorResponse(const base::Error& error);
 Response MethodNotAllowed(std::string allow);
 

@@ -1,4 +1,4 @@
-// The description of the HTTP API, docs/api.yaml, as it was when this program was built.
+// The description of the HTTP API, docs/api.yaml, from the time of the build.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// One address that a server answers: who may use it, where its handler runs, and what it answers.
-// Every set of routes is such a list; the description of the API (docs/api.yaml) is held to it.
+// A route of a server: address, permission, thread pool and handler. A test compares all routes
+// with docs/api.yaml.
 #pragma once
 
 #include <functional>
@@ -13,37 +13,38 @@
 
 namespace gsv::gateway {
 
-// What a request takes. Each permission includes those before it.
+// The permission that a request needs. Each one includes those before it.
 enum class Permission { kNone, kWatch, kControl };
 
 // The threads that a handler runs on. Commands may block (a reset calls behaviours), and must not
-// hold up viewers.
+// delay viewers.
 enum class Pool { kReaders, kCommanders };
 
 struct Route {
   using Handler = std::function<Response(const Request&)>;
   using FindHub = std::function<base::Result<std::shared_ptr<Hub>>(const Request&)>;
 
-  std::string method;  // "GET", which answers HEAD as well, "POST", "PUT", "DELETE"
+  std::string method;  // "GET" (also for HEAD), "POST", "PUT", "DELETE"
   // "/api/simulations/{name}/scene". A parameter is one segment, or its beginning, as in
   // "/api/models/{id}.glb"; "{path...}" is the last part of a pattern: one or more segments.
   std::string pattern;
   Permission permission = Permission::kWatch;
-  // Refused while another viewer holds control of the simulation {name}. Of a WebSocket: what its
-  // client does is refused so, and takes Permission::kControl; to connect takes `permission` alone.
+  // Whether the request is refused while another viewer holds control of the simulation {name}. For
+  // a WebSocket: commands of its client are refused likewise and need Permission::kControl;
+  // connecting needs `permission` only.
   bool needs_control = false;
   Pool pool = Pool::kReaders;
   Handler handler;
   std::string summary;  // as in docs/api.yaml
 
-  // The body is a file: it may be larger and take longer than others, and is not read from clients
-  // that may not send it.
+  // Whether the body is a file: larger and slower bodies are allowed, and a body is read only if
+  // the client may send it.
   bool takes_file = false;
-  // The hub that a WebSocket at this address joins; null: no WebSockets are served here.
+  // The hub of WebSockets at this address; null: no WebSockets.
   FindHub find_hub{};
 };
 
-// A route at which WebSockets are served; plain requests are answered with 426.
+// A route for WebSockets. Plain requests are answered with 426.
 Route SocketRoute(std::string pattern, bool needs_control, Route::FindHub find_hub,
                   std::string summary);
 

@@ -1,8 +1,8 @@
-// Finds the route that a request is for.
+// Finds the route of a request.
 //
-// At each segment a literal is preferred to a parameter, and a parameter to "{path...}"; what was
-// preferred is never given up again. So a path that begins like some route's is not matched by a
-// "{path...}" at the root.
+// At each segment, literals precede parameters, and parameters precede "{path...}", without
+// backtracking. So a path that begins like another route is not matched by a "{path...}" at the
+// root.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -20,15 +20,16 @@ namespace gsv::gateway {
 class Router {
  public:
   struct Match {
-    const Route* route = nullptr;  // lives as long as the router; null: see NoRoute()
-    // That the answer takes, whatever it is. Without a route: the least of all routes whose paths
-    // begin with the same segment.
+    const Route* route = nullptr;  // valid during the lifetime of the router; null: see NoRoute()
+    // The permission for the answer. Without a route: the lowest permission of all routes whose
+    // paths begin with the same segment.
     Permission permission = Permission::kNone;
-    std::string allow;  // the methods that the address takes: "GET, POST"; empty: it is no route's
+    std::string allow;  // the methods of the address: "GET, POST"; empty: no route has it
     std::map<std::string, std::string, std::less<>> parameters;  // by name; without "{path...}"
   };
 
-  // GSV_CHECK: patterns are well-formed, and no two routes have the same method and address.
+  // Patterns must be well-formed, and no two routes may have the same method and address
+  // (GSV_CHECK).
   explicit Router(std::vector<Route> routes);
   ~Router();
   Router(const Router&) = delete;
@@ -46,7 +47,7 @@ class Router {
   const std::unique_ptr<Node> root_;
 };
 
-// The answer to a request that no route is for: 405 or 404.
+// The response to a request without a route: 405 or 404.
 Response NoRoute(const Router::Match& match);
 
 }  // namespace gsv::gateway

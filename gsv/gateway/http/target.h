@@ -1,4 +1,4 @@
-// The target of an HTTP request, taken apart (RFC 3986, sections 3.3 and 3.4).
+// Parses the target of an HTTP request (RFC 3986, sections 3.3 and 3.4).
 #pragma once
 
 #include <map>
@@ -11,13 +11,13 @@
 namespace gsv::gateway {
 
 // "/api/simulations/a%20b?x=1" is {"api", "simulations", "a b"} and {"x": "1"}. Segments may hold
-// any byte, '/' and ".." included: who turns them into file names checks them.
+// any byte, '/' and ".." included: code that uses them as file names must check them.
 struct Target {
   std::vector<std::string> segments;  // "/" has none; a final '/' adds none
   std::map<std::string, std::string> query;
 };
 
-// Fails on a target that does not begin with '/', is too long, or has a malformed escape.
+// Fails if the target does not begin with '/', is too long, or has a malformed escape.
 base::Result<Target> ParseTarget(std::string_view target);
 
 // The inverse for one segment or query value: all but unreserved characters become %XX.

@@ -1,5 +1,5 @@
-// Commands as services of the Foxglove protocol: /gsv/NAME. A command without parameters has the type
-// std_srvs/srv/Trigger, any other gsv_msgs/srv/NAME, with a field for each parameter.
+// Commands as services of the Foxglove protocol: /gsv/NAME. A command without parameters has the
+// type std_srvs/srv/Trigger, others gsv_msgs/srv/NAME with a field per parameter.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -27,16 +27,16 @@ class CommandServices {
 
   std::vector<foxglove::Service> list() const;
 
-  // What a call asks for, to be run once; it may block. Whether the command was obeyed is in the
-  // response. Fails when there is no such service, or the request is not of its type. A field that
-  // its parameter's range excludes stands for the default: 0 of a count, NaN, an empty text.
+  // Prepares a call as a function to run once, which may block. Its response has the success of the
+  // command. Fails for an unknown service or an invalid request. A field outside its parameter's
+  // range means the default: 0 for a count, NaN, an empty text.
   base::Result<std::function<Response()>> Prepare(const foxglove::ServiceCall& call) const;
 
  private:
   const std::vector<Service> services_;
 };
 
-// The response's message of a command that has nothing to report.
+// The message of a response without text.
 inline base::Result<std::string> NoMessage(const base::Status& done) {
   if (!done) return base::Fail(done.error());
   return std::string();

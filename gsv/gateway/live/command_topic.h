@@ -1,8 +1,8 @@
-// What robots are told, live: /gsv/commands, a message for each robot whenever it is told something
-// else.
+// The live topic /gsv/commands: a message per robot at each change of its command.
 //
-// Bounded  so many messages a round; of a robot that was told more meanwhile, the newest.
-// Threads  one.
+// Bounded  the number of messages per round; for a robot with several changes, the newest command
+//          is sent.
+// Threads  one thread.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ class CommandTopic {
   // Advertises the topic.
   explicit CommandTopic(std::shared_ptr<Hub> hub);
 
-  // Publishes what is news in this snapshot, if anybody listens. Who listens anew is told how
-  // things stand; the others hear it once more.
+  // Publishes changes in this snapshot, if there are subscribers. With a new subscriber, all
+  // commands are sent again to all.
   void Publish(const world::Snapshot& snapshot);
 
  private:
@@ -29,7 +29,7 @@ class CommandTopic {
   foxglove::ChannelId channel_ = 0;
   std::shared_ptr<const world::Layout> layout_;
   std::vector<world::DriveState> told_;  // by body of layout_
-  std::size_t next_ = 0;                 // the body to begin with
+  std::size_t next_ = 0;                 // first body of the next round
 };
 
 }  // namespace gsv::gateway

@@ -1,7 +1,7 @@
-// What happens to a simulation, live: /gsv/events, and the same for ROS's tools as a log, /rosout.
-// Who comes late is told the newest of what has happened before.
+// The live topics of events: /gsv/events, and /rosout as a log for ROS tools. New subscribers get
+// the newest earlier events.
 //
-// Threads  Publish() from one.
+// Threads  Publish() from one thread.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class EventTopics {
   // Advertises the topics.
   explicit EventTopics(std::shared_ptr<Hub> hub);
 
-  // Publishes what has happened since the last call.
+  // Publishes the events since the last call.
   void Publish(const simulation::Simulation& simulation);
 
  private:
@@ -31,7 +31,7 @@ class EventTopics {
 
   const std::shared_ptr<Hub> hub_;
   std::vector<Topic> topics_;
-  std::uint64_t next_ = 0;  // the number of the first event that nobody was told of
+  std::uint64_t next_ = 0;  // number of the first unpublished event
 };
 
 }  // namespace gsv::gateway

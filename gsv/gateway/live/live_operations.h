@@ -1,5 +1,5 @@
-// What the viewers of a running simulation can do: its commands, and to record it, as services; how
-// it was set up, to look at, and its real-time factor to change.
+// The operations of viewers of a running simulation: commands and recording as services, the
+// specification and the target real-time factor as parameters.
 //
 // Threads  any.
 #pragma once
@@ -16,8 +16,8 @@ namespace gsv::gateway {
 
 class LiveOperations final : public Operations {
  public:
-  // Commands, which may block, run on `workers`, which outlive the last call. Does not keep the
-  // simulation alive. `recordings` may be null: then nothing is recorded.
+  // Commands, which may block, run on `workers`, which must outlive the last call. Does not keep
+  // the simulation alive. `recordings` may be null: then recording is not available.
   LiveOperations(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& workers,
                  RecordingSwitch* recordings);
 

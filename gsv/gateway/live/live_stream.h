@@ -1,6 +1,6 @@
-// One simulation, live: looks at it again and again and publishes what has changed to its hub.
+// The live stream of one simulation: polls it and publishes changes to its hub.
 //
-// Threads  Round() comes from one thread, the publisher's; the rest from any.
+// Threads  Round() from the publisher's thread; the others from any.
 #pragma once
 
 #include <memory>
@@ -20,14 +20,15 @@
 
 namespace gsv::gateway {
 
-// Hz, of wall time: how often a stream with clients is looked at, and the most that poses are sent.
+// The rate of rounds for a stream with clients, and the highest rate of poses, in Hz of wall-clock
+// time.
 inline constexpr double kPublishRate = 30;
 
 class LiveStream {
  public:
-  // Keeps the simulation alive only while a round or a reading is under way. `on_demand`: see Hub.
-  // Readings are taken on `watchers`, commands obeyed on `commanders`. `recordings` may be null:
-  // then viewers cannot have it recorded. `registry`: see ViewersTopic.
+  // Keeps the simulation alive only during rounds and readings. `on_demand`: see Hub. Readings run
+  // on `watchers`, commands on `commanders`. `recordings` may be null: then viewers cannot record.
+  // `registry`: see ViewersTopic.
   LiveStream(const std::shared_ptr<simulation::Simulation>& simulation, WorkerPool& watchers,
              WorkerPool& commanders, RecordingSwitch* recordings, std::function<void()> on_demand,
              access::ViewerRegistry* registry = nullptr);
@@ -37,13 +38,13 @@ class LiveStream {
   // See SensorTopics. From any thread.
   void WantSensorsOf(const std::string& robot) { sensors_->Want(robot); }
 
-  // Publishes what is due. Nothing is encoded that nobody subscribed to.
+  // Publishes what is due. Encodes subscribed topics only.
   void Round(const std::shared_ptr<simulation::Simulation>& simulation, WallTime now);
 
  private:
   using SnapshotPointer = std::shared_ptr<const world::Snapshot>;
 
-  // A channel whose message is a function of the latest snapshot.
+  // A channel with a function of the latest snapshot.
   struct SnapshotTopic {
     foxglove::ChannelId channel = 0;
     SharedBytes (LiveStream::*encode)(const world::Snapshot&) const = nullptr;
@@ -70,7 +71,7 @@ class LiveStream {
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_
   Pacing refresh_pacing_;
-  std::weak_ptr<const world::Snapshot> time_of_;  // the last whose time was published
+  std::weak_ptr<const world::Snapshot> time_of_;  // the last snapshot whose time was published
   CommandTopic commands_;
   ContactTopic contacts_;
   RadioTopic radio_;

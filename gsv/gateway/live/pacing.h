@@ -1,4 +1,4 @@
-// How often something is sent: at most at a rate, evenly, whatever the jitter of those who ask.
+// Limits the rate of sending, evenly and independent of the jitter of the caller.
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,8 @@ class Pacing {
   explicit Pacing(double rate)  // Hz, > 0
       : interval_(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate))) {}
 
-  // Somewhat early is due as well: else a round that comes a microsecond early would lose a turn.
-  // The mean rate does not exceed the one given, since what came early counts as on time.
+  // Whether it is time to send. A little early counts, so that jitter does not skip a round. The
+  // mean rate does not exceed the given one, as early calls count as on time.
   bool IsDue(WallTime now) const { return now + interval_ / 4 >= next_; }
   void Done(WallTime now) { next_ = (now - next_ > interval_ ? now : next_) + interval_; }
 

@@ -1,5 +1,5 @@
-// The thread that publishes: goes over all streams that have clients, some thirty times a second,
-// and at once when somebody subscribes. Sleeps while nobody watches.
+// The publishing thread: runs all streams with clients at the publish rate, and at once after a
+// subscription. It sleeps without viewers.
 #pragma once
 
 #include <memory>
@@ -15,20 +15,20 @@ namespace gsv::gateway {
 
 class Publisher {
  public:
-  // Readings are taken on `watchers`, viewers' commands obeyed on `commanders`; both, and
-  // `recordings` and `registry`, which may be null, outlive the publisher and all its streams.
+  // Readings run on `watchers`, commands on `commanders`. Both, and `recordings` and `registry`,
+  // which may be null, must outlive the publisher and its streams.
   Publisher(std::shared_ptr<SimulationDirectory> directory, WorkerPool& watchers,
             WorkerPool& commanders, RecordingSwitch* recordings,
             access::ViewerRegistry* registry = nullptr);
   ~Publisher();
 
-  // The hub of a simulation, made when it is first asked for.
+  // The hub of a simulation, created at the first call.
   std::shared_ptr<Hub> HubOf(const std::shared_ptr<simulation::Simulation>& simulation);
   // See SensorTopics.
   void WantSensorsOf(const std::shared_ptr<simulation::Simulation>& simulation,
                      const std::string& robot);
 
-  // Ends the thread and lets no client in any more.
+  // Ends the thread and refuses further clients.
   void Stop();
 
  private:
@@ -41,9 +41,9 @@ class Publisher {
   std::shared_ptr<LiveStream> StreamOf(const std::shared_ptr<simulation::Simulation>& simulation);
   void Run();
   void Wake();
-  // Whether anybody watches.
+  // Runs all streams. False: there are no viewers.
   bool Round();
-  // Streams whose simulation is not in the directory any more are closed and dropped.
+  // Closes streams whose simulation is no longer in the directory.
   void DropEnded();
   std::vector<Entry> Entries() const;
 

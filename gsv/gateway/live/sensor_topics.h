@@ -1,10 +1,10 @@
-// The sensors' own topics, and all beams in one: readings taken for those who watch.
+// The live topics of sensors, and the topic of all beams, with readings for subscribers only.
 //
-// A reading may take long (a picture), so it is taken on a worker thread; of each topic at most one
-// is under way.
+// A reading may be slow (an image), so that a worker thread takes it; at most one per topic at a
+// time.
 //
-// Threads  Refresh() and Publish() come from one thread, Want() from any; the workers' jobs keep
-//          this object alive.
+// Threads  Refresh() and Publish() from one thread, Want() from any. Jobs of workers keep this
+//          object alive.
 #pragma once
 
 #include <atomic>
@@ -25,25 +25,24 @@
 
 namespace gsv::gateway {
 
-// A robot has more topics than a viewer can list when there are a thousand robots: those of the
-// first so many sensors are advertised, besides those of the robots that somebody wants to listen
-// to (WantedRobots), and a status message says that it is not all.
+// A thousand robots have more topics than a viewer can list. Advertised are those of this many
+// sensors, and those of wanted robots (WantedRobots). A status message reports that some are
+// missing.
 inline constexpr std::size_t kMaxSensorTopics = 2000;
 
 class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
  public:
-  // `workers` outlives this object's last Publish().
+  // `workers` must outlive the last Publish().
   SensorTopics(std::shared_ptr<Hub> hub, WorkerPool& workers);
 
-  // Somebody wants to listen to this robot's sensors: they will be advertised, however many others
-  // there are, at the next Refresh().
+  // Requests the sensors of a robot: the next Refresh() advertises them, beyond the limit.
   void Want(const std::string& robot) { wanted_.Want(robot); }
   bool has_requests() const { return wanted_.has_requests(); }
 
-  // Looks which sensors there are now; advertises and withdraws their topics.
+  // Lists the current sensors; advertises and withdraws their topics.
   void Refresh(simulation::Simulation& simulation, const world::Snapshot& snapshot);
 
-  // Has the readings taken that somebody waits for and that are due.
+  // Takes the readings that have subscribers and are due.
   void Publish(const std::shared_ptr<simulation::Simulation>& simulation,
                const std::shared_ptr<const world::Snapshot>& snapshot, WallTime now);
 
@@ -60,7 +59,7 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
 
   void PublishTransforms(const world::Snapshot& snapshot);
   void SendCompanion(const world::Snapshot& snapshot, const Sensor& sensor);
-  // Somebody has subscribed to its readings since they were last sent.
+  // Whether there are new subscribers to its readings.
   bool HasNewSubscribers(const Sensor& sensor) const;
   void PublishReading(const std::shared_ptr<simulation::Simulation>& simulation,
                       const world::Snapshot& snapshot, WallTime now,
@@ -75,18 +74,18 @@ class SensorTopics : public std::enable_shared_from_this<SensorTopics> {
   const std::shared_ptr<Hub> hub_;
   WorkerPool& workers_;
   foxglove::ChannelId beams_channel_ = 0, transforms_channel_ = 0;
-  std::optional<sensing::SensorSet> made_;  // once there is a simulation
+  std::optional<sensing::SensorSet> made_;  // set with the first simulation
   Sensors sensors_;
   std::map<foxglove::ChannelId, std::shared_ptr<Sensor>> by_channel_;
-  std::size_t topics_ = 0;  // how many of them have a channel without having been wanted
+  std::size_t topics_ = 0;  // number of channels that were not requested
   bool limit_reported_ = false;
   WantedRobots wanted_;
   bool transforms_changed_ = true;
   std::shared_ptr<const SensorList> beam_sensors_;
   Pacing beams_pacing_;
-  std::weak_ptr<const world::Snapshot> beams_of_;  // the last that beams were taken for
+  std::weak_ptr<const world::Snapshot> beams_of_;  // the last snapshot with beams
   std::atomic<bool> beams_busy_{false};
-  presentation::BeamMarkers beam_markers_;  // used by the beams' job alone
+  presentation::BeamMarkers beam_markers_;  // used by the job of the beams only
 };
 
 }  // namespace gsv::gateway

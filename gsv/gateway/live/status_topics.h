@@ -1,7 +1,7 @@
-// How a simulation stands, live: /gsv/status, when its phase changes and a few times a second, and
-// the same for ROS's tools once a second, /diagnostics.
+// The live topics of the status: /gsv/status at each change of the phase and a few times per
+// second, and /diagnostics for ROS tools once per second.
 //
-// Threads  Publish() from one.
+// Threads  Publish() from one thread.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ class StatusTopics {
   // Advertises the topics.
   explicit StatusTopics(std::shared_ptr<Hub> hub);
 
-  // Publishes what is due, if somebody listens.
+  // Publishes what is due, if there are subscribers.
   void Publish(const simulation::Simulation& simulation, WallTime now);
 
  private:
@@ -26,7 +26,7 @@ class StatusTopics {
     foxglove::ChannelId channel = 0;
     SharedBytes (*encode)(const simulation::SimulationStatus& status) = nullptr;
     Pacing pacing;
-    std::optional<simulation::Phase> phase{};  // that was published
+    std::optional<simulation::Phase> phase{};  // as published last
     Hub::Message latest{};
   };
   void Publish(Topic& topic, const simulation::Simulation& simulation, WallTime now);

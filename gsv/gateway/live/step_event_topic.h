@@ -1,10 +1,11 @@
-// What happens at single steps, live: a message for each, at the step at which it does.
+// A live topic of events at single steps, such as contacts: a message for each, with the time of
+// its step.
 //
-// Viewers are told a few times a second and things happen between: while somebody listens, the
-// stepping thread keeps what did.
+// Rounds are less frequent than steps. While there are subscribers, the stepping thread collects
+// the events of each step.
 //
-// Bounded  of one round's the newest so many.
-// Threads  Publish() from one.
+// Bounded  the newest events of a round.
+// Threads  Publish() from one thread.
 #pragma once
 
 #include <deque>
@@ -25,8 +26,7 @@ namespace gsv::gateway {
 template <typename Message>
 class StepEventTopic {
  public:
-  // Appends what a snapshot tells of; on the stepping thread, so that it should be a look at a list
-  // that is most often empty.
+  // Appends the events of a snapshot. It runs on the stepping thread and must be fast.
   using Collect = std::function<void(const world::Snapshot& snapshot, std::vector<Message>& found)>;
 
   // Advertises the topic.
@@ -36,7 +36,7 @@ class StepEventTopic {
         channel_(hub_->Advertise({ChannelFor(topic)}).front()),
         collect_(std::move(collect)) {}
 
-  // Publishes what happened since the last call, if anybody listens.
+  // Publishes the events since the last call, if there are subscribers.
   void Publish(simulation::Simulation& simulation) {
     if (!hub_->IsSubscribed(channel_)) {
       if (watch_) simulation.RemoveObserver(std::exchange(watch_, nullptr));
@@ -53,7 +53,7 @@ class StepEventTopic {
   }
 
  private:
-  // In a round; so that room for other data is left in a viewer's queue.
+  // The largest number per round, which leaves room for other data in viewers' queues.
   static constexpr std::size_t kMaxMoments = 64;
 
   class Watch final : public simulation::Observer {
@@ -88,12 +88,12 @@ class StepEventTopic {
   const std::shared_ptr<Hub> hub_;
   foxglove::ChannelId channel_ = 0;
   const Collect collect_;
-  std::shared_ptr<Watch> watch_;  // while somebody listens
+  std::shared_ptr<Watch> watch_;  // while there are subscribers
 };
 
-// /gsv/contacts: who meets whom.
+// /gsv/contacts: contacts that begin.
 using ContactTopic = StepEventTopic<messages::gsv_msgs::Contact>;
-// /gsv/radio: who says what to whom.
+// /gsv/radio: messages and their receivers.
 using RadioTopic = StepEventTopic<messages::gsv_msgs::Transmission>;
 
 void CollectContacts(const world::Snapshot& snapshot,

@@ -1,6 +1,6 @@
-// Whose sensors somebody wants to listen to, where there are more than viewers are told of.
+// The robots whose sensors viewers have requested, if there are more than the advertised ones.
 //
-// Threads  Want() and has_requests() may be called from any; the others from one.
+// Threads  Want() and has_requests() from any; the others from one thread.
 #pragma once
 
 #include <cstddef>
@@ -20,19 +20,19 @@ class WantedRobots {
   void Want(const std::string& robot);
   bool has_requests() const;
 
-  // Looks at what was wanted since the last call; whether that was anything.
+  // Takes the requests since the last call. False: there were none.
   bool TakeRequests();
-  // Of more robots than may be wanted, those go that are not `heard` (asked for only then), first
-  // who was wanted first. Gives those.
+  // If there are too many robots, evicts those that are not `heard` (called only then), the oldest
+  // request first. Returns the evicted robots.
   std::set<std::string> EvictUnheard(const std::function<std::set<std::string>()>& heard);
   bool Contains(const std::string& robot) const { return wanted_.contains(robot); }
 
  private:
   mutable base::Mutex mutex_;
   std::set<std::string> requests_ GSV_GUARDED_BY(mutex_);
-  // Of the thread that takes the wishes.
+  // Used by the thread that takes the requests.
   std::set<std::string> wanted_;
-  std::list<std::string> in_order_;  // the same; who was wanted last is last
+  std::list<std::string> in_order_;  // the same in the order of requests
 };
 
 }  // namespace gsv::gateway

@@ -1,4 +1,4 @@
-// Numbers for a monitoring system, as text.
+// Formats metrics for monitoring systems.
 //
 // Format  Prometheus' text format 0.0.4
 //         (https://prometheus.io/docs/instrumenting/exposition_formats/).
@@ -18,12 +18,12 @@ class Exposition {
     std::string_view name, value;
   };
 
-  // The samples that follow are of this name, which occurs once.
+  // Begins a family of samples; each name may occur once.
   void Begin(std::string_view name, Kind kind, std::string_view help);
   void Add(double value, std::initializer_list<Label> labels = {});
   void Add(std::uint64_t value, std::initializer_list<Label> labels = {});
 
-  // A family of one sample.
+  // Adds a family of one sample.
   template <typename Number>
   void Put(std::string_view name, Kind kind, std::string_view help, Number value) {
     Begin(name, kind, help);

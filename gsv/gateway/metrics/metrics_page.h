@@ -1,9 +1,7 @@
-// GET /metrics: how a server and its simulations are doing, for a monitoring system.
-// docs/monitoring.md lists the names.
+// GET /metrics: metrics of a server and its simulations. docs/monitoring.md lists the names.
 //
-// Labels   come from fixed sets: phases, classes of status. Names that people choose are none.
-// Threads  any; asks each simulation for its status once, as a viewer's list does, and never waits
-//          for a step.
+// Labels   have fixed sets of values (phases, classes of status), never names that users choose.
+// Threads  any; queries the status of each simulation once and never waits for a step.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +24,7 @@ struct BrokerCalls {
 
 struct MetricsSources {
   std::string version;
-  // Each may be absent, and then its numbers are.
+  // Each source is optional.
   SimulationDirectory* directory = nullptr;
   RecordingSwitch* recordings = nullptr;
   std::function<BrokerCalls()> broker_calls{};
@@ -34,12 +32,12 @@ struct MetricsSources {
 
 Response MetricsPage(const MetricsSources& sources, const Traffic& traffic);
 
-// What every server answers at /healthz and /metrics. The handlers live as long as this.
+// The routes /healthz and /metrics. The handlers are valid during the lifetime of this object.
 class Monitor {
  public:
   explicit Monitor(MetricsSources sources) : sources_(std::move(sources)) {}
 
-  // To be counted in.
+  // The counters, for the server.
   const std::shared_ptr<Traffic>& traffic() const { return traffic_; }
   std::vector<Route> Routes() const;
 

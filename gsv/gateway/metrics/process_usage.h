@@ -1,4 +1,4 @@
-// What this process uses of the machine, from /proc (proc(5)).
+// The resource usage of this process, from /proc (proc(5)).
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,16 @@ namespace gsv::gateway::metrics {
 
 struct ProcessUsage {
   std::uint64_t resident_bytes = 0;
-  std::uint64_t allocated_bytes = 0;  // that malloc gave out: what it keeps for later is not in it
+  std::uint64_t allocated_bytes = 0;  // by malloc, without its cached memory
   std::uint64_t threads = 0;
   std::uint64_t descriptors = 0;
-  std::uint64_t max_descriptors = 0;  // that it may open
-  double processor_seconds = 0;       // of all its threads
+  std::uint64_t max_descriptors = 0;  // limit of descriptors
+  double processor_seconds = 0;       // of all threads
   double start_time = 0;              // s since 1970
   double uptime = 0;                  // s
 };
 
-// What cannot be read stays zero. About 0.1 ms, and a little for each descriptor.
+// Values that cannot be read are zero. Takes about 0.1 ms, and more with many descriptors.
 ProcessUsage ReadProcessUsage();
 
 }  // namespace gsv::gateway::metrics

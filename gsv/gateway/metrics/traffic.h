@@ -1,4 +1,4 @@
-// What a server's connections have done, counted.
+// Counters of a server's connections.
 //
 // Threads  any.
 #pragma once
@@ -10,12 +10,13 @@
 namespace gsv::gateway::metrics {
 
 struct Traffic {
-  std::atomic<std::uint64_t> connections{0};            // that are open
-  std::atomic<std::uint64_t> viewers{0};                // WebSockets that are open
-  std::atomic<std::uint64_t> sent_bytes{0};             // HTTP answers and messages to viewers
-  std::atomic<std::uint64_t> dropped_updates{0};        // that viewers were too slow for
-  std::atomic<std::uint64_t> turned_away{0};            // connections, as there were too many
-  std::array<std::atomic<std::uint64_t>, 6> answers{};  // HTTP, by the first digit of their status
+  std::atomic<std::uint64_t> connections{0};      // open connections
+  std::atomic<std::uint64_t> viewers{0};          // open WebSockets
+  std::atomic<std::uint64_t> sent_bytes{0};       // HTTP responses and messages to viewers
+  std::atomic<std::uint64_t> dropped_updates{0};  // for slow viewers
+  std::atomic<std::uint64_t> turned_away{0};      // refused connections over the limit
+  // HTTP responses by the first digit of their status.
+  std::array<std::atomic<std::uint64_t>, 6> answers{};
 };
 
 }  // namespace gsv::gateway::metrics

@@ -1,4 +1,4 @@
-// What the gateway needs from the program around it.
+// Interfaces that the program around the gateway implements.
 #pragma once
 
 #include <cstdint>
@@ -10,39 +10,39 @@
 
 namespace gsv::gateway {
 
-// The simulations that can be watched.
+// The directory of simulations.
 //
-// Threads  both may be called from any thread, and return at once.
+// Threads  any; both functions return at once.
 class SimulationDirectory {
  public:
   virtual ~SimulationDirectory() = default;
 
-  // In the order in which a person should see them; the first is what a viewer opens by default.
+  // In the order for users. A viewer opens the first by default.
   virtual std::vector<std::shared_ptr<simulation::Simulation>> List() = 0;
-  // Null if there is none of that name.
+  // Null if the name is unknown.
   virtual std::shared_ptr<simulation::Simulation> Find(const std::string& name) = 0;
 };
 
-// Switches recordings on and off.
+// Starts and stops recordings.
 //
 // Threads  any; starting writes models, stopping waits for the disk.
 class RecordingSwitch {
  public:
   struct State {
     bool is_recording = false;
-    std::string path;            // of the recording under way, or of the last one
+    std::string path;            // of the current or the last recording
     std::uint64_t messages = 0;  // so far
-    std::uint64_t dropped = 0;   // messages that the disk was too slow for
+    std::uint64_t dropped = 0;   // messages dropped for a slow disk
     std::uint64_t bytes = 0;     // written
   };
 
   virtual ~RecordingSwitch() = default;
-  // To a new file, whose name the program chooses: who asks is a browser.
+  // Records to a new file, whose name the program chooses.
   virtual base::Status Record(const std::shared_ptr<simulation::Simulation>& simulation) = 0;
   virtual base::Status StopRecording(const std::string& simulation) = 0;
   virtual State RecordingOf(const std::string& simulation) = 0;
 
-  // Of all recordings since this process started.
+  // Totals of all recordings since this process started.
   struct Totals {
     std::uint64_t under_way = 0, messages = 0, dropped = 0, bytes = 0;
   };

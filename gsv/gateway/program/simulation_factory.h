@@ -1,10 +1,8 @@
-// Putting simulations together: what the gateway needs from the program around it so that people
-// can create simulations and change who stands in them.
+// Creates and edits simulations for the gateway; the program around it implements this interface.
 //
 // Units    metres, radians, seconds.
-// Errors   name the field of the request that they concern, as in "robots[1].model"; empty: none in
-//          particular.
-// Threads  any; reading a world and waiting for behaviours take their time.
+// Errors   name the field of the request, as in "robots[1].model"; empty: no single field.
+// Threads  any; calls may block to read a world and to wait for behaviours.
 #pragma once
 
 #include <memory>
@@ -30,21 +28,20 @@ inline tl::unexpected<FieldError> WrongField(std::string field, base::Error erro
 
 struct SimulationRequest {
   scenario::Scenario scenario;
-  bool record = false;  // to a file that the server names
+  bool record = false;  // to a file that the server chooses
 };
 
-// Where a body is to stand.
+// The requested pose of a body.
 struct Placement {
   geometry::Pose world_from_body;
-  bool on_ground = true;  // the height counts for nothing
+  bool on_ground = true;  // stand on the floor; the height is ignored
 };
 
-// A thing that is no robot: of a model, or like a body that stands in the simulation, came with its
-// world or was removed from it.
+// A new object: of a model, or a copy of a body that exists, came with the world or was removed.
 struct ObjectRequest {
   std::string name;                // empty: after its model
   std::string model, copy_of;      // one of the two
-  std::optional<Placement> place;  // without one: the first that is free
+  std::optional<Placement> place;  // default: the first free place
 };
 
 class SimulationFactory {
@@ -61,27 +58,28 @@ class SimulationFactory {
   struct Behaviours {
     std::vector<BehaviourLine> offers;
     std::string broker;         // its address
-    std::string start_command;  // a program that would offer one
+    std::string start_command;  // command of a program that offers one
   };
   struct Preview {
-    std::shared_ptr<simulation::Simulation> simulation;  // never runs, and is in no list
-    std::vector<std::string> warnings;                   // what the files lack
+    std::shared_ptr<simulation::Simulation> simulation;  // not listed and never runs
+    std::vector<std::string> warnings;                   // problems of the files
   };
 
   virtual ~SimulationFactory() = default;
 
-  virtual std::vector<std::string> Worlds() = 0;   // ours
-  virtual std::vector<ModelLine> Models() = 0;     // that can be robots, ours and on the model path
-  virtual std::vector<std::string> Objects() = 0;  // models that are no robots, as well
+  virtual std::vector<std::string> Worlds() = 0;  // ours
+  // That can be robots, built-in and on the model path.
+  virtual std::vector<ModelLine> Models() = 0;
+  virtual std::vector<std::string> Objects() = 0;  // including models that are not robots
   virtual base::Result<Behaviours> FindBehaviours(const std::string& constraint) = 0;
 
-  // As it would stand at its start, without behaviours.
+  // Creates a preview of the start, without behaviours.
   virtual FieldResult<Preview> Show(const SimulationRequest& request) = 0;
-  // Not started yet; recorded if that was asked for.
+  // Creates a simulation without starting it; starts a recording on request.
   virtual FieldResult<std::shared_ptr<simulation::Simulation>> Create(
       const SimulationRequest& request) = 0;
   virtual base::Status Destroy(const std::string& simulation) = 0;
-  // Gives the name under which it stands.
+  // Returns the name of the body.
   virtual FieldResult<std::string> AddRobot(
       const std::shared_ptr<simulation::Simulation>& simulation, const scenario::RobotEntry& robot,
       bool is_avatar) = 0;

@@ -1,6 +1,6 @@
-// What a recording attaches for those who look at it: its scenes and its models.
+// The scenes and models in the attachments of a recording.
 //
-// Input    hostile: an attachment is a file from somewhere.
+// Input    untrusted attachments.
 // Threads  const members may run concurrently.
 #pragma once
 
@@ -17,24 +17,22 @@ namespace gsv::gateway {
 
 class RecordedScene {
  public:
-  // Reads the scenes; one that makes no sense is left out and told of in problems(). `reader` must
-  // outlive this.
+  // Reads the scenes; invalid ones are listed in problems(). `reader` must outlive this.
   explicit RecordedScene(const recording::McapReader& reader);
 
   const base::Problems& problems() const { return problems_; }
 
-  // As it was attached, for poses with this layout_version; else the first there is. kNotFound,
-  // with a sentence, when the recording holds none.
+  // The scene for poses with this layout_version, as attached; else the first one. kNotFound, with
+  // a sentence, if the recording has none.
   base::Result<SharedBytes> Scene(std::uint32_t layout_version) const;
 
-  // The places of robots in a message gsv_msgs/Poses of that layout: body's name, index of its
-  // pose.
+  // The indices of bodies' poses in gsv_msgs/Poses of that layout, by name.
   const std::map<std::string, std::size_t>& BodyPoses(std::uint32_t layout_version) const;
 
   // Whether one of the scenes has a body of this name.
   bool HasBody(const std::string& name) const;
 
-  // The GLB file of a model. kNotFound.
+  // The GLB file of a model, or kNotFound.
   base::Result<SharedBytes> Model(const std::string& id) const;
 
  private:

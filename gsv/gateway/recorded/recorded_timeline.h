@@ -1,6 +1,6 @@
-// What a recording's timeline shows beside its span: the instants of its poses, and what happened.
+// The data of a recording's timeline: the instants of poses, events and log.
 //
-// Input    hostile: what cannot be read is left out.
+// Input    untrusted: unreadable messages are left out.
 // Threads  const members may run concurrently.
 #pragma once
 
@@ -23,8 +23,8 @@ struct RecordedEvent {
 // A message of /rosout.
 struct RecordedLine {
   base::SimTime time{};
-  int level = 20;          // as rcl_interfaces/msg/Log has them: 10 debug to 50 fatal
-  std::string name, text;  // who said it, and what
+  int level = 20;          // as in rcl_interfaces/msg/Log: 10 debug to 50 fatal
+  std::string name, text;  // source and message
 };
 
 class RecordedTimeline {
@@ -32,14 +32,14 @@ class RecordedTimeline {
   // `reader` must outlive this.
   explicit RecordedTimeline(const recording::McapReader& reader);
 
-  // The instant of the `count`-th recorded pose after `time`, or before it if `count` is negative;
-  // the recording's end, or start, where there are not so many. Reads the blocks around `time`.
+  // The instant of the `count`th recorded pose after `time`, or before it if `count` is negative;
+  // at most the end or start of the recording. Reads the blocks around `time`.
   base::SimTime PoseBeside(base::SimTime time, std::int64_t count) const;
 
-  // By time; the first thousand. The first call reads the blocks that hold them.
+  // The first thousand events by time. The first call reads their blocks.
   const std::vector<RecordedEvent>& Events() const;
 
-  // By time; the first five thousand. Likewise.
+  // The first five thousand lines by time, likewise.
   const std::vector<RecordedLine>& Log() const;
 
  private:
@@ -48,7 +48,7 @@ class RecordedTimeline {
   ChannelIds ChannelsOf(const std::string& topic) const;
   std::vector<RecordedEvent> ReadEvents() const;
   std::vector<RecordedLine> ReadLog() const;
-  // Of each message of these channels, as far as the limits allow, what `use` makes of it.
+  // Applies `use` to each message of these channels, within the limits.
   template <typename Message, typename Entry, typename Use>
   std::vector<Entry> ReadAll(const ChannelIds& channels, std::size_t most, Use use) const;
 

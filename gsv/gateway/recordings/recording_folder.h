@@ -1,9 +1,9 @@
-// The recordings that people may replay: those that lie in one folder, or a single one.
+// The recordings that viewers may replay: those in one folder, or a single one.
 //
-// Input    hostile: names come from browsers, files from anywhere. Only what lies directly in the
-//          folder is seen, and no link that leads elsewhere.
-// Threads  any. List() reads the index at the end of each file that it has not seen yet.
-// Bounded  the newest thousand are listed.
+// Input    untrusted names and files. Only files directly in the folder count, and no links that
+//          leave it.
+// Threads  any. List() reads the index of each new file.
+// Bounded  the newest thousand recordings.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace gsv::gateway::recordings {
 struct RecordingLine {
   enum class State {
     kComplete,
-    kUnfinished,  // being recorded, or cut off: nothing is known of what it holds
+    kUnfinished,  // being recorded, or truncated: contents unknown
     kUnreadable,
   };
 
@@ -41,23 +41,22 @@ class RecordingFolder {
     std::size_t left_out = 0;
   };
 
-  // `only`: the one recording that is seen of what is in the folder, whatever its name ends in;
-  // empty: all are.
+  // `only`: the single recording in the folder that is listed, with any extension; empty: all.
   explicit RecordingFolder(std::filesystem::path folder, std::string only = {})
       : folder_(std::move(folder)), only_(std::move(only)) {}
 
   const std::filesystem::path& path() const { return folder_; }
   const std::string& only() const { return only_; }
 
-  // Empty when the folder is not there.
+  // Empty if the folder does not exist.
   Listing List();
 
-  // What McapReader::Open() takes. kNotFound with a sentence for people.
+  // The path for McapReader::Open(). kNotFound with a sentence.
   base::Result<std::string> Find(const std::string& name) const;
 
  private:
   bool IsName(const std::string& name) const;
-  // A file that is a recording by its name; empty: it is none.
+  // The file of a recording by its name; empty: none.
   std::filesystem::path FileOf(const std::filesystem::path& path) const;
   RecordingLine Look(const std::string& name, const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// The part of the HTTP API that lists recordings, and opens them as replays of a viewer's own.
+// The part of the HTTP API that lists recordings and opens replays.
 //
 // Threads  any.
 #pragma once
@@ -17,7 +17,7 @@ class RecordingsApi {
                          const SessionLimits& limits = {})
       : folder_(std::move(folder), std::move(only)), sessions_(limits) {}
 
-  // With those of the sessions. The handlers live as long as this.
+  // Includes the routes of the sessions. The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
 
   ReplaySessions& sessions() { return sessions_; }

@@ -1,11 +1,9 @@
-// Recordings that are being replayed, each by a player of its own: what one viewer does with its
-// replay moves nobody else's.
+// Replays of recordings, each with its own player, so that viewers control them independently.
 //
-// A session lives as long as somebody watches it, and half a minute longer, for those who come
-// back.
+// A session ends half a minute after its last viewer has left.
 //
-// Threads  any; opening a recording takes as long as its index does to be read.
-// Bounded  as many sessions as SessionLimits says.
+// Threads  any; opening a recording reads its index.
+// Bounded  see SessionLimits.
 #pragma once
 
 #include <chrono>
@@ -30,17 +28,17 @@ class ReplaySessions {
   explicit ReplaySessions(const SessionLimits& limits = {}) : limits_(limits) {}
   ~ReplaySessions() { Stop(); }
 
-  // Opens the recording at `path`, which viewers know as `recording`; gives the session's name.
-  // kUnavailable: too many are watched.
+  // Opens the recording at `path`, which viewers know as `recording`. Returns the name of the
+  // session. kUnavailable: too many sessions.
   base::Result<std::string> Open(const std::string& path, const std::string& recording);
 
-  // Below /replays/{session}/: a replay's API, and its live stream at ws. To watch is permission
-  // enough for all of it. The handlers live as long as this.
+  // The routes below /replays/{session}/: the API of a replay, and its live stream at ws. All need
+  // the permission to watch only. The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
-  // The hub of a session. What holds it keeps the session.
+  // The hub of a session. Its users keep the session.
   base::Result<std::shared_ptr<Hub>> FindHub(const std::string& name);
 
-  // Ends all of them, and opens none any more.
+  // Ends all sessions and refuses further ones.
   void Stop();
 
  private:
@@ -50,7 +48,7 @@ class ReplaySessions {
   };
 
   base::Result<Replay> Find(const std::string& name);
-  // Takes out those that nobody watches any more; they end when they are let go of.
+  // Removes the sessions without viewers; they end when they are destroyed.
   std::map<std::string, Entry> TakeUnwatched();
 
   const SessionLimits limits_;

@@ -1,5 +1,5 @@
-// Where a replay stands: a position in simulated time that moves with the wall clock while it
-// plays. Phases are those of a simulation, so that a viewer need not know the difference.
+// The position of a replay in simulated time, which advances with the wall clock while it plays.
+// Its phases are those of a simulation, so that viewers need not distinguish them.
 //
 // Threads  one at a time.
 #pragma once
@@ -16,7 +16,7 @@ class ReplayClock {
  public:
   using WallTime = std::chrono::steady_clock::time_point;
 
-  // Stands at `start`. `speed`: simulated seconds a wall second, > 0.
+  // Begins at `start`. `speed`: simulated seconds per second of wall-clock time, > 0.
   ReplayClock(base::SimTime start, base::SimTime end, double speed, bool loop)
       : start_(start), end_(end), speed_(speed), loop_(loop), position_(start) {}
 
@@ -28,23 +28,23 @@ class ReplayClock {
   simulation::Phase phase() const { return phase_; }
   bool is_playing() const { return phase_ == simulation::Phase::kRunning; }
 
-  // kNotRunning with a sentence when the phase does not allow it.
+  // kNotRunning with a sentence if the phase does not allow it.
   base::Status Start();
   base::Status Pause();
   base::Status Resume();
-  // Moves on by `time`, then stands still.
+  // Advances by `time` and pauses.
   base::Status Step(base::SimTime time);
-  void Rewind();  // to the start, where it waits
-  // Within the recording; plays on if it played.
+  void Rewind();  // to the start, paused
+  // Moves within the recording, and continues playing if it played.
   void Seek(base::SimTime time);
-  // Within the recording, where it stands still.
+  // Moves within the recording and pauses.
   void StandAt(base::SimTime time);
-  // > 0, from here on.
+  // Sets the speed, > 0.
   void SetSpeed(double speed) { speed_ = speed; }
   void SetLoop(bool loop) { loop_ = loop; }
 
-  // Moves with the wall clock. True when it went past the end and begins anew (with `loop`);
-  // without it stays at the end, finished.
+  // Advances with the wall clock. True if it passed the end and restarts (with `loop`). Without
+  // `loop` it stays at the end, finished.
   bool Advance(WallTime now);
 
  private:
@@ -54,7 +54,7 @@ class ReplayClock {
   bool loop_;
   base::SimTime position_;
   simulation::Phase phase_ = simulation::Phase::kCreated;
-  WallTime last_{};  // when it was advanced; {}: it has to begin
+  WallTime last_{};  // time of the last Advance(); {}: none
 };
 
 }  // namespace gsv::gateway

@@ -1,5 +1,5 @@
-// What the viewers of a replay can do: the same services as with a running simulation, speed and
-// loop as parameters, and the control of its playback.
+// The operations of viewers of a replay: the services of a running simulation, speed and loop as
+// parameters, and playback control.
 //
 // Threads  any.
 #pragma once
@@ -13,7 +13,7 @@ class ReplayPlayer;
 
 class ReplayOperations final : public Operations {
  public:
-  // `player` outlives the last call.
+  // `player` must outlive the last call.
   explicit ReplayOperations(ReplayPlayer& player);
 
   std::vector<foxglove::Service> services() const override { return services_.list(); }

@@ -1,7 +1,7 @@
-// A recording that plays: what a simulation is to the live gateway.
+// Plays a recording; the counterpart of a simulation in the live gateway.
 //
-// Threads  any; a thread of its own reads the file and publishes.
-// Errors   kNotRunning with a sentence when the phase does not allow an action.
+// Threads  any; its own thread reads the file and publishes.
+// Errors   kNotRunning with a sentence if the phase does not allow an action.
 #pragma once
 
 #include <memory>
@@ -19,27 +19,27 @@
 namespace gsv::gateway {
 
 struct ReplayOptions {
-  double speed = 1;   // simulated seconds a wall second, > 0
-  bool loop = false;  // begins anew at the end
+  double speed = 1;   // simulated seconds per second of wall-clock time, > 0
+  bool loop = false;  // restart at the end
 };
 
 class ReplayPlayer {
  public:
-  // Stands at the beginning. Fails when the file is no recording, or holds no messages.
+  // Opens a recording at its start. Fails if the file is not a recording or has no messages.
   static base::Result<std::unique_ptr<ReplayPlayer>> Open(const std::string& path,
                                                           const ReplayOptions& options);
   ~ReplayPlayer();
 
-  const std::string& name() const { return name_; }  // the recorded simulation's
+  const std::string& name() const { return name_; }  // of the recorded simulation
   const std::shared_ptr<Hub>& hub() const { return stream_.hub(); }
   const RecordedScene& scene() const { return scene_; }
   const RecordedTimeline& timeline() const { return timeline_; }
-  // Values over the whole recording.
+  // Curves over the whole recording.
   curves::RecordedCurves& curves() { return curves_; }
-  // What the file lacks.
+  // Problems of the file.
   const base::Problems& problems() const { return problems_; }
 
-  // As of a simulation, at the replay's position.
+  // The status as of a simulation, at the replay's position.
   simulation::SimulationStatus status() const;
   base::Result<SharedBytes> SceneNow() const;
   ReplayClock clock() const;
@@ -47,20 +47,19 @@ class ReplayPlayer {
   base::Status Start();
   base::Status Pause();
   base::Status Resume();
-  // Moves on by so many of the simulation's steps, then stands still.
+  // Advances by `count` steps of the simulation and pauses.
   base::Status Step(std::int64_t count);
   void Rewind();
-  // To the instant, or the end that is nearer; plays on if it played.
+  // Moves to the instant, at most to an end, and continues playing if it played.
   void Seek(base::SimTime time);
-  // Goes to the recorded pose so many after the present instant, or before it if negative, and
-  // stands still there.
+  // Moves to the `count`th recorded pose after the position, or before it if negative, and pauses.
   base::Status StepPoses(std::int64_t count);
   base::Status SetSpeed(double speed);
   void SetLoop(bool loop);
-  // The recorded topics of the robot's sensors, which are listed to viewers from now on.
+  // Returns the recorded topics of a robot's sensors and advertises them from now on.
   std::vector<std::string> ListTopicsOf(const std::string& robot);
 
-  // Ends the thread and lets nobody in any more.
+  // Ends the thread and refuses further viewers.
   void Stop();
 
  private:

@@ -1,9 +1,9 @@
-// The messages of a recording, published to a hub as its time goes by.
+// Publishes the messages of a recording to a hub as its time advances.
 //
-// Of each topic a round publishes the newest message, of /gsv/events every one that it comes past:
-// a jump tells no old events as news. /clock and /gsv/status are the replay's own.
+// A round publishes the newest message of each topic, but every passed message of /gsv/events. A
+// seek publishes no earlier events. The player itself publishes /clock and /gsv/status.
 //
-// Threads  JumpTo(), PlayTo() and Publish() come from one thread; the others from any.
+// Threads  JumpTo(), PlayTo() and Publish() from one thread; the others from any.
 #pragma once
 
 #include <cstdint>
@@ -27,27 +27,26 @@ namespace gsv::gateway {
 
 class ReplayStream {
  public:
-  // Advertises what the recording holds, as much as of a simulation (SensorTopics). `reader` must
-  // outlive this; `on_demand` and `operations`: see Hub.
+  // Advertises the topics of the recording, with the limit of SensorTopics. `reader` must outlive
+  // this. `on_demand` and `operations`: see Hub.
   ReplayStream(const recording::McapReader& reader, const std::string& name,
                std::function<void()> on_demand, std::shared_ptr<Operations> operations);
 
   const std::shared_ptr<Hub>& hub() const { return hub_; }
 
-  // Somebody wants to listen to this robot's sensors: they will be advertised, however many others
-  // there are, at the next Publish().
+  // Requests the sensors of a robot: the next Publish() advertises them, beyond the limit.
   void Want(const std::string& robot) { wanted_.Want(robot); }
 
-  // Takes each topic's newest message that is not after `time`.
+  // Takes the newest message of each topic that is not after `time`.
   void JumpTo(base::SimTime time);
-  // Takes what comes from where it stands up to `time`, included.
+  // Takes the messages from the position to `time`, inclusive.
   void PlayTo(base::SimTime time);
-  // Sends what was taken since the last call, and to newcomers how things stand. `status` is asked
-  // when it is needed.
+  // Publishes the messages since the last call, and the current state to new subscribers. Calls
+  // `status` only if it is needed.
   void Publish(base::SimTime time, simulation::Phase phase, WallTime now,
                const std::function<simulation::SimulationStatus()>& status);
 
-  // What the recording said last of the robots, and of where they are; empty: nothing yet.
+  // The last recorded status and poses; empty: none yet.
   messages::gsv_msgs::SimulationStatus recorded_status() const;
   messages::gsv_msgs::Poses recorded_poses() const;
 
@@ -56,7 +55,7 @@ class ReplayStream {
   struct Track {
     Kind kind = Kind::kPlain;
     foxglove::ChannelId channel = 0;  // 0: not published
-    bool is_wanted = false;           // it is published because somebody wanted the robot's
+    bool is_wanted = false;           // advertised by request
     std::optional<Hub::Message> latest;
     bool is_fresh = false;
   };
@@ -68,7 +67,7 @@ class ReplayStream {
   std::set<std::string> RobotsHeard() const;
   const std::string& TopicOf(std::uint16_t id) const;
   void Advertise(const std::vector<std::uint16_t>& ids);
-  // The message's track, of which it is the latest now; null: a channel that is not replayed.
+  // Stores the message as the latest of its track. Null: the channel is not replayed.
   const Track* Keep(std::uint16_t id, base::SimTime time, recording::Bytes data);
   void ReadNext();
   void Publish(Track& track);

@@ -1,4 +1,4 @@
-// What the server and its sessions share.
+// Data that the server and its sessions share.
 #pragma once
 
 #include <atomic>
@@ -19,18 +19,18 @@ struct ServerContext {
   Handler& handler;
   const std::shared_ptr<metrics::Traffic> traffic;
   const std::shared_ptr<boost::asio::ssl::context> tls;  // null: plain HTTP
-  std::atomic<std::size_t> uploads{0};                   // that are being read, into memory
+  std::atomic<std::size_t> uploads{0};                   // current number of uploads
   std::atomic<bool> stopping{false};
 };
 
-// Whose WebSocket it is.
+// The owner of a WebSocket.
 struct SocketOwner {
   access::Principal principal;
   std::string viewer;       // a key, or empty
-  bool is_private = false;  // what is done over it changes nothing that others see
+  bool is_private = false;  // its commands affect no other viewer
 };
 
-// Counts one connection as long as it lives.
+// Counts one connection during its lifetime.
 class ConnectionSlot {
  public:
   explicit ConnectionSlot(std::shared_ptr<ServerContext> context) : context_(std::move(context)) {
@@ -44,10 +44,10 @@ class ConnectionSlot {
   std::shared_ptr<ServerContext> context_;
 };
 
-// Room in memory for one file that is being uploaded.
+// A slot for one upload, as uploads are held in memory.
 class UploadSlot {
  public:
-  // Null: there is none.
+  // Null if none is free.
   static std::unique_ptr<UploadSlot> Take(std::shared_ptr<ServerContext> context) {
     const std::size_t most = context->options.limits.uploads_at_once;
     auto slot = std::unique_ptr<UploadSlot>(new UploadSlot(std::move(context)));
@@ -65,13 +65,13 @@ class UploadSlot {
   const std::size_t number_;
 };
 
-// One session, as the server sees it.
+// The interface of a session for the server.
 class Connection {
  public:
   virtual ~Connection() = default;
-  // On the server's thread: ends as soon as decency allows.
+  // On the server's thread: ends the session in order, soon.
   virtual void Shutdown() = 0;
-  // After the server's thread has ended: lets go of all that holds this session.
+  // After the server's thread has ended: releases all references to this session.
   virtual void Cut() = 0;
 };
 

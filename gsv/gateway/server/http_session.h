@@ -1,5 +1,4 @@
-// One connection that speaks HTTP, one request after the other, until it ends or becomes a
-// WebSocket.
+// An HTTP connection, until it ends or becomes a WebSocket.
 #pragma once
 
 #include <functional>
@@ -11,8 +10,8 @@
 
 namespace gsv::gateway {
 
-// Starts to serve `socket`, by TLS where the context says so. `keep_track` is told of this session
-// and of the one that replaces it.
+// Serves `socket`, with TLS if the context has it. Calls `keep_track` with this session and with
+// the WebSocket session that replaces it.
 void StartHttpSession(boost::asio::ip::tcp::socket socket, std::shared_ptr<ServerContext> context,
                       std::unique_ptr<ConnectionSlot> slot,
                       std::function<void(std::weak_ptr<Connection>)> keep_track);

@@ -1,8 +1,7 @@
-// What waits to be written to one client.
+// The queue of messages to one client.
 //
-// Bounded  Control messages (what there is to subscribe to, answers) must all arrive: when too much
-//          of them waits, the client is beyond help. Of the data the oldest makes room for the
-//          newest.
+// Bounded  control messages (advertisements, answers) are never dropped; if they exceed the limit,
+//          the client is disconnected. If data exceed their limit, the oldest are dropped.
 // Threads  any.
 #pragma once
 
@@ -25,8 +24,8 @@ struct SendLimits {
 
 struct Outgoing {
   bool is_text = false;
-  bool is_data = false;           // else control
-  foxglove::BinaryHeader header;  // of control: empty
+  bool is_data = false;           // false: control
+  foxglove::BinaryHeader header;  // empty for control messages
   SharedBytes payload;
 
   std::size_t size() const { return header.size + payload.size(); }
@@ -36,11 +35,11 @@ class SendQueue {
  public:
   explicit SendQueue(const SendLimits& limits) : limits_(limits) {}
 
-  // False: too much waits already; the message was not queued.
+  // False: the queue is full; the message was not queued.
   [[nodiscard]] bool PushControl(SharedBytes message, bool is_text = true);
-  // The newest message is always kept, however large it is. Gives how many older ones were dropped.
+  // Always keeps the newest message. Returns the number of dropped older ones.
   std::size_t PushData(const foxglove::BinaryHeader& header, SharedBytes payload);
-  // The next to be written: control before data, each in the order it came.
+  // The next message: control before data, each in order.
   std::optional<Outgoing> Pop();
 
   bool empty() const;

@@ -1,10 +1,8 @@
-// Listens on one port; speaks HTTP and WebSocket with those who connect, over TLS if it has a
-// certificate.
+// Listens on one port and serves HTTP and WebSockets, over TLS if it has a certificate.
 //
-// Threads   one thread serves all connections and never waits for anybody. A Handler is called on
-//           it and returns at once.
-// Bounded   connections, headers, bodies, messages, what waits for a client, and the time each
-//           exchange may take.
+// Threads   one thread serves all connections and never blocks. It calls the Handler, which must
+//           return at once.
+// Bounded   connections, headers, bodies, messages, send queues, and the time of each exchange.
 #pragma once
 
 #include <chrono>
@@ -27,16 +25,17 @@ struct ServerLimits {
   std::uint32_t header_bytes = 16u << 10;
   std::uint64_t body_bytes = 64u << 10;
   std::uint64_t upload_bytes = 64u << 20;          // of one file
-  std::size_t uploads_at_once = 4;                 // each in memory until it is there
+  std::size_t uploads_at_once = 4;                 // each is held in memory until it is complete
   std::size_t message_bytes = 256u << 10;          // of one WebSocket message from a client
-  std::chrono::milliseconds request_time{30'000};  // to send a request, or to take its answer
-  std::chrono::milliseconds idle_time{60'000};  // a viewer that answers no ping for so long is gone
+  std::chrono::milliseconds request_time{30'000};  // to send a request, or to receive the response
+  // Time without an answer to pings after which a viewer is disconnected.
+  std::chrono::milliseconds idle_time{60'000};
   SendLimits send;
 };
 
-// PEM files. Both or none.
+// PEM files, both or none.
 struct TlsFiles {
-  std::string certificate, key;  // with the certificates that lead to the authority's; the key
+  std::string certificate, key;  // certificate with intermediate ones; key
 
   bool empty() const { return certificate.empty() && key.empty(); }
 };
@@ -46,23 +45,24 @@ struct ServerOptions {
   std::uint16_t port = 0;                  // 0: the system chooses
   std::vector<std::string> allowed_hosts;  // see AccessRule
   std::vector<std::string> allowed_origins;
-  // Without a token, and without an authenticator, only this machine is served.
+  // Without tokens and authenticator, only this machine is served.
   access::Tokens tokens;
-  std::shared_ptr<access::Authenticator> authenticator{};  // in place of the tokens; null: they are
+  std::shared_ptr<access::Authenticator> authenticator{};  // replaces the tokens; null: tokens
   TlsFiles tls{};                                          // empty: plain HTTP
   ServerLimits limits;
-  std::shared_ptr<metrics::Traffic> traffic{};  // where it is counted; null: nowhere that is seen
+  std::shared_ptr<metrics::Traffic> traffic{};  // counters; null: none
 };
 
-// What a server serves. Requests that no route is for, or that lack permission, do not get here.
+// Handles the requests of a server that have a route and permission.
 class Handler {
  public:
   virtual ~Handler() = default;
   virtual const Router& router() const = 0;
-  // Has the route's handler answer, on the threads that the route names. `respond` must be called
-  // once, here or later, from any thread, before the server is stopped.
+  // Runs the handler of the route, on the threads that the route names. `respond` must be called
+  // once, now or later, from any thread, before the server is stopped.
   virtual void Handle(const Route& route, Request request, Respond respond) = 0;
-  // Why the viewer of this key (empty: none) may not control that simulation now; see ViewerRegistry.
+  // An error with the reason if the viewer with this key (empty: none) may not control the
+  // simulation now; see ViewerRegistry.
   virtual base::Status CheckControl(const std::string& /*viewer*/,
                                     const std::string& /*simulation*/) {
     return {};
@@ -71,8 +71,8 @@ class Handler {
 
 class Server {
  public:
-  // `handler` outlives the server. Fails when the port cannot be had or the certificate cannot be
-  // used, and with kInvalidArgument when other machines could reach it and need no credentials.
+  // `handler` must outlive the server. Fails if the port is not available or the certificate is
+  // invalid, and with kInvalidArgument if other machines could connect without credentials.
   static base::Result<std::unique_ptr<Server>> Start(const ServerOptions& options,
                                                      Handler& handler);
   virtual ~Server() = default;
@@ -80,7 +80,7 @@ class Server {
   virtual std::uint16_t port() const = 0;
   virtual std::string url() const = 0;  // "http://127.0.0.1:8080/"
 
-  // Says goodbye to all, waits a moment for them to go, then cuts them off. May be called again.
+  // Closes all connections in order, and forcibly after a moment. Idempotent.
   virtual void Stop() = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a server shows to those who connect by TLS, and whom those trust who connect to one.
+// The TLS contexts of servers and clients.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,11 @@
 
 namespace gsv::gateway {
 
-// TLS 1.2 and 1.3. Fails with a sentence when the files cannot be used: see tls::CheckKeyPair().
+// A server context for TLS 1.2 and 1.3. Fails with a sentence if the files are invalid, see
+// tls::CheckKeyPair().
 base::Result<std::shared_ptr<boost::asio::ssl::context>> MakeTlsContext(const TlsFiles& files);
 
-// To call servers whose certificate `authority` signed, a PEM file; empty: whom the system trusts.
+// A client context that trusts the PEM file `authority`; empty: the system's authorities.
 base::Result<std::shared_ptr<boost::asio::ssl::context>> MakeTlsClientContext(
     const std::string& authority);
 

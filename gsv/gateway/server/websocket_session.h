@@ -1,4 +1,4 @@
-// One connection that speaks the Foxglove protocol: a client of a hub.
+// A WebSocket connection with the Foxglove protocol: a client of a hub.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace gsv::gateway {
 
-// Accepts the upgrade that `request` asks for and joins the hub.
+// Accepts the upgrade of `request` and joins the hub.
 std::weak_ptr<Connection> StartWebSocketSession(
     transport::ByteStream stream,
     boost::beast::http::request<boost::beast::http::string_body> request,

@@ -1,6 +1,6 @@
-// A few threads that do what must not be done on the threads that serve everybody.
+// A thread pool for work that must not block the serving threads.
 //
-// Bounded  a job that finds the queue full is refused, never kept.
+// Bounded  a job is refused if the queue is full.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace gsv::gateway {
 
-// How many requests of viewers may wait for a thread.
+// The largest number of pending requests of viewers.
 inline constexpr std::size_t kWaitingRequests = 256;
 
 class WorkerPool {
@@ -23,10 +23,10 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  // Any thread. False, and the job is gone: the queue is full, or Stop() was called.
+  // Any thread. False: the queue is full, or Stop() was called; the job is dropped.
   [[nodiscard]] bool Submit(std::function<void()> job);
 
-  // Waits for the jobs that run; those that wait are dropped. Not from a job.
+  // Waits for running jobs and drops pending ones. Not from a job.
   void Stop();
 
  private:

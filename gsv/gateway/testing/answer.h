@@ -1,4 +1,4 @@
-// For tests: what routes answer, whatever permission that takes.
+// For tests: the response of a route, without checking permissions.
 #pragma once
 
 #include <utility>

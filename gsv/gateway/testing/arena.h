@@ -14,7 +14,7 @@ model::Model CrateModel();  // a cube of 1 m on the ground
 model::Model RobotModel();
 model::WorldDescription ArenaDescription();
 
-// A sensor of the type "camera" whose picture is a gradient, sent as JPEG.
+// A sensor of the type "camera" whose image is a gradient, encoded as JPEG.
 sensing::SensorType GradientCameraType();
 
 }  // namespace gsv::gateway::testing

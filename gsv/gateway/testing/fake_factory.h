@@ -1,4 +1,4 @@
-// For tests: puts scripted simulations into a list.
+// For tests: a factory of scripted simulations.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace gsv::gateway::testing {
 
-// Remembers what it was asked for, and refuses what it is told to refuse.
+// Records requests, and refuses them on demand.
 class FakeFactory final : public SimulationFactory {
  public:
   explicit FakeFactory(SimulationList& list) : list_(list) {}
@@ -55,7 +55,7 @@ class FakeFactory final : public SimulationFactory {
   }
 
   std::optional<FieldError> refusal;
-  ObjectRequest asked;  // for last
+  ObjectRequest asked;  // the last requested object
 
  private:
   SimulationList& list_;

@@ -1,4 +1,4 @@
-// For tests of a simulation's live stream.
+// For tests of live streams.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace gsv::gateway::testing {
 
-// One robot on a circle of radius 1 at 0.2 rad/s, and wall time that a test lets pass.
+// One robot on a circle of radius 1 at 0.2 rad/s, and a wall clock that the test advances.
 class LiveStreamTest : public ::testing::Test {
  protected:
   void SetUp() override { stream_.hub()->Add(client_); }
@@ -34,7 +34,7 @@ class LiveStreamTest : public ::testing::Test {
     ASSERT_TRUE(stream_.hub()->Receive(&client, SubscribeText(id, channel)));
   }
 
-  // For what workers do: rounds until that many messages of the subscription have come.
+  // Runs rounds until `count` messages of the subscription have arrived from workers.
   ReceivedData RoundUntil(foxglove::SubscriptionId id, std::size_t count) {
     while (client_->data(id).size() < count) {
       Round(std::chrono::milliseconds(1));

@@ -1,4 +1,4 @@
-// For tests: a client that keeps all it is sent.
+// For tests: a client that keeps all messages.
 #pragma once
 
 #include <cstring>
@@ -20,7 +20,7 @@ struct ReceivedData {
   std::string payload;
 };
 
-// Takes a binary message of the protocol apart, written anew from its specification.
+// Parses a binary message, implemented independently from the specification.
 inline ReceivedData ParseData(const std::string& bytes) {
   ReceivedData data;
   data.opcode = bytes.at(0);
@@ -94,7 +94,7 @@ class RecordingClient final : public Client {
     return times;
   }
 
-  // The number of a topic's channel, by the latest advertisement; 0: it was withdrawn or never was.
+  // The channel of a topic by the latest advertisement; 0: none.
   foxglove::ChannelId ChannelOf(const std::string& topic) const {
     foxglove::ChannelId id = 0;
     for (const nlohmann::json& text : texts()) {

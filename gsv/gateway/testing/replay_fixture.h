@@ -39,7 +39,7 @@ inline void RecordRun(const std::string& path) {
   ASSERT_TRUE((*recorder)->Stop());
 }
 
-// One message of each of these subscriptions, in whatever order they come.
+// One message of each of these subscriptions, in any order.
 inline std::map<int, ReceivedData> ReceiveEach(Viewer& viewer, std::set<int> subscriptions) {
   std::map<int, ReceivedData> received;
   while (!subscriptions.empty()) {

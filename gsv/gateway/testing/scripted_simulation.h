@@ -1,5 +1,5 @@
-// For tests: a simulation whose robots drive in circles by formula, so that every value it shows is
-// known in closed form. Sensors are the real ones. Nothing in it moves unless Advance() is called.
+// For tests: a simulation whose robots drive in circles by formula, so that all values are known in
+// closed form. Sensors are real. Bodies move only with Advance().
 //
 // World    "arena": a floor, four crates at (±4, ±4), robots robot_0, robot_1, … and one avatar.
 //          Robot i goes round (0, 0) with radius 1 + i/2 at 0.2 rad/s, ahead by i radians; its
@@ -19,22 +19,22 @@ class ScriptedSimulation final : public simulation::Simulation {
  public:
   ScriptedSimulation(std::string name, int robots);
 
-  // Time passes, whatever the phase.
+  // Advances time, in any phase.
   void Advance(base::SimTime time);
-  // What would make robot i drive as it does.
+  // The command of robot i.
   static world::DriveCommand CommandOf(int robot);
-  // What the latest snapshot, and those after it, show of a robot's drive.
+  // Sets a robot's drive command in the latest and later snapshots.
   void SetDriveState(const std::string& robot, const world::DriveCommand& command,
                      base::SimTime time);
-  // Two bodies meet, a step later, where the first stands.
+  // Adds a contact of two bodies in the next step, at the first.
   void Meet(const std::string& first, const std::string& second);
   std::size_t observers() const;
-  // One robot more, at the end of the list: the layout changes.
+  // Adds a robot at the end; the layout changes.
   void AddOneRobot();
-  // A sensor more on a robot, as by its behaviour: the layout does not change.
+  // Adds a sensor to a robot; the layout does not change.
   void Mount(const std::string& robot, model::SensorDescription sensor);
   void AddEvent(const std::string& kind);
-  // Watch() first calls this; to count, to fail or to block.
+  // A hook at the start of Watch().
   void set_on_watch(std::function<base::Status(const std::string& sensor)> on_watch);
   world::DriveCommand avatar_command() const;
 

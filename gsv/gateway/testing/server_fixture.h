@@ -1,4 +1,4 @@
-// For tests of the server: one that repeats what it is asked, whatever the address.
+// For tests of the server: an echo server.
 #pragma once
 
 #include <condition_variable>
@@ -13,7 +13,7 @@
 
 namespace gsv::gateway::testing {
 
-// Repeats what it is asked; every WebSocket joins its one hub, which has the channel "/numbers".
+// Echoes requests. Every WebSocket joins its hub, which has the channel "/numbers".
 class Echo final : public Handler {
  public:
   Echo() { channel_ = hub_->Advertise({{0, "/numbers", "json", "", "", ""}}).front(); }
@@ -27,7 +27,7 @@ class Echo final : public Handler {
   Hub& hub() { return *hub_; }
   foxglove::ChannelId channel() const { return channel_; }
 
-  // Waits until the hub is as asked; it tells of every change.
+  // Waits for a condition on the hub.
   template <typename Condition>
   void WaitUntil(Condition condition) {
     std::unique_lock lock(mutex_);

@@ -1,4 +1,4 @@
-// For tests: a directory of simulations that somebody fills by hand.
+// For tests: a directory of simulations.
 #pragma once
 
 #include <algorithm>

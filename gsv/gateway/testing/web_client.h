@@ -1,4 +1,4 @@
-// For tests: the other end of a gateway's sockets. Everything blocks; a failure throws.
+// For tests: clients of a gateway. All calls block; failures throw.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,16 @@ struct HttpReply {
   std::string body;
 };
 
-// One TCP connection on which HTTP is written by hand.
+// A TCP connection for hand-written HTTP.
 class HttpConnection {
  public:
   explicit HttpConnection(std::uint16_t port);
   ~HttpConnection();
 
   void Send(const std::string& bytes);
-  // The next answer; `has_body` false: to a HEAD request. Empty when the server has hung up.
+  // The next response; `has_body` false: to a HEAD request. Empty if the server has closed.
   std::optional<HttpReply> Receive(bool has_body = true);
-  bool IsClosed();  // waits until the server has said something or hung up
+  bool IsClosed();  // waits for data or the end
 
  private:
   struct Impl;
@@ -36,7 +36,7 @@ class HttpConnection {
 
 std::string RequestText(std::uint16_t port, const std::string& method, const std::string& target,
                         const std::string& more_headers = "", const std::string& body = "");
-// One request on a connection of its own.
+// One request on a new connection.
 HttpReply Fetch(std::uint16_t port, const std::string& method, const std::string& target,
                 const std::string& more_headers = "", const std::string& body = "");
 
@@ -63,23 +63,22 @@ class Viewer {
   void SendRaw(const std::string& bytes);  // past the protocol
   // The next message; empty when the connection has ended.
   std::optional<Frame> Receive();
-  // The next text of that operation; other texts are passed over.
+  // The next text of that operation; skips others.
   nlohmann::json ReceiveText(const std::string& op);
-  // The next message of a subscription; those of others are kept until they are asked for.
+  // The next message of a subscription; keeps those of others for later.
   ReceivedData ReceiveData(foxglove::SubscriptionId subscription);
-  // The next binary message of that opcode; data are kept until they are asked for, others passed
-  // over.
+  // The next binary message of that opcode; keeps data for later and skips others.
   std::string ReceiveBytes(char opcode);
-  // Calls a service (/gsv/NAME), whose advertisement is waited for, with a request in CDR; gives
-  // the response's `success` and `message`.
+  // Waits for the advertisement of a service (/gsv/NAME) and calls it with a request in CDR.
+  // Returns `success` and `message` of the response.
   std::pair<bool, std::string> CallService(const std::string& name,
                                            const std::string& request = "");
-  // The same where the call itself is refused; gives the sentence.
+  // The same for a call that is refused; returns the sentence.
   std::string CallRefusedService(const std::string& name);
   // Waits for the advertisement of a topic, then subscribes.
   void Subscribe(foxglove::SubscriptionId id, const std::string& topic);
 
-  // After the end: what the server said.
+  // The close code and reason of the server.
   std::uint16_t close_code() const;
   std::string close_reason() const;
   void Close();

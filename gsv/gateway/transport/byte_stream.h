@@ -1,9 +1,8 @@
-// The bytes of a connection, by TLS or without: what Boost.Beast calls an AsyncStream, and one type
-// either way. What waits for them goes behind one type as well, so that the operations of TCP and
-// TLS are compiled once, in byte_stream.cc, and not again for each of HTTP's and WebSocket's that
-// waits: those took most of a build's time.
+// A connection with or without TLS as one type: an AsyncStream of Boost.Beast. Handlers are
+// type-erased as well, so that the operations of TCP and TLS are compiled once, in byte_stream.cc,
+// which saves most of the build time.
 //
-// Threads  that which runs the executor.
+// Threads  the thread of the executor.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +25,7 @@
 
 namespace gsv::gateway::transport {
 
-// Of a longer sequence the first are written, as any part may be. An answer of HTTP has about a
-// dozen.
+// The first buffers of a longer sequence are written. An HTTP response has about a dozen.
 using Parts = boost::container::static_vector<boost::asio::const_buffer, 16>;
 
 class ByteStream {
@@ -41,24 +39,24 @@ class ByteStream {
   explicit ByteStream(boost::asio::ip::tcp::socket socket)
       : plain_(std::in_place, std::move(socket)) {}
 
-  // Below TLS: to connect it, to limit its time, to close it.
+  // The TCP stream below TLS, to connect, limit and close it.
   boost::beast::tcp_stream& tcp() { return tls_ ? tls_->next_layer() : *plain_; }
   executor_type get_executor() { return tcp().get_executor(); }
 
-  // All that follows goes by TLS, which Handshake() begins. `context` outlives the stream.
+  // Enables TLS, which Handshake() begins. `context` must outlive the stream.
   Tls& StartTls(boost::asio::ssl::context& context);
-  // `come` has been read already; `then` is told how many bytes of it were used. Needs StartTls().
+  // `come` was read already; `then` gets the number of its bytes that were used. Needs StartTls().
   void Handshake(boost::asio::ssl::stream_base::handshake_type type, boost::asio::const_buffer come,
                  Completion then);
-  // Takes leave, by TLS; without it there is nothing to say, and then() comes at once.
+  // Shuts TLS down; without TLS calls then() at once.
   void Shutdown(Completion then);
 
   void ReadSome(boost::asio::mutable_buffer into, Completion then);
   void WriteSome(const Parts& parts, Completion then);
-  // How a WebSocket ends a connection in order.
+  // Ends the connection of a WebSocket in order.
   void Teardown(boost::beast::role_type role, Completion then);
 
-  // The same as Boost.Beast calls it.
+  // The same for Boost.Beast.
   template <typename Buffers, typename Token>
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, void(error_code, std::size_t)>(

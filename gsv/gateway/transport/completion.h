@@ -1,4 +1,4 @@
-// What is to be done once bytes have come or gone: any handler of Boost.Asio's, behind one type.
+// A type-erased completion handler of Boost.Asio for reads and writes.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,18 @@
 
 namespace gsv::gateway::transport {
 
-// Called once. Can be moved, as handlers can; an executor or allocator that a handler brings along
-// is not asked for.
+// Must be called at most once. It can be moved. The associated executor and allocator of the
+// handler are ignored.
 class Completion {
  public:
-  // `then` takes what a Completion is called with, or the error alone.
+  // `then` takes the arguments of a Completion, or the error only.
   template <typename Then>
   // NOLINTNEXTLINE(bugprone-forwarding-reference-overload)
   requires(!std::is_same_v<std::remove_cvref_t<Then>, Completion>) explicit Completion(Then&& then)
       : step_(std::make_unique<Step<std::remove_cvref_t<Then>>>(std::forward<Then>(then))) {}
 
   void operator()(boost::system::error_code error, std::size_t bytes = 0) {
-    // What it holds is gone by the time the next is begun, as with Boost.Asio's own.
+    // Its state is destroyed before the next operation begins, as in Boost.Asio.
     std::exchange(step_, nullptr)->Take(error, bytes);
   }
 

@@ -1,8 +1,6 @@
-// Files that people drop onto the page, on this machine's disk until the server ends: worlds, with
-// the meshes and models that they name.
+// Uploaded files (worlds with meshes and models) on disk until the server ends.
 //
-// Input    hostile: names come from browsers. A set's files lie in a folder of their own, which no
-//          name leads out of.
+// Input    untrusted names. Each set has its own folder, which no name can leave.
 // Threads  any; each call writes one file.
 // Bounded  see UploadLimits.
 #pragma once
@@ -29,12 +27,11 @@ class UploadFolder {
  public:
   explicit UploadFolder(const UploadLimits& limits = {}) : limits_(limits) {}
 
-  // Begins a set; gives its name.
+  // Creates a set and returns its name.
   base::Result<std::string> Begin();
 
-  // Writes a file into a set. `path` is its folders and its name. Gives where it lies.
-  // kInvalidArgument: a name that cannot be used; kNotFound: no such set; kUnavailable: there is no
-  // room left.
+  // Writes a file into a set. `path` has its folders and its name. Returns its path on disk.
+  // kInvalidArgument: invalid name; kNotFound: unknown set; kUnavailable: limit reached.
   base::Result<std::filesystem::path> Put(const std::string& set,
                                           const std::vector<std::string>& path,
                                           std::string_view content);
@@ -42,7 +39,7 @@ class UploadFolder {
  private:
   const UploadLimits limits_;
   base::Mutex mutex_;
-  std::optional<base::TemporaryFolder> folder_ GSV_GUARDED_BY(mutex_);  // made when it is needed
+  std::optional<base::TemporaryFolder> folder_ GSV_GUARDED_BY(mutex_);  // created on demand
   std::uint64_t sets_ GSV_GUARDED_BY(mutex_) = 0;
   std::size_t files_ GSV_GUARDED_BY(mutex_) = 0;
   std::uint64_t bytes_ GSV_GUARDED_BY(mutex_) = 0;

@@ -1,5 +1,5 @@
-// The part of the HTTP API that takes files: sets of them, which belong together. What is uploaded
-// has a path on this machine, which a scenario can name as its world.
+// The part of the HTTP API for uploads of sets of files. An uploaded file has a path on this
+// machine, which a scenario can use as its world.
 //
 // Threads  any.
 #pragma once
@@ -15,7 +15,7 @@ class UploadsApi {
  public:
   explicit UploadsApi(const UploadLimits& limits = {}) : folder_(limits) {}
 
-  // The handlers live as long as this.
+  // The handlers are valid during the lifetime of this object.
   std::vector<Route> Routes();
 
  private:

@@ -1,4 +1,4 @@
-// Where another instance's viewer is served.
+// The address of another instance.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,15 @@ namespace gsv::gateway::upstream {
 struct Address {
   std::string host;                                  // a name or an address; IPv6 without brackets
   std::string port;                                  // digits
-  std::string token{};                               // that is shown there; empty: none
-  std::shared_ptr<boost::asio::ssl::context> tls{};  // whom to trust, for https; null: http
+  std::string token{};                               // for the other instance; empty: none
+  std::shared_ptr<boost::asio::ssl::context> tls{};  // trusted authorities, for https; null: http
 
   std::string Authority() const;  // "host:port", "[::1]:port"
   std::string Url() const { return (tls ? "https://" : "http://") + Authority() + "/"; }
 };
 
-// From "http://host:port/" or "https://host:port/", as gsv prints it. The port is 80 or 443 where
-// it is left out. `authority`: a PEM file with the certificates to trust; empty: the system's.
+// Parses "http://host:port/" or "https://host:port/", as gsv prints it. The default port is 80 or
+// 443. `authority`: a PEM file with the certificates to trust; empty: the system's.
 base::Result<Address> ParseAddress(std::string_view url, const std::string& authority = {});
 
 }  // namespace gsv::gateway::upstream

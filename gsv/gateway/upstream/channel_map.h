@@ -1,7 +1,7 @@
-// What is known of one simulation on another instance: its channels under our numbers, what we have
-// subscribed to, and what we must remember for viewers who come late.
+// The channels of a simulation on another instance with local numbers, the subscriptions there, and
+// the messages kept for new subscribers.
 //
-// Our number of a channel is also the number of our subscription to it.
+// The local number of a channel is also the number of the subscription to it.
 //
 // Threads  one.
 #pragma once
@@ -26,25 +26,25 @@ class ChannelMap {
   void Take(const Unadvertise& message);
   void Take(const MessageData& message);
 
-  // Subscribes to what our viewers want, and to nothing else: the texts to be sent for that.
+  // Follows the subscriptions of local viewers. Returns the texts to send.
   std::vector<std::string> FollowDemand();
-  // Those who subscribed to what we have already get it from memory.
+  // Sends kept messages to new subscribers.
   void ServeNewSubscribers();
 
-  // The connection has ended: everything is withdrawn.
+  // After the end of the connection: withdraws all channels.
   void Clear();
 
  private:
   struct Source {
     foxglove::ChannelId theirs = 0;
-    std::size_t memory = 1;  // how many messages a late viewer gets
+    std::size_t memory = 1;  // number of messages for a new subscriber
     bool is_subscribed = false;
     std::deque<Hub::Message> latest;
   };
   void Welcome(foxglove::ChannelId ours, const Source& source);
 
   const std::shared_ptr<Hub> hub_;
-  std::map<foxglove::ChannelId, Source> sources_;  // by our number
+  std::map<foxglove::ChannelId, Source> sources_;  // by local number
   std::map<foxglove::ChannelId, foxglove::ChannelId> ours_by_theirs_;
 };
 

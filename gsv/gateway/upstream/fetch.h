@@ -1,4 +1,4 @@
-// One HTTP request to another instance.
+// HTTP requests to another instance.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@
 
 namespace gsv::gateway::upstream {
 
-// Passes `request` on and waits for the answer, whatever its status, at most `limit` in all.
-// Blocks. Fails with kUnavailable or kTimeout when there is no answer.
+// Forwards `request` and waits for the response with any status, at most `limit`. Fails with
+// kUnavailable or kTimeout without a response.
 base::Result<Response> Fetch(const Address& address, const Request& request,
                              std::chrono::milliseconds limit);
 

@@ -22,10 +22,10 @@ struct StatusMessage {
   foxglove::StatusLevel level = foxglove::StatusLevel::kInfo;
   std::string message;
 };
-struct Other {};  // one that this client has no use for
+struct Other {};  // ignored
 using ServerText = std::variant<Advertise, Unadvertise, StatusMessage, Other>;
 
-// Fails with kCorrupt on what is not a message of the protocol.
+// Fails with kCorrupt for invalid messages.
 base::Result<ServerText> ParseServerText(std::string_view text);
 
 struct MessageData {

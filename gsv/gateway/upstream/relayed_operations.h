@@ -1,5 +1,5 @@
-// What the viewers of a relayed simulation can do: its commands as services, passed on to the other
-// instance as requests of its HTTP API.
+// The operations of viewers of a relayed simulation: its commands as services, forwarded to the
+// HTTP API of the other instance.
 //
 // Threads  any.
 #pragma once
@@ -15,7 +15,7 @@ namespace gsv::gateway::upstream {
 
 class RelayedOperations final : public Operations {
  public:
-  // `simulation`: its name there; empty: the first. Requests are made on `workers`, which outlive
+  // `simulation`: its name there; empty: the first. Requests run on `workers`, which must outlive
   // the last call.
   RelayedOperations(const Address& address, const std::string& simulation, WorkerPool& workers);
 

@@ -1,4 +1,4 @@
-// A connection to another instance, by TLS where its address is an https one.
+// Sets up TLS for connections to another instance with https.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace gsv::gateway::upstream {
 
-// Once it is connected; then(error_code). The certificate must be good and the address's.
+// Call it after connecting; it calls then(error_code). The certificate must be valid for the
+// address.
 void Secure(transport::ByteStream& stream, const Address& address, transport::Completion then);
 
-// Why there is no connection, and what to do about it.
+// The reason for a failed connection, with advice.
 std::string WhyNotConnected(const boost::system::error_code& error);
 inline constexpr char kConnectionHint[] = "is gsv running there, and is the address right?";
 

@@ -1,8 +1,7 @@
-// One simulation on another instance, as a hub here: a single WebSocket to there, subscribed to
-// what the viewers here want. Connected while somebody watches; when the connection breaks, it is
-// tried again, a little later each time.
+// A simulation of another instance as a local hub, over one WebSocket with the subscriptions of
+// local viewers. It is connected while there are viewers, and reconnects with growing delays.
 //
-// Threads  hub() from any; everything happens on the thread that runs `io`.
+// Threads  hub() from any; all work is on the thread that runs `io`.
 #pragma once
 
 #include <memory>
@@ -17,17 +16,17 @@ namespace gsv::gateway::upstream {
 
 class Stream {
  public:
-  // `simulation`: its name there; empty: the first. `socket`: where it is streamed, "/ws" or that
-  // of a replay. `operations` is what viewers can do; null: nothing. `io` outlives the stream.
+  // `simulation`: its name there; empty: the first. `socket`: path of the stream, "/ws" or that of
+  // a replay. `operations` of viewers; null: none. `io` must outlive the stream.
   static std::shared_ptr<Stream> Make(boost::asio::io_context& io, const Address& address,
                                       const std::string& simulation, const std::string& socket,
                                       std::shared_ptr<Operations> operations);
   virtual ~Stream() = default;
 
   virtual const std::shared_ptr<Hub>& hub() const = 0;
-  // Disconnects, for good. Any thread.
+  // Disconnects permanently. Any thread.
   virtual void Stop() = 0;
-  // The simulation is not there any more, and the viewers were told. Any thread.
+  // Whether the simulation has ended and viewers were notified. Any thread.
   virtual bool has_ended() const = 0;
 };
 

@@ -1,5 +1,5 @@
-// What a recording's simulation was told: the attachment `scenario.yaml`, application/yaml, in the
-// form of docs/formats/scenario.md.
+// The scenario of a recording's simulation: the attachment `scenario.yaml`, application/yaml
+// (docs/formats/scenario.md).
 #pragma once
 
 #include <string_view>
@@ -12,8 +12,9 @@ namespace gsv::recording {
 inline constexpr std::string_view kScenarioAttachment = "scenario.yaml";
 inline constexpr std::string_view kScenarioMediaType = "application/yaml";
 
-// As a simulation stands: where the world and the models came from, and who stands where at its
-// start. Whoever was told more (how the world was called, a behaviour's options) knows better.
+// The scenario of a simulation from its state: sources of world and models, and the poses of robots
+// at its start. A program that has the original scenario (the name of the world, options of
+// behaviours) should attach that instead.
 scenario::Scenario ScenarioOf(const simulation::Simulation& simulation);
 
 }  // namespace gsv::recording

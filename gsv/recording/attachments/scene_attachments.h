@@ -1,8 +1,8 @@
-// What a replay needs to show a recording without the original files: the scene as JSON, and each
-// model that stands in it as a GLB file.
+// The attachments with which a replay shows a recording without the original files: the scene as
+// JSON, and each model in it as a GLB file.
 //
-// Attachments  `scene.json`, again whenever bodies or sensors change: of those with the same
-//              layout_version the last one counts. `models/ID.glb`, ID as the scene gives it.
+// Attachments  `scene.json` at each change of bodies or sensors; of several with one layout_version
+//              the last one counts. `models/ID.glb` with the ID of the scene.
 #pragma once
 
 #include <functional>
@@ -28,13 +28,13 @@ class SceneAttachments {
   SceneAttachments(McapWriter& writer, std::shared_ptr<const sensing::SensorRegistry> types,
                    WriteGlb write_glb);
 
-  // Attaches the scene if it differs from the last, and the models that are new. A model that
-  // cannot be written is left out, and logged.
+  // Attaches the scene if it differs from the last one, and new models. A model that cannot be
+  // written is logged and left out.
   void Attach(const world::Snapshot& snapshot, const SensorLists& sensors);
 
  private:
   std::string Identify(const std::shared_ptr<const model::Model>& model);
-  // Of what it collides with; empty: nothing.
+  // The identifier of its collision shapes; empty: none.
   std::string IdentifyCollisions(const std::shared_ptr<const model::Model>& model);
   void AttachModel(const model::Model& model, const std::string& id, base::SimTime time);
 

@@ -1,8 +1,8 @@
-// The world and the robots as they were given: the text of their files (SDFormat, URDF).
+// The files of the world and the robots (SDFormat, URDF).
 //
 // Attachments  `world/FILE`, and `robots/FOLDER/FILE` for each robot's and avatar's model, once;
-//              media type application/xml. Where two have one name, the later is `robots/2/…`.
-// Bounded      files above 4 MiB are left out, and all beyond the hundredth, with a warning.
+//              media type application/xml. If two have one name, the later is `robots/2/…`.
+// Bounded      files above 4 MiB and files beyond the hundredth are left out, with a warning.
 #pragma once
 
 #include <set>
@@ -21,9 +21,9 @@ class SourceAttachments {
   // `writer` must outlive this.
   explicit SourceAttachments(McapWriter& writer) : writer_(writer) {}
 
-  // Attaches the world's file. A world that came from no file has none.
+  // Attaches the file of the world, if it has one.
   void AttachWorld(const model::WorldDescription& world);
-  // Attaches the files of the robots that are new.
+  // Attaches the files of new robots.
   void AttachRobots(const world::Snapshot& snapshot);
 
  private:
@@ -31,7 +31,7 @@ class SourceAttachments {
               base::SimTime time);
 
   McapWriter& writer_;
-  std::set<std::string> sources_;  // that were looked at
+  std::set<std::string> sources_;  // that were processed
   std::set<std::string> names_;    // of attachments
 };
 

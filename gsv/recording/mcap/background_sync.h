@@ -1,5 +1,5 @@
-// Has what a sink was given synchronised to its disk, in a thread of its own: a disk may take
-// seconds for that, and the writing goes on meanwhile.
+// Synchronises a sink to its disk on its own thread: this may take seconds, and writing continues
+// meanwhile.
 //
 // Threads  any.
 #pragma once
@@ -13,12 +13,12 @@ namespace gsv::recording {
 
 class BackgroundSync {
  public:
-  // `sink` must outlive this, and take writes while it is synchronised.
+  // `sink` must outlive this, and accept writes while it is synchronised.
   explicit BackgroundSync(ByteSink& sink);
-  // Waits for what was asked for.
+  // Waits for requested synchronisations.
   ~BackgroundSync();
 
-  // All that was written before this call will be synchronised soon. Returns at once.
+  // Requests the synchronisation of all earlier writes. Returns at once.
   void Ask();
   // The first error of the disk.
   base::Status status() const;

@@ -10,13 +10,13 @@
 
 namespace gsv::recording {
 
-// Creates the folder; gives the recording's file in it. Fails when something of that name is there.
+// Creates the folder and returns the path of the recording in it. Fails if the name exists.
 base::Result<std::string> MakeBagFolder(const std::string& folder);
 
-// Writes metadata.yaml beside a recording that is complete.
+// Writes metadata.yaml beside a complete recording.
 base::Status WriteBagMetadata(const std::string& file);
 
-// The recording that a user means: the file itself, or the first (by name) in a folder.
+// The recording at a path: the file itself, or the first file (by name) in a folder.
 std::string RecordingFile(const std::string& path);
 
 }  // namespace gsv::recording

@@ -1,4 +1,4 @@
-// Scalars, strings and maps as MCAP lays them out: little endian, unaligned, lengths in 32 bits.
+// Scalars, strings and maps in MCAP: little endian, unaligned, with lengths of 32 bits.
 #pragma once
 
 #include <bit>
@@ -31,7 +31,7 @@ void Put(Bytes& out, Number value) {
   PutBytes(out, std::as_bytes(std::span(&value, 1)));
 }
 
-// Times before zero cannot be written.
+// `time` must not be negative.
 inline void PutTime(Bytes& out, std::chrono::nanoseconds time) {
   GSV_CHECK(time.count() >= 0);
   Put(out, static_cast<std::uint64_t>(time.count()));
@@ -42,8 +42,8 @@ inline void PutString(Bytes& out, std::string_view text) {
   PutBytes(out, std::as_bytes(std::span(text)));
 }
 
-// Takes bytes apart. Once something does not fit, ok() is false and every read gives zero or
-// nothing.
+// Reads values from bytes. After the first value that does not fit, ok() is false and every read
+// returns zero or nothing.
 class ByteReader {
  public:
   // `bytes` must outlive the reader and what it returns.
@@ -71,7 +71,7 @@ class ByteReader {
     return value;
   }
 
-  // Times past the year 2262 do not fit and count as damage.
+  // Times after the year 2262 make the reader fail.
   std::chrono::nanoseconds GetTime() {
     const auto value = Get<std::uint64_t>();
     if (value > INT64_MAX) ok_ = false;

@@ -1,4 +1,4 @@
-// Gathers messages until they are worth compressing, and keeps an index of them.
+// Collects the messages of a chunk and their index.
 #pragma once
 
 #include <map>
@@ -17,14 +17,14 @@ class ChunkBuilder {
   bool empty() const { return index_.empty(); }
   std::size_t size() const { return records_.size(); }  // before compression
 
-  // A chunk's record and the message index records that follow it, and what the summary says of
-  // them. Offsets count from the chunk's beginning.
+  // A chunk record with its message index records, and the data for the summary. Offsets count from
+  // the start of the chunk.
   struct Chunk {
     Bytes bytes;
     ChunkIndexRecord index;
     std::map<std::uint16_t, std::uint64_t> message_counts;  // by channel
   };
-  // The messages gathered so far; none are left. There must be some.
+  // Returns the collected messages as a chunk and clears them. There must be at least one.
   Chunk Take();
 
  private:

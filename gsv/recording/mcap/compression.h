@@ -1,4 +1,4 @@
-// Chunks' compression (zstd) and checksums (CRC-32 as in zip and PNG).
+// Compression (zstd) and checksums (CRC-32 as in zip and PNG) of chunks.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct ZSTD_CCtx_s;
 
 namespace gsv::recording {
 
-// The checksum of `bytes`, or of what `before` is the checksum of, followed by `bytes`.
+// The checksum of `bytes`. `before`: checksum of the preceding bytes, to continue it.
 std::uint32_t Crc32(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 class ZstdCompressor {
@@ -29,8 +29,8 @@ class ZstdCompressor {
   std::unique_ptr<ZSTD_CCtx_s, Free> context_;
 };
 
-// Allocates `size` bytes at most, which is how large the result is said to be; kCorrupt if it is
-// not. The caller bounds `size`.
+// Decompresses to `size` bytes; kCorrupt if the result has another size. Allocates at most `size`
+// bytes; the caller must limit it.
 [[nodiscard]] base::Result<Bytes> ZstdDecompress(std::span<const std::byte> bytes,
                                                  std::size_t size);
 

@@ -1,6 +1,6 @@
-// Where a recording goes to and comes from: a file, or memory in tests.
+// Output and input of recordings: files, or memory in tests.
 //
-// Errors  kUnavailable with the path and what the system said.
+// Errors  kUnavailable with the path and the error of the system.
 #pragma once
 
 #include <memory>
@@ -12,24 +12,24 @@
 
 namespace gsv::recording {
 
-// Takes bytes, one after the other. Sync() may be called while another thread writes.
+// An output of bytes. Sync() may be called while another thread writes.
 class ByteSink {
  public:
   virtual ~ByteSink() = default;
-  // All of them, or an error; after an error some may have arrived.
+  // Writes all bytes. After an error, a part may have been written.
   [[nodiscard]] virtual base::Status Write(std::span<const std::byte> bytes) = 0;
-  // Returns when all that was written would survive a loss of power.
+  // Returns when all written bytes survive a loss of power.
   [[nodiscard]] virtual base::Status Sync() = 0;
-  // Forgets all after the first `size` bytes, where the sink can.
+  // Truncates to the first `size` bytes, if the sink can.
   [[nodiscard]] virtual base::Status Truncate(std::uint64_t size) = 0;
 };
 
-// Any part of something whose size is known. Const members may run concurrently.
+// A random-access input of known size. Const members may run concurrently.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
   virtual std::uint64_t size() const = 0;
-  // The bytes from `offset` on; kCorrupt if there are not `length` of them.
+  // Reads `length` bytes from `offset` on; kCorrupt if there are fewer.
   [[nodiscard]] virtual base::Result<Bytes> Read(std::uint64_t offset,
                                                  std::uint64_t length) const = 0;
 };
@@ -49,8 +49,7 @@ class FileDescriptor {
 
 class FileSink : public ByteSink {
  public:
-  // Creates the file. One that is there and not empty is an error, kInvalidArgument, unless
-  // `replace` is set.
+  // Creates the file. kInvalidArgument if it exists and is not empty, unless `replace` is set.
   [[nodiscard]] static base::Result<std::unique_ptr<FileSink>> Create(std::string path,
                                                                       bool replace);
 

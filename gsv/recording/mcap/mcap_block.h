@@ -1,7 +1,7 @@
-// The parts of a recording that hold its messages, read whole and checked.
+// Reads and checks the parts of a recording that hold its messages.
 //
-// Input  hostile: sizes are checked before they are believed, and memory is bounded by Limits and
-//        the file's own size.
+// Input  untrusted: sizes are checked before use, and memory is limited by Limits and the size of
+//        the file.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@
 namespace gsv::recording {
 
 struct Limits {
-  // Of one chunk, uncompressed, and of any other record but attachments.
+  // Of one uncompressed chunk, and of any other record except attachments.
   std::uint64_t record_size = std::uint64_t{256} << 20;
   // Of the summary.
   std::uint64_t summary_size = std::uint64_t{1} << 30;
@@ -22,7 +22,7 @@ struct Limits {
   std::uint64_t open_blocks_size = std::uint64_t{1} << 30;
 };
 
-// A chunk, or messages that stand in the file without one.
+// A chunk, or messages in the file outside of chunks.
 struct MessageBlock {
   std::uint64_t offset = 0;  // of its first record
   std::uint64_t length = 0;
@@ -30,7 +30,7 @@ struct MessageBlock {
   std::uint64_t uncompressed_size = 0;
   base::SimTime start{};  // of the earliest message
   base::SimTime end{};    // of the latest
-  // Those that have messages in it, ascending; empty: not known.
+  // The channels with messages in the block, ascending; empty: unknown.
   std::vector<std::uint16_t> channels{};
 };
 
@@ -40,8 +40,8 @@ using Channels = std::map<std::uint16_t, ChannelRecord>;
 [[nodiscard]] base::Result<Bytes> ReadRecords(const ByteSource& source, const MessageBlock& block,
                                               const Limits& limits);
 
-// The messages among them, as they follow each other; they refer to `records`. kCorrupt if one
-// belongs to no channel or is outside of the block's time.
+// The messages among the records, in their order; they refer to `records`. kCorrupt if one has no
+// channel or is outside the time range of the block.
 [[nodiscard]] base::Result<std::vector<MessageRecord>> ListMessages(
     std::span<const std::byte> records, const MessageBlock& block, const Channels& channels);
 

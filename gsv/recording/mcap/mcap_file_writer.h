@@ -1,12 +1,12 @@
-// Writes an MCAP file, record by record, in the thread that calls.
+// Writes an MCAP file, record by record, on the calling thread.
 //
 // Format   docs/formats/recording.md: messages in zstd chunks, each with its message index; schemas
-//          and channels outside of chunks, so that a damaged chunk takes no other with it; at the
-//          end a summary. All checksums are given.
-// Errors   the first one ends the recording: it is kept in status(), and all later calls return
-//          it. What was complete stays readable: the file is cut off behind the last whole record,
-//          and Close() still tries to write the summary.
-// Threads  one at a time. McapWriter is the one for several, and never waits for the disk.
+//          and channels are outside of chunks, so that a damaged chunk affects no other; the
+//          summary is at the end. All checksums are written.
+// Errors   the first one ends the recording: status() and all later calls return it. Complete
+//          records stay readable: the file is truncated after the last complete record, and Close()
+//          still tries to write the summary.
+// Threads  one at a time. McapWriter serves several threads and never waits for the disk.
 #pragma once
 
 #include "gsv/base/error.h"
@@ -19,7 +19,7 @@ namespace gsv::recording {
 struct FileOptions {
   std::string profile = "ros2";
   std::string library = "gsv";
-  // A chunk is closed when its messages are this many bytes, uncompressed.
+  // A chunk is closed when its messages have this many bytes, uncompressed.
   std::size_t chunk_size = std::size_t{1} << 20;
   int compression_level = 3;
 };
@@ -37,12 +37,11 @@ class McapFileWriter {
   base::Status Attach(const AttachmentRecord& attachment);
   base::Status AddMetadata(const MetadataRecord& metadata);
 
-  // Writes the current chunk, if there is anything in it: from then on a crash of this process
-  // leaves it readable.
+  // Writes the current chunk, unless it is empty. It then survives a crash of this process.
   base::Status CloseChunk();
-  // The same, and returns when it would survive a loss of power.
+  // The same, and returns when it survives a loss of power.
   base::Status Flush();
-  // Writes the rest and the summary. Nothing may follow.
+  // Writes the current chunk and the summary. No call may follow.
   base::Status Close();
 
   const base::Status& status() const { return status_; }
@@ -58,15 +57,15 @@ class McapFileWriter {
   const FileOptions options_;
   base::Status status_;
   bool closed_ = false;
-  bool ends_in_a_record_ = true;  // after an error: whether the file could be cut there
+  bool ends_in_a_record_ = true;  // after an error: whether the file was truncated
   std::uint64_t position_ = 0;
-  std::uint32_t crc_ = 0;  // of all before position_
+  std::uint32_t crc_ = 0;  // of all bytes before position_
   ChunkBuilder chunk_;
 
   // For the summary.
   std::map<std::uint16_t, SchemaRecord> schemas_;
   std::map<std::uint16_t, ChannelRecord> channels_;
-  Bytes chunk_indexes_;  // as records: a long recording has many, with many channels each
+  Bytes chunk_indexes_;  // kept as records, as long recordings have many
   std::vector<AttachmentIndexRecord> attachment_indexes_;
   std::vector<MetadataIndexRecord> metadata_indexes_;
   StatisticsRecord statistics_;

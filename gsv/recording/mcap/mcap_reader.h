@@ -1,7 +1,7 @@
-// Reads a recording: what it holds, its messages from any time on, its attachments and metadata.
+// Reads a recording: its summary, messages from any time on, attachments and metadata.
 //
-// Input    hostile, see mcap_block.h. A file that was cut off or damaged is read as far as it makes
-//          sense; summary().problems tells what is missing.
+// Input    untrusted, see mcap_block.h. A truncated or damaged file is read as far as possible;
+//          summary().problems lists what is missing.
 // Threads  const members may run concurrently.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace gsv::recording {
 
-// A file that belongs to a recording.
+// A file inside a recording.
 struct Attachment {
   std::string name;
   std::string media_type;
@@ -24,8 +24,8 @@ struct Attachment {
 
 class McapReader {
  public:
-  // A file, or a folder that holds one (see bag_folder.h). kNotFound, or kCorrupt if it is no
-  // recording at all.
+  // Opens a file, or the file in a folder (see bag_folder.h). kNotFound, or kCorrupt if it is not a
+  // recording.
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(const std::string& path,
                                                                       const Limits& limits = {});
   [[nodiscard]] static base::Result<std::unique_ptr<McapReader>> Open(
@@ -37,10 +37,10 @@ class McapReader {
 
   // The messages from `from` on, by time. The reader must outlive the cursor.
   MessageCursor Messages(base::SimTime from = base::SimTime::min()) const;
-  // The messages of one of summary().blocks, as they follow each other in the file.
+  // The messages of one of summary().blocks, in the order of the file.
   [[nodiscard]] base::Result<BlockMessages> Messages(const MessageBlock& block) const;
 
-  // Those of summary().attachments and summary().metadata. kCorrupt if a checksum is wrong.
+  // Reads one of summary().attachments or summary().metadata. kCorrupt if a checksum is wrong.
   [[nodiscard]] base::Result<Attachment> Read(const AttachmentIndexRecord& index) const;
   [[nodiscard]] base::Result<MetadataRecord> Read(const MetadataIndexRecord& index) const;
 

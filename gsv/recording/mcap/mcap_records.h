@@ -1,9 +1,9 @@
-// The records that an MCAP file consists of, as plain structs, and their bytes.
+// The records of an MCAP file as plain structs, with their encoding.
 //
 // Format  MCAP, version 0 of its specification (mcap.dev/spec): a record is an opcode, the length
-//         of its content (64 bits) and the content. docs/formats/recording.md tells how they
-//         follow each other in a file.
-// Errors  Parse() takes any bytes; nothing is returned if they do not hold such a record.
+//         of its content (64 bits) and the content. docs/formats/recording.md describes their order
+//         in a file.
+// Errors  Parse() accepts any bytes, and returns nothing for an invalid record.
 #pragma once
 
 #include <array>
@@ -87,7 +87,7 @@ struct ChunkRecord {
   std::span<const std::byte> records;  // belongs to someone else
 };
 
-// Where the messages of one channel stand in one chunk: time, and offset in the uncompressed
+// The positions of the messages of one channel in one chunk: time, and offset in the uncompressed
 // records.
 struct MessageIndexRecord {
   std::uint16_t channel_id = 0;
@@ -149,7 +149,7 @@ struct MetadataIndexRecord {
   std::string name;
 };
 
-// Where the records of one kind stand in the summary.
+// The position of the records of one kind in the summary.
 struct SummaryOffsetRecord {
   Opcode group{};
   std::uint64_t start = 0;
@@ -160,7 +160,7 @@ struct DataEndRecord {
   std::uint32_t data_crc = 0;  // of everything before this record; 0: not given
 };
 
-// Each appends the whole record. An attachment's includes its CRC.
+// Each appends the complete record, an attachment with its CRC.
 void Append(Bytes& out, const HeaderRecord& record);
 void Append(Bytes& out, const FooterRecord& record);
 void Append(Bytes& out, const SchemaRecord& record);
@@ -177,8 +177,8 @@ void Append(Bytes& out, const MetadataIndexRecord& record);
 void Append(Bytes& out, const SummaryOffsetRecord& record);
 void Append(Bytes& out, const DataEndRecord& record);
 
-// Reads one record's content (without opcode and length). Defined for those above that reading a
-// file needs: not for MessageIndex, SummaryOffset and DataEnd. An attachment's CRC is checked.
+// Parses the content of one record (without opcode and length). Not defined for MessageIndex,
+// SummaryOffset and DataEnd, which readers do not need. Checks the CRC of an attachment.
 template <typename Record>
 std::optional<Record> Parse(std::span<const std::byte> content);
 template <>
@@ -206,7 +206,7 @@ std::optional<MetadataRecord> Parse(std::span<const std::byte> content);
 template <>
 std::optional<MetadataIndexRecord> Parse(std::span<const std::byte> content);
 
-// The head of an attachment, whose content need not be there beyond its media type.
+// Parses the head of an attachment. The content may end after its media type.
 std::optional<AttachmentIndexRecord> ParseAttachmentHead(std::span<const std::byte> content);
 
 struct RawRecord {
@@ -214,7 +214,7 @@ struct RawRecord {
   std::span<const std::byte> content;
 };
 
-// Takes the next record off `records`; nothing if they end before it does.
+// Takes the next record off `records`; nothing if it is incomplete.
 std::optional<RawRecord> TakeRecord(std::span<const std::byte>& records);
 
 }  // namespace gsv::recording

@@ -1,7 +1,7 @@
-// What a recording holds and where, taken from its summary or, if it has none that can be
-// trusted, found by reading all of it.
+// The contents of a recording and their positions, from its summary or, without a valid one, by
+// scanning the file.
 //
-// Input  hostile, see mcap_block.h.
+// Input  untrusted, see mcap_block.h.
 #pragma once
 
 #include <map>
@@ -27,14 +27,14 @@ struct Summary {
   std::uint64_t message_count = 0;
   base::SimTime start{};    // of the earliest message
   base::SimTime end{};      // of the latest
-  bool indexed = false;     // it came from the file's own summary
-  base::Problems problems;  // what is missing or damaged
+  bool indexed = false;     // whether it came from the file's own summary
+  base::Problems problems;  // missing or damaged parts
 };
 
-// kCorrupt if it is no MCAP file at all; damage further on is told in `problems`.
+// kCorrupt if it is not an MCAP file; later damage is listed in `problems`.
 [[nodiscard]] base::Result<Summary> LoadSummary(const ByteSource& source, const Limits& limits);
 
-// The same by reading every record, whatever the file's own summary says.
+// The same by reading every record, ignoring the file's own summary.
 [[nodiscard]] base::Result<Summary> ScanForSummary(const ByteSource& source, const Limits& limits);
 
 }  // namespace gsv::recording

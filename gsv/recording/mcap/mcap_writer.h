@@ -1,11 +1,11 @@
 // Records messages to an MCAP file without ever waiting for the disk.
 //
-// Producers put messages into a bounded queue; a thread of the writer's own compresses them and
-// writes the file. A disk that fails ends the recording, not the program: status() tells why, and
-// what comes later is discarded.
+// Producers put messages into a bounded queue; the writer's thread compresses them and writes the
+// file. A failing disk ends the recording, not the program: status() has the reason, and later
+// messages are discarded.
 //
 // Threads  every member may be called from any thread, at any moment.
-// Time     log times are simulated. The wall clock is read for FlushIfOlderThan() only.
+// Time     log times are simulated. Only FlushIfOlderThan() reads the wall clock.
 #pragma once
 
 #include <atomic>
@@ -23,23 +23,23 @@
 
 namespace gsv::recording {
 
-// What becomes of a message that finds the queue full.
+// The treatment of a message if the queue is full.
 enum class WhenFull {
-  kDrop,  // it is left out and counted: for runs in real time
-  kWait,  // the producer waits for the disk: for runs that may take as long as they need
+  kDrop,  // it is dropped and counted: for runs in real time
+  kWait,  // the producer waits for the disk: for lockstep
 };
 
 struct WriterOptions {
   FileOptions file{};
-  bool replace = false;  // an existing file
+  bool replace = false;  // replace an existing file
   WhenFull when_full = WhenFull::kDrop;
   std::size_t queue_size = std::size_t{64} << 20;  // bytes
-  // A disk that takes longer than this, where someone waits for it, ends the recording.
+  // A producer that waits longer than this for the disk ends the recording.
   std::chrono::milliseconds wait_limit{10'000};
 };
 
-// A channel's metadata "reproducible" is "false" if its messages tell of the wall clock; they are
-// then no part of the recording's content hash.
+// The metadata "reproducible" of a channel is "false" if its messages depend on the wall clock.
+// They are then not part of the content hash.
 struct ChannelOptions {
   bool reproducible = true;
 };
@@ -52,13 +52,13 @@ class McapWriter {
   [[nodiscard]] static base::Result<std::unique_ptr<McapWriter>> Create(const std::string& path,
                                                                         WriterOptions options = {});
   McapWriter(std::unique_ptr<ByteSink> sink, WriterOptions options);
-  // Closes the recording. An error that nobody asked for by Close() is logged.
+  // Closes the recording. Logs an error unless Close() has returned it.
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // The channel of a topic. Asked again, with the same schema, it is the same channel. With
-  // another schema, or if there are 65,535 channels, kInvalidArgument.
+  // Adds or finds the channel of a topic. kInvalidArgument if the topic has another schema, or if
+  // there are 65,535 channels.
   [[nodiscard]] base::Result<ChannelId> AddChannel(const std::string& topic,
                                                    const messages::Schema& schema,
                                                    const ChannelOptions& options = {});
@@ -66,25 +66,25 @@ class McapWriter {
   // order. `log_time` is not negative.
   void Write(ChannelId channel, base::SimTime log_time, std::span<const std::byte> data);
 
-  // A file that belongs to the recording, and named values about it. Neither is dropped: they
-  // wait while the queue is full.
+  // Adds a file or named values to the recording. Neither is dropped: the caller waits while the
+  // queue is full.
   void Attach(const AttachmentRecord& attachment);
   void AddMetadata(const MetadataRecord& metadata);
 
-  // If the oldest message that is not on the disk came longer ago than `age`, everything up to now
-  // is written soon, in the writer's thread. The owner calls this a few times each second.
+  // Requests a flush on the writer's thread if the oldest message that is not on disk is older than
+  // `age`. The owner calls this a few times per second.
   void FlushIfOlderThan(std::chrono::steady_clock::duration age);
 
-  // Writes all that is queued and the summary, and waits for it. Idempotent.
+  // Writes the queue and the summary, and waits for the disk. Idempotent.
   base::Status Close();
 
-  // Why the recording ended early, if it did.
+  // The error that ended the recording early, if any.
   base::Status status() const;
   bool failed() const { return failed_; }
 
   struct Progress {
     std::uint64_t messages = 0;  // accepted
-    std::uint64_t dropped = 0;   // left out because the queue was full
+    std::uint64_t dropped = 0;   // dropped because the queue was full
     std::uint64_t bytes = 0;     // written to the file
   };
   Progress progress() const;
@@ -102,11 +102,10 @@ class McapWriter {
   const std::unique_ptr<ByteSink> sink_;
 
   mutable base::Mutex mutex_;
-  base::ConditionVariable work_;        // there is something for the writer's thread to do
-  base::ConditionVariable room_;        // the queue has been emptied
-  Bytes queue_ GSV_GUARDED_BY(mutex_);  // records, as they would stand in a file
-  std::vector<Bytes> whole_
-      GSV_GUARDED_BY(mutex_);  // further ones, one in each, which may be large
+  base::ConditionVariable work_;                     // the writer's thread has work
+  base::ConditionVariable room_;                     // the queue has been emptied
+  Bytes queue_ GSV_GUARDED_BY(mutex_);               // records, as they would stand in a file
+  std::vector<Bytes> whole_ GSV_GUARDED_BY(mutex_);  // single large records
   std::size_t whole_size_ GSV_GUARDED_BY(mutex_) = 0;
   bool flush_ GSV_GUARDED_BY(mutex_) = false;
   bool closing_ GSV_GUARDED_BY(mutex_) = false;

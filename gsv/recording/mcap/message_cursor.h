@@ -1,4 +1,4 @@
-// A recording's messages in the order of their times; at one time, in the order of the file.
+// Iterates over the messages of a recording by time; at equal times in the order of the file.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,12 @@ namespace gsv::recording {
 
 class MessageCursor {
  public:
-  // Starts at the first message that is not before `from`. The arguments must outlive the cursor.
+  // Starts at the first message not before `from`. The arguments must outlive the cursor.
   MessageCursor(const ByteSource& source, const Summary& summary, const Limits& limits,
                 base::SimTime from);
 
-  // The next message, valid until the next call; nothing at the end. A damaged chunk gives an
-  // error once, and the next call goes on behind it.
+  // The next message, valid until the next call; nothing at the end. A damaged chunk returns an
+  // error once, and the next call continues after it.
   [[nodiscard]] base::Result<std::optional<MessageRecord>> Next();
 
  private:
@@ -41,7 +41,7 @@ class MessageCursor {
   std::vector<const MessageBlock*> waiting_;  // not opened yet, the earliest last
   std::vector<std::unique_ptr<OpenBlock>> open_;
   std::priority_queue<OpenBlock*, std::vector<OpenBlock*>, Later> next_;
-  OpenBlock* exhausted_ = nullptr;  // still holds the message that was returned last
+  OpenBlock* exhausted_ = nullptr;  // holds the message that was returned last
   std::uint64_t open_size_ = 0;
 };
 

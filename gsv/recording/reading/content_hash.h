@@ -1,4 +1,4 @@
-// What a recording says, apart from how it was written: equal for two runs that went alike.
+// A hash of the contents of a recording, independent of how it was written: equal for equal runs.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace gsv::recording {
 
-// Whether its messages count: they do not tell of the wall clock (see ChannelOptions).
+// Whether its messages are hashed: they do not depend on the wall clock (see ChannelOptions).
 [[nodiscard]] bool IsReproducible(const ChannelRecord& channel);
 
-// Sixteen hexadecimal digits over (topic, type, time, number within the topic, bytes) of every
-// message of the channels that count.
+// Sixteen hexadecimal digits: a hash of (topic, type, time, number within the topic, bytes) of
+// every message of reproducible channels.
 //
-// The hashes of the messages are added up, so that neither the limits of chunks nor the order in
-// which the topics of one instant were written matter. An unreadable chunk is an error.
+// It is the sum of the hashes of messages, and so independent of chunks and of the order of topics
+// at one instant. An unreadable chunk is an error.
 [[nodiscard]] base::Result<std::string> ContentHash(const McapReader& reader);
 
 }  // namespace gsv::recording

@@ -1,4 +1,4 @@
-// A recording's messages for people: decoded by the schemas that the recording itself holds.
+// The messages of a recording, decoded with the schemas in the recording.
 #pragma once
 
 #include <map>
@@ -27,11 +27,12 @@ nlohmann::ordered_json WithInfinitiesAsText(nlohmann::ordered_json content);
 
 class DecodedMessages {
  public:
-  // In the order of times. The reader must outlive this. Fails when a topic of the selection is not
-  // in the recording, or no messages can be decoded.
+  // Opens the selected messages in the order of time. The reader must outlive this. Fails if a
+  // selected topic is not in the recording, or if no messages can be decoded.
   static base::Result<DecodedMessages> Open(const McapReader& reader, const Selection& selection);
 
-  // Nothing at the end. What cannot be read or decoded gives an error once; the next call goes on.
+  // The next message; nothing at the end. A message or chunk that cannot be read or decoded returns
+  // an error once, and the next call continues.
   base::Result<std::optional<DecodedMessage>> Next();
 
  private:
@@ -47,7 +48,7 @@ class DecodedMessages {
   MessageCursor cursor_;
 };
 
-// Where two recordings first differ: the earliest instant, there the first topic by name.
+// The first difference of two recordings: the earliest instant, and there the first topic by name.
 struct Difference {
   base::SimTime time{};
   std::string topic;
@@ -58,22 +59,22 @@ struct Difference {
 // time_s, topic, field, first, second.
 nlohmann::ordered_json ToJson(const Difference& difference);
 
-// Whether a recording lacks some of what there was to record.
+// Whether a recording may lack messages.
 enum class Gaps {
   kNone,
-  kInFirst,  // compared is what both have: of a topic, instants with equally many messages in both
+  kInFirst,  // compares only instants at which a topic has equally many messages in both
 };
 
-// Compares what counts for the content hash (see content_hash.h), of the selected topics. Empty:
-// they tell the same.
+// Compares the reproducible messages (see content_hash.h) of the selected topics. Empty: no
+// difference.
 base::Result<std::optional<Difference>> FirstDifference(const McapReader& first,
                                                         const McapReader& second,
                                                         const std::vector<std::string>& topics = {},
                                                         Gaps gaps = Gaps::kNone);
 
-// A table of one topic: a row a message, a column a number or text of it ("ranges.0"), the columns
-// in the order in which they first appear; RFC 4180. Numbers that are not finite are written "inf",
-// "-inf" and "nan".
+// A table of one topic with a row per message and a column per number or text ("ranges.0"), in the
+// order of first appearance; RFC 4180. Numbers that are not finite are written "inf", "-inf" and
+// "nan".
 base::Result<std::string> ToCsv(const McapReader& reader, const Selection& selection);
 
 }  // namespace gsv::recording

@@ -1,6 +1,6 @@
-// Messages that hold until the next one of their kind, however long that takes: where sensors sit,
-// the last command of a robot, the edits of the world. A part of a recording needs those from
-// before its start.
+// Messages that stay valid until the next one of their kind: transforms of sensors, the last
+// command of a robot, edits of the world. An excerpt of a recording needs those from before its
+// start.
 #pragma once
 
 #include <vector>
@@ -11,16 +11,15 @@
 namespace gsv::recording {
 
 enum class Lasting {
-  kNo,      // of no use later
-  kNewest,  // the newest of the topic holds
-  kOfEach,  // the newest of each robot, or of each actuator of a robot, holds
-  kAll,     // each adds to those before it
+  kNo,      // not valid later
+  kNewest,  // the newest of the topic is valid
+  kOfEach,  // the newest of each robot, or of each actuator, is valid
+  kAll,     // all are valid
 };
 
-// Which messages of a channel hold. Topics of GSV are known by their names. Of other programs' recordings
-// these hold: topics whose publisher keeps them for late subscribers (durability transient_local in
-// rosbag2's offered_qos_profiles, latching in ROS 1), any tf_static, and topics with a single
-// message in the whole recording.
+// The messages of a channel that stay valid. GSV's topics are known by name. In recordings of other
+// programs these are: topics with the durability transient_local (rosbag2's offered_qos_profiles;
+// latching in ROS 1), any tf_static, and topics with a single message in the whole recording.
 Lasting LastingOf(const Summary& summary, const ChannelRecord& channel);
 
 struct LastingMessage {
@@ -35,7 +34,7 @@ struct LastingMessages {
   base::Problems problems;               // blocks that cannot be read
 };
 
-// Those that still hold at `time` of what was recorded before it.
+// The messages from before `time` that are still valid at `time`.
 LastingMessages FindLastingMessages(const McapReader& reader, base::SimTime time);
 
 }  // namespace gsv::recording

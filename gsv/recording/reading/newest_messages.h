@@ -1,4 +1,4 @@
-// How things stand at an instant of a recording: the newest message of each channel.
+// The state at an instant of a recording: the newest message of each channel.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ struct StoredMessage {
 };
 
 struct NewestMessages {
-  std::map<std::uint16_t, StoredMessage> by_channel;  // of channels that have one by then
+  std::map<std::uint16_t, StoredMessage> by_channel;  // of channels with a message
   base::Problems problems;                            // blocks that cannot be read
 };
 

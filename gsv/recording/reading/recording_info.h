@@ -1,4 +1,4 @@
-// What `gsv rec info` tells of a recording.
+// The contents of a recording, as `gsv rec info` prints them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace gsv::recording {
 
-// They tell what people do, whenever that is.
+// Topics of user actions, which may come at any time.
 inline constexpr std::string_view kUserTopics[]{"/gsv/events", "/rosout", "/gsv/edits"};
 
 struct RecordingInfo {
@@ -36,21 +36,21 @@ struct RecordingInfo {
   std::vector<Channel> channels;  // by topic
   std::vector<File> attachments;
   std::vector<MetadataRecord> metadata;
-  std::string content_hash;  // empty if it cannot be computed; then a problem tells why
+  std::string content_hash;  // empty if it cannot be computed; a problem has the reason
   base::Problems problems;
 
   base::SimTime duration() const { return end - start; }
 };
 
-// Reads all of the file, for the content hash.
+// Reads the whole file, for the content hash.
 [[nodiscard]] base::Result<RecordingInfo> ReadInfo(const std::string& path,
                                                    const Limits& limits = {});
 
-// Of the newest message that a simulation's steps brought: not of those that tell of people's
-// doings (kUserTopics) or of the wall clock. 0: there is none.
+// The time of the newest message of the simulation's steps, without user actions (kUserTopics) and
+// topics that depend on the wall clock. 0: there is none.
 [[nodiscard]] base::Result<base::SimTime> EndOfSteps(const McapReader& reader);
 
-// For people: lines, the last one ending in a newline.
+// A text for users, which ends in a newline.
 std::string ToText(const RecordingInfo& info);
 // One JSON object: file, size_bytes, duration_s, start_s, end_s, messages, chunks, indexed,
 // profile, library, content_hash, channels:[{topic, type, messages}],

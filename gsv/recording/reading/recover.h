@@ -1,4 +1,4 @@
-// Makes a complete, indexed recording of one that was cut off or damaged, or of part of one.
+// Makes a complete, indexed recording from a truncated or damaged one, or from a part of one.
 #pragma once
 
 #include <string>
@@ -13,18 +13,18 @@ struct Recovery {
   std::uint64_t messages = 0;
   std::uint64_t attachments = 0;
   std::uint64_t metadata = 0;
-  base::Problems problems;  // what was lost, and where
+  base::Problems problems;  // lost parts and their places
 };
 
-// Copies all that can be read to `sink`: every chunk, attachment and metadata record that is
-// whole, and of the messages those that are selected. They keep their order. Where the selection
-// begins after the recording does, the messages of selected topics that still hold then
-// (lasting_messages.h) come first, logged at that instant. An error is one of writing.
+// Copies all readable data to `sink`: complete attachments and metadata records, and the selected
+// messages of complete chunks, in their order. If the selection begins after the start of the
+// recording, messages of selected topics that are still valid (lasting_messages.h) come first,
+// logged at that instant. Returns errors of writing only.
 [[nodiscard]] base::Result<Recovery> Recover(const McapReader& reader, ByteSink& sink,
                                              const Selection& selection = {});
 
-// The same for files. `output` appears only when it is complete; one that is there is an error. From
-// a recording's folder it is a folder, too (bag_folder.h), unless its name ends in .mcap.
+// The same for files. `output` is created only when it is complete; an existing one is an error. If
+// the input is a folder, the output is a folder (bag_folder.h) unless its name ends in .mcap.
 [[nodiscard]] base::Result<Recovery> Recover(const std::string& input, const std::string& output,
                                              const Selection& selection = {},
                                              const Limits& limits = {});

@@ -1,4 +1,4 @@
-// Some of a recording's messages.
+// A selection of messages of a recording.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace gsv::recording {
 
 struct Selection {
-  std::vector<std::string> topics;  // empty: all; one that ends in "/" stands for all below it
+  std::vector<std::string> topics;  // empty: all; a trailing "/" selects all topics below
   base::SimTime from = base::SimTime::min();
   base::SimTime to = base::SimTime::max();
 

@@ -1,5 +1,5 @@
-// What recording_victim tells kill_test of each snapshot, through a pipe: plain bytes, for two
-// programs on one machine.
+// The data that recording_victim sends to kill_test for each snapshot, through a pipe, as raw
+// bytes.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace gsv::recording {
 
 struct HandOver {
   std::int64_t time_ns = 0;  // simulated
-  std::int64_t wall_ns = 0;  // after the recorder had taken the snapshot
+  std::int64_t wall_ns = 0;  // after the recorder took the snapshot
 };
 
 // The clock that all processes of a machine share.

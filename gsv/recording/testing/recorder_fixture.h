@@ -16,7 +16,7 @@
 
 namespace gsv::recording {
 
-// The name, as bytes: who writes models is no concern of the recorder.
+// Writes the name of the model as its GLB.
 inline base::Result<std::vector<std::uint8_t>> NameAsGlb(const model::Model& model) {
   return std::vector<std::uint8_t>(model.name.begin(), model.name.end());
 }
@@ -43,7 +43,7 @@ class SimulationRecorderTest : public ::testing::Test {
     return *std::move(recorder);
   }
 
-  // Records a whole run of a second and reads the file.
+  // Records a run of one second and reads the file.
   RecordingInfo Record(double speed, std::chrono::microseconds dawdling = 0us) {
     auto simulation = MakeSimulation(1s, Drives(speed, dawdling));
     auto recorder = Start(simulation);
@@ -60,7 +60,7 @@ class SimulationRecorderTest : public ::testing::Test {
     return *info;
   }
 
-  // All of one topic, decoded.
+  // All messages of one topic, decoded.
   template <typename Message>
   std::vector<Message> Read(const std::string& topic) const {
     const auto reader = McapReader::Open(path_);

@@ -81,7 +81,7 @@ inline Times TimesIn(const McapReader& reader, base::SimTime from = {}) {
   }
 }
 
-// Where each record of a recording begins, and what it is.
+// The position and kind of each record of a recording.
 struct Place {
   Opcode opcode{};
   std::size_t begin = 0;

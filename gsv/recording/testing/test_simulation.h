@@ -1,4 +1,4 @@
-// A lockstep simulation built of shapes, whose robot drives towards a wall, for tests.
+// For tests: a lockstep simulation of shapes whose robot drives towards a wall.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 using std::chrono_literals::operator""us;
 
-// Forwards at `speed`, m/s. It mounts a second sonar, "back", before it first waits.
+// Drives forwards at `speed`, m/s. Creates a second sonar, "back", before its first wait.
 inline std::shared_ptr<ThreadBehaviour> Drives(double speed,
                                                std::chrono::microseconds dawdling = 0us) {
   return std::make_shared<ThreadBehaviour>(

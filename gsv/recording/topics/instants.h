@@ -1,4 +1,4 @@
-// The instants 0, P, 2P, … of simulated time, each taken at the first snapshot at or after it.
+// The instants 0, P, 2P, … of simulated time, each assigned to the first snapshot at or after it.
 #pragma once
 
 #include "gsv/base/check.h"
@@ -10,8 +10,8 @@ class Instants {
  public:
   explicit Instants(base::SimTime period) : period_(period) { GSV_CHECK(period.count() > 0); }
 
-  // Whether an instant has come since the snapshot that was asked about before. Of the first one
-  // it is told only where the snapshot falls on an instant.
+  // Whether an instant has passed since the snapshot of the last call. For the first call: whether
+  // the snapshot is at an instant.
   bool Pass(base::SimTime time) {
     const std::int64_t index = time / period_;
     const bool has_come = index_ < 0 ? time % period_ == base::SimTime(0) : index != index_;
@@ -21,7 +21,7 @@ class Instants {
 
  private:
   base::SimTime period_;
-  std::int64_t index_ = -1;  // of the newest instant that has passed
+  std::int64_t index_ = -1;  // index of the newest instant that has passed
 };
 
 }  // namespace gsv::recording

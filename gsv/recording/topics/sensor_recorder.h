@@ -1,8 +1,8 @@
-// The readings of all sensors, each on its topic /ROBOT/SENSOR, their beams in one, and where the
-// sensors sit (/tf_static).
+// Records the readings of all sensors on /ROBOT/SENSOR, their beams on one topic, and their
+// transforms (/tf_static).
 //
-// A reading is a function of the snapshot, so it is sampled here again: the same value that the
-// robot's behaviour gets, without leaving a trace in the simulation.
+// A reading is a function of the snapshot. So it is sampled here again, with the value that the
+// robot's behaviour gets and without an effect on the simulation.
 #pragma once
 
 #include <functional>
@@ -23,22 +23,21 @@
 
 namespace gsv::recording {
 
-// Hz of simulated time, > 0. A sensor that samples faster is recorded at every n-th of its
-// instants.
+// Rates in Hz of simulated time, > 0. A faster sensor is recorded at every nth of its instants.
 struct SensorRates {
   double readings = 20;
   double pictures = 1;
   double beams = 10;
 };
 
-// A picture as PNG.
+// Encodes an image as PNG.
 using WritePng =
     std::function<base::Result<std::vector<std::uint8_t>>(const model::Image& picture)>;
 
 struct SensorRecorderOptions {
   SensorRates rates{};
   Selection selection{};  // of topics
-  // For the pictures that their sensors send as JPEG; without it they are recorded so.
+  // Encoder for images that sensors encode as JPEG; empty: they are recorded as JPEG.
   WritePng write_png{};
 };
 
@@ -49,9 +48,9 @@ class SensorRecorder {
                  std::uint64_t seed, SensorRecorderOptions options);
   ~SensorRecorder();
 
-  // These are the sensors from here on.
+  // Sets the sensors from now on.
   void Mount(const SensorLists& lists, const world::Snapshot& snapshot);
-  // Writes what is due at the snapshot's time; pictures are waited for all at once.
+  // Writes what is due at the snapshot's time. Images are taken concurrently.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
 
  private:
@@ -61,7 +60,7 @@ class SensorRecorder {
     Sensor* sensor = nullptr;
     int body = 0;
     base::Result<sensing::Reading> reading;
-    std::vector<std::uint8_t> message;    // empty if only its beams are wanted
+    std::vector<std::uint8_t> message;    // empty if only its beams are recorded
     std::vector<std::uint8_t> companion;  // empty where there is none
   };
   using Sensors = std::map<std::string, std::shared_ptr<Sensor>>;  // by topic
@@ -70,13 +69,13 @@ class SensorRecorder {
                                const model::SensorDescription& description);
   void Take(const std::shared_ptr<const world::Snapshot>& snapshot, Sample& sample);
   void Write(Sample& sample);
-  // Nothing, and a complaint, if it cannot be had.
+  // Nothing, and a warning, if it cannot be added.
   std::optional<ChannelId> AddChannel(const std::string& topic, const messages::Schema& schema);
   base::Result<std::vector<std::uint8_t>> Encode(const Sensor& sensor,
                                                  const sensing::Reading& reading) const;
   void WriteTransforms(const world::Snapshot& snapshot);
   void WriteBeams(const world::Snapshot& snapshot);
-  // Of all sensors that cannot be recorded only the first is told of: there may be thousands.
+  // Logs a warning for the first sensor that cannot be recorded only, as there may be thousands.
   void Complain(const base::Error& error);
 
   McapWriter& writer_;

@@ -1,11 +1,12 @@
-// What a simulation does, queued for somebody slower: the stepping thread hands over its snapshots
-// and goes on.
+// A queue of snapshots and events between a simulation and a slower consumer: the stepping thread
+// does not wait.
 //
 // Threads      any; Next() from one.
-// Bounded      snapshots by a capacity: what finds the queue full waits or is dropped and counted.
-//              Events never wait (they come under the simulation's locks); too many are dropped.
-// Determinism  in lockstep nothing is dropped, and the sensors' lists are taken by the stepping
-//              thread, while all agents wait.
+// Bounded      snapshots by a capacity: if the queue is full, the producer waits or the snapshot is
+//              dropped and counted. Events never wait, as they come under the simulation's locks;
+//              excess ones are dropped.
+// Determinism  in lockstep nothing is dropped, and the stepping thread takes the lists of sensors
+//              while all agents wait.
 #pragma once
 
 #include <deque>
@@ -25,12 +26,12 @@ namespace gsv::recording {
 
 using SensorLists = std::map<std::string, std::vector<model::SensorDescription>>;  // by robot
 
-// The sensors of all robots, avatars and stations that stand in `layout`.
+// The sensors of all robots, avatars and stations of `layout`.
 SensorLists SensorsOf(const simulation::Simulation& simulation, const world::Layout& layout);
 
 struct Observation {
   std::shared_ptr<const world::Snapshot> snapshot;
-  std::shared_ptr<const SensorLists> sensors;          // null: as before, or not looked at
+  std::shared_ptr<const SensorLists> sensors;          // null: unchanged, or not checked
   std::optional<simulation::SimulationStatus> status;  // at its rate
 };
 using Occurrence = std::variant<Observation, simulation::Event>;
@@ -43,20 +44,19 @@ struct FeedOptions {
 
 class SimulationFeed final : public simulation::Observer {
  public:
-  // The simulation is used by the stepping thread, which it outlives, and in CloseAtLatest().
+  // The stepping thread and CloseAtLatest() use `simulation`, which must exist then.
   SimulationFeed(const simulation::Simulation& simulation, FeedOptions options);
 
   void OnSnapshot(const std::shared_ptr<const world::Snapshot>& snapshot) override;
   void OnEvent(const simulation::Event& event) override;
 
-  // The next one; nothing if none comes within `patience` of wall time, or no more will.
+  // The next occurrence; nothing after `patience` of wall-clock time, or at the end.
   std::optional<Occurrence> Next(std::chrono::milliseconds patience);
 
-  // Takes nothing more, and lets those go on who wait. What is queued stays. A reset of the
+  // Closes the feed and releases waiting producers. Queued occurrences remain. A reset of the
   // simulation closes it, too.
   void Close();
-  // The same, with the simulation as it stands, which must be there still, behind what is queued:
-  // nothing is of a later instant.
+  // The same, and appends the current state of the simulation, which must still exist.
   void CloseAtLatest();
   bool is_over() const;  // closed, and nothing is queued
   bool was_reset() const;
@@ -68,10 +68,10 @@ class SimulationFeed final : public simulation::Observer {
   const simulation::Simulation& simulation_;
   const FeedOptions options_;
 
-  // The stepping thread's.
+  // Used by the stepping thread only.
   Instants status_instants_;
   Instants sensor_instants_;
-  std::shared_ptr<const world::Layout> layout_;  // whose sensors were looked at
+  std::shared_ptr<const world::Layout> layout_;  // whose sensors were listed
 
   mutable base::Mutex mutex_;
   base::ConditionVariable news_;

@@ -1,7 +1,7 @@
-// The topics that tell of a simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
+// Records the topics of the simulation as a whole: /clock, /gsv/poses, /tf, /gsv/commands,
 // /gsv/actuators, /gsv/contacts, /gsv/radio, /gsv/status, /diagnostics, /gsv/events, /rosout,
-// /gsv/state_hash (docs/formats/messages.md). /gsv/edits appears with the first edit, whatever was
-// selected: without it nobody can make the run once more.
+// /gsv/state_hash (docs/formats/messages.md). /gsv/edits is added with the first edit, whatever is
+// selected, as resimulation needs it.
 #pragma once
 
 #include <map>
@@ -23,9 +23,9 @@ class StateTopics {
   // `poses_rate`: Hz of simulated time, > 0. `writer` must outlive this.
   StateTopics(McapWriter& writer, double poses_rate, const Selection& selection);
 
-  // Writes of a snapshot what is due at its time.
+  // Writes the messages that are due at the time of the snapshot.
   void Record(const std::shared_ptr<const world::Snapshot>& snapshot);
-  // The same, whether it is due or not, unless it is written.
+  // Writes all messages of the snapshot that were not written yet, whether due or not.
   void RecordNow(const world::Snapshot& snapshot);
 
   void RecordStatus(const simulation::SimulationStatus& status);
@@ -42,12 +42,12 @@ class StateTopics {
   Instants poses_instants_;
   Instants hash_instants_;
   Instants diagnostics_instants_;
-  std::optional<std::int64_t> poses_step_;  // whose poses were written last
+  std::optional<std::int64_t> poses_step_;  // step of the last written poses
   std::shared_ptr<const world::Layout> layout_;
   std::vector<presentation::PoseEntry> pose_list_;  // of layout_
-  std::map<std::string, world::DriveState> told_;   // by robot: what it was told last
+  std::map<std::string, world::DriveState> told_;   // by robot: the last command
 
-  std::shared_ptr<const world::DeviceStates> devices_;  // those of the last snapshot
+  std::shared_ptr<const world::DeviceStates> devices_;  // of the last snapshot
 
   TopicWriter<messages::rosgraph_msgs::Clock> clock_;
   TopicWriter<messages::gsv_msgs::Poses> poses_;

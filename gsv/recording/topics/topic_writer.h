@@ -1,4 +1,4 @@
-// One message type on one topic of a recording.
+// Writes one message type on one topic of a recording.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace gsv::recording {
 template <typename Message>
 class TopicWriter {
  public:
-  // `writer` must outlive this; no other type may be on the topic. One that is not selected is not
-  // in the recording.
+  // `writer` must outlive this; the topic must not have another type. A topic that is not selected
+  // is not recorded.
   TopicWriter(McapWriter& writer, const Selection& selection,
               const presentation::TopicOf<Message>& topic)
       : writer_(writer) {
@@ -28,7 +28,7 @@ class TopicWriter {
     channel_ = *channel;
   }
 
-  // Else there is no point in making messages.
+  // Whether the topic is recorded, so that messages are needed.
   bool is_wanted() const { return channel_.has_value(); }
 
   void Write(base::SimTime time, const Message& message) {

@@ -1,4 +1,4 @@
-// Which topics there are to record of a simulation.
+// The topics of a simulation that can be recorded.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace gsv::recording {
 
-// What a recording of everything would hold, by name, as the simulation stands now: a robot or a
-// sensor that is added later brings further ones.
+// All topics that can be recorded now, by name. Robots and sensors that are added later have
+// further ones.
 std::vector<std::string> TopicsOf(const simulation::Simulation& simulation);
 
-// Those of `patterns` (as in Selection) that stand for none of `topics`.
+// Those of `patterns` (as in Selection) that match none of `topics`.
 std::vector<std::string> UnmatchedPatterns(const std::vector<std::string>& topics,
                                            const std::vector<std::string>& patterns);
 

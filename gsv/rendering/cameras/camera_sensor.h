@@ -1,12 +1,12 @@
-// The sensor types "camera" and "wideangle_camera": pictures from a robot's own viewpoint.
+// The sensor types "camera" and "wideangle_camera": images from a robot's viewpoint.
 //
 // Frame       sensor frame: x along the view, y left, z up.
 // Parameters  those of every camera, see optics.h (a "wideangle_camera" has a stereographic lens),
 //             and those of shutter.h and exposure.h.
-// Readings    values {width, height} in pixels; the picture is RGB. As a message:
+// Readings    values {width, height} in pixels; the image is RGB. As a message:
 //             sensor_msgs/CompressedImage, JPEG of quality 80.
-// Errors      Sample(): kUnavailable with the reason where there is no renderer; everything that
-//             is not a camera works without one.
+// Errors      Sample(): kUnavailable with the reason if there is no renderer. All other sensors
+//             work without one.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@
 
 namespace gsv::rendering {
 
-// `renderer` is what Renderer::Start() gave, its failure included. Fails if the registry has a
-// camera already.
+// `renderer` is the result of Renderer::Start(), also a failure. Fails if the registry has a camera
+// already.
 [[nodiscard]] base::Status AddCameraSensor(sensing::SensorRegistry& registry,
                                            base::Result<std::shared_ptr<Renderer>> renderer);
 

@@ -1,5 +1,5 @@
-// What the sensor types of all cameras have in common: a lens, a renderer, a CameraInfo beside
-// their readings, and readings that are shared by all who ask for one instant.
+// The base of all camera types: a lens, a renderer, a CameraInfo beside each reading, and cached
+// readings.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,13 @@
 
 namespace gsv::rendering {
 
-// What Renderer::Start() gave, its failure included.
+// The result of Renderer::Start(), also a failure.
 using RendererResult = base::Result<std::shared_ptr<Renderer>>;
 
 template <typename Values, typename Message>
 class CameraOf : public sensing::SensorOf<Values, Message> {
  public:
-  // `lens_type`: of a camera whose parameters name none.
+  // `lens_type`: default for cameras whose parameters name none.
   CameraOf(const model::SensorDescription& description, sensing::ParameterReader& reader,
            RendererResult renderer, const std::string& lens_type = "gnomonical")
       : sensing::SensorOf<Values, Message>(description),
@@ -44,7 +44,7 @@ class CameraOf : public sensing::SensorOf<Values, Message> {
   const RendererResult renderer_;
 };
 
-// The type of a CameraOf. Without a renderer there are such cameras, but they cannot be read.
+// The type of a CameraOf. Without a renderer such cameras exist, but reading them fails.
 template <typename Kind, typename... Context>
 sensing::SensorType MakeCameraType(std::string name, std::vector<std::string> aliases,
                                    sensing::Overlay overlay,

@@ -1,10 +1,10 @@
-// From light to a sensor's numbers: exposure, the lens's darker corners, and noise.
+// Exposure, vignetting and noise of camera images.
 //
-// Parameters  exposure (0): stops, each of which doubles the light; gain (1): a factor on light and
-//             on noise; vignetting (0): the part of the light that is missing in the corners, less
-//             towards the middle with the square of the distance; noise.*: see sensing/noise.h, of
-//             each pixel's channels, from 0 (black) to 1 (white); of these mean, stddev, bias.
-// Model       light is the picture's colour, linear, so that what was clipped stays clipped.
+// Parameters  exposure (0): stops, each doubles the light; gain (1): factor on light and noise;
+//             vignetting (0): fraction of light that is missing in the corners, falling with the
+//             square of the distance towards the centre; noise.*: see sensing/noise.h, per pixel
+//             and channel, from 0 (black) to 1 (white): mean, stddev and biases.
+// Model       light is the linear colour of the image, so that clipped pixels stay clipped.
 #pragma once
 
 #include "gsv/model/image.h"
@@ -15,13 +15,13 @@ namespace gsv::rendering {
 
 class Exposure {
  public:
-  // Refuses by the reader.
+  // Reports invalid parameters to the reader.
   explicit Exposure(sensing::ParameterReader& reader);
 
   // Whether it changes nothing.
   bool is_neutral() const;
 
-  // An RGB picture as the sensor would give it at the sampling's instant.
+  // Applies exposure, vignetting and the noise of the sampling's instant to an RGB image.
   void Apply(const sensing::Sampling& sampling, const model::SensorDescription& description,
              model::Image& picture) const;
 

@@ -1,4 +1,4 @@
-// The sensor types that know what they see: "depth_camera", "segmentation_camera",
+// The sensor types of depth and label images: "depth_camera", "segmentation_camera",
 // "boundingbox_camera", "thermal_camera" and "normals_camera".
 //
 // Frame       sensor frame: x along the view, y left, z up.
@@ -25,7 +25,7 @@
 //             and NaN where nothing is or where a pixel has no such neighbours in both directions.
 //             As a message: sensor_msgs/CompressedImage, PNG, where the colour channel of a
 //             component c is 255 (c + 1) / 2, and black where the normal is unknown.
-// Errors      Sample(): kUnavailable with the reason where nothing can draw.
+// Errors      Sample(): kUnavailable with the reason if there is no renderer.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,8 @@
 
 namespace gsv::rendering {
 
-// `renderer` is what Renderer::Start() gave, its failure included. Fails if a type is there
-// already.
+// `renderer` is the result of Renderer::Start(), also a failure. Fails if the registry has one of
+// the types already.
 [[nodiscard]] base::Status AddGroundTruthSensors(
     sensing::SensorRegistry& registry, const base::Result<std::shared_ptr<Renderer>>& renderer);
 

@@ -1,4 +1,4 @@
-// What all cameras have in common: a picture's size, a lens, and how pictures come through it.
+// The optics of all cameras: image size, lens, and rendering through the lens.
 //
 // Parameters (of SDFormat's <camera>; lengths in m, angles in rad, sizes in pixels)
 //   image.width, image.height   320 by 240, at most 4096; through a lens at most 4,194,304 pixels
@@ -29,15 +29,15 @@ namespace gsv::rendering {
 // Threads  any.
 class Optics {
  public:
-  // Refuses by the reader. `lens_type` is that of a camera whose parameters name none.
+  // Reports invalid parameters to the reader. `lens_type` is the default lens.
   static Optics Read(sensing::ParameterReader& reader, const std::string& lens_type = "gnomonical");
 
   const CameraParameters& camera() const { return camera_; }
   const Lens& lens() const { return lens_; }
-  // By its parameters: of a wide lens the angle that it is scaled to.
+  // The field of view from the parameters; for a wide lens the angle to which it is scaled.
   const sensing::Frustum& frustum() const { return frustum_; }
-  // Where the middle of a pixel looks, of unit length; nothing where the lens shows nothing. Pixels
-  // count in rows from the top.
+  // The direction of a pixel's centre, of unit length; nothing if the lens shows nothing there.
+  // Pixels are numbered in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
   base::Result<std::shared_ptr<const model::Image>> Draw(
@@ -50,11 +50,11 @@ class Optics {
  private:
   struct Joining {
     std::once_flag made;
-    std::unique_ptr<const LensMap> map;  // made for the first picture
+    std::unique_ptr<const LensMap> map;  // made for the first image
   };
 
   Optics(const CameraParameters& camera, Lens lens, double horizontal_fov);
-  // Equal cameras have one map: those of all robots of a model, and of who records them.
+  // Equal cameras share one map, as those of all robots of a model and of recorders.
   static std::shared_ptr<Joining> JoiningOf(const CameraParameters& camera, const Lens& lens);
   const LensMap& Map() const;
 

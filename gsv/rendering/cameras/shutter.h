@@ -1,15 +1,15 @@
-// When a camera gathers its light: at one instant, over a while (motion blur), or row after row
-// (rolling shutter).
+// The shutter of a camera: global at one instant, with an exposure time (motion blur), or row after
+// row (rolling shutter).
 //
 // Parameters   exposure_time (s, 0), readout_time (s, 0), shutter_samples (8: from 2 to 64).
-// Model        A picture of the instant t is finished at t. Row y of H gathers light from
-//              e - exposure_time to e, where e = t - readout_time (1 - (y + 1/2) / H). It is put
-//              together from `shutter_samples` pictures, in the middle of equal parts of the time
-//              from t - exposure_time - readout_time to t: of each row the mean light of those in
-//              its while, or the one nearest to its middle.
-// Earlier      things stood, s seconds ago, where their velocities at t lead back to: positions by
-//              v s, turned by w s about w, joints by their velocity times s. So a picture hangs on
-//              one snapshot, whatever was read before.
+// Model        The image of the instant t is complete at t. Row y of H is exposed from e -
+//              exposure_time to e, where e = t - readout_time (1 - (y + 1/2) / H). It is composed
+//              of `shutter_samples` images at the centres of equal parts of the time from t -
+//              exposure_time - readout_time to t: each row is the mean light of the images within
+//              its exposure, or the nearest one.
+// Earlier      poses s seconds earlier are extrapolated from the velocities at t: positions by v s,
+//              orientations by w s about w, joints by their velocity times s. So an image depends
+//              on one snapshot only.
 #pragma once
 
 #include <functional>
@@ -22,24 +22,24 @@
 
 namespace gsv::rendering {
 
-// The world so many seconds before, by its velocities.
+// The world `seconds` earlier, extrapolated from its velocities.
 std::shared_ptr<const world::Snapshot> Earlier(const world::Snapshot& snapshot, double seconds);
 
 class Shutter {
  public:
-  // Refuses by the reader.
+  // Reports invalid parameters to the reader.
   explicit Shutter(sensing::ParameterReader& reader);
 
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;
   using ImagePtr = std::shared_ptr<const model::Image>;
   using Draw = std::function<base::Result<ImagePtr>(const SnapshotPtr& snapshot)>;
 
-  // The picture of a snapshot; `draw` draws what is seen at one instant.
+  // The image of a snapshot; `draw` renders the view at one instant.
   base::Result<ImagePtr> Take(const SnapshotPtr& snapshot, const Draw& draw) const;
 
  private:
-  double Age(int sample) const;  // s before the picture is finished
-  // The samples that a row is put together from: [first, last].
+  double Age(int sample) const;  // s before the image is complete
+  // The samples of a row: [first, last].
   std::pair<int, int> SamplesOf(int row, int height) const;
 
   double exposure_time_, readout_time_;

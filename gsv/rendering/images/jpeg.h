@@ -1,4 +1,4 @@
-// Pictures as JPEG (ITU-T T.81, baseline).
+// Encodes images as JPEG (ITU-T T.81, baseline).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace gsv::rendering {
 
-// `quality` from 1 to 100; alpha is dropped. kInvalidArgument for a picture without pixels.
+// `quality` from 1 to 100; alpha is dropped. kInvalidArgument for an image without pixels.
 base::Result<std::vector<std::uint8_t>> EncodeJpeg(const model::Image& image, int quality);
 
 }  // namespace gsv::rendering

@@ -1,4 +1,4 @@
-// Pictures as PNG (ISO/IEC 15948): every byte comes back.
+// Encodes images as PNG (ISO/IEC 15948), lossless.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace gsv::rendering {
 
-// kInvalidArgument for a picture without pixels.
+// kInvalidArgument for an image without pixels.
 base::Result<std::vector<std::uint8_t>> EncodePng(const model::Image& image);
 
-// One grey value of 16 bits a pixel, rows from the top.
+// Encodes one 16-bit grey value per pixel, rows from the top.
 base::Result<std::vector<std::uint8_t>> EncodeGreyPng(int width, int height,
                                                       std::span<const std::uint16_t> pixels);
 

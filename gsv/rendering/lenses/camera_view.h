@@ -1,8 +1,8 @@
-// A pinhole camera: what it sees and where a point falls in its picture.
+// A pinhole camera: its frustum and projection.
 //
 // Frames  camera frame C as a sensor frame: x along the view, y left, z up. Pixels: u to the right
-//         and v down from the picture's upper left corner; pixel (i, j) covers [i, i + 1) by
-//         [j, j + 1).
+//         and v down from the image's upper left corner; pixel (i, j) covers [i, i + 1) by [j, j +
+//         1).
 // Model   u = width/2 - f y/x, v = height/2 - f z/x with f = width / (2 tan(horizontal_fov / 2)).
 #pragma once
 
@@ -35,8 +35,8 @@ struct CameraView {
   CameraParameters parameters;
 };
 
-// The six planes of what a camera sees, in a frame with the world's axes and its origin at the
-// camera; the normals point inward.
+// The six planes of a camera's frustum, in a frame with the world's axes and its origin at the
+// camera. Normals point inward.
 struct Frustum {
   struct Plane {
     geometry::Vector3 normal;
@@ -50,8 +50,8 @@ struct Frustum {
     }
     return true;
   }
-  // The same for a sphere that moves from `centre` by `offset`: may be true where it never meets,
-  // never the other way round.
+  // The same for a sphere that moves from `centre` by `offset`. Conservative: it may return true
+  // without an intersection.
   bool MeetsMovingSphere(const geometry::Vector3& centre, const geometry::Vector3& offset,
                          double radius) const {
     for (const Plane& plane : planes) {

@@ -1,7 +1,7 @@
-// What a lens does to a camera's rays: distortion of a pinhole, or the wide views of fisheyes.
+// Lenses: pinholes with distortion, and wide lenses (fisheye).
 //
-// Frames  camera frame as in camera_view.h: x along the view, y left, z up. Picture points (u, v)
-//         in pixels from the upper left corner, to the right and down.
+// Frames  camera frame as in camera_view.h: x along the view, y left, z up. Image points (u, v) in
+//         pixels from the upper left corner, to the right and down.
 // Units   pixels, radians.
 //
 // Pinhole    with x = -Y/X to the right and y = -Z/X down for a point (X, Y, Z):
@@ -10,12 +10,13 @@
 //            p = (x, y) - c and r² = |p|²:
 //              x' = c.x + p.x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 p.x p.y + p2 (r² + 2 p.x²)
 //              y' = c.y + p.y (1 + k1 r² + k2 r⁴ + k3 r⁶) + p1 (r² + 2 p.y²) + 2 p2 p.x p.y
-//            which is "plumb_bob" of ROS and OpenCV where c is the principal point. A barrel so
-//            strong that rays beyond an angle come back into the picture shows nothing of them.
-// Wide view  what lies at the angle a from the view falls at the distance
+//            which is "plumb_bob" of ROS and OpenCV if c is the principal point. With a strong
+//            barrel distortion, rays beyond an angle would return into the image; they are left
+//            out.
+// Wide view  a point at the angle a from the view is imaged at the distance
 //              r = c1 f fun(a / c2 + c3)
-//            from the picture's middle, in halves of its width (SDFormat's <lens>); nothing is seen
-//            beyond the cutoff angle.
+//            from the image's centre, in halves of its width (SDFormat's <lens>); the lens shows
+//            nothing beyond the cutoff angle.
 #pragma once
 
 #include <optional>
@@ -28,13 +29,13 @@ namespace gsv::rendering {
 
 struct Distortion {
   double k1 = 0, k2 = 0, k3 = 0, p1 = 0, p2 = 0;
-  geometry::Vector2 centre{0.5, 0.5};  // in parts of the picture's width and height
+  geometry::Vector2 centre{0.5, 0.5};  // in fractions of the image's width and height
 
   bool is_none() const { return k1 == 0 && k2 == 0 && k3 == 0 && p1 == 0 && p2 == 0; }
   friend bool operator==(const Distortion&, const Distortion&) = default;
 };
 
-// Pixels.
+// In pixels.
 struct Intrinsics {
   double fx = 0, fy = 0;
   double cx = 0, cy = 0;
@@ -58,18 +59,21 @@ class Lens {
   // The pinhole of `camera` alone.
   explicit Lens(const CameraParameters& camera);
   Lens(const CameraParameters& camera, const Intrinsics& intrinsics, const Distortion& distortion);
-  // Of `camera` only the picture's size. With a `horizontal_fov` (up to 2 pi; 0: none) f is chosen
-  // such that the picture's width spans it. kInvalidArgument if it cannot.
+  // A wide lens; of `camera` only the image size is used. With `horizontal_fov` (up to 2 pi; 0:
+  // none), f is chosen such that the image's width spans it. kInvalidArgument if that is
+  // impossible.
   static base::Result<Lens> Wide(const CameraParameters& camera, WideView view,
                                  double horizontal_fov);
 
-  // A pinhole without distortion whose axis meets the picture's middle: pictures need no change.
+  // Whether it is a pinhole without distortion whose axis meets the image's centre, so that images
+  // need no resampling.
   bool is_plain() const { return is_plain_; }
 
-  // Of unit length, in the camera's frame; nothing where the lens shows nothing.
+  // The direction of an image point, of unit length in the camera's frame; nothing if the lens
+  // shows nothing there.
   std::optional<geometry::Vector3> RayAt(double u, double v) const;
-  // Where a point in the camera's frame falls, also beyond the picture's edges; nothing where it
-  // falls nowhere.
+  // Projects a point in the camera's frame, also beyond the image's edges; nothing if it has no
+  // image.
   std::optional<geometry::Vector2> Project(const geometry::Vector3& point) const;
 
   int width() const { return width_; }
@@ -77,7 +81,7 @@ class Lens {
   const Intrinsics& intrinsics() const { return intrinsics_; }  // of a pinhole
   const Distortion& distortion() const { return distortion_; }
   const std::optional<WideView>& wide_view() const { return wide_; }
-  // RayAt() is a formula, and not a search.
+  // Whether RayAt() is a closed form and not a search.
   bool has_quick_rays() const { return wide_ || distortion_.is_none(); }
   friend bool operator==(const Lens&, const Lens&) = default;
 

@@ -1,5 +1,5 @@
-// How a picture through a lens is put together from pinhole pictures: one where a single one covers
-// all that the lens shows, else the faces of a cube about the camera that it looks at.
+// Resamples pinhole images into an image through a lens: from one image if it covers the view of
+// the lens, else from the faces of a cube about the camera.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -19,24 +19,24 @@ namespace gsv::rendering {
 
 class LensMap {
  public:
-  // `camera` gives near and far. The pinhole pictures have as many pixels an angle as the lens has
-  // where it has most, but at most four times as many as in its middle, and kMaxImageSide a side.
+  // `camera` gives near and far. The pinhole images have the largest resolution per angle of the
+  // lens, but at most four times that of its centre, and at most kMaxImageSide per side.
   LensMap(const Lens& lens, const CameraParameters& camera);
 
-  // So large a picture may be: a map takes 20 bytes a pixel.
+  // The largest image; a map takes 20 bytes per pixel.
   static constexpr int kMaxPixels = 4'194'304;
 
-  // Where the middle of a pixel looks, in the camera's frame and of unit length, as Lens::RayAt()
-  // but for rounding (1e-6 rad); pixels count in rows from the top.
+  // The direction of a pixel's centre, of unit length in the camera's frame, equal to Lens::RayAt()
+  // within 1e-6 rad. Pixels are numbered in rows from the top.
   std::optional<geometry::Vector3> RayOfPixel(std::size_t pixel) const;
 
-  // The pinhole pictures that are needed.
+  // The views of the required pinhole images.
   std::vector<CameraView> Views(const geometry::Pose& world_from_camera) const;
 
-  // Of the pictures of Views(), in that order. Black where the lens shows nothing.
+  // Resamples the images of Views(), in that order. Black where the lens shows nothing.
   model::Image Join(std::span<const std::shared_ptr<const model::Image>> pictures) const;
-  // The same, of the nearest pixels; nothing where the lens shows nothing. Depth is along the
-  // camera's view, which is negative for what a fisheye sees behind it.
+  // The same with nearest pixels; background where the lens shows nothing. Depth is along the
+  // camera's view, and negative behind the camera.
   GroundTruth Join(std::span<const std::shared_ptr<const GroundTruth>> truths) const;
 
  private:
@@ -44,12 +44,12 @@ class LensMap {
     geometry::Quaternion camera_from_face;
     CameraParameters camera;
   };
-  // Where a pixel comes from.
+  // The source of a pixel.
   struct Source {
     std::int32_t face = -1;  // -1: the lens shows nothing there
-    float u = 0, v = 0;      // in the face's picture
-    float reach = 1;         // of the face's pixels that this one covers, along a side
-    float depth_scale = 0;   // the camera's depth for one of the face
+    float u = 0, v = 0;      // in the face's image
+    float reach = 1;         // number of the face's pixels along a side that this one covers
+    float depth_scale = 0;   // factor from the face's depth to the camera's
   };
   void FindReach();
 

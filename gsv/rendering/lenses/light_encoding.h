@@ -1,13 +1,13 @@
-// Between a picture's numbers, which are sRGB (IEC 61966-2-1), and light, which adds up.
+// Converts between sRGB values (IEC 61966-2-1) and linear light.
 #pragma once
 
 #include <cstdint>
 
 namespace gsv::rendering {
 
-// From 0 (black) to 1 (white).
+// Light from 0 (black) to 1 (white).
 float LightOf(std::uint8_t number);
-// The number whose light is nearest.
+// The value with the nearest light.
 std::uint8_t NumberFor(float light);
 
 }  // namespace gsv::rendering

@@ -1,7 +1,7 @@
 // An OpenGL 4.5 core context without a window, a display server or a screen: EGL on a graphics
 // device, or on Mesa's surfaceless platform, whose software renderer needs no device at all.
 //
-// Errors   kUnavailable with what is missing and which package brings it.
+// Errors   kUnavailable with the missing part and its package.
 // Threads  created, used and destroyed on one thread, where it stays current.
 #pragma once
 
@@ -13,16 +13,16 @@
 namespace gsv::rendering {
 
 struct EglOptions {
-  // Whether a graphics card may be used, and Mesa's software renderer; the card is tried first.
+  // Whether to use a graphics card, and Mesa's software renderer. The card is tried first.
   bool hardware = true;
   bool software = true;
-  // The libraries that are opened; tests name ones that do not exist.
+  // The libraries to open.
   std::string egl_library = "libEGL.so.1";
   std::string gl_library = "libOpenGL.so.0";
 };
 
-// Whether EGL can be asked for graphics devices without a display, by the extensions that it has
-// for no display (EGL_EXT_device_enumeration, EGL_EXT_platform_device). Null: it has none.
+// Whether EGL can list graphics devices, from its client extensions (EGL_EXT_device_enumeration,
+// EGL_EXT_platform_device); null: none.
 bool ListsDevices(const char* client_extensions);
 
 class EglContext {

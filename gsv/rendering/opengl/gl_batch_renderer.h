@@ -1,4 +1,4 @@
-// Pictures with OpenGL: everything that lives on the graphics card.
+// Renders images with OpenGL, and owns all objects on the graphics card.
 //
 // Threads  the render thread only, with the context current from construction to destruction.
 #pragma once
@@ -25,7 +25,7 @@ class GlBatchRenderer final : public BatchRenderer {
 
   base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
-  // By the rasteriser: ground truth is the same to the bit on every machine.
+  // Uses the rasteriser, so that the result is bit-identical on every machine.
   base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) override;
   void Sweep() override;
@@ -37,8 +37,7 @@ class GlBatchRenderer final : public BatchRenderer {
   InstanceBuffer instances_;
   ShadowMap shadow_map_;
   ViewPass painter_;
-  std::unique_ptr<raster::RasterBatchRenderer>
-      ground_truth_renderer_;  // null until it is asked for
+  std::unique_ptr<raster::RasterBatchRenderer> ground_truth_renderer_;  // null until the first use
 };
 
 }  // namespace gsv::rendering

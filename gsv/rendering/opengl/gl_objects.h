@@ -1,6 +1,6 @@
-// Names of OpenGL objects that are freed with their owner, and programs made from source.
+// Owners of OpenGL object names, and programs from source.
 //
-// Threads  only on the thread whose context is current; that holds for destruction as well.
+// Threads  only on the thread whose context is current, also for destruction.
 #pragma once
 
 #include <string>
@@ -48,8 +48,7 @@ GlVertexArray CreateVertexArray();
 GlFramebuffer CreateFramebuffer();
 GlRenderbuffer CreateRenderbuffer();
 
-// `defines` ("#define A\n…") is put behind the #version line. Our own source: that it does not
-// compile is a bug.
+// `defines` ("#define A\n…") is inserted after the #version line. The source must compile.
 GlProgram CreateProgram(std::string_view defines, std::string_view vertex_source,
                         std::string_view fragment_source);
 

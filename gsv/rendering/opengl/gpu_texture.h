@@ -12,7 +12,7 @@ struct GpuTexture final : DrawTexture {
   GlTexture texture;
 };
 
-// The side of the largest texture that the card takes, pixels.
+// The largest texture side of the card, in pixels.
 int MaxTextureSide();
 
 std::shared_ptr<DrawTexture> UploadTexture(const model::Image& image);

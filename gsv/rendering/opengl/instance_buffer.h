@@ -1,4 +1,4 @@
-// The vertex arrays of a draw call: a mesh's vertices, and what differs between its instances.
+// The vertex arrays of a draw call: a mesh's vertices, and the data of its instances.
 //
 // Threads  the render thread only.
 #pragma once
@@ -11,13 +11,13 @@
 
 namespace gsv::rendering {
 
-// As the vertex shaders read it: the rows of relative_from_mesh, then the surface.
+// The layout of the vertex shaders: the rows of relative_from_mesh, then the surface.
 struct InstanceData {
   float rows[3][4];
   SurfaceFactors factors;
 };
 
-// `origin` is the point of the world that the shader has as its origin.
+// `origin` is the origin of the shader in the world.
 InstanceData InstanceOf(const DrawItem& item, const PlacedItem& placed,
                         const geometry::Vector3& origin);
 

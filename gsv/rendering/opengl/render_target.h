@@ -1,5 +1,5 @@
-// Where pictures of one size are drawn, and from where they are read back: one layer for each of
-// several pictures, so that the first are read while the last are still being drawn.
+// A render target for images of one size, with several layers, so that the first images are read
+// back while the last are still rendered.
 //
 // Threads  the render thread only.
 #pragma once
@@ -18,14 +18,13 @@ class RenderTarget {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // How many pictures it holds at most before they must be read.
+  // The largest number of images before they must be read.
   int capacity() const { return capacity_; }
 
-  // Clears depth and makes it what is drawn to. All pixels must be drawn, with the number of the
-  // surface they show as alpha.
+  // Begins an image: clears depth and binds the target. All pixels must be drawn, with the number
+  // of their surface as alpha.
   void Begin();
-  // The pictures since the last Read(), in the order of Begin(), with smooth edges; waits for the
-  // card.
+  // The images since the last Read(), in the order of Begin(), antialiased. Waits for the card.
   std::vector<std::shared_ptr<const model::Image>> Read();
 
  private:
@@ -37,7 +36,7 @@ class RenderTarget {
   int width_, height_, capacity_;
   std::size_t begun_ = 0;
   GlRenderbuffer depth_;
-  std::vector<Layer> layers_;  // as many as were ever needed
+  std::vector<Layer> layers_;  // as many as were needed so far
   std::vector<std::uint8_t> rgba_;
 };
 

@@ -13,7 +13,7 @@ namespace gsv::rendering {
 
 // Compile with a selection of these defined: BASE_COLOUR_MAP, NORMAL_MAP, METALLIC_ROUGHNESS_MAP,
 // EMISSIVE_MAP, CUT_OUT, SEE_THROUGH, SHADOWS, LAMPS. Alpha is the opacity with SEE_THROUGH, else
-// the number of the surface (0: the sky) as SmoothAliasedEdges() takes it.
+// the number of the surface (0: the sky) for SmoothAliasedEdges().
 extern const std::string kSurfaceVertexShader;
 extern const std::string kSurfaceFragmentShader;
 

@@ -1,8 +1,8 @@
-// The depth of the world as the sun sees it: one for each snapshot, whatever cameras look.
+// The shadow map of the sun: one per snapshot, for all cameras.
 //
-// What casts shadows and has not moved is drawn once. A second map has what moves as well; for each
-// snapshot it is mended from the first where something moved and gets its new place, as far as the
-// pictures' cameras may see the shadow of what moves.
+// Static shadow casters are drawn once, into a first map. A second map has moving casters as well.
+// For each snapshot, its changed parts are restored from the first map and drawn again, as far as a
+// camera may see the shadows.
 // Threads  the render thread only.
 #pragma once
 
@@ -16,12 +16,13 @@ class ShadowMap {
  public:
   ShadowMap();
 
-  // Draws the shadows of a posed plan for some cameras. `render_list_id` tells plans apart.
+  // Draws the shadow map of a posed render list for some cameras. `render_list_id` identifies the
+  // render list.
   void Draw(const RenderList& render_list, std::uint64_t render_list_id,
             const geometry::Vector3& to_sun, const std::vector<CameraView>& views,
             InstanceBuffer& instances);
 
-  // Makes it current for shaders with SHADOWS.
+  // Binds it for shaders with SHADOWS.
   void Bind() const;
   const ShadowRegion& region() const { return region_; }
 
@@ -41,7 +42,7 @@ class ShadowMap {
   GlFramebuffer still_frame_, moving_frame_;
   GlProgram solid_, alpha_mask_;
   ShadowRegion region_;
-  Drawn drawn_;                                 // what still_ holds
+  Drawn drawn_;                                 // content of still_
   std::vector<ShadowRegion::Rectangle> moved_;  // where moving_ differs from still_
   std::vector<InstanceData> staged_;
 };

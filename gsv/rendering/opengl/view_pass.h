@@ -1,7 +1,7 @@
-// Draws what one camera sees.
+// Renders the view of one camera.
 //
-// Solid things first, nearest groups first and the ground last; then the sky; then what is
-// see-through, farthest first.
+// Opaque groups first, from near to far, with the ground last; then the sky; then transparent
+// groups, from far to near.
 // Threads  the render thread only.
 #pragma once
 
@@ -18,22 +18,22 @@ class ViewPass {
  public:
   ViewPass();
 
-  // Draws a posed plan into the current target, whose depth is clear. `block` is complete; without
-  // `shadows` (null) everything is in the sun.
+  // Draws a posed render list into the current target, whose depth is cleared. `block` must be
+  // complete. `shadows` null: no shadows.
   void Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
             const ShadowMap* shadows, InstanceBuffer& instances);
 
  private:
-  // Instances that are drawn by one call.
+  // Instances of one draw call.
   struct Call {
     int group = 0;
     double distance = 0;
     std::size_t first = 0, count = 0;
-    bool shadowed = false;  // a shadow may fall on some of them
+    bool shadowed = false;  // some may be in shadow
   };
   struct Seen {
     int group = 0;
-    double distance = 0;  // to its middle
+    double distance = 0;  // to its centre
     std::size_t item = 0;
     bool shadowed = false;
   };

@@ -1,7 +1,7 @@
-// Draws what one camera sees.
+// Renders the view of one camera.
 //
-// First which triangle is seen at each pixel: solid things, nearest first and the ground last. Then
-// each pixel's light, once. Then what is see-through, farthest first.
+// First the visible triangle of each pixel: opaque items from near to far, with the ground last.
+// Then each pixel is shaded once. Then transparent items are blended from far to near.
 // Threads  one thread at a time.
 #pragma once
 
@@ -15,19 +15,18 @@ namespace gsv::rendering::raster {
 
 class ImageRenderer {
  public:
-  // Of a posed plan, with smooth edges. `block` is complete; without `shadow` (null) everything is
-  // in the sun.
+  // Renders a posed render list, antialiased. `block` must be complete. `shadow` null: no shadows.
   model::Image Draw(const CameraView& view, const RenderList& render_list, const FrameBlock& block,
                     const SunShadow* shadow);
-  // The same without light.
+  // The depth and label image of the same view.
   GroundTruth DrawGroundTruth(const CameraView& view, const RenderList& render_list,
                               const FrameBlock& block);
-  // Of the last picture, as many as there is room for now.
+  // The number of allocated pixels.
   std::size_t pixels() const { return nearest_.size(); }
 
  private:
   struct Seen {
-    double distance = 0;  // solid: to where it begins; see-through: to its middle
+    double distance = 0;  // opaque: to its nearest point; transparent: to its centre
     std::size_t item = 0;
     const Level* level = nullptr;
   };
@@ -51,14 +50,15 @@ class ImageRenderer {
   }
 
   int width_ = 0, height_ = 0, stride_ = 0;
-  Float4 forward_, right_, down_;       // of a pixel's ray, by the pixel's place
-  std::vector<float> inverse_w_;        // of what is nearest at each pixel
-  std::vector<std::uint32_t> nearest_;  // its triangle's number from 1; 0: the sky
+  Float4 forward_, right_, down_;       // of a pixel's ray, by the position of the pixel
+  std::vector<float> inverse_w_;        // of the nearest surface at each pixel
+  std::vector<std::uint32_t> nearest_;  // number of its triangle from 1; 0: the sky
   std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> surface_of_;  // triangle's number - 1 to its place in surfaces_, or -1
+  // From triangle number - 1 to the index in surfaces_, or -1.
+  std::vector<std::int32_t> surface_of_;
   std::vector<TriangleSurface> surfaces_;
   std::vector<Drawn> drawn_;
-  std::vector<std::int32_t> body_of_, visual_of_;  // as drawn_, of what is solid
+  std::vector<std::int32_t> body_of_, visual_of_;  // as drawn_, for opaque items
   std::vector<Seen> solid_, transparent_;
   std::vector<std::uint32_t> rgba_;
   Rasteriser rasteriser_;

@@ -1,4 +1,4 @@
-// The light that eight pixels send to the camera: the same terms as in shaders.cc.
+// The shading of eight pixels, with the same terms as in shaders.cc.
 #pragma once
 
 #include "gsv/rendering/raster/sun_shadow.h"
@@ -7,7 +7,7 @@
 
 namespace gsv::rendering::raster {
 
-// Lamps of the frame's block that reach some part of a picture.
+// The lamps of the frame block that reach a part of the image.
 struct Lamps {
   int count = 0;
   const LightBlock* lights[kMaxLights];
@@ -15,13 +15,13 @@ struct Lamps {
 
 class LightModel {
  public:
-  // `block` with its shadow's part; without `shadow` (null) everything is in the sun.
+  // `block` must include the shadow. `shadow` null: no shadows.
   LightModel(const FrameBlock& block, const SunShadow* shadow) : block_(block), shadow_(shadow) {}
 
-  // Those that reach into a box, in the frame of FrustumOf().
+  // The lamps that reach a box, in the frame of FrustumOf().
   Lamps Reaching(const geometry::Vector3& min, const geometry::Vector3& max) const;
 
-  // Tone-mapped, linear, in [0, 1].
+  // The tone-mapped linear colour in [0, 1].
   F8x3 Colour(const Surfaces& surfaces, const F8x3& ray, const Lamps& lamps) const;
   F8x3 Sky(const F8x3& ray) const;
 

@@ -1,8 +1,6 @@
-// Pictures drawn by the processor, on several threads: what a machine without a graphics card has
-// them from.
+// Renders images on the processor with several threads, for machines without a graphics card.
 //
-// Determinism  a picture is the same to the bit on every machine, whatever the batch and the number
-//              of threads.
+// Determinism  images are bit-identical on every machine, for any batch and number of threads.
 // Threads      one thread at a time.
 #pragma once
 
@@ -20,7 +18,7 @@ class ImageRenderer;
 
 inline constexpr const char* kRasteriserName = "GSV rasteriser (AVX2)";
 
-// Whether this processor has what the rasteriser is made of: AVX2 and FMA.
+// Whether this processor has AVX2 and FMA, which the rasteriser needs.
 bool CanRasterise();
 
 class RasterBatchRenderer final : public BatchRenderer {

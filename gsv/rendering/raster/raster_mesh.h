@@ -1,5 +1,5 @@
-// Triangle meshes as the rasteriser takes them: numbers of one kind side by side, each chunk's
-// vertices in one run, coarser copies for where a chunk is small in the picture.
+// Triangle meshes for the rasteriser: a structure of arrays, with contiguous vertices per chunk and
+// coarser levels of detail for chunks that are small in the image.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace gsv::rendering::raster {
 
-// A chunk in one level of detail. Runs of vertices and triangles have room for whole eights, filled
-// up with the run's first vertex and with triangles without an area.
+// A chunk in one level of detail. Runs of vertices and triangles are padded to multiples of eight,
+// with the first vertex and with degenerate triangles.
 struct Level {
-  float cell = 0;  // m in the mesh: no vertex was moved farther than about this
+  float cell = 0;  // m in the mesh: the largest displacement of a vertex, approximately
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
 };

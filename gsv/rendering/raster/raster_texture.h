@@ -1,4 +1,4 @@
-// Textures with their smaller copies, and how eight points of one are looked up.
+// Mipmapped textures, and lookups at eight points.
 #pragma once
 
 #include <vector>
@@ -20,11 +20,11 @@ struct RasterTexture final : DrawTexture {
 std::shared_ptr<DrawTexture> MakeRasterTexture(const model::Image& image);
 
 struct Texels {
-  F8 r, g, b, a;  // [0, 1], as the picture is encoded
+  F8 r, g, b, a;  // [0, 1], encoded as the image
 };
 
-// Linearly between four texels; between two levels as well where `level` is about in the middle of
-// them. u to the right and v downwards, repeating.
+// Bilinear lookup; trilinear if `level` is about halfway between two levels. u to the right and v
+// downwards, repeating.
 Texels Sample(const RasterTexture& texture, float level, F8 u, F8 v);
 
 }  // namespace gsv::rendering::raster

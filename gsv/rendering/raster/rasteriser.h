@@ -1,7 +1,7 @@
-// Which pixels the triangles of an item cover, and how near they are there.
+// Computes the pixels that the triangles of an item cover, and their depths.
 //
 // Method   edge functions divided by depth (Olano and Greer, 1997): each corner i of a triangle has
-//          a plane q_i over the picture with q_i = (weight of the corner) / w, w being the distance
+//          a plane q_i over the image with q_i = (weight of the corner) / w, w being the distance
 //          along the view; a pixel is covered where no q_i is negative, and 1/w is their sum.
 //          Triangles that reach behind the camera need no clipping.
 // Threads  one thread at a time.
@@ -17,14 +17,14 @@
 
 namespace gsv::rendering::raster {
 
-// An item as one camera sees it.
+// An item in the view of one camera.
 struct Drawn {
   const RasterMesh* mesh = nullptr;
   const Level* level = nullptr;
   const DrawGroup* group = nullptr;
   const SurfaceFactors* factors = nullptr;
   float rows[3][4];    // relative_from_mesh
-  float normal[3][3];  // turns the mesh's normals outward, not to unit length
+  float normal[3][3];  // transforms the mesh's normals, not to unit length
 };
 
 Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& level,
@@ -33,7 +33,7 @@ Drawn DrawnItem(const RenderList& render_list, std::size_t item, const Level& le
 class Rasteriser {
  public:
   enum class Rows { kDownwards, kUpwards };
-  // Maps the frame of FrustumOf() to pixels; without perspective, w is 1.
+  // Sets the mapping of the frame of FrustumOf() to pixels; w is 1 for orthographic views.
   void Begin(int width, int height, double near, const std::array<float, 16>& clip_from_relative,
              Rows rows);
 
@@ -69,15 +69,15 @@ class Rasteriser {
   int width_ = 0, height_ = 0;
   float near_ = 0;
   bool rows_upwards_ = false;
-  float to_pixels_[3][4];                 // from relative: x w, y w and w
-  float from_mesh_[3][4];                 // the same of the item at hand
-  std::vector<float> x_, y_, inverse_w_;  // 1/w 0: nearer than the picture begins
+  float to_pixels_[3][4];                 // from the relative frame: x w, y w and w
+  float from_mesh_[3][4];                 // the same for the current item
+  std::vector<float> x_, y_, inverse_w_;  // 1/w; 0: nearer than the near plane
   Triangle triangles_[8];
   Box boxes_[8];
 };
 
-// Where the picture of a cut-out item, of `level` of detail, is solid; dx and dy are pixels from
-// the triangle's x0 and y0.
+// The opaque pixels of an item with an alpha mask, at the texture level `level`; dx and dy are
+// pixels from the triangle's x0 and y0.
 struct RasterTexture;
 I8 Solid(const Triangle& triangle, const RasterMesh& mesh, const RasterTexture& holes, float level,
          F8 dx, float dy);

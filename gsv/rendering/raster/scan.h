@@ -1,4 +1,4 @@
-// Which pixels of a box a triangle covers.
+// Computes the pixels of a box that a triangle covers.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace gsv::rendering::raster {
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 
-// The pixels of a row, counted from the box's first, outside of which some q_i is negative.
+// Narrows a row to the pixels, counted from the box's first, where no q_i is negative.
 inline void Narrow(const Triangle& t, const float (&row)[3], float& left, float& right) {
   for (int i = 0; i < 3; ++i) {
     if (t.a[i] > 0) {
@@ -25,8 +25,8 @@ inline void Narrow(const Triangle& t, const float (&row)[3], float& left, float&
   }
 }
 
-// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y, wherever one is covered.
-// Rows have room for seven pixels past the last.
+// Calls block(x, y, covered, inverse_w) for pixels x to x + 7 of row y if one of them is covered.
+// Rows have padding of seven pixels.
 template <class Block>
 void Scan(const Triangle& t, const Box& box, Block&& block) {
   // In pixels: neighbours overlap by this much, so that rounding leaves no gap between them.

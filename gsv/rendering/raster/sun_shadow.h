@@ -1,9 +1,9 @@
-// The depth of the world as the sun sees it: one for each snapshot, whatever cameras look.
+// The shadow map of the sun: one per snapshot, for all cameras.
 //
-// What casts shadows and has not moved is drawn once. A second map has what moves as well; for each
-// snapshot it is mended from the first where something moved and gets its new place, as far as the
-// pictures' cameras may see the shadow of what moves.
-// Threads  Draw() alone; const members any number at once.
+// Static shadow casters are drawn once, into a first map. A second map has moving casters as well.
+// For each snapshot, its changed parts are restored from the first map and drawn again, as far as a
+// camera may see the shadows.
+// Threads  Draw() exclusively; const members may run concurrently.
 #pragma once
 
 #include <vector>
@@ -15,14 +15,15 @@ namespace gsv::rendering::raster {
 
 class SunShadow {
  public:
-  // Draws the shadows of a posed plan for some cameras. `render_list_id` tells plans apart.
+  // Draws the shadow map of a posed render list for some cameras. `render_list_id` identifies the
+  // render list.
   void Draw(const RenderList& render_list, std::uint64_t render_list_id,
             const geometry::Vector3& to_sun, const std::vector<CameraView>& views);
 
   const ShadowRegion& region() const { return region_; }
 
-  // The share of the sun that reaches points of the map, from its corner and in its sides; z grows
-  // towards the sun. Outside the map everything is in the sun.
+  // The fraction of sunlight at points of the map, in units of its sides from its corner; z grows
+  // towards the sun. Outside the map it is 1.
   F8 Visible(const F8x3& point) const;
 
  private:
@@ -34,8 +35,7 @@ class SunShadow {
   };
 
   void CopyStill(const ShadowRegion::Rectangle& part);
-  // Of robots only the sides in the sun are drawn, with fewer triangles: enough for what has an
-  // inside.
+  // For robots only front faces and coarser levels are drawn, which suffices for closed meshes.
   void DrawCasters(const RenderList& render_list, const std::vector<std::size_t>& casters,
                    std::vector<float>& map);
   void DrawCaster(const raster::Drawn& caster, const float (&depth_row)[4], bool both_sides,
@@ -45,7 +45,7 @@ class SunShadow {
   std::vector<float> still_,
       moving_;  // kStride a row, with an edge of one texel that hides nothing
   ShadowRegion region_;
-  Drawn drawn_;                                 // what still_ holds
+  Drawn drawn_;                                 // content of still_
   std::vector<ShadowRegion::Rectangle> moved_;  // where moving_ differs from still_
   Rasteriser rasteriser_;
 };

@@ -1,4 +1,4 @@
-// A triangle as the rasteriser scans it: one plane for each corner over the pixels of the image.
+// A triangle for the rasteriser: one plane per corner over the pixels of the image.
 //
 // Units  pixels.
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace gsv::rendering::raster {
 
-// q_i = c[i] + a[i] (x - x0) + b[i] (y - y0) at the middle of pixel (x, y).
+// q_i = c[i] + a[i] (x - x0) + b[i] (y - y0) at the centre of pixel (x, y).
 struct Triangle {
   float a[3], b[3], c[3];
   float x0, y0;

@@ -1,11 +1,11 @@
-// Anti-aliasing of finished pictures: what four samples a pixel would show along the edges of
-// things, at a small part of their price where a processor draws.
+// Antialiasing of finished images: comparable to four samples per pixel at edges, at a small part
+// of the cost on a processor.
 //
-// Every pixel comes with the number of the surface it shows. Where the numbers of neighbours differ
-// there is an edge, and from the steps it makes along rows and columns follows the line it stands
-// for and how much of each pixel lies on the line's other side (morphological anti-aliasing,
-// Reshetov 2009, by surfaces instead of colours, so that textures and shadows stay sharp). Corners
-// stay corners: only steps of one pixel count as those of a line.
+// Every pixel has the number of its surface. An edge is a border between pixels with different
+// numbers. The steps of an edge along rows and columns determine its line, and so the fraction of
+// each pixel beyond the line (morphological antialiasing, Reshetov 2009, with surfaces instead of
+// colours, so that textures and shadows stay sharp). Only steps of one pixel count as those of a
+// line, so that corners stay corners.
 #pragma once
 
 #include <cstdint>

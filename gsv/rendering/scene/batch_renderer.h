@@ -1,4 +1,4 @@
-// How a batch of pictures is drawn, and what is kept for the next: one kind for each back end.
+// Renders a batch of images and caches data for the next; the interface of back ends.
 //
 // Threads  the render thread only.
 #pragma once
@@ -20,22 +20,22 @@ class BatchRenderer {
  public:
   virtual ~BatchRenderer() = default;
 
-  // pictures[i] is views[i]'s. Fails when the back end does, which is most often out of memory.
+  // Image i is that of views[i]. Fails if the back end fails, usually for lack of memory.
   virtual base::Result<std::vector<std::shared_ptr<const model::Image>>> Draw(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
 
-  // truths[i] is views[i]'s. Fails where nothing can draw them.
+  // Element i is that of views[i]. Fails if no rasteriser is available.
   virtual base::Result<std::vector<std::shared_ptr<const GroundTruth>>> DrawGroundTruth(
       const world::Snapshot& snapshot, const std::vector<CameraView>& views) = 0;
 
-  // Forgets what belongs to layouts, meshes and pictures that are gone.
+  // Removes data of destroyed layouts, meshes and images.
   virtual void Sweep();
   DrawCopies Count() const;
 
  protected:
   struct PlannedLayout {
     std::weak_ptr<const world::Layout> layout;
-    std::uint64_t id = 0;  // tells plans apart
+    std::uint64_t id = 0;  // identifies the render list
     std::unique_ptr<RenderList> render_list;
     std::unique_ptr<Lighting> lighting;
   };

@@ -4,7 +4,7 @@
 
 namespace gsv::rendering {
 
-// What is kept of models.
+// The number of cached objects.
 struct DrawCopies {
   std::size_t meshes = 0;
   std::size_t textures = 0;

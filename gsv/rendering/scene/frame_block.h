@@ -1,4 +1,4 @@
-// What the shaders know of a picture as a whole: the camera, the lights, the sky.
+// The shader parameters of an image: camera, lights and sky.
 //
 // Frame   world axes with the origin at the camera, so that single precision is enough anywhere.
 // Layout  std140; the same block stands in shaders.cc.
@@ -30,7 +30,7 @@ struct FrameBlock {
   Float4 sun_colour;
   Float4 ambient_above, ambient_below;
   Float4 zenith, horizon, nadir;
-  Float4 view_forward, view_right, view_down;  // to the middle and the edges of the picture
+  Float4 view_forward, view_right, view_down;  // to the centre and the edges of the image
   std::array<std::int32_t, 4> light_count;
   std::array<LightBlock, kMaxLights> lights;
 };
@@ -43,10 +43,10 @@ class Lighting {
   const geometry::Vector3& to_sun() const { return to_sun_; }
   bool sun_casts_shadows() const { return shadows_; }
 
-  // Takes the lamps of robots that are on, in place of those of an earlier instant.
+  // Replaces the lamps of robots by those that are on now.
   void TakeLamps(const world::Snapshot& snapshot);
 
-  // All but the shadow's part.
+  // The block without the shadow.
   FrameBlock BlockFor(const CameraView& view) const;
 
  private:
@@ -60,8 +60,8 @@ class Lighting {
   geometry::Vector3 to_sun_{0.5, -0.1, 0.9};
   std::array<double, 3> sun_colour_{};
   bool shadows_ = true;
-  std::vector<Lamp> lamps_;         // the world's own, then robots'
-  std::size_t own_lamp_count_ = 0;  // of these
+  std::vector<Lamp> lamps_;         // of the world, then of robots
+  std::size_t own_lamp_count_ = 0;  // number of the world's lamps
   Float4 ambient_above_, ambient_below_, zenith_, horizon_, nadir_;
 };
 

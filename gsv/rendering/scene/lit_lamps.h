@@ -1,4 +1,4 @@
-// The lamps of robots that are on: each glows, and may light what is about it.
+// The lamps of robots that are on.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct LitLamp {
 // By robot, then lamp.
 std::vector<LitLamp> LitLamps(const world::Snapshot& snapshot);
 
-// What it lights its surroundings with.
+// The light of a lamp.
 model::Light LightOf(const LitLamp& lit, const world::Snapshot& snapshot);
 
 }  // namespace gsv::rendering

@@ -1,5 +1,5 @@
-// Cuts a mesh into pieces of neighbouring triangles of one material, so that of a building only
-// what a camera sees is drawn, however its authors grouped it.
+// Cuts a mesh into chunks of neighbouring triangles with one material, so that only the visible
+// parts of a building are drawn.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Triangle meshes as a back end draws them, shared by all who draw them.
+// A cache of a back end's triangle meshes.
 //
 // Threads  the render thread only.
 #pragma once
@@ -16,8 +16,8 @@ namespace gsv::rendering {
 
 inline constexpr int kVertexFloats = 9;
 
-// `vertices` holds, for each vertex, position and normal (3 floats each) and texture coordinates
-// (2 floats, (0, 0) at the picture's upper left corner) and the number of its surface (a float);
+// `vertices` holds, for each vertex, position and normal (3 floats each) and texture coordinates (2
+// floats, (0, 0) at the image's upper left corner) and the number of its surface (a float);
 // `indices` holds triangles, chunk after chunk.
 struct MeshArrays {
   std::vector<float> vertices;
@@ -25,20 +25,20 @@ struct MeshArrays {
   std::vector<MeshChunk> chunks;
 };
 
-// A mesh as a back end keeps it; each has its own kind.
+// A mesh of a back end, which derives its own class.
 struct DrawMesh {
   virtual ~DrawMesh() = default;
   std::vector<MeshChunk> chunks;
 };
 
-// A shape as a mesh and the stretch that makes it the shape's size: all boxes share one mesh.
+// A shape as a mesh with a scale, so that all boxes share one mesh.
 struct DrawShape {
   std::shared_ptr<const DrawMesh> mesh;
   geometry::Vector3 scale{1, 1, 1};
 };
 
-// Keeps what was made as long as somebody uses it: a file's mesh while its TriangleMesh lives,
-// everything else while a DrawShape does.
+// Keeps a file's mesh during the lifetime of its TriangleMesh, and other meshes during the lifetime
+// of a DrawShape.
 class MeshStore {
  public:
   using Make = std::function<std::shared_ptr<const DrawMesh>(MeshArrays)>;
@@ -46,7 +46,7 @@ class MeshStore {
 
   DrawShape Find(const geometry::Shape& shape);
 
-  // Forgets the meshes whose TriangleMesh is gone.
+  // Removes meshes whose TriangleMesh was destroyed.
   void Sweep();
   std::size_t size() const;
 

@@ -1,8 +1,7 @@
-// What there is to draw in a layout: one item for each piece of each visual, gathered into groups
-// that are drawn by one call.
+// The render list of a layout: one item per piece of each visual, in groups of one draw call.
 //
-// A plan is made once for a layout and posed for each snapshot. It keeps no model alive, only what
-// the back end made of it.
+// A list is made once per layout and posed for each snapshot. It keeps no model alive, only the
+// back end's data.
 // Threads  the render thread only.
 #pragma once
 
@@ -19,7 +18,7 @@ namespace gsv::rendering {
 
 enum class Blending { kOpaque, kAlphaMask, kTransparent };
 
-// What the items of one draw call have in common.
+// The common data of the items of one draw call.
 struct DrawGroup {
   std::shared_ptr<const DrawMesh> mesh;
   std::uint32_t chunk = 0;  // of the mesh
@@ -29,35 +28,34 @@ struct DrawGroup {
   Blending blending = Blending::kOpaque;
   bool mirrored = false;
   bool double_sided = false;
-  bool ground = false;  // a plane: gives way to what lies on it
+  bool ground = false;  // a plane: drawn behind coplanar surfaces
 };
 
-// Linear colours, as the shader takes them.
+// Linear colours for the shader.
 struct SurfaceFactors {
   std::array<float, 4> base_colour;
   std::array<float, 4> emissive_metalness;
   float roughness;
-  float surface;  // tells surfaces of different visuals apart, for the edges between them
+  float surface;  // identifies the visual, for antialiasing of edges
 };
 
 struct DrawItem {
   int group = 0;
   int body = 0;
   int link = 0;
-  int visual = 0;  // among the body's, counted through its links
+  int visual = 0;  // index among the body's visuals, in the order of links
   geometry::Pose link_from_visual;
   geometry::Vector3 scale;
   geometry::Vector3 centre_in_visual;
-  double radius = 0;  // of the sphere about the centre that holds the item
+  double radius = 0;  // of the bounding sphere about the centre
   SurfaceFactors factors;
   bool casts_shadow = false;
-  bool of_robot = false;  // or of an avatar: made to move
+  bool of_robot = false;  // or of an avatar
 };
 
 // An item in the world.
 struct PlacedItem {
-  // Columns of the turn and stretch that take the mesh to the world's axes, and where its origin
-  // is.
+  // Columns of the rotation and scale from the mesh to the world's axes, and the origin.
   std::array<geometry::Vector3, 3> columns;
   geometry::Vector3 origin;
   geometry::Vector3 centre;
@@ -65,23 +63,22 @@ struct PlacedItem {
 
 class RenderList {
  public:
-  // The stores outlive the plan.
+  // The stores must outlive the list.
   RenderList(const world::Layout& layout, MeshStore& meshes, TextureStore& textures);
 
-  // Whether lamps that are on are among the items: light has no depth and is nothing to be found.
+  // Whether the glow of lamps is among the items; it is not in depth and label images.
   enum class Glow { kShown, kHidden };
 
-  // Moves every item to where `snapshot`, of this plan's layout, has it.
+  // Poses every item as in `snapshot`, which has this list's layout.
   void Pose(const world::Snapshot& snapshot, Glow glow = Glow::kShown);
 
   const std::vector<DrawGroup>& groups() const { return groups_; }
   const std::vector<DrawItem>& items() const { return items_; }
   const std::vector<PlacedItem>& placed() const { return placed_; }  // as items()
 
-  // Whether a body is where the first snapshot had it, as buildings and furniture are that nobody
-  // has pushed; robots and avatars never count as still.
+  // Whether a body has its pose of the first snapshot. Robots and avatars are never still.
   bool IsStill(int body) const { return !bodies_[body].moved; }
-  // Grows with each body that moves for the first time.
+  // The number of bodies that have moved.
   int moved_count() const { return moved_count_; }
 
  private:
@@ -89,7 +86,7 @@ class RenderList {
   void MakeGlow();
   void AddGlow(const LitLamp& lit, const geometry::Pose& world_from_link);
 
-  // What a body's links depend on, to see whether it moved.
+  // The pose and joints of a body, to detect motion.
   struct BodyPose {
     bool posed = false;
     bool moved = false;
@@ -101,7 +98,7 @@ class RenderList {
   MeshStore& meshes_;
   TextureStore& textures_;
   std::vector<DrawGroup> groups_;
-  std::vector<DrawItem> items_;  // by body, then the lamps that are on
+  std::vector<DrawItem> items_;  // by body, then lamps that are on
   std::size_t body_item_count_ = 0;
   std::vector<DrawItem> glow_;  // of a lamp with a radius of 1 m; empty until one is on
   std::vector<PlacedItem> placed_;

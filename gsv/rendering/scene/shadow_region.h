@@ -1,6 +1,6 @@
-// Where a shadow map lies and what is drawn into it: a box along the sun's direction that holds all
-// that casts shadows. Its edges are rounded, so that they stay where they are while robots drive
-// about and shadows do not shimmer.
+// The region of a shadow map and its casters: a box along the direction of the sun that contains
+// all casters. Its edges are rounded, so that they stay fixed while robots move and shadows do not
+// flicker.
 #pragma once
 
 #include <vector>
@@ -14,32 +14,32 @@ inline constexpr int kShadowSide = 2048;  // texels
 
 class ShadowRegion {
  public:
-  // Nothing casts shadows.
+  // An empty region, without casters.
   ShadowRegion() = default;
-  // Around all of a posed plan that casts shadows.
+  // The region around all casters of a posed render list.
   ShadowRegion(const RenderList& render_list, const geometry::Vector3& to_sun);
 
   bool IsEmpty() const { return !(min_.x < max_.x); }
   double TexelSize() const;  // the longer side, m
 
-  // Whether some shadow may fall on a thing in this sphere; where none does, its lookup is saved.
+  // Whether a shadow may fall into this sphere; otherwise shadow lookups are skipped.
   bool MayFallOn(const geometry::Vector3& centre, double radius) const;
 
-  // Indices of the still items that cast shadows.
+  // The indices of still casters.
   static std::vector<std::size_t> StillCasters(const RenderList& render_list);
-  // Of the items that move and cast shadows, those whose shadow one of the cameras may see.
+  // The indices of moving casters whose shadow a camera may see.
   std::vector<std::size_t> MovingCasters(const RenderList& render_list,
                                          const std::vector<CameraView>& views) const;
 
   struct Rectangle {  // texels, [min, max)
     int min_x, min_y, max_x, max_y;
   };
-  // Around each body of some items; everything when that is cheaper.
+  // The parts of the map around the bodies of some items, or the whole map if that is cheaper.
   std::vector<Rectangle> PartsOf(const RenderList& render_list,
                                  const std::vector<std::size_t>& items) const;
 
-  // Fills in the shadow's part of the block for a camera at `origin`: the map holds [0, 1], depth
-  // grows towards the sun.
+  // Fills in the shadow parameters of the block for a camera at `origin`. The map has depths in [0,
+  // 1], which grow towards the sun.
   void Describe(const geometry::Vector3& origin, FrameBlock& block) const;
 
   friend bool operator==(const ShadowRegion&, const ShadowRegion&) = default;

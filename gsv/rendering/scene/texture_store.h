@@ -1,4 +1,4 @@
-// Textures as a back end samples them, shared by all materials that use the same picture.
+// A cache of a back end's textures, shared by materials with the same image.
 //
 // Threads  the render thread only.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace gsv::rendering {
 
-// A texture as a back end keeps it; each has its own kind. As its picture is encoded: whoever
-// samples colours decodes them.
+// A texture of a back end, which derives its own class. Texels are encoded as in the image; shaders
+// decode colours.
 struct DrawTexture {
   virtual ~DrawTexture() = default;
   bool is_transparent = false;  // some pixel's alpha is below 1
@@ -20,14 +20,14 @@ struct DrawTexture {
 
 class TextureStore {
  public:
-  // Is given usable pictures of at most `largest_side` pixels.
+  // Makes a texture of a valid image of at most `largest_side` pixels.
   using Make = std::function<std::shared_ptr<DrawTexture>(const model::Image&)>;
   TextureStore(Make make, int largest_side) : make_(std::move(make)), largest_(largest_side) {}
 
-  // Null for a null or unusable picture: its material then has no such map.
+  // Null for a null or invalid image; the material then has no such map.
   std::shared_ptr<const DrawTexture> Find(const std::shared_ptr<const model::Image>& image);
 
-  // Forgets the textures whose picture is gone.
+  // Removes textures whose image was destroyed.
   void Sweep();
   std::size_t size() const { return entries_.size(); }
 

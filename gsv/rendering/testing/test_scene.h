@@ -1,4 +1,4 @@
-// Small worlds for the renderer's tests.
+// Small worlds for tests of renderers.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ class TestScene {
     bodies_.push_back(std::move(body));
   }
 
-  // The only link of a body, to add to.
+  // The only link of a body, for further visuals.
   model::Link& LinkOf(const std::string& name) {
     for (auto& [body, model] : models_) {
       if (body == name) return model->links[0];
@@ -62,7 +62,7 @@ class TestScene {
   std::uint32_t version_ = 0;
 };
 
-// Shines by itself, whatever the light.
+// An emissive material.
 inline model::Material Glowing(double r, double g, double b) {
   model::Material material;
   material.base_colour = {0, 0, 0, 1};
@@ -77,7 +77,7 @@ inline model::Material Matt(double r, double g, double b, double a = 1) {
   return material;
 }
 
-// The centre of the pixels that are clearly of one colour, and how many there are.
+// The centre and number of the pixels of one colour.
 struct Blob {
   double u = 0, v = 0;
   int pixels = 0;

@@ -1,12 +1,12 @@
-// The types of sensors and actuators that come with GSV, cameras apart: those need a renderer, see
-// gsv/rendering/cameras.
+// The sensor and actuator types of GSV except cameras, which need a renderer
+// (gsv/rendering/cameras).
 #pragma once
 
 #include "gsv/sensing/registry.h"
 
 namespace gsv::sensing {
 
-// `registry` must have none of their names yet.
+// `registry` must not have any of their names.
 void AddBuiltInSensors(SensorRegistry& registry);
 
 }  // namespace gsv::sensing

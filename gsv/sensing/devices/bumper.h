@@ -1,14 +1,14 @@
-// The sensor type "contact" (also "bumper"): where the robot touches something.
+// The sensor type "contact" (also "bumper"): the contacts of the robot.
 //
 // Frame       sensor frame; the bumper spans the bearings within half of field_of_view of its x
 //             axis.
-// Parameters  field_of_view (rad, 2 pi: all around), ground (false: what it stands on is left out,
-//             that is contacts whose normal points down within 45 degrees), collision (the names
-//             of the collisions that feel, one a line; default: all of the robot; see
-//             gsv/model/collision_names.h. A name that no collision has feels nothing).
-// Readings    for each contact seven values {point x, y, z (m), normal x, y, z, from the robot to
-//             what it touches, depth (m)}, and the label of what it touches; nothing where nothing
-//             touches. As a message: gsv_msgs/Bumper.
+// Parameters  field_of_view (rad, 2 pi: all around), ground (false: leaves out what the robot
+//             stands on, that is contacts whose normal points down within 45 degrees), collision
+//             (the names of the collisions that sense contacts, one per line; default: all of the
+//             robot; see gsv/model/collision_names.h. An unknown name senses nothing).
+// Readings    for each contact eight values {point x, y, z (m), normal x, y, z from the robot to
+//             the other body, depth (m), closing speed (m/s)}, and the name of the other body as
+//             label. As a message: gsv_msgs/Bumper.
 #pragma once
 
 #include "gsv/sensing/registry.h"

@@ -1,11 +1,11 @@
-// Places on the earth for places in a world.
+// Positions on the earth for positions in a world.
 //
 // Model    the world's z points up at its origin; its x and y lie in the plane that touches the
 //          ellipsoid (WGS84) there.
 // Sources  National Imagery and Mapping Agency, TR8350.2, "Department of Defense World Geodetic
 //          System 1984", chapter 3, for the ellipsoid; B. R. Bowring, "Transformation from spatial
-//          to geographical coordinates", Survey Review 23 (1976), for the way back, iterated until
-//          it stands (below 1e-9 m within 1,000 km of the ground).
+//          to geographical coordinates", Survey Review 23 (1976), for the inverse, iterated until
+//          it converges (below 1e-9 m within 1,000 km of the ground).
 #pragma once
 
 #include "gsv/geometry/vector3.h"
@@ -22,7 +22,7 @@ struct GeodeticPlace {
 geometry::Vector3 EcefOf(const GeodeticPlace& place);
 GeodeticPlace PlaceOf(const geometry::Vector3& point_in_ecef);
 
-// A vector in the world's axes, as east, north and up at its origin.
+// Converts a vector in the world's axes to east, north and up at its origin.
 geometry::Vector3 EastNorthUp(const model::GeodeticOrigin& origin,
                               const geometry::Vector3& vector_in_world);
 GeodeticPlace PlaceOf(const model::GeodeticOrigin& origin, const geometry::Vector3& point_in_world);

@@ -1,15 +1,15 @@
-// A gripper: two jaws that close on what is between them, and hold it.
+// A gripper: two fingers that close on a body between them and attach it.
 //
-// Frame       x along the jaws, from where they begin; y across, the way that they move.
-// Told        1: to open, 0: to close. It is open at first. What stands between the jaws as they
-//             close is held, once they are as near to each other as it is wide, until they open: a
-//             body that is neither fixed, robot nor avatar, and narrower than the jaws when open.
-// Reading     how far it is open (m), 1 if it was told to open or 0. Label: what it holds, or
+// Frame       x along the fingers, from their base; y across, the direction in which they move.
+// Told        1: open, 0: close. It is open at first. A body between the closing fingers is
+//             attached when they are as close as it is wide, until they open. The body must not be
+//             static, a robot or an avatar, and must be narrower than the opening.
+// Reading     the opening (m), and 1 or 0 as commanded. Label: the name of the attached body, or
 //             empty.
-// Parameters  opening (0.1 m, between the open jaws), reach (0.08 m, the jaws' length), height
-//             (0.03 m), closing_time (0.5 s), left_jaw and right_jaw (prismatic joints that show
-//             the jaws: zero where they are open, then the way that each has come; of robots that
-//             no forces move).
+// Parameters  opening (0.1 m, between the open fingers), reach (0.08 m, length of the fingers),
+//             height (0.03 m), closing_time (0.5 s), left_jaw and right_jaw (prismatic joints that
+//             show the fingers: zero if open, else the distance that each has moved; for robots
+//             with planar kinematics only).
 // Message     gsv_msgs/Gripper
 #pragma once
 

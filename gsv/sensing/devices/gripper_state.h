@@ -1,9 +1,9 @@
-// A gripper that follows a command: where its jaws are, and what they hold.
+// The state of a gripper that follows a command: its fingers and its attachment.
 //
-// Held         a held body collides as a part of the robot that holds it; it weighs nothing then,
-//              and nothing else moves it.
-// Determinism  grippers act in the order of their robots' names: of two that close on one body the
-//              first gets it.
+// Held         an attached body collides as a part of the robot that holds it, has no weight, and
+//              is not moved by anything else.
+// Determinism  grippers are stepped in the order of their robots' names: if two close on one body,
+//              the first attaches it.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@
 
 namespace gsv::sensing {
 
-// A gripper's jaws lie along its x axis and close along y.
+// A gripper's fingers lie along its x axis and close along y.
 struct GripperSetup {
-  double opening = 0.1;                // m, between the open jaws
-  double reach = 0.08, height = 0.03;  // m, of the jaws
+  double opening = 0.1;                // m, between the open fingers
+  double reach = 0.08, height = 0.03;  // m, of the fingers
   double closing_time = 0.5;           // s
-  std::string left_jaw, right_jaw;     // joints that show them; empty: none
+  std::string left_jaw, right_jaw;     // joints that show the fingers; empty: none
 };
 using GripperSetupPtr = std::shared_ptr<const GripperSetup>;
 
@@ -28,15 +28,15 @@ class GripperState final : public world::ActuatorState {
  public:
   struct Hold {
     world::Grasp grasp;
-    double width = 0;  // m, of what is held
+    double width = 0;  // m, of the attached body
   };
 
-  // `opening_before`: m between the jaws at `followed.since`.
+  // `opening_before`: m between the fingers at `followed.since`.
   GripperState(world::DeviceMount mount, world::FollowedCommand followed, GripperSetupPtr setup,
                double opening_before, std::optional<Hold> hold = std::nullopt);
 
-  // What becomes of a gripper in the state `before` (null: it has followed no command yet): jaws
-  // continue from where they are, and hold what they hold until they open.
+  // The state of a gripper that was in the state `before` (null: no command yet): fingers continue
+  // from their opening, and keep an attachment until they open.
   static std::shared_ptr<const GripperState> After(const world::DeviceState* before,
                                                    world::DeviceMount mount,
                                                    world::FollowedCommand followed,
@@ -44,17 +44,17 @@ class GripperState final : public world::ActuatorState {
 
   // The command is {1} to open, {0} to close.
   bool opens() const;
-  double OpeningAt(base::SimTime now) const;  // m, between its jaws
+  double OpeningAt(base::SimTime now) const;  // m, between its fingers
   const world::Grasp* grasp() const override { return hold_ ? &hold_->grasp : nullptr; }
 
-  // Jaws that close in this step take hold of what is between them.
+  // Attaches the body between fingers that close in this step.
   world::DeviceStatePtr BeforeStep(world::DeviceStep& step) const override;
-  // Releases a body that is not in the layout any more, or that was placed elsewhere.
+  // Releases a body that was removed or placed.
   world::DeviceStatePtr CarryOver(const world::Layout& layout,
                                   const std::vector<std::string>& placed,
                                   base::SimTime now) const override;
-  // Puts what is held where the gripper is, moving as it does, and the jaws of robots that no
-  // forces move where they are.
+  // Sets pose and velocity of the attached body, and the finger joints of robots with planar
+  // kinematics.
   void AfterMove(const world::Layout& layout, base::SimTime time,
                  world::State& state) const override;
 

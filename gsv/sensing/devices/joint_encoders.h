@@ -1,7 +1,7 @@
 // The sensor type "joint_encoders" (also "joint_state"): positions and velocities of joints.
 //
-// Parameters  joint (the name of one; without it all that move), counts_per_turn (0: as fine as can
-//             be; positions are rounded down to 2 pi over this), position.noise (rad or m) and
+// Parameters  joint (the name of one joint; default: all movable joints), counts_per_turn (0:
+//             exact; positions are rounded down to 2 pi over this), position.noise (rad or m) and
 //             velocity.noise (rad/s or m/s), see noise.h.
 // Readings    for each joint, in the order of the model, the values {position, velocity} and the
 //             label of its name. As a message: sensor_msgs/JointState.

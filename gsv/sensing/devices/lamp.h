@@ -1,10 +1,10 @@
-// A lamp or LED: glows, and may light what is about it.
+// A lamp or LED: it glows, and may light its surroundings.
 //
 // Told        brightness in [0, 1] (0: off), then red, green and blue in [0, 1] of its colour.
 // Reading     the same.
-// Parameters  colour ("1 1 1"), brightness (0: at the start), radius (0.02 m, of the ball that
-//             glows), range (0 m: lights nothing), angle (6.2832 rad: all around, else a cone about
-//             its x axis), intensity (1: full brightness lights white to full white 1 m away).
+// Parameters  colour ("1 1 1"), brightness (0; at the start), radius (0.02 m, of the glowing
+//             sphere), range (0 m: lights nothing), angle (6.2832 rad: all around, else a cone
+//             about its x axis), intensity (1: at full brightness, white at 1 m is fully white).
 // Message     gsv_msgs/Lamp
 #pragma once
 

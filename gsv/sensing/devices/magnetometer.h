@@ -1,4 +1,4 @@
-// The sensor type "magnetometer": the earth's field, which the world's file sets
+// The sensor type "magnetometer": the earth's magnetic field, from the world file
 // (<magnetic_field>).
 //
 // Frame       sensor frame.

@@ -1,4 +1,4 @@
-// A positioning system: where the sensor is in the world.
+// A positioning system: the pose of the sensor in the world.
 //
 // Reading     values = {x, y, z, roll, pitch, yaw} of the sensor's frame in the world; metres,
 //             radians (roll and yaw in (-pi, pi], pitch in [-pi/2, pi/2]).

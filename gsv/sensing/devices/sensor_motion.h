@@ -1,9 +1,9 @@
-// How a sensor moves through the world.
+// The motion of a sensor in the world.
 //
 // Frames  world axes.
 // Exactness  velocities are those of the state, joints included. The acceleration is the body's
-//            mean over the last step, carried to the sensor's place with the centripetal terms of
-//            body and joints; how joints speed up is not felt.
+//            mean over the last step, carried to the sensor's position with the centripetal terms
+//            of body and joints. The acceleration of joints is left out.
 #pragma once
 
 #include "gsv/sensing/sensor.h"

@@ -1,4 +1,4 @@
-// A speaker: plays a sound for a while.
+// A speaker: plays a sound for a given time.
 //
 // Told        frequency (20 to 20,000 Hz), duration (0 to 3600 s), volume in [0, 1]; the word names
 //             the sound: tone, buzz, chirp or noise. A duration of 0 is silence.

@@ -1,9 +1,9 @@
-// A tree of boxes (Embree's) that finds all boxes a ray passes through.
+// A bounding volume hierarchy (BVH, Embree's) that finds all boxes on a ray.
 //
-// Boxes are given in double precision, rounded outwards and padded; the caller decides what the ray
-// really meets in each. No box that the ray passes through within its current length is left out,
-// as long as the ray starts within ten times the extent of the boxes (single precision then errs by
-// less than the padding of 2e-6 of that extent).
+// Boxes are given in double precision, rounded outwards and padded; the caller computes the
+// intersection in each. No box on the ray within its current length is left out, if the ray starts
+// within ten times the extent of the boxes. Single precision then errs by less than the padding of
+// 2e-6 of that extent.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -30,8 +30,8 @@ class BoundingVolumeTree {
   class Visitor {
    public:
     virtual ~Visitor() = default;
-    // The ray may meet what is in the box. Returns the length that the ray needs to be followed to
-    // from now on: at most what it was.
+    // The ray may meet the content of the box. Returns the new length of the ray, at most the
+    // current one.
     virtual double Visit(std::uint32_t box) = 0;
   };
   void Cast(const Ray& ray, Visitor& visitor) const;

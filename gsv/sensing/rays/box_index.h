@@ -1,8 +1,8 @@
-// Boxes, arranged so that those near a ray are found quickly: a handful one by one, those that
-// stand side by side in a grid of columns, others in a tree.
+// A broad phase for rays: a list for few boxes, a grid of columns for boxes that lie side by side,
+// a bounding volume hierarchy (BVH) for others.
 //
-// Exactness  no box that a ray passes through within its length is left out, by the limits that
-//            ColumnGrid and BoundingVolumeTree state.
+// Exactness  no box that a ray passes through within its length is left out, within the limits of
+//            ColumnGrid and BoundingVolumeTree.
 // Threads    const members may run concurrently.
 #pragma once
 
@@ -37,8 +37,8 @@ class BoxIndex {
     }
   }
 
-  // Adds to `found`, once, every box that comes within `reach` of the place, and some others.
-  // False, and not all are added, if there is no room or no quick way to find them.
+  // Adds to `found`, once, every box within `reach` of the place, and possibly others. False if
+  // there is no room or no fast way; then not all are added.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     if (kind_ == Kind::kGrid) return grid_.Near(place, reach, found);
     if (kind_ == Kind::kTree || found.count + count_ > FoundBoxes::kMax) return false;

@@ -1,7 +1,7 @@
-// The solids near one place, gathered once for many rays from there.
+// The candidate set of solids near one point, gathered once for many rays from there.
 //
-// Exactness  they are told apart by balls in single precision, grown by more than it errs, so that
-//            none that a ray touches is left out.
+// Exactness  candidates are culled by bounding spheres in single precision, enlarged by more than
+//            its error, so that no solid on a ray is left out.
 // Threads    const members may run concurrently.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace gsv::sensing {
 
-// A ball around something.
+// A bounding sphere.
 struct BoundingSphere {
   geometry::Vector3 centre;
   double radius = 0;
@@ -25,16 +25,16 @@ struct BoundingSphere {
 
 class CandidateSet {
  public:
-  // More than so many are not worth to be gone through for every ray.
+  // Larger sets are slower than the broad phase.
   static constexpr std::size_t kMax = 64;
 
-  // Empties it, for what is within `reach` of `place`.
+  // Clears the set, for solids within `reach` of `place`.
   void Begin(const geometry::Vector3& place, double reach);
 
   const geometry::Vector3& place() const { return place_; }
   double reach() const { return reach_; }
 
-  // A solid that is within a ball, unless it `counts` not; `number` is the scene's.
+  // Adds a solid with its bounding sphere if `counts`; `number` is the scene's.
   void Add(const BoundingSphere& ball, std::uint32_t number, bool counts) {
     if (count_ == kMax) {
       is_overfull_ = is_overfull_ || counts;
@@ -48,14 +48,14 @@ class CandidateSet {
     z_[count_] = static_cast<float>(centre.z);
     squared_radius_[count_] = static_cast<float>(grown * grown);
     numbers_[count_] = number;
-    // Which of them count is hard to foresee: no branch.
+    // Branch-free, as `counts` is unpredictable.
     count_ += counts;
   }
 
-  // After the last was added: false if there were too many.
+  // Ends the gathering; false if there were too many solids.
   bool Finish();
 
-  // Whether all that the ray may meet was gathered.
+  // Whether the set contains all solids that the ray may meet.
   bool Hold(const Ray& ray) const { return Norm(ray.origin - place_) + ray.max_distance <= reach_; }
 
   // Calls visit(number) for every solid that the ray may touch within `length`, which `visit` may
@@ -88,7 +88,7 @@ class CandidateSet {
 
   geometry::Vector3 place_;
   double reach_ = -1;
-  std::size_t count_ = 0;  // after them up to three that no ray touches
+  std::size_t count_ = 0;  // followed by up to three that no ray touches
   bool is_overfull_ = false;
   // Centres from place_.
   alignas(16) std::array<float, kMax + 4> x_, y_, z_, squared_radius_;

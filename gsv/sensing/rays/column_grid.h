@@ -1,11 +1,9 @@
-// Boxes sorted into the columns of a uniform grid over the ground, to find those near a ray.
+// A uniform grid of columns over the ground, which finds the boxes near a ray.
 //
-// The grid is quick where boxes stand side by side, as a crowd and its obstacles do; see
-// crowding().
+// The grid is fast if boxes lie side by side, as robots and obstacles do; see occupancy().
 //
-// Exactness    a box is listed in every column that it comes within kMargin of, so that a ray that
-//              rounding takes to the wrong side of a border still meets it, as long as coordinates
-//              stay below kMaxCoordinate.
+// Exactness    a box is listed in every column within kMargin, so that a ray that rounding takes to
+//              the wrong side of a border still meets it, if coordinates are below kMaxCoordinate.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -23,7 +21,7 @@
 
 namespace gsv::sensing {
 
-// Numbers of boxes, found near a place.
+// The numbers of the boxes near a place.
 struct FoundBoxes {
   static constexpr std::size_t kMax = 256;
   std::array<std::uint32_t, kMax> boxes;
@@ -35,10 +33,10 @@ class ColumnGrid {
   static constexpr double kMargin = 1e-6;        // m
   static constexpr double kMaxCoordinate = 1e5;  // m
 
-  // Sorts the boxes in, in place of those before. All lie within ±kMaxCoordinate in x and y.
+  // Replaces all boxes. They must lie within ±kMaxCoordinate in x and y.
   void Build(std::span<const geometry::Bounds> boxes);
 
-  // How many boxes share a column, as a box sees it on average.
+  // The number of boxes in a column, averaged over boxes.
   double occupancy() const { return occupancy_; }
 
   // Calls visit(box) for every box that the ray may pass through within `length`, which `visit` may
@@ -68,12 +66,12 @@ class ColumnGrid {
     }
   }
 
-  // Adds to `found`, once, every box that comes within `reach` of the place, and some others.
-  // False, and not all are added, if there is no room for that.
+  // Adds to `found`, once, every box within `reach` of the place, and possibly others. False if
+  // there is no room; then not all are added.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const;
 
  private:
-  // An entry is a box's number and whether it is the one in the box's first column and first row.
+  // An entry has a box's number and whether it is in the box's first column and first row.
   static constexpr std::uint32_t kFirstColumn = 1u << 31, kFirstRow = 1u << 30;
   static constexpr std::uint32_t kBox = kFirstRow - 1;
 
@@ -84,7 +82,7 @@ class ColumnGrid {
   // The column (row) of a coordinate, counted from the ring.
   int IndexOf(double from_low) const { return static_cast<int>(from_low * per_metre_ + 1); }
   void Divide(double cell, double width, double depth);
-  // Counts the boxes of each column; false if there are more than `most` altogether.
+  // Counts the boxes of each column; false if the total exceeds `most`.
   bool Count(std::span<const geometry::Bounds> boxes, std::size_t most);
 
   double low_x_ = 0, low_y_ = 0;

@@ -1,7 +1,7 @@
-// The rays of a scanner's row: from one place, at even azimuths.
+// The rays of one row of a scanner: from one point, at even azimuths.
 //
-// Exactness  none that touches a solid is left out of the sector that the solid shades; what a ray
-//            really meets is for others to find.
+// Exactness  the sector of a solid contains every ray that touches it; callers compute the
+//            intersections.
 #pragma once
 
 #include <algorithm>
@@ -25,18 +25,18 @@ struct Fan {
   std::span<const geometry::Vector3> directions;  // of the rays, in the fan's frame, unit length
 };
 
-// What a solid may hide of a fan: azimuths between `from` and `to`, or all of them.
+// The part of a fan that a solid may occlude: azimuths between `from` and `to`, or all.
 struct Sector {
-  double nearest = 0;  // m from the fan's origin to the solid's box: nothing of it is nearer
+  double nearest = 0;  // m from the fan's origin to the solid's box
   double from = 0, to = 0;
   bool is_all = false;
 };
 
-// Of what lies within `box`, in a frame of its own. Nothing if no ray comes near.
+// The sector of a box in its own frame; nothing if no ray comes near.
 std::optional<Sector> SectorOf(const Fan& fan, const geometry::Pose& box_from_fan,
                                const geometry::Bounds& box);
 
-// Calls visit(ray) for the rays in a sector; for each once.
+// Calls visit(ray) once for each ray in a sector.
 template <class Visit>
 void ForRaysIn(const Sector& sector, const Fan& fan, const Visit& visit) {
   const auto count = static_cast<std::ptrdiff_t>(fan.directions.size());

@@ -1,4 +1,4 @@
-// The floor under a place: where to stand a robot that is given as (x, y) alone.
+// The floor below a position, for robots whose height is not given.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace gsv::sensing {
 
-// No floor that a robot is put on lies higher than this.
+// The highest floor for robots.
 inline constexpr double kMaxFloorHeight = 0.3;  // m
 
 // The height of the highest surface at (x, y) that lies at kMaxFloorHeight or below and is less steep

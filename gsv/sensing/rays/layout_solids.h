@@ -1,4 +1,4 @@
-// The solids of all bodies of a layout, ready to be placed.
+// The solids of all bodies of a layout, before they are posed.
 //
 // Threads  const members may run concurrently.
 #pragma once
@@ -11,13 +11,13 @@
 
 namespace gsv::sensing {
 
-// The solids of one link, or of all links of a model that do not move against each other. Shared by
-// all bodies that have the model.
+// The solids of one link, or of all links of a model without relative motion. Shared by all bodies
+// of the model.
 struct Part {
-  int link = -1;   // whose frame it is in; -1: the model's
+  int link = -1;   // link of its frame; -1: the model's frame
   int number = 0;  // within its model
   SolidSet solids;
-  BoundingSphere ball;  // around them, unless they are endless
+  BoundingSphere ball;  // around the solids, unless they are unbounded
 };
 
 // A part of one body.
@@ -34,8 +34,8 @@ struct LayoutSolids {
   std::shared_ptr<const world::Layout> layout;
   SolidSet standing;  // of all static bodies
   std::vector<std::vector<Part>> models;
-  std::vector<BodyPart> moving;  // by body, but those that are endless last
-  std::size_t bounded = 0;       // how many of `moving` are not endless
+  std::vector<BodyPart> moving;  // by body, unbounded ones last
+  std::size_t bounded = 0;       // number of bounded ones in `moving`
 };
 
 }  // namespace gsv::sensing

@@ -1,4 +1,4 @@
-// The ray scene of one snapshot: the standing solids and the moving ones at their places.
+// The ray scene of one snapshot: the static solids, and the others at their poses.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace gsv::sensing {
 
 class PlacedSolids final : public RayScene {
  public:
-  // Takes the places of `snapshot`, which has the layout of `solids`. Memory is kept for the next
-  // time. Not while rays are cast.
+  // Sets the poses of `snapshot`, which has the layout of `solids`. Reuses memory. No rays may be
+  // cast meanwhile.
   void MoveTo(std::shared_ptr<const LayoutSolids> solids, const world::Snapshot& snapshot,
               base::ThreadTeam* team);
 
@@ -39,26 +39,27 @@ class PlacedSolids final : public RayScene {
     int body;
   };
 
-  struct Shading;  // a solid and the rays of a fan that it may stop
+  struct Shading;  // a solid and the rays of a fan that it may occlude
 
   void Place(std::size_t index, const world::Snapshot& snapshot);
   Nearest Find(const Ray& ray, int ignored_body) const;
   geometry::Vector3 NormalAt(const Nearest& nearest, const Ray& ray) const;
   Bearer BearerOf(std::size_t part) const;
   void CastAtPart(std::size_t index, const Ray& ray, Nearest& nearest) const;
-  // Of all bounded solids within the fan's reach, the nearest first; false if they are too many.
+  // Finds the bounded solids within the fan's reach, the nearest first; false if there are too
+  // many.
   bool FindShadings(const Fan& fan, int ignored_body, std::vector<Shading>& shadings) const;
   void CastAtUnindexed(const Ray& ray, int ignored_body, Nearest& nearest) const;
-  // False if that finds nothing for any of a fan's rays.
+  // False if CastAtUnindexed() finds nothing for all rays of a fan.
   bool UnindexedReach(const Fan& fan, int ignored_body) const;
-  // Casts those rays at the solid that it may stop, all of which leave the fan's place;
-  // directions[i] is ray i's, in the world; `batch` is room to work in.
+  // Casts the rays that a solid may occlude at it, all from the fan's origin. directions[i] is the
+  // direction of ray i in the world; `batch` is working memory.
   void CastInto(const Shading& shading, const Fan& fan,
                 std::span<const geometry::Vector3> directions, std::span<Nearest> nearest,
                 RayBatch& batch) const;
 
   std::shared_ptr<const LayoutSolids> solids_;
-  // As LayoutSolids::moving; the latter two of bounded parts only.
+  // As LayoutSolids::moving; the last two for bounded parts only.
   std::vector<PlacedPart> parts_;
   std::vector<PlacedSphere> spheres_;
   std::vector<geometry::Bounds> boxes_;

@@ -1,4 +1,4 @@
-// One coordinate of a ray, to clip it between two planes.
+// One coordinate of a ray, for clipping between two planes.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,9 @@ struct RayAxis {
         is_falling(std::signbit(d)) {}
 
   double At(double distance) const { return origin + distance * direction; }
-  // The distance at which the coordinate is reached: huge, of either sign, if it hardly changes.
+  // The distance at which the coordinate is reached; huge with any sign if it hardly changes.
   double Reaches(double coordinate) const { return (coordinate - origin) * inverse; }
-  // Narrows [begin, end], distances along the ray, to what lies between two coordinates.
+  // Clips [begin, end], distances along the ray, to the part between two coordinates.
   void Clip(double low, double high, double& begin, double& end) const {
     const double to_low = Reaches(low), to_high = Reaches(high);
     begin = std::max(begin, std::min(to_low, to_high));

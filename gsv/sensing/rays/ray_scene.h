@@ -1,8 +1,8 @@
-// The solids of a world at one instant, to cast rays against.
+// Casts rays against the solids of a world at one instant.
 //
-// Exactness    a grid or Embree only finds which primitives a ray may meet; the distance is then
-//              computed in double precision from the triangle or the analytic shape, the same on
-//              every machine and for every thread count.
+// Exactness    the broad phase (a grid or Embree) only finds candidates. The distance is then
+//              computed in double precision from the triangle or the analytic shape, identical on
+//              every machine and for every number of threads.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace gsv::sensing {
 using world::Hit;
 using world::Ray;
 
-// A pose turns directions and moves origins: the same ray in another frame, for so many metres.
+// The same ray in another frame, with the given length in metres.
 inline Ray Moved(const geometry::Pose& to_from, const Ray& ray, double length) {
   return {to_from * ray.origin, to_from.orientation * ray.direction, length};
 }
@@ -36,24 +36,25 @@ class RayScene : public world::RayCaster {
   virtual void Cast(std::span<const Ray> rays, int ignored_body,
                     std::span<std::optional<Hit>> hits) const = 0;
 
-  // The distance alone, which is found quicker: infinite where Cast() finds nothing.
+  // The distance only, which is faster; infinite if Cast() finds nothing.
   virtual double Range(const Ray& ray, int ignored_body) const = 0;
 
-  // The same for all rays of a fan, which is quicker still: for each solid its rays are found, the
-  // nearest solids first. ranges[i] is ray i's.
+  // The same for all rays of a fan, which is faster still: the rays of each solid are found, the
+  // nearest solids first. ranges[i] is that of ray i.
   virtual void Scan(const Fan& fan, int ignored_body, std::span<double> ranges) const = 0;
 
-  // Gathers the solids within `reach` of `place`, but not those of `ignored_body`: for several rays
-  // from there it is quicker to look for them once. False if they are too many for that.
+  // Gathers the candidate set within `reach` of `place` without `ignored_body`, which is faster for
+  // several rays from there. False if there are too many candidates.
   virtual bool Gather(const geometry::Vector3& place, double reach, int ignored_body,
                       CandidateSet& candidates) const = 0;
 
-  // The same as the other one, for rays that Surroundings::Hold() and their ignored body.
+  // The same as Range() above, for rays within the candidate set (CandidateSet::Hold()) and its
+  // ignored body.
   virtual double Range(const Ray& ray, int ignored_body, const CandidateSet& candidates) const = 0;
 };
 
-// Ray scenes for snapshots, built when asked for. The static part is built once a layout, and a
-// scene that nobody holds any more is moved on to the next snapshot.
+// Builds the ray scenes of snapshots on demand. The static part is built once per layout, and a
+// scene without users is reused for the next snapshot.
 class RaySceneCache {
  public:
   RaySceneCache();
@@ -61,8 +62,8 @@ class RaySceneCache {
   RaySceneCache(const RaySceneCache&) = delete;
   RaySceneCache& operator=(const RaySceneCache&) = delete;
 
-  // Any thread; callers with the same snapshot get the same scene. A scene that has to be built is
-  // shared out over `team`, if there is one.
+  // Any thread; callers with the same snapshot get the same scene. Builds scenes in parallel on
+  // `team`, if given.
   std::shared_ptr<const RayScene> At(const std::shared_ptr<const world::Snapshot>& snapshot,
                                      base::ThreadTeam* team = nullptr);
 

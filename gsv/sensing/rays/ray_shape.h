@@ -1,4 +1,4 @@
-// Rays against single shapes, in closed form and double precision.
+// Intersections of rays with single shapes, in closed form and double precision.
 //
 // Frames   ray and result are in the shape's frame; distances are along the unit direction.
 // Result   the distance to the first crossing of the surface, from outside or inside, within
@@ -23,7 +23,7 @@ struct Triangle {
 std::optional<double> DistanceToTriangle(const Ray& ray, const Triangle& triangle);
 geometry::Vector3 NormalOfTriangle(const Ray& ray, const Triangle& triangle);
 
-// A Plane is a half-space's surface, without end; a Mesh is not for these functions.
+// A Plane is the unbounded surface of a half-space. A Mesh is not allowed.
 std::optional<double> DistanceToShape(const Ray& ray, const geometry::Shape& shape);
 // The same for many rays; infinite without a crossing.
 void DistancesToShape(std::span<const Ray> rays, const geometry::Shape& shape,

@@ -1,8 +1,8 @@
-// Many shapes that keep their places to each other, to cast rays against.
+// A set of shapes with fixed relative poses, for ray casting.
 //
-// Exactness    BoxIndex only finds candidates, with padded boxes; which of them is nearest, and how
-//              far, is decided here in double precision, and ties by order of addition. So results
-//              depend neither on how the boxes are arranged nor on the instruction set.
+// Exactness    BoxIndex only finds candidates, with padded boxes. The nearest one and its distance
+//              are computed here in double precision, with ties by order of insertion. So results
+//              depend neither on the index nor on the instruction set.
 // Threads      const members may run concurrently.
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace gsv::sensing {
 
-// Whose solids a set holds, when it stands for one part of a moving body.
+// The body of a set that is one part of a moving body.
 struct Bearer {
   int body = -1;  // -1: those given to Add()
   int part = -1;  // in the scene
@@ -33,7 +33,8 @@ struct Nearest {
   int part = -1;            // the bearer's
   std::uint32_t solid = 0;  // in its set, see SolidSet::NormalAt()
 
-  // Takes the hit if it is nearer; at one distance the lower body, then the lower primitive stays.
+  // Takes the hit if it is nearer; at equal distance the lower body, then the lower primitive is
+  // kept.
   void Offer(double at, int whose, std::uint32_t which, int of_part, std::uint32_t in_set) {
     if (at > distance) return;
     if (at == distance && body >= 0 && (whose > body || (whose == body && which >= primitive))) {
@@ -43,13 +44,13 @@ struct Nearest {
   }
 };
 
-// Rays from one place, their directions in a set's frame, and what each has found.
+// Rays from one point with directions in a set's frame, and the nearest hit of each.
 struct RayBatch {
   static constexpr std::size_t kMax = 32;
   std::size_t count = 0;
   std::array<geometry::Vector3, kMax> directions;
   std::array<Nearest*, kMax> nearest;
-  // Room for those who cast them.
+  // Working memory.
   std::array<Ray, kMax> in_shape;
   std::array<double, kMax> distances;
 };
@@ -59,21 +60,21 @@ class SolidSet {
   // Adds a shape of a body, before Commit().
   void Add(const geometry::Shape& shape, const geometry::Pose& set_from_shape, int body);
 
-  // Makes the set ready for rays.
+  // Builds the index. Call it before casting rays.
   void Commit();
 
   bool empty() const { return triangles_.empty() && shapes_.empty() && planes_.empty(); }
-  // Holds a Plane: has no bounds.
+  // Whether it contains a Plane and is unbounded.
   bool endless() const { return !planes_.empty(); }
-  // Around all but the planes.
+  // The bounding box of all but the planes.
   const geometry::Bounds& bounds() const { return bounds_; }
   // The same.
   BoundingSphere ball() const;
 
-  // Looks for what lies nearer than `nearest` along the ray, and is not of `ignored_body`.
+  // Finds a hit nearer than `nearest` on the ray, not of `ignored_body`.
   void Cast(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer = {}) const;
 
-  // The same in pieces: the shapes, at once or one by one, and the rest.
+  // The same in parts: all shapes, one shape, and the rest.
   void CastAtShapes(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
   void CastAtShape(std::uint32_t shape, const Ray& ray, int ignored_body, Nearest& nearest,
@@ -81,25 +82,25 @@ class SolidSet {
   void CastAtOthers(const Ray& ray, int ignored_body, Nearest& nearest,
                     const Bearer& bearer = {}) const;
 
-  // How many shapes make up the set; 0 if there is something else.
+  // The number of shapes if the set has nothing else; otherwise 0.
   std::uint32_t ShapesAlone() const {
     if (!planes_.empty() || !triangles_.empty()) return 0;
     return static_cast<std::uint32_t>(shapes_.size());
   }
-  // CastAtShape() for rays from one place, in the shape's frame. Nobody's body is ignored.
+  // CastAtShape() for rays from one point in the shape's frame, without an ignored body.
   void CastAtShapeFrom(const geometry::Vector3& origin_in_shape, RayBatch& rays,
                        std::uint32_t shape, const Bearer& bearer = {}) const;
   // False if CastAtOthers() finds nothing for any ray of a fan in the set's frame.
   bool OthersReach(const Fan& fan) const;
-  // Whether a shape may reach into a box: of one that is long and thin its ball says little.
+  // Whether a shape may reach into a box; a bounding sphere is loose for long thin shapes.
   bool ShapeReaches(std::uint32_t shape, const geometry::Bounds& into) const {
     const geometry::Bounds& b = shape_bounds_[shape];
     return b.min.x <= into.max.x && into.min.x <= b.max.x && b.min.y <= into.max.y &&
            into.min.y <= b.max.y && b.min.z <= into.max.z && into.min.z <= b.max.z;
   }
 
-  // Adds to `found` the shapes that come within `reach` of the place, and some others; false if
-  // that cannot be done quickly.
+  // Adds to `found` the shapes within `reach` of the place, and possibly others; false if there is
+  // no fast way.
   bool Near(const geometry::Vector3& place, double reach, FoundBoxes& found) const {
     return shape_index_.Near(place, reach, found);
   }
@@ -108,13 +109,13 @@ class SolidSet {
   const geometry::Pose& ShapeFromSet(std::uint32_t shape) const {
     return shapes_[shape].shape_from_set;
   }
-  // Around the shape, in its own frame.
+  // The bounding box of the shape in its own frame.
   const geometry::Bounds& OwnBoundsOfShape(std::uint32_t shape) const {
     return shape_own_bounds_[shape];
   }
 
-  // Adds the shapes within `surroundings`, their numbers marked by `mark`; false if that cannot be
-  // done quickly.
+  // Adds the shapes within the reach of `candidates`, their numbers marked by `mark`; false if
+  // there is no fast way.
   bool Gather(CandidateSet& candidates, std::uint32_t mark) const;
 
   // The normal, against the ray, where the ray meets the solid that Nearest names.
@@ -139,7 +140,7 @@ class SolidSet {
   };
   void AddMesh(const geometry::Mesh& mesh, const geometry::Pose& set_from_mesh, int body);
   void Include(const geometry::Bounds& bounds);
-  // Of the solid of that number: the shapes, then the planes, then the triangles.
+  // Numbers of solids: shapes, then planes, then triangles.
   static void CastAt(const SolidShape& shape, std::uint32_t solid, const Ray& ray, int ignored_body,
                      Nearest& nearest, const Bearer& bearer);
   void CastAtPlanes(const Ray& ray, int ignored_body, Nearest& nearest, const Bearer& bearer) const;
@@ -147,7 +148,7 @@ class SolidSet {
                        const Bearer& bearer) const;
 
   std::vector<SolidTriangle> triangles_;
-  std::unique_ptr<BoundingVolumeTree> triangle_tree_;  // null for a handful
+  std::unique_ptr<BoundingVolumeTree> triangle_tree_;  // null for few triangles
   std::vector<SolidShape> shapes_;
   std::vector<geometry::Bounds> shape_bounds_;      // padded, in the set's frame
   std::vector<BoundingSphere> shape_spheres_;       // padded, in the set's frame
@@ -156,7 +157,7 @@ class SolidSet {
   std::vector<SolidPlane> planes_;
   std::uint32_t primitives_ = 0;
   geometry::Bounds bounds_;
-  bool bounded_ = false;  // bounds_ holds something
+  bool bounded_ = false;  // bounds_ is valid
 };
 
 }  // namespace gsv::sensing

@@ -1,4 +1,4 @@
-// Random things and the plainest way to cast a ray, for tests.
+// For tests: random shapes, and brute-force ray casting.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,7 @@ inline geometry::Mesh RandomMesh(Random& random, int triangles, double size) {
   return {mesh, {1.5, 1, 0.5}};
 }
 
-// Whether p, in the plane of the triangle, lies in it: by areas, with no ray in sight.
+// The distance to a triangle by areas, independent of the implementation; -1 without a hit.
 inline double ByAreas(const Ray& ray, const geometry::Vector3& a, const geometry::Vector3& b,
                       const geometry::Vector3& c) {
   const geometry::Vector3 normal = Cross(b - a, c - a);
@@ -53,7 +53,7 @@ inline double ByAreas(const Ray& ray, const geometry::Vector3& a, const geometry
   return parts <= whole * (1 + 1e-9) ? distance : -1;
 }
 
-// Every collision of every body, one by one.
+// Tests every collision of every body.
 inline std::optional<Hit> BruteForce(const world::Snapshot& snapshot, const Ray& ray,
                                      int ignored_body) {
   std::optional<Hit> best;

@@ -1,4 +1,4 @@
-// The sensors that come with gsv, and a description of one of any type, for tests.
+// For tests: the built-in sensor types, and a description for any type.
 #pragma once
 
 #include <string>

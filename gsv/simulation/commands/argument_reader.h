@@ -12,14 +12,14 @@
 
 namespace gsv::simulation {
 
-// A whole number serves as an integer and as a number, whatever its alternative.
+// A value without fraction is accepted for integers and numbers, as either alternative.
 base::Result<Arguments> ReadArguments(const Command& command, Arguments::Values given);
 
-// The same of texts, each of which is read as its parameter's type: "-1.62", "true", "7".
+// The same for texts, each parsed as its parameter's type: "-1.62", "true", "7".
 base::Result<Arguments> ReadArguments(const Command& command,
                                       const std::map<std::string, std::string>& given);
 
-// "a number from -100 to 100 m/s²", "true or false": what the parameter takes.
+// The valid values as a text: "a number from -100 to 100 m/s²", "true or false".
 std::string DescribeRange(const Parameter& parameter);
 
 }  // namespace gsv::simulation

@@ -1,7 +1,7 @@
 // A command on a simulation: a name, typed parameters, and the function that applies it.
 //
-// All front ends (IDL, HTTP, Foxglove services, command line, viewer) are made from the table of
-// commands, see command_table.h. Every command takes the permission to control.
+// All front ends (IDL, HTTP, Foxglove services, command line, viewer) are generated from the table
+// of commands, see command_table.h. Every command requires the permission to control.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ using ArgumentValue = std::variant<double, std::int64_t, bool, std::string>;
 
 // "number", "integer", "flag", "text".
 const char* ToString(ParameterType type);
-// As people write it, and as sba::NameValue has it: "-1.62", "true".
+// The value as users write it, also in sba::NameValue: "-1.62", "true".
 std::string ToText(const ArgumentValue& value);
 
 struct Parameter {
@@ -36,30 +36,30 @@ struct Parameter {
   ParameterType type = ParameterType::kNumber;
   std::string_view unit{};     // "m/s²"; empty: none
   std::string_view summary{};  // a noun phrase
-  // Of numbers and integers, both included.
+  // The range of numbers and integers, bounds included.
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  // What an absent argument stands for: a value, or, in words, what the command does without one.
-  // A parameter with neither is required.
+  // The default value, or in words the behaviour of the command without the argument. A parameter
+  // with neither is required.
   std::optional<ArgumentValue> default_value{};
   std::string_view default_meaning{};
 
   bool is_required() const { return !default_value && default_meaning.empty(); }
 };
 
-// Arguments that fit the parameters of a command: only ReadArguments() makes them. A parameter that
-// has a default value has an argument.
+// Arguments that are valid for the parameters of a command; only ReadArguments() makes them.
+// Parameters with a default value always have an argument.
 class Arguments {
  public:
   using Values = std::map<std::string, ArgumentValue, std::less<>>;
 
-  // `Value` is the parameter's alternative of ArgumentValue. Null when the argument is absent.
+  // `Value` is the parameter's alternative of ArgumentValue. Null if the argument is absent.
   template <typename Value>
   const Value* Find(std::string_view name) const {
     const auto found = values_.find(name);
     return found == values_.end() ? nullptr : &std::get<Value>(found->second);
   }
-  // GSV_CHECK: it is not absent.
+  // The argument must be present (GSV_CHECK).
   template <typename Value>
   const Value& Get(std::string_view name) const {
     const Value* const value = Find<Value>(name);

@@ -1,5 +1,5 @@
-// The table of commands on a simulation. A command is one entry: every front end offers it by its
-// name, parameters and summary.
+// The table of commands on a simulation. A command is one entry, which every front end offers with
+// its name, parameters and summary.
 #pragma once
 
 #include <span>

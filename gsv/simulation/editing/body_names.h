@@ -1,4 +1,4 @@
-// The names of bodies: which are allowed, and which are given to bodies that come without one.
+// Checks the names of bodies, and chooses names for bodies without one.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace gsv::simulation {
 
 base::Status CheckBodyName(const std::string& name);
 
-// A name that no body of `layout` has: the model's, numbered from 2 on if taken.
+// An unused name in `layout`: the model's, numbered from 2 on if it is taken.
 std::string FreeName(const world::Layout& layout, const std::string& model);
 
-// Names the robots that have no name, after their models. Fails when a name is not allowed, or is
-// taken by a body of `layout` or by another of the robots.
+// Names the robots without a name after their models. Fails if a name is invalid, or taken by a
+// body of `layout` or by another of the robots.
 base::Status NameRobots(const world::Layout& layout, std::vector<RobotSpecification>& robots);
 
 }  // namespace gsv::simulation

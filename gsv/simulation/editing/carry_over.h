@@ -5,8 +5,8 @@
 
 namespace gsv::simulation {
 
-// The state of `layout` that continues `old_state`: bodies that `old_layout` has as well keep
-// theirs, others start at their initial poses. Devices stay as they were: see CarryOverDevices().
+// The state of `layout` that continues `old_state`: bodies that are also in `old_layout` keep their
+// state, others start at their initial poses. Devices are unchanged, see CarryOverDevices().
 world::State CarryOver(const world::Layout& old_layout, const world::State& old_state,
                        const world::Layout& layout);
 

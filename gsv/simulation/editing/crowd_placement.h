@@ -1,4 +1,4 @@
-// Finds places for the pedestrians of a new simulation.
+// Places the pedestrians of a new simulation.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,9 @@
 
 namespace gsv::simulation {
 
-// The layout with the members of all groups, each somewhere on its route where it overlaps nobody
-// and nothing. The engine has been given that layout. Where each starts is a function of the seed,
-// the groups and the world. Refuses (kInvalidArgument) groups that make no sense, or for whose
-// members there is no room.
+// Returns the layout with the members of all groups, each on its route without overlaps. The engine
+// then has this layout. The places are a function of the seed, the groups and the world.
+// kInvalidArgument for invalid groups, and if there is no room for all members.
 base::Result<std::shared_ptr<const world::Layout>> PlacePedestrians(
     const world::Layout& layout,
     const std::vector<std::shared_ptr<const model::PedestrianGroup>>& groups, std::uint64_t seed,

@@ -1,4 +1,4 @@
-// Where bodies may be placed: none inside another, robots beside a wall instead of in it.
+// Resolves the placement of bodies: none overlaps another, and robots are pushed out of walls.
 //
 // Units   metres.
 #pragma once
@@ -11,20 +11,20 @@
 
 namespace gsv::simulation {
 
-// "(1, 2)": x and y.
+// The position as a text: "(1, 2)".
 std::string PlaceText(const geometry::Pose& pose);
 
-// A robot that was pushed out of something that is no robot.
+// A robot that was pushed out of a body that is not a robot.
 struct PushedOut {
   std::string robot;
-  std::string sentence;  // where it starts instead, and why
+  std::string sentence;  // the resolved position, and the reason
 };
 
-// Finds room for the bodies named `placed`, which stand at their initial poses in `state`. Two
-// bodies overlap if they are closer than touching by more than a millimetre. A robot that overlaps
-// something that is no robot is pushed out to the nearest free place, its own radius away at most,
-// and `state` says where. Of two newcomers at one place the second is refused. Fails with the
-// first of the bodies that there is no room for.
+// Resolves the placement of the bodies named `placed`, which are at their initial poses in `state`.
+// Two bodies overlap if their penetration exceeds a millimetre. A robot that overlaps a body other
+// than a robot is pushed out to the nearest free place, at most its own radius away, and `state` is
+// updated. If two placed bodies overlap, the second is refused. Fails for the first body without
+// room.
 base::Result<std::vector<PushedOut>> ResolvePlacement(dynamics::Engine& engine,
                                                       const world::Layout& layout,
                                                       const std::vector<std::string>& placed,

@@ -1,4 +1,4 @@
-// Models as robots: each with its drive, made once for all robots of that model and that choice.
+// Models as robots, with their drives. Robots of one model and one choice share the result.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ namespace gsv::simulation {
 
 class RobotModels {
  public:
-  // As model::AsRobot(). A person steers an avatar: without a drive it takes any velocity.
+  // Calls model::AsRobot(). An avatar without a drive takes any velocity.
   base::Result<std::shared_ptr<const model::Model>> Find(
       const std::shared_ptr<const model::Model>& model, const std::string& drive, bool is_avatar);
 

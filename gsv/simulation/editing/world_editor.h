@@ -1,5 +1,5 @@
-// Changes who stands in a simulated world, and where, and its gravity. A change that fails leaves
-// the world as it was.
+// Adds, removes and places the bodies of a simulated world, and sets its gravity. A failed change
+// leaves the world unchanged.
 //
 // Threads  any, with the world's lock (world_mutex). The history of snapshots is restarted with each
 //          change.
@@ -23,12 +23,12 @@ class WorldEditor {
   WorldEditor(SimulatedWorld& world, std::shared_ptr<SharedState> shared, EventLog& events)
       : world_(world), shared_(std::move(shared)), events_(events) {}
 
-  // Names the robots and places them: all, or none.
+  // Names and places the robots: all, or none.
   base::Status AddRobots(std::vector<RobotSpecification>& robots) GSV_REQUIRES(world_mutex);
   // Returns the object's name.
   base::Result<std::string> AddObject(const ObjectSpecification& object) GSV_REQUIRES(world_mutex);
   base::Status RemoveObject(const std::string& name) GSV_REQUIRES(world_mutex);
-  // Removes bodies of any kind; names that are not there are ignored.
+  // Removes bodies of any kind; unknown names are ignored.
   base::Status Remove(const std::vector<std::string>& names) GSV_REQUIRES(world_mutex);
   // Places a body that is not fixed to the world.
   base::Status Place(const std::string& name, const geometry::Pose& world_from_body, bool on_ground)
@@ -36,18 +36,18 @@ class WorldEditor {
   // Places a body of any kind, by its index.
   base::Status PlaceAny(int body, const geometry::Pose& world_from_body, bool on_ground)
       GSV_REQUIRES(world_mutex);
-  // The bodies stay as they are.
+  // Sets the gravity; bodies are unchanged.
   base::Status SetGravity(const geometry::Vector3& gravity) GSV_REQUIRES(world_mutex);
-  // Gives bodies other initial poses, for the next reset. Names that are not there are ignored.
+  // Sets the initial poses of bodies for the next reset. Unknown names are ignored.
   base::Status SetInitialPoses(const std::map<std::string, geometry::Pose>& poses)
       GSV_REQUIRES(world_mutex);
 
  private:
-  // `pose` with the height at which the model stands on what is below it. `own`: its body, which it
-  // cannot stand on; -1: it has none yet.
+  // `pose` with the height at which the model stands on the surface below. `own`: the index of its
+  // own body, which is ignored; -1: none yet.
   geometry::Pose StandingPose(const model::Model& model, geometry::Pose pose, int own = -1) const
       GSV_REQUIRES(world_mutex);
-  // `placed`: names of the bodies that are new or placed elsewhere, at their initial poses.
+  // `placed`: names of the bodies that are new or moved, at their initial poses.
   base::Status ChangeBodies(std::vector<world::Body> bodies, const std::vector<std::string>& placed)
       GSV_REQUIRES(world_mutex);
   base::Status ChangeWorld(std::vector<world::Body> bodies,
@@ -55,7 +55,7 @@ class WorldEditor {
                            const std::vector<std::string>& placed) GSV_REQUIRES(world_mutex);
   base::Status Resolve(const world::Layout& layout, const std::vector<std::string>& placed,
                        world::State& state) GSV_REQUIRES(world_mutex);
-  // The body of that name, or why it cannot be moved.
+  // The index of the body, or an error with the reason why it cannot be moved.
   base::Result<int> FindMovable(const std::string& name) const GSV_REQUIRES(world_mutex);
   base::Result<world::Body> BodyOf(const ObjectSpecification& object) const
       GSV_REQUIRES(world_mutex);
@@ -65,7 +65,7 @@ class WorldEditor {
   SimulatedWorld& world_;
   const std::shared_ptr<SharedState> shared_;
   EventLog& events_;
-  // Objects, the newest last; copies of them can be added.
+  // Removed objects, the newest last. Copies of them can be added.
   std::deque<world::Body> removed_ GSV_GUARDED_BY(world_mutex);
 };
 

@@ -1,4 +1,4 @@
-// Makes the faults of a scenario happen, and undoes what they moved. See scenario/fault.h.
+// Applies the faults of a scenario, and undoes their moves. See scenario/fault.h.
 //
 // Threads  any, with SharedState::mutex (simulation_mutex) and the world's lock (world_mutex) as
 //          declared.
@@ -27,15 +27,15 @@ class FaultInjector {
         world_(world),
         editor_(editor) {}
 
-  // Fails if a fault cannot happen to who stands in the world now.
+  // Fails if a fault names a body, sensor or joint that does not exist.
   base::Status Check() const GSV_REQUIRES(simulation_mutex);
   FaultSchedule& schedule() GSV_REQUIRES(simulation_mutex) { return schedule_; }
   const FaultSchedule& schedule() const GSV_REQUIRES(simulation_mutex) { return schedule_; }
 
-  // Emits an event, also if the fault cannot happen.
+  // Applies a fault, and emits an event, also if the fault cannot be applied.
   base::Status Inject(const scenario::Fault& fault) GSV_REQUIRES(world_mutex)
       GSV_EXCLUDES(simulation_mutex);
-  // Static bodies will start where faults found them.
+  // Returns static bodies to the poses before the faults, for the next start.
   base::Status UndoMoves() GSV_REQUIRES(world_mutex);
 
  private:
@@ -52,7 +52,7 @@ class FaultInjector {
   AgentPopulation& agents_;
   SimulatedWorld& world_;
   WorldEditor& editor_;
-  // Where static bodies stood that faults have moved.
+  // The poses of static bodies before faults moved them.
   std::map<std::string, geometry::Pose> moved_from_ GSV_GUARDED_BY(world_mutex);
 };
 

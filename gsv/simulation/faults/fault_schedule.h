@@ -1,5 +1,5 @@
-// Which fault happens next. A fault happens between two steps, at the first instant at or after its
-// time, before anybody is woken or reads there: its place in a run depends on nothing else.
+// The order of faults. A fault is applied between two steps, at the first instant at or after its
+// time, before any agent is woken or reads, so that its moment is deterministic.
 #pragma once
 
 #include <algorithm>
@@ -14,21 +14,21 @@ namespace gsv::simulation {
 
 class FaultSchedule {
  public:
-  // Faults happen in the order of their times; those of one time in the order given.
+  // Faults are applied in the order of their times; those of one time in the given order.
   explicit FaultSchedule(std::vector<scenario::Fault> faults) : faults_(std::move(faults)) {
     std::stable_sort(faults_.begin(), faults_.end(),
                      [](const auto& a, const auto& b) { return a.at < b.at; });
   }
 
   const std::vector<scenario::Fault>& all() const { return faults_; }
-  // The number of faults that have happened.
+  // The number of applied faults.
   std::size_t done() const { return done_; }
   bool IsDue(base::SimTime now) const {
     return done_ < faults_.size() && base::FromSeconds(faults_[done_].at) <= now;
   }
-  // The next fault, which IsDue(): it happens now.
+  // Takes the next fault, which must be due.
   const scenario::Fault& TakeDue() { return faults_[done_++]; }
-  // No fault has happened yet.
+  // Returns to the first fault.
   void Rewind() { done_ = 0; }
 
  private:

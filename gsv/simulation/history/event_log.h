@@ -1,6 +1,6 @@
-// What has happened in a simulation, and the observers that are notified of it.
+// The events of a simulation, and the observers that are notified.
 //
-// Threads  any; it has its own lock, which no other lock is taken under.
+// Threads  any; it has its own lock, and takes no other lock while it holds it.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ class EventLog {
   // Appends an event and passes it to every observer, under the log's lock.
   void Emit(std::string kind, std::string robot = {}, std::string detail = {},
             std::shared_ptr<const Edit> edit = nullptr);
-  // The kept events from number `first` on; the first event of all has the number 0.
+  // The kept events from number `first` on. The first event has the number 0.
   std::vector<Event> Since(std::uint64_t first) const;
-  // The number of events so far, dropped ones among them.
+  // The number of events so far, including dropped ones.
   std::uint64_t count() const;
 
   void AddObserver(std::shared_ptr<Observer> observer);
   void RemoveObserver(const std::shared_ptr<Observer>& observer);
-  // Passes a snapshot to every observer; no lock is held meanwhile.
+  // Passes a snapshot to every observer, without holding a lock.
   void Publish(const std::shared_ptr<const world::Snapshot>& snapshot) const;
 
  private:

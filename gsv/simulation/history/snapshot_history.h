@@ -1,9 +1,9 @@
-// The snapshots that readings are taken from: the latest, and for each cadence in use the one at
-// the newest sampling instant whose readings have arrived.
+// The snapshots for readings: the latest, and for each cadence in use the one at the newest
+// sampling instant whose readings are available.
 //
-// A sensor with a period P samples at 0, P, 2P, …: its instant k is taken at the first step at or
-// after kP, and can be read from the first step that is its latency later. Until the first has
-// arrived, the start is read.
+// A sensor with a period P samples at 0, P, 2P, …. Sample k is taken at the first step at or after
+// kP. It is available from the first step that is the latency later. Before the first sample is
+// available, readings are those of the start.
 //
 // Threads  any; Publish() from the stepping thread.
 #pragma once
@@ -22,7 +22,7 @@ namespace gsv::simulation {
 
 struct Cadence {
   base::SimTime period{0};   // 0: a sample at every step, and no latency
-  base::SimTime latency{0};  // from the sampling instant until it can be read
+  base::SimTime latency{0};  // from the sampling instant until the sample is available
   // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const Cadence&, const Cadence&) = default;
 };
@@ -31,11 +31,11 @@ class SnapshotHistory {
  public:
   using SnapshotPtr = std::shared_ptr<const world::Snapshot>;
 
-  // What At() gives at one instant, for many who ask without a lock.
+  // The results of At() at one instant, for many readers without a lock.
   class Frame {
    public:
     const SnapshotPtr& latest() const { return latest_; }
-    // The latest where the cadence was not in use when the frame was made.
+    // The latest snapshot if the cadence was not in use when the frame was made.
     const SnapshotPtr& At(const Cadence& cadence) const {
       for (const auto& [known, snapshot] : at_instant_) {
         if (known == cadence) return snapshot;
@@ -52,22 +52,23 @@ class SnapshotHistory {
   explicit SnapshotHistory(SnapshotPtr initial) : latest_(std::move(initial)) {}
 
   SnapshotPtr latest() const;
-  // What a sensor of this cadence reads. A cadence that is new starts with the latest snapshot.
+  // The snapshot that a sensor of this cadence reads. A new cadence starts with the latest
+  // snapshot.
   SnapshotPtr At(const Cadence& cadence);
-  // A cadence is in use from the first time that somebody says so. Sensors do when they are
-  // mounted, so that those who merely watch leave no trace.
+  // Puts a cadence in use. Sensors call it when they are mounted, so that observers do not change
+  // the result.
   void Use(const Cadence& cadence) { (void)At(cadence); }
   void MakeFrame(Frame& frame) const;
 
   void Publish(SnapshotPtr snapshot);
-  // The world has changed between two steps (a robot was added): from here on this is the latest,
-  // and nothing older is handed out.
+  // Restarts the history after a change between two steps, such as an added robot: older snapshots
+  // are dropped.
   void Restart(SnapshotPtr snapshot);
 
  private:
   struct Kept {
     SnapshotPtr arrived;
-    std::deque<SnapshotPtr> coming;  // as many as the latency holds periods, at most
+    std::deque<SnapshotPtr> coming;  // at most as many as periods in the latency
   };
 
   mutable base::Mutex mutex_;

@@ -1,4 +1,4 @@
-// Snapshots that nobody reads any more, to be filled anew: a crowd's step needs no fresh memory.
+// A pool of snapshots without readers, whose memory later steps reuse.
 //
 // Threads  any. Snapshots may outlive the pool.
 #pragma once
@@ -13,7 +13,7 @@ namespace gsv::simulation {
 
 class SnapshotPool {
  public:
-  // A snapshot whose content is of the past or empty; it comes back when its last reader lets go.
+  // A snapshot with old content or none. It returns to the pool when its last reader releases it.
   std::shared_ptr<world::Snapshot> Take() {
     std::unique_ptr<world::Snapshot> snapshot = shelf_->Take();
     return {snapshot.release(), [shelf = shelf_](world::Snapshot* done) {

@@ -1,7 +1,7 @@
-// When the next step is due on the wall clock, in real time.
+// The schedule of steps on the wall clock, in real time.
 //
-// A step is late when it starts more than one step after it was due; the schedule then shifts by
-// that much, so that nothing is caught up in a burst.
+// A step is late if it starts more than one step size after it was due. The schedule then shifts by
+// that delay, so that delayed steps do not follow in a burst.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ namespace gsv::simulation {
 
 class Pacer {
  public:
-  // `factor` simulated seconds pass in one wall second, > 0.
+  // `factor` is the target real-time factor, > 0.
   Pacer(base::SimTime step, double factor);
-  // From now on; the step that is due next comes as long after the one before it.
+  // Applies from now on, including the distance from the previous step to the next.
   void SetRealTimeFactor(double factor);
 
-  // The schedule starts (again) now: the next step is due at once.
+  // Starts or restarts the schedule: the next step is due now.
   void Restart(WallTime now);
   WallTime due() const { return due_; }
-  // A step starts now. True when it is late.
+  // Records that a step starts now. True if it is late.
   bool StepStarts(WallTime now);
   std::uint64_t late_steps() const { return late_steps_; }
   void ResetLateSteps() { late_steps_ = 0; }

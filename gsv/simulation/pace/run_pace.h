@@ -1,4 +1,4 @@
-// The pace of a run: when its next step is due on the wall clock, and how fast it has been.
+// The real-time schedule of a run and its measured real-time factor.
 //
 // Threads  one call at a time.
 #pragma once
@@ -13,21 +13,21 @@
 
 namespace gsv::simulation {
 
-// Refuses a real-time factor that is not in (0, 1e6]; `simulation` is named in the error.
+// Refuses a target real-time factor that is not in (0, 1e6]. The error names `simulation`.
 base::Status CheckRealTimeFactor(double factor, const std::string& simulation);
 
 class RunPace {
  public:
   RunPace(base::SimTime step, double factor) : pacer_(step, factor), factor_(factor) {}
 
-  // The simulation runs from now on, or does not run any more.
+  // Records that the simulation starts or stops running.
   void SetRunning(bool is_running, base::SimTime now);
   void Reset();
 
   double target_real_time_factor() const { return factor_; }
   void SetRealTimeFactor(double factor);
 
-  // The stepping thread. After the run has begun or resumed, the next step is due at once.
+  // For the stepping thread: after a start or resume, the next step is due at once.
   void RestartIfResumed();
   WallTime due() const { return pacer_.due(); }
   void StepStarts(WallTime start) { (void)pacer_.StepStarts(start); }

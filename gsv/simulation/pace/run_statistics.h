@@ -1,4 +1,4 @@
-// How fast a simulation runs against the wall clock.
+// Measures the real-time factor and the duration of steps.
 #pragma once
 
 #include <deque>
@@ -15,9 +15,9 @@ class RunStatistics {
   // Called after each step, which took `duration`; keeps about ten samples a second.
   void Stepped(WallTime wall, base::SimTime time, WallDuration duration);
 
-  // Simulated seconds a wall second: over the last second while running, else over all runs.
+  // The actual real-time factor: over the last second while running, else over all runs.
   double real_time_factor() const;
-  // Spent running, up to the last call.
+  // Wall-clock time spent running, up to the last call.
   WallDuration wall_time() const;
   WallDuration mean_step_time() const;
 

@@ -1,6 +1,6 @@
-// What all simulations of this process have done since it started, for those who watch it run.
+// Totals over all simulations of this process since it started, for monitoring.
 //
-// Threads  any; a stepping thread adds without waiting. Nothing that is simulated reads it.
+// Threads  any; stepping threads add without waiting. No simulated value depends on them.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// The wall clock: the only file of the core that reads it. It paces real time, bounds waits and is
-// shown to people; nothing that is simulated depends on it.
+// The wall clock, which only this file of the core reads. It schedules real time, limits waits and
+// is shown to users. No simulated value depends on it.
 #pragma once
 
 #include <chrono>

@@ -1,8 +1,8 @@
-// Whom the simulation waits for: the clocks of one agent. Pure bookkeeping, no threads, no time of
-// its own.
+// The clocks of one agent, which decide whether the simulation waits for it. Data only, without
+// threads or time.
 //
-// An agent runs from its start until all of its clocks wait for later instants; it has finished
-// when all of them are closed.
+// An agent runs from its start until all its clocks wait for later instants. It has finished when
+// all are closed.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,27 @@ namespace gsv::simulation {
 
 class AgentClocks {
  public:
-  // A new clock; it runs.
+  // Opens a clock, which runs.
   ClockId Open();
   bool IsOpen(ClockId clock) const { return clocks_.contains(clock); }
   void Close(ClockId clock) { clocks_.erase(clock); }
 
-  // The clock waits for the first step time at or after `until`. True when that is already here,
-  // the clock then runs on. Repeating a wait that is over, or still on, changes nothing: it is on
-  // until Wake(), so that nobody runs on in a simulation that is paused at that very instant.
+  // Makes the clock wait for the first step time at or after `until`. True if that has come
+  // already; the clock then continues. Repeating a wait that has ended or is pending changes
+  // nothing. A wait is pending until Wake(), so that no agent continues in a simulation that is
+  // paused at that instant.
   bool WaitUntil(ClockId clock, base::SimTime until, base::SimTime now);
 
   bool IsWaiting(ClockId clock) const;
   bool IsWaitingUntil(ClockId clock, base::SimTime until) const;
 
-  // Ends the waits for instants up to `now`. True when a clock that waited runs again.
+  // Ends the waits for instants up to `now`. True if a waiting clock runs again.
   bool Wake(base::SimTime now);
 
   int count() const { return static_cast<int>(clocks_.size()); }  // open ones
   bool HasOpened() const { return next_id_ > 1; }
   bool IsFinished() const { return HasOpened() && clocks_.empty(); }
-  // Some clock runs, or none has been opened yet.
+  // Whether a clock runs, or none has been opened yet.
   bool IsRunning() const;
 
   // The cycle number of the last exchange of a clock that commanded; 0: none.

@@ -20,14 +20,14 @@ class AgentPopulation {
  public:
   using AgentPtr = std::shared_ptr<RobotAgent>;
 
-  // The caller is closed before the population and the log end.
+  // The caller must be closed before the population and the log are destroyed.
   AgentPopulation(std::shared_ptr<SharedState> shared, EventLog& events, BehaviourCaller& caller)
       : shared_(std::move(shared)), events_(events), caller_(caller) {}
 
   // `behaviour` may be null.
   void Add(const std::string& name, std::shared_ptr<const model::Model> model, bool is_avatar,
            std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
-  // Ends the calls of the agent of that name, and stops and destroys its behaviour.
+  // Ends the calls of the agent of that name; stops and destroys its behaviour.
   void Remove(const std::string& name) GSV_REQUIRES(simulation_mutex);
   void SetBehaviour(RobotAgent& agent, std::shared_ptr<BehaviourPort> behaviour)
       GSV_REQUIRES(simulation_mutex);
@@ -40,28 +40,28 @@ class AgentPopulation {
   AgentPtr Find(const std::string& name) const
       GSV_REQUIRES(simulation_mutex);  // null: there is none
   std::vector<AgentPtr> WithBehaviour() const GSV_REQUIRES(simulation_mutex);
-  // There was a behaviour in process at some time.
+  // Whether there has ever been a behaviour in process.
   bool has_hosted() const { return has_hosted_; }
 
-  // Posts a call to every behaviour. A failure is an event "behaviour_silent", which says `what`.
+  // Posts a call to every behaviour. A failure emits an event "behaviour_silent" that names `what`.
   void CallAll(const char* what, base::Status (BehaviourPort::*call)())
       GSV_REQUIRES(simulation_mutex);
-  // Ends all calls of agents with `reason` and stops the behaviours. `is_stuck`: except those that
-  // are in their turn.
+  // Ends all calls of agents with `reason` and stops the behaviours; with `is_stuck` except those
+  // in their turn.
   void End(std::string reason, bool is_stuck) GSV_REQUIRES(simulation_mutex);
   void DestroyBehaviours() GSV_REQUIRES(simulation_mutex);
-  // After the calls that End() posted: all agents are as new and behaviours wait for Init().
+  // Resets all agents after the calls that End() posted; behaviours then wait for Init().
   void Reset() GSV_REQUIRES(simulation_mutex);
-  // Asks all behaviours that are not being asked already whether they have died; deaths are
-  // reported later.
+  // Checks asynchronously whether behaviours have died; deaths are reported later.
   void CheckForDeaths() GSV_REQUIRES(simulation_mutex);
-  // An agent whose behaviour failed in a call is dead.
+  // Marks an agent as dead if the call of its behaviour failed.
   void ReportIfFailed(RobotAgent& agent, const char* what, const base::Status& status)
       GSV_EXCLUDES(simulation_mutex);
 
   std::vector<RobotStatus> Statuses(const world::Snapshot& snapshot) const
       GSV_REQUIRES(simulation_mutex);
-  // The first robot that the simulation has waited for longer than 0.1 s, and how long; else empty.
+  // The first robot that the simulation has waited for longer than 0.1 s, with the time; else
+  // empty.
   std::string WaitingFor() const GSV_REQUIRES(simulation_mutex);
 
  private:

@@ -1,5 +1,5 @@
-// Calls behaviours on threads of its own, so that nobody who must not wait does. Calls with one key
-// run one after the other, in the order they were posted.
+// Calls behaviours on its own threads, so that other threads need not wait. Calls with one key run
+// one after the other, in the order of posting.
 #pragma once
 
 #include <chrono>
@@ -22,9 +22,9 @@ class BehaviourCaller {
   BehaviourCaller& operator=(const BehaviourCaller&) = delete;
 
   void Post(std::string key, std::function<void()> call);
-  // Waits for the calls that are posted. Nothing may be posted after it.
+  // Waits for the posted calls. No call may be posted afterwards.
   void Close();
-  // Until every call that was posted has returned; false when `timeout` of wall time comes first.
+  // Waits until every posted call has returned; false after `timeout` of wall-clock time.
   bool WaitUntilIdle(std::chrono::milliseconds timeout);
 
  private:

@@ -1,5 +1,5 @@
-// Opens the gates of a crowd beside the stepping thread. To wake somebody costs tens of
-// microseconds when a processor is not free; a thousand of them would make the next step late.
+// Signals the wait events of many agents on its own thread. Waking one thread takes tens of
+// microseconds if no processor is free; a thousand of them would delay the next step.
 //
 // Threads  Open() from one thread at a time.
 #pragma once
@@ -22,8 +22,9 @@ class EventSignaler {
   EventSignaler& operator=(const EventSignaler&) = delete;
   ~EventSignaler();
 
-  // Opens them, a few at once, many soon and in this order; leaves `gates` empty. An agent waits
-  // again only after its gate has been opened, so no more come together than there are agents.
+  // Signals the events and clears `events`: a few at once, many soon and in this order. An agent
+  // waits again only after its event was signalled, so that the queue holds at most one event per
+  // agent.
   void Open(Events& events);
 
  private:

@@ -1,9 +1,9 @@
-// A behaviour inside this process: the simulation itself runs it, in turns between two steps, on
-// the threads of its team. A turn goes from a wake to the next wait.
+// A behaviour in this process. The simulation runs it in turns between two steps, on the threads of
+// its team. A turn lasts from a wake to the next wait.
 //
 // Threads      one turn of a behaviour at a time, not always on the same thread; turns of different
 //              behaviours at the same time.
-// Determinism  a turn may depend on the readings it takes and on what the behaviour remembers.
+// Determinism  a turn may depend on its readings and on the state of the behaviour.
 #pragma once
 
 #include <atomic>
@@ -22,56 +22,56 @@
 
 namespace gsv::simulation {
 
-// What a behaviour may do in its turn. Ends as the last of WaitUntil(), Block(), Finish() and
-// Fail() says; without any of them the behaviour has finished.
+// The operations of a behaviour in its turn. The last call of WaitUntil(), Block(), Finish() and
+// Fail() determines the end of the turn; without any of them the behaviour has finished.
 class Turn {
  public:
-  // What all turns of one instant share.
+  // The data that all turns of one instant share.
   struct Instant {
     base::SimTime now{0};
     SnapshotHistory::Frame snapshots;
     sensing::RaySceneCache* rays = nullptr;
     std::uint64_t seed = 0;
 
-    // Has the team make ready what readings need, if the last instant's did.
+    // Prepares the ray scene on the team, if turns of the last instant cast rays.
     void Prepare(base::ThreadTeam& team);
     sensing::Sampling MakeSampling() const;
 
     mutable std::atomic<bool> casts_rays{false};
-    std::shared_ptr<const sensing::RayScene> scene;  // held while the turns are taken
+    std::shared_ptr<const sensing::RayScene> scene;  // kept alive during the turns
   };
 
   Turn() = default;
-  // `sampling` is that of the behaviour's robot, now.
+  // `sampling` is the sampling of the behaviour's robot at this instant.
   Turn(const Instant& instant, const sensing::Sampling& sampling)
       : instant_(&instant), sampling_(&sampling) {}
 
   base::SimTime now() const { return instant_->now; }
 
-  // A reading at this instant; for sensors that answer at once, see Block().
+  // Reads a sensor at this instant. Slow sensors need Block().
   base::Result<sensing::Reading> Read(MountedSensor& sensor) const;
-  // So many sensors that cast rays are about to be read.
+  // Announces that this many sensors which cast rays will be read.
   void ExpectRays(std::size_t sensors) const { sampling_->ExpectRays(sensors); }
 
-  // Acts from this step on; a later command replaces it.
+  // Commands the base from this step on; a later command replaces it.
   void Command(const world::DriveCommand& command) { commands_.SetDrive({0, command}); }
   // The same for a joint of the robot's model.
   base::Status CommandJoint(int joint, const world::JointCommand& command);
   JointReading ReadJoint(int joint) const;  // at this instant
-  // By a radio, to the robot `receiver`; empty: to all.
+  // Sends by a radio to the robot `receiver`; empty: to all.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content);
   // Commands an actuator from this instant on.
   base::Status CommandDevice(const MountedSensor& actuator, world::DeviceCommand command);
-  // The command belongs to an exchange on the behaviour's clock.
+  // Counts an exchange on the behaviour's clock.
   void CountExchange() { ++exchanges_; }
 
-  // The next turn comes at the first step at or after `instant`; at once if that is here.
+  // The next turn comes at the first step at or after `instant`, at once if it has come.
   void WaitUntil(base::SimTime instant) { end_ = Waiting{instant}; }
-  // Does `work`, which may take its time (a picture), on a thread that may wait; the next turn
-  // comes when it is done. Time does not go on in lockstep.
+  // Runs `work`, which may be slow (an image), on another thread. The next turn comes when it is
+  // done. In lockstep, simulated time stands still meanwhile.
   void Block(std::function<void()> work) { end_ = Blocked{std::move(work)}; }
   void Finish() { end_ = Finished{}; }
-  // Instead of Finish(): the run has ended with an error, see Agent::GiveUp().
+  // Ends the run with an error, instead of Finish(); see Agent::GiveUp().
   void Fail(std::string reason) { end_ = Failed{std::move(reason)}; }
 
  private:
@@ -101,11 +101,10 @@ class LocalBehaviour : public BehaviourPort {
   bool IsDead() final { return false; }
   bool time_managed() const final { return true; }
 
-  // Start() has opened the clock that the turns are counted on.
+  // The clock of the turns, which Start() has opened.
   virtual ClockId clock() const = 0;
-  // Must come to its end: nothing can interrupt it. When it has not after the deadline, the
-  // simulation fails; until it does come, nobody gets at the world, and all that needs it is
-  // refused.
+  // Takes a turn, which must return: nothing can interrupt it. If it exceeds the deadline, the
+  // simulation fails, and requests that need the world are refused until it returns.
   virtual void TakeTurn(Turn& turn) = 0;
 };
 

@@ -1,7 +1,7 @@
-// A sensor on a robot: what is designed once for all robots of a model, and one robot's newest
-// reading of it.
+// A sensor on a robot: its design, which all robots of a model share, and the robot's newest
+// reading.
 //
-// Threads  any. Sampling one sensor never holds up another.
+// Threads  any. Sampling a sensor does not block other sensors.
 #pragma once
 
 #include <atomic>
@@ -18,19 +18,19 @@ namespace gsv::simulation {
 
 struct SensorDesign {
   model::SensorDescription description;
-  std::unique_ptr<const sensing::Sensor> sensor;  // null: cannot be made, see `refusal`
+  std::unique_ptr<const sensing::Sensor> sensor;  // null: the parameters are invalid, see `refusal`
   base::Error refusal;
   Cadence cadence;
 };
 
 using SensorDesignPtr = std::shared_ptr<const SensorDesign>;
 
-// `where` is for the sentence of an error: "robot_3/front".
+// `where` is the place in errors: "robot_3/front".
 base::Result<SensorDesignPtr> MakeSensorDesign(model::SensorDescription description,
                                                const sensing::SensorRegistry& types,
                                                const std::string& where);
 
-// The sensors of each model, designed when its first robot comes.
+// The designs of the sensors of each model, made for its first robot.
 class SensorDesigns {
  public:
   explicit SensorDesigns(std::shared_ptr<const sensing::SensorRegistry> types)
@@ -38,15 +38,14 @@ class SensorDesigns {
 
   using List = std::vector<SensorDesignPtr>;  // by name
 
-  // A sensor of a type that is not registered, or whose parameters are refused, is in the list with
-  // its refusal.
+  // A sensor of an unknown type or with invalid parameters is in the list with its error.
   std::shared_ptr<const List> Of(const std::shared_ptr<const model::Model>& model);
   const sensing::SensorRegistry& types() const { return *types_; }
 
  private:
   const std::shared_ptr<const sensing::SensorRegistry> types_;
   base::Mutex mutex_;
-  // Looked up only.
+  // For lookups only, never iterated.
   std::map<std::shared_ptr<const model::Model>, std::shared_ptr<const List>> known_
       GSV_GUARDED_BY(mutex_);
 };
@@ -60,24 +59,24 @@ class MountedSensor {
   bool casts_rays() const { return design_->sensor != nullptr && design_->sensor->CastsRays(); }
   bool takes_long() const { return design_->sensor != nullptr && design_->sensor->TakesLong(); }
 
-  // Null for a sensor that is no device.
+  // Null for a sensor that is not a device.
   std::shared_ptr<const sensing::Device> device() const {
     const auto* const device = design_->sensor != nullptr ? design_->sensor->device() : nullptr;
     return device != nullptr ? std::shared_ptr<const sensing::Device>(design_, device) : nullptr;
   }
 
-  // The sample of `sampling`'s instant: taken now if nobody has asked for it before.
+  // The sample at `sampling`'s instant, taken now unless it was taken before.
   base::Result<sensing::Reading> Read(const sensing::Sampling& sampling);
 
-  // A fault: from here on its newest sample stays that of `snapshot`, or, without one, who reads it
-  // gets an error.
+  // Applies a fault: from now on the newest sample is that of `snapshot`; if that is null, reading
+  // fails.
   void Fail(std::shared_ptr<const world::Snapshot> snapshot);
 
-  // Readings that the behaviour was given.
+  // The number of readings that the behaviour has received.
   void CountReading() { readings_.fetch_add(1, std::memory_order_relaxed); }
   std::uint64_t readings() const { return readings_.load(std::memory_order_relaxed); }
 
-  // Back to the start.
+  // Returns to the state at the start.
   void Forget();
 
  private:

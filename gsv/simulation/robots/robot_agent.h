@@ -53,39 +53,38 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                     std::string content) override;
   base::Status CommandDevice(const std::string& actuator, world::DeviceCommand command) override;
 
-  // A reading for somebody who watches.
+  // A reading for an observer.
   base::Result<sensing::Reading> Watch(const std::string& sensor);
 
-  // Stepping.
-  // Its index in the present layout.
+  // Stepping. Sets its index in the current layout.
   void SetBody(int body) GSV_REQUIRES(simulation_mutex) { body_ = body; }
   int body() const GSV_REQUIRES(simulation_mutex) { return body_; }
   void SetBehaviour(std::shared_ptr<BehaviourPort> behaviour) GSV_REQUIRES(simulation_mutex);
   const std::shared_ptr<BehaviourPort>& behaviour() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_;
   }
-  // Its behaviour is in this process: it takes turns, and no thread waits for it.
+  // Whether its behaviour is in this process: it takes turns, and no thread waits for it.
   bool is_hosted() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_ != nullptr && behaviour_->local() != nullptr;
   }
   void MarkStarted() GSV_REQUIRES(simulation_mutex);
   bool is_started() const GSV_REQUIRES(simulation_mutex) { return started_; }
-  // The simulation must not step: the agent is waited for and runs.
+  // Whether the simulation must not step, as it waits for this agent, which runs.
   bool BlocksStep() const GSV_REQUIRES(simulation_mutex);
-  // It holds up the simulation, and not only because others have their turn before it.
+  // Whether it blocks the step itself, and not only because others have their turn before it.
   bool IsAtWork() const GSV_REQUIRES(simulation_mutex);
   WallTime running_since() const GSV_REQUIRES(simulation_mutex) { return running_since_; }
   struct Woken {
-    bool has_passed = false;  // its gate is to be opened, best outside of all locks
+    bool has_passed = false;  // its wait event must be signalled, best without locks
     bool has_died = false;    // a reported death has taken effect
   };
   // Ends waits up to `now`.
   Woken Wake(SimTime now, WallTime wall_now) GSV_REQUIRES(simulation_mutex);
-  // Where its waiting calls stand; once it is open they look whether their wait is over.
+  // The event of its waiting calls. After a signal they check whether their wait is over.
   std::shared_ptr<WaitEvent> wait_event() { return {shared_from_this(), &wait_event_}; }
-  // It runs and will never wait: takes effect at once.
+  // Marks it as unresponsive at once, as it runs and does not wait.
   void MarkUnresponsive(std::string detail) GSV_REQUIRES(simulation_mutex);
-  // Its end is known; takes effect at its next wake, at once if it runs.
+  // Reports its death, which takes effect at its next wake, at once if it runs.
   void ReportDeath(std::string detail) GSV_REQUIRES(simulation_mutex);
   bool is_alive() const GSV_REQUIRES(simulation_mutex) {
     return fate_ == Fate::kAlive && !death_reported_;
@@ -93,12 +92,11 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   bool is_watched() const GSV_REQUIRES(simulation_mutex) {
     return behaviour_ != nullptr && is_alive() && !is_removed_;
   }
-  // Returns the commands that act from this step on, as far as its motor and joints can follow
-  // them, and clears them.
+  // Returns and clears the commands for the next step, without those for failed motors and joints.
   RobotCommands TakeCommands() GSV_REQUIRES(simulation_mutex);
-  // Has its devices follow the commands that they follow from the start.
+  // Applies the initial commands of its devices.
   void StartDevices() GSV_REQUIRES(simulation_mutex);
-  // Faults: from the next step on its drive stands still, or nothing moves that joint.
+  // Faults: from the next step on the drive stops, or the joint has no motor.
   void LoseMotor() GSV_REQUIRES(simulation_mutex);
   void LoseJoint(int joint) GSV_REQUIRES(simulation_mutex);
   void MarkRemoved() GSV_REQUIRES(simulation_mutex);
@@ -109,13 +107,13 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   void AddToHash(base::Hash& hash) const GSV_REQUIRES(simulation_mutex);
   SensorRack& rack() { return rack_; }
 
-  // A local behaviour's turn. TakeTurn() needs no lock; Settle() enters what came of it, and gives
-  // the work that the behaviour is blocked on, if it is.
+  // A local behaviour's turn. TakeTurn() needs no lock. ApplyTurn() applies its result, and returns
+  // the work that the behaviour waits for, if any.
   void TakeTurn(const Turn::Instant& instant, sensing::Sampling& sampling);
-  // When the turn began that is under way; empty between turns. Any thread.
+  // The start of the current turn; empty between turns. Any thread.
   std::optional<WallTime> in_turn_since() const;
   std::function<void()> ApplyTurn() GSV_REQUIRES(simulation_mutex);
-  // The turn of its local behaviour has come.
+  // Marks its local behaviour as ready for a turn.
   void MakeReady() GSV_REQUIRES(simulation_mutex);
 
  private:
@@ -129,18 +127,19 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
                             std::chrono::milliseconds lease) GSV_REQUIRES(simulation_mutex);
   base::Result<std::vector<NamedReading>> ReadOpenSensors();
   base::Result<sensing::Reading> Sample(MountedSensor& sensor);
-  // The clock waits; false when `until` is here already.
+  // Makes the clock wait; false if `until` has come already.
   bool BeginWait(ClockId clock, SimTime until) GSV_REQUIRES(simulation_mutex);
   void ReportFailure(std::string_view reason) GSV_REQUIRES(simulation_mutex);
-  // Tells the simulation whether it has to wait for this agent; after whatever may change that.
+  // Updates whether the simulation waits for this agent. Call it after every change that may
+  // matter.
   void UpdateRunningCount() GSV_REQUIRES(simulation_mutex);
 
-  // The commands that the next step takes, which it does not forget then.
+  // The commands for the next step; registers the agent as commanded.
   RobotCommands& Commands() GSV_REQUIRES(simulation_mutex);
   void StopDriving() GSV_REQUIRES(simulation_mutex) { Commands().SetDrive({}); }
-  // A device that is on while it is open is on from the next step on.
+  // Switches on a device that is on while it is open, from the next step on.
   void SwitchOn(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
-  // A device follows the command that it follows from the start.
+  // Applies the initial command of a device.
   void StartDevice(const MountedSensor& sensor) GSV_REQUIRES(simulation_mutex);
 
   const std::string robot_;
@@ -159,12 +158,12 @@ class RobotAgent final : public Agent, public std::enable_shared_from_this<Robot
   std::set<int> lost_joints_ GSV_GUARDED_BY(simulation_mutex);
   bool is_counted_ GSV_GUARDED_BY(simulation_mutex) = false;    // in shared_->running
   bool is_commanded_ GSV_GUARDED_BY(simulation_mutex) = false;  // in shared_->commanded
-  // A local behaviour is blocked on work that takes its time.
+  // Whether a local behaviour waits for slow work.
   bool is_blocked_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool started_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool is_removed_ GSV_GUARDED_BY(simulation_mutex) = false;
   bool death_reported_ GSV_GUARDED_BY(simulation_mutex) = false;
-  // It has reported its death itself: nothing of it counts any more.
+  // Whether it has reported its own death; its later calls are ignored.
   bool has_given_up_ GSV_GUARDED_BY(simulation_mutex) = false;
   Fate fate_ GSV_GUARDED_BY(simulation_mutex) = Fate::kAlive;
   std::string detail_ GSV_GUARDED_BY(simulation_mutex);

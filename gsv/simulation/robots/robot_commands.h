@@ -1,8 +1,8 @@
-// What a robot's behaviour commands between two steps: its drive, its joints, its devices. The next
-// step takes it.
+// The commands of a robot's behaviour between two steps: drive, joints and devices. The next step
+// takes them.
 //
-// Determinism  commands of one robot count in its behaviour's order; different robots' commands
-//              have nothing to do with each other.
+// Determinism  commands of one robot are applied in its behaviour's order; commands of different
+//              robots are independent.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace gsv::simulation {
 
-// What happens to one device.
+// An action on one device.
 struct DeviceAction {
   enum class Kind { kSwitchOn, kSwitchOff, kCommand };
   Kind kind = Kind::kCommand;
@@ -27,40 +27,40 @@ struct DeviceAction {
   const std::string& name() const { return device->description().name; }
 };
 
-// Whether behaviours command it by Agent::CommandDevice().
+// Whether it takes Agent::CommandDevice().
 bool TakesCommands(const MountedSensor& sensor);
-// Refuses a sensor that takes no commands, and a command that it cannot follow. `robot` is for the
-// error's place.
+// The command as an action. Refuses a sensor that takes no commands, and an invalid command.
+// `robot` is the place in errors.
 base::Result<DeviceAction> CommandOf(const MountedSensor& sensor, world::DeviceCommand command,
                                      const std::string& robot);
 
 class RobotCommands {
  public:
   struct Drive {
-    ClockId clock = 0;  // on which it was exchanged; 0: given directly
+    ClockId clock = 0;  // of the exchange; 0: commanded directly
     world::DriveCommand command;
   };
 
   void SetDrive(const Drive& drive) { drive_ = drive; }
-  // The same, unless a command of a later clock is there.
+  // Sets the drive unless there is a command of a later clock.
   void OfferDrive(const Drive& drive);
   void CommandJoint(int joint, const world::JointCommand& command);
   void ForgetJoint(int joint);
-  // An action on a device that makes earlier ones void replaces them.
+  // Adds an action; it replaces earlier ones that it makes void.
   void Add(DeviceAction action);
-  // A message by a radio to the robot `receiver` (empty: to all). Refuses what is no radio, a
-  // message that is too long, and more than 64 in one step.
+  // Adds a message of a radio to the robot `receiver` (empty: to all). Refuses a sensor that is not
+  // a radio, a message that is too long, and more than 64 in one step.
   base::Status Send(const MountedSensor& radio, const std::string& receiver, std::string content,
                     const std::string& robot);
 
-  // Adds what was commanded after all of this.
+  // Adds later commands.
   void Merge(RobotCommands later);
-  // Gives all, and is empty then.
+  // Returns all commands and clears them.
   RobotCommands Take() { return std::exchange(*this, {}); }
 
   bool empty() const { return !drive_ && joints_.empty() && devices_.empty(); }
   std::optional<Drive>& drive() { return drive_; }
-  // Each with its index in the robot's model; the last of a joint holds.
+  // Commands by index in the robot's model; the last one of a joint counts.
   const std::vector<std::pair<int, world::JointCommand>>& joints() const { return joints_; }
   std::vector<DeviceAction>& devices() { return devices_; }
 

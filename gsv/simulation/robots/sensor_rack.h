@@ -17,22 +17,22 @@ using MountedSensorPtr = std::shared_ptr<MountedSensor>;
 
 class SensorRack {
  public:
-  // The sensors of the robot's model are there from the start. `designs` outlives the rack.
+  // Begins with the sensors of the robot's model. `designs` must outlive the rack.
   SensorRack(std::string robot, const std::shared_ptr<const model::Model>& model,
              SensorDesigns& designs);
 
   std::vector<model::SensorDescription> Descriptions() const;
   std::vector<std::string> TypeNames() const { return designs_.types().names(); }  // to be created
 
-  // Adds a sensor; it is open. `link_count` is that of the model.
+  // Adds an open sensor. `link_count` is the number of links of the model.
   base::Status Create(model::SensorDescription description, int link_count);
   base::Status Open(const std::string& name);
-  // A sensor that was created is gone with that; one of the model can be opened again.
+  // Closes a sensor, and removes it if it was created. A sensor of the model can be opened again.
   base::Status Close(const std::string& name);
-  // Closes all, drops the created ones, forgets readings and counts.
+  // Closes all sensors, removes created ones, clears readings and counts.
   void Reset();
 
-  // Open or not; an error if there is none of that name.
+  // A sensor, open or not; an error if the name is unknown.
   base::Result<MountedSensorPtr> Find(const std::string& name) const;
   std::vector<MountedSensorPtr> OpenSensors() const;  // by name
 
@@ -44,9 +44,9 @@ class SensorRack {
     bool is_created = false;  // by a caller, not by the model
     bool is_open = false;
   };
-  // Null if there is none of that name.
+  // Null if the name is unknown.
   const Slot* FindSlot(const std::string& name) const GSV_REQUIRES(mutex_);
-  // Of the first whose name is not below.
+  // The index of the first slot whose name is not less.
   std::size_t PlaceOf(const std::string& name) const GSV_REQUIRES(mutex_);
   base::Error NoSuchSensor(const std::string& name) const;
 

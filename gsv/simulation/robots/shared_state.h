@@ -1,5 +1,5 @@
-// What a simulation, its stepping thread and its agents share, under one mutex. Agents hold it, so
-// that a call that comes late finds an end instead of nothing.
+// The state that a simulation, its stepping thread and its agents share, under one mutex. Agents
+// keep it alive, so that late calls find an ended simulation.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace gsv::simulation {
 
 class RobotAgent;
 
-// SharedState::mutex, as the thread-safety analysis knows it: the parts of a simulation reach it
-// each through a pointer of their own, and the analysis cannot tell that these are equal.
+// SharedState::mutex for the thread-safety analysis. The parts of a simulation have pointers of
+// their own to the state, and the analysis cannot prove that they are equal.
 class GSV_CAPABILITY("mutex") SimulationMutex {
  public:
   // Tells the analysis that the calling thread holds the mutex; checks nothing.
@@ -39,30 +39,30 @@ struct SharedState {
   // Taken through SimulationLock and AgentCallLock.
   base::Mutex line;
   base::Mutex mutex;
-  // For the stepping thread: the phase changed, the last agent that it waited for has begun to
-  // wait, or a local behaviour can go on.
+  // For the stepping thread: the phase changed, the last running agent waits, or a local behaviour
+  // can continue.
   base::ConditionVariable changed;
-  // Not empty: agents' calls end with it.
+  // The reason with which agents' calls end; empty: they continue.
   std::string end_reason GSV_GUARDED_BY(simulation_mutex);
   SimTime now GSV_GUARDED_BY(simulation_mutex){0};
 
-  // Agents enter themselves here; whoever takes one out of the world removes it.
+  // Agents register here. A function that removes an agent from the world removes its entries.
   //
-  // The number of agents that hold up the simulation.
+  // The number of agents that block the next step.
   int running GSV_GUARDED_BY(simulation_mutex) = 0;
-  // Who waits for an instant.
+  // Agents that wait for an instant.
   TimerQueue<RobotAgent> sleepers GSV_GUARDED_BY(simulation_mutex);
-  // Who has a command for the next step.
+  // Agents with a command for the next step.
   std::vector<RobotAgent*> commanded GSV_GUARDED_BY(simulation_mutex);
   // Local behaviours whose turn it is.
   std::vector<RobotAgent*> ready GSV_GUARDED_BY(simulation_mutex);
-  // Of agents that may be running.
+  // Whether deaths of agents were reported; the agents may be running.
   bool has_reported_deaths GSV_GUARDED_BY(simulation_mutex) = false;
   // Robots whose behaviour has given up, and the sentence that the stepping thread emits.
   std::vector<std::pair<std::string, std::string>> given_up GSV_GUARDED_BY(simulation_mutex);
 };
 
-// Holds SharedState::mutex as long as it lives, but for what lies between unlock() and lock().
+// Holds SharedState::mutex for its lifetime, except between unlock() and lock().
 class GSV_SCOPED_CAPABILITY SimulationLock {
  public:
   explicit SimulationLock(SharedState& state) GSV_ACQUIRE(simulation_mutex) : lock_(state.mutex) {}
@@ -80,8 +80,9 @@ class GSV_SCOPED_CAPABILITY SimulationLock {
   base::MutexLock lock_;
 };
 
-// The same for agents' calls, of which there may be a thousand at once: they queue up before the
-// mutex, so that the stepping thread, which takes it directly, finds one of them before it at most.
+// The same for agents' calls, of which there may be a thousand at once. They queue for `line`
+// first, so that the stepping thread, which locks the mutex directly, waits for at most one of
+// them.
 class GSV_SCOPED_CAPABILITY AgentCallLock {
  public:
   explicit AgentCallLock(SharedState& state) GSV_ACQUIRE(simulation_mutex) : state_(state) {

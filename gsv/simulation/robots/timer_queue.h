@@ -1,7 +1,7 @@
-// Who is to be woken when. An entry is a hint: whoever is called looks at its own clocks, so that
-// an entry too many does no harm.
+// Sleepers by the instant at which they wake. An entry is a hint: a sleeper checks its own clocks,
+// so that superfluous entries do no harm.
 //
-// Threads  guarded by its owner.
+// Threads  the owner synchronises access.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ class TimerQueue {
     return !entries_.empty() && entries_.begin()->first <= now;
   }
 
-  // Calls `wake` with those whose instant has come, in the order of instants and of entries, and
-  // forgets them.
+  // Removes the sleepers whose instant has come and calls `wake` for each, in the order of instants
+  // and of entries.
   template <typename Wake>
   void TakeDue(base::SimTime now, const Wake& wake) {
     while (HasDue(now)) {
@@ -48,7 +48,7 @@ class TimerQueue {
 
  private:
   std::map<base::SimTime, std::vector<Sleeper*>> entries_;
-  std::vector<Sleeper*> spare_;  // so that a crowd's next day needs no memory
+  std::vector<Sleeper*> spare_;  // reused for the next entry
 };
 
 }  // namespace gsv::simulation

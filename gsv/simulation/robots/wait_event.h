@@ -1,6 +1,5 @@
-// What the threads of an agent's waiting calls wait at. It has a lock of its own, so that a crowd
-// that is woken at one instant does not queue up for the simulation's lock, which its stepping
-// thread needs as well.
+// The event for which the threads of an agent's calls wait. It has its own lock, so that many
+// agents that wake at one instant do not contend for the simulation's lock.
 //
 // Threads  any.
 #pragma once
@@ -14,14 +13,14 @@ namespace gsv::simulation {
 
 class WaitEvent {
  public:
-  // How often it has been opened. Who reads this under the lock that guards what it waits for, and
-  // then waits beyond it, misses nothing.
+  // The number of signals so far. A thread that reads it under the lock of its condition, and then
+  // calls WaitAfter(), misses no signal.
   std::uint64_t signals() const {
     const base::MutexLock lock(mutex_);
     return signals_;
   }
 
-  // Lets all pass who wait now; dear (a system call) where somebody waits.
+  // Wakes all waiting threads; a system call if there are any.
   void Open() {
     {
       const base::MutexLock lock(mutex_);
@@ -30,7 +29,7 @@ class WaitEvent {
     opened_.notify_all();
   }
 
-  // Waits until it has been opened more often than `openings`. False when `until` comes first.
+  // Waits for a signal after the first `signals`. False at `until`.
   bool WaitAfter(std::uint64_t signals, WallTime until) {
     base::MutexLock lock(mutex_);
     return opened_.wait_until(lock, until,

@@ -1,5 +1,5 @@
-// Acts on what RunControl decides: starts and stops behaviours, emits events, keeps the pace and
-// wakes the threads that wait for a phase.
+// Carries out the decisions of RunControl: starts and stops behaviours, emits events, schedules
+// real time and wakes threads that wait for a phase.
 //
 // Threads  any, with SharedState::mutex (simulation_mutex) as declared.
 #pragma once
@@ -19,7 +19,8 @@ namespace gsv::simulation {
 
 class LifeCycle {
  public:
-  // All but the specification outlive the life cycle; the caller is closed before it ends.
+  // All arguments but the specification must outlive the life cycle; the caller must be closed
+  // before.
   LifeCycle(const Specification& specification, const WorldLock& world_lock,
             std::shared_ptr<SharedState> shared, EventLog& events, AgentPopulation& agents,
             BehaviourCaller& caller)
@@ -36,16 +37,16 @@ class LifeCycle {
   RunPace& pace() GSV_REQUIRES(simulation_mutex) { return pace_; }
   const RunPace& pace() const GSV_REQUIRES(simulation_mutex) { return pace_; }
 
-  // Does what a change of run() entails. `detail` is that of its event.
+  // Carries out a change of run(). `detail` is the detail of its event.
   void Apply(RunControl::Change change, const std::string& detail = {})
       GSV_REQUIRES(simulation_mutex);
   void Fail(const std::string& reason) GSV_REQUIRES(simulation_mutex);
-  // The first half of a reset. False: there is nothing to reset.
+  // Begins a reset. False: there is nothing to reset.
   bool BeginReset() GSV_REQUIRES(simulation_mutex);
-  // The second half; what else is to be reset has been.
+  // Ends a reset, after everything else was reset.
   void FinishReset() GSV_REQUIRES(simulation_mutex);
 
-  // Starts behaviours; the run begins when all that are being started have answered.
+  // Starts behaviours. The run begins when all of them have answered.
   void StartBehaviours(const std::vector<AgentPopulation::AgentPtr>& agents)
       GSV_REQUIRES(simulation_mutex);
   void EndBehaviours(std::string reason) GSV_REQUIRES(simulation_mutex);

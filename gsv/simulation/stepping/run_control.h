@@ -1,10 +1,10 @@
-// The life cycle of a run: its phase, how far it is to run, and how it ended.
+// The life cycle of a run: its phase, its end, and the result.
 //
-// RunControl decides. Its owner acts on the Change that a call returns: it starts behaviours, emits
-// events and wakes threads.
+// RunControl decides. Its owner carries out the Change that a call returns: it starts behaviours,
+// emits events and wakes threads.
 //
 // Errors   a request that the phase does not allow fails with kNotRunning and changes nothing.
-// Threads  one call at a time; it has no thread, lock or clock of its own.
+// Threads  one call at a time; it has no thread, lock or clock.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace gsv::simulation {
 
 class RunControl {
  public:
-  // What a call has done to the phase.
+  // The effect of a call on the phase.
   enum class Change {
     kNone,
     kStarted,   // created → starting
@@ -31,13 +31,13 @@ class RunControl {
     kFailed,    // any → failed
   };
 
-  // `simulation` is named in errors. `duration`: 0: it runs until it is stopped.
+  // Errors name `simulation`. `duration` 0: it runs until it is stopped.
   RunControl(std::string simulation, SimTime duration)
       : simulation_(std::move(simulation)), duration_(duration) {}
 
   Phase phase() const { return phase_; }
   bool is_running() const { return phase_ == Phase::kRunning; }
-  // Stopped, finished or failed.
+  // Whether it is stopped, finished or failed.
   bool has_ended() const;
   // Fails with kNotRunning unless the phase is among `allowed`; `action` completes "to …".
   base::Status Require(std::initializer_list<Phase> allowed, const char* action) const;
@@ -50,20 +50,20 @@ class RunControl {
   base::Result<Change> RunUntil(SimTime until, SimTime now);
   base::Result<Change> RunThrough(SimTime until, SimTime now);
   Change Stop();
-  // A reset has two halves: the run stops, then the owner waits for behaviours and puts everything
-  // back, and then the run is created again. kNone: there is nothing to reset.
+  // A reset has two parts: the run stops; the owner waits for behaviours and resets everything;
+  // then FinishReset() returns to the phase "created". kNone: there is nothing to reset.
   Change BeginReset();
   void FinishReset();
 
-  // Each start of a behaviour that is under way keeps the run in the phase "starting".
+  // Each pending start of a behaviour keeps the run in the phase "starting".
   void BeginStart() { ++starts_pending_; }
   void EndStart() { --starts_pending_; }
-  // kRunning when the run was starting and no start is under way any more.
+  // kRunning if the run was starting and no start is pending.
   Change RunIfStarted();
 
-  // The stepping thread. Agents that wait for the present instant are woken.
+  // For the stepping thread: agents that wait for this instant are woken.
   void BeginTurns() { turns_have_begun_ = true; }
-  // All turns at `now` are over. kPaused where RunThrough() ends here.
+  // All turns at `now` are over. kPaused if RunThrough() ends here.
   Change EndTurns(SimTime now);
   void BeginStep() { run_of_step_ = run_; }
   // The step that led to `now` is over.
@@ -72,7 +72,7 @@ class RunControl {
   Change Fail(std::string reason);
   const std::string& failure() const { return failure_; }
 
-  // Of the state in which the run finished; empty in all other phases.
+  // The hash of the state in which the run finished; empty in all other phases.
   const std::string& final_hash() const { return final_hash_; }
   void SetFinalHash(std::string hash) { final_hash_ = std::move(hash); }
 
@@ -80,7 +80,7 @@ class RunControl {
   std::uint64_t run() const { return run_; }
   // The moment of an edit that is made now. `all_wait`: no agent's turn is under way.
   Edit::Moment MomentOfEdit(bool all_wait) const;
-  // Edits of the bodies before the first start do not count: that is how a run is set up.
+  // Edits of bodies before the first start set up the run and do not count.
   void MarkEdited() { was_edited_ = was_edited_ || run_ > 0; }
   void MarkWorldChanged() { was_edited_ = true; }
   bool was_edited() const { return was_edited_; }

@@ -1,8 +1,8 @@
 // The stepping thread of a simulation: it wakes agents, gives local behaviours their turns, waits
 // until all agents wait (lockstep) or for the wall clock (real time), and takes steps.
 //
-// Determinism  in lockstep nothing depends on when a call arrived: commands act from the instant at
-//              which their agent runs, and loops go over names in order.
+// Determinism  in lockstep no value depends on the arrival of calls: commands are applied from the
+//              instant at which their agent runs, and loops follow the order of names.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ namespace gsv::simulation {
 
 class StepLoop {
  public:
-  // What the loop works on; all of it outlives the loop.
+  // The objects that the loop uses; all must outlive the loop.
   struct Parts {
     const Specification& specification;
     std::shared_ptr<SharedState> shared;
@@ -32,36 +32,36 @@ class StepLoop {
     LifeCycle& life_cycle;
     SimulatedWorld& world;
     FaultInjector& faults;
-    std::shared_ptr<base::ThreadTeam> team;  // helps whoever holds the world's lock
+    std::shared_ptr<base::ThreadTeam> team;  // used with the world's lock held
   };
 
   // Starts the thread.
   explicit StepLoop(Parts parts);
   StepLoop(const StepLoop&) = delete;
   StepLoop& operator=(const StepLoop&) = delete;
-  // After Quit().
+  // Quit() must have been called.
   ~StepLoop() = default;
-  // The thread ends after the step that is under way.
+  // Ends the thread after the current step.
   void Quit() GSV_REQUIRES(simulation_mutex);
   // Waits for the end of the thread; the caller holds no lock.
   void Join();
 
-  // The hash of the world, the agents' waits and the faults that have happened.
+  // The hash of the world, the agents' waits and the applied faults.
   std::string HashNow() const GSV_REQUIRES(world_mutex, simulation_mutex);
 
  private:
   void Run();
   void ApplyFaults();
   void WakeAgents() GSV_REQUIRES(simulation_mutex);
-  // Local behaviours whose time has come run until they wait.
+  // Runs local behaviours that are due until they wait.
   void TakeTurns();
   void PostBlocked(AgentPopulation::AgentPtr agent, std::function<void()> work);
   void GiveUpOn(RobotAgent& agent) GSV_REQUIRES(simulation_mutex);
-  // True when every agent waits. Else it has waited for something to change.
+  // True if every agent waits. Otherwise it waits for a change first.
   bool AllWait(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   bool IsDue(SimulationLock& lock) GSV_REQUIRES(simulation_mutex);
   void TakeStep();
-  // False: the step is not to be taken after all.
+  // False: the step must not be taken.
   bool BeginStep(WallTime start) GSV_REQUIRES(world_mutex);
   void ApplyCommands() GSV_REQUIRES(world_mutex, simulation_mutex);
   void EndStep(const std::shared_ptr<const world::Snapshot>& snapshot, WallTime start)
@@ -71,13 +71,13 @@ class StepLoop {
   RunControl& run_ GSV_GUARDED_BY(simulation_mutex);
   bool quit_ GSV_GUARDED_BY(simulation_mutex) = false;
 
-  // The stepping thread's.
+  // Used by the stepping thread only.
   SnapshotPool snapshots_;
   DeviceActions device_actions_;    // for the next step
-  Turn::Instant instant_;           // of the turns that are being taken
-  std::vector<RobotAgent*> turns_;  // that are being taken
+  Turn::Instant instant_;           // of the current turns
+  std::vector<RobotAgent*> turns_;  // of the current turns
   EventSignaler event_signaler_;
-  EventSignaler::Events woken_;  // of agents that have just been woken
+  EventSignaler::Events woken_;  // of agents that were just woken
 
   std::jthread thread_;
 };

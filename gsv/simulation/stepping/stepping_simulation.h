@@ -1,10 +1,10 @@
-// The Simulation there is: wires the parts that own its data, and passes requests to them.
+// The implementation of Simulation: connects the parts that own its data, and passes requests to
+// them.
 //
-//   RunControl, LifeCycle   the phase, and what a change of it entails
-//   AgentPopulation         the robots' agents and behaviours
-//   SimulatedWorld          layout, state, engine; changed by WorldEditor and FaultInjector
-//   EventLog                events and observers
-//   StepLoop, Watchdog      a thread each
+//   RunControl, LifeCycle   the phase, and the actions on its changes AgentPopulation         the
+//   robots' agents and behaviours SimulatedWorld          layout, state, engine; changed by
+//   WorldEditor and FaultInjector EventLog                events and observers StepLoop, Watchdog
+//   a thread each
 //
 // Locks, in the order in which they are taken: control_mutex_ (one request at a time),
 // SimulatedWorld::lock(), SharedState::mutex (life cycle, agents, faults that are due), EventLog's.
@@ -77,20 +77,21 @@ class SteppingSimulation final : public Simulation {
   base::Result<AgentPopulation::AgentPtr> RequireAgent(const std::string& robot) const;
   base::Status RefuseStuck() const;
 
-  // `request` is given run_, under the locks, and returns a Result<RunControl::Change>.
+  // Calls `request` with run_ under the locks; it returns a Result<RunControl::Change>.
   template <typename Request>
   base::Status Perform(Request request);
-  // Waits until no call to a behaviour is under way. Fails if one in process does not return.
+  // Waits until no call to a behaviour is in progress. Fails if a behaviour in process does not
+  // return.
   base::Status AwaitCalls();
 
-  // Waits for the end of the turns of behaviours elsewhere, if they do not take long.
+  // Waits a short time for the end of the turns of remote behaviours.
   void AwaitTurns() const;
   base::Status CheckMayEdit(const WorldGuard& guard) const;
   void AssignBodies() GSV_REQUIRES(world_mutex);
-  // Emits the event of an edit that has been made.
+  // Emits the event of an edit.
   void RecordEdit(Edit edit, const char* event, const std::string& detail = {})
       GSV_REQUIRES(world_mutex);
-  // Gives an object with sensors its agent.
+  // Creates the agent of an object with sensors.
   void AddStation(const std::string& name) GSV_REQUIRES(world_mutex);
   base::Status PlaceRobots(std::vector<RobotSpecification>& robots);
   base::Status RemoveRobots(const std::vector<std::string>& names);

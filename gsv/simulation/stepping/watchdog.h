@@ -1,5 +1,5 @@
-// Looks after a simulation's behaviours once a second: which have died, and which, in process, do
-// not return from their turn. A simulation with one of the latter fails: see world_lock.h.
+// Checks once a second whether behaviours have died, and whether a behaviour in process exceeds its
+// deadline. In the latter case the simulation fails, see world_lock.h.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@ namespace gsv::simulation {
 
 class Watchdog {
  public:
-  // Watches from now on. A turn may last as long as `deadline`.
+  // Starts the watchdog. A turn may last `deadline`.
   Watchdog(std::chrono::milliseconds deadline, WorldLock& world_lock,
            std::shared_ptr<SharedState> shared, EventLog& events, AgentPopulation& agents,
            LifeCycle& life_cycle);

@@ -1,6 +1,6 @@
-// What may become of a simulation when it is asked to start, pause, resume, step, run until an
-// instant, stop or reset. The run goes on by itself meanwhile, so the model holds every state that
-// the simulation may be in; what is answered and seen must fit one of them. For tests.
+// For tests: a model of the requests start, pause, resume, step, run until, stop and reset. As the
+// run advances by itself, the model holds every state that the simulation may be in. Answers and
+// observations must be consistent with one of them.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@ enum class Action { kStart, kPause, kResume, kStep, kRunUntil, kStop, kReset };
 
 struct Request {
   Action action;
-  std::int64_t argument = 0;  // kStep: how many; kRunUntil: the step that its instant falls on
+  std::int64_t argument = 0;  // kStep: number of steps; kRunUntil: the step of its instant
 };
 
-// What was seen: kStarting counts as running.
+// An observation; kStarting counts as running.
 struct Observed {
   Phase phase;
   std::int64_t step;
@@ -32,14 +32,14 @@ struct Interval {
   std::int64_t low = 0, high = 0;
 };
 
-// One state that the simulation may be in.
+// A possible state of the simulation.
 struct State {
   Phase phase = Phase::kCreated;
   Interval step;                    // of the latest snapshot
-  std::optional<Interval> counted;  // running: where the steps asked for end
+  std::optional<Interval> counted;  // running: the step at which the requested steps end
   std::optional<std::int64_t> run_until;
 
-  // Where a run ends by itself in a pause.
+  // The step at which the run pauses by itself.
   std::optional<Interval> Goal() const {
     if (!run_until) return counted;
     if (!counted) return Interval{*run_until, *run_until};
@@ -55,7 +55,7 @@ class LifeCycleModel {
  public:
   explicit LifeCycleModel(std::int64_t duration) : end_(duration > 0 ? duration : kUnbounded) {}
 
-  // `seen` was seen just before the request, `ok` was its answer. False: no state allows that.
+  // `seen` was observed just before the request, `ok` was its answer. False: no state allows this.
   bool Requested(const Request& request, const Observed& seen, bool ok) {
     std::vector<State> next;
     for (const State& state : WithSpontaneousChanges()) {
@@ -85,7 +85,7 @@ class LifeCycleModel {
     return !states_.empty();
   }
 
-  // Whether it comes to rest by itself, whatever it does now.
+  // Whether it pauses or ends by itself in every possible state.
   bool WillPause() const {
     return std::all_of(states_.begin(), states_.end(), [this](const State& state) {
       return state.phase != Phase::kRunning || state.Goal() || end_ != kUnbounded;
@@ -147,7 +147,7 @@ class LifeCycleModel {
     return false;
   }
 
-  // What becomes of a state when the request is accepted; nothing when it cannot be.
+  // The state after an accepted request; nothing if it cannot be accepted.
   std::optional<State> After(State state, const Request& request, const Observed& seen) const {
     const bool is_running = state.phase == Phase::kRunning;
     state.step.low = std::max(state.step.low, seen.step);

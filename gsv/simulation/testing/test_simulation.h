@@ -19,9 +19,9 @@ using namespace std::chrono_literals;
 using geometry::PlanarPose;
 
 inline constexpr auto kLease = 200ms;
-inline constexpr auto kPatience = 20s;  // wall time in which every expected change must have come
+inline constexpr auto kPatience = 20s;  // wall-clock time limit of every expected change
 
-// Where the body of that name stands now.
+// The current pose of a body.
 inline geometry::Pose PoseOf(const Simulation& simulation, const std::string& name) {
   const auto snapshot = simulation.snapshot();
   const int body = snapshot->layout->Find(name);

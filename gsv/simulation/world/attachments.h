@@ -1,4 +1,4 @@
-// Has the engine attach the bodies that devices hold to the robots that hold them.
+// Keeps the attachments of the engine in step with the bodies that devices hold.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@ namespace gsv::simulation {
 
 class Attachments {
  public:
-  // Has `engine` move the bodies of `layout`, with what is held in `state`.
+  // Gives `layout` to `engine`, with the attachments of `state`.
   base::Status SetLayout(const std::shared_ptr<const world::Layout>& layout,
                          const world::State& state, dynamics::Engine& engine);
-  // Attaches and detaches what has changed since; `layout` is the engine's.
+  // Attaches and detaches the bodies that have changed since; `layout` is the engine's.
   void Follow(const world::Layout& layout, const world::State& state, dynamics::Engine& engine);
 
  private:

@@ -1,7 +1,7 @@
-// Takes the devices of robots through a step, whatever their types are.
+// Steps the devices of robots, independently of their types.
 //
-// Determinism  a function of the snapshot, the state and the actions; the order in which robots
-//              come in `actions` leaves no trace.
+// Determinism  a function of the snapshot, the state and the actions, independent of the order of
+//              robots in `actions`.
 #pragma once
 
 #include <memory>
@@ -16,21 +16,22 @@
 
 namespace gsv::simulation {
 
-// By robot, each once.
+// Actions by robot, each robot once.
 using DeviceActions = std::vector<std::pair<std::string, std::vector<DeviceAction>>>;
 
-// Before the bodies move: applies `actions`, by robots' names, and then has each device do its part
-// of the step of `length` from `now` on. `state` is that of `now`. Gives what radios sent.
+// Before the bodies move: applies `actions` in the order of robots' names, then calls BeforeStep()
+// of each device for the step of `length` from `now` on. `state` is that of `now`. Returns the
+// transmissions of radios.
 std::vector<world::Transmission> StepDevices(const std::shared_ptr<const world::Snapshot>& now,
                                              base::SimTime length, DeviceActions actions,
                                              sensing::RaySceneCache& rays, base::ThreadTeam* team,
                                              world::State& state);
 
-// After the bodies have moved, to where they are at `time`.
+// After the bodies have moved to their poses at `time`: calls AfterMove() of each device.
 void MoveDevices(const world::Layout& layout, base::SimTime time, world::State& state);
 
-// After the bodies of `layout` have become others, or were placed elsewhere (`placed`): a device
-// goes with its robot.
+// After bodies of `layout` were added, removed or placed (`placed`): calls CarryOver() of each
+// device, and removes devices of removed robots.
 void CarryOverDevices(const world::Layout& layout, const std::vector<std::string>& placed,
                       world::State& state);
 

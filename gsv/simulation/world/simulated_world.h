@@ -1,4 +1,4 @@
-// The world that a simulation moves: who stands in it, the state, and the engine.
+// The world of a simulation: layout, state and engine.
 //
 // Threads  any, with lock() (world_mutex) as declared.
 #pragma once
@@ -15,7 +15,7 @@ namespace gsv::simulation {
 
 class SimulatedWorld {
  public:
-  // The world starts at the initial state of `layout`, which `engine` has been given.
+  // Starts at the initial state of `layout`, which the engine must have.
   SimulatedWorld(std::unique_ptr<dynamics::Engine> engine,
                  std::shared_ptr<const world::Layout> layout);
 
@@ -27,13 +27,13 @@ class SimulatedWorld {
   world::State& state() GSV_REQUIRES(world_mutex) { return state_; }
   const world::State& state() const GSV_REQUIRES(world_mutex) { return state_; }
   dynamics::Engine& engine() GSV_REQUIRES(world_mutex) { return *engine_; }
-  // world_from_model of the body of that name, which is there.
+  // world_from_model of the body of that name, which must exist.
   const geometry::Pose& PoseOf(const std::string& body) const GSV_REQUIRES(world_mutex) {
     return state_.bodies[static_cast<std::size_t>(layout_->Find(body))].world_from_model;
   }
 
-  // Has the engine move the bodies of `layout`, with what `state` says is held. A layout that is
-  // tried only is followed by Replace() or Restore().
+  // Gives `layout` to the engine, with the attachments of `state`. Call Replace() or Restore()
+  // afterwards.
   base::Status TryLayout(const std::shared_ptr<const world::Layout>& layout,
                          const world::State& state) GSV_REQUIRES(world_mutex) {
     return attachments_.SetLayout(layout, state, *engine_);
@@ -41,14 +41,14 @@ class SimulatedWorld {
   base::Status Restore() GSV_REQUIRES(world_mutex) { return TryLayout(layout_, state_); }
   base::Status Replace(std::shared_ptr<const world::Layout> layout, world::State state)
       GSV_REQUIRES(world_mutex);
-  // Back to the initial state.
+  // Returns to the initial state.
   void Reset() GSV_REQUIRES(world_mutex);
 
-  // Has the engine attach and detach what devices have grasped and released since the last step.
+  // Attaches and detaches the bodies that devices have grasped and released since the last step.
   void FollowAttachments() GSV_REQUIRES(world_mutex) {
     attachments_.Follow(*layout_, state_, *engine_);
   }
-  // Moves the world by one step. `snapshot` becomes the state after it; its memory is used again.
+  // Moves the world by one step and writes the new state to `snapshot`, whose memory is reused.
   void Step(base::SimTime step, world::Snapshot& snapshot) GSV_REQUIRES(world_mutex);
   world::Snapshot InitialSnapshot() const GSV_REQUIRES(world_mutex) {
     return {layout_, state_, {}, {}, {}};

@@ -1,8 +1,8 @@
-// The lock on a simulated world, and whether anybody gets it again.
+// The lock on a simulated world, which detects a stuck simulation.
 //
-// A behaviour in process cannot be interrupted. When it does not return from its turn, its
-// simulation is stuck: the stepping thread keeps the lock, and whoever else asks for it is refused
-// instead of waiting for ever.
+// A behaviour in process cannot be interrupted. If it does not return from its turn, its simulation
+// is stuck: the stepping thread keeps the lock, and other threads are refused instead of waiting
+// forever.
 //
 // Threads  any.
 #pragma once
@@ -14,14 +14,14 @@
 
 namespace gsv::simulation {
 
-// A world's mutex, as the thread-safety analysis knows it: the parts of a simulation reach it each
-// through a reference of their own.
+// A world's mutex for the thread-safety analysis: the parts of a simulation have references of
+// their own to it.
 class GSV_CAPABILITY("mutex") WorldMutex {};
 inline WorldMutex world_mutex;
 
 class WorldLock {
  public:
-  // How soon a waiting thread notices that the simulation is stuck.
+  // The time within which a waiting thread notices that the simulation is stuck.
   static constexpr std::chrono::milliseconds kPollPeriod{100};
 
   bool is_stuck() const { return is_stuck_; }
@@ -35,7 +35,7 @@ class WorldLock {
   std::atomic<bool> is_stuck_{false};
 };
 
-// Holds the world's lock as long as it lives; for the stepping thread.
+// Holds the world's lock for its lifetime; for the stepping thread.
 class GSV_SCOPED_CAPABILITY SteppingWorldGuard {
  public:
   explicit SteppingWorldGuard(WorldLock& world) GSV_ACQUIRE(world_mutex) : lock_(world.mutex_) {}
@@ -47,8 +47,8 @@ class GSV_SCOPED_CAPABILITY SteppingWorldGuard {
   const base::TimedMutexLock lock_;
 };
 
-// The same for all other threads. It does not hold the lock if the simulation is stuck: the caller
-// asks is_held() first, which the analysis cannot check.
+// The same for all other threads. It does not hold the lock if the simulation is stuck: callers
+// must check is_held(), which the analysis cannot verify.
 class GSV_SCOPED_CAPABILITY WorldGuard {
  public:
   explicit WorldGuard(WorldLock& world) GSV_ACQUIRE(world_mutex) : world_(world) { Lock(); }
