@@ -59,6 +59,15 @@ class Rules(unittest.TestCase):
         self.assertEqual(problems("Set `picture` or --record-pictures or pictures=1 or go_on."
                                   .replace("`picture`", texts.CODE)), [])
 
+    def test_flags_words_of_names(self):
+        self.assert_finds("kMostViewers", "max", "name")
+        self.assert_finds("kLeast", "min", "name")
+        self.assert_finds("TakePicture", "image", "name")
+        self.assert_finds("is_told_", "report", "name")
+        self.assert_finds("kSeeThrough", "transparent", "name")
+        for name in ("kMaxViewers", "almost", "Depicture", "Storytelling", "utmost_", "IMUs"):
+            self.assertEqual(problems(name, "name"), [])
+
     def test_counts_the_words_of_each_sentence(self):
         self.assertEqual(problems(f"{'word ' * 34}end. {'Word ' * 34}end."), [])
         self.assert_finds(f"{'word ' * 35}end.", "a sentence of 36 words")
@@ -102,6 +111,13 @@ class Extraction(unittest.TestCase):
         self.assertEqual([(text.line, text.words) for text in texts.texts_of_comments(header)],
                          [(1, "One contract in two lines."), (4, "Another."), (6, "of a, and more"),
                           (8, "Of the next.")])
+
+    def test_names_of_a_header(self):
+        header = ('#include "picture.h"\n// Of TakePicture.\nint Take(int most_);  // told\n'
+                  'const char* kText = "wish";\nint Take();\n')
+        self.assertEqual([(text.line, text.words) for text in texts.names_in(header)],
+                         [(3, "int"), (3, "Take"), (3, "most_"), (4, "const"), (4, "char"), (4, "kText")])
+        self.assertEqual(texts.parts_of_name("kMaxGPUWait2_"), "max gpu wait 2")
 
     def test_strings_of_the_page(self):
         source = ('import { a } from "who knows this";\n// "Who is a comment"\n'

@@ -15,7 +15,7 @@ CODE = "CODE"
 @dataclass(frozen=True)
 class Text:
     line: int  # of its first character, from 1
-    kind: str  # "docs", "heading", "cell", "help", "ui", "comment"
+    kind: str  # "docs", "heading", "cell", "help", "ui", "comment", "name"
     words: str
 
 
@@ -187,6 +187,30 @@ def texts_of_comments(source):
     yield from ended()
 
 
+def parts_of_name(name):
+    """The words of an identifier in lower case: kMaxWait and max_wait_ give "max wait"."""
+    words = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+", re.sub(r"^k(?=[A-Z])", "", name))
+    return " ".join(words).lower()
+
+
+def names_in(source):
+    """The identifiers of C++ code, each once, at its first line, outside of comments and strings."""
+    seen = set()
+    for number, line in enumerate(source.splitlines(), start=1):
+        if line.lstrip().startswith("#"):
+            continue
+        code = re.sub(r'"(?:[^"\\]|\\.)*"|//.*', " ", line)
+        for name in re.findall(r"\b[A-Za-z_]\w+", code):
+            if name not in seen:
+                seen.add(name)
+                yield Text(number, "name", name)
+
+
+def texts_of_header(source):
+    yield from texts_of_comments(source)
+    yield from names_in(source)
+
+
 def texts_of_openapi(source):
     """Summaries and descriptions of an OpenAPI document in YAML."""
     lines = source.splitlines()
@@ -222,8 +246,8 @@ SOURCES = (
     ("sdk/**/*.cc", texts_of_help),
     ("web/*.html", texts_of_html),
     ("web/src/**/*.ts", texts_of_typescript),
-    ("gsv/**/*.h", texts_of_comments),
-    ("sdk/**/*.h", texts_of_comments),
+    ("gsv/**/*.h", texts_of_header),
+    ("sdk/**/*.h", texts_of_header),
     ("idl/*.idl", texts_of_comments),
 )
 
