@@ -1,6 +1,6 @@
 // A campaign: a scenario, and parameters of it that are varied (docs/campaigns.md).
 //
-// Determinism  the runs, their numbers and their draws hang on the file alone.
+// Determinism  the runs, their numbers and their random draws depend only on the file.
 // Errors       name the file, the line and the column.
 #pragma once
 
@@ -28,7 +28,7 @@ struct Parameter {
 };
 
 struct Campaign {
-  std::string scenario;  // of which each run is a variant, as YAML with whole paths
+  std::string scenario;  // the scenario that the runs vary, as YAML with absolute paths
   std::vector<Parameter> parameters;
   std::size_t draws = 1;  // of random parameters, for each point of the grid of lists
   std::uint64_t draw_seed = 0;
@@ -37,20 +37,20 @@ struct Campaign {
   // The values of a run, from 0 on, in the order of the parameters. The last list varies fastest,
   // and the draws before it.
   std::vector<std::string> ValuesOf(std::size_t run) const;
-  // The scenario with these values, as YAML. Fails when a path leads nowhere.
+  // The scenario with these values, as YAML. Fails when the scenario lacks a path.
   base::Result<std::string> ScenarioWith(const std::vector<std::string>& values) const;
-  // Whatever bears on the runs: equal texts, equal runs.
+  // Everything that affects the runs: equal texts mean equal runs.
   std::string Definition() const;
-  std::string Identity() const;  // of the definition: sixteen hexadecimal digits
+  std::string Identity() const;  // a hash of the definition, 16 hexadecimal digits
 };
 
-// Each value is tried in the scenario by itself; what is wrong with any is added to `problems`.
+// Checks each value alone in the scenario and adds the errors to `problems`.
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems);
 // Also sets `engine` to the one that `request` names, else the one that the file names (engine.h).
 base::Result<Campaign> ReadCampaign(const std::filesystem::path& file, base::Problems& problems,
                                     const EngineRequest& request, Engine& engine);
 
-// A campaign as a text that holds all of it, for machines that take part.
+// The whole campaign as one text, for the machines that execute its runs.
 std::string ToJson(const Campaign& campaign);
 base::Result<Campaign> CampaignInJson(const std::string& text);
 

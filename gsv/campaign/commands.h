@@ -1,5 +1,5 @@
-// How a job queue starts programs: the port that `gsv campaign` fills with real processes, and a
-// test with its own.
+// The interface by which a job queue starts programs. `gsv campaign` implements it with processes,
+// tests with a fake.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,12 @@ struct CommandOutcome {
   std::string output;  // stdout and stderr
 };
 
-// A program that goes on while the queue does other things. Its stdin stays open until this object
-// is destroyed, which ends the program.
+// A program that runs in the background. Its stdin stays open until this object is destroyed, which
+// ends the program.
 class StartedProgram {
  public:
   virtual ~StartedProgram() = default;
-  virtual std::string Output() = 0;  // stdout and stderr, as far as they have come
+  virtual std::string Output() = 0;  // stdout and stderr so far
   virtual std::string Ending() = 0;  // as in CommandOutcome; empty while the program runs
 };
 
@@ -31,17 +31,17 @@ class StartedProgram {
 class CommandRunner {
  public:
   virtual ~CommandRunner() = default;
-  // Runs a command and waits for its end. `command[0]` is looked for on the PATH; one that is not
-  // there ends with exit code 127. kTimeout when the command does not end in time.
+  // Runs a command and waits for its end. `command[0]` is searched on the PATH; a command that is
+  // not found ends with exit code 127. kTimeout when the command does not end in time.
   virtual base::Result<CommandOutcome> Run(const std::vector<std::string>& command) = 0;
   // Starts a command and returns.
   virtual base::Result<std::unique_ptr<StartedProgram>> Start(
       const std::vector<std::string>& command) = 0;
 };
 
-// The text as one word of a shell's command line.
+// Quotes the text as one word of a shell's command line.
 std::string Quoted(const std::string& text);
-// The last line that is not blank: mostly the one that says why a program failed.
+// The last line that is not blank. It usually gives the reason of a failure.
 std::string LastLine(const std::string& output);
 
 }  // namespace gsv::campaign

@@ -1,4 +1,4 @@
-// The engines that have a campaign's runs done, and their registry. Another engine is one source
+// The engines that execute the runs of a campaign, and their registry. Another engine is one source
 // file that defines an EngineType, and a line in engine.cc.
 #pragma once
 
@@ -18,11 +18,11 @@ class YamlMapping;
 
 namespace gsv::campaign {
 
-// What a queue works with; `commands` outlives it.
+// The arguments of a queue's constructor. `commands` must outlive the queue.
 struct QueueContext {
   CommandRunner& commands;
-  std::string program;                                   // gsv, as other machines find it
-  std::function<void(const std::string& sentence)> say;  // to whoever started the campaign
+  std::string program;                                   // the path of gsv on other machines
+  std::function<void(const std::string& sentence)> say;  // prints for the user
   std::function<std::chrono::steady_clock::time_point()> now = &std::chrono::steady_clock::now;
 };
 using MakeQueue = std::function<std::unique_ptr<JobQueue>(const QueueContext&)>;
@@ -32,7 +32,7 @@ struct EngineOption {
   std::string flag;  // "--partition"
   std::string key;   // in the mapping
   std::string help;
-  bool is_list = false;  // added to the list under the key, rather than put in its place
+  bool is_list = false;  // appended to the list under the key instead of replacing it
 };
 
 struct EngineType {
@@ -40,21 +40,21 @@ struct EngineType {
   std::string title;  // in sentences: "Slurm"
   std::string help;
   std::vector<EngineOption> options;
-  std::chrono::milliseconds poll_period{10'000};  // between questions to the queue
-  bool outlives_driver = true;                    // whether tasks go on without the driver
-  std::string after_interrupt;                    // a clause: what becomes of the tasks then
-  // Reads the engine's mapping and complains of it, but asks no queue anything. Empty: this process
-  // does the runs itself, and there is no mapping.
+  std::chrono::milliseconds poll_period{10'000};  // between queries of the queue
+  bool outlives_driver = true;                    // whether tasks continue without the driver
+  std::string after_interrupt;                    // a clause about the tasks after an interrupt
+  // Reads the engine's mapping and reports its errors; it does not contact the queue. Empty: this
+  // process executes the runs itself, and there is no mapping.
   std::function<MakeQueue(scenario::YamlMapping& mapping)> read;
 };
 
 // The first is the default.
 const std::vector<EngineType>& EngineTypes();
 
-// What the command line says about the engine; it goes before the campaign's file.
+// The engine options of the command line. They take precedence over the campaign's file.
 struct EngineRequest {
-  std::string name;                                         // empty: the file's
-  std::size_t runs_per_task = 0;                            // 0: the file's
+  std::string name;                                         // empty: as in the file
+  std::size_t runs_per_task = 0;                            // 0: as in the file
   std::map<std::string, std::vector<std::string>> options;  // values by the option's flag
 };
 
@@ -62,11 +62,11 @@ struct EngineRequest {
 struct Engine {
   const EngineType* type = nullptr;
   std::size_t runs_per_task = 0;  // 0: the driver chooses
-  MakeQueue make_queue;           // empty: this process does the runs itself
+  MakeQueue make_queue;           // empty: this process executes the runs
 };
 
-// Reads the keys of a campaign's file that say where its runs are done: `engine`, and a mapping for
-// each engine that has one.
+// Reads the keys of a campaign's file that choose where its runs are executed: `engine`, and a
+// mapping for each engine that has one.
 Engine ReadEngine(scenario::YamlMapping& campaign, const EngineRequest& request);
 
 }  // namespace gsv::campaign

@@ -1,10 +1,10 @@
-// What an attempt at a share of a campaign's runs has come to: a file that one process adds to
-// while others read it, on a file system that they may share.
+// The journal of an attempt at a share of a campaign's runs: a file to which one process appends
+// while others read it, possibly on a shared file system.
 //
 // Format   lines of 16 hexadecimal digits (base::Hash of the rest), a blank and a JSON object:
-//          first {"attempt": …}, then {"begun": RUN} and {"result": …}, and
-//          {"end": true} where the attempt came to its end. A line that its hash does
-//          not fit, or that has no end yet, was torn and counts for nothing.
+//          first {"attempt": …}, then {"begun": RUN} and {"result": …}, and {"end": true} when the
+//          attempt has ended. A line with a wrong hash or without its newline is incomplete and
+//          ignored.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace gsv::campaign {
 
-// Wall time in seconds since 1970: machines that share a queue have no other clock in common.
+// Wall time in seconds since 1970: this is the only clock that the machines of a queue share.
 double UnixSeconds();
 
 // Threads  any.
@@ -34,7 +34,7 @@ class JournalWriter {
   JournalWriter& operator=(const JournalWriter&) = delete;
 
   base::Status Begin(std::int64_t run);
-  // It is on the disk when this returns.
+  // The line is durable when this returns.
   base::Status Add(const RunResult& result);
   base::Status End();
 
@@ -53,12 +53,12 @@ class JournalReader {
  public:
   explicit JournalReader(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // The results that have come since the last time.
+  // The results since the last call.
   base::Result<std::vector<RunResult>> ReadNew();
-  // As far as it was read; nothing before its first line.
+  // The attempt as read so far; nothing before the first line was read.
   const std::optional<Attempt>& attempt() const { return attempt_; }
   bool is_over() const { return is_over_; }
-  // Runs that were begun and of which nothing has come.
+  // Runs that began and have no result.
   const std::set<std::int64_t>& open_runs() const { return open_runs_; }
   std::size_t torn_lines() const { return torn_lines_; }
   const std::filesystem::path& file() const { return file_; }

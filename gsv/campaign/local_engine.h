@@ -1,4 +1,4 @@
-// Runs a campaign's runs on this machine, so many at a time.
+// Executes a campaign's runs on this machine, a limited number at a time.
 #pragma once
 
 #include <atomic>
@@ -9,23 +9,23 @@
 namespace gsv::campaign {
 
 struct Progress {
-  std::size_t planned = 0, done = 0, not_passed = 0;  // done: those of earlier drivers included
-  double seconds_left = 0;                            // wall time; 0: not known yet
+  std::size_t planned = 0, done = 0, not_passed = 0;  // done: including those of earlier drivers
+  double seconds_left = 0;                            // wall-clock time; 0: unknown
 };
 
 struct LocalEngine {
   int jobs = 1;
-  // Takes one run, on a thread of the engine's that lives as long as that; nothing when it was
-  // cancelled, and then it does not count.
+  // Executes one run on a thread of the engine that ends with the run. Nothing: the run was
+  // cancelled and does not count.
   std::function<std::optional<RunResult>(std::int64_t run, const std::atomic<bool>& is_cancelled)>
       take;
-  std::function<void(const Progress&)> tell;  // about twice a second
+  std::function<void(const Progress&)> tell;  // called about twice a second
   std::function<bool()> is_interrupted;
 
-  // Until all are in the results, or it is interrupted: then what is under way is given up, and
-  // what is done is kept. Fails when the results cannot be written.
+  // Blocks until all runs are in the results or it is interrupted. An interrupt cancels the runs in
+  // progress and keeps the results. Fails when the results cannot be written.
   base::Status Run(Results& results) const;
-  // The same of these runs, each given to `keep` once. `progress`: as it stands before.
+  // Executes these runs and calls `keep` once for each. `progress`: the progress before.
   base::Status Take(std::vector<std::int64_t> runs, Progress progress,
                     const std::function<base::Status(const std::vector<RunResult>&)>& keep) const;
 };

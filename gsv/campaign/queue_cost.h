@@ -1,4 +1,4 @@
-// What a queue costs beyond the runs themselves.
+// The overhead of a job queue beyond the runs.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,20 @@
 
 namespace gsv::campaign {
 
-// Machines' clocks are compared, so that seconds here are as good as these agree.
+// The durations compare clocks of several machines and are as accurate as those agree.
 struct QueueCost {
-  std::size_t tasks = 0;     // that started; one that was requeued counts again
-  std::size_t requeued = 0;  // of these
+  std::size_t tasks = 0;     // started tasks; a requeued one counts again
+  std::size_t requeued = 0;  // requeued tasks among them
   std::size_t nodes = 0;
-  std::size_t slots = 0;                   // runs at once, at most
+  std::size_t slots = 0;                   // maximum of concurrent runs
   double mean_wait = 0, longest_wait = 0;  // s, from submission to a share's first start
-  double run_seconds = 0;                  // of the runs, added up
-  double task_seconds = 0;                 // of the tasks' slots, added up
+  double run_seconds = 0;                  // sum over the runs
+  double task_seconds = 0;                 // sum over the tasks' slots
   double idle_seconds = 0;                 // slots · (last end − first start) − task_seconds
   double span = 0;                         // s, from the first submission to the last end
 };
 
-// Of the attempts that a queue started; nothing when there is none.
+// The cost of the attempts that a queue started; nothing if there are none.
 std::optional<QueueCost> CostOf(const std::vector<Attempt>& attempts);
 
 std::string Sentence(const QueueCost& cost);

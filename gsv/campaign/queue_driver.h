@@ -1,10 +1,10 @@
-// Has a campaign's runs done by a job queue: hands them out as batches of tasks, gathers what
-// comes, and hands out again what was lost.
+// Executes a campaign's runs by a job queue: it submits batches of tasks, collects the results and
+// resubmits lost runs.
 //
-// A run counts once whatever ends when: tasks only append to journals of their own (spool.h), the
-// results take a run's first result. The driver holds no state but what lies in spool and queue, so
-// that any other goes on where it stopped. What the queue still holds is not handed out again: a
-// batch is written down, under a name of its own, before it is submitted.
+// A run counts once: tasks append only to their own journals (spool.h), and the results keep the
+// first result of a run. All state is in the spool and the queue, so that another driver can
+// continue. Runs that the queue still holds are not submitted again: a batch is recorded under a
+// unique name before it is submitted.
 #pragma once
 
 #include <chrono>
@@ -18,19 +18,20 @@ namespace gsv::campaign {
 
 struct QueueDriver {
   JobQueue& queue;
-  std::string title;  // the queue's, in sentences
-  std::size_t runs_per_task =
-      0;                 // 0: so many that 1,000 tasks take all, or fewer for a small queue
-  double timeout = 300;  // wall seconds a run may take
-  std::string failures;  // a folder for what failed runs leave, as the nodes see it; or empty
-  bool waits = true;     // else it only hands out
-  std::chrono::milliseconds poll_period{10'000};  // between questions to the queue
+  std::string title;  // the name of the queue in messages
+  // 0: chosen so that there are at most 1,000 tasks, or fewer for a small queue.
+  std::size_t runs_per_task = 0;
+  double timeout = 300;  // time limit of a run, s of wall-clock time
+  std::string failures;  // a folder for the files of failed runs, as the nodes name it; or empty
+  bool waits = true;     // false: it only submits
+  std::chrono::milliseconds poll_period{10'000};  // between queries of the queue
   std::function<void(const Progress&)> tell;
-  std::function<void(const std::string& sentence)> say;  // to whoever started it
-  // Waits so long; true as soon as somebody wants it to stop.
+  std::function<void(const std::string& sentence)> say;  // prints for the user
+  // Waits that long; returns true at once when the user interrupts.
   std::function<bool(std::chrono::milliseconds)> is_interrupted;
 
-  // Until all runs are in the results, or it is interrupted: then the queue goes on by itself.
+  // Blocks until all runs are in the results or it is interrupted. After an interrupt the queue
+  // continues.
   base::Status Run(Spool& spool, Results& results) const;
 };
 

@@ -1,4 +1,4 @@
-// What a campaign's results say: by parameters, with confidence intervals.
+// Reports a campaign's results by parameters, with confidence intervals.
 #pragma once
 
 #include <map>
@@ -10,9 +10,9 @@
 
 namespace gsv::campaign {
 
-// The runs that agree in the parameters that are looked at.
+// The runs with the same values of the grouping parameters.
 struct Group {
-  std::vector<std::string> values;  // of those parameters
+  std::vector<std::string> values;  // of the grouping parameters
   std::size_t runs = 0, passed = 0;
   std::map<std::string, std::vector<double>> metrics;
 };
@@ -20,19 +20,20 @@ struct Group {
 struct Report {
   std::string title;
   std::int64_t planned = 0;
-  std::vector<std::string> parameters;  // that are looked at
-  std::vector<std::string> metrics;     // that are shown
+  std::vector<std::string> parameters;  // by which the runs are grouped
+  std::vector<std::string> metrics;     // shown metrics
   std::vector<Group> groups;            // in the order of their first runs
-  std::string queue;                    // what the queue cost, a sentence; empty: there was none
+  // A sentence about the queue's overhead; empty without a queue.
+  std::string queue;
 };
 
-// `by`: the parameters to look at; empty: those with 12 values at most. `metrics`: the names to
+// `by`: the parameters to group by; empty: those with at most 12 values. `metrics`: the names to
 // show; empty: none.
 Report MakeReport(const std::vector<RunResult>& results, std::vector<std::string> by,
                   const std::vector<std::string>& parameters, std::vector<std::string> metrics);
 
 std::string ToText(const Report& report);
-std::string ToSvg(const Report& report);   // the share that passed, by group
+std::string ToSvg(const Report& report);   // the fraction of passed runs by group
 std::string ToHtml(const Report& report);  // one page that needs no other file
 // One line a run: run, parameters, status, state_hash, times, metrics (RFC 4180).
 std::string ToCsv(const std::vector<RunResult>& results,

@@ -1,10 +1,10 @@
-// What came of a campaign's runs: one SQLite file.
+// The results of a campaign's runs: one SQLite file.
 //
 // Format   tables `campaign` (key, value), `runs` (run, parameters, status, message, state_hash,
 //          sim_time_s, wall_s, recording, metrics; parameters and metrics are JSON objects) and
-//          `attempts` (the fields of Attempt), in WAL mode: what was added survives the end of the
-//          process at any moment. A run is in it once, or not yet.
-// Threads  one at a time. One process at a time adds: the others are refused.
+//          `attempts` (the fields of Attempt), in WAL mode: added rows survive the end of the
+//          process at any time. A run has at most one row.
+// Threads  one at a time. Only one process at a time may write; others are refused.
 #pragma once
 
 #include <chrono>
@@ -33,34 +33,34 @@ struct RunResult {
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();  // numbers by name
 };
 
-// One process that took a share of the runs, on some machine.
+// One process that executed a share of the runs on one machine.
 struct Attempt {
-  std::string journal;  // the file that it wrote
-  std::string share;    // what it was to do; another attempt may have the same
-  std::string job;      // the queue's name for it; empty: there is no queue
+  std::string journal;  // its file
+  std::string share;    // its share; other attempts may have the same
+  std::string job;      // the queue's name of the job; empty without a queue
   std::string node;     // the machine
   int at_once = 1;      // runs
   double submitted = 0, started = 0, ended = 0;  // s since 1970; ended: as far as is known
-  std::size_t runs = 0;                          // that it did
-  double run_seconds = 0;                        // wall time of these, added up
+  std::size_t runs = 0;                          // executed runs
+  double run_seconds = 0;                        // sum of their wall-clock times
 
   friend bool operator==(const Attempt&, const Attempt&) = default;
 };
 
 class Results {
  public:
-  // For a driver: makes the file if there is none. Refuses one of another campaign, one that is no
-  // results' file, and one that another process still adds to after
-  // `patience` (kNotRunning): who only gathers is done soon.
+  // For a driver: creates the file if it does not exist. Fails for a file of another campaign, a
+  // file that does not hold results, and one that another process still writes after `patience`
+  // (kNotRunning). A process that only collects results ends soon.
   static base::Result<std::unique_ptr<Results>> OpenToAdd(
       const std::string& file, const Campaign& campaign,
       std::chrono::milliseconds patience = std::chrono::milliseconds(0));
-  // To look at; kNotFound when there is none.
+  // Opens the file for reading; kNotFound if it does not exist.
   static base::Result<std::unique_ptr<Results>> Open(const std::string& file);
   ~Results();
 
-  // All of them, or none. A run that is there already stays as it was; of an attempt, by its
-  // journal, the newest is kept.
+  // Adds all of them or none. A run that has a result keeps it; an attempt of the same journal is
+  // replaced.
   base::Status Add(const std::vector<RunResult>& results,
                    const std::vector<Attempt>& attempts = {});
 
@@ -69,14 +69,14 @@ class Results {
   base::Result<std::vector<RunResult>> All();     // by number
   base::Result<std::vector<Attempt>> Attempts();  // by the instant at which they started
   base::Result<std::int64_t> PlannedRuns();
-  // The paths that are varied, in order.
+  // The paths of the varied parameters, in order.
   base::Result<std::vector<std::string>> Parameters();
 
  private:
   Results(broker::Database database, std::string file)
       : database_(std::move(database)), file_(std::move(file)) {}
   base::Status Begin(const Campaign& campaign);
-  // What SQLite said, with the file and what to do.
+  // SQLite's error, with the file and what to do.
   tl::unexpected<base::Error> Refused(const base::Error& error) const;
   base::Status Insert(const std::vector<RunResult>& results);
   base::Status Insert(const std::vector<Attempt>& attempts);

@@ -1,4 +1,4 @@
-// What can be said of numbers that were measured a few times.
+// Confidence intervals of small samples.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,12 @@ struct Interval {
   double middle = 0, low = 0, high = 0;
 };
 
-// The share of passed runs with its 95 % interval: E. B. Wilson, 1927. No runs: from 0 to 1.
+// The fraction of passed runs with its 95 % interval (E. B. Wilson, 1927). Without runs the
+// interval is 0 to 1.
 Interval PassRate(std::size_t passed, std::size_t runs);
 
-// The mean with its 95 % interval by Student's t. One number, or none: an interval of no width.
+// The mean with its 95 % interval by Student's t. For less than two numbers the interval has width
+// 0.
 Interval Mean(const std::vector<double>& numbers);
 
 }  // namespace gsv::campaign

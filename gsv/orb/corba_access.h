@@ -1,12 +1,12 @@
-// Who may call this process by CORBA, and whom it calls. Without a certificate: programs of this
-// machine. With one: every program that shows one of the same authority, from anywhere, by TLS.
-// Then the process takes no calls by TCP without TLS, and calls only this machine's services that
-// way.
+// Access control of CORBA. Without a certificate, only programs on this machine may call this
+// process. With a certificate, any program with a certificate of the same authority may call it
+// from any host by TLS; the process then accepts no calls by plain TCP, and calls only services on
+// this machine by plain TCP.
 //
-// GSV_CORBA_CERTIFICATE  a PEM file, as `gsv certificates make` makes it
-// GSV_CORBA_KEY          its key; without it NAME-key.pem beside NAME.pem
-// GSV_CORBA_AUTHORITY    whose certificates are taken; without it ca.pem beside NAME.pem
-// GSV_INSECURE_CORBA     1: anybody who reaches this process may call it, and be called
+// GSV_CORBA_CERTIFICATE  a PEM file, such as `gsv certificates make` writes
+// GSV_CORBA_KEY          its key (default: NAME-key.pem beside NAME.pem)
+// GSV_CORBA_AUTHORITY    the trusted authority (default: ca.pem beside NAME.pem) GSV_INSECURE_CORBA
+// 1: no access control, in both directions
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct CorbaAccess {
 
 CorbaAccess AccessFromEnvironment();
 
-// Whether a server may listen there. kInvalidArgument: what it takes.
+// Checks whether a server may listen there. kInvalidArgument: the sentence says what is required.
 base::Status CheckListening(const CorbaAccess& access, const std::string& host);
 
 // True for 127.0.0.0/8, ::1 and "localhost".
@@ -34,7 +34,7 @@ bool IsLoopback(std::string_view host);
 
 // Settings for CORBA::ORB_init() that apply the environment's variables.
 struct OrbAccess {
-  std::string endpoint;                     // "giop:ssl:127.0.0.1:"
+  std::string endpoint;                     // for example "giop:ssl:127.0.0.1:"
   std::array<const char*, 2> client_rules;  // clientTransportRule, each
 };
 

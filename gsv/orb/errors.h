@@ -1,4 +1,4 @@
-// The one place where the ORB's and our IDL's exceptions become errors, and errors exceptions.
+// Converts exceptions of the ORB and of GSV's IDL to errors, and errors to exceptions.
 #pragma once
 
 #include <type_traits>
@@ -10,21 +10,21 @@
 
 namespace gsv::orb {
 
-// What a remote call's exception means, as a sentence about the peer at `where`.
+// The error of a remote call's exception, as a sentence about the peer at `where`.
 base::Error ToError(const CORBA::SystemException& exception, const std::string& where);
 base::Error ToError(const CORBA::UserException& exception, const std::string& where);
 
-// Why this process and the peer cannot connect if certificates are the reason, as a sentence about
-// the peer; else empty. To be asked once, by the thread that has called.
+// If certificates are the reason why the connection failed: a sentence about the peer; else empty.
+// Call it once, on the thread that made the call.
 std::string WhyNotConnected(const CORBA::SystemException& exception);
-// To be called before a call, by the same thread: reasons from before are another call's.
+// Clears the reason of earlier calls. Call it before a remote call, on the same thread.
 void ForgetConnectionFailure();
 
-// Whether the exception says that the peer is certainly gone: its port refuses connections, or the
-// object no longer exists there. A time-out does not say so.
+// Returns whether the exception proves that the peer is gone: its port refuses connections, or the
+// object no longer exists there. A time-out does not prove it.
 bool MeansGone(const CORBA::SystemException& exception);
 
-// Calls `call` and turns what it throws into an error about `where`.
+// Calls `call` and converts its exceptions to an error about `where`.
 template <typename Function>
 auto Call(const std::string& where, Function call) -> base::Result<decltype(call())> {
   ForgetConnectionFailure();

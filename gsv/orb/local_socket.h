@@ -1,6 +1,7 @@
 // A socket of the file system for calls between this user's processes on one machine: a call takes
-// two thirds of the time that it takes by TCP on loopback (docs/performance.md). A reference names
-// both ways; who is on another host, in another container or another user, comes by TCP.
+// two thirds of the time that it takes by TCP on loopback (docs/performance.md). A reference
+// contains both addresses; clients on other hosts, in other containers or of other users connect by
+// TCP.
 //
 // Threads  any.
 #pragma once
@@ -11,8 +12,8 @@
 
 namespace gsv::orb {
 
-// A name that is not taken, below base::UserFolder(). Removes what processes left there that ended
-// without doing so. Fails where there is no such folder, or its name is too long for a socket.
+// Returns an unused file name below base::UserFolder(), and removes the sockets of processes that
+// have ended. Fails if there is no such folder or its name is too long for a socket.
 base::Result<std::filesystem::path> NewLocalSocket();
 
 }  // namespace gsv::orb

@@ -1,5 +1,5 @@
 // The ORB of this process, with the settings that a distributed simulator needs: loopback by
-// default, TLS as the environment's variables say (corba_access.h), a time limit on every call,
+// default, TLS according to environment variables (corba_access.h), a time limit on every call,
 // idle connections closed, messages large enough for images.
 //
 // Threads  StartOrb() once a process, before any other use of CORBA.
@@ -18,13 +18,14 @@ namespace gsv::orb {
 struct OrbOptions {
   std::string host = "127.0.0.1";  // the address to listen on
   int port = 0;                    // 0: the system chooses
-  bool local_socket = false;       // besides, see local_socket.h; where that is possible
+  bool local_socket = false;       // also listen on a local socket if possible, see local_socket.h
   std::uint64_t max_message_bytes = 64u << 20;  // with its header
-  std::chrono::seconds message_time{30};        // that a message may take to come
+  std::chrono::seconds message_time{30};        // time limit for receiving a message
   std::chrono::milliseconds call_timeout{10'000};
-  // Cuts off arguments that omniORB does not survive, see broker::CheckRequest(). Null: none.
+  // Removes arguments that crash omniORB, see broker::CheckRequest(). Null: no check.
   void (*check_request)(std::string& message) = nullptr;
-  // A call in progress occupies its connection: at least as many as agents that wait at once.
+  // A call in progress occupies its connection: use at least the number of agents that wait at the
+  // same time.
   int max_connections_per_server = 4096;
 };
 
@@ -32,7 +33,7 @@ struct OrbOptions {
 // cannot be used, or the address takes one.
 base::Result<CORBA::ORB_var> StartOrb(const OrbOptions& options);
 
-// The process's ORB; where there is none, one that only calls others.
+// The process's ORB. If none was started, starts one for outgoing calls only.
 base::Result<CORBA::ORB_var> CallingOrb();
 
 PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);  // the caller owns the reference
@@ -41,11 +42,11 @@ PortableServer::POA_ptr RootPoa(CORBA::ORB_ptr orb);  // the caller owns the ref
 // loopback host.
 base::Result<std::string> LocalAddressTowards(const std::string& host);
 
-// The host and port that a reference points to, by TCP or TLS, "127.0.0.1:40123"; empty when it
-// names none.
+// The host and port that a reference points to, by TCP or TLS, "127.0.0.1:40123"; empty if it
+// contains none.
 std::string AddressOf(CORBA::Object_ptr object);
 
-// Limits how long calls through this reference may take, from all threads.
+// Sets the time limit of calls through this reference, for all threads.
 void LimitCalls(CORBA::Object_ptr object, std::chrono::milliseconds timeout);
 
 }  // namespace gsv::orb

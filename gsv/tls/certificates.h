@@ -1,9 +1,9 @@
-// A small certificate authority: for a laboratory's servers, and for those who may call them.
+// A small certificate authority for the servers of a laboratory and their clients.
 //
-// Files    PEM. A key is readable by its owner alone, and nothing that is there is written over.
+// Files    PEM. Only the owner can read a key. Existing files are never overwritten.
 // Keys     elliptic, P-256; signatures with SHA-256. X.509 version 3 (RFC 5280).
-// Errors   kInvalidArgument: a name that cannot stand in a file's; kUnavailable: a file that cannot
-//          be written or read, or is there already.
+// Errors   kInvalidArgument: a name that cannot be part of a file name; kUnavailable: a file cannot
+//          be written or read, or exists already.
 #pragma once
 
 #include <chrono>
@@ -15,31 +15,32 @@
 
 namespace gsv::tls {
 
-// Counted from now.
+// The validity, relative to now.
 struct Validity {
-  std::chrono::seconds begins{-300};  // clocks differ
+  std::chrono::seconds begins{-300};  // tolerance for differing clocks
   std::chrono::seconds ends{365 * 86'400};
 };
 
 struct CertificateRequest {
-  std::string name;                // whose it is: letters, digits and -._
-  std::vector<std::string> hosts;  // names and addresses under which a server is called
+  std::string name;                // the subject: letters, digits and -._
+  std::vector<std::string> hosts;  // host names and addresses of a server
   Validity validity{};
 };
 
-// FOLDER/ca.pem and ca-key.pem. The folder is made if it is not there, for its owner alone.
+// Writes FOLDER/ca.pem and ca-key.pem. A missing folder is created with access for its owner only.
 base::Status MakeAuthority(const std::filesystem::path& folder, const Validity& validity);
 bool HasAuthority(const std::filesystem::path& folder);
 
-// FOLDER/NAME.pem and NAME-key.pem, signed by the folder's authority, good for serving and calling.
+// Writes FOLDER/NAME.pem and NAME-key.pem, signed by the folder's authority, valid for servers and
+// clients.
 base::Status MakeCertificate(const std::filesystem::path& folder,
                              const CertificateRequest& request);
 
-// Whether a server can use them: both can be read, belong together and are valid now. The sentence
-// names the file.
+// Checks that a server can use them: both are readable, match and are valid now. The sentence names
+// the file.
 base::Status CheckKeyPair(const std::filesystem::path& certificate,
                           const std::filesystem::path& key);
-// Whether it holds certificates that others can be checked against.
+// Checks that the file holds certificates of an authority.
 base::Status CheckAuthority(const std::filesystem::path& certificate);
 
 }  // namespace gsv::tls

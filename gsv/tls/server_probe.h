@@ -1,5 +1,5 @@
-// TLS as somebody speaks it who trusts nobody and shows nothing: to find out what a server tells to
-// strangers.
+// Probes a TLS server without a client certificate and without verifying the server: which data
+// does it send to an unauthenticated client?
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 namespace gsv::tls {
 
 struct ProbeResult {
-  bool asks_for_certificate = false;  // of who connects
-  std::string answer;                 // its beginning; empty: there is none
+  bool asks_for_certificate = false;  // requests a client certificate
+  std::string answer;                 // the start of the response; empty: none
 };
 
-// Begins TLS on a connected socket, whoever answers, and sends `request`. The socket's own time
-// limits hold.
+// Performs a TLS handshake on a connected socket with any peer and sends `request`. The time limits
+// of the socket apply.
 ProbeResult ProbeServer(int descriptor, const std::string& request);
 
 }  // namespace gsv::tls

@@ -1,6 +1,6 @@
 // What `gsv links`, `gsv types` and `gsv offers` change at a broker, and the links that it has.
 //
-// They use the process's ORB, which they start where there is none.
+// They use the process's ORB, and start one if there is none.
 // Errors  see BrokerClient; kUnavailable when the broker has no links.
 #pragma once
 

@@ -4,8 +4,8 @@
 // whose sentence names the broker's address.
 //
 // Errors   kInvalidArgument: what was asked for is wrong (a constraint: with its position).
-//          kNotFound: no such service type, offer or property.
-//          kUnavailable, kTimeout: nobody answers at the address, or not in time.
+//          kNotFound: no such service type, offer or property. kUnavailable, kTimeout: no response
+//          from the address, or not in time.
 // Threads  every member may be called at any time.
 #pragma once
 
@@ -50,7 +50,7 @@ class BrokerClient {
   // Adds the type. One that is there already and says the same is fine.
   [[nodiscard]] base::Status EnsureServiceType(const ServiceType& type);
   // Returns the offer's id. Refuses a service that listens on loopback while the broker is on
-  // another host: nobody there could call it.
+  // another host, because no client there could call it.
   [[nodiscard]] base::Result<std::string> Export(const std::string& type, CORBA::Object_ptr object,
                                                  const std::vector<Property>& properties);
   [[nodiscard]] base::Status Withdraw(const std::string& id);

@@ -21,7 +21,7 @@ struct BehaviourOffer {
   std::string description;
   std::string host;
   std::int32_t pid = 0;
-  bool time_managed = true;  // tells the time by the robot's clock, so that it may be waited for
+  bool time_managed = true;  // it uses the robot's clock, so that the simulation may wait for it
 };
 std::vector<Property> PropertiesOf(const BehaviourOffer& offer);
 // Properties that are missing keep their defaults.

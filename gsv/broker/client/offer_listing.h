@@ -22,7 +22,7 @@ struct OfferDescription {
 };
 
 // Everything that the broker at `broker` offers, in the order of export. They use the process's
-// ORB, which they start where there is none.
+// ORB, and start one if there is none.
 // Errors  see BrokerClient.
 [[nodiscard]] base::Result<std::vector<OfferDescription>> ListOffers(
     const std::string& broker, std::chrono::milliseconds timeout = std::chrono::seconds(5));

@@ -12,9 +12,9 @@ namespace gsv::broker {
 
 class NameTable {
  public:
-  // Has `properties` share its names with others that have the same.
+  // Lets `properties` share its names with other lists of the same names.
   void Share(PropertyList& properties);
-  // Of those that somebody uses or has used lately.
+  // The number of lists of names that are in use or were used recently.
   std::size_t size() const { return known_.size(); }
 
  private:
@@ -29,7 +29,7 @@ class NameTable {
   void ForgetUnused();
 
   std::unordered_set<Names, Hash, Equal> known_;
-  std::size_t enough_ = 64;  // so many are looked through for those that nobody uses
+  std::size_t enough_ = 64;  // the size at which unused names are removed
 };
 
 }  // namespace gsv::broker

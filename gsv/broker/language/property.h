@@ -67,7 +67,7 @@ class PropertyList : public PropertySource {
   Entry operator[](std::size_t index) const { return {(*names_)[index], values_[index]}; }
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size()}; }
-  // Where the property of that name stands; size() when there is none.
+  // The index of the property of that name; size() if there is none.
   std::size_t IndexOf(std::string_view name) const;
 
   // As many, in the same order. Lists with the same pointer have the same names.

@@ -1,5 +1,5 @@
 // Whether the operands of an expression's operators have the types that the standard demands, as
-// far as that can be told before any offer is seen.
+// far as this is known without offers.
 //
 // Source  OMG Trading Object Service (formal/00-06-27), annex B, "operator restrictions".
 #pragma once

@@ -48,7 +48,7 @@ struct ImportPolicies {
   std::optional<std::uint32_t> hop_count{};
   std::optional<FollowOption> link_follow_rule{};
   TraderName starting_trader{};
-  // Of a query that comes from another trader: octets that tell it from every other.
+  // The unique id of a query from another trader.
   std::optional<std::string> request_id{};
 };
 

@@ -46,9 +46,9 @@ class NumberColumn {
 // Threads  any may ask.
 class NumberColumns {
  public:
-  // Null when there is none (yet). `offers` are the same each time, until Clear().
+  // Null if the column does not exist (yet). `offers` are the same each time, until Clear().
   std::shared_ptr<const NumberColumn> Of(const Offers& offers, const std::string& property);
-  // While nobody asks.
+  // Call it while no query runs.
   void Clear() {
     const base::MutexLock lock(mutex_);
     columns_.clear();

@@ -1,9 +1,9 @@
 // The offers of one service type in the order of export, which a query reads without a lock while
-// others change them. They lie in chunks: a change copies one chunk where somebody reads it, and
-// what is known of the other chunks' numbers stays.
+// others change them. They lie in chunks: a change copies a chunk that is being read, and what is
+// known of the other chunks' numbers stays.
 //
 // Threads  a view may be read by any thread. Views are made, and the column is changed, by one
-//          thread at a time (views by several, while nobody changes it).
+//          thread at a time (views by several, while no thread changes it).
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ class OfferChunk {
   explicit OfferChunk(Offers offers) : offers_(std::move(offers)) {}
 
   const Offers& offers() const { return offers_; }
-  // Null when there is none (yet).
+  // Null if the column does not exist (yet).
   std::shared_ptr<const NumberColumn> ColumnOf(const std::string& property) const;
   // What the columns say of each offer. Empty when they say nothing.
   std::vector<Choice> Choose(const std::vector<NumberTerm>& terms) const;

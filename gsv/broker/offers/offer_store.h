@@ -31,9 +31,9 @@ class OfferStore {
   void SkipTo(std::uint64_t number);
   // Puts `offer` in the place of the one with its number, which must be there, of the same type.
   void Replace(Offer offer);
-  // False when there is none.
+  // False if there is no such offer.
   bool Remove(std::uint64_t number);
-  // Null when there is none.
+  // Null if there is no such offer.
   OfferPtr Find(std::uint64_t number) const;
 
   // The offers of `types`: type by type, in the order of export within one.

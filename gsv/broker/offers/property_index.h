@@ -23,8 +23,8 @@ class PropertyIndex {
   void Insert(const OfferPtr& offer);
   void Remove(const Offer& offer);
 
-  // In the order of export: every offer whose property is equal to `value`, and those for which
-  // it cannot be told from here: dynamic ones, and proxies that match whatever is asked.
+  // In the order of export: every offer whose property is equal to `value`, and those for which the
+  // index does not decide: dynamic properties, and proxies that match every query.
   Offers Find(const ScalarValue& value) const;
   // How many Find() would return.
   std::size_t Count(const ScalarValue& value) const;

@@ -1,5 +1,5 @@
-// Whose turn it is to look through many offers. One core stays free of that, so that short queries
-// are answered meanwhile; the long ones go one after the other as they came.
+// Limits how many threads scan many offers at the same time. One core stays free of that, so that
+// short queries are answered meanwhile; the long ones go one after the other as they came.
 //
 // Threads  any.
 #pragma once

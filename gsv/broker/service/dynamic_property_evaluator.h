@@ -1,6 +1,7 @@
 // Asks services for the values of dynamic properties (CosTradingDynamic::DynamicPropEval).
 //
-// A value, or that there is none, is remembered for a while, so that many queries make few calls.
+// Values, and failures to get one, are cached for a short time, so that many queries make few
+// calls.
 //
 // Threads  any; no lock is held during a call.
 #pragma once

@@ -10,9 +10,8 @@ namespace gsv::broker {
 
 enum class Conformance { kConforms, kDiffers, kUnknown };
 
-// What can be told from the type id in the reference alone: `interface_name` is a repository
-// identifier, a scoped name, or nothing. kUnknown where the reference may be of a derived
-// interface.
+// Checks only the type id in the reference: `interface_name` is a repository identifier, a scoped
+// name, or nothing. kUnknown where the reference may be of a derived interface.
 Conformance CompareInterface(std::string_view type_id, std::string_view interface_name);
 
 // As CompareInterface, then by asking the service (_is_a), for at most a second. kUnknown when it

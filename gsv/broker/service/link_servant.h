@@ -18,7 +18,7 @@ class LinkServant : public POA_CosTrading::Link, public ComponentsServant, publi
                 CosTrading::FollowOption def_pass_on_follow_rule,
                 CosTrading::FollowOption limiting_follow_rule) override;
   void remove_link(const char* name) override;
-  // Asks the target for its Register, for a second at most; a nil reference when there is none.
+  // Asks the target for its Register, for a second at most; a nil reference if it has none.
   CosTrading::Link::LinkInfo* describe_link(const char* name) override;
   CosTrading::LinkNameSeq* list_links() override;
   void modify_link(const char* name, CosTrading::FollowOption def_pass_on_follow_rule,

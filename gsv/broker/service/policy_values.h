@@ -1,4 +1,4 @@
-// The policies that come with a query.
+// Reads the policies of a query.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // is time, and no trader that is known to be silent by more than one query at once.
 //
 // Errors   a trader that does not answer, or refuses, has nothing to offer; the first silence of a
-//          trader, and its end, are told on stderr.
+//          trader, and its end, are logged on stderr.
 // Threads  any; no lock is held during a call.
 #pragma once
 

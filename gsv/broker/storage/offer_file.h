@@ -21,7 +21,8 @@ namespace gsv::broker {
 
 class OfferFile : public Journal {
  public:
-  // Opens the file, or makes one whose offers' ids will have `stem`. Nobody else can open it then.
+  // Opens the file, or makes one whose offers' ids will have `stem`. It is locked for other
+  // processes then.
   // Errors  kUnavailable: it cannot be opened, or another broker uses it.
   //         kCorrupt: it is damaged, or not a broker's, or of a newer version.
   [[nodiscard]] static base::Result<std::unique_ptr<OfferFile>> Open(const std::string& path,

@@ -101,7 +101,7 @@ class CursorTable {
     return true;
   }
 
-  // Lets go of what nobody has used for the lifetime.
+  // Removes cursors that were not used for the lifetime.
   void Expire() {
     const base::MutexLock lock(mutex_);
     RemoveExpired();

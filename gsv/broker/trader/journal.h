@@ -1,4 +1,4 @@
-// What a trader must not forget, told change by change to whoever keeps it.
+// The durable state of a trader, passed to its storage change by change.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 // Every offered service is asked once a period whether it still exists. The questions are spread
 // over the period, few are underway at a time, and each ends with its timeout. A service that says
-// that it is gone, or whose port nobody listens on, is dead at once; one that does not answer is
+// that it is gone, or whose port refuses connections, is dead at once; one that does not answer is
 // dead when it has not answered for `patience`. An address that does not answer is asked once a
 // period, for all services there.
 //
@@ -27,7 +27,7 @@
 namespace gsv::broker {
 
 struct LivenessOptions {
-  std::chrono::milliseconds period{60'000};     // zero: nobody is asked
+  std::chrono::milliseconds period{60'000};     // zero: no service is checked
   std::chrono::milliseconds patience{600'000};  // how long a service may be silent
   std::chrono::milliseconds timeout{1'000};     // of one question
   int concurrent = 4;                           // questions underway
@@ -35,7 +35,7 @@ struct LivenessOptions {
 
 enum class Liveness {
   kAlive,
-  kGone,    // it said so, or nobody listens at its address
+  kGone,    // it reported so, or its port refuses connections
   kSilent,  // nothing came back in time
 };
 

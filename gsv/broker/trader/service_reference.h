@@ -13,7 +13,7 @@ namespace gsv::broker {
 
 struct ServiceReference {
   std::string type_id;  // "IDL:omg.org/CosTrading/Lookup:1.0"; may be empty
-  std::string host;     // of the first IIOP profile; empty when there is none
+  std::string host;     // of the first IIOP profile; empty if there is none
   std::uint16_t port = 0;
   bool takes_tls = false;  // and nothing else there
 

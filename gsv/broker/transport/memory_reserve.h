@@ -1,7 +1,7 @@
-// Memory put by for a broker whose address space is bounded (process_limits.h): it goes to
-// whoever finds none left, and from then on what would keep more is refused until as much is free
-// again. So a full broker answers queries over new connections too, lets offers be withdrawn, and
-// no thread of the ORB's, where nobody catches bad_alloc, runs out.
+// Memory put by for a broker whose address space is bounded (process_limits.h): it goes to whoever
+// finds none left, and from then on what would keep more is refused until as much is free again. So
+// a full broker answers queries over new connections too, lets offers be withdrawn, and no thread
+// of the ORB's, which does not catch bad_alloc, runs out.
 //
 // Threads  any; HoldMemoryReserve() before others start.
 #pragma once

@@ -1,5 +1,5 @@
-// The headers of GIOP messages: the twelve bytes that each begins with, and those of requests and
-// replies.
+// The headers of GIOP messages: the twelve bytes at the start of each, and the headers of requests
+// and replies.
 //
 // Source  CORBA 3.1 part 2, 9.4.
 #pragma once
@@ -30,18 +30,18 @@ struct GiopHeader {
   std::size_t body_bytes = 0;
 };
 
-// Nothing for bytes that begin no message of GIOP 1.0 to 1.2. `bytes` are at least 12.
+// Returns nothing unless the bytes begin a message of GIOP 1.0 to 1.2. Requires at least 12 bytes.
 std::optional<GiopHeader> ReadGiopHeader(std::string_view bytes);
-// Sets the length in the header of `message`, and that no fragments follow.
+// Sets the length in the header of `message` and clears its flag of fragments.
 void CompleteGiopHeader(std::string& message);
-// Reads `message` from behind its GIOP header, which is `header`.
+// Returns a reader of `message` that starts behind its GIOP header `header`.
 base::CdrReader ReaderBehind(const GiopHeader& header, std::string_view message);
 
 struct RequestHeader {
   std::uint32_t id = 0;
   std::string_view operation;
 };
-// `in` is at the request's header, and then at the arguments.
+// `in` must be at the request's header; afterwards it is at the arguments.
 RequestHeader ReadRequestHeader(base::CdrReader& in);
 
 struct ReplyHeader {
@@ -49,10 +49,10 @@ struct ReplyHeader {
   std::uint32_t id = 0;
   std::uint32_t status = 0;
 };
-// `in` is at the reply's header, and then at the results.
+// `in` must be at the reply's header; afterwards it is at the results.
 ReplyHeader ReadReplyHeader(base::CdrReader& in);
 
-// `in` is at an object reference (IOR), and then behind it.
+// `in` must be at an object reference (IOR); afterwards it is behind it.
 void SkipReference(base::CdrReader& in);
 
 }  // namespace gsv::orb

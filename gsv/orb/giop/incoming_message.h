@@ -1,4 +1,4 @@
-// A message on its way from a socket to the ORB. The ORB receives it when it is complete.
+// A message that is being received from a socket. The ORB gets it when it is complete.
 #pragma once
 
 #include "gsv/orb/giop/message_assembly.h"
@@ -7,22 +7,22 @@ namespace gsv::orb {
 
 class IncomingMessage {
  public:
-  // `limit`: of a whole message, its headers included.
+  // `limit`: maximum bytes of a message with its headers.
   explicit IncomingMessage(std::size_t limit) : assembly_(limit) {}
 
   MessageAssembly& assembly() { return assembly_; }
-  // Whether there is a message for the ORB, be it one that is refused. Requests to cancel are
-  // dropped, as no servant here can act on them.
+  // Returns whether there is a message for the ORB, also if it is refused. CancelRequest messages
+  // are dropped, as no servant supports them.
   bool IsThere();
   // Whether the message is complete and the ORB has received none of it.
   bool is_new() const {
     return assembly_.state() == MessageAssembly::State::kComplete && handed_out_ == 0;
   }
-  // Bytes of a message have come, and more are needed.
+  // Returns whether a message has been received in part.
   bool has_begun() const {
     return assembly_.state() == MessageAssembly::State::kIncomplete && !assembly_.empty();
   }
-  // Copies up to `size` bytes of the message; -1 for one that is refused.
+  // Copies up to `size` bytes of the message; -1 if the message is refused.
   int HandOut(void* buffer, std::size_t size);
 
  private:

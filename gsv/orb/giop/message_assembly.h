@@ -1,6 +1,6 @@
-// Reassembles one GIOP message at a time from the pieces in which it comes. The fragments of GIOP
-// 1.2 are joined. Fragments of GIOP 1.1, compressed messages, and two messages whose fragments
-// alternate are refused.
+// Reassembles one GIOP message at a time from the received bytes. It joins fragments of GIOP 1.2.
+// Fragments of GIOP 1.1, compressed messages, and two messages whose fragments alternate are
+// refused.
 //
 // Source  CORBA 3.1 part 2, 9.4.
 #pragma once
@@ -17,24 +17,24 @@ class MessageAssembly {
  public:
   enum class State { kIncomplete, kComplete, kRefused };
 
-  // `limit`: bytes of a complete message, its headers included.
+  // `limit`: maximum bytes of a complete message with its headers.
   explicit MessageAssembly(std::size_t limit) : limit_(limit) {}
 
   State state() const { return state_; }
   bool empty() const { return received_ == 0 && message_.empty(); }
 
-  // Where and how many bytes shall come next, while it is incomplete.
+  // The buffer for the next bytes, while the message is incomplete.
   struct Room {
     char* bytes;
     std::size_t size;
   };
   Room Next();
-  // `count` bytes have come there.
+  // Call it when `count` bytes were written to the buffer.
   void Take(std::size_t count);
 
-  // The message, once it is complete.
+  // The complete message.
   std::string& message() { return message_; }
-  // Begins with the next.
+  // Starts the next message.
   void Reset();
 
  private:
@@ -43,11 +43,11 @@ class MessageAssembly {
 
   std::size_t limit_;
   State state_ = State::kIncomplete;
-  std::string frame_;  // a message or fragment that is coming
+  std::string frame_;  // the incomplete message or fragment
   std::size_t received_ = 0;
-  std::size_t wanted_ = kGiopHeaderBytes;  // of the frame, as far as is known
+  std::size_t wanted_ = kGiopHeaderBytes;  // size of the frame as known so far
   std::string message_;                    // joined so far
-  std::uint32_t request_ = 0;              // whose fragments are joined
+  std::uint32_t request_ = 0;              // id of the request whose fragments are joined
 };
 
 }  // namespace gsv::orb
