@@ -62,4 +62,15 @@ std::vector<model::ControlSystem> ReadControlSystems(const XMLElement& element,
   return systems;
 }
 
+std::shared_ptr<const model::Model> WithControlSystems(const XMLElement& element,
+                                                       const std::filesystem::path& file,
+                                                       std::shared_ptr<const model::Model> model,
+                                                       base::Problems& problems) {
+  auto systems = ReadControlSystems(element, file, *model, problems);
+  if (systems.empty()) return model;
+  auto completed = std::make_shared<model::Model>(*model);
+  completed->control_systems = std::move(systems);
+  return completed;
+}
+
 }  // namespace gsv::formats

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include <tinyxml2.h>
@@ -19,5 +20,11 @@ std::vector<model::ControlSystem> ReadControlSystems(const tinyxml2::XMLElement&
                                                      const std::filesystem::path& file,
                                                      const model::Model& model,
                                                      base::Problems& problems);
+
+// The model with these, or itself when there are none.
+std::shared_ptr<const model::Model> WithControlSystems(const tinyxml2::XMLElement& element,
+                                                       const std::filesystem::path& file,
+                                                       std::shared_ptr<const model::Model> model,
+                                                       base::Problems& problems);
 
 }  // namespace gsv::formats

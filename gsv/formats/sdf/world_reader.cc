@@ -13,6 +13,7 @@
 
 #include "gsv/formats/sdf/builtin_models.h"
 #include "gsv/formats/sdf/include_scan.h"
+#include "gsv/formats/sdf/ros2_control.h"
 #include "gsv/formats/sdf/sdf_actor.h"
 #include "gsv/formats/sdf/sdf_document.h"
 #include "gsv/formats/sdf/sdf_pedestrians.h"
@@ -356,6 +357,8 @@ class WorldReader {
     if (framed) {
       const auto script = scripts_.find(distinct.element);
       if (script != scripts_.end()) framed->model = ActorOf(*framed->model, script->second);
+      framed->model =
+          WithControlSystems(*distinct.element, file_.path, std::move(framed->model), problems_);
       distinct.framed = std::move(*framed);
     } else {
       context_.Warn(framed.error().message + "; it is left out", Place(*distinct.element));
