@@ -461,6 +461,43 @@ TEST_F(SdfReaderTest, ExpandsXacroWithTheArgumentsInItsName) {
   EXPECT_THAT(broken.error().Sentence(), HasSubstr("broken.xacro:2: there is no macro \"none\""));
 }
 
+TEST_F(SdfReaderTest, ReadsRobotsWithRemainsOfXacroAndALateDeclaration) {
+  const std::string link =
+      "<link name='base'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+      "ixz='0' iyz='0'/></inertial></link>";
+  const auto remains = folder_.Write(
+      "remains.urdf", "<robot name='r'>" + link + "\n<xacro:pan_tilt name='p'/></robot>");
+  EXPECT_TRUE(ModelLibrary().ReadModel(remains.string(), problems_).has_value());
+  EXPECT_THAT(Sentences(),
+              testing::Contains(testing::AllOf(
+                  HasSubstr("remains.urdf:2: the xacro elements of this file are left out"),
+                  HasSubstr("there is no macro \"pan_tilt\""))));
+  problems_.clear();
+  const auto late =
+      folder_.Write("late.urdf", "<!-- made by hand -->\n<?xml version='1.0'?>\n<robot name='r'>" +
+                                     link + "</robot>");
+  EXPECT_TRUE(ModelLibrary().ReadModel(late.string(), problems_).has_value());
+  EXPECT_THAT(Sentences(), testing::Contains(HasSubstr("late.urdf:2: <?xml …?> stands behind")));
+}
+
+TEST_F(SdfReaderTest, ReadsRos2ControlOfAModelInAWorld) {
+  const auto world = ModelLibrary().ReadWorld(
+      folder_.Write(
+          "arm.sdf",
+          Sdf("<world name='w'><model name='arm'><link name='base'/><link name='upper'/>"
+              "<joint name='shoulder' type='revolute'><parent>base</parent>"
+              "<child>upper</child><axis><xyz>0 0 1</xyz></axis></joint>"
+              "<ros2_control name='all' type='system'><joint name='shoulder'>"
+              "<command_interface name='position'/></joint></ros2_control></model></world>")),
+      problems_);
+  ASSERT_TRUE(world.has_value());
+  ASSERT_THAT(world->models, SizeIs(1));
+  const auto& systems = world->models[0].model->control_systems;
+  ASSERT_THAT(systems, SizeIs(1));
+  ASSERT_THAT(systems[0].joints, SizeIs(1));
+  EXPECT_EQ(systems[0].joints[0].joint, "shoulder");
+}
+
 TEST_F(SdfReaderTest, NamesTheFileAndLineOfAMacroInWarnings) {
   folder_.Write(
       "part.xacro",

@@ -111,15 +111,14 @@ base::Result<StoredFile> ModelStore::ReadFresh(XmlFile& xml, const std::string& 
 void ModelStore::Complete(const XMLElement& element, const std::filesystem::path& file,
                           bool is_robot, StoredFile& stored) {
   if (stored.framed.model == nullptr) return;
-  model::Model model = *stored.framed.model;
-  model.control_systems = ReadControlSystems(element, file, model, stored.problems);
-  if (is_robot && !model.drive) {
-    if (auto drive = model::GuessDrive(model); drive.kind != model::DriveKind::kNone) {
-      model.drive = std::move(drive);
-    }
-  }
-  if (model.control_systems.empty() && !model.drive) return;
-  stored.framed.model = std::make_shared<const model::Model>(std::move(model));
+  stored.framed.model =
+      WithControlSystems(element, file, std::move(stored.framed.model), stored.problems);
+  if (!is_robot || stored.framed.model->drive) return;
+  auto drive = model::GuessDrive(*stored.framed.model);
+  if (drive.kind == model::DriveKind::kNone) return;
+  model::Model driven = *stored.framed.model;
+  driven.drive = std::move(drive);
+  stored.framed.model = std::make_shared<const model::Model>(std::move(driven));
 }
 
 base::Result<StoredFile> ModelStore::FromText(const SdfText& text, const IncludedFiles& includes,

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <system_error>
 
 #include "gsv/formats/support/element_audit.h"
@@ -103,6 +104,40 @@ base::Status TakeExpanded(xacro::Expansion expanded, XmlFile& file) {
   return {};
 }
 
+// What comes of a failure decides the file's name: a robot description that is not named .xacro may
+// hold remains of xacro, which other programs ignore.
+base::Status Expand(const ResourceFinder& finder, const ReadLimits& limits,
+                    const std::map<std::string, std::string>& arguments, base::Problems& problems,
+                    XmlFile& file) {
+  base::Problems of_expansion;
+  auto expanded = xacro::Expand(*file.root, file.path, {finder, limits, arguments}, of_expansion);
+  if (expanded) {
+    problems.insert(problems.end(), of_expansion.begin(), of_expansion.end());
+    return TakeExpanded(*std::move(expanded), file);
+  }
+  if (file.path.extension() == ".xacro") return Fail(expanded.error());
+  problems.push_back({Problem::Severity::kWarning,
+                      "the xacro elements of this file are left out, since they cannot be "
+                      "expanded: " +
+                          expanded.error().message,
+                      expanded.error().where});
+  return {};
+}
+
+// XML allows its declaration only at the beginning. Where something stands before it, parsers refuse
+// the file; the declaration says nothing that is needed. Returns whether it was blanked.
+bool BlankLateDeclaration(std::string& text) {
+  const std::size_t start = text.find("<?xml ");
+  if (start == std::string::npos || start == 0) return false;
+  if (text.find_first_not_of(" \t\r\n") == start) return false;  // tinyxml2 reads that
+  const std::size_t end = text.find("?>", start);
+  if (end == std::string::npos) return false;
+  std::replace_if(
+      text.begin() + static_cast<std::ptrdiff_t>(start),
+      text.begin() + static_cast<std::ptrdiff_t>(end) + 2, [](char c) { return c != '\n'; }, ' ');
+  return true;
+}
+
 bool ByteOrderMark(const std::string& text) { return text.compare(0, 3, "\xEF\xBB\xBF") == 0; }
 
 }  // namespace
@@ -118,7 +153,14 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   file.path = path;
   file.named = named;
   file.document = std::make_unique<tinyxml2::XMLDocument>();
-  if (file.document->Parse(text->data(), text->size()) != tinyxml2::XML_SUCCESS) {
+  auto parsed = file.document->Parse(text->data(), text->size());
+  if (parsed == tinyxml2::XML_ERROR_PARSING_DECLARATION && BlankLateDeclaration(*text)) {
+    problems.push_back({Problem::Severity::kWarning,
+                        "<?xml …?> stands behind other text; it belongs at the beginning",
+                        path.string() + ":" + std::to_string(file.document->ErrorLineNum())});
+    parsed = file.document->Parse(text->data(), text->size());
+  }
+  if (parsed != tinyxml2::XML_SUCCESS) {
     return Fail(ErrorCode::kBadModel,
                 std::string("the XML is malformed (") +
                     tinyxml2::XMLDocument::ErrorIDToName(file.document->ErrorID()) + ")",
@@ -126,9 +168,7 @@ base::Result<XmlFile> ReadXml(const std::filesystem::path& named, const Resource
   }
   file.root = file.document->RootElement();
   if (file.root != nullptr && xacro::NeedsExpansion(*file.root, path)) {
-    auto expanded = xacro::Expand(*file.root, path, {finder, limits, arguments}, problems);
-    if (!expanded) return Fail(expanded.error());
-    if (auto status = TakeExpanded(*std::move(expanded), file); !status) {
+    if (auto status = Expand(finder, limits, arguments, problems, file); !status) {
       return Fail(status.error());
     }
   }

@@ -160,8 +160,20 @@ class Evaluator {
     if (name == "arg" && text != nullptr && surroundings_.argument) {
       return surroundings_.argument(*text);
     }
+    if (name == "message" || name == "warning" || name == "error") {
+      if (surroundings_.report) surroundings_.report(Joined(arguments));
+      return Value{std::string()};
+    }
+    if (name == "print_location") return Value{std::string()};
+    if (name == "fatal") return Refuse(Joined(arguments));
     if (IsFunction(name)) return CallFunction(name, arguments);
     return Refuse("the call of " + name + "() is not supported");
+  }
+
+  static std::string Joined(const std::vector<Value>& values) {
+    std::string text;
+    for (const Value& value : values) text += (text.empty() ? "" : " ") + ToText(value);
+    return text;
   }
 
   base::Result<Value> DictionaryOf(const Expression& node, const std::vector<Value>& arguments) {

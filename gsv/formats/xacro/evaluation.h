@@ -20,6 +20,8 @@ struct Surroundings {
   // The content of a YAML file, and the value of an argument; may be empty.
   std::function<base::Result<Value>(const std::string& file)> load_yaml;
   std::function<base::Result<Value>(const std::string& name)> argument;
+  // Takes what xacro.message(), xacro.warning() and xacro.error() say; may be empty.
+  std::function<void(const std::string& text)> report;
 };
 
 base::Result<Value> Evaluate(const std::string& expression, const Surroundings& surroundings);

@@ -454,6 +454,9 @@ base::Result<Value> Expander::Evaluate(const std::string& text, const Node& at, 
   surroundings.property = [&](const std::string& name) { return scope.Find(name); };
   surroundings.load_yaml = [&](const std::string& name) { return files_.ReadYaml(name, *at.file); };
   surroundings.argument = [&](const std::string& name) { return ArgumentNamed(name); };
+  surroundings.report = [&](const std::string& said) {
+    problems_.push_back({base::Problem::Severity::kWarning, said, at.place()});
+  };
   return Substitute(text, surroundings,
                     [&](const std::string& command) { return Command(command, at, scope); });
 }

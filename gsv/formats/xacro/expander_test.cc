@@ -158,6 +158,13 @@ TEST_F(ExpanderTest, IncludesFilesBesideItAndInNamespaces) {
   EXPECT_THAT(problems_, SizeIs(1));
 }
 
+TEST_F(ExpanderTest, PassesOnWhatAFileSays) {
+  EXPECT_EQ(Expanded("\n<a>${xacro.warning('no inertia of', 3)}</a>"), "<a/>");
+  ASSERT_THAT(problems_, SizeIs(1));
+  EXPECT_THAT(problems_[0].Sentence(), HasSubstr("robot.xacro:2: no inertia of 3"));
+  EXPECT_THAT(Expanded("<a>${xacro.fatal('no such arm')}</a>"), HasSubstr("refused"));
+}
+
 TEST_F(ExpanderTest, LeavesOutWhatAMissingFileWouldBring) {
   EXPECT_EQ(Expanded("\n<xacro:include filename='absent.xacro'/>\n<xacro:lidar name='l'/><a/>"),
             "<a/>");

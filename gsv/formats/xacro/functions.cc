@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "gsv/formats/xacro/operators.h"
+#include "gsv/formats/xacro/sequences.h"
 
 namespace gsv::formats::xacro {
 namespace {
@@ -268,7 +269,31 @@ base::Result<Value> TextMethod(const std::string& text, const std::string& name,
   const bool are_texts = std::all_of(
       a.begin(), a.end(), [](const Value& value) { return value.as<std::string>() != nullptr; });
   if (name == "join" && a.size() == 1 && a[0].items() != nullptr) return Join(text, *a[0].items());
+  if (name == "format") return Formatted(text, a);
+  if (name == "zfill" && a.size() == 1 && a[0].as<std::int64_t>() != nullptr) {
+    const auto width =
+        static_cast<std::size_t>(std::clamp<std::int64_t>(*a[0].as<std::int64_t>(), 0, 1000));
+    const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+    std::string filled = text;
+    if (filled.size() < width) filled.insert(sign, width - filled.size(), '0');
+    return Value{filled};
+  }
   if (!are_texts) return Misuse(name + "() takes texts");
+  if (name == "isdigit" && a.empty()) {
+    return Value{!text.empty() && text.find_first_not_of("0123456789") == std::string::npos};
+  }
+  if (name == "capitalize" && a.empty()) {
+    std::string changed = text;
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+      const auto c = static_cast<unsigned char>(changed[i]);
+      changed[i] = static_cast<char>(i == 0 ? std::toupper(c) : std::tolower(c));
+    }
+    return Value{changed};
+  }
+  if (name == "find" && a.size() == 1) {
+    const std::size_t at = text.find(*a[0].as<std::string>());
+    return Value{at == std::string::npos ? std::int64_t{-1} : static_cast<std::int64_t>(at)};
+  }
   if ((name == "lower" || name == "upper") && a.empty()) {
     std::string changed = text;
     std::transform(changed.begin(), changed.end(), changed.begin(), [&](unsigned char c) {
@@ -323,11 +348,13 @@ std::optional<Value> Constant(const std::string& name) {
 }
 
 bool IsFunction(const std::string& name) {
-  return Functions().contains(name) || Curves().contains(name) || Surfaces().contains(name);
+  return Functions().contains(name) || IsSequenceFunction(name) || Curves().contains(name) ||
+         Surfaces().contains(name);
 }
 
 base::Result<Value> CallFunction(const std::string& name, const Arguments& arguments) {
   if (const auto it = Functions().find(name); it != Functions().end()) return it->second(arguments);
+  if (IsSequenceFunction(name)) return CallSequenceFunction(name, arguments);
   if (const auto it = Curves().find(name); it != Curves().end()) {
     if (arguments.size() != 1 || !AreNumbers(arguments)) return Misuse(name + "() takes a number");
     return RealResult(name, it->second(Real(arguments[0])), arguments);

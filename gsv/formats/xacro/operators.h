@@ -22,12 +22,12 @@ base::Result<Value> Member(const Value& of, const std::string& name);
 
 // pi, e, tau, inf, nan.
 std::optional<Value> Constant(const std::string& name);
-// A function by its name: those of Python's math, and abs, min, max, round, sum, len, int, float,
-// str, bool, list, tuple.
+// A function by its name: those of Python's math, those of sequences.h, and abs, min, max, round,
+// sum, len, int, float, str, bool, list, tuple.
 bool IsFunction(const std::string& name);
 base::Result<Value> CallFunction(const std::string& name, const std::vector<Value>& arguments);
-// A method of a text, list or dictionary: lower, upper, strip, startswith, endswith, replace, split,
-// join, get, keys, values, items.
+// A method of a text, list or dictionary: lower, upper, capitalize, strip, startswith, endswith,
+// replace, split, join, find, isdigit, zfill, format, get, keys, values, items.
 base::Result<Value> CallMethod(const Value& of, const std::string& name,
                                const std::vector<Value>& arguments);
 
